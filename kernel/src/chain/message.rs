@@ -1,0 +1,87 @@
+//! What a robot broadcasts after a team move (paper 000, III.D): its step in three bits and whether it met a
+//! wall in one. Of the byte's other four bits one says that the move was taken back, so that a log of messages
+//! read backwards pairs itself (clause CHAIN-8).
+
+use core::fmt;
+
+use crate::lattice::Step;
+
+/// How a robot's step came out.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Outcome {
+    /// It is where the plan sent it.
+    Arrived,
+    /// It met a wall and is where it was. A robot that stays cannot be blocked.
+    Blocked,
+    /// The step was part of a backtrack.
+    TookBack,
+}
+
+/// One robot's message about one team move.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Message {
+    /// What it tried.
+    pub step: Step,
+    /// What came of it.
+    pub outcome: Outcome,
+}
+
+/// A byte that is no message.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Damaged(
+    /// The byte.
+    pub u8,
+);
+
+impl fmt::Display for Damaged {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "byte {:#04x} is no message of the chain", self.0)
+    }
+}
+
+impl core::error::Error for Damaged {}
+
+const WALL_BIT: u8 = 1 << 3;
+const BACKTRACK_BIT: u8 = 1 << 4;
+
+impl Message {
+    /// The step that the robot really made: none if it was blocked.
+    pub const fn made(self) -> Step {
+        match self.outcome {
+            Outcome::Arrived | Outcome::TookBack => self.step,
+            Outcome::Blocked => Step::Stay,
+        }
+    }
+
+    /// Bits 0 to 2: the step's place in direction order. Bit 3: met a wall. Bit 4: taken back.
+    pub const fn encode(self) -> u8 {
+        let step = match self.step {
+            Step::Cross(side) => side as u8,
+            Step::Stay => 4,
+        };
+        match self.outcome {
+            Outcome::Arrived => step,
+            Outcome::Blocked => step | WALL_BIT,
+            Outcome::TookBack => step | BACKTRACK_BIT,
+        }
+    }
+
+    /// The message in a byte.
+    ///
+    /// # Errors
+    /// [`Damaged`] if no message is encoded so.
+    pub fn decode(byte: u8) -> Result<Self, Damaged> {
+        let step = *Step::ALL.get(usize::from(byte & 0b111)).ok_or(Damaged(byte))?;
+        let outcome = match byte & !0b111 {
+            0 => Outcome::Arrived,
+            WALL_BIT if step != Step::Stay => Outcome::Blocked,
+            BACKTRACK_BIT => Outcome::TookBack,
+            _ => return Err(Damaged(byte)),
+        };
+        Ok(Self { step, outcome })
+    }
+
+    pub(super) const fn is_backtrack(byte: u8) -> bool {
+        byte & BACKTRACK_BIT != 0
+    }
+}

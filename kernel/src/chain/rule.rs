@@ -1,0 +1,185 @@
+//! The chain's rule as a set of named conditions, and the admission relation: which next positions the
+//! conditions allow, in whatever order one prefers them. The proofs of CHAIN-1, CHAIN-2 and CHAIN-3 speak of
+//! these functions alone; the planner asks them and nothing else.
+
+use crate::lattice::{Cell, Circle, Step, neighbours};
+
+/// One condition of the rule, by the sentence it stands for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Condition {
+    /// A follower plans to be in E_S of the planned position ahead: P′_i ∈ E_S(P′_{i+1}).
+    SafeAhead,
+    /// A robot plans to be in E_C of the present position behind: P′_i ∈ E_C(P_{i−1}).
+    CoveredBehind,
+    /// No two robots plan to be in one cell, the base excepted.
+    Distinct,
+    /// A candidate of the leader that is refused gets a virtual obstacle.
+    RefusedIsVirtual,
+    /// An epoch that explored no cell and found no wall ends the run.
+    EpochMustGain,
+    /// Repair: unless the robot ahead is sure to arrive, a follower also plans to be in E_C of its present
+    /// position: P′_i ∈ E_C(P_{i+1}).
+    UnsureAhead,
+    /// Repair: no follower enters a cell that two others occupy now, the base excepted.
+    FullForFollower,
+    /// Repair: nor does the leader.
+    FullForLeader,
+}
+
+impl Condition {
+    /// Every condition.
+    pub const ALL: [Self; 8] = [
+        Self::SafeAhead,
+        Self::CoveredBehind,
+        Self::Distinct,
+        Self::RefusedIsVirtual,
+        Self::EpochMustGain,
+        Self::UnsureAhead,
+        Self::FullForFollower,
+        Self::FullForLeader,
+    ];
+}
+
+/// A set of conditions.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Conditions(u8);
+
+impl Conditions {
+    /// The set of these conditions.
+    pub const fn of(conditions: &[Condition]) -> Self {
+        let mut bits = 0;
+        let mut i = 0;
+        while i < conditions.len() {
+            bits |= 1 << conditions[i] as u8;
+            i += 1;
+        }
+        Self(bits)
+    }
+
+    /// Whether `condition` is in the set.
+    pub const fn has(self, condition: Condition) -> bool {
+        self.0 & (1 << condition as u8) != 0
+    }
+}
+
+/// Which position of the robot ahead P_high is read from. The planned one is the paper's meaning: the other
+/// gives 458 moves, or no end, where this one gives 62.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum High {
+    /// P′_{i+1}
+    Planned,
+    /// P_{i+1}
+    Present,
+}
+
+/// Whether a robot leads the chain or follows.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Role {
+    /// R_N
+    Leader,
+    /// R_2 … R_{N−1}
+    Follower,
+}
+
+/// The rule of a chain: its conditions, the two circles, and how P_high is read.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Rule {
+    /// The conditions in force.
+    pub conditions: Conditions,
+    /// The circle of E_S.
+    pub safe: Circle,
+    /// The circle of E_C.
+    pub covered: Circle,
+    /// The reading of P_high.
+    pub high: High,
+}
+
+/// A robot's planned move, as its neighbours see it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Move {
+    /// P: where it is.
+    pub from: Cell,
+    /// What it is to do.
+    pub step: Step,
+    /// Whether the side it crosses is known to be open.
+    pub known_open: bool,
+}
+
+impl Move {
+    /// A robot that stays.
+    pub const fn stay(at: Cell) -> Self {
+        Self { from: at, step: Step::Stay, known_open: false }
+    }
+
+    /// P′: where the plan sends it.
+    pub const fn to(self) -> Cell {
+        self.from.after(self.step)
+    }
+
+    /// Whether it is sure to be at P′ afterwards: it stays, or its way is known to be open.
+    pub const fn is_sure(self) -> bool {
+        match self.step {
+            Step::Stay => true,
+            Step::Cross(_) => self.known_open,
+        }
+    }
+}
+
+impl Rule {
+    /// The chain as the paper publishes it.
+    pub const PUBLISHED: Self = Self {
+        conditions: Conditions::of(&[
+            Condition::SafeAhead,
+            Condition::CoveredBehind,
+            Condition::Distinct,
+            Condition::RefusedIsVirtual,
+            Condition::EpochMustGain,
+        ]),
+        safe: Circle::SAFE,
+        covered: Circle::COVERED,
+        high: High::Planned,
+    };
+
+    /// The chain with the two repairs, of contact and of crowding.
+    pub const REPAIRED: Self = Self { conditions: Conditions::of(&Condition::ALL), ..Self::PUBLISHED };
+
+    /// This rule with one condition taken out.
+    #[must_use]
+    pub const fn without(self, condition: Condition) -> Self {
+        Self { conditions: Conditions(self.conditions.0 & !(1 << condition as u8)), ..self }
+    }
+
+    /// Whether the rule has `condition`.
+    pub const fn has(&self, condition: Condition) -> bool {
+        self.conditions.has(condition)
+    }
+
+    /// Whether R_i, or the base, may plan `own` while the robot ahead of it plans `ahead`.
+    pub fn admits_ahead(&self, own: Move, ahead: Move) -> bool {
+        let safe = !self.has(Condition::SafeAhead) || self.safe.covers(ahead.to(), own.to());
+        let unsure = self.has(Condition::UnsureAhead) && !ahead.is_sure();
+        safe && (!unsure || self.covered.covers(ahead.from, own.to()))
+    }
+
+    /// Whether a robot may plan to be at `to` while the robot behind it is at `behind`.
+    pub fn admits_behind(&self, to: Cell, behind: Cell) -> bool {
+        !self.has(Condition::CoveredBehind) || self.covered.covers(behind, to)
+    }
+
+    /// Whether a robot may enter a cell outside the base that `occupants` others occupy now.
+    pub const fn admits_entry(&self, role: Role, occupants: usize) -> bool {
+        let guarded = match role {
+            Role::Leader => self.has(Condition::FullForLeader),
+            Role::Follower => self.has(Condition::FullForFollower),
+        };
+        !guarded || occupants < 2
+    }
+
+    /// Whether a follower's position `to` is in P_high: the robot ahead would have all its moves from there.
+    pub const fn is_high(&self, to: Cell, ahead: Move) -> bool {
+        match self.high {
+            High::Planned => neighbours(ahead.to(), to),
+            High::Present => neighbours(ahead.from, to),
+        }
+    }
+}

@@ -1,0 +1,263 @@
+//! The state of a chain, and the two calls that make a team move of it.
+
+use core::fmt;
+
+use super::MAX_ROBOTS;
+use super::message::{Damaged, Message, Outcome};
+use super::plan::{Kind, Plan, Planner};
+use super::rule::{Condition, Rule};
+use crate::grid::{Area, CellMark, EdgeMark, Grid};
+use crate::lattice::{Cell, Edge, Step};
+
+/// Why a chain cannot be set up.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Refused {
+    /// A chain is a base and at least one robot.
+    TooFewRobots {
+        /// Robots asked for, base included.
+        robots: usize,
+    },
+    /// More robots than this chain holds.
+    TooManyRobots {
+        /// Robots asked for, base included.
+        robots: usize,
+        /// Robots it holds.
+        most: usize,
+    },
+    /// The base is not in the area.
+    BaseOutside {
+        /// The base.
+        base: Cell,
+    },
+}
+
+impl fmt::Display for Refused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooFewRobots { robots } => {
+                write!(f, "{robots} robots are no chain: it needs at least 2, the base counted")
+            }
+            Self::TooManyRobots { robots, most } => {
+                write!(f, "{robots} robots are too many: this chain holds at most {most}, the base counted")
+            }
+            Self::BaseOutside { base } => write!(f, "the base {base} is outside the area"),
+        }
+    }
+}
+
+impl core::error::Error for Refused {}
+
+/// How a run ended by itself.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum End {
+    /// Every cell of the area is explored.
+    Explored,
+    /// An epoch explored no cell and found no wall; the next would repeat it.
+    Exhausted,
+}
+
+/// What the team is about to do.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Intent<const ROBOTS: usize> {
+    /// A team move.
+    Go(Plan<ROBOTS>),
+    /// Nothing any more.
+    Done(End),
+}
+
+/// What came of a team move.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Settled<const ROBOTS: usize> {
+    messages: [u8; ROBOTS],
+    robots: usize,
+}
+
+impl<const ROBOTS: usize> Settled<ROBOTS> {
+    /// The messages of R_2 … R_N, encoded: what the log grows by.
+    pub fn messages(&self) -> &[u8] {
+        &self.messages[1..self.robots]
+    }
+}
+
+/// A chain of at most `ROBOTS` robots that explores a grid.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct Chain<G, const ROBOTS: usize> {
+    rule: Rule,
+    grid: G,
+    /// P_1 … P_N; the base first.
+    cells: [Cell; ROBOTS],
+    robots: usize,
+    /// Team moves made.
+    moves: u32,
+    /// The log entry that a backtrack would take back.
+    last_open: Option<u32>,
+    /// Whether this epoch explored a cell or found a wall.
+    gained: bool,
+    looked_at: u32,
+}
+
+impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
+    const CAPACITY: () = assert!(ROBOTS <= MAX_ROBOTS, "a chain holds at most 256 robots");
+
+    /// The part of `area` that a chain of `robots` can explore from `base`: no cell farther than N−1 columns
+    /// or rows.
+    pub fn area(area: Area, base: Cell, robots: usize) -> Option<Area> {
+        area.around(base, u16::try_from(robots.saturating_sub(1)).unwrap_or(u16::MAX))
+    }
+
+    /// A chain of `robots`, the base counted, all in the `base` cell of a `grid` of which nothing is known but
+    /// the border.
+    ///
+    /// # Errors
+    /// [`Refused`] if the number of robots or the base does not fit.
+    pub fn new(rule: Rule, robots: usize, base: Cell, mut grid: G) -> Result<Self, Refused> {
+        const { Self::CAPACITY };
+        if robots < 2 {
+            return Err(Refused::TooFewRobots { robots });
+        }
+        if robots > ROBOTS {
+            return Err(Refused::TooManyRobots { robots, most: ROBOTS });
+        }
+        if !grid.area().contains(base) {
+            return Err(Refused::BaseOutside { base });
+        }
+        grid.put(CellMark::Explored, base);
+        Ok(Self {
+            rule,
+            grid,
+            cells: [base; ROBOTS],
+            robots,
+            moves: 0,
+            last_open: None,
+            gained: true,
+            looked_at: 0,
+        })
+    }
+
+    /// Where the robots are: R_1, the base, to R_N, the leader.
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells[..self.robots]
+    }
+
+    /// What the team knows.
+    pub const fn grid(&self) -> &G {
+        &self.grid
+    }
+
+    /// The rule it follows.
+    pub const fn rule(&self) -> &Rule {
+        &self.rule
+    }
+
+    /// How many candidates of followers the last call of [`Chain::plan`] looked at.
+    pub const fn looked_at(&self) -> u32 {
+        self.looked_at
+    }
+
+    /// The log entry that a backtrack would take back, if any: entries count team moves from 0.
+    pub const fn last_open(&self) -> Option<u32> {
+        self.last_open
+    }
+
+    /// What the team intends. `log` holds the messages of all team moves so far, as [`Settled::messages`]
+    /// gave them.
+    ///
+    /// # Errors
+    /// [`Damaged`] if a byte that a backtrack needs is no message.
+    pub fn plan(&mut self, log: &[u8]) -> Result<Intent<ROBOTS>, Damaged> {
+        self.looked_at = 0;
+        if self.grid.is_explored() {
+            return Ok(Intent::Done(End::Explored));
+        }
+        let mut fresh_epoch = false;
+        loop {
+            let (steps, looked_at) =
+                Planner::<G, ROBOTS>::new(&self.rule, &mut self.grid, &self.cells[..self.robots]).make();
+            self.looked_at += looked_at;
+            if let Some(steps) = steps {
+                let plan =
+                    Plan { kind: Kind::Advance, steps, robots: self.robots, last_open: Some(self.moves) };
+                return Ok(Intent::Go(plan));
+            }
+            if let Some(entry) = self.last_open {
+                return self.backtrack(log, entry).map(Intent::Go);
+            }
+            let gainless = !self.gained && self.rule.has(Condition::EpochMustGain);
+            if gainless || fresh_epoch {
+                return Ok(Intent::Done(End::Exhausted));
+            }
+            fresh_epoch = true;
+            self.gained = false;
+            self.grid.clear_edges(EdgeMark::Virtual);
+        }
+    }
+
+    /// The plan that takes log entry `entry` back.
+    fn backtrack(&self, log: &[u8], entry: u32) -> Result<Plan<ROBOTS>, Damaged> {
+        let movers = self.robots - 1;
+        let messages = log.chunks_exact(movers).nth(entry as usize).unwrap_or(&[]);
+        let mut steps = [Step::Stay; ROBOTS];
+        for (step, &byte) in steps[1..].iter_mut().zip(messages) {
+            *step = Message::decode(byte)?.made().reverse();
+        }
+        // Read backwards, every backtrack pairs with the nearest open move before it.
+        let mut taken_back = 0_u32;
+        let earlier = log.chunks_exact(movers).take(entry as usize).enumerate().rev();
+        let mut last_open = None;
+        for (index, messages) in earlier {
+            if Message::is_backtrack(messages[0]) {
+                taken_back += 1;
+            } else if taken_back == 0 {
+                last_open = Some(index as u32);
+                break;
+            } else {
+                taken_back -= 1;
+            }
+        }
+        Ok(Plan { kind: Kind::Backtrack, steps, robots: self.robots, last_open })
+    }
+
+    /// Carries `plan` out. `is_open` answers for every edge that is crossed without being known, once each, in
+    /// the order of the robots. All robots move at once; one that meets a wall stays, and all learn of it.
+    pub fn settle(&mut self, plan: &Plan<ROBOTS>, mut is_open: impl FnMut(Edge) -> bool) -> Settled<ROBOTS> {
+        let mut messages = [0; ROBOTS];
+        for robot in 1..self.robots {
+            let step = plan.steps[robot];
+            let outcome = match (plan.kind, step) {
+                (Kind::Backtrack, _) => Outcome::TookBack,
+                (Kind::Advance, Step::Stay) => Outcome::Arrived,
+                (Kind::Advance, Step::Cross(side)) => {
+                    self.try_edge(Edge::new(self.cells[robot], side), &mut is_open)
+                }
+            };
+            let message = Message { step, outcome };
+            messages[robot] = message.encode();
+            let cell = self.cells[robot].after(message.made());
+            self.cells[robot] = cell;
+            if !self.grid.has(CellMark::Explored, cell) {
+                self.grid.put(CellMark::Explored, cell);
+                self.gained = true;
+            }
+        }
+        self.moves += 1;
+        self.last_open = plan.last_open;
+        Settled { messages, robots: self.robots }
+    }
+
+    fn try_edge(&mut self, edge: Edge, is_open: &mut impl FnMut(Edge) -> bool) -> Outcome {
+        if self.grid.edge_has(EdgeMark::Open, edge) {
+            return Outcome::Arrived;
+        }
+        if self.grid.edge_has(EdgeMark::Wall, edge) {
+            return Outcome::Blocked;
+        }
+        if is_open(edge) {
+            self.grid.put_edge(EdgeMark::Open, edge);
+            Outcome::Arrived
+        } else {
+            self.grid.put_edge(EdgeMark::Wall, edge);
+            self.gained = true;
+            Outcome::Blocked
+        }
+    }
+}

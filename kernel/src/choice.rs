@@ -1,0 +1,23 @@
+//! The one door through which the unknown enters. Whether an edge is open, a sensor is seen, a packet
+//! arrives, which agent moves next: each is a choice, and each is asked of a [`Source`].
+
+/// Answers choices. Engines differ only in how: at random, every alternative in turn, symbolically, from a
+/// list of numbers, or as a stored run answered.
+pub trait Source {
+    /// A number below `below`.
+    ///
+    /// `below` is at least 1. A source that has run out of answers gives 0, so bodies put the plain case
+    /// first.
+    fn pick(&mut self, below: u32) -> u32;
+
+    /// One of two alternatives; the plain case is `false`.
+    fn flip(&mut self) -> bool {
+        self.pick(2) == 1
+    }
+}
+
+/// One of the `options`, which must not be empty.
+pub fn one_of<T: Copy, const OPTIONS: usize>(source: &mut dyn Source, options: &[T; OPTIONS]) -> T {
+    const { assert!(OPTIONS > 0, "a choice needs an option") };
+    options[source.pick(OPTIONS as u32) as usize % OPTIONS]
+}

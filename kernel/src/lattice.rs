@@ -1,0 +1,216 @@
+//! The grid of square cells and the three environments of a cell (paper 000, III.A, equation (1)).
+//! Clause LATTICE-1 shows that the environments, derived here from the radii in whole numbers, are the
+//! sets that the paper draws.
+
+use core::fmt;
+
+/// A square cell, by column and row: `x` grows eastwards, `y` grows southwards, as text and images are
+/// read. The unit is the side of a cell, C in the paper.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(from = "(i16, i16)", into = "(i16, i16)")
+)]
+pub struct Cell {
+    /// Column.
+    pub x: i16,
+    /// Row.
+    pub y: i16,
+}
+
+impl Cell {
+    /// The cell in column `x` and row `y`.
+    pub const fn new(x: i16, y: i16) -> Self {
+        Self { x, y }
+    }
+
+    /// The neighbour beyond `side`. At the rim of the coordinates (±32,767) a cell is its own neighbour.
+    pub const fn beyond(self, side: Side) -> Self {
+        let (x, y) = (self.x, self.y);
+        match side {
+            Side::East => Self::new(x.saturating_add(1), y),
+            Side::South => Self::new(x, y.saturating_add(1)),
+            Side::West => Self::new(x.saturating_sub(1), y),
+            Side::North => Self::new(x, y.saturating_sub(1)),
+        }
+    }
+
+    /// Where `step` leads from here, if nothing is in the way.
+    pub const fn after(self, step: Step) -> Self {
+        match step {
+            Step::Cross(side) => self.beyond(side),
+            Step::Stay => self,
+        }
+    }
+
+    /// Columns and rows between two cells, without sign.
+    pub const fn apart(self, other: Self) -> (u16, u16) {
+        (self.x.abs_diff(other.x), self.y.abs_diff(other.y))
+    }
+}
+
+impl fmt::Debug for Cell {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "({},{})", self.x, self.y)
+    }
+}
+
+impl fmt::Display for Cell {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{},{}", self.x, self.y)
+    }
+}
+
+impl From<(i16, i16)> for Cell {
+    fn from((x, y): (i16, i16)) -> Self {
+        Self::new(x, y)
+    }
+}
+
+impl From<Cell> for (i16, i16) {
+    fn from(cell: Cell) -> Self {
+        (cell.x, cell.y)
+    }
+}
+
+/// One of the four sides of a cell, in the direction order that settles every tie: +x, +y, −x, −y.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Side {
+    /// +x
+    East,
+    /// +y
+    South,
+    /// −x
+    West,
+    /// −y
+    North,
+}
+
+impl Side {
+    /// All sides in direction order.
+    pub const ALL: [Self; 4] = [Self::East, Self::South, Self::West, Self::North];
+
+    /// The same edge seen from the cell beyond it.
+    pub const fn opposite(self) -> Self {
+        match self {
+            Self::East => Self::West,
+            Self::South => Self::North,
+            Self::West => Self::East,
+            Self::North => Self::South,
+        }
+    }
+}
+
+/// What one robot does in one team move: cross a side of its cell, or stay.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Step {
+    /// Go to the cell beyond this side.
+    Cross(Side),
+    /// The null move.
+    Stay,
+}
+
+impl Step {
+    /// All steps in direction order: +x, +y, −x, −y, stay.
+    pub const ALL: [Self; 5] = [
+        Self::Cross(Side::East),
+        Self::Cross(Side::South),
+        Self::Cross(Side::West),
+        Self::Cross(Side::North),
+        Self::Stay,
+    ];
+
+    /// The step that takes this one back.
+    pub const fn reverse(self) -> Self {
+        match self {
+            Self::Cross(side) => Self::Cross(side.opposite()),
+            Self::Stay => Self::Stay,
+        }
+    }
+}
+
+/// The common side of two neighbouring cells: where a wall can stand. Both ways of naming it, from either
+/// cell, are the same value.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Edge {
+    cell: Cell,
+    axis: Axis,
+}
+
+/// Which way an edge is crossed.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+enum Axis {
+    EastWest,
+    SouthNorth,
+}
+
+impl Edge {
+    /// The edge on this `side` of `cell`.
+    pub const fn new(cell: Cell, side: Side) -> Self {
+        match side {
+            Side::East => Self { cell, axis: Axis::EastWest },
+            Side::South => Self { cell, axis: Axis::SouthNorth },
+            Side::West => Self { cell: cell.beyond(side), axis: Axis::EastWest },
+            Side::North => Self { cell: cell.beyond(side), axis: Axis::SouthNorth },
+        }
+    }
+
+    /// The western or northern cell of the two.
+    pub const fn cell(self) -> Cell {
+        self.cell
+    }
+
+    /// The side of [`Edge::cell`] on which the edge lies: east or south.
+    pub const fn side(self) -> Side {
+        match self.axis {
+            Axis::EastWest => Side::East,
+            Axis::SouthNorth => Side::South,
+        }
+    }
+}
+
+impl fmt::Debug for Edge {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:?}|{:?}", self.cell, self.cell.beyond(self.side()))
+    }
+}
+
+/// A circle round the centre of a cell, by four times its squared radius, so that all arithmetic is exact.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Circle {
+    four_radius_squared: u64,
+}
+
+impl Circle {
+    /// r_safe = 3√2/2, equation (1): the circle of E_S.
+    pub const SAFE: Self = Self { four_radius_squared: 18 };
+    /// r_cov = √26/2, equation (1): the circle of E_C.
+    pub const COVERED: Self = Self { four_radius_squared: 26 };
+
+    /// The circle whose radius r satisfies 4·r² = `four_radius_squared`.
+    pub const fn new(four_radius_squared: u64) -> Self {
+        Self { four_radius_squared }
+    }
+
+    /// Whether `cell` lies wholly inside the circle round the centre of `round`: E_S and E_C are the sets of
+    /// such cells. The farthest corner decides; it is half a cell beyond the centre in both coordinates.
+    pub const fn covers(self, round: Cell, cell: Cell) -> bool {
+        let (dx, dy) = round.apart(cell);
+        let (x, y) = (2 * dx as u64 + 1, 2 * dy as u64 + 1);
+        x * x + y * y <= self.four_radius_squared
+    }
+
+    /// Whether the centre of `cell` lies inside the circle round the centre of `round`.
+    pub const fn reaches(self, round: Cell, cell: Cell) -> bool {
+        let (dx, dy) = round.apart(cell);
+        let (x, y) = (2 * dx as u64, 2 * dy as u64);
+        x * x + y * y <= self.four_radius_squared
+    }
+}
+
+/// Whether `to` is in E_N(`from`): the cell itself or one of its four side neighbours.
+pub const fn neighbours(from: Cell, to: Cell) -> bool {
+    let (dx, dy) = from.apart(to);
+    dx as u32 + dy as u32 <= 1
+}

@@ -1,0 +1,13 @@
+//! Tautline's rules: pure functions from what a robot team knows to what it does next.
+//!
+//! The kernel does no input or output, allocates nothing and asks nobody anything. A team step is two calls:
+//! *plan* says what the team intends, *settle* takes the answers of the world and gives the next state. Who
+//! answers, a layout, a generator, an adversary or a solver, is the caller's business. Every rule names the
+//! paper and the equation it comes from; `SPEC.md` lists what is claimed of it.
+
+#![no_std]
+
+pub mod chain;
+pub mod choice;
+pub mod grid;
+pub mod lattice;

@@ -1,0 +1,222 @@
+//! What went wrong with something the user gave, where, and what would be right: the one error type that the
+//! command line shows. A fault in a text keeps only the line it points at, clipped, however large the file.
+
+use std::fmt;
+use std::ops::Range;
+use std::path::Path;
+
+use ariadne::{Color, Config, Fmt, IndexType, Label, Report, ReportKind, Source};
+
+/// Characters of the offending line kept on each side of the spot.
+const CLIP_CHARS: usize = 32;
+
+/// Longer names and messages are clipped: they may quote the input.
+const MAX_MESSAGE_CHARS: usize = 1_000;
+
+/// Beyond this line the spot is not drawn: the drawing counts lines from the first.
+const MAX_DRAWN_LINE: usize = 1 << 20;
+
+/// A place, what is wrong there, and the remedy. `Display` is one plain line,
+/// `file:line:column: what; remedy`.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Fault(Box<Parts>);
+
+#[derive(Clone, PartialEq, Eq, Debug)]
+struct Parts {
+    place: Place,
+    what: String,
+    remedy: String,
+}
+
+#[derive(Clone, PartialEq, Eq, Debug)]
+enum Place {
+    CommandLine,
+    File(String),
+    Spot { file: String, line: usize, column: usize, excerpt: Excerpt },
+}
+
+/// The neighbourhood of a spot: one line without control characters, and the bytes of it that are meant.
+#[derive(Clone, PartialEq, Eq, Debug)]
+struct Excerpt {
+    text: String,
+    mark: Range<usize>,
+}
+
+/// Whether [`Fault::render`] may use terminal colours.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Colour {
+    /// ANSI escapes.
+    Ansi,
+    /// Plain characters.
+    Plain,
+}
+
+impl Fault {
+    /// A fault in the bytes `range` of `text`, the content of `file`. A range that ends beyond its first line
+    /// is cut there; one that lies outside the text, or inside a character, is moved to the nearest
+    /// character.
+    pub fn at(
+        file: impl AsRef<Path>,
+        text: &str,
+        range: Range<usize>,
+        what: impl fmt::Display,
+        remedy: impl fmt::Display,
+    ) -> Self {
+        let start = text.floor_char_boundary(range.start);
+        let line_start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
+        let line_end = text[start..].find('\n').map_or(text.len(), |newline| start + newline);
+        let end = text.ceil_char_boundary(range.end).clamp(start, line_end);
+        let place = Place::Spot {
+            file: name(file.as_ref()),
+            line: 1 + text[..start].matches('\n').count(),
+            column: 1 + text[line_start..start].chars().count(),
+            excerpt: Excerpt::of(&text[line_start..line_end], start - line_start..end - line_start),
+        };
+        Self::new(place, what, remedy)
+    }
+
+    /// A fault of a file as a whole.
+    pub fn in_file(file: impl AsRef<Path>, what: impl fmt::Display, remedy: impl fmt::Display) -> Self {
+        Self::new(Place::File(name(file.as_ref())), what, remedy)
+    }
+
+    /// A fault of the command line.
+    pub fn usage(what: impl fmt::Display, remedy: impl fmt::Display) -> Self {
+        Self::new(Place::CommandLine, what, remedy)
+    }
+
+    fn new(place: Place, what: impl fmt::Display, remedy: impl fmt::Display) -> Self {
+        Self(Box::new(Parts {
+            place,
+            what: one_line(&what.to_string()),
+            remedy: one_line(&remedy.to_string()),
+        }))
+    }
+
+    /// What is wrong, without the place.
+    pub fn what(&self) -> &str {
+        &self.0.what
+    }
+
+    /// What would be right.
+    pub fn remedy(&self) -> &str {
+        &self.0.remedy
+    }
+
+    /// The fault over several lines, with the spot drawn where there is one. Ends with a newline.
+    pub fn render(&self, colour: Colour) -> String {
+        match &self.0.place {
+            Place::Spot { file, line, column, excerpt } if *line <= MAX_DRAWN_LINE => {
+                self.draw(file, *line, *column, excerpt, colour).unwrap_or_else(|| self.headline(colour))
+            }
+            Place::Spot { .. } | Place::File(_) | Place::CommandLine => self.headline(colour),
+        }
+    }
+
+    fn headline(&self, colour: Colour) -> String {
+        let (error, help) = match colour {
+            Colour::Ansi => ("Error:".fg(Color::Red).to_string(), "Help:".fg(Color::Fixed(115)).to_string()),
+            Colour::Plain => ("Error:".to_owned(), "Help:".to_owned()),
+        };
+        let Parts { place, what, remedy } = &*self.0;
+        format!("{error} {place}{what}\n {help} {remedy}\n")
+    }
+
+    /// Empty lines stand for those before the excerpt, so that the margin numbers are those of the file. The
+    /// heading counts columns in the clipped line, hence the replacement.
+    fn draw(
+        &self,
+        file: &str,
+        line: usize,
+        column: usize,
+        excerpt: &Excerpt,
+        colour: Colour,
+    ) -> Option<String> {
+        let skipped = line - 1;
+        let mark = skipped + excerpt.mark.start..skipped + excerpt.mark.end;
+        let config = Config::new().with_index_type(IndexType::Byte);
+        let (config, label) = match colour {
+            Colour::Ansi => (config, Label::new((file, mark.clone())).with_color(Color::Red)),
+            Colour::Plain => (config.with_color(false), Label::new((file, mark.clone()))),
+        };
+        let mut drawing = Vec::new();
+        Report::build(ReportKind::Error, (file, mark))
+            .with_config(config)
+            .with_message(self.what())
+            .with_label(label.with_message("here"))
+            .with_help(self.remedy())
+            .finish()
+            .write((file, Source::from("\n".repeat(skipped) + &excerpt.text)), &mut drawing)
+            .ok()?;
+        let shown_column = 1 + excerpt.text[..excerpt.mark.start].chars().count();
+        let heading = |column| format!("{file}:{line}:{column} ");
+        Some(String::from_utf8(drawing).ok()?.replacen(&heading(shown_column), &heading(column), 1))
+    }
+}
+
+impl Excerpt {
+    /// `line` round the bytes `mark`, which begin and end between characters. At least one character is
+    /// marked, if need be the blank after the line.
+    fn of(line: &str, mark: Range<usize>) -> Self {
+        let before: Vec<char> = line[..mark.start].chars().rev().take(CLIP_CHARS + 1).collect();
+        let mut text = String::new();
+        if before.len() > CLIP_CHARS {
+            text.push('…');
+        }
+        text.extend(before.into_iter().take(CLIP_CHARS).rev().map(printable));
+        let start = text.len();
+        text.extend(line[mark.clone()].chars().take(CLIP_CHARS).map(printable));
+        if text.len() == start {
+            text.push(line[mark.end..].chars().next().map_or(' ', printable));
+        }
+        let end = text.len();
+        let marked = text[start..end].chars().count().max(1);
+        let rest = line[mark.start..].chars().skip(marked);
+        text.extend(rest.clone().take(CLIP_CHARS).map(printable));
+        if rest.clone().nth(CLIP_CHARS).is_some() {
+            text.push('…');
+        }
+        Self { text, mark: start..end }
+    }
+}
+
+/// Control characters and the Unicode line ends would break the drawing or steer the terminal.
+fn printable(character: char) -> char {
+    match character {
+        '\t' | '\n' | '\r' | '\u{2028}' | '\u{2029}' => ' ',
+        control if control.is_control() => char::REPLACEMENT_CHARACTER,
+        other => other,
+    }
+}
+
+fn name(file: &Path) -> String {
+    one_line(&file.to_string_lossy())
+}
+
+/// `text` as it may stand in a message, clipped if it is very long.
+fn one_line(text: &str) -> String {
+    let mut characters = text.chars();
+    let mut line: String = characters.by_ref().take(MAX_MESSAGE_CHARS).map(printable).collect();
+    if characters.next().is_some() {
+        line.push('…');
+    }
+    line
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::CommandLine => Ok(()),
+            Self::File(file) => write!(f, "{file}: "),
+            Self::Spot { file, line, column, excerpt: _ } => write!(f, "{file}:{line}:{column}: "),
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}{}; {}", self.0.place, self.0.what, self.0.remedy)
+    }
+}
+
+impl std::error::Error for Fault {}

@@ -1,0 +1,241 @@
+//! The ground truth of a run: an area of square cells with walls between cells, blocked cells, and, where a
+//! drawing says so, the base and the number of robots. Only the simulator has one; a robot team learns of it
+//! edge by edge. Rows are counted southwards from 0 in every format, as text and images are read.
+
+mod file;
+pub mod generate;
+mod lines;
+pub mod movingai;
+mod plane;
+mod problem;
+pub mod ros;
+mod size;
+pub mod text;
+
+use std::fmt;
+use std::num::NonZeroU16;
+use std::str::FromStr;
+
+use tautline_kernel::lattice::{Cell, Edge, Side};
+
+use plane::Plane;
+
+pub use file::{MAX_FILE_BYTES, load};
+pub use generate::Generator;
+pub use problem::{Misread, Problem};
+pub use size::{MAX_CELLS, MAX_SIDE_CELLS, Size};
+
+/// An area of cells. The outer rim is closed; three bits a cell hold the rest.
+#[derive(Clone, PartialEq, Eq, Hash)]
+pub struct Layout {
+    size: Size,
+    /// Walls on the eastern side of a cell; never on the rim.
+    east: Plane,
+    /// Walls on the southern side of a cell; never on the rim.
+    south: Plane,
+    blocked: Plane,
+    /// Always a free cell.
+    base: Option<Cell>,
+    robots: Option<NonZeroU16>,
+}
+
+impl Layout {
+    /// An area without walls and blocked cells, `width` and `height` in cells.
+    ///
+    /// # Errors
+    /// [`Problem::Size`] when a side is 0 or above [`MAX_SIDE_CELLS`], or the area above [`MAX_CELLS`];
+    /// nothing is allocated then.
+    pub fn open(width: u64, height: u64) -> Result<Self, Problem> {
+        Size::new(width, height).map(Self::of)
+    }
+
+    /// An area without walls and blocked cells.
+    pub fn of(size: Size) -> Self {
+        let plane = Plane::new(size.cells());
+        let (east, south, blocked) = (plane.clone(), plane.clone(), plane);
+        Self { size, east, south, blocked, base: None, robots: None }
+    }
+
+    /// Columns and rows.
+    pub const fn size(&self) -> Size {
+        self.size
+    }
+
+    /// Columns.
+    pub const fn width(&self) -> i16 {
+        self.size.width()
+    }
+
+    /// Rows.
+    pub const fn height(&self) -> i16 {
+        self.size.height()
+    }
+
+    /// Whether `cell` lies inside the rim.
+    pub const fn contains(&self, cell: Cell) -> bool {
+        self.size.contains(cell)
+    }
+
+    /// Whether a robot can stand in `cell`: it is inside and not blocked.
+    pub fn is_free(&self, cell: Cell) -> bool {
+        self.size.index(cell).is_some_and(|index| !self.blocked.has(index))
+    }
+
+    /// All cells, row by row.
+    pub fn cells(&self) -> impl Iterator<Item = Cell> + use<> {
+        let (width, height) = (self.width(), self.height());
+        (0..height).flat_map(move |y| (0..width).map(move |x| Cell::new(x, y)))
+    }
+
+    /// How many cells are free.
+    pub fn free_cells(&self) -> usize {
+        self.size.cells() - self.blocked.count()
+    }
+
+    /// Whether a robot can cross `edge`: both cells are free and no wall stands between them.
+    pub fn is_open(&self, edge: Edge) -> bool {
+        let (cell, beyond) = both(edge);
+        self.is_free(cell) && self.is_free(beyond) && !self.has_wall(edge)
+    }
+
+    /// Whether a wall stands on `edge`. The rim is a wall; outside it there is none.
+    pub fn has_wall(&self, edge: Edge) -> bool {
+        let (cell, beyond) = both(edge);
+        match self.inner(edge) {
+            Some(index) => self.walls_beside(edge.side()).has(index),
+            None => self.contains(cell) || self.contains(beyond),
+        }
+    }
+
+    /// Puts a wall on `edge`. The rim stays closed and the outside stays empty, whatever is asked.
+    pub fn build_wall(&mut self, edge: Edge) {
+        if let Some(index) = self.inner(edge) {
+            self.walls_beside_mut(edge.side()).put(index);
+        }
+    }
+
+    /// Takes the wall on `edge` away. The rim stays closed.
+    pub fn remove_wall(&mut self, edge: Edge) {
+        if let Some(index) = self.inner(edge) {
+            self.walls_beside_mut(edge.side()).take(index);
+        }
+    }
+
+    /// Blocks `cell`. A base that stood there is gone: the base is always free.
+    pub fn block(&mut self, cell: Cell) {
+        if let Some(index) = self.size.index(cell) {
+            self.blocked.put(index);
+            self.base = self.base.filter(|&base| base != cell);
+        }
+    }
+
+    /// All edges inside the rim, by row, then column, then eastern before southern.
+    pub fn edges(&self) -> impl Iterator<Item = Edge> + use<> {
+        let size = self.size;
+        self.cells()
+            .flat_map(|cell| [Side::East, Side::South].map(|side| Edge::new(cell, side)))
+            .filter(move |&edge| size.contains(edge.cell().beyond(edge.side())))
+    }
+
+    /// The walls inside the rim, in the order of [`Layout::edges`].
+    pub fn walls(&self) -> impl Iterator<Item = Edge> {
+        self.edges().filter(|&edge| self.has_wall(edge))
+    }
+
+    /// The base, if the layout names one.
+    pub const fn base(&self) -> Option<Cell> {
+        self.base
+    }
+
+    /// The free cell nearest the centre of the area, ties by row, then by column.
+    ///
+    /// # Errors
+    /// [`Problem::NoFreeCell`] when all cells are blocked.
+    pub fn default_base(&self) -> Result<Cell, Problem> {
+        let centre = (i64::from(self.width()) - 1, i64::from(self.height()) - 1);
+        self.nearest_free(centre).ok_or(Problem::NoFreeCell)
+    }
+
+    /// Puts the base in `cell`.
+    ///
+    /// # Errors
+    /// [`Problem::BaseOutside`] and [`Problem::BaseBlocked`]; the latter names the nearest free cell. The
+    /// base stays where it was.
+    pub fn place_base(&mut self, cell: Cell) -> Result<(), Problem> {
+        if !self.contains(cell) {
+            return Err(Problem::BaseOutside { base: cell, size: self.size });
+        }
+        if !self.is_free(cell) {
+            let nearest = self.nearest_free((2 * i64::from(cell.x), 2 * i64::from(cell.y)));
+            let blocked = |nearest| Problem::BaseBlocked { base: cell, nearest };
+            return Err(nearest.map_or(Problem::NoFreeCell, blocked));
+        }
+        self.base = Some(cell);
+        Ok(())
+    }
+
+    /// How many robots the layout is meant for, the base counted, if it says so.
+    pub fn robots(&self) -> Option<u16> {
+        self.robots.map(NonZeroU16::get)
+    }
+
+    /// Says how many robots the layout is meant for.
+    pub const fn set_robots(&mut self, robots: NonZeroU16) {
+        self.robots = Some(robots);
+    }
+
+    /// The free cell with the least distance to a point, given in half cells from the centre of the cell 0,0;
+    /// ties by row, then by column.
+    fn nearest_free(&self, point: (i64, i64)) -> Option<Cell> {
+        let distance = |cell: Cell| {
+            let (dx, dy) = (2 * i64::from(cell.x) - point.0, 2 * i64::from(cell.y) - point.1);
+            dx * dx + dy * dy
+        };
+        self.cells().filter(|&cell| self.is_free(cell)).min_by_key(|&cell| distance(cell))
+    }
+
+    /// Where the wall bit of an edge inside the rim is kept.
+    fn inner(&self, edge: Edge) -> Option<usize> {
+        let (cell, beyond) = both(edge);
+        self.size.index(cell).filter(|_| self.contains(beyond))
+    }
+
+    const fn walls_beside(&self, side: Side) -> &Plane {
+        match side {
+            Side::East | Side::West => &self.east,
+            Side::South | Side::North => &self.south,
+        }
+    }
+
+    const fn walls_beside_mut(&mut self, side: Side) -> &mut Plane {
+        match side {
+            Side::East | Side::West => &mut self.east,
+            Side::South | Side::North => &mut self.south,
+        }
+    }
+}
+
+const fn both(edge: Edge) -> (Cell, Cell) {
+    (edge.cell(), edge.cell().beyond(edge.side()))
+}
+
+/// The drawing that [`text::read`] reads.
+impl fmt::Display for Layout {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        text::write(self, f)
+    }
+}
+
+impl fmt::Debug for Layout {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "\n{self}")
+    }
+}
+
+impl FromStr for Layout {
+    type Err = Misread;
+
+    fn from_str(source: &str) -> Result<Self, Misread> {
+        text::read(source)
+    }
+}

@@ -1,0 +1,225 @@
+//! Layouts made from a short description. The random ones are the same for the same description and seed on
+//! every machine: `ChaCha8` is seeded with the seed in the first eight bytes, little-endian, the generator's
+//! tag in the next eight and zeros in the rest, and everything is drawn in an order that is part of the
+//! promise.
+
+use std::fmt;
+use std::str::FromStr;
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use tautline_kernel::lattice::{Cell, Edge, Side};
+
+use super::{Layout, Problem, Size, text};
+
+const ROOMS_A: &str = include_str!("generate/rooms-a.txt");
+const ROOMS_B: &str = include_str!("generate/rooms-b.txt");
+
+const TWO_TO_THE_53: f64 = 9_007_199_254_740_992.0;
+
+/// A description of layouts, as `FromStr` reads it and `Display` writes it.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Generator {
+    /// `open:15x15`: no walls, no blocked cells.
+    Open(Size),
+    /// `walls:15x15:0.1`: each inner cell side is a wall with this probability, drawn in the order of
+    /// [`Layout::edges`].
+    Walls(Size, Probability),
+    /// `rooms-a`: a building of 15×15 cells with a few large rooms, one-cell doors, all cells connected.
+    RoomsA,
+    /// `rooms-b`: a building of 15×15 cells with many small rooms, one-cell doors, all cells connected.
+    RoomsB,
+    /// `office:30x30:4x4`: an area divided into rooms by columns and rows of walls, as evenly as whole cells
+    /// allow, with one one-cell door at a random place between any two neighbouring rooms, so that all cells
+    /// are connected. Drawn room by room in row order, the eastern door before the southern.
+    Office(Size, Rooms),
+    /// `cells:32x32:0.2`: each cell is blocked with this probability, drawn in row order.
+    Cells(Size, Probability),
+}
+
+/// Rooms side by side and one below the other, both at least 1.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Rooms {
+    across: i16,
+    down: i16,
+}
+
+/// A number from 0 to 1.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Probability(f64);
+
+/// How a generator is described.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Form {
+    name: &'static str,
+    /// The description with its parts named.
+    pub pattern: &'static str,
+    /// A description that is right.
+    pub example: &'static str,
+}
+
+/// All generators.
+pub const FORMS: [Form; 6] = [
+    Form { name: "open", pattern: "open:WIDTHxHEIGHT", example: "open:15x15" },
+    Form { name: "walls", pattern: "walls:WIDTHxHEIGHT:PROBABILITY", example: "walls:15x15:0.1" },
+    Form { name: "rooms-a", pattern: "rooms-a", example: "rooms-a" },
+    Form { name: "rooms-b", pattern: "rooms-b", example: "rooms-b" },
+    Form { name: "office", pattern: "office:WIDTHxHEIGHT:ACROSSxDOWN", example: "office:30x30:4x4" },
+    Form { name: "cells", pattern: "cells:WIDTHxHEIGHT:PROBABILITY", example: "cells:32x32:0.2" },
+];
+
+impl Form {
+    /// The generator that the part of `description` before the first colon names.
+    pub(super) fn of(description: &str) -> Option<Self> {
+        let name = description.split_once(':').map_or(description, |(name, _)| name);
+        FORMS.into_iter().find(|form| form.name == name)
+    }
+}
+
+impl Generator {
+    /// The layout for `seed`; those without chance are the same for all seeds.
+    ///
+    /// # Errors
+    /// [`Problem::NoFreeCell`] when chance blocked every cell.
+    pub fn generate(&self, seed: u64) -> Result<Layout, Problem> {
+        match *self {
+            Self::Open(size) => Ok(Layout::of(size)),
+            Self::Walls(size, probability) => Ok(walls(size, probability, &mut source(seed, *b"walls   "))),
+            Self::RoomsA => text::read(ROOMS_A).map_err(|misread| misread.problem),
+            Self::RoomsB => text::read(ROOMS_B).map_err(|misread| misread.problem),
+            Self::Office(size, rooms) => Ok(office(size, rooms, &mut source(seed, *b"office  "))),
+            Self::Cells(size, probability) => cells(size, probability, &mut source(seed, *b"cells   ")),
+        }
+    }
+}
+
+impl Rooms {
+    /// `across` rooms side by side and `down` one below the other, in an area of `size`; `None` when one is 0
+    /// or the cells do not suffice.
+    pub fn new(across: u64, down: u64, size: Size) -> Option<Self> {
+        let within =
+            |rooms: u64, cells: i16| i16::try_from(rooms).ok().filter(|rooms| (1..=cells).contains(rooms));
+        Some(Self { across: within(across, size.width())?, down: within(down, size.height())? })
+    }
+}
+
+impl Probability {
+    /// The probability `p`, if it is one.
+    pub fn new(p: f64) -> Option<Self> {
+        (0.0..=1.0).contains(&p).then_some(Self(p))
+    }
+
+    /// Draws once: 53 random bits are compared with p·2⁵³, which is exact.
+    fn happens(self, rng: &mut ChaCha8Rng) -> bool {
+        let threshold = (self.0 * TWO_TO_THE_53) as u64;
+        rng.next_u64() >> 11 < threshold
+    }
+}
+
+fn source(seed: u64, tag: [u8; 8]) -> ChaCha8Rng {
+    let mut bytes = [0; 32];
+    bytes[..8].copy_from_slice(&seed.to_le_bytes());
+    bytes[8..16].copy_from_slice(&tag);
+    ChaCha8Rng::from_seed(bytes)
+}
+
+/// A number below `n`: the high half of n times 64 random bits.
+fn below(n: i16, rng: &mut ChaCha8Rng) -> i16 {
+    ((u128::from(rng.next_u64()) * n as u128) >> 64) as i16
+}
+
+fn walls(size: Size, probability: Probability, rng: &mut ChaCha8Rng) -> Layout {
+    let mut layout = Layout::of(size);
+    for edge in layout.edges() {
+        if probability.happens(rng) {
+            layout.build_wall(edge);
+        }
+    }
+    layout
+}
+
+fn cells(size: Size, probability: Probability, rng: &mut ChaCha8Rng) -> Result<Layout, Problem> {
+    let mut layout = Layout::of(size);
+    for cell in layout.cells() {
+        if probability.happens(rng) {
+            layout.block(cell);
+        }
+    }
+    if layout.free_cells() == 0 { Err(Problem::NoFreeCell) } else { Ok(layout) }
+}
+
+fn office(size: Size, rooms: Rooms, rng: &mut ChaCha8Rng) -> Layout {
+    let mut layout = Layout::of(size);
+    let first =
+        |room: i16, rooms: i16, cells: i16| (i32::from(room) * i32::from(cells) / i32::from(rooms)) as i16;
+    let column = |room| first(room, rooms.across, size.width());
+    let row = |room| first(room, rooms.down, size.height());
+    for (down, across) in (0..rooms.down).flat_map(|down| (0..rooms.across).map(move |across| (down, across)))
+    {
+        let (columns, rows) = (column(across)..column(across + 1), row(down)..row(down + 1));
+        if across + 1 < rooms.across {
+            let door = rows.start + below(rows.end - rows.start, rng);
+            for y in rows.clone().filter(|&y| y != door) {
+                layout.build_wall(Edge::new(Cell::new(columns.end, y), Side::West));
+            }
+        }
+        if down + 1 < rooms.down {
+            let door = columns.start + below(columns.end - columns.start, rng);
+            for x in columns.filter(|&x| x != door) {
+                layout.build_wall(Edge::new(Cell::new(x, rows.end), Side::North));
+            }
+        }
+    }
+    layout
+}
+
+impl FromStr for Generator {
+    type Err = Problem;
+
+    fn from_str(description: &str) -> Result<Self, Problem> {
+        let form = Form::of(description).ok_or_else(|| Problem::NoSuchGenerator(description.to_owned()))?;
+        let wrong = || Problem::Generator { description: description.to_owned(), form };
+        let parts: Vec<&str> = description.split(':').collect();
+        match parts.as_slice() {
+            ["open", size] => Ok(Self::Open(parse_size(size, wrong)?)),
+            ["walls", size, p] => Ok(Self::Walls(parse_size(size, wrong)?, parse_probability(p)?)),
+            ["rooms-a"] => Ok(Self::RoomsA),
+            ["rooms-b"] => Ok(Self::RoomsB),
+            ["office", size, rooms] => {
+                let size = parse_size(size, wrong)?;
+                let (across, down) = parse_pair(rooms).ok_or_else(wrong)?;
+                let rooms = Rooms::new(across, down, size).ok_or(Problem::Rooms { across, down, size })?;
+                Ok(Self::Office(size, rooms))
+            }
+            ["cells", size, p] => Ok(Self::Cells(parse_size(size, wrong)?, parse_probability(p)?)),
+            _ => Err(wrong()),
+        }
+    }
+}
+
+fn parse_pair(pair: &str) -> Option<(u64, u64)> {
+    let (first, second) = pair.split_once('x')?;
+    Some((first.parse().ok()?, second.parse().ok()?))
+}
+
+fn parse_size(size: &str, wrong: impl FnOnce() -> Problem) -> Result<Size, Problem> {
+    let (width, height) = parse_pair(size).ok_or_else(wrong)?;
+    Size::new(width, height)
+}
+
+fn parse_probability(p: &str) -> Result<Probability, Problem> {
+    p.parse().ok().and_then(Probability::new).ok_or_else(|| Problem::Probability(p.to_owned()))
+}
+
+impl fmt::Display for Generator {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Open(size) => write!(f, "open:{size}"),
+            Self::Walls(size, Probability(p)) => write!(f, "walls:{size}:{p}"),
+            Self::RoomsA => f.write_str("rooms-a"),
+            Self::RoomsB => f.write_str("rooms-b"),
+            Self::Office(size, Rooms { across, down }) => write!(f, "office:{size}:{across}x{down}"),
+            Self::Cells(size, Probability(p)) => write!(f, "cells:{size}:{p}"),
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! The lines of a text with their places, whichever way they end.
+
+use std::ops::Range;
+
+use super::{Misread, Problem};
+
+/// A line without its end (`\n` or `\r\n`), and the byte at which it starts.
+#[derive(Clone, Copy)]
+pub(super) struct Line<'a> {
+    pub(super) text: &'a str,
+    start: usize,
+}
+
+/// The lines of `source`, blank ones at its end left out.
+pub(super) fn lines(source: &str) -> impl Iterator<Item = Line<'_>> {
+    source.trim_end_matches(['\r', '\n']).split('\n').scan(0, |next, raw| {
+        let start = *next;
+        *next += raw.len() + 1;
+        Some(Line { text: raw.strip_suffix('\r').unwrap_or(raw), start })
+    })
+}
+
+/// The end of the last line: where what is missing should have stood.
+pub(super) fn end(source: &str) -> Range<usize> {
+    let end = source.trim_end_matches(['\r', '\n']).len();
+    end..end
+}
+
+impl Line<'_> {
+    /// The problem of the whole line.
+    pub(super) fn misread(&self, problem: Problem) -> Misread {
+        self.misread_at(0..self.text.len(), problem)
+    }
+
+    /// The problem of the bytes `range` of this line.
+    pub(super) fn misread_at(&self, range: Range<usize>, problem: Problem) -> Misread {
+        Misread { at: self.start + range.start..self.start + range.end, problem }
+    }
+
+    /// The problem of a symbol that none of the `known` ones is: the characters that begin in the bytes
+    /// `range`.
+    pub(super) fn unknown(&self, range: Range<usize>, known: &'static str) -> Misread {
+        let (start, end) =
+            (self.text.floor_char_boundary(range.start), self.text.ceil_char_boundary(range.end));
+        let found = self.text[start..end].to_owned();
+        self.misread_at(start..end, Problem::Symbol { found, known })
+    }
+
+    /// Checks that the line has `expected` characters.
+    pub(super) fn check_length(&self, expected: usize) -> Result<(), Misread> {
+        let found = self.text.chars().count();
+        if found == expected { Ok(()) } else { Err(self.misread(Problem::RowLength { found, expected })) }
+    }
+}

@@ -1,0 +1,65 @@
+//! The `.map` format of the `MovingAI` benchmarks (N. Sturtevant, "Benchmarks for Grid-Based Pathfinding",
+//! IEEE Transactions on Computational Intelligence and AI in Games 4(2), 2012). A header of `type octile`,
+//! `height`, `width` and `map`, then one symbol for each cell: `.` and `G` ground, free; `S` swamp, free, as
+//! a robot can enter it from ground; `W` water, blocked, as it cannot; `@` and `O` out of bounds and `T`
+//! trees, blocked. The format has no walls between cells and no base. `\r\n` and a missing last newline are
+//! read.
+
+use tautline_kernel::lattice::Cell;
+
+use super::lines::{Line, end, lines};
+use super::{Layout, Misread, Problem};
+
+const SYMBOLS: &str = "a cell is `.`, `G` or `S` (free), `@`, `O`, `T` or `W` (blocked)";
+
+/// Reads a map.
+///
+/// # Errors
+/// The first [`Problem`] from the top and the bytes it lies in: a header line that is not as above, a size
+/// out of bounds, rows of another length or number than the header says, an unknown symbol, or no free cell.
+pub fn read(source: &str) -> Result<Layout, Misread> {
+    let mut lines = lines(source);
+    let cut = |expected| Misread { at: end(source), problem: Problem::Header { expected } };
+    let mut header = |expected| lines.next().ok_or_else(|| cut(expected));
+
+    literal(&header("type octile")?, "type octile")?;
+    let first = header("height N")?;
+    let height = count(&first, "height N")?;
+    let width = count(&header("width N")?, "width N")?;
+    literal(&header("map")?, "map")?;
+
+    let mut layout = Layout::open(width, height).map_err(|problem| first.misread(problem))?;
+    for y in 0..layout.height() {
+        let missing = Problem::TooFewRows { found: y as usize, expected: layout.height() as usize };
+        let line = lines.next().ok_or_else(|| Misread { at: end(source), problem: missing })?;
+        read_row(&line, y, &mut layout)?;
+    }
+    match lines.next() {
+        Some(line) => Err(line.misread(Problem::TooManyRows { expected: layout.height() as usize })),
+        None if layout.free_cells() == 0 => Err(first.misread(Problem::NoFreeCell)),
+        None => Ok(layout),
+    }
+}
+
+fn read_row(line: &Line<'_>, y: i16, layout: &mut Layout) -> Result<(), Misread> {
+    line.check_length(layout.width() as usize)?;
+    for (x, (at, symbol)) in (0..).zip(line.text.char_indices()) {
+        match symbol {
+            '.' | 'G' | 'S' => {}
+            '@' | 'O' | 'T' | 'W' => layout.block(Cell::new(x, y)),
+            _ => return Err(line.unknown(at..at + 1, SYMBOLS)),
+        }
+    }
+    Ok(())
+}
+
+fn literal(line: &Line<'_>, expected: &'static str) -> Result<(), Misread> {
+    if line.text.trim_end() == expected { Ok(()) } else { Err(line.misread(Problem::Header { expected })) }
+}
+
+/// The number of a header line such as `height 32`.
+fn count(line: &Line<'_>, expected: &'static str) -> Result<u64, Misread> {
+    let number = expected.strip_suffix('N').and_then(|name| line.text.strip_prefix(name));
+    let count = number.and_then(|number| number.trim().parse().ok());
+    count.ok_or_else(|| line.misread(Problem::Header { expected }))
+}

@@ -1,0 +1,194 @@
+//! Maps of the ROS `map_server`: a YAML file that describes an image, PGM or PNG. One pixel is one cell, and
+//! the top row of the image is row 0, while ROS counts rows from the lower left: in an image of `height` rows
+//! the centre of the cell x,y lies (x + ½)·resolution along and (height − y − ½)·resolution up from the
+//! origin, both turned about it by the yaw. A pixel of mean colour v has the occupancy (255 − v)/255, with
+//! `negate` v/255; it is free below `free_thresh`, else, occupied or unknown, blocked; so is a pixel that is
+//! not opaque. That is the meaning of the modes `trinary` and `scale`; in `raw` pixels are no occupancies,
+//! and it is refused.
+
+use std::io::Cursor;
+use std::ops::Range;
+use std::path::Path;
+
+use image::{GenericImageView, ImageError, ImageFormat, ImageReader, Limits, Rgba};
+use serde::Deserialize;
+use serde_saphyr::{Location, Spanned};
+use tautline_kernel::lattice::Cell;
+
+use super::file::{at, in_file, read_bytes, read_text, usage};
+use super::{Layout, MAX_CELLS, MAX_SIDE_CELLS, Misread, Problem};
+use crate::fault::Fault;
+
+/// Where the cells of a map lie in the world.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Frame {
+    /// The side of a cell in metres.
+    pub resolution_m: f64,
+    /// The lower left corner of the image in metres, eastwards.
+    pub x_m: f64,
+    /// The lower left corner of the image in metres, northwards.
+    pub y_m: f64,
+    /// How far the image is turned about that corner, counterclockwise, in radians.
+    pub yaw_rad: f64,
+}
+
+/// A checked description of an image.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Description {
+    /// The image as the file names it.
+    pub image: String,
+    /// The bytes of the file that name the image.
+    pub image_at: Range<usize>,
+    /// Where the cells lie.
+    pub frame: Frame,
+    free_below: f64,
+    shade: Shade,
+}
+
+/// What a bright pixel means.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Shade {
+    BrightIsFree,
+    BrightIsOccupied,
+}
+
+/// The fields as they stand in the file; others are passed over.
+#[derive(Deserialize)]
+struct Fields {
+    image: Spanned<String>,
+    resolution: Spanned<f64>,
+    origin: Spanned<[f64; 3]>,
+    negate: Spanned<Negate>,
+    occupied_thresh: Spanned<f64>,
+    free_thresh: Spanned<f64>,
+    mode: Option<Spanned<String>>,
+}
+
+/// Written as 0 and 1 by some map savers, as a truth value by others.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "expected 0 or 1")]
+enum Negate {
+    Truth(bool),
+    Number(u8),
+}
+
+/// Reads the map that `file` describes; `image` takes the place of the image named there, whose path is
+/// relative to the folder of `file`.
+///
+/// # Errors
+/// A [`Fault`] in `file` or in the image; a missing image names the path that was tried.
+pub fn load(file: &Path, image: Option<&Path>) -> Result<(Layout, Frame), Fault> {
+    let source = read_text(file)?;
+    let description = describe(&source).map_err(|misread| at(file, &source, &misread))?;
+    let beside = file.with_file_name(&description.image);
+    let path = image.unwrap_or(&beside);
+    let bytes = read_bytes(path).map_err(|problem| match (problem, image) {
+        (Problem::NoFile, given) => {
+            let problem = Problem::NoImage { tried: path.display().to_string() };
+            match given {
+                Some(_) => usage(&problem),
+                None => at(file, &source, &Misread { at: description.image_at.clone(), problem }),
+            }
+        }
+        (problem, _) => in_file(path, &Problem::Image(problem.to_string())),
+    })?;
+    let layout = read(&description, &bytes).map_err(|problem| in_file(path, &problem))?;
+    Ok((layout, description.frame))
+}
+
+/// Reads the YAML file.
+///
+/// # Errors
+/// The first [`Problem`] and the bytes it lies in: no YAML, a field missing, a number out of bounds, another
+/// mode.
+pub fn describe(source: &str) -> Result<Description, Misread> {
+    let fields: Fields = serde_saphyr::from_str(source).map_err(|error| {
+        let at = error.location().map_or(0..0, |location| bytes_of(source, location));
+        let message = error.without_snippet().to_string();
+        // One line of it, without the place, which the fault tells.
+        let message =
+            message.lines().next().and_then(|line| line.split(" at line ").next()).unwrap_or_default();
+        Misread { at, problem: Problem::Yaml(message.to_owned()) }
+    })?;
+    let Fields { image, resolution, origin, negate, occupied_thresh, free_thresh, mode } = fields;
+    let wrong = |location, field, allowed| {
+        Err(Misread { at: bytes_of(source, location), problem: Problem::Number { field, allowed } })
+    };
+    let (metres, occupied_above, free_below) = (resolution.value, occupied_thresh.value, free_thresh.value);
+    if !(metres > 0.0 && metres.is_finite()) {
+        return wrong(resolution.referenced, "resolution", "write the metres of a pixel's side, above 0");
+    }
+    if !origin.value.iter().all(|number| number.is_finite()) {
+        return wrong(origin.referenced, "origin", "write x and y in metres and the yaw in radians");
+    }
+    if !(0.0..=1.0).contains(&occupied_above) {
+        return wrong(occupied_thresh.referenced, "occupied_thresh", "write a number from 0 to 1");
+    }
+    if !(0.0..=occupied_above).contains(&free_below) {
+        return wrong(free_thresh.referenced, "free_thresh", "write a number from 0 to `occupied_thresh`");
+    }
+    let shade = match negate.value {
+        Negate::Truth(false) | Negate::Number(0) => Shade::BrightIsFree,
+        Negate::Truth(true) | Negate::Number(1) => Shade::BrightIsOccupied,
+        Negate::Number(_) => return wrong(negate.referenced, "negate", "write 0 or 1"),
+    };
+    if let Some(mode) = mode.filter(|mode| !matches!(mode.value.as_str(), "trinary" | "scale")) {
+        return Err(Misread { at: bytes_of(source, mode.referenced), problem: Problem::Mode(mode.value) });
+    }
+    let [x_m, y_m, yaw_rad] = origin.value;
+    Ok(Description {
+        image_at: bytes_of(source, image.referenced),
+        image: image.value,
+        frame: Frame { resolution_m: metres, x_m, y_m, yaw_rad },
+        free_below,
+        shade,
+    })
+}
+
+/// Reads the image that `description` describes, from the `bytes` of its file. The size is checked before the
+/// pixels are decoded.
+///
+/// # Errors
+/// [`Problem::Image`], [`Problem::Size`] or [`Problem::NoFreeCell`].
+pub fn read(description: &Description, bytes: &[u8]) -> Result<Layout, Problem> {
+    let undecoded = |error: ImageError| Problem::Image(error.to_string());
+    let open = || -> Result<ImageReader<Cursor<&[u8]>>, Problem> {
+        let format = image::guess_format(bytes).map_err(undecoded)?;
+        match format {
+            ImageFormat::Png | ImageFormat::Pnm => Ok(ImageReader::with_format(Cursor::new(bytes), format)),
+            other => Err(Problem::Image(format!("the format is {other:?}"))),
+        }
+    };
+    let (width, height) = open()?.into_dimensions().map_err(undecoded)?;
+    let mut layout = Layout::open(width.into(), height.into())?;
+    let mut reader = open()?;
+    let mut limits = Limits::default();
+    limits.max_image_width = Some(MAX_SIDE_CELLS as u32);
+    limits.max_image_height = Some(MAX_SIDE_CELLS as u32);
+    limits.max_alloc = Some(16 * MAX_CELLS);
+    reader.limits(limits);
+    let pixels = reader.decode().map_err(undecoded)?;
+    for (x, y, pixel) in pixels.pixels() {
+        if !description.is_free(pixel) {
+            layout.block(Cell::new(x as i16, y as i16));
+        }
+    }
+    if layout.free_cells() == 0 { Err(Problem::NoFreeCell) } else { Ok(layout) }
+}
+
+impl Description {
+    fn is_free(&self, Rgba([red, green, blue, alpha]): Rgba<u8>) -> bool {
+        let bright: u32 = [red, green, blue].map(u32::from).iter().sum();
+        let occupied = match self.shade {
+            Shade::BrightIsFree => 3 * 255 - bright,
+            Shade::BrightIsOccupied => bright,
+        };
+        alpha == u8::MAX && f64::from(occupied) / (3.0 * 255.0) < self.free_below
+    }
+}
+
+fn bytes_of(source: &str, location: Location) -> Range<usize> {
+    let span = location.span();
+    let start = span.byte_offset().map_or(0, |offset| offset as usize).min(source.len());
+    start..start + span.byte_len().map_or(0, |length| length as usize)
+}

@@ -1,0 +1,66 @@
+//! Columns and rows of a layout, within bounds that keep memory and coordinates small.
+
+use std::fmt;
+
+use tautline_kernel::lattice::Cell;
+
+use super::Problem;
+
+/// The most cells on a side.
+pub const MAX_SIDE_CELLS: u64 = 32_000;
+/// The most cells of a layout.
+pub const MAX_CELLS: u64 = 1 << 24;
+
+/// Columns and rows, both at least 1.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Size {
+    width: i16,
+    height: i16,
+}
+
+impl Size {
+    /// `width` columns and `height` rows.
+    ///
+    /// # Errors
+    /// [`Problem::Size`] when a side is 0 or above [`MAX_SIDE_CELLS`], or the area above [`MAX_CELLS`].
+    pub const fn new(width: u64, height: u64) -> Result<Self, Problem> {
+        let sides_fit = 0 < width && width <= MAX_SIDE_CELLS && 0 < height && height <= MAX_SIDE_CELLS;
+        if sides_fit && width * height <= MAX_CELLS {
+            Ok(Self { width: width as i16, height: height as i16 })
+        } else {
+            Err(Problem::Size { width, height })
+        }
+    }
+
+    /// Columns.
+    pub const fn width(self) -> i16 {
+        self.width
+    }
+
+    /// Rows.
+    pub const fn height(self) -> i16 {
+        self.height
+    }
+
+    /// Columns times rows.
+    pub const fn cells(self) -> usize {
+        self.width as usize * self.height as usize
+    }
+
+    /// Whether `cell` is one of them.
+    pub const fn contains(self, cell: Cell) -> bool {
+        0 <= cell.x && cell.x < self.width && 0 <= cell.y && cell.y < self.height
+    }
+
+    /// The place of `cell` in row order.
+    pub(super) fn index(self, cell: Cell) -> Option<usize> {
+        self.contains(cell).then(|| cell.y as usize * self.width as usize + cell.x as usize)
+    }
+}
+
+/// `15x10`: columns, then rows.
+impl fmt::Display for Size {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}x{}", self.width, self.height)
+    }
+}
