@@ -1,0 +1,77 @@
+//! A run as plain data: the team moves, one [`Frame`] each, and the chain's safety sentences that every frame is
+//! checked against (CHAIN-1, CHAIN-2, CHAIN-3). Simulation, search and proofs all use these.
+
+use tautline_kernel::chain::{Kind, Message, Outcome, Settled};
+use tautline_kernel::lattice::{Cell, Circle, Step};
+
+/// One team move, base first.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Frame {
+    /// An advance or a backtrack.
+    pub kind: Kind,
+    /// What every robot tried.
+    pub steps: Vec<Step>,
+    /// Whether it met a wall.
+    pub blocked: Vec<bool>,
+    /// Where it is now.
+    pub cells: Vec<Cell>,
+}
+
+impl Frame {
+    /// The frame of a team move that came out as `settled` and left the team in `cells`.
+    pub fn new<const ROBOTS: usize>(kind: Kind, settled: &Settled<ROBOTS>, cells: &[Cell]) -> Self {
+        let base = Message { step: Step::Stay, outcome: Outcome::Arrived };
+        let messages = settled.messages().iter().filter_map(|&byte| Message::decode(byte).ok());
+        let (steps, blocked) = std::iter::once(base)
+            .chain(messages)
+            .map(|message| (message.step, message.outcome == Outcome::Blocked))
+            .unzip();
+        Self { kind, steps, blocked, cells: cells.to_vec() }
+    }
+}
+
+/// What no robot team may do, whatever the layout.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Breach {
+    /// The whole cell of a neighbour in the chain is not covered: CHAIN-1, E_C membership.
+    Contact,
+    /// Three robots or more are in one cell outside the base: CHAIN-2.
+    Crowding,
+    /// The centres of two neighbours in the chain were, perhaps only on the way, out of range: CHAIN-3.
+    Coverage,
+}
+
+impl Breach {
+    /// Every breach.
+    pub const ALL: [Self; 3] = [Self::Contact, Self::Crowding, Self::Coverage];
+
+    /// The id of the clause that is broken.
+    pub const fn clause(self) -> &'static str {
+        match self {
+            Self::Contact => "CHAIN-1",
+            Self::Crowding => "CHAIN-2",
+            Self::Coverage => "CHAIN-3",
+        }
+    }
+
+    /// Whether the team move from `before` to `after` commits it; the base stands first in both.
+    pub fn is_in(self, before: &[Cell], after: &[Cell]) -> bool {
+        match self {
+            Self::Contact => after.windows(2).any(|pair| !Circle::COVERED.covers(pair[0], pair[1])),
+            Self::Crowding => after.iter().enumerate().any(|(robot, &cell)| {
+                cell != after[0] && after[..robot].iter().filter(|&&other| other == cell).count() >= 2
+            }),
+            Self::Coverage => before
+                .windows(2)
+                .zip(after.windows(2))
+                .any(|(from, to)| !stays_in_range([from[0], to[0]], [from[1], to[1]])),
+        }
+    }
+}
+
+/// Whether two robots that go from the first to the second of their cells, each at any speeds and with any
+/// pauses, keep their centres within r_cov of each other. Their offset moves inside the parallelogram of the
+/// four differences, and distance is convex, so its corners decide.
+pub fn stays_in_range(one: [Cell; 2], other: [Cell; 2]) -> bool {
+    one.iter().all(|&a| other.iter().all(|&b| Circle::COVERED.reaches(a, b)))
+}
