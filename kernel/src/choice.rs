@@ -19,5 +19,5 @@ pub trait Source {
 /// One of the `options`, which must not be empty.
 pub fn one_of<T: Copy, const OPTIONS: usize>(source: &mut dyn Source, options: &[T; OPTIONS]) -> T {
     const { assert!(OPTIONS > 0, "a choice needs an option") };
-    options[source.pick(OPTIONS as u32) as usize % OPTIONS]
+    options[(source.pick(OPTIONS as u32) as usize).min(OPTIONS - 1)]
 }

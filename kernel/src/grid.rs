@@ -76,6 +76,11 @@ impl Area {
         (first.x <= last.x && first.y <= last.y).then_some(Self { first, last })
     }
 
+    /// One cell alone.
+    pub const fn of(cell: Cell) -> Self {
+        Self { first: cell, last: cell }
+    }
+
     /// The cells of this area at most `range_cells` columns and rows from `centre`; `None` if there are none.
     pub fn around(self, centre: Cell, range_cells: u16) -> Option<Self> {
         let range = i16::try_from(range_cells).unwrap_or(i16::MAX);
@@ -170,7 +175,7 @@ macro_rules! words {
         }
     )*};
 }
-words!(u16, u32, u64);
+words!(u16, u32, u64, u128);
 
 /// One bit for every cell: `HEIGHT` rows of one word.
 type Plane<W, const HEIGHT: usize> = [W; HEIGHT];
@@ -191,6 +196,8 @@ pub struct BitGrid<W, const HEIGHT: usize> {
 pub type SmallGrid = BitGrid<u16, 16>;
 /// The grid of a chain of up to 32 robots.
 pub type MediumGrid = BitGrid<u64, 64>;
+/// The grid of a chain of up to 64 robots.
+pub type LargeGrid = BitGrid<u128, 128>;
 
 impl<W: Word, const HEIGHT: usize> BitGrid<W, HEIGHT> {
     /// Nothing known of `area` but its border; `None` if it is wider or higher than this grid holds.

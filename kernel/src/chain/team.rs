@@ -91,6 +91,8 @@ pub struct Chain<G, const ROBOTS: usize> {
     moves: u32,
     /// The log entry that a backtrack would take back.
     last_open: Option<u32>,
+    /// Epochs that ended.
+    epochs: u32,
     /// Whether this epoch explored a cell or found a wall.
     gained: bool,
     looked_at: u32,
@@ -129,6 +131,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             robots,
             moves: 0,
             last_open: None,
+            epochs: 0,
             gained: true,
             looked_at: 0,
         })
@@ -159,6 +162,17 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         self.last_open
     }
 
+    /// How many epochs ended so far: how often nothing was left to take back and the virtual obstacles were
+    /// cleared.
+    pub const fn epochs(&self) -> u32 {
+        self.epochs
+    }
+
+    /// Whether the present epoch has explored a cell or found a wall; the first counts its start as a gain.
+    pub const fn gained(&self) -> bool {
+        self.gained
+    }
+
     /// What the team intends. `log` holds the messages of all team moves so far, as [`Settled::messages`]
     /// gave them.
     ///
@@ -187,6 +201,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
                 return Ok(Intent::Done(End::Exhausted));
             }
             fresh_epoch = true;
+            self.epochs += 1;
             self.gained = false;
             self.grid.clear_edges(EdgeMark::Virtual);
         }

@@ -1,0 +1,178 @@
+//! The registry. A clause is registered once: its id and sentence, and the checks that decide it, each with the
+//! rule it is about, the engine, the bound, the expected verdict and the mutants that must be rejected. Of a step
+//! check one macro makes the exhaustive test, the property, the Kani harnesses and the line in the ledger.
+
+use tautline_kernel::chain::{Condition, High, Rule};
+use tautline_kernel::choice::Source;
+use tautline_kernel::lattice::Circle;
+
+use crate::engine::Outcome;
+use crate::invariant::Invariant;
+
+/// What a check is about: the rule, and how the observer of a mutant is deceived.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Subject {
+    /// The rule that the team follows.
+    pub rule: Rule,
+    /// The rule that it claims to follow.
+    pub intended: Rule,
+    /// What is done to it behind its back.
+    pub sabotage: Sabotage,
+}
+
+/// What no set of conditions can express, done to a mutant on the way from the rule to the check.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Sabotage {
+    /// Nothing.
+    None,
+    /// Bits 0 and 3 of every message are swapped.
+    SwappedBits,
+    /// The plan sends the base along with R_2.
+    BaseFollows,
+    /// The planner forgets its dead ends: it is the plain recursion.
+    Forgetful,
+}
+
+impl Sabotage {
+    /// The byte that arrives when `byte` is sent.
+    pub const fn carry(self, byte: u8) -> u8 {
+        match self {
+            Self::SwappedBits => byte & !0b1001 | (byte & 1) << 3 | byte >> 3 & 1,
+            Self::None | Self::BaseFollows | Self::Forgetful => byte,
+        }
+    }
+}
+
+impl Subject {
+    /// The chain as published.
+    pub const PUBLISHED: Self =
+        Self { rule: Rule::PUBLISHED, intended: Rule::PUBLISHED, sabotage: Sabotage::None };
+    /// The chain repaired.
+    pub const REPAIRED: Self = Self { rule: Rule::REPAIRED, intended: Rule::REPAIRED, ..Self::PUBLISHED };
+
+    /// A team that claims to follow the repaired rule, but follows `rule`.
+    pub const fn following(rule: Rule) -> Self {
+        Self { rule, ..Self::REPAIRED }
+    }
+
+    /// The repaired chain without one condition.
+    pub const fn without(condition: Condition) -> Self {
+        Self::following(Rule::REPAIRED.without(condition))
+    }
+
+    /// The repaired chain, sabotaged.
+    pub const fn sabotaged(sabotage: Sabotage) -> Self {
+        Self { sabotage, ..Self::REPAIRED }
+    }
+
+    /// The repaired chain with another circle of E_S.
+    pub const fn with_safe(safe: Circle) -> Self {
+        Self::following(Rule { safe, ..Rule::REPAIRED })
+    }
+
+    /// The repaired chain with another circle of E_C.
+    pub const fn with_covered(covered: Circle) -> Self {
+        Self::following(Rule { covered, ..Rule::REPAIRED })
+    }
+
+    /// The repaired chain that reads P_high from present positions.
+    pub const fn high_from_present() -> Self {
+        Self::following(Rule { high: High::Present, ..Rule::REPAIRED })
+    }
+}
+
+/// A clause of `SPEC.md`.
+#[derive(Debug)]
+pub struct Clause {
+    /// Its heading.
+    pub id: &'static str,
+    /// Its MUST sentence, word for word.
+    pub sentence: &'static str,
+    /// What decides it.
+    pub checks: &'static [Check],
+}
+
+/// A body: one case of a clause, made by the choices that the source answers.
+pub type Body = fn(&Subject, &mut dyn Source) -> Outcome;
+
+/// One way to decide a clause for one rule.
+#[derive(Debug)]
+pub struct Check {
+    /// The rule it is about.
+    pub subject: Subject,
+    /// How it is decided.
+    pub method: Method,
+    /// What the method covers, in words.
+    pub bound: &'static str,
+    /// What must come out.
+    pub expected: Verdict,
+    /// Subjects for which the check must fail.
+    pub mutants: &'static [Mutant],
+}
+
+/// How a check is decided.
+#[derive(Clone, Copy, Debug)]
+pub enum Method {
+    /// Every answer to every choice of a body.
+    Exhaustive {
+        /// The body.
+        body: Body,
+        /// The situations that must occur, sorted.
+        covers: &'static [&'static str],
+    },
+    /// Many random answers to the choices of a body.
+    Sampled {
+        /// The body.
+        body: Body,
+        /// How many times.
+        runs: u64,
+    },
+    /// Every layout within a bound.
+    Search {
+        /// Robots, base included.
+        robots: usize,
+        /// Most walls that are met in one run.
+        max_walls: u32,
+        /// What every team move is checked for.
+        invariant: Invariant,
+    },
+}
+
+impl Method {
+    /// The engine's name.
+    pub const fn engine(self) -> &'static str {
+        match self {
+            Self::Exhaustive { .. } => "exhaustive",
+            Self::Sampled { .. } => "sampled",
+            Self::Search { .. } => "search",
+        }
+    }
+}
+
+/// A subject that a check must reject.
+#[derive(Debug)]
+pub struct Mutant {
+    /// What is wrong with it.
+    pub name: &'static str,
+    /// The subject.
+    pub subject: Subject,
+}
+
+/// What a check found.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Verdict {
+    /// Within the bound the clause holds.
+    Holds,
+    /// There is a counterexample.
+    Refuted,
+}
+
+impl Verdict {
+    /// The word in the ledger.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::Refuted => "refuted",
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! Three robots and a cell outside the base: the inductive step of CHAIN-2. As long as it is any three robots and
+//! any cell, no three are ever in one.
+
+use tautline_kernel::chain::{Condition, Role};
+use tautline_kernel::choice::{Source, one_of};
+use tautline_kernel::lattice::{Cell, Step};
+
+use crate::clause::Subject;
+use crate::engine::{Outcome, assume, require};
+use crate::pair::World;
+
+/// The situations that the body covers, by how many of the three were in the cell and how many end there.
+pub(crate) const SITUATIONS: [&str; 4] =
+    ["none of them ends in the cell", "one ends in the cell", "two end in the cell", "two were in the cell"];
+
+/// CHAIN-2, inductive step: if not all three are in the cell, they are not after the move.
+///
+/// # Errors
+/// [`crate::engine::Stop`] if the choices are no case, or break the clause.
+pub fn crowding(subject: &Subject, source: &mut dyn Source) -> Outcome {
+    let rule = &subject.rule;
+    let cell = Cell::new(0, 0);
+    // One of them may be the leader, or none.
+    let leader = source.pick(4) as usize;
+    let from = [(); 3].map(|()| cell.after(one_of(source, &Step::ALL)));
+    let present = from.iter().filter(|&&at| at == cell).count();
+    assume(present < 3)?;
+    let mut world = World::<3>::new();
+    let tried = from.map(|at| world.pick(at, source));
+    let entering = |robot: usize| from[robot] != cell && tried[robot].plan.to() == cell;
+    for robot in 0..3 {
+        let role = if robot == leader { Role::Leader } else { Role::Follower };
+        // Those of the three that are there are others, since this one is not.
+        assume(!entering(robot) || rule.admits_entry(role, present))?;
+    }
+    let planned = tried.iter().filter(|robot| robot.plan.to() == cell).count();
+    assume(planned < 2 || !rule.has(Condition::Distinct))?;
+    let arrived = tried.iter().filter(|robot| robot.arrived == cell).count();
+    require(arrived < 3, "no three robots end in one cell outside the base")?;
+    Ok(match (present, arrived) {
+        (2, _) => SITUATIONS[3],
+        (_, 0) => SITUATIONS[0],
+        (_, 1) => SITUATIONS[1],
+        _ => SITUATIONS[2],
+    })
+}

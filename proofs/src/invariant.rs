@@ -1,0 +1,231 @@
+//! What every team move of a run is checked for. The sentences are those of `SPEC.md`, in plain arithmetic of
+//! their own: of the kernel's rule only the names of its conditions are used.
+
+use tautline_kernel::chain::{Chain, Condition, Kind, Message, Outcome};
+use tautline_kernel::grid::{Avoid, CellMark, EdgeMark, Grid};
+use tautline_kernel::lattice::{Cell, Edge, Step};
+
+use crate::clause::Subject;
+use crate::engine::{Stop, require};
+use crate::run::Breach;
+
+/// One team move, with the chain in its three states.
+pub(crate) struct Moment<'a, G, const ROBOTS: usize> {
+    pub(crate) subject: &'a Subject,
+    /// When it was asked for a plan.
+    pub(crate) before: &'a Chain<G, ROBOTS>,
+    /// When it had planned: new virtual obstacles, perhaps a new epoch.
+    pub(crate) planned: &'a Chain<G, ROBOTS>,
+    /// When it had moved.
+    pub(crate) after: &'a Chain<G, ROBOTS>,
+    pub(crate) kind: Kind,
+    /// Base first.
+    pub(crate) steps: &'a [Step],
+    /// Of R_2 … R_N, as they arrived.
+    pub(crate) messages: &'a [u8],
+}
+
+/// A demand on every team move.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Invariant {
+    /// CHAIN-1, CHAIN-2, CHAIN-3.
+    Without(Breach),
+    /// CHAIN-4: only admitted plans.
+    Admitted,
+    /// CHAIN-5: no shared planned cell outside the base.
+    Distinct,
+    /// CHAIN-6: the base stays.
+    BaseStays,
+    /// CHAIN-7: the measure that makes every run end.
+    Progress,
+    /// CHAIN-8: who hears the bytes knows the state.
+    Heard,
+}
+
+impl Invariant {
+    /// The three of safety.
+    pub const SAFETY: [Self; 3] =
+        [Self::Without(Breach::Contact), Self::Without(Breach::Crowding), Self::Without(Breach::Coverage)];
+
+    /// The id of its clause.
+    pub const fn clause(self) -> &'static str {
+        match self {
+            Self::Without(breach) => breach.clause(),
+            Self::Admitted => "CHAIN-4",
+            Self::Distinct => "CHAIN-5",
+            Self::BaseStays => "CHAIN-6",
+            Self::Progress => "CHAIN-7",
+            Self::Heard => "CHAIN-8",
+        }
+    }
+
+    /// Whether the team move meets the demand.
+    pub(crate) fn check<G: Grid + Copy + Eq, const ROBOTS: usize>(
+        self,
+        moment: &Moment<'_, G, ROBOTS>,
+    ) -> Result<(), Stop> {
+        match self {
+            Self::Without(breach) => {
+                let safe = !breach.is_in(moment.before.cells(), moment.after.cells());
+                require(
+                    safe,
+                    match breach {
+                        Breach::Contact => "each neighbour's cell is wholly covered",
+                        Breach::Crowding => "no three robots are in one cell outside the base",
+                        Breach::Coverage => "the neighbours' centres stay within r_cov",
+                    },
+                )
+            }
+            Self::Admitted => moment.is_admitted(),
+            Self::Distinct => moment.is_distinct(),
+            Self::BaseStays => {
+                let stays = moment.steps.first() == Some(&Step::Stay);
+                let is_there = moment.after.cells().first() == moment.before.cells().first();
+                require(stays && is_there, "the base neither plans to move nor moves")
+            }
+            Self::Progress => moment.progresses(),
+            Self::Heard => moment.is_heard(),
+        }
+    }
+}
+
+impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
+    fn planned_cells(&self) -> impl Iterator<Item = Cell> {
+        self.before.cells().iter().zip(self.steps).map(|(cell, &step)| cell.after(step))
+    }
+
+    fn is_admitted(&self) -> Result<(), Stop> {
+        if self.kind == Kind::Backtrack {
+            return Ok(());
+        }
+        let demanded = |condition| self.subject.intended.has(condition);
+        let present = self.before.cells();
+        let planned: Vec<Cell> = self.planned_cells().collect();
+        let grid = self.planned.grid();
+        let known = |robot: usize, mark| match self.steps[robot] {
+            Step::Cross(side) => grid.edge_has(mark, Edge::new(present[robot], side)),
+            Step::Stay => false,
+        };
+        let leader = present.len() - 1;
+        for robot in 0..=leader {
+            let stays = self.steps[robot] == Step::Stay;
+            require(!known(robot, EdgeMark::Wall), "no robot plans to cross a known wall")?;
+            if robot < leader {
+                require(
+                    in_safe(planned[robot + 1], planned[robot]),
+                    "a follower plans to be in E_S of the planned position ahead",
+                )?;
+                let sure = self.steps[robot + 1] == Step::Stay || known(robot + 1, EdgeMark::Open);
+                require(
+                    sure || !demanded(Condition::UnsureAhead)
+                        || in_covered(present[robot + 1], planned[robot]),
+                    "behind an unsure neighbour a follower plans to be in E_C of its present position",
+                )?;
+            }
+            if robot > 0 {
+                // The leader may always fall back on the null move.
+                let null = robot == leader && stays;
+                require(
+                    null || in_covered(present[robot - 1], planned[robot]),
+                    "a robot plans to be in E_C of the present position behind",
+                )?;
+                let guard =
+                    if robot == leader { Condition::FullForLeader } else { Condition::FullForFollower };
+                let others = present.iter().filter(|&&cell| cell == planned[robot]).count();
+                require(
+                    stays || !demanded(guard) || planned[robot] == present[0] || others < 2,
+                    "no robot enters a cell that two others occupy",
+                )?;
+            }
+        }
+        let all_virtual = known(leader, EdgeMark::Virtual);
+        require(!all_virtual, "the leader does not cross a virtual obstacle")
+    }
+
+    fn is_distinct(&self) -> Result<(), Stop> {
+        if self.kind == Kind::Backtrack {
+            return Ok(());
+        }
+        let planned: Vec<Cell> = self.planned_cells().collect();
+        let shared = (1..planned.len())
+            .any(|robot| planned[robot] != planned[0] && planned[1..robot].contains(&planned[robot]));
+        require(!shared, "no two robots plan to be in one cell outside the base")
+    }
+
+    /// Between two gains (a cell explored, a wall found) and two new virtual obstacles, first the history grows
+    /// shorter, then the leader comes nearer to the frontier: both end.
+    fn progresses(&self) -> Result<(), Stop> {
+        let leader = |chain: &Chain<G, ROBOTS>| chain.cells()[chain.cells().len() - 1];
+        let to_frontier = |chain: &Chain<G, ROBOTS>| {
+            let mut grid = *chain.grid();
+            grid.distance(leader(chain), Avoid::WallsAndVirtual)
+        };
+        let turned = self.planned.epochs() > self.before.epochs();
+        require(!turned || self.before.gained(), "an epoch without gain is the last")?;
+        match self.kind {
+            Kind::Backtrack => {
+                require(
+                    self.after.last_open() < self.before.last_open(),
+                    "a backtrack shortens the history",
+                )?;
+                require(
+                    to_frontier(self.planned).is_none(),
+                    "a backtrack leaves a place without a way to the frontier",
+                )
+            }
+            Kind::Advance => {
+                let explores =
+                    self.after.cells().iter().any(|&cell| !self.planned.grid().has(CellMark::Explored, cell));
+                let finds_wall = self.messages.iter().any(|&byte| {
+                    Message::decode(byte).is_ok_and(|message| message.outcome == Outcome::Blocked)
+                });
+                let new_obstacle = self.planned.grid() != self.before.grid();
+                let nearer = || {
+                    let (now, then) = (to_frontier(self.after), to_frontier(self.before));
+                    now.is_some_and(|now| then == Some(now + 1))
+                };
+                require(
+                    explores || finds_wall || new_obstacle || nearer(),
+                    "an advance explores, finds a wall, adds a virtual obstacle or brings the leader nearer",
+                )
+            }
+        }
+    }
+
+    /// What a listener makes of the state before and the bytes, is the state after.
+    fn is_heard(&self) -> Result<(), Stop> {
+        let mut grid = *self.planned.grid();
+        let mut cells = self.planned.cells().to_vec();
+        for (cell, &byte) in cells[1..].iter_mut().zip(self.messages) {
+            let Ok(message) = Message::decode(byte) else {
+                return require(false, "every byte is a message");
+            };
+            if let Step::Cross(side) = message.step {
+                let edge = Edge::new(*cell, side);
+                match message.outcome {
+                    Outcome::Arrived => grid.put_edge(EdgeMark::Open, edge),
+                    Outcome::Blocked => grid.put_edge(EdgeMark::Wall, edge),
+                    Outcome::TookBack => {}
+                }
+            }
+            *cell = cell.after(message.made());
+            grid.put(CellMark::Explored, *cell);
+        }
+        require(
+            cells == self.after.cells() && grid == *self.after.grid(),
+            "who hears the bytes knows the state",
+        )
+    }
+}
+
+/// E_S: at most one column and one row apart.
+fn in_safe(centre: Cell, cell: Cell) -> bool {
+    let (dx, dy) = centre.apart(cell);
+    dx <= 1 && dy <= 1
+}
+
+/// E_C: E_S, and two straight ahead.
+fn in_covered(centre: Cell, cell: Cell) -> bool {
+    let (dx, dy) = centre.apart(cell);
+    in_safe(centre, cell) || u32::from(dx) + u32::from(dy) <= 2
+}

@@ -1,0 +1,136 @@
+//! One pair of neighbours in the chain during one team move: the inductive steps of CHAIN-1 (E_C membership)
+//! and CHAIN-3 (centre-to-centre coverage). They speak of every state of the pair, every admitted plan and every
+//! answer of the world, not of the planner, so they hold for every robot, every N, every layout and every order
+//! in which one may prefer the candidates.
+
+use tautline_kernel::chain::{Move, Rule};
+use tautline_kernel::choice::{Source, one_of};
+use tautline_kernel::lattice::{Cell, Circle, Edge, Step};
+
+use crate::clause::Subject;
+use crate::engine::{Outcome, Stop, assume, require};
+use crate::run::stays_in_range;
+
+/// What is true of an edge that a robot plans to cross.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Nature {
+    KnownOpen,
+    Open,
+    Wall,
+}
+
+/// The edges that one team move crosses, by as many robots as there are places: an edge is asked for once.
+pub(crate) struct World<const ROBOTS: usize> {
+    edges: [Option<(Edge, Nature)>; ROBOTS],
+}
+
+impl<const ROBOTS: usize> World<ROBOTS> {
+    pub(crate) const fn new() -> Self {
+        Self { edges: [None; ROBOTS] }
+    }
+
+    fn nature(&mut self, edge: Edge, source: &mut dyn Source) -> Nature {
+        for place in &mut self.edges {
+            match *place {
+                Some((known, nature)) if known == edge => return nature,
+                Some(_) => {}
+                None => {
+                    let nature = one_of(source, &[Nature::KnownOpen, Nature::Open, Nature::Wall]);
+                    *place = Some((edge, nature));
+                    return nature;
+                }
+            }
+        }
+        Nature::Wall
+    }
+
+    /// A robot at `from` that plans any step, and where it ends up.
+    pub(crate) fn pick(&mut self, from: Cell, source: &mut dyn Source) -> Tried {
+        let step = one_of(source, &Step::ALL);
+        let nature = match step {
+            Step::Cross(side) => self.nature(Edge::new(from, side), source),
+            Step::Stay => Nature::Open,
+        };
+        let plan = Move { from, step, known_open: nature == Nature::KnownOpen };
+        Tried { plan, arrived: if nature == Nature::Wall { from } else { plan.to() } }
+    }
+}
+
+/// A robot's planned move and where it ended.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tried {
+    pub(crate) plan: Move,
+    pub(crate) arrived: Cell,
+}
+
+impl Tried {
+    fn is_blocked(self) -> bool {
+        self.arrived != self.plan.to()
+    }
+}
+
+/// R_i and R_{i+1}, i ≥ 1.
+struct Pair {
+    behind: Tried,
+    ahead: Tried,
+}
+
+impl Pair {
+    /// Any two robots that are `related` now and plan what `rule` admits. A null move is always admitted to
+    /// the robot ahead: the leader may fall back on it.
+    fn pick(
+        rule: &Rule,
+        related: impl Fn(Cell, Cell) -> bool,
+        source: &mut dyn Source,
+    ) -> Result<Self, Stop> {
+        let behind = Cell::new(0, 0);
+        let ahead = Cell::new(source.pick(5) as i16 - 2, source.pick(5) as i16 - 2);
+        assume(related(behind, ahead))?;
+        let mut world = World::<2>::new();
+        let pair = Self { behind: world.pick(behind, source), ahead: world.pick(ahead, source) };
+        let to = pair.ahead.plan.to();
+        assume(to == ahead || rule.admits_behind(to, behind))?;
+        assume(rule.admits_ahead(pair.behind.plan, pair.ahead.plan))?;
+        Ok(pair)
+    }
+
+    fn situation(&self) -> &'static str {
+        match (self.behind.is_blocked(), self.ahead.is_blocked()) {
+            (false, false) => "both arrive",
+            (true, false) => "the robot behind is blocked",
+            (false, true) => "the robot ahead is blocked",
+            (true, true) => "both are blocked",
+        }
+    }
+}
+
+/// The situations that both bodies cover.
+pub(crate) const SITUATIONS: [&str; 4] =
+    ["both are blocked", "both arrive", "the robot ahead is blocked", "the robot behind is blocked"];
+
+/// CHAIN-1, inductive step: neighbours in E_C of each other are so after the move.
+///
+/// # Errors
+/// [`Stop`] if the choices are no case, or break the clause.
+pub fn contact(subject: &Subject, source: &mut dyn Source) -> Outcome {
+    let pair = Pair::pick(&subject.rule, |behind, ahead| Circle::COVERED.covers(behind, ahead), source)?;
+    require(
+        Circle::COVERED.covers(pair.behind.arrived, pair.ahead.arrived),
+        "each neighbour's cell is wholly covered after the move",
+    )?;
+    Ok(pair.situation())
+}
+
+/// CHAIN-3, inductive step: neighbours whose centres are within r_cov are so during the whole move.
+///
+/// # Errors
+/// [`Stop`] if the choices are no case, or break the clause.
+pub fn coverage(subject: &Subject, source: &mut dyn Source) -> Outcome {
+    let pair = Pair::pick(&subject.rule, |behind, ahead| Circle::COVERED.reaches(behind, ahead), source)?;
+    let path = |robot: Tried| [robot.plan.from, robot.arrived];
+    require(
+        stays_in_range(path(pair.behind), path(pair.ahead)),
+        "the neighbours' centres stay within r_cov, at whatever speeds they move",
+    )?;
+    Ok(pair.situation())
+}

@@ -1,0 +1,99 @@
+//! Small clauses over every value of their arguments: the three environments (LATTICE-1), the message (CHAIN-8)
+//! and the ring argument (CHAIN-10).
+
+use core::cmp::Ordering;
+
+use tautline_kernel::chain::{Message, Move, Outcome as StepOutcome};
+use tautline_kernel::choice::{Source, one_of};
+use tautline_kernel::lattice::{Cell, Step, neighbours};
+
+use crate::clause::Subject;
+use crate::engine::{Outcome, assume, require};
+
+/// LATTICE-1: every offset is in the environments that the paper draws, and in no other.
+///
+/// # Errors
+/// [`crate::engine::Stop`] if the clause is broken.
+pub fn environments(subject: &Subject, source: &mut dyn Source) -> Outcome {
+    let (dx, dy) = (source.pick(9) as i16 - 4, source.pick(9) as i16 - 4);
+    let (centre, cell) = (Cell::new(0, 0), Cell::new(dx, dy));
+    let block = dx.abs() <= 1 && dy.abs() <= 1;
+    let tips = matches!((dx, dy), (2 | -2, 0) | (0, 2 | -2));
+    let cross = matches!((dx, dy), (0, 0) | (1 | -1, 0) | (0, 1 | -1));
+    require(neighbours(centre, cell) == cross, "E_N is the cell and its four side neighbours")?;
+    require(subject.rule.safe.covers(centre, cell) == block, "E_S is the block of nine cells")?;
+    require(subject.rule.covered.covers(centre, cell) == (block || tips), "E_C is E_S and the four tips")?;
+    Ok(match (cross, block, tips) {
+        (true, _, _) => "in E_N",
+        (_, true, _) => "in E_S alone",
+        (_, _, true) => "in E_C alone",
+        (false, false, false) => "in none",
+    })
+}
+
+/// CHAIN-8: a message survives its byte, and a byte that is no message is refused.
+///
+/// # Errors
+/// [`crate::engine::Stop`] if the clause is broken.
+pub fn message(subject: &Subject, source: &mut dyn Source) -> Outcome {
+    if source.flip() {
+        let byte = source.pick(256) as u8;
+        let Ok(message) = Message::decode(byte) else { return Ok("no message") };
+        require(message.encode() == byte, "a message has one byte")?;
+        return Ok("a byte");
+    }
+    let step = one_of(source, &Step::ALL);
+    let outcome = one_of(source, &[StepOutcome::Arrived, StepOutcome::Blocked, StepOutcome::TookBack]);
+    assume(step != Step::Stay || outcome != StepOutcome::Blocked)?;
+    let message = Message { step, outcome };
+    let byte = subject.sabotage.carry(message.encode());
+    require(
+        byte < 1 << 5,
+        "a message is five bits: three for the step, one for a wall, one for a backtrack",
+    )?;
+    require(Message::decode(byte) == Ok(message), "a message is read as it was sent")?;
+    Ok("a message")
+}
+
+/// The longest chain that the ring argument is checked for. The step of the argument does not depend on N.
+const LONGEST: u32 = 32;
+
+/// CHAIN-10, first fact: a robot is at most one ring farther out than the one behind it, so that R_N alone comes
+/// to ring N−1.
+///
+/// # Errors
+/// [`crate::engine::Stop`] if the clause is broken.
+pub fn ring_of_neighbours(subject: &Subject, source: &mut dyn Source) -> Outcome {
+    let behind = Cell::new(source.pick(4) as i16, source.pick(4) as i16);
+    let ahead = Cell::new(behind.x + source.pick(7) as i16 - 3, behind.y + source.pick(7) as i16 - 3);
+    assume(subject.rule.admits_ahead(Move::stay(behind), Move::stay(ahead)))?;
+    let farther = ring(ahead).cmp(&ring(behind));
+    require(ring(ahead) <= ring(behind) + 1, "a robot is at most one ring farther out than the one behind")?;
+    Ok(match farther {
+        Ordering::Less => "farther in",
+        Ordering::Equal => "in the same ring",
+        Ordering::Greater => "farther out",
+    })
+}
+
+/// CHAIN-10, second fact: ring N−1 has 8(N−1) cells.
+///
+/// # Errors
+/// [`crate::engine::Stop`] if the clause is broken.
+pub fn ring_cells(_: &Subject, source: &mut dyn Source) -> Outcome {
+    let outermost = source.pick(LONGEST - 1) as i16 + 1;
+    let coordinates = -outermost..=outermost;
+    let cells = coordinates
+        .clone()
+        .flat_map(|x| coordinates.clone().map(move |y| Cell::new(x, y)))
+        .filter(|&cell| ring(cell) == outermost as u16)
+        .count();
+    require(cells == 8 * outermost as usize, "ring N−1 has 8(N−1) cells")?;
+    Ok("a ring")
+}
+
+/// Which ring round the base in 0,0 a cell is in.
+fn ring(cell: Cell) -> u16 {
+    let (dx, dy) = Cell::new(0, 0).apart(cell);
+    dx.max(dy)
+}
