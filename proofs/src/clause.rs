@@ -126,6 +126,8 @@ pub enum Method {
         body: Body,
         /// How many times.
         runs: u64,
+        /// The situations that must occur, sorted.
+        covers: &'static [&'static str],
     },
     /// Every layout within a bound.
     Search {
@@ -165,6 +167,8 @@ pub enum Verdict {
     Holds,
     /// There is a counterexample.
     Refuted,
+    /// Neither: the check ended before its bound, or did not cover what it claims to.
+    Open,
 }
 
 impl Verdict {
@@ -173,6 +177,7 @@ impl Verdict {
         match self {
             Self::Holds => "holds",
             Self::Refuted => "refuted",
+            Self::Open => "open",
         }
     }
 }

@@ -9,10 +9,6 @@ use crate::clause::Subject;
 use crate::engine::{Outcome, assume, require};
 use crate::pair::World;
 
-/// The situations that the body covers, by how many of the three were in the cell and how many end there.
-pub(crate) const SITUATIONS: [&str; 4] =
-    ["none of them ends in the cell", "one ends in the cell", "two end in the cell", "two were in the cell"];
-
 /// CHAIN-2, inductive step: if not all three are in the cell, they are not after the move.
 ///
 /// # Errors
@@ -38,9 +34,9 @@ pub fn crowding(subject: &Subject, source: &mut dyn Source) -> Outcome {
     let arrived = tried.iter().filter(|robot| robot.arrived == cell).count();
     require(arrived < 3, "no three robots end in one cell outside the base")?;
     Ok(match (present, arrived) {
-        (2, _) => SITUATIONS[3],
-        (_, 0) => SITUATIONS[0],
-        (_, 1) => SITUATIONS[1],
-        _ => SITUATIONS[2],
+        (2, _) => "two were there",
+        (_, 0) => "none arrives",
+        (_, 1) => "one arrives",
+        _ => "two arrive",
     })
 }

@@ -1,7 +1,8 @@
 //! Engines: ways to answer every choice of a body. The same body is a bounded proof under [`exhaust`], a property
 //! under a [`Tape`] that proptest or a fuzzer wrote, a random test under [`Seeded`], a regression under
-//! [`Replay`], and a Kani harness under `Symbolic`.
+//! [`Replay`], and a Kani harness under `cargo kani`.
 
+use rayon::prelude::*;
 use tautline_kernel::choice::Source;
 
 /// Why a body stopped before its end.
@@ -73,14 +74,28 @@ pub fn exhaust(mut body: impl FnMut(&mut dyn Source) -> Outcome) -> Tally {
     }
 }
 
-/// Runs `body` under `runs` sequences of random answers, until the first violation.
-pub fn sample(runs: u64, seed: u64, mut body: impl FnMut(&mut dyn Source) -> Outcome) -> Tally {
+/// Runs of [`sample`] between two looks for a violation.
+const WAVE: u64 = 64;
+
+/// Runs `body` under `runs` sequences of random answers, until the first violation. The tally is the same on any
+/// number of threads.
+pub fn sample(runs: u64, seed: u64, body: impl Fn(&mut dyn Source) -> Outcome + Sync) -> Tally {
     let mut tally = Tally::default();
-    for run in 0..runs {
-        let mut recorder = Recorder { source: Seeded::new(seed, run), choices: Vec::new() };
-        let outcome = body(&mut recorder);
-        if tally.count(outcome, &recorder.choices) {
-            break;
+    let mut first = 0;
+    while first < runs && tally.violation.is_none() {
+        let wave = first..runs.min(first + WAVE);
+        first = wave.end;
+        let outcomes: Vec<_> = wave
+            .into_par_iter()
+            .map(|run| {
+                let mut recorder = Recorder { source: Seeded::new(seed, run), choices: Vec::new() };
+                (body(&mut recorder), recorder.choices)
+            })
+            .collect();
+        for (outcome, choices) in outcomes {
+            if tally.count(outcome, &choices) {
+                break;
+            }
         }
     }
     tally
@@ -218,18 +233,6 @@ impl<S: Source> Source for Recorder<S> {
         let answer = self.source.pick(below);
         self.choices.push(answer);
         answer
-    }
-}
-
-/// Every answer at once, for Kani.
-#[cfg(kani)]
-#[derive(Debug)]
-pub struct Symbolic;
-
-#[cfg(kani)]
-impl Source for Symbolic {
-    fn pick(&mut self, below: u32) -> u32 {
-        kani::any_where(|&answer: &u32| answer < below)
     }
 }
 

@@ -47,6 +47,16 @@ impl Invariant {
     pub const SAFETY: [Self; 3] =
         [Self::Without(Breach::Contact), Self::Without(Breach::Crowding), Self::Without(Breach::Coverage)];
 
+    /// Those that are looked for in one search with this one.
+    pub const fn family(self) -> &'static [Self] {
+        match self {
+            Self::Without(_) => &Self::SAFETY,
+            Self::Admitted | Self::Distinct | Self::BaseStays | Self::Progress | Self::Heard => {
+                &[Self::Admitted, Self::Distinct, Self::BaseStays, Self::Progress, Self::Heard]
+            }
+        }
+    }
+
     /// The id of its clause.
     pub const fn clause(self) -> &'static str {
         match self {

@@ -6,9 +6,15 @@
 
 pub mod clause;
 pub mod crowd;
+pub mod decide;
 pub mod engine;
 pub mod invariant;
 pub mod pair;
+pub mod plain;
+pub mod registry;
 pub mod run;
 pub mod search;
 pub mod small;
+#[cfg(kani)]
+mod symbolic;
+pub mod whole;

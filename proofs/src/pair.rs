@@ -104,10 +104,6 @@ impl Pair {
     }
 }
 
-/// The situations that both bodies cover.
-pub(crate) const SITUATIONS: [&str; 4] =
-    ["both are blocked", "both arrive", "the robot ahead is blocked", "the robot behind is blocked"];
-
 /// CHAIN-1, inductive step: neighbours in E_C of each other are so after the move.
 ///
 /// # Errors

@@ -16,7 +16,7 @@ use crate::invariant::{Invariant, Moment};
 use crate::run::Frame;
 
 /// What to search for, and how far.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Bounds {
     /// The rule, perhaps sabotaged.
     pub subject: Subject,
@@ -31,7 +31,7 @@ pub struct Bounds {
     /// The search stops as soon as it has made more team moves than this.
     pub budget_moves: Option<u64>,
     /// What is looked for.
-    pub invariants: &'static [Invariant],
+    pub invariants: Vec<Invariant>,
     /// When to stop.
     pub until: Until,
 }
@@ -49,7 +49,7 @@ impl Bounds {
             base,
             max_walls,
             budget_moves: None,
-            invariants: &Invariant::SAFETY,
+            invariants: Invariant::SAFETY.to_vec(),
             until: Until::Exhausted,
         }
     }

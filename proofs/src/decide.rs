@@ -1,0 +1,132 @@
+//! Deciding a check: its verdict, and whether its mutants are rejected. A verdict of a search is remembered, since
+//! one search looks for several invariants at once.
+
+use tautline_kernel::chain::Refused;
+
+use crate::clause::{Check, Method, Subject, Verdict};
+use crate::engine::{self, Tally};
+use crate::search::{Bounds, Counterexample, Found, Progress, Until, search};
+
+/// What came of a check.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Decision {
+    /// What it found.
+    pub verdict: Verdict,
+    /// Cases of a body that met its assumptions, or runs of a search.
+    pub cases: u64,
+    /// The counterexample, if it is refuted.
+    pub counterexample: Option<Evidence>,
+    /// Mutants that were rejected.
+    pub killed: Vec<&'static str>,
+    /// Mutants that were not: the check is too weak.
+    pub survived: Vec<&'static str>,
+}
+
+impl Decision {
+    /// Whether `check` came out as it is registered.
+    pub fn is_as_registered(&self, check: &Check) -> bool {
+        self.verdict == check.expected && self.survived.is_empty()
+    }
+}
+
+/// A counterexample.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Evidence {
+    /// The choices that lead a body to it, and the demand that is not met.
+    Choices(Vec<u32>, &'static str),
+    /// A run.
+    Run(Box<Counterexample>),
+}
+
+/// Decides checks, and keeps what may be asked again.
+#[derive(Default, Debug)]
+pub struct Prover {
+    searches: Vec<(Bounds, Found)>,
+}
+
+/// The seed of every sampled check.
+const SEED: u64 = 0;
+
+impl Prover {
+    /// Decides `check`. `progress` hears of searches only.
+    ///
+    /// # Errors
+    /// [`Refused`] if a registered search has too many robots.
+    pub fn decide(
+        &mut self,
+        check: &Check,
+        progress: &(dyn Fn(Progress) + Sync),
+    ) -> Result<Decision, Refused> {
+        let mut decision = self.settle(check, &check.subject, Until::Exhausted, progress)?;
+        for mutant in check.mutants {
+            let verdict = self.settle(check, &mutant.subject, Until::Violation, progress)?.verdict;
+            match verdict {
+                Verdict::Refuted => decision.killed.push(mutant.name),
+                Verdict::Holds | Verdict::Open => decision.survived.push(mutant.name),
+            }
+        }
+        Ok(decision)
+    }
+
+    fn settle(
+        &mut self,
+        check: &Check,
+        subject: &Subject,
+        until: Until,
+        progress: &(dyn Fn(Progress) + Sync),
+    ) -> Result<Decision, Refused> {
+        match check.method {
+            Method::Exhaustive { body, covers } => {
+                Ok(Decision::of_tally(engine::exhaust(|source| body(subject, source)), covers))
+            }
+            Method::Sampled { body, runs, covers } => {
+                Ok(Decision::of_tally(engine::sample(runs, SEED, |source| body(subject, source)), covers))
+            }
+            Method::Search { robots, max_walls, invariant } => {
+                let invariants = match until {
+                    Until::Exhausted => invariant.family().to_vec(),
+                    Until::Violation => vec![invariant],
+                };
+                let bounds = Bounds { invariants, until, ..Bounds::new(*subject, robots, max_walls) };
+                let found = self.search(bounds, progress)?;
+                let counterexample = found.counterexamples.iter().find(|found| found.invariant == invariant);
+                let verdict = match counterexample {
+                    Some(_) => Verdict::Refuted,
+                    None if found.complete => Verdict::Holds,
+                    None => Verdict::Open,
+                };
+                let counterexample = counterexample.map(|run| Evidence::Run(Box::new(run.clone())));
+                Ok(Decision::new(verdict, found.runs, counterexample))
+            }
+        }
+    }
+
+    fn search(&mut self, bounds: Bounds, progress: &(dyn Fn(Progress) + Sync)) -> Result<&Found, Refused> {
+        let place = match self.searches.iter().position(|(known, _)| *known == bounds) {
+            Some(place) => place,
+            None => {
+                let found = search(&bounds, progress)?;
+                self.searches.push((bounds, found));
+                self.searches.len() - 1
+            }
+        };
+        Ok(&self.searches[place].1)
+    }
+}
+
+impl Decision {
+    const fn new(verdict: Verdict, cases: u64, counterexample: Option<Evidence>) -> Self {
+        Self { verdict, cases, counterexample, killed: Vec::new(), survived: Vec::new() }
+    }
+
+    /// A body that did not cover what it claims to, holds for want of cases: that is no verdict.
+    fn of_tally(tally: Tally, covers: &[&str]) -> Self {
+        let verdict = match tally.violation {
+            Some(_) => Verdict::Refuted,
+            None if tally.covered == covers => Verdict::Holds,
+            None => Verdict::Open,
+        };
+        let evidence = tally.violation.map(|(choices, demand)| Evidence::Choices(choices, demand));
+        Self::new(verdict, tally.cases, evidence)
+    }
+}

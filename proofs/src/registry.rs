@@ -1,0 +1,410 @@
+//! The list of all clauses, in the order of `SPEC.md`.
+
+use tautline_kernel::chain::Condition::{
+    CoveredBehind, Distinct, EpochMustGain, FullForFollower, FullForLeader, RefusedIsVirtual, SafeAhead,
+    UnsureAhead,
+};
+use tautline_kernel::chain::Rule;
+use tautline_kernel::lattice::Circle;
+
+use crate::clause::{Check, Clause, Method, Mutant, Sabotage, Subject, Verdict};
+use crate::invariant::Invariant;
+use crate::run::Breach;
+use crate::{crowd, pair, small, whole};
+
+/// A mutant.
+const fn mutant(name: &'static str, subject: Subject) -> Mutant {
+    Mutant { name, subject }
+}
+
+/// A check that nobody breaks.
+const fn search(
+    subject: Subject,
+    invariant: Invariant,
+    (robots, max_walls): (usize, u32),
+    bound: &'static str,
+    expected: Verdict,
+    mutants: &'static [Mutant],
+) -> Check {
+    Check { subject, method: Method::Search { robots, max_walls, invariant }, bound, expected, mutants }
+}
+
+/// Registers checks that go through every answer to the choices of a body, and makes of each a test, a property
+/// and, where `unwind` is given, Kani harnesses: one that must succeed, and one for each mutant that must fail.
+macro_rules! exhaustive {
+    ($($name:ident: $body:path, $subject:expr, $bound:literal, covers $covers:expr, unwind $unwind:literal,
+       mutants { $($mutant:ident: $what:literal => $wrong:expr),* $(,)? };)*) => {$(
+        mod $name {
+            use super::*;
+
+            pub(super) const CHECK: Check = Check {
+                subject: $subject,
+                method: Method::Exhaustive { body: $body, covers: &$covers },
+                bound: $bound,
+                expected: Verdict::Holds,
+                mutants: &[$(mutant($what, $wrong)),*],
+            };
+
+            #[cfg(test)]
+            mod test {
+                use super::*;
+
+                #[test]
+                fn holds_exhaustively_and_rejects_its_mutants() {
+                    crate::registry::tests::decides(&CHECK);
+                }
+
+                #[test]
+                fn holds_for_any_tape_and_rejects_its_mutants() {
+                    crate::registry::tests::holds_for_any_tape($body, &CHECK);
+                }
+            }
+
+            #[cfg(kani)]
+            mod harness {
+                use super::*;
+
+                #[kani::proof]
+                #[kani::unwind($unwind)]
+                fn holds() {
+                    crate::symbolic::prove($body, &$subject);
+                }
+
+                $(#[kani::proof]
+                #[kani::unwind($unwind)]
+                #[kani::should_panic]
+                fn $mutant() {
+                    crate::symbolic::prove($body, &$wrong);
+                })*
+            }
+        }
+    )*};
+}
+
+exhaustive! {
+    environments: small::environments, Subject::PUBLISHED, "81 offsets",
+        covers ["in E_C alone", "in E_N", "in E_S alone", "in none"], unwind 6, mutants {
+            safe_too_wide: "E_S with the radius of E_C" => Subject::with_safe(Circle::COVERED),
+            covered_too_narrow: "E_C with the radius of E_S" => Subject::with_covered(Circle::SAFE),
+            covered_too_wide: "E_C widened" => Subject::with_covered(WIDER),
+        };
+    contact: pair::contact, Subject::REPAIRED, "every pair of neighbours, plan and answer",
+        covers ["both are blocked", "both arrive", "the robot ahead is blocked", "the robot behind is blocked"],
+        unwind 6, mutants {
+            published: "as published" => Subject::PUBLISHED,
+            without_unsure_ahead: "without unsure neighbour" => Subject::without(UnsureAhead),
+            without_safe_ahead: "without E_S ahead" => Subject::without(SafeAhead),
+            without_covered_behind: "without E_C behind" => Subject::without(CoveredBehind),
+            covered_too_wide: "E_C widened" => Subject::with_covered(WIDER),
+        };
+    crowding: crowd::crowding, Subject::REPAIRED, "every three robots, cell, plan and answer",
+        covers ["none arrives", "one arrives", "two arrive", "two were there"], unwind 6, mutants {
+            published: "as published" => Subject::PUBLISHED,
+            without_full_for_follower: "without full cell for followers" => Subject::without(FullForFollower),
+            without_full_for_leader: "without full cell for the leader" => Subject::without(FullForLeader),
+            without_distinct: "without distinctness" => Subject::without(Distinct),
+        };
+    coverage: pair::coverage, Subject::PUBLISHED, "every pair of neighbours, plan and answer",
+        covers ["both are blocked", "both arrive", "the robot ahead is blocked", "the robot behind is blocked"],
+        unwind 6, mutants {
+            without_safe_ahead: "without E_S ahead" => Subject::following(Rule::PUBLISHED.without(SafeAhead)),
+            without_covered_behind: "without E_C behind" => Subject::following(Rule::PUBLISHED.without(CoveredBehind)),
+            safe_too_wide: "E_S with the radius of E_C" => Subject::with_safe(Circle::COVERED),
+        };
+    message: small::message, Subject::REPAIRED, "every message, every byte",
+        covers ["a byte", "a message", "no message"], unwind 6, mutants {
+            swapped_bits: "message bits swapped" => Subject::sabotaged(Sabotage::SwappedBits),
+        };
+    ring: small::ring_of_neighbours, Subject::PUBLISHED, "every pair of neighbours",
+        covers ["farther in", "farther out", "in the same ring"], unwind 6, mutants {
+            safe_too_wide: "E_S with the radius of E_C" => Subject::with_safe(Circle::COVERED),
+            without_safe_ahead: "without E_S ahead" => Subject::without(SafeAhead),
+        };
+}
+
+/// The next larger circle: E_C with eight cells more.
+const WIDER: Circle = Circle::new(34);
+
+/// The bound at which the published rule first fails.
+const FOUR: (usize, u32) = (4, 4);
+const FOUR_BOUND: &str = "all layouts, N = 4, at most 4 walls";
+
+/// The bound of the planner's clauses.
+const THREE: (usize, u32) = (4, 3);
+const THREE_BOUND: &str = "all layouts, N = 4, at most 3 walls";
+
+/// Every clause, in the order of `SPEC.md`.
+pub static CLAUSES: [Clause; 13] = [
+    Clause {
+        id: "LATTICE-1",
+        sentence: "The environments derived from the radii MUST be the sets that the paper draws: E_N the cell and \
+                   its four side neighbours, E_S the block of nine cells, E_C that block and the four cells two \
+                   steps straight ahead.",
+        checks: &[environments::CHECK],
+    },
+    Clause {
+        id: "CHAIN-1",
+        sentence: "After every team move each robot MUST be in E_C of its neighbours in the chain.",
+        checks: &[
+            search(
+                Subject::PUBLISHED,
+                Invariant::Without(Breach::Contact),
+                FOUR,
+                FOUR_BOUND,
+                Verdict::Refuted,
+                &[],
+            ),
+            contact::CHECK,
+            search(
+                Subject::REPAIRED,
+                Invariant::Without(Breach::Contact),
+                FOUR,
+                FOUR_BOUND,
+                Verdict::Holds,
+                &[
+                    mutant("as published", Subject::PUBLISHED),
+                    mutant("without unsure neighbour", Subject::without(UnsureAhead)),
+                ],
+            ),
+        ],
+    },
+    Clause {
+        id: "CHAIN-2",
+        sentence: "There MUST never be three robots or more in one cell other than the base.",
+        checks: &[
+            search(
+                Subject::PUBLISHED,
+                Invariant::Without(Breach::Crowding),
+                FOUR,
+                FOUR_BOUND,
+                Verdict::Refuted,
+                &[],
+            ),
+            crowding::CHECK,
+            search(
+                Subject::REPAIRED,
+                Invariant::Without(Breach::Crowding),
+                FOUR,
+                FOUR_BOUND,
+                Verdict::Holds,
+                &[mutant("as published", Subject::PUBLISHED)],
+            ),
+        ],
+    },
+    Clause {
+        id: "CHAIN-3",
+        sentence: "During every team move, at whatever speeds the robots move, the centres of neighbours in the \
+                   chain MUST stay within r_cov of each other.",
+        checks: &[
+            coverage::CHECK,
+            search(
+                Subject::PUBLISHED,
+                Invariant::Without(Breach::Coverage),
+                FOUR,
+                FOUR_BOUND,
+                Verdict::Holds,
+                &[mutant("without E_C behind", Subject::following(Rule::PUBLISHED.without(CoveredBehind)))],
+            ),
+        ],
+    },
+    Clause {
+        id: "CHAIN-4",
+        sentence: "Every step of a planned team move MUST be admitted by the conditions of the rule.",
+        checks: &[
+            search(Subject::PUBLISHED, Invariant::Admitted, THREE, THREE_BOUND, Verdict::Holds, &[]),
+            search(
+                Subject::REPAIRED,
+                Invariant::Admitted,
+                THREE,
+                THREE_BOUND,
+                Verdict::Holds,
+                &[
+                    mutant("without E_S ahead", Subject::without(SafeAhead)),
+                    mutant("without E_C behind", Subject::without(CoveredBehind)),
+                    mutant("without unsure neighbour", Subject::without(UnsureAhead)),
+                    mutant("without full cell for followers", Subject::without(FullForFollower)),
+                    mutant("without full cell for the leader", Subject::without(FullForLeader)),
+                ],
+            ),
+        ],
+    },
+    Clause {
+        id: "CHAIN-5",
+        sentence: "In a planned team move every robot MUST have a cell of its own, the base excepted.",
+        checks: &[search(
+            Subject::REPAIRED,
+            Invariant::Distinct,
+            THREE,
+            THREE_BOUND,
+            Verdict::Holds,
+            &[mutant("without distinctness", Subject::without(Distinct))],
+        )],
+    },
+    Clause {
+        id: "CHAIN-6",
+        sentence: "The base MUST never plan to move, and never move.",
+        checks: &[search(
+            Subject::REPAIRED,
+            Invariant::BaseStays,
+            THREE,
+            THREE_BOUND,
+            Verdict::Holds,
+            &[mutant("the base follows R_2", Subject::sabotaged(Sabotage::BaseFollows))],
+        )],
+    },
+    Clause {
+        id: "CHAIN-7",
+        sentence: "Every run MUST end.",
+        checks: &[search(
+            Subject::REPAIRED,
+            Invariant::Progress,
+            THREE,
+            THREE_BOUND,
+            Verdict::Holds,
+            &[
+                mutant("epochs need no gain", Subject::without(EpochMustGain)),
+                mutant("refusals leave no obstacle", Subject::without(RefusedIsVirtual)),
+            ],
+        )],
+    },
+    Clause {
+        id: "CHAIN-8",
+        sentence: "One byte for each robot and team move MUST be enough to know the state of the whole team.",
+        checks: &[
+            message::CHECK,
+            search(
+                Subject::REPAIRED,
+                Invariant::Heard,
+                THREE,
+                THREE_BOUND,
+                Verdict::Holds,
+                &[mutant("message bits swapped", Subject::sabotaged(Sabotage::SwappedBits))],
+            ),
+        ],
+    },
+    Clause {
+        id: "CHAIN-9",
+        sentence: "Without obstacles a chain of N robots MUST have explored all (2N−1)² cells after exactly \
+                   9(N−1)−1 team moves.",
+        checks: &[
+            runs(Subject::PUBLISHED, &[]),
+            runs(Subject::REPAIRED, &[mutant("P_high from present positions", Subject::high_from_present())]),
+        ],
+    },
+    Clause {
+        id: "CHAIN-10",
+        sentence: "A chain of N robots MUST need at least 9(N−1)−1 team moves to explore (2N−1)² cells.",
+        checks: &[
+            ring::CHECK,
+            Check {
+                subject: Subject::PUBLISHED,
+                method: Method::Exhaustive { body: small::ring_cells, covers: &["a ring"] },
+                bound: "N = 2 … 32",
+                expected: Verdict::Holds,
+                mutants: &[],
+            },
+        ],
+    },
+    Clause {
+        id: "CHAIN-11",
+        sentence: "The plan MUST be the one that the plain recursion of the paper returns.",
+        checks: &[
+            Check {
+                subject: Subject::PUBLISHED,
+                method: Method::Exhaustive { body: whole::same_plan_in_all_layouts, covers: &ENDS },
+                ..SAME_PLAN
+            },
+            SAME_PLAN,
+            Check {
+                method: Method::Sampled {
+                    body: whole::same_plan_in_random_layouts,
+                    runs: 100,
+                    covers: &ENDS_OR_GIVEN_UP,
+                },
+                bound: "100 random layouts, N = 2 … 12, 2 to 30 % walls",
+                ..SAME_PLAN
+            },
+        ],
+    },
+    Clause {
+        id: "CHAIN-12",
+        sentence: "A plan MUST look at fewer than 100·N candidates of followers.",
+        checks: &[Check { subject: Subject::PUBLISHED, ..CHEAP }, CHEAP],
+    },
+];
+
+const fn runs(subject: Subject, mutants: &'static [Mutant]) -> Check {
+    let method = Method::Exhaustive { body: whole::spiral, covers: &["an open area"] };
+    Check { subject, method, bound: "N = 2 … 32", expected: Verdict::Holds, mutants }
+}
+
+const ENDS: [&str; 2] = ["everything explored", "exhausted"];
+const ENDS_OR_GIVEN_UP: [&str; 3] = ["everything explored", "exhausted", "the recursion was given up"];
+
+const SAME_PLAN: Check = Check {
+    subject: Subject::REPAIRED,
+    method: Method::Exhaustive { body: whole::same_plan_in_all_layouts, covers: &ENDS },
+    bound: "all layouts, N = 2, 3, 4, at most 3, 2, 2 walls",
+    expected: Verdict::Holds,
+    mutants: &[
+        mutant("P_high from present positions", Subject::high_from_present()),
+        mutant("without distinctness", Subject::without(Distinct)),
+        mutant("refusals leave no obstacle", Subject::without(RefusedIsVirtual)),
+    ],
+};
+
+const CHEAP: Check = Check {
+    subject: Subject::REPAIRED,
+    method: Method::Sampled { body: whole::cheap, runs: 24, covers: &["a whole run"] },
+    bound: "24 random layouts, N = 16, 24, 32, 64, 5 to 30 % walls",
+    expected: Verdict::Holds,
+    mutants: &[mutant("dead ends forgotten", Subject::sabotaged(Sabotage::Forgetful))],
+};
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+
+    use super::*;
+    use crate::clause::Body;
+    use crate::decide::Prover;
+    use crate::engine::{Stop, Tape};
+
+    /// The check comes out as registered, and every mutant is rejected.
+    pub(super) fn decides(check: &Check) {
+        let decision = Prover::default().decide(check, &|_| ()).expect("registered checks fit");
+        assert!(decision.is_as_registered(check), "{}: {decision:?}", check.bound);
+    }
+
+    /// No tape breaks the check, and proptest breaks every mutant.
+    pub(super) fn holds_for_any_tape(body: Body, check: &Check) {
+        let broken = |subject: &Subject| {
+            let config = Config { cases: 20_000, failure_persistence: None, ..Config::default() };
+            let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
+            TestRunner::new_with_rng(config, rng)
+                .run(&prop::collection::vec(0_u32..3600, 16), |tape| match body(subject, &mut Tape(&tape)) {
+                    Err(Stop::Violated(demand)) => Err(TestCaseError::fail(demand)),
+                    Err(Stop::Assumed) | Ok(_) => Ok(()),
+                })
+                .is_err()
+        };
+        assert!(!broken(&check.subject), "{}", check.bound);
+        for mutant in check.mutants {
+            assert!(broken(&mutant.subject), "{} survives", mutant.name);
+        }
+    }
+
+    #[test]
+    fn every_id_is_there_once_and_every_clause_has_a_mutant() {
+        for (place, clause) in CLAUSES.iter().enumerate() {
+            assert!(CLAUSES[..place].iter().all(|other| other.id != clause.id), "{} twice", clause.id);
+            assert!(
+                clause.checks.iter().any(|check| !check.mutants.is_empty()),
+                "{} has no mutant",
+                clause.id
+            );
+            assert!(clause.sentence.contains("MUST"), "{}", clause.id);
+        }
+    }
+}

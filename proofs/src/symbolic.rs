@@ -1,0 +1,24 @@
+//! Bodies under Kani: every answer at once. Compiled by `cargo kani` alone.
+
+use tautline_kernel::choice::Source;
+
+use crate::clause::{Body, Subject};
+use crate::engine::Stop;
+
+/// Every answer at once.
+struct Symbolic;
+
+impl Source for Symbolic {
+    fn pick(&mut self, below: u32) -> u32 {
+        kani::any_where(|&answer: &u32| answer < below)
+    }
+}
+
+/// Fails if some choices break the body, and wants a case that meets its assumptions.
+pub(crate) fn prove(body: Body, subject: &Subject) {
+    match body(subject, &mut Symbolic) {
+        Err(Stop::Violated(_)) => panic!("the clause is broken"),
+        Err(Stop::Assumed) => {}
+        Ok(_) => kani::cover!(true, "a case of the clause"),
+    }
+}

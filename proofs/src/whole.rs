@@ -1,0 +1,168 @@
+//! Bodies that run a chain from its start to its end, each unknown edge decided by the source: the plan of the
+//! plain recursion (CHAIN-11), the cost of planning (CHAIN-12) and the obstacle-free optimum (CHAIN-9).
+
+use tautline_kernel::chain::{Chain, End, Intent, Kind};
+use tautline_kernel::choice::{Source, one_of};
+use tautline_kernel::grid::{Area, EdgeMark, Grid, LargeGrid, MediumGrid, SmallGrid};
+use tautline_kernel::lattice::{Cell, Edge};
+
+use crate::clause::{Sabotage, Subject};
+use crate::engine::{Outcome, Stop, require};
+use crate::plain::{PlainChain, PlainIntent, TooMany};
+
+/// The area of the paper for `robots`: (2N−1)² cells with the base in the middle.
+fn area(robots: usize) -> (Area, Cell) {
+    let range = robots as i16 - 1;
+    let base = Cell::new(range, range);
+    (Area::new(Cell::new(0, 0), Cell::new(2 * range, 2 * range)).unwrap_or(Area::of(base)), base)
+}
+
+fn start<G: Grid, const ROBOTS: usize>(
+    subject: &Subject,
+    robots: usize,
+    grid: impl Fn(Area) -> Option<G>,
+) -> Result<Chain<G, ROBOTS>, Stop> {
+    let (area, base) = area(robots);
+    grid(area).and_then(|grid| Chain::new(subject.rule, robots, base, grid).ok()).ok_or(Stop::Assumed)
+}
+
+const NO_MESSAGE: Stop = Stop::Violated("the log holds messages only");
+
+/// CHAIN-9: in an open area the chain of N = 2 … 32 is done after 9(N−1)−1 team moves.
+///
+/// # Errors
+/// [`Stop::Violated`] if it is not.
+pub fn spiral(subject: &Subject, source: &mut dyn Source) -> Outcome {
+    let robots = source.pick(31) as usize + 2;
+    let mut chain = start::<_, 32>(subject, robots, MediumGrid::new)?;
+    let mut log = Vec::new();
+    let optimum = 9 * (robots - 1) - 1;
+    for _ in 0..optimum {
+        let Intent::Go(plan) = chain.plan(&log).map_err(|_| NO_MESSAGE)? else {
+            return Err(Stop::Violated("no run is shorter than the optimum"));
+        };
+        log.extend_from_slice(chain.settle(&plan, |_| true).messages());
+    }
+    let end = chain.plan(&log).map_err(|_| NO_MESSAGE)?;
+    require(end == Intent::Done(End::Explored), "all cells are explored after 9(N−1)−1 moves")?;
+    Ok("an open area")
+}
+
+/// CHAIN-11 over all layouts with few walls: 2, 3 and 4 robots.
+///
+/// # Errors
+/// [`Stop::Violated`] if the plans differ.
+pub fn same_plan_in_all_layouts(subject: &Subject, source: &mut dyn Source) -> Outcome {
+    let (robots, mut walls) = one_of(source, &[(2, 3), (3, 2), (4, 2)]);
+    same_plan(subject, robots, &mut |_| {
+        let is_wall = walls > 0 && source.flip();
+        walls -= u32::from(is_wall);
+        !is_wall
+    })
+}
+
+/// Candidates that the plain recursion may look at before a comparison is given up.
+const PATIENCE: u64 = 10_000;
+
+/// CHAIN-11 over random layouts: 2 to 12 robots, 2 to 30 % walls.
+///
+/// # Errors
+/// [`Stop::Violated`] if the plans differ.
+pub fn same_plan_in_random_layouts(subject: &Subject, source: &mut dyn Source) -> Outcome {
+    let robots = source.pick(11) as usize + 2;
+    let walls_percent = source.pick(29) + 2;
+    same_plan(subject, robots, &mut |_| source.pick(100) >= walls_percent)
+}
+
+fn same_plan(subject: &Subject, robots: usize, is_open: &mut dyn FnMut(Edge) -> bool) -> Outcome {
+    if robots <= 8 {
+        in_step(subject, start::<_, 8>(subject, robots, SmallGrid::new)?, is_open)
+    } else {
+        in_step(subject, start::<_, 32>(subject, robots, MediumGrid::new)?, is_open)
+    }
+}
+
+/// Runs the chain and the plain recursion of the rule it claims to follow side by side.
+fn in_step<G: Grid, const ROBOTS: usize>(
+    subject: &Subject,
+    mut chain: Chain<G, ROBOTS>,
+    is_open: &mut dyn FnMut(Edge) -> bool,
+) -> Outcome {
+    let area = chain.grid().area();
+    let mut plain = PlainChain::new(subject.intended, chain.cells().len(), chain.cells()[0], area);
+    let mut log = Vec::new();
+    loop {
+        let Ok((expected, _)) = plain.plan(PATIENCE) else { return Ok("the recursion was given up") };
+        let intent = chain.plan(&log).map_err(|_| NO_MESSAGE)?;
+        let plan = match (&intent, &expected) {
+            (Intent::Done(End::Explored), PlainIntent::Explored) => return Ok("everything explored"),
+            (Intent::Done(End::Exhausted), PlainIntent::Exhausted) => return Ok("exhausted"),
+            (Intent::Go(plan), PlainIntent::Advance(steps)) if plan.kind == Kind::Advance => (plan, steps),
+            (Intent::Go(plan), PlainIntent::Backtrack(steps)) if plan.kind == Kind::Backtrack => {
+                (plan, steps)
+            }
+            _ => {
+                return Err(Stop::Violated(
+                    "the team does what the recursion says: advance, backtrack or end",
+                ));
+            }
+        };
+        require(plan.0.steps() == plan.1.as_slice(), "the plan is that of the recursion")?;
+        let same_obstacles =
+            area.edges().all(|edge| chain.grid().edge_has(EdgeMark::Virtual, edge) == plain.is_virtual(edge));
+        require(same_obstacles, "the virtual obstacles are those of the recursion")?;
+        let mut answers = Vec::new();
+        let settled = chain.settle(plan.0, |edge| {
+            let open = is_open(edge);
+            answers.push((edge, open));
+            open
+        });
+        log.extend_from_slice(settled.messages());
+        plain.settle(&expected, |edge| answers.iter().any(|&(asked, open)| asked == edge && open));
+        require(plain.cells() == chain.cells(), "the team is where the recursion has it")?;
+    }
+}
+
+/// CHAIN-12: a whole run of 16, 24, 32 or 64 robots with 5 to 30 % walls, the cost of each plan in bounds.
+///
+/// # Errors
+/// [`Stop::Violated`] if a plan looks at 100·N candidates or more.
+pub fn cheap(subject: &Subject, source: &mut dyn Source) -> Outcome {
+    let robots = one_of(source, &[16, 24, 32, 64]);
+    let walls_percent = one_of(source, &[5, 10, 15, 20, 25, 30]);
+    let is_open = &mut |_| source.pick(100) >= walls_percent;
+    if subject.sabotage == Sabotage::Forgetful {
+        forgetful_run(subject, robots, is_open)
+    } else if robots <= 32 {
+        cheap_run(start::<_, 32>(subject, robots, MediumGrid::new)?, is_open)
+    } else {
+        cheap_run(start::<_, 64>(subject, robots, LargeGrid::new)?, is_open)
+    }
+}
+
+const CHEAP: &str = "a plan looks at fewer than 100·N candidates of followers";
+
+fn cheap_run<G: Grid, const ROBOTS: usize>(
+    mut chain: Chain<G, ROBOTS>,
+    is_open: &mut dyn FnMut(Edge) -> bool,
+) -> Outcome {
+    let most = 100 * chain.cells().len() as u32;
+    let mut log = Vec::new();
+    while let Intent::Go(plan) = chain.plan(&log).map_err(|_| NO_MESSAGE)? {
+        require(chain.looked_at() < most, CHEAP)?;
+        log.extend_from_slice(chain.settle(&plan, &mut *is_open).messages());
+    }
+    Ok("a whole run")
+}
+
+fn forgetful_run(subject: &Subject, robots: usize, is_open: &mut dyn FnMut(Edge) -> bool) -> Outcome {
+    let (area, base) = area(robots);
+    let mut plain = PlainChain::new(subject.rule, robots, base, area);
+    loop {
+        match plain.plan(100 * robots as u64 - 1) {
+            Ok((PlainIntent::Explored | PlainIntent::Exhausted, _)) => return Ok("a whole run"),
+            Ok((intent, _)) => plain.settle(&intent, &mut *is_open),
+            Err(TooMany) => return Err(Stop::Violated(CHEAP)),
+        }
+    }
+}
