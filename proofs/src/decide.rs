@@ -123,7 +123,7 @@ impl Decision {
     fn of_tally(tally: Tally, covers: &[&str]) -> Self {
         let verdict = match tally.violation {
             Some(_) => Verdict::Refuted,
-            None if tally.covered == covers => Verdict::Holds,
+            None if covers.iter().all(|situation| tally.covered.contains(situation)) => Verdict::Holds,
             None => Verdict::Open,
         };
         let evidence = tally.violation.map(|(choices, demand)| Evidence::Choices(choices, demand));

@@ -3,6 +3,7 @@
 //! violation. A team move is an edge of the tree and is counted once. States never merge, since branches differ
 //! for ever in a revealed edge.
 
+use std::collections::VecDeque;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
@@ -201,7 +202,11 @@ where
         let (runs, moves) = (AtomicU64::new(count.runs), AtomicU64::new(count.moves));
         let done = AtomicU64::new(0);
         'waves: for wave in branches.chunks(WAVE) {
-            let left = budget.saturating_sub(count.moves);
+            if count.moves > budget {
+                complete = false;
+                break;
+            }
+            let left = budget - count.moves;
             let counts: Vec<(Count, bool)> = wave
                 .par_iter()
                 .with_max_len(1)
@@ -236,19 +241,17 @@ where
         self.bounds.until == Until::Violation && !count.violations.is_empty()
     }
 
-    /// The branches from which the threads go on: the tree cut where it is wide enough, level by level.
+    /// The branches from which the threads go on: the tree cut where it is wide enough, breadth first.
     fn subtrees(&self, count: &mut Count, budget: u64) -> Vec<Branch<G, ROBOTS>> {
-        let mut level = vec![Branch { chain: self.start, walls: 0, log: Vec::new(), answers: Vec::new() }];
-        while !level.is_empty() && level.len() < SUBTREES && count.moves <= budget {
-            let mut next = Vec::new();
-            for mut branch in level {
-                let mut shoots = Vec::new();
-                self.grow(&mut branch, count, &mut shoots);
-                next.extend(shoots.into_iter().map(|shoot| branch.clone().grown(shoot)));
-            }
-            level = next;
+        let start = Branch { chain: self.start, walls: 0, log: Vec::new(), answers: Vec::new() };
+        let mut branches = VecDeque::from([start]);
+        while branches.len() < SUBTREES && count.moves <= budget {
+            let Some(mut branch) = branches.pop_front() else { break };
+            let mut shoots = Vec::new();
+            self.grow(&mut branch, count, &mut shoots);
+            branches.extend(shoots.into_iter().map(|shoot| branch.clone().grown(shoot)));
         }
-        level
+        branches.into()
     }
 
     /// The subtree of `branch`, depth first, as far as `budget` moves go; whether it was covered.
