@@ -9,6 +9,7 @@ pub mod crowd;
 pub mod decide;
 pub mod engine;
 pub mod invariant;
+pub mod judge;
 pub mod pair;
 pub mod plain;
 pub mod registry;
