@@ -102,14 +102,12 @@ impl Prover {
     }
 
     fn search(&mut self, bounds: Bounds, progress: &(dyn Fn(Progress) + Sync)) -> Result<&Found, Refused> {
-        let place = match self.searches.iter().position(|(known, _)| *known == bounds) {
-            Some(place) => place,
-            None => {
-                let found = search(&bounds, progress)?;
-                self.searches.push((bounds, found));
-                self.searches.len() - 1
-            }
-        };
+        let known = self.searches.iter().position(|(known, _)| *known == bounds);
+        let place = known.unwrap_or(self.searches.len());
+        if known.is_none() {
+            let found = search(&bounds, progress)?;
+            self.searches.push((bounds, found));
+        }
         Ok(&self.searches[place].1)
     }
 }

@@ -218,7 +218,7 @@ impl Seeded {
 impl Source for Seeded {
     fn pick(&mut self, below: u32) -> u32 {
         // The upper half of a 32 by 32 bit product is below `below`; its bias is under 2⁻³² times `below`.
-        ((self.next() >> 32) * u64::from(below) >> 32) as u32
+        (((self.next() >> 32) * u64::from(below)) >> 32) as u32
     }
 }
 

@@ -162,9 +162,9 @@ impl Court<'_> {
             return Err("the base does something");
         }
         if made.is_backtrack {
-            self.hear_backtrack(made)?
+            self.hear_backtrack(made)?;
         } else {
-            self.hear_advance(made)?
+            self.hear_advance(made)?;
         }
         for robot in 0..robots {
             let arrived = if made.blocked[robot] { self.places[robot] } else { self.target(made, robot) };

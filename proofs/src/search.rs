@@ -92,14 +92,16 @@ pub struct Counterexample {
 }
 
 /// How far a search is.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Progress {
     /// Leaves so far.
     pub runs: u64,
     /// Team moves so far.
     pub moves: u64,
-    /// The share of subtrees that are done, 0 to 1.
-    pub done: f64,
+    /// Subtrees that are done.
+    pub done: u64,
+    /// Subtrees in all.
+    pub of: u64,
 }
 
 /// Searches all layouts within `bounds`. The result is the same on any number of threads. `progress` is called
@@ -109,9 +111,9 @@ pub struct Progress {
 /// [`Refused`] if the robots or the base do not fit.
 pub fn search(bounds: &Bounds, progress: &(dyn Fn(Progress) + Sync)) -> Result<Found, Refused> {
     match bounds.robots {
-        ..=8 => Tree::<SmallGrid, 8>::new(bounds, SmallGrid::new)?.search(progress),
-        ..=32 => Tree::<MediumGrid, 32>::new(bounds, MediumGrid::new)?.search(progress),
-        _ => Tree::<LargeGrid, 64>::new(bounds, LargeGrid::new)?.search(progress),
+        0..=8 => Ok(Tree::<SmallGrid, 8>::new(bounds, SmallGrid::new)?.search(progress)),
+        9..=32 => Ok(Tree::<MediumGrid, 32>::new(bounds, MediumGrid::new)?.search(progress)),
+        _ => Ok(Tree::<LargeGrid, 64>::new(bounds, LargeGrid::new)?.search(progress)),
     }
 }
 
@@ -193,12 +195,12 @@ where
         Ok(Self { bounds, start: Chain::new(bounds.subject.rule, robots, base, grid)? })
     }
 
-    fn search(&self, progress: &(dyn Fn(Progress) + Sync)) -> Result<Found, Refused> {
+    fn search(&self, progress: &(dyn Fn(Progress) + Sync)) -> Found {
         let mut count = Count::default();
         let mut complete = true;
         let budget = self.bounds.budget_moves.unwrap_or(u64::MAX);
         let branches = self.subtrees(&mut count, budget);
-        let total = branches.len();
+        let of = branches.len() as u64;
         let (runs, moves) = (AtomicU64::new(count.runs), AtomicU64::new(count.moves));
         let done = AtomicU64::new(0);
         'waves: for wave in branches.chunks(WAVE) {
@@ -215,7 +217,8 @@ where
                     progress(Progress {
                         runs: runs.fetch_add(found.runs, Ordering::Relaxed) + found.runs,
                         moves: moves.fetch_add(found.moves, Ordering::Relaxed) + found.moves,
-                        done: (done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / total as f64,
+                        done: done.fetch_add(1, Ordering::Relaxed) + 1,
+                        of,
                     });
                     (found, is_whole)
                 })
@@ -233,7 +236,7 @@ where
         }
         count.violations.sort_unstable();
         let counterexamples = count.violations.iter().map(|violation| self.record(violation)).collect();
-        Ok(Found { runs: count.runs, moves: count.moves, complete, counterexamples })
+        Found { runs: count.runs, moves: count.moves, complete, counterexamples }
     }
 
     /// Whether a violation ends the search.

@@ -18,8 +18,8 @@ pub fn environments(subject: &Subject, source: &mut dyn Source) -> Outcome {
     let (dx, dy) = (source.pick(9) as i16 - 4, source.pick(9) as i16 - 4);
     let (centre, cell) = (Cell::new(0, 0), Cell::new(dx, dy));
     let block = dx.abs() <= 1 && dy.abs() <= 1;
-    let tips = matches!((dx, dy), (2 | -2, 0) | (0, 2 | -2));
-    let cross = matches!((dx, dy), (0, 0) | (1 | -1, 0) | (0, 1 | -1));
+    let tips = dx.abs().max(dy.abs()) == 2 && dx.abs().min(dy.abs()) == 0;
+    let cross = dx.abs() + dy.abs() <= 1;
     require(neighbours(centre, cell) == cross, "E_N is the cell and its four side neighbours")?;
     require(subject.rule.safe.covers(centre, cell) == block, "E_S is the block of nine cells")?;
     require(subject.rule.covered.covers(centre, cell) == (block || tips), "E_C is E_S and the four tips")?;

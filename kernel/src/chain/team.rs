@@ -236,7 +236,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     /// the order of the robots. All robots move at once; one that meets a wall stays, and all learn of it.
     pub fn settle(&mut self, plan: &Plan<ROBOTS>, mut is_open: impl FnMut(Edge) -> bool) -> Settled<ROBOTS> {
         let mut messages = [0; ROBOTS];
-        for robot in 1..self.robots {
+        for (robot, sent) in messages.iter_mut().enumerate().take(self.robots).skip(1) {
             let step = plan.steps[robot];
             let outcome = match (plan.kind, step) {
                 (Kind::Backtrack, _) => Outcome::TookBack,
@@ -246,7 +246,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
                 }
             };
             let message = Message { step, outcome };
-            messages[robot] = message.encode();
+            *sent = message.encode();
             let cell = self.cells[robot].after(message.made());
             self.cells[robot] = cell;
             if !self.grid.has(CellMark::Explored, cell) {
