@@ -1,9 +1,6 @@
 //! What Tautline claims, and how the claims are decided: the clauses of `SPEC.md` with their mutants, the engines
 //! that answer every choice, the search over all layouts, and the judge of counterexamples.
 
-#![cfg_attr(kani, feature(register_tool))]
-#![cfg_attr(kani, register_tool(kanitool))]
-
 pub mod clause;
 pub mod crowd;
 pub mod decide;
