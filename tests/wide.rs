@@ -1,0 +1,227 @@
+//! The wide grid answers as the grid of a few machine words does, whatever is asked of it, and leads a chain
+//! the same way.
+
+use proptest::prelude::*;
+use tautline::wide::WideGrid;
+use tautline_kernel::chain::{Chain, End, Intent, Rule};
+use tautline_kernel::grid::{Area, Avoid, CellMark, EdgeMark, Grid, MediumGrid};
+use tautline_kernel::lattice::{Cell, Edge, Side};
+
+const CELL_MARKS: [CellMark; 4] = [CellMark::Explored, CellMark::Occupied, CellMark::Full, CellMark::Planned];
+const EDGE_MARKS: [EdgeMark; 3] = [EdgeMark::Wall, EdgeMark::Open, EdgeMark::Virtual];
+const AVOIDS: [Avoid; 2] = [Avoid::Walls, Avoid::WallsAndVirtual];
+
+/// One call that changes a grid, or asks for a distance.
+#[derive(Clone, Copy, Debug)]
+enum Call {
+    Put(CellMark, Cell),
+    Take(CellMark, Cell),
+    PutEdge(EdgeMark, Edge),
+    ClearEdges(EdgeMark),
+    Distance(Cell, Avoid),
+}
+
+impl Call {
+    /// Makes the call; the answer, if it has one.
+    fn make(self, grid: &mut impl Grid) -> Option<u32> {
+        match self {
+            Self::Put(mark, cell) => grid.put(mark, cell),
+            Self::Take(mark, cell) => grid.take(mark, cell),
+            Self::PutEdge(mark, edge) => grid.put_edge(mark, edge),
+            Self::ClearEdges(mark) => grid.clear_edges(mark),
+            Self::Distance(cell, avoid) => return grid.distance(cell, avoid),
+        }
+        None
+    }
+}
+
+fn rectangle(first: Cell, width: i16, height: i16) -> Area {
+    Area::new(first, Cell::new(first.x + width - 1, first.y + height - 1)).expect("an area")
+}
+
+/// The area of a chain of `robots`, and its base in the middle.
+fn open_area(robots: i16) -> (Area, Cell) {
+    (rectangle(Cell::new(0, 0), 2 * robots - 1, 2 * robots - 1), Cell::new(robots - 1, robots - 1))
+}
+
+fn areas() -> impl Strategy<Value = Area> {
+    let first = (-70..70_i16, -70..70_i16).prop_map(Cell::from);
+    let sides = prop_oneof![9 => (1..14_i16, 1..14_i16), 1 => (1..=64_i16, 1..=64_i16)];
+    (first, sides).prop_map(|(first, (width, height))| rectangle(first, width, height))
+}
+
+/// Cells of the area, and two rows and columns beyond.
+fn cells(area: Area) -> impl Strategy<Value = Cell> + Clone {
+    let (first, last) = (area.first(), area.last());
+    (first.x - 2..=last.x + 2, first.y - 2..=last.y + 2).prop_map(Cell::from)
+}
+
+fn edges(area: Area) -> impl Strategy<Value = Edge> + Clone {
+    let side = proptest::sample::select(Side::ALL.to_vec());
+    (cells(area), side).prop_map(|(cell, side)| Edge::new(cell, side))
+}
+
+/// Calls as a chain makes them, many distances among them, and seldom what no chain does.
+fn calls(area: Area) -> impl Strategy<Value = Vec<Call>> {
+    let cell_mark = proptest::sample::select(CELL_MARKS.to_vec());
+    let edge_mark = proptest::sample::select(EDGE_MARKS.to_vec());
+    let avoid = proptest::sample::select(AVOIDS.to_vec());
+    let call = prop_oneof![
+        40 => (cells(area), avoid).prop_map(|(cell, avoid)| Call::Distance(cell, avoid)),
+        10 => cells(area).prop_map(|cell| Call::Put(CellMark::Explored, cell)),
+        20 => (edge_mark, edges(area)).prop_map(|(mark, edge)| Call::PutEdge(mark, edge)),
+        5 => (cell_mark.clone(), cells(area)).prop_map(|(mark, cell)| Call::Put(mark, cell)),
+        1 => (cell_mark, cells(area)).prop_map(|(mark, cell)| Call::Take(mark, cell)),
+        1 => Just(Call::ClearEdges(EdgeMark::Virtual)),
+        1 => Just(Call::ClearEdges(EdgeMark::Open)),
+    ];
+    proptest::collection::vec(call, 1..400)
+}
+
+/// An area, what is known of it at first, mostly explored and with many walls, and calls.
+fn histories() -> impl Strategy<Value = (Area, Vec<Call>)> {
+    let shares = (0.7..1.0_f64, 0.0..0.5_f64);
+    (areas(), shares, any::<u64>()).prop_flat_map(|(area, (explored, walls), seed)| {
+        let mut chance = chances(seed);
+        let mut known: Vec<Call> = area
+            .cells()
+            .filter(|_| chance(explored))
+            .map(|cell| Call::Put(CellMark::Explored, cell))
+            .collect();
+        known.extend(area.edges().filter(|_| chance(walls)).map(|edge| Call::PutEdge(EdgeMark::Wall, edge)));
+        calls(area).prop_map(move |calls| (area, [known.clone(), calls].concat()))
+    })
+}
+
+/// Says yes with the probability asked for; the same answers for the same seed.
+fn chances(seed: u64) -> impl FnMut(f64) -> bool {
+    let mut state = seed | 1;
+    move |probability| {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        f64::from((state >> 40) as u32) < probability * f64::from(1 << 24)
+    }
+}
+
+/// The log of a whole run, or of its first moves, and how it ended.
+fn run<G: Grid>(
+    rule: Rule,
+    robots: usize,
+    base: Cell,
+    grid: G,
+    is_open: impl Fn(Edge) -> bool,
+) -> (Vec<u8>, Option<End>) {
+    const MOST_MOVES: usize = 2_000;
+    let mut chain = Chain::<G, 64>::new(rule, robots, base, grid).expect("a chain");
+    let mut log = Vec::new();
+    for _ in 0..MOST_MOVES {
+        match chain.plan(&log).expect("an undamaged log") {
+            Intent::Go(plan) => log.extend_from_slice(chain.settle(&plan, &is_open).messages()),
+            Intent::Done(end) => return (log, Some(end)),
+        }
+    }
+    (log, None)
+}
+
+proptest! {
+    #[test]
+    fn the_answers_are_those_of_the_bit_grid((area, calls) in histories()) {
+        let mut wide = WideGrid::new(area);
+        let mut bits = MediumGrid::new(area).expect("it fits");
+        for call in calls {
+            prop_assert_eq!(call.make(&mut wide), call.make(&mut bits), "{:?}", call);
+            prop_assert_eq!(wide.is_explored(), bits.is_explored());
+        }
+        prop_assert_eq!(wide.area(), area);
+        let around = rectangle(
+            Cell::new(area.first().x - 2, area.first().y - 2),
+            area.width() as i16 + 4,
+            area.height() as i16 + 4,
+        );
+        for cell in around.cells() {
+            for mark in CELL_MARKS {
+                prop_assert_eq!(wide.has(mark, cell), bits.has(mark, cell), "{:?} {}", mark, cell);
+            }
+            for avoid in AVOIDS {
+                let (ours, theirs) = (wide.distance(cell, avoid), bits.distance(cell, avoid));
+                prop_assert_eq!(ours, theirs, "{:?} {}", avoid, cell);
+            }
+        }
+        for edge in around.edges() {
+            for mark in EDGE_MARKS {
+                prop_assert_eq!(wide.edge_has(mark, edge), bits.edge_has(mark, edge), "{:?} {:?}", mark, edge);
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_learned_is_forgotten_when_walls_are_cleared((area, calls) in histories()) {
+        let mut taught = WideGrid::new(area);
+        for &call in &calls {
+            call.make(&mut taught);
+        }
+        taught.clear_edges(EdgeMark::Wall);
+        let mut plain = MediumGrid::new(area).expect("it fits");
+        for call in calls {
+            if !matches!(call, Call::PutEdge(EdgeMark::Wall, _)) {
+                call.make(&mut plain);
+            }
+        }
+        for cell in area.cells() {
+            for avoid in AVOIDS {
+                prop_assert_eq!(taught.distance(cell, avoid), plain.distance(cell, avoid), "{}", cell);
+            }
+            for side in Side::ALL {
+                let edge = Edge::new(cell, side);
+                prop_assert_eq!(
+                    taught.edge_has(EdgeMark::Wall, edge), !area.contains(cell.beyond(side)), "{:?}", edge
+                );
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn a_chain_leaves_the_same_log_on_both_grids(
+        robots in 2..=32_i16,
+        walls in prop_oneof![Just(0.0), 0.0..0.5_f64],
+        seed in any::<u64>(),
+        rule in proptest::sample::select(vec![Rule::PUBLISHED, Rule::REPAIRED]),
+    ) {
+        let (area, base) = open_area(robots);
+        let mut chance = chances(seed);
+        let wall: std::collections::HashSet<_> = area.edges().filter(|_| chance(walls)).collect();
+        let is_open = |edge| !wall.contains(&edge);
+        let robots = robots as usize;
+        let bits = MediumGrid::new(area).expect("it fits");
+        let ours = run(rule, robots, base, WideGrid::new(area), is_open);
+        let theirs = run(rule, robots, base, bits, is_open);
+        prop_assert!(ours == theirs);
+    }
+}
+
+#[test]
+fn an_open_area_too_wide_for_the_bit_grid_is_explored_in_the_moves_of_the_paper() {
+    let robots = 40;
+    let (area, base) = open_area(robots);
+    let robots = robots as usize;
+    let (log, end) = run(Rule::REPAIRED, robots, base, WideGrid::new(area), |_| true);
+    assert_eq!((log.len() / (robots - 1), end), (9 * (robots - 1) - 1, Some(End::Explored)));
+}
+
+#[test]
+fn the_rim_of_the_coordinates_is_border() {
+    let corner = Cell::new(i16::MAX, i16::MAX);
+    let mut grid = WideGrid::new(Area::new(Cell::new(i16::MAX - 1, i16::MAX), corner).expect("two cells"));
+    for side in [Side::East, Side::South] {
+        let edge = Edge::new(corner, side);
+        grid.put_edge(EdgeMark::Open, edge);
+        assert!(grid.edge_has(EdgeMark::Wall, edge) && !grid.edge_has(EdgeMark::Open, edge));
+    }
+    grid.put(CellMark::Explored, corner);
+    assert_eq!(grid.distance(corner, Avoid::Walls), Some(1));
+}
