@@ -1,0 +1,194 @@
+//! What a team move of the chain costs: against the plain recursion, in open areas of every size, and among
+//! random walls. Criterion follows each figure over time; the tables at the end relate them to one another.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
+use tautline::layout::{Generator, Layout};
+use tautline::wide::WideGrid;
+use tautline_kernel::chain::{Chain, Intent, Rule};
+use tautline_kernel::grid::{Area, Grid, LargeGrid, MediumGrid, SmallGrid};
+use tautline_kernel::lattice::Cell;
+use tautline_proofs::plain::{PlainChain, PlainIntent};
+
+/// What was done in a run, or in several.
+#[derive(Clone, Copy, Default)]
+struct Work {
+    team_moves: u32,
+    /// The most candidates of followers that one plan looked at.
+    most_looked_at: u32,
+}
+
+/// A chain of `ROBOTS` in a layout of its own size, followed for `most` team moves.
+fn run<G: Grid, const ROBOTS: usize>(layout: &Layout, grid: fn(Area) -> G, most: u32) -> Work {
+    let (area, base) = area_of(layout);
+    let mut chain = Chain::<G, ROBOTS>::new(Rule::REPAIRED, ROBOTS, base, grid(area)).expect("a chain");
+    let mut log = Vec::new();
+    let mut work = Work::default();
+    while work.team_moves < most {
+        let Intent::Go(plan) = chain.plan(&log).expect("messages of the chain") else { break };
+        work.most_looked_at = work.most_looked_at.max(chain.looked_at());
+        work.team_moves += 1;
+        log.extend_from_slice(chain.settle(&plan, |edge| layout.is_open(edge)).messages());
+    }
+    work
+}
+
+/// The same by the plain recursion, with a flood fill for every candidate.
+fn run_plain(layout: &Layout, robots: usize) -> Work {
+    let (area, base) = area_of(layout);
+    let mut chain = PlainChain::new(Rule::REPAIRED, robots, base, area);
+    let mut work = Work::default();
+    loop {
+        let (intent, looked_at) = chain.plan(u64::MAX).expect("no limit");
+        if matches!(intent, PlainIntent::Explored | PlainIntent::Exhausted) {
+            return work;
+        }
+        work.most_looked_at = work.most_looked_at.max(looked_at as u32);
+        work.team_moves += 1;
+        chain.settle(&intent, |edge| layout.is_open(edge));
+    }
+}
+
+fn area_of(layout: &Layout) -> (Area, Cell) {
+    let last = Cell::new(layout.width() - 1, layout.height() - 1);
+    (Area::new(Cell::new(0, 0), last).expect("cells"), layout.default_base().expect("a free cell"))
+}
+
+fn small(area: Area) -> SmallGrid {
+    SmallGrid::new(area).expect("at most 16 cells wide")
+}
+
+fn medium(area: Area) -> MediumGrid {
+    MediumGrid::new(area).expect("at most 64 cells wide")
+}
+
+fn large(area: Area) -> LargeGrid {
+    LargeGrid::new(area).expect("at most 128 cells wide")
+}
+
+/// Layouts for a chain of `robots`, each cell side a wall with the probability `walls`.
+fn random_layouts(robots: usize, walls: f64, count: u64) -> Vec<Layout> {
+    let side = 2 * robots - 1;
+    let generator: Generator = format!("walls:{side}x{side}:{walls}").parse().expect("a generator");
+    (0..count).map(|seed| generator.generate(seed).expect("free cells")).collect()
+}
+
+/// Does `run` in every layout, and adds up.
+fn in_all(layouts: &[Layout], run: impl Fn(&Layout) -> Work) -> Work {
+    layouts.iter().map(run).fold(Work::default(), |sum, work| Work {
+        team_moves: sum.team_moves + work.team_moves,
+        most_looked_at: sum.most_looked_at.max(work.most_looked_at),
+    })
+}
+
+type Group<'a> = BenchmarkGroup<'a, WallTime>;
+
+fn group<'a>(criterion: &'a mut Criterion, name: &str) -> Group<'a> {
+    let mut group = criterion.benchmark_group(name);
+    group.sampling_mode(SamplingMode::Flat).sample_size(10);
+    group.warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_millis(1500));
+    group
+}
+
+/// What one team move took.
+struct Cost {
+    work: Work,
+    /// By the fastest sample; infinite if nothing was measured.
+    micros: f64,
+}
+
+fn measure(group: &mut Group<'_>, id: BenchmarkId, run: impl Fn() -> Work) -> Cost {
+    let work = run();
+    let mut fastest_seconds = f64::INFINITY;
+    group.throughput(Throughput::Elements(work.team_moves.into()));
+    group.bench_function(id, |bencher| {
+        bencher.iter_custom(|times| {
+            let start = Instant::now();
+            for _ in 0..times {
+                black_box(run());
+            }
+            let taken = start.elapsed();
+            fastest_seconds = fastest_seconds.min((taken / times as u32).as_secs_f64());
+            taken
+        });
+    });
+    Cost { work, micros: 1e6 * fastest_seconds / f64::from(work.team_moves) }
+}
+
+/// The kernel's cost and the plain recursion's: 8 robots in 20 layouts with a tenth of the cell sides walls.
+fn against_the_plain_recursion(criterion: &mut Criterion) -> [Cost; 2] {
+    let layouts = random_layouts(8, 0.1, 20);
+    let mut group = group(criterion, "against the plain recursion");
+    let kernel = measure(&mut group, BenchmarkId::from_parameter("kernel"), || {
+        in_all(&layouts, |layout| run::<_, 8>(layout, small, u32::MAX))
+    });
+    let plain = measure(&mut group, BenchmarkId::from_parameter("plain recursion"), || {
+        in_all(&layouts, |layout| run_plain(layout, 8))
+    });
+    assert_eq!(kernel.work.team_moves, plain.work.team_moves, "they make the same moves");
+    [kernel, plain]
+}
+
+/// Whole runs without obstacles, by the number of robots.
+fn open_areas(criterion: &mut Criterion) -> [(u16, Cost); 6] {
+    let mut group = group(criterion, "open area");
+    macro_rules! each {
+        ($($robots:literal),*) => {[$({
+            let side = 2 * $robots - 1;
+            let layout = Layout::open(side, side).expect("a layout");
+            let id = BenchmarkId::from_parameter($robots);
+            ($robots, measure(&mut group, id, || run::<_, $robots>(&layout, WideGrid::new, u32::MAX)))
+        }),*]};
+    }
+    each!(8, 16, 32, 64, 128, 256)
+}
+
+/// The first team moves in random layouts, by the number of robots and the share of walls.
+fn random_walls(criterion: &mut Criterion) -> Vec<(u16, f64, Cost)> {
+    const TEAM_MOVES: u32 = 500;
+    let mut group = group(criterion, "random walls");
+    let mut costs = Vec::new();
+    for walls in [0.05, 0.1, 0.2, 0.3] {
+        macro_rules! each {
+            ($($robots:literal in $grid:ident),*) => {$(
+                let layouts = random_layouts($robots, walls, 3);
+                let cost = measure(&mut group, BenchmarkId::new($robots.to_string(), walls), || {
+                    in_all(&layouts, |layout| run::<_, $robots>(layout, $grid, TEAM_MOVES))
+                });
+                costs.push(($robots, walls, cost));
+            )*};
+        }
+        each!(16 in medium, 24 in medium, 32 in medium, 64 in large);
+    }
+    costs
+}
+
+fn main() {
+    let mut criterion = Criterion::default().configure_from_args();
+    let [kernel, plain] = against_the_plain_recursion(&mut criterion);
+    let open = open_areas(&mut criterion);
+    let random = random_walls(&mut criterion);
+    criterion.final_summary();
+
+    println!("\nA team move, N = 8, 10 % walls, in {} moves", kernel.work.team_moves);
+    println!("  kernel           {:>9.2} µs", kernel.micros);
+    println!("  plain recursion  {:>9.2} µs", plain.micros);
+    println!("  ratio            {:>9.1}    (at least 10 is asked for)", plain.micros / kernel.micros);
+
+    println!("\nA team move in an open area of (2N−1)² cells");
+    println!("    N   moves       µs     µs/N");
+    for (robots, Cost { work, micros }) in open {
+        println!("  {robots:>3} {:>7} {micros:>8.2} {:>8.4}", work.team_moves, micros / f64::from(robots));
+    }
+
+    println!("\nA team move in random layouts, and the candidates its dearest plan looked at");
+    println!("    N  walls       µs     µs/N  candidates/N (below 100 is asked for)");
+    for (robots, walls, Cost { work, micros }) in random {
+        let candidates = f64::from(work.most_looked_at) / f64::from(robots);
+        let each = micros / f64::from(robots);
+        println!("  {robots:>3} {:>4.0} % {micros:>8.2} {each:>8.4} {candidates:>8.1}", 100.0 * walls);
+    }
+}
