@@ -1,0 +1,298 @@
+//! What the fuzz targets do with their bytes: one body for each, named as its target and its folder of the
+//! corpus. A body panics when it finds something wrong. `tests/fuzz_corpus.rs` includes this file and runs the
+//! bodies on all kept inputs, so that they are checked without a fuzzer, too.
+
+#![allow(clippy::missing_panics_doc, reason = "a panic is how a body tells what it found")]
+
+use std::collections::BTreeSet;
+use std::hint::black_box;
+use std::path::Path;
+
+use tautline::fault::{Colour, Fault};
+use tautline::layout::{Layout, Misread, movingai, ros, text};
+use tautline::wide::WideGrid;
+use tautline_kernel::chain::{Chain, Intent, Kind, Rule};
+use tautline_kernel::choice::{Source, one_of};
+use tautline_kernel::grid::{Area, Grid, SmallGrid};
+use tautline_kernel::lattice::{Cell, Edge, Side, Step};
+use tautline_proofs::engine::{Seeded, Tape};
+use tautline_proofs::judge::{self, Exhibit, Place, Repairs};
+use tautline_proofs::run::{Breach, Frame};
+
+/// The body of a target.
+pub type Body = fn(&[u8]);
+
+/// Every target's name and body.
+pub const TARGETS: [(&str, Body); 7] = [
+    ("chain", chain),
+    ("chain_log", chain_log),
+    ("judge", judge),
+    ("layout_movingai", layout_movingai),
+    ("layout_ros", layout_ros),
+    ("layout_text", layout_text),
+    ("plan_cost", plan_cost),
+];
+
+/// The bytes as the numbers of a tape.
+fn numbers(bytes: &[u8]) -> Vec<u32> {
+    bytes.iter().copied().map(u32::from).collect()
+}
+
+/// A chain of any size in any area, every edge decided by the bytes, from its start to its end: the repaired
+/// rule keeps all safety sentences, the published one that of coverage, and a small chain's run is not long.
+pub fn chain(bytes: &[u8]) {
+    let numbers = numbers(bytes);
+    let mut source = Tape(&numbers);
+    let (rule, kept): (Rule, &[Breach]) =
+        if source.flip() { (Rule::PUBLISHED, &[Breach::Coverage]) } else { (Rule::REPAIRED, &Breach::ALL) };
+    let robots = source.pick(31) as usize + 2;
+    let (area, base) = area(robots, &mut source);
+    let last = if robots <= 8 {
+        let grid = SmallGrid::new(area).expect("at most 15 cells a side");
+        let chain = Chain::<_, 8>::new(rule, robots, base, grid).expect("it fits");
+        follow(chain, 20_000, |_| is_open(&mut source), |before, frame| check(kept, before, frame))
+    } else {
+        let chain = Chain::<_, 32>::new(rule, robots, base, WideGrid::new(area)).expect("it fits");
+        follow(chain, 500, |_| is_open(&mut source), |before, frame| check(kept, before, frame))
+    };
+    assert!(robots > 8 || last == Last::Ended, "a chain of {robots} is still under way");
+}
+
+/// An area that a chain of `robots` can span, and a base in it.
+fn area(robots: usize, source: &mut dyn Source) -> (Area, Cell) {
+    let most = 2 * robots as u32 - 1;
+    let (width, height) = (most - source.pick(most), most - source.pick(most));
+    let base = Cell::new((width - 1 - source.pick(width)) as i16, (height - 1 - source.pick(height)) as i16);
+    let last = Cell::new(width as i16 - 1, height as i16 - 1);
+    let area = Area::new(Cell::new(0, 0), last).expect("it has cells");
+    (Chain::<SmallGrid, 8>::area(area, base, robots).expect("the base is in it"), base)
+}
+
+/// An edge is open unless its number is in the upper quarter, so that a tape of any numbers has both.
+fn is_open(source: &mut dyn Source) -> bool {
+    source.pick(256) < 192
+}
+
+fn check(kept: &[Breach], before: &[Cell], frame: &Frame) -> Next {
+    for breach in kept {
+        assert!(!breach.is_in(before, &frame.cells), "{} from {before:?}: {frame:?}", breach.clause());
+    }
+    Next::Go
+}
+
+/// Whether a run is to be followed further.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Next {
+    Go,
+    Stop,
+}
+
+/// How a run was left.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Last {
+    /// It ended by itself.
+    Ended,
+    /// It could go on.
+    Cut,
+}
+
+/// Runs `chain` for `most` team moves and shows each of them, with the cells before it.
+fn follow<G: Grid, const ROBOTS: usize>(
+    mut chain: Chain<G, ROBOTS>,
+    most: usize,
+    mut is_open: impl FnMut(Edge) -> bool,
+    mut show: impl FnMut(&[Cell], &Frame) -> Next,
+) -> Last {
+    let mut log = Vec::new();
+    for _ in 0..most {
+        let Intent::Go(plan) = chain.plan(&log).expect("messages of the chain") else { return Last::Ended };
+        let before = chain.cells().to_vec();
+        let settled = chain.settle(&plan, &mut is_open);
+        log.extend_from_slice(settled.messages());
+        if show(&before, &Frame::new(plan.kind, &settled, chain.cells())) == Next::Stop {
+            return Last::Cut;
+        }
+    }
+    Last::Cut
+}
+
+/// A chain whose log is replaced by any bytes in the middle of its run: it goes on or says that the log is
+/// damaged.
+pub fn chain_log(bytes: &[u8]) {
+    let (head, log) = bytes.split_at(bytes.len().min(16));
+    let numbers = numbers(head);
+    let mut source = Tape(&numbers);
+    let rule = one_of(&mut source, &[Rule::REPAIRED, Rule::PUBLISHED]);
+    let robots = source.pick(7) as usize + 2;
+    let good_moves = source.pick(64);
+    let (area, base) = area(robots, &mut source);
+    let grid = SmallGrid::new(area).expect("at most 15 cells a side");
+    let mut chain = Chain::<_, 8>::new(rule, robots, base, grid).expect("it fits");
+    let mut good_log = Vec::new();
+    for made in 0..2 * good_moves {
+        let log = if made < good_moves { &good_log } else { log };
+        let Ok(Intent::Go(plan)) = chain.plan(log) else { return };
+        let settled = chain.settle(&plan, |_| is_open(&mut source));
+        good_log.extend_from_slice(settled.messages());
+    }
+}
+
+/// The judge accepts every counterexample that the published rule gives, rejects it without one of its walls,
+/// and bears any change of its moves.
+pub fn judge(bytes: &[u8]) {
+    let numbers = numbers(bytes);
+    let mut source = Tape(&numbers);
+    let robots = source.pick(7) as usize + 2;
+    let change = [source.pick(256), source.pick(256), source.pick(256), source.pick(256)];
+    let (area, base) = area(robots, &mut source);
+    // The judge's layout begins at 0,0.
+    let place = |cell: Cell| (i32::from(cell.x - area.first().x), i32::from(cell.y - area.first().y));
+    let mut exhibit = Exhibit {
+        clause: String::new(),
+        repairs: Repairs::Without,
+        width: area.width() as i32,
+        height: area.height() as i32,
+        walls: BTreeSet::new(),
+        blocked: BTreeSet::new(),
+        base: place(base),
+        robots,
+        moves: Vec::new(),
+    };
+    let grid = SmallGrid::new(area).expect("at most 15 cells a side");
+    let chain = Chain::<_, 8>::new(Rule::PUBLISHED, robots, base, grid).expect("it fits");
+    let mut walls = BTreeSet::new();
+    let mut clause = None;
+    let answer = |edge: Edge| {
+        let open = is_open(&mut source);
+        if !open {
+            walls.insert((place(edge.cell()), place(edge.cell().beyond(edge.side()))));
+        }
+        open
+    };
+    let moves = &mut exhibit.moves;
+    follow(chain, 500, answer, |before, frame| {
+        moves.push(judge::Move {
+            is_backtrack: frame.kind == Kind::Backtrack,
+            tried: frame.steps.iter().copied().map(offset).collect(),
+            blocked: frame.blocked.clone(),
+            places: frame.cells.iter().copied().map(place).collect(),
+        });
+        clause = Breach::ALL.into_iter().find(|breach| breach.is_in(before, &frame.cells));
+        if clause.is_some() { Next::Stop } else { Next::Go }
+    });
+    exhibit.walls = walls;
+    if let Some(breach) = clause {
+        breach.clause().clone_into(&mut exhibit.clause);
+        assert_eq!(judge::judge(&exhibit), Ok(()));
+        if let Some(&wall) = exhibit.walls.iter().nth(change[0] as usize) {
+            let mut without = exhibit.clone();
+            without.walls.remove(&wall);
+            assert!(judge::judge(&without).is_err(), "it does not need {wall:?}: {exhibit:?}");
+        }
+    }
+    alter(&mut exhibit, change);
+    let _ = black_box(judge::judge(&exhibit));
+}
+
+fn offset(step: Step) -> Place {
+    match step {
+        Step::Cross(Side::East) => (1, 0),
+        Step::Cross(Side::South) => (0, 1),
+        Step::Cross(Side::West) => (-1, 0),
+        Step::Cross(Side::North) => (0, -1),
+        Step::Stay => (0, 0),
+    }
+}
+
+/// Changes one thing of one team move.
+fn alter(exhibit: &mut Exhibit, [which, what, robot, by]: [u32; 4]) {
+    let count = exhibit.moves.len().max(1);
+    let Some(made) = exhibit.moves.get_mut(which as usize % count) else { return };
+    let robot = robot as usize % exhibit.robots;
+    let place = (by as i32 % 3 - 1, by as i32 / 3 % 3 - 1);
+    match what % 6 {
+        0 => made.is_backtrack = !made.is_backtrack,
+        1 => made.tried[robot] = place,
+        2 => made.blocked[robot] = !made.blocked[robot],
+        3 => made.places[robot] = (i32::MAX + place.0.min(0), i32::MIN + place.1.max(0)),
+        4 => made.places.truncate(robot),
+        _ => made.tried[robot] = (i32::MIN, i32::MAX),
+    }
+}
+
+/// A chain of 16 to 64 robots, the first edges decided by the bytes and the rest at random: no plan is dear.
+pub fn plan_cost(bytes: &[u8]) {
+    let (head, answers) = bytes.split_at(bytes.len().min(8));
+    let numbers = numbers(head);
+    let mut source = Tape(&numbers);
+    let rule = one_of(&mut source, &[Rule::REPAIRED, Rule::PUBLISHED]);
+    let robots = one_of(&mut source, &[16, 24, 32, 64]);
+    let walls_percent = source.pick(40) + 1;
+    let mut random = Seeded::new(source.pick(256).into(), source.pick(256).into());
+    let range = robots as i16 - 1;
+    let area = Area::new(Cell::new(0, 0), Cell::new(2 * range, 2 * range)).expect("it has cells");
+    let grid = WideGrid::new(area);
+    let mut chain = Chain::<_, 64>::new(rule, robots, Cell::new(range, range), grid).expect("it fits");
+    let mut bits = answers.iter().flat_map(|byte| (0..8).map(move |bit| byte >> bit & 1 == 0));
+    let mut log = Vec::new();
+    let mut dearest = 0;
+    for _ in 0..1000 {
+        let Intent::Go(plan) = chain.plan(&log).expect("messages of the chain") else { break };
+        dearest = dearest.max(chain.looked_at());
+        assert!(dearest < 100 * robots as u32, "{robots} robots: a plan looked at {dearest} candidates");
+        let answer = |_| bits.next().unwrap_or_else(|| random.pick(100) >= walls_percent);
+        log.extend_from_slice(chain.settle(&plan, answer).messages());
+    }
+    // A fuzzer counts how often a loop turns: so it sees that an input is dearer than those before it.
+    for _ in 0..dearest / robots as u32 {
+        black_box(());
+    }
+}
+
+/// Any text as a drawing of ours.
+pub fn layout_text(bytes: &[u8]) {
+    let Ok(source) = str::from_utf8(bytes) else { return };
+    read_back(source, text::read(source));
+}
+
+/// Any text as a map of the MovingAI benchmarks.
+pub fn layout_movingai(bytes: &[u8]) {
+    let Ok(source) = str::from_utf8(bytes) else { return };
+    read_back(source, movingai::read(source));
+}
+
+/// Any text and, after a zero byte, any image as a map of the ROS `map_server`.
+pub fn layout_ros(bytes: &[u8]) {
+    let end = bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len());
+    let (yaml, image) = bytes.split_at(end);
+    let Ok(source) = str::from_utf8(yaml) else { return };
+    match ros::describe(source) {
+        Ok(description) => match ros::read(&description, image.get(1..).unwrap_or_default()) {
+            Ok(layout) => read_back(source, Ok(layout)),
+            Err(problem) => told(&Fault::in_file(Path::new("map.pgm"), &problem, problem.remedy())),
+        },
+        Err(misread) => read_back(source, Err(misread)),
+    }
+}
+
+/// What was read and is written reads back the same; what is wrong is told in a line.
+fn read_back(source: &str, layout: Result<Layout, Misread>) {
+    match layout {
+        Ok(layout) => {
+            let drawing = layout.to_string();
+            let again: Layout = drawing.parse().expect("a drawing of ours");
+            assert!(again == layout, "{again:?} is not {layout:?}");
+            assert_eq!(again.to_string(), drawing);
+        }
+        Err(Misread { at, problem }) => {
+            let remedy = problem.remedy();
+            told(&Fault::at(Path::new("layout"), source, at, &problem, remedy));
+        }
+    }
+}
+
+fn told(fault: &Fault) {
+    let line = fault.to_string();
+    assert!(!line.is_empty() && !line.contains('\n'), "{line}");
+    assert!(!fault.render(Colour::Plain).is_empty());
+}
