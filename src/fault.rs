@@ -42,6 +42,21 @@ struct Excerpt {
     mark: Range<usize>,
 }
 
+/// Why a piece of work ended before its end.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Halt {
+    /// Something was wrong with what the user gave.
+    Fault(Fault),
+    /// The user asked it to stop.
+    Interrupted,
+}
+
+impl From<Fault> for Halt {
+    fn from(fault: Fault) -> Self {
+        Self::Fault(fault)
+    }
+}
+
 /// Whether [`Fault::render`] may use terminal colours.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Colour {
@@ -73,6 +88,22 @@ impl Fault {
             excerpt: Excerpt::of(&text[line_start..line_end], start - line_start..end - line_start),
         };
         Self::new(place, what, remedy)
+    }
+
+    /// A fault in the bytes `range` of `text`, which is line number `line`, counted from 1, of `file`.
+    pub fn in_line(
+        file: impl AsRef<Path>,
+        line: usize,
+        text: &str,
+        range: Range<usize>,
+        what: impl fmt::Display,
+        remedy: impl fmt::Display,
+    ) -> Self {
+        let mut fault = Self::at(file, text, range, what, remedy);
+        if let Place::Spot { line: first, .. } = &mut fault.0.place {
+            *first += line - 1;
+        }
+        fault
     }
 
     /// A fault of a file as a whole.

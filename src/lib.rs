@@ -1,5 +1,12 @@
 //! Tautline: verified multi-robot coordination. The simulator around the kernel, and its command line.
 
+pub mod aside;
+pub mod cli;
+pub mod exhibit;
+pub mod explore;
 pub mod fault;
+pub mod hunt;
 pub mod layout;
+pub mod trace;
+pub mod view;
 pub mod wide;

@@ -1,0 +1,247 @@
+//! The command line: what is asked, where it goes, and with which exit code it ends. Data goes to stdout, progress and
+//! logs to stderr. A fault ends a command with code 2, an interruption with 3, a panic, which is a bug of ours,
+//! with 70.
+
+mod explore;
+mod hunt;
+mod interrupt;
+mod output;
+mod progress;
+mod prove;
+mod replay;
+mod show;
+
+use std::io::{self, IsTerminal, Write};
+use std::panic;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::str::FromStr;
+
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+use tautline_kernel::lattice::Cell;
+
+use crate::fault::{Colour, Fault, Halt};
+use crate::layout::{self, Layout, Problem, Size};
+use output::Output;
+
+/// How a command ended.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Exit {
+    /// As expected.
+    Expected = 0,
+    /// A violation was found.
+    Violation = 1,
+    /// Wrong usage or bad input.
+    Fault = 2,
+    /// A budget or the user ended the work before its bound.
+    Unfinished = 3,
+    /// A bug of ours.
+    Bug = 70,
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(exit as u8)
+    }
+}
+
+const AFTER_HELP: &str = "\
+Exit codes: 0 as expected · 1 a violation was found · 2 wrong usage or bad input · 3 a budget or Ctrl-C ended the work \
+before its bound · 70 a bug of ours
+
+LAYOUT is a file (our text drawing, a MovingAI .map, a ROS .yaml) or a generator: open:15x15 · walls:15x15:0.1 · \
+rooms-a · rooms-b · office:30x30:4x4 · cells:32x32:0.2";
+
+/// Verified multi-robot coordination: bounded proofs, counterexamples and simulation.
+#[derive(Debug, Parser)]
+#[command(name = "tautline", version, about, after_help = AFTER_HELP, max_term_width = 100)]
+struct Cli {
+    /// Tell more on stderr; twice for everything.
+    #[arg(short, long, global = true, action = clap::ArgAction::Count)]
+    verbose: u8,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Prove(prove::Prove),
+    Explore(explore::Explore),
+    Hunt(hunt::Hunt),
+    Replay(replay::Replay),
+    Show(show::Show),
+
+    /// Print a completion script for a shell.
+    #[command(after_help = "Example: tautline completions bash > /etc/bash_completion.d/tautline")]
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
+    /// Print the manual page.
+    #[command(after_help = "Example: tautline man | man -l -")]
+    Man,
+}
+
+/// What stdout gets.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+enum Format {
+    /// For people.
+    Text,
+    /// One JSON object, with its schema_version.
+    Json,
+}
+
+/// The version of every JSON object on stdout.
+const SCHEMA_VERSION: u32 = 1;
+
+#[derive(Debug, Args)]
+struct FormatArgs {
+    /// What stdout gets.
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+#[derive(Debug, Args)]
+struct LayoutArgs {
+    /// A layout file or a generator.
+    layout: String,
+    /// The seed of whatever is left to chance.
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// The image of a ROS map, in place of the one that it names.
+    #[arg(long, value_name = "FILE")]
+    image: Option<PathBuf>,
+}
+
+impl LayoutArgs {
+    fn load(&self) -> Result<Layout, Fault> {
+        layout::load(&self.layout, self.seed, self.image.as_deref())
+    }
+}
+
+/// A cell as `X,Y`.
+#[derive(Clone, Copy, Debug)]
+struct CellArg(Cell);
+
+impl FromStr for CellArg {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let parts = text.split_once(',').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
+        parts.map(|(x, y)| Self(Cell::new(x, y))).ok_or("write column and row as X,Y, for example 7,7")
+    }
+}
+
+/// Columns and rows as `WxH`.
+#[derive(Clone, Copy, Debug)]
+struct SizeArg(Size);
+
+impl FromStr for SizeArg {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let parts = text.split_once('x').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
+        let (width, height) = parts.ok_or("write columns and rows as WIDTHxHEIGHT, for example 7x7")?;
+        let size = Size::new(width, height);
+        size.map(Self).map_err(|problem| format!("{problem}; {}", problem.remedy()))
+    }
+}
+
+fn usage(problem: &Problem) -> Fault {
+    Fault::usage(problem, problem.remedy())
+}
+
+/// Runs the program with the arguments of this process.
+pub fn run() -> ExitCode {
+    panic::set_hook(Box::new(|bug| {
+        let arguments: Vec<String> = std::env::args().map(|argument| format!("{argument:?}")).collect();
+        eprintln!(
+            "This is a bug of tautline {}: {bug}\nPlease report it at {}/issues with this command: {}",
+            env!("CARGO_PKG_VERSION"),
+            env!("CARGO_PKG_REPOSITORY"),
+            arguments.join(" ")
+        );
+    }));
+    let cli = Cli::parse();
+    panic::catch_unwind(|| command(&cli)).unwrap_or(Exit::Bug).into()
+}
+
+/// Runs a command, and tells what went wrong.
+fn command(cli: &Cli) -> Exit {
+    start_log(cli.verbose);
+    interrupt::listen();
+    let mut out = Output::stdout();
+    let result = cli.command.run(&mut out).and_then(|exit| {
+        out.flush().map_err(|error| output::unwritable(&error))?;
+        Ok(exit)
+    });
+    match result {
+        Ok(exit) => exit,
+        Err(Halt::Fault(fault)) => {
+            eprint!("{}", fault.render(colour()));
+            Exit::Fault
+        }
+        Err(Halt::Interrupted) => {
+            eprintln!("Interrupted before the end: nothing is claimed, and nothing was stored.");
+            Exit::Unfinished
+        }
+    }
+}
+
+impl Command {
+    fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        match self {
+            Self::Prove(prove) => prove.run(out),
+            Self::Explore(explore) => explore.run(out),
+            Self::Hunt(hunt) => hunt.run(out),
+            Self::Replay(replay) => replay.run(out),
+            Self::Show(show) => show.run(out),
+            Self::Completions { shell } => {
+                let mut script = Vec::new();
+                clap_complete::generate(*shell, &mut Cli::command(), "tautline", &mut script);
+                out.bytes(&script)?;
+                Ok(Exit::Expected)
+            }
+            Self::Man => {
+                let mut page = Vec::new();
+                clap_mangen::Man::new(Cli::command())
+                    .render(&mut page)
+                    .map_err(|error| output::unwritable(&error))?;
+                out.bytes(&page)?;
+                Ok(Exit::Expected)
+            }
+        }
+    }
+}
+
+fn colour() -> Colour {
+    let is_refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+    if io::stderr().is_terminal() && !is_refused { Colour::Ansi } else { Colour::Plain }
+}
+
+fn start_log(verbose: u8) {
+    let level = match verbose {
+        0 => tracing::Level::WARN,
+        1 => tracing::Level::INFO,
+        2.. => tracing::Level::DEBUG,
+    };
+    let log = tracing_subscriber::fmt()
+        .with_max_level(level)
+        .with_writer(io::stderr)
+        .with_ansi(colour() == Colour::Ansi)
+        .without_time()
+        .with_target(false);
+    // In a process that has a log already, that one serves.
+    let _ = log.try_init();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+}

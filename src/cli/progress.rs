@@ -1,0 +1,30 @@
+//! Progress on stderr, on a terminal only.
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use tautline_proofs::search::Progress;
+
+const STYLE: &str = "{prefix} {wide_bar} {percent} % {msg}";
+
+/// A bar for work of `of` parts.
+pub(super) fn bar(prefix: impl Into<String>, of: u64) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(of), ProgressDrawTarget::stderr());
+    bar.set_style(ProgressStyle::with_template(STYLE).unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar.with_prefix(prefix.into())
+}
+
+/// Shows how far a search is.
+pub(super) fn show(bar: &ProgressBar, progress: Progress) {
+    bar.set_length(progress.of);
+    bar.set_position(progress.done);
+    bar.set_message(format!("{} runs, {} moves", progress.runs, progress.moves));
+}
+
+/// A sign of life for work of unknown length.
+pub(super) fn spinner(prefix: impl Into<String>) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+    bar.set_style(
+        ProgressStyle::with_template("{prefix} {spinner} {msg}")
+            .unwrap_or_else(|_| ProgressStyle::default_spinner()),
+    );
+    bar.with_prefix(prefix.into())
+}

@@ -1,0 +1,147 @@
+//! `tautline replay`: a stored run again.
+
+use std::ops::RangeInclusive;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::Args;
+use serde::Serialize;
+use tautline_proofs::judge::judge;
+use tautline_proofs::run::Breach;
+
+use super::explore::{Summary, summary};
+use super::output::Output;
+use super::{Exit, Format, FormatArgs, interrupt};
+use crate::exhibit::exhibit;
+use crate::explore::{Report, Setup, explore};
+use crate::fault::{Fault, Halt};
+use crate::trace::{StoredMove, Trace};
+use crate::view;
+
+const EXAMPLES: &str = "\
+Examples:
+  tautline replay chain-1-published-n4.jsonl
+  tautline replay run.jsonl --moves 10..20
+  tautline replay run.jsonl --html run.html --moves 0..0";
+
+/// Play a stored run or counterexample, and check that it is what its rule makes.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Replay {
+    /// A file that `explore --trace` or `hunt` wrote.
+    file: PathBuf,
+    /// The team moves to show, the first and the last. Without it all are shown, or the last 100.
+    #[arg(long, value_name = "A..B")]
+    moves: Option<Moves>,
+    /// Store the run as a page that plays it.
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Store the team moves as pictures.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+/// Team moves from the first to the last.
+#[derive(Clone, Debug)]
+struct Moves(RangeInclusive<u32>);
+
+impl FromStr for Moves {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let parts = text.split_once("..").and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
+        let (first, last) =
+            parts.ok_or("write the first and the last team move as A..B, for example 10..20")?;
+        if first <= last { Ok(Self(first..=last)) } else { Err("the first team move comes after the last") }
+    }
+}
+
+/// Team moves that are shown of a run when nobody says which.
+const SHOWN: u32 = 100;
+
+#[derive(Serialize)]
+struct Replayed<'a> {
+    #[serde(flatten)]
+    run: Summary<'a>,
+    /// The clause that the file says it is a counterexample to: the judge agrees.
+    counterexample_to: Option<&'static str>,
+    moves: Vec<StoredMove>,
+}
+
+impl Replay {
+    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        let trace = Trace::open(&self.file)?;
+        let (setup, clause) = (trace.setup.clone(), trace.clause);
+        let mut frames = Vec::new();
+        let report = trace.replay(&mut |made| {
+            interrupt::check()?;
+            frames.extend(clause.is_some().then(|| made.frame.clone()));
+            Ok(())
+        })?;
+        if let Some(breach) = clause {
+            judge(&exhibit(&setup, breach, &frames)).map_err(|objection| {
+                let what = format!("the judge rejects this counterexample: {objection}");
+                Fault::in_file(&self.file, what, "make it again with `tautline hunt`")
+            })?;
+        }
+        drop(frames);
+        let moves = self.moves(&report);
+        let name = self.file.display().to_string();
+        match self.format.format {
+            Format::Json => {
+                let mut shown = Vec::new();
+                explore(&setup, &mut |made| {
+                    interrupt::check()?;
+                    shown.extend(moves.contains(&made.step).then(|| StoredMove::new(made.step, made.frame)));
+                    Ok(())
+                })?;
+                let run = Summary::new(&setup, &name, &report);
+                out.json(&Replayed {
+                    run,
+                    counterexample_to: clause.map(Breach::clause),
+                    moves: shown,
+                })?;
+            }
+            Format::Text => {
+                out.text(summary(&setup, &name, &report))?;
+                if let Some(breach) = clause {
+                    out.text(format_args!(
+                        "the judge accepts it as a counterexample to {}\n",
+                        breach.clause()
+                    ))?;
+                }
+                draw(&setup, &report, &moves, out)?;
+            }
+        }
+        Ok(if report.violations.is_empty() { Exit::Expected } else { Exit::Violation })
+    }
+
+    fn moves(&self, report: &Report) -> RangeInclusive<u32> {
+        match &self.moves {
+            Some(Moves(moves)) => moves.clone(),
+            None => report.steps.saturating_sub(SHOWN - 1).max(1)..=report.steps,
+        }
+    }
+}
+
+/// Draws the team moves, and tells the story of every violation among them.
+fn draw(setup: &Setup, report: &Report, moves: &RangeInclusive<u32>, out: &mut Output) -> Result<(), Halt> {
+    let (mut blocks, mut stories) = (Vec::new(), String::new());
+    explore(setup, &mut |made| {
+        interrupt::check()?;
+        if moves.contains(&made.step) {
+            blocks.push(view::team_move(setup, &report.chart, made, view::Pose::After));
+            if !made.breaches.is_empty() {
+                stories.push('\n');
+                stories.push_str(&view::story::of(setup, &report.chart, made));
+            }
+        }
+        Ok(())
+    })?;
+    if blocks.is_empty() {
+        return Ok(());
+    }
+    Ok(out.text(format_args!("\n{}\n\n{}{stories}", view::LEGEND, view::beside(&blocks)))?)
+}

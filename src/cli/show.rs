@@ -1,0 +1,89 @@
+//! `tautline show`: a layout or the environments of a cell, drawn.
+
+use clap::Args;
+use serde::Serialize;
+use tautline_kernel::lattice::Cell;
+
+use super::output::Output;
+use super::{Exit, Format, FormatArgs, LayoutArgs};
+use crate::fault::Halt;
+use crate::view;
+use crate::view::Environment;
+
+const EXAMPLES: &str = "\
+Examples:
+  tautline show rooms-a
+  tautline show office:30x30:4x4 --seed 3 > office.txt
+  tautline show environments";
+
+/// The word that stands for the environments of a cell, in place of a layout.
+const ENVIRONMENTS: &str = "environments";
+
+/// Draw a layout, or with `environments` E_N, E_S and E_C of a cell.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Show {
+    #[command(flatten)]
+    layout: LayoutArgs,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+#[derive(Serialize)]
+struct Shown<'a> {
+    layout: &'a str,
+    width: i16,
+    height: i16,
+    free_cells: usize,
+    walls: usize,
+    base: Cell,
+    robots: Option<u16>,
+    drawing: String,
+}
+
+#[derive(Serialize)]
+struct ShownEnvironment {
+    symbol: &'static str,
+    /// Columns and rows from the centre.
+    offsets: Vec<Cell>,
+}
+
+#[derive(Serialize)]
+struct ShownEnvironments {
+    environments: [ShownEnvironment; 3],
+}
+
+impl Show {
+    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        if self.layout.layout == ENVIRONMENTS {
+            match self.format.format {
+                Format::Text => out.text(view::environments())?,
+                Format::Json => out.json(&ShownEnvironments { environments: Environment::ALL.map(shown) })?,
+            }
+            return Ok(Exit::Expected);
+        }
+        let layout = self.layout.load()?;
+        let drawing = layout.to_string();
+        match self.format.format {
+            Format::Text => out.text(drawing)?,
+            Format::Json => out.json(&Shown {
+                layout: &self.layout.layout,
+                width: layout.width(),
+                height: layout.height(),
+                free_cells: layout.free_cells(),
+                walls: layout.walls().count(),
+                base: layout
+                    .base()
+                    .map_or_else(|| layout.default_base(), Ok)
+                    .map_err(|problem| super::usage(&problem))?,
+                robots: layout.robots(),
+                drawing,
+            })?,
+        }
+        Ok(Exit::Expected)
+    }
+}
+
+fn shown(environment: Environment) -> ShownEnvironment {
+    ShownEnvironment { symbol: environment.symbol(), offsets: environment.offsets().collect() }
+}

@@ -1,0 +1,404 @@
+//! The run loop of all exploration schemes. A [`Scheme`] sees what its team knows and makes one team move at a time;
+//! the layout answers for the edges it tries; every move becomes a [`Frame`] and is checked for the sentences of
+//! `SPEC.md` that the scheme is bound to. A run goes on after a violation, so that its cost can be compared.
+
+mod chain;
+
+use std::fmt;
+use std::num::NonZeroU32;
+
+use clap::ValueEnum;
+use serde::{Deserialize, Serialize};
+use tautline_kernel::chain::Rule;
+use tautline_kernel::grid::Area;
+use tautline_kernel::lattice::{Cell, Edge};
+use tautline_proofs::clause::Subject;
+use tautline_proofs::run::{Breach, Frame};
+
+use crate::fault::{Fault, Halt};
+use crate::layout::{Layout, Problem};
+
+/// A way for a team to explore.
+pub trait Scheme {
+    /// The cells that it is to explore.
+    fn area(&self) -> Area;
+    /// Where the robots are, the base first.
+    fn cells(&self) -> &[Cell];
+    /// Makes one team move. `is_open` answers for every edge that is crossed without being known.
+    ///
+    /// # Errors
+    /// [`End`] if the team has nothing left to do.
+    fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End>;
+    /// What its team moves may never be.
+    fn breaches(&self) -> &'static [Breach];
+}
+
+/// Every scheme.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SchemeName {
+    /// The recursive chain of paper 000: a base, a leader, and followers that keep radio contact.
+    Chain,
+}
+
+impl SchemeName {
+    /// The word on the command line.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Chain => "chain",
+        }
+    }
+
+    fn start(self, setup: &Setup) -> Result<Box<dyn Scheme>, Fault> {
+        match self {
+            Self::Chain => chain::start(setup),
+        }
+    }
+}
+
+/// Whether a scheme is taken as its paper has it.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RuleName {
+    /// As the paper publishes it.
+    Published,
+    /// With the repairs of its refuted claims.
+    Repaired,
+}
+
+impl RuleName {
+    /// Both rules.
+    pub const ALL: [Self; 2] = [Self::Published, Self::Repaired];
+
+    /// The word on the command line.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Published => "published",
+            Self::Repaired => "repaired",
+        }
+    }
+
+    /// What the clauses say of it.
+    pub const fn subject(self) -> Subject {
+        match self {
+            Self::Published => Subject::PUBLISHED,
+            Self::Repaired => Subject::REPAIRED,
+        }
+    }
+
+    /// The chain's rule.
+    pub const fn chain(self) -> Rule {
+        self.subject().rule
+    }
+
+    /// The rule of this subject, if it is one of the two.
+    pub fn of(subject: &Subject) -> Option<Self> {
+        Self::ALL.into_iter().find(|rule| rule.subject() == *subject)
+    }
+}
+
+impl fmt::Display for RuleName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())
+    }
+}
+
+/// A run before its start: the same setup makes the same run.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    /// The scheme.
+    pub scheme: SchemeName,
+    /// As published or repaired.
+    pub rule: RuleName,
+    /// Robots, base included.
+    pub robots: u16,
+    /// The seed of whatever is left to chance.
+    pub seed: u64,
+    /// The ground truth.
+    pub layout: Layout,
+    /// Where all robots start: a free cell.
+    pub base: Cell,
+    /// When the run is stopped.
+    pub limits: Limits,
+}
+
+impl Setup {
+    /// The base of a run in `layout`: the one asked for, or that of the layout, or the free cell nearest the centre.
+    ///
+    /// # Errors
+    /// [`Problem`] if it is not a free cell.
+    pub fn choose_base(layout: &mut Layout, asked: Option<Cell>) -> Result<Cell, Problem> {
+        let base = match asked.or(layout.base()) {
+            Some(base) => base,
+            None => layout.default_base()?,
+        };
+        layout.place_base(base)?;
+        Ok(base)
+    }
+}
+
+/// When a run is stopped before it ends by itself.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Limits {
+    /// When so much is explored.
+    pub until: Option<Milestone>,
+    /// When a robot has entered so many cells.
+    pub max_moves: Option<NonZeroU32>,
+    /// What a violation does.
+    pub violation: OnViolation,
+}
+
+/// What a violation does to a run.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum OnViolation {
+    /// The run goes on.
+    #[default]
+    GoOn,
+    /// It stops, as a counterexample does.
+    Stop,
+}
+
+/// A share of the free cells of the area.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, ValueEnum, Serialize, Deserialize)]
+pub enum Milestone {
+    /// 50 %
+    #[value(name = "50")]
+    #[serde(rename = "50")]
+    Half,
+    /// 75 %
+    #[value(name = "75")]
+    #[serde(rename = "75")]
+    ThreeQuarters,
+    /// 100 %
+    #[value(name = "100")]
+    #[serde(rename = "100")]
+    Whole,
+}
+
+impl Milestone {
+    /// All, in order.
+    pub const ALL: [Self; 3] = [Self::Half, Self::ThreeQuarters, Self::Whole];
+
+    /// The share.
+    pub const fn percent(self) -> u32 {
+        match self {
+            Self::Half => 50,
+            Self::ThreeQuarters => 75,
+            Self::Whole => 100,
+        }
+    }
+
+    /// How many of `cells` it takes, rounded up.
+    pub const fn of(self, cells: u32) -> u32 {
+        (cells as u64 * self.percent() as u64).div_ceil(100) as u32
+    }
+}
+
+/// How a run ended by itself.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum End {
+    /// Every cell of the area is explored.
+    Explored,
+    /// What is left cannot be reached.
+    Exhausted,
+}
+
+/// Why a run is over.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stopped {
+    /// Every cell of the area is explored.
+    Explored,
+    /// What is left cannot be reached.
+    Exhausted,
+    /// A robot has entered as many cells as it may.
+    MaxMoves,
+    /// As much is explored as was asked for.
+    Until,
+    /// A clause was broken.
+    Violation,
+}
+
+impl Stopped {
+    /// The reason in words.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Explored => "every cell of the area is explored",
+            Self::Exhausted => "the team can explore nothing more",
+            Self::MaxMoves => "a robot has entered as many cells as it may",
+            Self::Until => "as much is explored as was asked for",
+            Self::Violation => "a clause was broken",
+        }
+    }
+}
+
+/// A clause that was broken, and when.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Violation {
+    /// What was broken.
+    pub breach: Breach,
+    /// The team move, counted from 1.
+    pub step: u32,
+}
+
+/// One team move, as a watcher sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct TeamMove<'a> {
+    /// Its number, counted from 1.
+    pub step: u32,
+    /// Where the robots were, the base first.
+    pub before: &'a [Cell],
+    /// What they did.
+    pub frame: &'a Frame,
+    /// What was broken.
+    pub breaches: &'a [Breach],
+}
+
+/// Which cell was explored when.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Chart {
+    area: Area,
+    /// Row by row: the team move, or `UNEXPLORED`.
+    steps: Vec<u32>,
+}
+
+const UNEXPLORED: u32 = u32::MAX;
+
+impl Chart {
+    fn new(area: Area) -> Self {
+        Self { area, steps: vec![UNEXPLORED; area.width() * area.height()] }
+    }
+
+    /// The cells that it spans.
+    pub const fn area(&self) -> Area {
+        self.area
+    }
+
+    fn place(&self, cell: Cell) -> Option<usize> {
+        self.area.locate(cell).map(|(column, row)| row * self.area.width() + column)
+    }
+
+    /// The team move in which `cell` was first occupied, 0 for the start; `None` if it never was.
+    pub fn step(&self, cell: Cell) -> Option<u32> {
+        self.place(cell).map(|place| self.steps[place]).filter(|&step| step != UNEXPLORED)
+    }
+
+    /// Marks `cell`; whether it was new.
+    fn mark(&mut self, cell: Cell, step: u32) -> bool {
+        let Some(place) = self.place(cell).filter(|&place| self.steps[place] == UNEXPLORED) else {
+            return false;
+        };
+        self.steps[place] = step;
+        true
+    }
+}
+
+/// What came of a run.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Report {
+    /// Team moves, backtracks included.
+    pub steps: u32,
+    /// Free cells of the area that were occupied.
+    pub explored: u32,
+    /// Free cells of the area.
+    pub cells: u32,
+    /// In which team move each [`Milestone`] was reached, if it was.
+    pub milestones: [Option<u32>; Milestone::ALL.len()],
+    /// Why it is over.
+    pub stopped: Stopped,
+    /// What was broken, in order.
+    pub violations: Vec<Violation>,
+    /// Which cell was explored when.
+    pub chart: Chart,
+}
+
+impl Report {
+    /// The team move in which `milestone` was reached, if it was.
+    pub const fn reached(&self, milestone: Milestone) -> Option<u32> {
+        self.milestones[milestone as usize]
+    }
+
+    /// What is known at the start: the base is explored.
+    fn new(setup: &Setup, scheme: &dyn Scheme) -> Self {
+        let area = scheme.area();
+        let mut report = Self {
+            steps: 0,
+            explored: 0,
+            cells: area.cells().filter(|&cell| setup.layout.is_free(cell)).count() as u32,
+            milestones: [None; Milestone::ALL.len()],
+            stopped: Stopped::Exhausted,
+            violations: Vec::new(),
+            chart: Chart::new(area),
+        };
+        report.mark(scheme.cells());
+        report
+    }
+
+    fn mark(&mut self, cells: &[Cell]) {
+        for &cell in cells {
+            self.explored += u32::from(self.chart.mark(cell, self.steps));
+        }
+        for milestone in Milestone::ALL {
+            let reached = &mut self.milestones[milestone as usize];
+            if reached.is_none() && self.explored >= milestone.of(self.cells) {
+                *reached = Some(self.steps);
+            }
+        }
+    }
+}
+
+/// Runs `setup`. `watch` sees every team move, and may stop the run for good.
+///
+/// # Errors
+/// [`Halt`] if the setup does not fit its scheme, or whatever `watch` returned.
+pub fn explore(
+    setup: &Setup,
+    watch: &mut dyn FnMut(&TeamMove<'_>) -> Result<(), Halt>,
+) -> Result<Report, Halt> {
+    let mut scheme = setup.scheme.start(setup)?;
+    let mut report = Report::new(setup, &*scheme);
+    let mut entered = vec![0_u32; scheme.cells().len()];
+    let mut before = scheme.cells().to_vec();
+    loop {
+        if let Some(stopped) = limit(setup.limits, &report, &entered) {
+            report.stopped = stopped;
+            return Ok(report);
+        }
+        let frame = match scheme.advance(&mut |edge| setup.layout.is_open(edge)) {
+            Ok(frame) => frame,
+            Err(end) => {
+                report.stopped = match end {
+                    End::Explored => Stopped::Explored,
+                    End::Exhausted => Stopped::Exhausted,
+                };
+                return Ok(report);
+            }
+        };
+        report.steps += 1;
+        report.mark(&frame.cells);
+        for (count, (from, to)) in entered.iter_mut().zip(before.iter().zip(&frame.cells)) {
+            *count += u32::from(from != to);
+        }
+        let breaches: Vec<Breach> =
+            scheme.breaches().iter().copied().filter(|breach| breach.is_in(&before, &frame.cells)).collect();
+        let step = report.steps;
+        report.violations.extend(breaches.iter().map(|&breach| Violation { breach, step }));
+        watch(&TeamMove { step, before: &before, frame: &frame, breaches: &breaches })?;
+        before = frame.cells;
+    }
+}
+
+fn limit(limits: Limits, report: &Report, entered: &[u32]) -> Option<Stopped> {
+    let is_far = |most: NonZeroU32| entered.iter().any(|&count| count >= most.get());
+    if limits.violation == OnViolation::Stop && !report.violations.is_empty() {
+        Some(Stopped::Violation)
+    } else if limits.until.is_some_and(|milestone| report.reached(milestone).is_some()) {
+        Some(Stopped::Until)
+    } else if limits.max_moves.is_some_and(is_far) {
+        Some(Stopped::MaxMoves)
+    } else {
+        None
+    }
+}

@@ -1,0 +1,113 @@
+//! From the search over all layouts to files that anyone can replay: a [`Counterexample`] becomes the setup of a run
+//! in a layout that has the walls met and no others.
+
+use std::path::{Path, PathBuf};
+
+use tautline_kernel::lattice::Cell;
+use tautline_proofs::invariant::Invariant;
+use tautline_proofs::run::Breach;
+use tautline_proofs::search::{Bounds, Counterexample};
+
+use crate::explore::{Limits, OnViolation, Report, RuleName, SchemeName, Setup, explore};
+use crate::fault::{Fault, Halt};
+use crate::layout::{Layout, Problem, Size};
+use crate::trace;
+
+/// The run that `found` is, in the area and with the robots of `bounds`; it stops at the violation.
+///
+/// # Errors
+/// [`Problem`] if the area is too large for a layout, or the base is outside.
+pub fn setup(rule: RuleName, bounds: &Bounds, found: &Counterexample) -> Result<Setup, Problem> {
+    let mut layout = Layout::open(bounds.area.width() as u64, bounds.area.height() as u64)?;
+    let origin = bounds.area.first();
+    let shifted = |cell: Cell| Cell::new(cell.x - origin.x, cell.y - origin.y);
+    for wall in &found.walls {
+        layout.build_wall(tautline_kernel::lattice::Edge::new(shifted(wall.cell()), wall.side()));
+    }
+    let base = shifted(bounds.base);
+    layout.place_base(base)?;
+    Ok(Setup {
+        scheme: SchemeName::Chain,
+        rule,
+        robots: bounds.robots as u16,
+        seed: 0,
+        layout,
+        base,
+        limits: Limits { violation: OnViolation::Stop, ..Limits::default() },
+    })
+}
+
+/// Stores the run of `setup`, which breaks `breach`, in `folder` under a name that says so.
+///
+/// # Errors
+/// [`Halt`] if it cannot be written.
+pub fn store(folder: &Path, setup: &Setup, breach: Breach) -> Result<(PathBuf, Report), Halt> {
+    let clause = breach.clause().to_lowercase();
+    let path = folder.join(format!("{clause}-{}-n{}.jsonl", setup.rule, setup.robots));
+    let mut writer = trace::Writer::new(&path, setup, Some(breach))?;
+    let report = explore(setup, &mut |made| Ok(writer.add(made)?))?;
+    writer.end(&report)?;
+    Ok((path, report))
+}
+
+/// The breach that an invariant forbids, if it is one of safety.
+pub const fn breach(invariant: Invariant) -> Option<Breach> {
+    match invariant {
+        Invariant::Without(breach) => Some(breach),
+        Invariant::Admitted
+        | Invariant::Distinct
+        | Invariant::BaseStays
+        | Invariant::Progress
+        | Invariant::Heard => None,
+    }
+}
+
+/// Ways in which one team move can come out, above which a search would fill the memory.
+const MAX_BRANCHES: u64 = 1 << 13;
+
+/// The bounds of a hunt for `robots` in layouts of `size`, by default the (2N−1)² cells of the paper, with at most
+/// `max_walls`.
+///
+/// # Errors
+/// A [`Fault`] if there are too few or too many robots, or too many walls for them.
+pub fn bounds(rule: RuleName, robots: usize, max_walls: u32, size: Option<Size>) -> Result<Bounds, Fault> {
+    const MAX_ROBOTS: usize = 64;
+    if !(2..=MAX_ROBOTS).contains(&robots) {
+        return Err(Fault::usage(
+            format_args!("a hunt for a chain of {robots} robots"),
+            format_args!("give --robots a number from 2 to {MAX_ROBOTS}, the base counted"),
+        ));
+    }
+    let mut bounds = Bounds::new(rule.subject(), robots, max_walls);
+    if let Some(size) = size {
+        let last = Cell::new(size.width() - 1, size.height() - 1);
+        let first = Cell::new(0, 0);
+        bounds.base = Cell::new(last.x / 2, last.y / 2);
+        bounds.area =
+            tautline_kernel::grid::Area::new(first, last).unwrap_or(tautline_kernel::grid::Area::of(first));
+    }
+    let branches = branches(robots as u64 - 1, u64::from(max_walls));
+    if branches > MAX_BRANCHES {
+        return Err(Fault::usage(
+            format_args!(
+                "with {robots} robots and {max_walls} walls one team move can come out in more than {MAX_BRANCHES} ways"
+            ),
+            "give fewer --robots or --max-walls",
+        ));
+    }
+    Ok(bounds)
+}
+
+/// The number of subsets of at most `most` of `items`, or something above [`MAX_BRANCHES`].
+fn branches(items: u64, most: u64) -> u64 {
+    let mut sum = 0;
+    let mut subsets = 1;
+    for chosen in 0..=most.min(items) {
+        sum += subsets;
+        if sum > MAX_BRANCHES {
+            break;
+        }
+        subsets = subsets * (items - chosen) / (chosen + 1);
+    }
+    sum
+}

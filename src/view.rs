@@ -1,0 +1,341 @@
+//! Drawings in text that a person can judge: layouts, team moves, the order of exploration, the environments of a
+//! cell. Walls are drawn as in our layout format. Pictures for pages are in [`svg`], the words that go with a
+//! counterexample in [`story`].
+
+pub mod story;
+
+use std::fmt::Write;
+
+use tautline_kernel::grid::Area;
+use tautline_kernel::lattice::{Cell, Circle, Edge, Side, Step, neighbours};
+use tautline_proofs::run::Frame;
+
+use crate::explore::{Chart, Setup, TeamMove};
+use crate::layout::Layout;
+
+/// Drawings beside each other take up at most so many columns.
+const PAGE_COLUMNS: usize = 100;
+
+/// What a drawing of team moves means.
+pub const LEGEND: &str = "B is the base, with the robots beside it or +K for K of them; 2, 3, … are the robots, the \
+                          last one leads; · is explored, ## blocked; x stands where a robot met a wall.";
+
+/// Lines of text with a title above them.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Block {
+    /// One line.
+    pub title: String,
+    /// The drawing.
+    pub lines: Vec<String>,
+}
+
+/// Blocks beside each other, as many in a row as the page holds.
+pub fn beside(blocks: &[Block]) -> String {
+    let columns = |block: &Block| {
+        let longest = block.lines.iter().map(|line| line.chars().count()).max().unwrap_or(0);
+        longest.max(block.title.chars().count())
+    };
+    let width = blocks.iter().map(columns).max().unwrap_or(0);
+    let across = ((PAGE_COLUMNS + 3) / (width + 3)).max(1);
+    let mut text = String::new();
+    for row in blocks.chunks(across) {
+        let height = row.iter().map(|block| block.lines.len()).max().unwrap_or(0);
+        for line in 0..=height {
+            let parts: Vec<String> = row
+                .iter()
+                .map(|block| match line.checked_sub(1) {
+                    None => format!("{:width$}", block.title),
+                    Some(line) => format!("{:width$}", block.lines.get(line).map_or("", String::as_str)),
+                })
+                .collect();
+            text.push_str(parts.join("   ").trim_end());
+            text.push('\n');
+        }
+        text.push('\n');
+    }
+    text.truncate(text.trim_end().len());
+    text + "\n"
+}
+
+/// The cells of `area`, with a label of at most `width` characters in each. `is_marked` says which edges show an x.
+fn grid(
+    layout: &Layout,
+    area: Area,
+    width: usize,
+    label: impl Fn(Cell) -> String,
+    is_marked: impl Fn(Edge) -> bool,
+) -> Vec<String> {
+    let is_closed =
+        |edge: Edge| layout.has_wall(edge) || !area.contains(edge.cell()) || !area.contains(beyond(edge));
+    let (first, last) = (area.first(), area.last());
+    let mut lines = Vec::with_capacity(2 * area.height() + 1);
+    for y in first.y..=last.y.saturating_add(1) {
+        let mut walls = String::new();
+        for x in first.x..=last.x {
+            let edge = Edge::new(Cell::new(x, y), Side::North);
+            walls.push('+');
+            let side = match (is_marked(edge), is_closed(edge)) {
+                (true, _) => "x",
+                (false, true) => "-",
+                (false, false) => " ",
+            };
+            walls.push_str(&side.repeat(width));
+        }
+        walls.push('+');
+        lines.push(walls);
+        if y > last.y {
+            break;
+        }
+        let mut cells = String::new();
+        for x in first.x..=last.x.saturating_add(1) {
+            let cell = Cell::new(x, y);
+            let edge = Edge::new(cell, Side::West);
+            cells.push(match (is_marked(edge), is_closed(edge)) {
+                (true, _) => 'x',
+                (false, true) => '|',
+                (false, false) => ' ',
+            });
+            if x <= last.x {
+                let inside = if layout.is_free(cell) { label(cell) } else { "#".repeat(width) };
+                // Writing to a string cannot fail.
+                let _ = write!(cells, "{inside:^width$}");
+            }
+        }
+        lines.push(cells);
+    }
+    lines
+}
+
+fn beyond(edge: Edge) -> Cell {
+    edge.cell().beyond(edge.side())
+}
+
+/// A drawing of `layout` with the `base`, as wide as it is; without the header that a file has.
+pub fn layout(layout: &Layout) -> String {
+    layout
+        .to_string()
+        .lines()
+        .filter(|line| line.starts_with(['+', '|', ' ']))
+        .fold(String::new(), |text, line| text + line + "\n")
+}
+
+/// What a drawing of a team move shows.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Pose {
+    /// The robots where they were, each with the arrow of what it tries.
+    Before,
+    /// The robots where they are.
+    After,
+}
+
+/// One team move of the run of `setup`. `chart` knows the explored cells.
+pub fn team_move(setup: &Setup, chart: &Chart, made: &TeamMove<'_>, pose: Pose) -> Block {
+    let (cells, step) = match pose {
+        Pose::Before => (made.before, made.step - 1),
+        Pose::After => (made.frame.cells.as_slice(), made.step),
+    };
+    let labels = Labels { cells, steps: (pose == Pose::Before).then_some(&made.frame.steps) };
+    let is_explored = |cell| chart.step(cell).is_some_and(|explored| explored <= step);
+    let bumps = bumps(made.before, made.frame);
+    let lines = if is_bare(setup, chart.area()) && pose == Pose::After {
+        bare(&setup.layout, chart.area(), cells, is_explored)
+    } else {
+        let label = |cell| labels.label(cell, is_explored(cell));
+        grid(&setup.layout, chart.area(), labels.width(), label, |edge| bumps.contains(&edge))
+    };
+    Block { title: title(made), lines }
+}
+
+fn title(made: &TeamMove<'_>) -> String {
+    let kind = match made.frame.kind {
+        tautline_kernel::chain::Kind::Advance => "",
+        tautline_kernel::chain::Kind::Backtrack => " (back)",
+    };
+    let broken: Vec<&str> = made.breaches.iter().map(|breach| breach.clause()).collect();
+    let broken = if broken.is_empty() { String::new() } else { format!(" breaks {}", broken.join(", ")) };
+    format!("move {}{kind}{broken}", made.step)
+}
+
+/// The edges where robots met a wall.
+fn bumps(before: &[Cell], frame: &Frame) -> Vec<Edge> {
+    let tried = before.iter().zip(frame.steps.iter().zip(&frame.blocked));
+    tried
+        .filter_map(|(&cell, (&step, &blocked))| match step {
+            Step::Cross(side) if blocked => Some(Edge::new(cell, side)),
+            Step::Cross(_) | Step::Stay => None,
+        })
+        .collect()
+}
+
+/// The labels of the cells in a drawing of a team.
+struct Labels<'a> {
+    cells: &'a [Cell],
+    /// What each robot tries, if arrows are to be drawn.
+    steps: Option<&'a Vec<Step>>,
+}
+
+impl Labels<'_> {
+    fn label(&self, cell: Cell, is_explored: bool) -> String {
+        let here: Vec<usize> = (1..self.cells.len()).filter(|&robot| self.cells[robot] == cell).collect();
+        let is_base = self.cells[0] == cell;
+        if here.is_empty() {
+            let explored = if is_explored { "·" } else { "" };
+            return if is_base { "B" } else { explored }.to_owned();
+        }
+        if is_base
+            && here.len() > 1
+            && self.steps.is_none_or(|steps| here.iter().all(|&robot| steps[robot] == Step::Stay))
+        {
+            return format!("B+{}", here.len());
+        }
+        let names: Vec<String> = here.iter().map(|&robot| self.name(robot)).collect();
+        let names = names.join(if self.cells.len() > 9 && self.steps.is_none() { "," } else { "" });
+        if is_base { format!("B{names}") } else { names }
+    }
+
+    fn name(&self, robot: usize) -> String {
+        let arrow = self.steps.map_or("", |steps| arrow(steps[robot]));
+        format!("{}{arrow}", robot + 1)
+    }
+
+    /// Columns of the widest label.
+    fn width(&self) -> usize {
+        let least = if self.cells.len() > 9 { 4 } else { 3 };
+        self.cells.iter().map(|&cell| self.label(cell, false).chars().count()).max().unwrap_or(0).max(least)
+    }
+}
+
+/// The arrow of a step; a robot that stays has a dot.
+const fn arrow(step: Step) -> &'static str {
+    match step {
+        Step::Cross(Side::East) => "→",
+        Step::Cross(Side::South) => "↓",
+        Step::Cross(Side::West) => "←",
+        Step::Cross(Side::North) => "↑",
+        Step::Stay => "·",
+    }
+}
+
+/// Digits and letters: the robots that have a character of their own.
+const SYMBOLS: &str = "123456789abcdefghijklmnopqrstuvwxyz";
+
+/// Whether one character for each cell is enough to draw the run: there are no walls.
+fn is_bare(setup: &Setup, area: Area) -> bool {
+    usize::from(setup.robots) <= SYMBOLS.len() && !area.edges().any(|edge| setup.layout.has_wall(edge))
+}
+
+/// A drawing with one character for each cell, of a team in an area without walls.
+fn bare(layout: &Layout, area: Area, team: &[Cell], is_explored: impl Fn(Cell) -> bool) -> Vec<String> {
+    let symbol = |cell: Cell| {
+        let mut here = (1..team.len()).filter(|&robot| team[robot] == cell);
+        match (here.next(), here.next()) {
+            _ if cell == team[0] => 'B',
+            (Some(robot), None) => SYMBOLS.chars().nth(robot).unwrap_or('*'),
+            (Some(_), Some(_)) => '*',
+            (None, _) if !layout.is_free(cell) => '#',
+            (None, _) if is_explored(cell) => '·',
+            (None, _) => ' ',
+        }
+    };
+    let rim = format!("+{}+", "-".repeat(area.width()));
+    let (first, last) = (area.first(), area.last());
+    let rows = (first.y..=last.y).map(|y| {
+        let row: String = (first.x..=last.x).map(|x| symbol(Cell::new(x, y))).collect();
+        format!("|{row}|")
+    });
+    std::iter::once(rim.clone()).chain(rows).chain([rim.clone()]).collect()
+}
+
+/// The order of exploration: in each cell the team move in which it was explored.
+pub fn order(setup: &Setup, chart: &Chart) -> String {
+    let label = |cell| match chart.step(cell) {
+        Some(0) => "B".to_owned(),
+        Some(step) => step.to_string(),
+        None => String::new(),
+    };
+    let width = chart.area().cells().map(|cell| label(cell).len()).max().unwrap_or(0).max(2);
+    grid(&setup.layout, chart.area(), width, label, |_| false).join("\n") + "\n"
+}
+
+/// What was explored, and where the team is in the end.
+pub fn outcome(setup: &Setup, chart: &Chart, team: &[Cell]) -> String {
+    let labels = Labels { cells: team, steps: None };
+    let label = |cell| labels.label(cell, chart.step(cell).is_some());
+    grid(&setup.layout, chart.area(), labels.width(), label, |_| false).join("\n") + "\n"
+}
+
+/// A set of cells round one cell.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Environment {
+    /// E_N: where a robot can be after one step.
+    Neighbours,
+    /// E_S: the cells wholly within r_safe.
+    Safe,
+    /// E_C: the cells wholly within r_cov.
+    Covered,
+}
+
+impl Environment {
+    /// All three, the smallest first.
+    pub const ALL: [Self; 3] = [Self::Neighbours, Self::Safe, Self::Covered];
+
+    /// Its symbol in the paper.
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::Neighbours => "E_N",
+            Self::Safe => "E_S",
+            Self::Covered => "E_C",
+        }
+    }
+
+    /// What it is.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Neighbours => "one step or none",
+            Self::Safe => "wholly within r_safe",
+            Self::Covered => "wholly within r_cov",
+        }
+    }
+
+    /// The circle that decides it, if one does.
+    pub const fn circle(self) -> Option<Circle> {
+        match self {
+            Self::Neighbours => None,
+            Self::Safe => Some(Circle::SAFE),
+            Self::Covered => Some(Circle::COVERED),
+        }
+    }
+
+    /// Columns and rows from the centre to its cells, row by row.
+    pub fn offsets(self) -> impl Iterator<Item = Cell> {
+        let centre = Cell::new(0, 0);
+        let square = (-REACH..=REACH).flat_map(|y| (-REACH..=REACH).map(move |x| Cell::new(x, y)));
+        square.filter(move |&cell| self.has(centre, cell))
+    }
+
+    /// Whether `cell` is in it.
+    pub fn has(self, centre: Cell, cell: Cell) -> bool {
+        self.circle().map_or_else(|| neighbours(centre, cell), |circle| circle.covers(centre, cell))
+    }
+}
+
+/// Cells shown on each side of the centre of an environment.
+const REACH: i16 = 3;
+
+/// The three environments of the cell R.
+pub fn environments() -> String {
+    let centre = Cell::new(0, 0);
+    let blocks = Environment::ALL.map(|environment| {
+        let symbol = |cell| match (cell == centre, environment.has(centre, cell)) {
+            (true, _) => "R",
+            (false, true) => "#",
+            (false, false) => "·",
+        };
+        let rows = (-REACH..=REACH).map(|y| {
+            let row: Vec<&str> = (-REACH..=REACH).map(|x| symbol(Cell::new(x, y))).collect();
+            row.join(" ")
+        });
+        Block { title: format!("{}, {}", environment.symbol(), environment.words()), lines: rows.collect() }
+    });
+    beside(&blocks)
+}

@@ -1,0 +1,127 @@
+//! The words that go with a violation: what the clause demands, and what the robots did to break it.
+
+use std::fmt::Write;
+
+use tautline_kernel::lattice::{Cell, Circle, Side, Step};
+use tautline_proofs::registry::CLAUSES;
+use tautline_proofs::run::{Breach, stays_in_range};
+
+use super::{Block, Pose, beside, team_move};
+use crate::explore::{Chart, Setup, TeamMove, explore};
+use crate::fault::Halt;
+
+/// The sentence of the clause `id`.
+pub fn sentence(id: &str) -> &'static str {
+    CLAUSES.iter().find(|clause| clause.id == id).map_or("", |clause| clause.sentence)
+}
+
+/// How the team move `made` breaks its clauses: the sentences, what each robot did, and the move drawn.
+pub fn of(setup: &Setup, chart: &Chart, made: &TeamMove<'_>) -> String {
+    let mut text = String::new();
+    for &breach in made.breaches {
+        let clause = breach.clause();
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "Team move {} breaks {clause}: {}", made.step, sentence(clause));
+    }
+    text.push('\n');
+    for (robot, &from) in made.before.iter().enumerate().skip(1) {
+        let _ = writeln!(text, "  R_{} at {from} {}.", robot + 1, did(made, robot));
+    }
+    for &breach in made.breaches {
+        for line in result(breach, made) {
+            let _ = writeln!(text, "  {line}");
+        }
+    }
+    text.push('\n');
+    let draw = |pose, title: &str| Block { title: title.to_owned(), ..team_move(setup, chart, made, pose) };
+    text + &beside(&[draw(Pose::Before, "before, with what each robot tries"), draw(Pose::After, "after")])
+}
+
+fn did(made: &TeamMove<'_>, robot: usize) -> String {
+    let to = made.frame.cells[robot];
+    match (made.frame.steps[robot], made.frame.blocked[robot]) {
+        (Step::Stay, _) => "stays".to_owned(),
+        (Step::Cross(side), true) => format!("tries to go {}, meets a wall and stays", towards(side)),
+        (Step::Cross(side), false) => format!("goes {} to {to}", towards(side)),
+    }
+}
+
+const fn towards(side: Side) -> &'static str {
+    match side {
+        Side::East => "east",
+        Side::South => "south",
+        Side::West => "west",
+        Side::North => "north",
+    }
+}
+
+/// What is wrong afterwards, one line for each pair or cell.
+fn result(breach: Breach, made: &TeamMove<'_>) -> Vec<String> {
+    let (before, after) = (made.before, made.frame.cells.as_slice());
+    match breach {
+        Breach::Contact => pairs(after)
+            .filter(|&(_, [behind, ahead])| !Circle::COVERED.covers(behind, ahead))
+            .map(|(robot, pair)| {
+                format!(
+                    "So R_{} is {} from R_{robot}: outside E_C, its cell is not wholly covered.",
+                    robot + 1,
+                    apart(pair)
+                )
+            })
+            .collect(),
+        Breach::Crowding => {
+            let mut crowded: Vec<Cell> = after.iter().copied().filter(|&cell| cell != after[0]).collect();
+            crowded.sort_unstable();
+            crowded
+                .chunk_by(|one, other| one == other)
+                .filter(|cells| cells.len() > 2)
+                .map(|cells| {
+                    let robots: Vec<String> = (1..)
+                        .zip(after)
+                        .filter(|&(_, &cell)| cell == cells[0])
+                        .map(|(robot, _)| format!("R_{robot}"))
+                        .collect();
+                    format!("So {} are in one cell, {}.", robots.join(", "), cells[0])
+                })
+                .collect()
+        }
+        Breach::Coverage => pairs(before)
+            .zip(pairs(after))
+            .filter(|((_, from), (_, to))| !stays_in_range([from[0], to[0]], [from[1], to[1]]))
+            .map(|((robot, _), (_, pair))| {
+                format!(
+                    "So the centres of R_{robot} and R_{}, {} apart in the end, may leave r_cov.",
+                    robot + 1,
+                    apart(pair)
+                )
+            })
+            .collect(),
+    }
+}
+
+/// Neighbours in the chain, with the number of the one behind.
+fn pairs(cells: &[Cell]) -> impl Iterator<Item = (usize, [Cell; 2])> {
+    (1..).zip(cells.windows(2).map(|pair| [pair[0], pair[1]]))
+}
+
+fn apart([one, other]: [Cell; 2]) -> String {
+    let (columns, rows) = one.apart(other);
+    let count = |number: u16, word: &str| format!("{number} {word}{}", if number == 1 { "" } else { "s" });
+    format!("{} and {}", count(columns, "column"), count(rows, "row"))
+}
+
+/// How the last team move of the run of `setup` breaks its clauses.
+///
+/// # Errors
+/// [`Halt`] if the setup does not fit its scheme.
+pub fn last_move(setup: &Setup) -> Result<String, Halt> {
+    let report = explore(setup, &mut |_| Ok(()))?;
+    let mut story = String::new();
+    explore(setup, &mut |made| {
+        if made.step == report.steps {
+            story = of(setup, &report.chart, made);
+        }
+        Ok(())
+    })?;
+    Ok(story)
+}
