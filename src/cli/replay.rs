@@ -98,11 +98,7 @@ impl Replay {
                     Ok(())
                 })?;
                 let run = Summary::new(&setup, &name, &report);
-                out.json(&Replayed {
-                    run,
-                    counterexample_to: clause.map(Breach::clause),
-                    moves: shown,
-                })?;
+                out.json(&Replayed { run, counterexample_to: clause.map(Breach::clause), moves: shown })?;
             }
             Format::Text => {
                 out.text(summary(&setup, &name, &report))?;
