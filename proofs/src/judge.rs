@@ -87,15 +87,15 @@ pub fn judge(exhibit: &Exhibit) -> Result<(), Objection> {
         "CHAIN-3" => range_is_left,
         _ => return Err(whole("there is no such clause to break in a run")),
     };
-    if exhibit.robots < 2 || exhibit.moves.is_empty() {
-        return Err(whole("a counterexample needs two robots and a move"));
-    }
+    let first = exhibit.moves.first().filter(|_| exhibit.robots >= 2);
+    let Some(first) = first else { return Err(whole("a counterexample needs two robots and a move")) };
     if !exhibit.is_free(exhibit.base) {
         return Err(whole("the base is not a free cell of the layout"));
     }
     let mut court = Court {
         exhibit,
-        places: vec![exhibit.base; exhibit.robots],
+        // The number of robots is checked with each move, and may be any before.
+        places: vec![exhibit.base; first.places.len()],
         history: Vec::new(),
         walls: BTreeSet::new(),
         open: BTreeSet::new(),
@@ -155,7 +155,7 @@ impl Court<'_> {
         if [made.tried.len(), made.blocked.len(), made.places.len()] != [robots; 3] {
             return Err("every robot has a step, an outcome and a place");
         }
-        if made.tried.iter().any(|&(x, y)| x.abs() + y.abs() > 1) {
+        if made.tried.iter().any(|&(x, y)| x.unsigned_abs().saturating_add(y.unsigned_abs()) > 1) {
             return Err("a step leads to a side neighbour or nowhere");
         }
         if made.tried[0] != (0, 0) || made.blocked[0] || made.places[0] != self.exhibit.base {
@@ -398,7 +398,8 @@ mod tests {
             rejects(&|changed| changed.clause = "CHAIN-3".to_owned(), "another clause");
             rejects(&|changed| changed.robots = 5, "another robot");
             rejects(&|changed| changed.base = (2, 3), "another base");
-            rejects(&|changed| drop(changed.blocked.insert((3, 3))), "a blocked base");
+            rejects(&|changed| changed.blocked = BTreeSet::from([(3, 3)]), "a blocked base");
+            rejects(&|changed| changed.robots = usize::MAX, "more robots than there can be");
         }
     }
 }
