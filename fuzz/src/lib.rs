@@ -4,26 +4,29 @@
 
 #![allow(clippy::missing_panics_doc, reason = "a panic is how a body tells what it found")]
 
-use std::collections::BTreeSet;
 use std::hint::black_box;
+use std::io::Write;
 use std::path::Path;
 
-use tautline::fault::{Colour, Fault};
-use tautline::layout::{Layout, Misread, movingai, ros, text};
+use tautline::exhibit::exhibit;
+use tautline::explore::{Limits, RuleName, SchemeName, Setup};
+use tautline::fault::{Colour, Fault, Halt};
+use tautline::layout::{Layout, Misread, Size, movingai, ros, text};
+use tautline::trace::Trace;
 use tautline::wide::WideGrid;
-use tautline_kernel::chain::{Chain, Intent, Kind, Rule};
+use tautline_kernel::chain::{Chain, Intent, Rule};
 use tautline_kernel::choice::{Source, one_of};
 use tautline_kernel::grid::{Area, Grid, SmallGrid};
-use tautline_kernel::lattice::{Cell, Edge, Side, Step};
+use tautline_kernel::lattice::{Cell, Edge};
 use tautline_proofs::engine::{Seeded, Tape};
-use tautline_proofs::judge::{self, Exhibit, Place, Repairs};
+use tautline_proofs::judge::{self, Exhibit};
 use tautline_proofs::run::{Breach, Frame};
 
 /// The body of a target.
 pub type Body = fn(&[u8]);
 
 /// Every target's name and body.
-pub const TARGETS: [(&str, Body); 7] = [
+pub const TARGETS: [(&str, Body); 8] = [
     ("chain", chain),
     ("chain_log", chain_log),
     ("judge", judge),
@@ -31,6 +34,7 @@ pub const TARGETS: [(&str, Body); 7] = [
     ("layout_ros", layout_ros),
     ("layout_text", layout_text),
     ("plan_cost", plan_cost),
+    ("trace", trace),
 ];
 
 /// The bytes as the numbers of a tape.
@@ -46,7 +50,7 @@ pub fn chain(bytes: &[u8]) {
     let (rule, kept): (Rule, &[Breach]) =
         if source.flip() { (Rule::PUBLISHED, &[Breach::Coverage]) } else { (Rule::REPAIRED, &Breach::ALL) };
     let robots = source.pick(31) as usize + 2;
-    let (area, base) = area(robots, &mut source);
+    let (_, area, base) = area(robots, &mut source);
     let last = if robots <= 8 {
         let grid = SmallGrid::new(area).expect("at most 15 cells a side");
         let chain = Chain::<_, 8>::new(rule, robots, base, grid).expect("it fits");
@@ -58,14 +62,16 @@ pub fn chain(bytes: &[u8]) {
     assert!(robots > 8 || last == Last::Ended, "a chain of {robots} is still under way");
 }
 
-/// An area that a chain of `robots` can span, and a base in it.
-fn area(robots: usize, source: &mut dyn Source) -> (Area, Cell) {
+/// The size of a layout that a chain of `robots` can explore from anywhere in it, what it can explore of the
+/// layout from a base, and that base.
+fn area(robots: usize, source: &mut dyn Source) -> (Size, Area, Cell) {
     let most = 2 * robots as u32 - 1;
     let (width, height) = (most - source.pick(most), most - source.pick(most));
     let base = Cell::new((width - 1 - source.pick(width)) as i16, (height - 1 - source.pick(height)) as i16);
-    let last = Cell::new(width as i16 - 1, height as i16 - 1);
-    let area = Area::new(Cell::new(0, 0), last).expect("it has cells");
-    (Chain::<SmallGrid, 8>::area(area, base, robots).expect("the base is in it"), base)
+    let size = Size::new(width.into(), height.into()).expect("a small layout");
+    let whole = Area::new(Cell::new(0, 0), Cell::new(size.width() - 1, size.height() - 1));
+    let area = whole.and_then(|whole| Chain::<SmallGrid, 8>::area(whole, base, robots));
+    (size, area.expect("the base is in it"), base)
 }
 
 /// An edge is open unless its number is in the upper quarter, so that a tape of any numbers has both.
@@ -125,7 +131,7 @@ pub fn chain_log(bytes: &[u8]) {
     let rule = one_of(&mut source, &[Rule::REPAIRED, Rule::PUBLISHED]);
     let robots = source.pick(7) as usize + 2;
     let good_moves = source.pick(64);
-    let (area, base) = area(robots, &mut source);
+    let (_, area, base) = area(robots, &mut source);
     let grid = SmallGrid::new(area).expect("at most 15 cells a side");
     let mut chain = Chain::<_, 8>::new(rule, robots, base, grid).expect("it fits");
     let mut good_log = Vec::new();
@@ -144,64 +150,42 @@ pub fn judge(bytes: &[u8]) {
     let mut source = Tape(&numbers);
     let robots = source.pick(7) as usize + 2;
     let change = [source.pick(256), source.pick(256), source.pick(256), source.pick(256)];
-    let (area, base) = area(robots, &mut source);
-    // The judge's layout begins at 0,0.
-    let place = |cell: Cell| (i32::from(cell.x - area.first().x), i32::from(cell.y - area.first().y));
-    let mut exhibit = Exhibit {
-        clause: String::new(),
-        repairs: Repairs::Without,
-        width: area.width() as i32,
-        height: area.height() as i32,
-        walls: BTreeSet::new(),
-        blocked: BTreeSet::new(),
-        base: place(base),
-        robots,
-        moves: Vec::new(),
-    };
+    let (size, area, base) = area(robots, &mut source);
     let grid = SmallGrid::new(area).expect("at most 15 cells a side");
     let chain = Chain::<_, 8>::new(Rule::PUBLISHED, robots, base, grid).expect("it fits");
-    let mut walls = BTreeSet::new();
-    let mut clause = None;
-    let answer = |edge: Edge| {
+    let mut layout = Layout::of(size);
+    let (mut frames, mut broken) = (Vec::new(), None);
+    let answer = |edge| {
         let open = is_open(&mut source);
         if !open {
-            walls.insert((place(edge.cell()), place(edge.cell().beyond(edge.side()))));
+            layout.build_wall(edge);
         }
         open
     };
-    let moves = &mut exhibit.moves;
     follow(chain, 500, answer, |before, frame| {
-        moves.push(judge::Move {
-            is_backtrack: frame.kind == Kind::Backtrack,
-            tried: frame.steps.iter().copied().map(offset).collect(),
-            blocked: frame.blocked.clone(),
-            places: frame.cells.iter().copied().map(place).collect(),
-        });
-        clause = Breach::ALL.into_iter().find(|breach| breach.is_in(before, &frame.cells));
-        if clause.is_some() { Next::Stop } else { Next::Go }
+        frames.push(frame.clone());
+        broken = Breach::ALL.into_iter().find(|breach| breach.is_in(before, &frame.cells));
+        if broken.is_some() { Next::Stop } else { Next::Go }
     });
-    exhibit.walls = walls;
-    if let Some(breach) = clause {
-        breach.clause().clone_into(&mut exhibit.clause);
-        assert_eq!(judge::judge(&exhibit), Ok(()));
-        if let Some(&wall) = exhibit.walls.iter().nth(change[0] as usize) {
-            let mut without = exhibit.clone();
-            without.walls.remove(&wall);
-            assert!(judge::judge(&without).is_err(), "it does not need {wall:?}: {exhibit:?}");
-        }
+    let Some(breach) = broken else { return };
+    let setup = Setup {
+        scheme: SchemeName::Chain,
+        rule: RuleName::Published,
+        robots: robots as u16,
+        seed: 0,
+        layout,
+        base,
+        limits: Limits::default(),
+    };
+    let mut exhibit = exhibit(&setup, breach, &frames);
+    assert_eq!(judge::judge(&exhibit), Ok(()));
+    if let Some(wall) = exhibit.walls.iter().nth(change[0] as usize).copied() {
+        exhibit.walls.remove(&wall);
+        assert!(judge::judge(&exhibit).is_err(), "it does not need {wall:?}: {exhibit:?}");
+        exhibit.walls.insert(wall);
     }
     alter(&mut exhibit, change);
     let _ = black_box(judge::judge(&exhibit));
-}
-
-fn offset(step: Step) -> Place {
-    match step {
-        Step::Cross(Side::East) => (1, 0),
-        Step::Cross(Side::South) => (0, 1),
-        Step::Cross(Side::West) => (-1, 0),
-        Step::Cross(Side::North) => (0, -1),
-        Step::Stay => (0, 0),
-    }
 }
 
 /// Changes one thing of one team move.
@@ -272,6 +256,23 @@ pub fn layout_ros(bytes: &[u8]) {
             Err(problem) => told(&Fault::in_file(Path::new("map.pgm"), &problem, problem.remedy())),
         },
         Err(misread) => read_back(source, Err(misread)),
+    }
+}
+
+/// Any text as a stored run, made again for its first team moves.
+pub fn trace(bytes: &[u8]) {
+    let mut file = tempfile::NamedTempFile::new().expect("a file");
+    file.write_all(bytes).expect("it can be written");
+    let mut left = 100;
+    let replayed = Trace::open(file.path()).map_err(Halt::Fault).and_then(|trace| {
+        trace.replay(&mut |_| {
+            left -= 1;
+            if left == 0 { Err(Halt::Interrupted) } else { Ok(()) }
+        })
+    });
+    match replayed {
+        Ok(_) | Err(Halt::Interrupted) => {}
+        Err(Halt::Fault(fault)) => told(&fault),
     }
 }
 
