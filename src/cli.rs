@@ -9,6 +9,7 @@ mod output;
 mod progress;
 mod prove;
 mod replay;
+mod reproduce;
 mod show;
 
 use std::io::{self, IsTerminal, Write};
@@ -71,6 +72,7 @@ enum Command {
     Hunt(hunt::Hunt),
     Replay(replay::Replay),
     Show(show::Show),
+    Reproduce(reproduce::Reproduce),
 
     /// Print a completion script for a shell.
     #[command(after_help = "Example: tautline completions bash > /etc/bash_completion.d/tautline")]
@@ -183,7 +185,7 @@ fn command(cli: &Cli) -> Exit {
             Exit::Fault
         }
         Err(Halt::Interrupted) => {
-            eprintln!("Interrupted before the end: nothing is claimed, and nothing was stored.");
+            eprintln!("Interrupted before the end: nothing is claimed.");
             Exit::Unfinished
         }
     }
@@ -197,6 +199,7 @@ impl Command {
             Self::Hunt(hunt) => hunt.run(out),
             Self::Replay(replay) => replay.run(out),
             Self::Show(show) => show.run(out),
+            Self::Reproduce(reproduce) => reproduce.run(out),
             Self::Completions { shell } => {
                 let mut script = Vec::new();
                 clap_complete::generate(*shell, &mut Cli::command(), "tautline", &mut script);

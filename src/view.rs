@@ -2,7 +2,9 @@
 //! cell. Walls are drawn as in our layout format. Pictures for pages are in [`svg`], the words that go with a
 //! counterexample in [`story`].
 
+pub mod page;
 pub mod story;
+pub mod svg;
 
 use std::fmt::Write;
 
@@ -303,6 +305,15 @@ impl Environment {
             Self::Neighbours => None,
             Self::Safe => Some(Circle::SAFE),
             Self::Covered => Some(Circle::COVERED),
+        }
+    }
+
+    /// The radius of that circle in sides of a cell.
+    pub fn radius(self) -> Option<f64> {
+        match self {
+            Self::Neighbours => None,
+            Self::Safe => Some(1.5 * 2_f64.sqrt()),
+            Self::Covered => Some(26_f64.sqrt() / 2.0),
         }
     }
 

@@ -5,7 +5,7 @@ use tautline_kernel::chain::Refused;
 
 use crate::clause::{Check, Method, Subject, Verdict};
 use crate::engine::{self, Tally};
-use crate::search::{Bounds, Counterexample, Found, Progress, Until, search};
+use crate::search::{Bounds, Counterexample, Found, Until, Watch, search};
 
 /// What came of a check.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -48,18 +48,14 @@ pub struct Prover {
 const SEED: u64 = 0;
 
 impl Prover {
-    /// Decides `check`. `progress` hears of searches only.
+    /// Decides `check`. `watch` hears of searches only; a search that it ends leaves the check open.
     ///
     /// # Errors
     /// [`Refused`] if a registered search has too many robots.
-    pub fn decide(
-        &mut self,
-        check: &Check,
-        progress: &(dyn Fn(Progress) + Sync),
-    ) -> Result<Decision, Refused> {
-        let mut decision = self.settle(check, &check.subject, Until::Exhausted, progress)?;
+    pub fn decide(&mut self, check: &Check, watch: Watch<'_>) -> Result<Decision, Refused> {
+        let mut decision = self.settle(check, &check.subject, Until::Exhausted, watch)?;
         for mutant in check.mutants {
-            let verdict = self.settle(check, &mutant.subject, Until::Violation, progress)?.verdict;
+            let verdict = self.settle(check, &mutant.subject, Until::Violation, watch)?.verdict;
             match verdict {
                 Verdict::Refuted => decision.killed.push(mutant.name),
                 Verdict::Holds | Verdict::Open => decision.survived.push(mutant.name),
@@ -73,7 +69,7 @@ impl Prover {
         check: &Check,
         subject: &Subject,
         until: Until,
-        progress: &(dyn Fn(Progress) + Sync),
+        watch: Watch<'_>,
     ) -> Result<Decision, Refused> {
         match check.method {
             Method::Exhaustive { body, covers } => {
@@ -88,7 +84,7 @@ impl Prover {
                     Until::Violation => vec![invariant],
                 };
                 let bounds = Bounds { invariants, until, ..Bounds::new(*subject, robots, max_walls) };
-                let found = self.search(bounds, progress)?;
+                let found = self.search(bounds, watch)?;
                 let counterexample = found.counterexamples.iter().find(|found| found.invariant == invariant);
                 let verdict = match counterexample {
                     Some(_) => Verdict::Refuted,
@@ -101,11 +97,11 @@ impl Prover {
         }
     }
 
-    fn search(&mut self, bounds: Bounds, progress: &(dyn Fn(Progress) + Sync)) -> Result<&Found, Refused> {
+    fn search(&mut self, bounds: Bounds, watch: Watch<'_>) -> Result<&Found, Refused> {
         let known = self.searches.iter().position(|(known, _)| *known == bounds);
         let place = known.unwrap_or(self.searches.len());
         if known.is_none() {
-            let found = search(&bounds, progress)?;
+            let found = search(&bounds, watch)?;
             self.searches.push((bounds, found));
         }
         Ok(&self.searches[place].1)

@@ -302,7 +302,7 @@ mod tests {
 
     use super::*;
     use crate::clause::Subject;
-    use crate::search::{Bounds, Counterexample, search};
+    use crate::search::{Bounds, Counterexample, UNWATCHED, search};
 
     fn place(cell: Cell) -> Place {
         (i32::from(cell.x), i32::from(cell.y))
@@ -338,7 +338,7 @@ mod tests {
 
     fn counterexamples() -> Vec<Exhibit> {
         assert_eq!(Subject::PUBLISHED.rule, Rule::PUBLISHED);
-        let found = search(&Bounds::new(Subject::PUBLISHED, 4, 4), &|_| ()).expect("four robots fit");
+        let found = search(&Bounds::new(Subject::PUBLISHED, 4, 4), UNWATCHED).expect("four robots fit");
         found.counterexamples.iter().map(exhibit).collect()
     }
 

@@ -368,10 +368,11 @@ mod tests {
     use crate::clause::Body;
     use crate::decide::Prover;
     use crate::engine::{Stop, Tape};
+    use crate::search::UNWATCHED;
 
     /// The check comes out as registered, and every mutant is rejected.
     pub(super) fn decides(check: &Check) {
-        let decision = Prover::default().decide(check, &|_| ()).expect("registered checks fit");
+        let decision = Prover::default().decide(check, UNWATCHED).expect("registered checks fit");
         assert!(decision.is_as_registered(check), "{}: {decision:?}", check.bound);
     }
 

@@ -4,7 +4,8 @@
 //! for ever in a revealed edge.
 
 use std::collections::VecDeque;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use rayon::prelude::*;
 use tautline_kernel::chain::{Chain, End, Intent, Plan, Refused, Settled};
@@ -104,16 +105,22 @@ pub struct Progress {
     pub of: u64,
 }
 
-/// Searches all layouts within `bounds`. The result is the same on any number of threads. `progress` is called
-/// now and then, from any thread.
+/// Hears now and then, from any thread, how far a search is, and may end it there.
+pub type Watch<'a> = &'a (dyn Fn(Progress) -> ControlFlow<()> + Sync);
+
+/// A watch that lets every search go on.
+pub const UNWATCHED: Watch<'static> = &|_| ControlFlow::Continue(());
+
+/// Searches all layouts within `bounds`. The result is the same on any number of threads, unless `watch` ends the
+/// search.
 ///
 /// # Errors
 /// [`Refused`] if the robots or the base do not fit.
-pub fn search(bounds: &Bounds, progress: &(dyn Fn(Progress) + Sync)) -> Result<Found, Refused> {
+pub fn search(bounds: &Bounds, watch: Watch<'_>) -> Result<Found, Refused> {
     match bounds.robots {
-        0..=8 => Ok(Tree::<SmallGrid, 8>::new(bounds, SmallGrid::new)?.search(progress)),
-        9..=32 => Ok(Tree::<MediumGrid, 32>::new(bounds, MediumGrid::new)?.search(progress)),
-        _ => Ok(Tree::<LargeGrid, 64>::new(bounds, LargeGrid::new)?.search(progress)),
+        0..=8 => Ok(Tree::<SmallGrid, 8>::new(bounds, SmallGrid::new)?.search(watch)),
+        9..=32 => Ok(Tree::<MediumGrid, 32>::new(bounds, MediumGrid::new)?.search(watch)),
+        _ => Ok(Tree::<LargeGrid, 64>::new(bounds, LargeGrid::new)?.search(watch)),
     }
 }
 
@@ -122,6 +129,39 @@ const SUBTREES: usize = 1024;
 
 /// Subtrees between two looks at the budget.
 const WAVE: usize = 64;
+
+/// Team moves of a subtree between two calls of the watch.
+const PATIENCE: u64 = 1 << 16;
+
+/// What the threads of a search know of each other.
+struct Watched<'a> {
+    watch: Watch<'a>,
+    runs: AtomicU64,
+    moves: AtomicU64,
+    done: AtomicU64,
+    of: u64,
+    is_over: AtomicBool,
+}
+
+impl Watched<'_> {
+    /// Tells the watch of so much more, and remembers if it ends the search.
+    fn tell(&self, runs: u64, moves: u64, done: u64) {
+        let add = |sum: &AtomicU64, more| sum.fetch_add(more, Ordering::Relaxed) + more;
+        let progress = Progress {
+            runs: add(&self.runs, runs),
+            moves: add(&self.moves, moves),
+            done: add(&self.done, done),
+            of: self.of,
+        };
+        if (self.watch)(progress).is_break() {
+            self.is_over.store(true, Ordering::Relaxed);
+        }
+    }
+
+    fn is_over(&self) -> bool {
+        self.is_over.load(Ordering::Relaxed)
+    }
+}
 
 struct Tree<'a, G, const ROBOTS: usize> {
     bounds: &'a Bounds,
@@ -195,14 +235,19 @@ where
         Ok(Self { bounds, start: Chain::new(bounds.subject.rule, robots, base, grid)? })
     }
 
-    fn search(&self, progress: &(dyn Fn(Progress) + Sync)) -> Found {
+    fn search(&self, watch: Watch<'_>) -> Found {
         let mut count = Count::default();
         let mut complete = true;
         let budget = self.bounds.budget_moves.unwrap_or(u64::MAX);
         let branches = self.subtrees(&mut count, budget);
-        let of = branches.len() as u64;
-        let (runs, moves) = (AtomicU64::new(count.runs), AtomicU64::new(count.moves));
-        let done = AtomicU64::new(0);
+        let watched = Watched {
+            watch,
+            runs: AtomicU64::new(count.runs),
+            moves: AtomicU64::new(count.moves),
+            done: AtomicU64::new(0),
+            of: branches.len() as u64,
+            is_over: AtomicBool::new(false),
+        };
         'waves: for wave in branches.chunks(WAVE) {
             if count.moves > budget {
                 complete = false;
@@ -213,21 +258,16 @@ where
                 .par_iter()
                 .with_max_len(1)
                 .map(|branch| {
-                    let (found, is_whole) = self.explore(branch, left);
-                    progress(Progress {
-                        runs: runs.fetch_add(found.runs, Ordering::Relaxed) + found.runs,
-                        moves: moves.fetch_add(found.moves, Ordering::Relaxed) + found.moves,
-                        done: done.fetch_add(1, Ordering::Relaxed) + 1,
-                        of,
-                    });
-                    (found, is_whole)
+                    let found = self.explore(branch, left, &watched);
+                    watched.tell(0, 0, 1);
+                    found
                 })
                 .collect();
             // The budget is spent in the order of the branches, whoever was faster.
             for (branch, (found, is_whole)) in wave.iter().zip(counts) {
                 let left = budget.saturating_sub(count.moves);
                 let is_within = found.moves <= left;
-                count.add(if is_within { found } else { self.explore(branch, left).0 });
+                count.add(if is_within { found } else { self.explore(branch, left, &watched).0 });
                 if !(is_whole && is_within) {
                     complete = false;
                     break 'waves;
@@ -258,18 +298,24 @@ where
     }
 
     /// The subtree of `branch`, depth first, as far as `budget` moves go; whether it was covered.
-    fn explore(&self, branch: &Branch<G, ROBOTS>, budget: u64) -> (Count, bool) {
+    fn explore(&self, branch: &Branch<G, ROBOTS>, budget: u64, watched: &Watched<'_>) -> (Count, bool) {
         let mut count = Count::default();
+        let mut told = (0, 0);
         let mut branch = branch.clone();
         let mut shoots = Vec::new();
         self.grow(&mut branch, &mut count, &mut shoots);
         while let Some(shoot) = shoots.pop() {
-            if count.moves > budget || self.is_settled(&count) {
+            if count.moves > budget || self.is_settled(&count) || watched.is_over() {
                 return (count, false);
+            }
+            if count.moves - told.1 >= PATIENCE {
+                watched.tell(count.runs - told.0, count.moves - told.1, 0);
+                told = (count.runs, count.moves);
             }
             branch = branch.grown(shoot);
             self.grow(&mut branch, &mut count, &mut shoots);
         }
+        watched.tell(count.runs - told.0, count.moves - told.1, 0);
         (count, true)
     }
 
@@ -426,17 +472,17 @@ mod tests {
     #[test]
     fn a_budget_cuts_the_same_runs_off_on_any_number_of_threads() {
         let bounds = |budget_moves| Bounds { budget_moves, ..Bounds::new(Subject::PUBLISHED, 4, 3) };
-        let whole = search(&bounds(None), &|_| ()).expect("four robots fit");
+        let whole = search(&bounds(None), UNWATCHED).expect("four robots fit");
         assert!(whole.complete);
         for budget in [0, 1, 100, 20_000, whole.moves - 1] {
             let run = |threads| {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-                pool.install(|| search(&bounds(Some(budget)), &|_| ())).expect("four robots fit")
+                pool.install(|| search(&bounds(Some(budget)), UNWATCHED)).expect("four robots fit")
             };
             let found = run(1);
             assert!(!found.complete && found.moves <= budget + 16, "{budget}: {found:?}");
             assert_eq!(found, run(3), "{budget}");
         }
-        assert_eq!(search(&bounds(Some(whole.moves)), &|_| ()).expect("four robots fit"), whole);
+        assert_eq!(search(&bounds(Some(whole.moves)), UNWATCHED).expect("four robots fit"), whole);
     }
 }

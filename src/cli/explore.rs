@@ -3,19 +3,23 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::num::NonZeroU32;
-use std::path::PathBuf;
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use tautline_kernel::chain::MAX_ROBOTS;
 use tautline_kernel::lattice::Cell;
 
-use super::output::Output;
+use super::output::{Output, store};
 use super::{CellArg, Exit, Format, FormatArgs, LayoutArgs, interrupt, progress, usage};
+use crate::aside::Aside;
 use crate::explore::{
     Limits, Milestone, OnViolation, Report, RuleName, SchemeName, Setup, Stopped, Violation, explore,
 };
 use crate::fault::{Fault, Halt};
+use crate::view::page::Page;
+use crate::view::svg::{self, Panel};
 use crate::{trace, view};
 
 const EXAMPLES: &str = "\
@@ -94,6 +98,16 @@ impl Explore {
         })?;
         bar.finish_and_clear();
         writer.map_or(Ok(()), |writer| writer.end(&report))?;
+        if let Some(path) = &self.replay {
+            store_page(path, &setup, &report, &(1..=report.steps))?;
+        }
+        if let Some(path) = &self.svg {
+            let panels = match self.draw {
+                Some(Draw::Moves) => panels(&setup, &report, &(1..=report.steps))?,
+                Some(Draw::Order) | None => vec![svg::order(&setup, &report.chart)],
+            };
+            store(Some(path), &title(&setup), &panels)?;
+        }
         match self.format.format {
             Format::Json => out.json(&Summary::new(&setup, &self.layout.layout, &report))?,
             Format::Text => {
@@ -160,6 +174,51 @@ fn robots_within(robots: u64) -> Result<u16, Fault> {
             )
         },
     )
+}
+
+/// The title of a picture.
+pub(super) fn title(setup: &Setup) -> String {
+    format!("{} as {}, {} robots", setup.scheme.word(), setup.rule, setup.robots)
+}
+
+/// Team moves that a picture can hold.
+const MAX_PANELS: u32 = 200;
+
+/// The team moves in `moves`, one panel each.
+pub(super) fn panels(
+    setup: &Setup,
+    report: &Report,
+    moves: &RangeInclusive<u32>,
+) -> Result<Vec<Panel>, Halt> {
+    let count = (*moves.end()).min(report.steps).saturating_sub(*moves.start());
+    if count >= MAX_PANELS {
+        let what = format!("a picture of more than {MAX_PANELS} team moves");
+        return Err(
+            Fault::usage(what, "store a trace, and give `tautline replay` the --moves to draw").into()
+        );
+    }
+    let mut panels = Vec::new();
+    explore(setup, &mut |made| {
+        interrupt::check()?;
+        panels.extend(moves.contains(&made.step).then(|| svg::team_move(setup, &report.chart, made)));
+        Ok(())
+    })?;
+    Ok(panels)
+}
+
+/// Stores a page that plays the team moves in `moves`.
+pub(super) fn store_page(
+    path: &Path,
+    setup: &Setup,
+    report: &Report,
+    moves: &RangeInclusive<u32>,
+) -> Result<(), Halt> {
+    let mut page = Page::new(setup, report);
+    explore(setup, &mut |made| {
+        interrupt::check()?;
+        Ok(if moves.contains(&made.step) { page.add(made) } else { Ok(()) }?)
+    })?;
+    Ok(Aside::write(path, page.finish())?)
 }
 
 /// What came of a run, in a few lines.

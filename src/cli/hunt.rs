@@ -147,9 +147,9 @@ fn tell(hunted: &Hunted) -> Result<String, Halt> {
     );
     text.push_str(match (counterexamples.is_empty(), complete) {
         (true, true) => "No clause is broken in any layout within this bound.\n",
-        (true, false) => "The budget ended the hunt before its bound: nothing is claimed.\n",
+        (true, false) => "The hunt was ended before its bound: nothing is claimed.\n",
         (false, true) => "The smallest counterexample to each clause that is broken:\n",
-        (false, false) => "The budget ended the hunt before its bound; counterexamples so far:\n",
+        (false, false) => "The hunt was ended before its bound; counterexamples so far:\n",
     });
     for stored in counterexamples {
         let story = view::story::last_move(&stored.setup)?;

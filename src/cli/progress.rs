@@ -1,7 +1,11 @@
 //! Progress on stderr, on a terminal only.
 
+use std::ops::ControlFlow;
+
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tautline_proofs::search::Progress;
+
+use super::interrupt;
 
 const STYLE: &str = "{prefix} {wide_bar} {percent} % {msg}";
 
@@ -12,11 +16,12 @@ pub(super) fn bar(prefix: impl Into<String>, of: u64) -> ProgressBar {
     bar.with_prefix(prefix.into())
 }
 
-/// Shows how far a search is.
-pub(super) fn show(bar: &ProgressBar, progress: Progress) {
+/// Shows how far a search is, and ends it when the user wants that.
+pub(super) fn show(bar: &ProgressBar, progress: Progress) -> ControlFlow<()> {
     bar.set_length(progress.of);
     bar.set_position(progress.done);
     bar.set_message(format!("{} runs, {} moves", progress.runs, progress.moves));
+    if interrupt::is_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }
 
 /// A sign of life for work of unknown length.

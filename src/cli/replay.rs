@@ -9,8 +9,8 @@ use serde::Serialize;
 use tautline_proofs::judge::judge;
 use tautline_proofs::run::Breach;
 
-use super::explore::{Summary, summary};
-use super::output::Output;
+use super::explore::{Summary, panels, store_page, summary, title};
+use super::output::{Output, store};
 use super::{Exit, Format, FormatArgs, interrupt};
 use crate::exhibit::exhibit;
 use crate::explore::{Report, Setup, explore};
@@ -22,7 +22,7 @@ const EXAMPLES: &str = "\
 Examples:
   tautline replay chain-1-published-n4.jsonl
   tautline replay run.jsonl --moves 10..20
-  tautline replay run.jsonl --html run.html --moves 0..0";
+  tautline replay run.jsonl --html run.html";
 
 /// Play a stored run or counterexample, and check that it is what its rule makes.
 #[derive(Debug, Args)]
@@ -36,7 +36,7 @@ pub(super) struct Replay {
     /// Store the run as a page that plays it.
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// Store the team moves as pictures.
+    /// Store the team moves as a picture, by default the last one.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     #[command(flatten)]
@@ -88,6 +88,14 @@ impl Replay {
         }
         drop(frames);
         let moves = self.moves(&report);
+        if let Some(path) = &self.html {
+            let moves = self.moves.as_ref().map_or(1..=report.steps, |Moves(moves)| moves.clone());
+            store_page(path, &setup, &report, &moves)?;
+        }
+        if let Some(path) = &self.svg {
+            let moves = self.moves.as_ref().map_or(report.steps..=report.steps, |Moves(moves)| moves.clone());
+            store(Some(path), &title(&setup), &panels(&setup, &report, &moves)?)?;
+        }
         let name = self.file.display().to_string();
         match self.format.format {
             Format::Json => {

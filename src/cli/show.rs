@@ -1,14 +1,15 @@
 //! `tautline show`: a layout or the environments of a cell, drawn.
 
+use std::path::PathBuf;
+
 use clap::Args;
 use serde::Serialize;
 use tautline_kernel::lattice::Cell;
 
-use super::output::Output;
-use super::{Exit, Format, FormatArgs, LayoutArgs};
+use super::output::{Output, store};
+use super::{Exit, Format, FormatArgs, LayoutArgs, usage};
 use crate::fault::Halt;
-use crate::view;
-use crate::view::Environment;
+use crate::view::{self, Environment, svg};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -25,6 +26,9 @@ const ENVIRONMENTS: &str = "environments";
 pub(super) struct Show {
     #[command(flatten)]
     layout: LayoutArgs,
+    /// Store the drawing as a picture.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
     #[command(flatten)]
     format: FormatArgs,
 }
@@ -56,6 +60,7 @@ struct ShownEnvironments {
 impl Show {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         if self.layout.layout == ENVIRONMENTS {
+            store(self.svg.as_deref(), "The environments of a cell", &svg::environments())?;
             match self.format.format {
                 Format::Text => out.text(view::environments())?,
                 Format::Json => out.json(&ShownEnvironments { environments: Environment::ALL.map(shown) })?,
@@ -63,6 +68,7 @@ impl Show {
             return Ok(Exit::Expected);
         }
         let layout = self.layout.load()?;
+        store(self.svg.as_deref(), "A layout", &[svg::layout(&layout)])?;
         let drawing = layout.to_string();
         match self.format.format {
             Format::Text => out.text(drawing)?,
@@ -75,7 +81,7 @@ impl Show {
                 base: layout
                     .base()
                     .map_or_else(|| layout.default_base(), Ok)
-                    .map_err(|problem| super::usage(&problem))?,
+                    .map_err(|problem| usage(&problem))?,
                 robots: layout.robots(),
                 drawing,
             })?,

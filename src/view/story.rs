@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use tautline_kernel::lattice::{Cell, Circle, Side, Step};
+use tautline_kernel::lattice::{Cell, Side, Step};
 use tautline_proofs::registry::CLAUSES;
-use tautline_proofs::run::{Breach, stays_in_range};
+use tautline_proofs::run::Breach;
 
 use super::{Block, Pose, beside, team_move};
 use crate::explore::{Chart, Setup, TeamMove, explore};
@@ -34,7 +34,7 @@ pub fn of(setup: &Setup, chart: &Chart, made: &TeamMove<'_>) -> String {
     }
     text.push('\n');
     let draw = |pose, title: &str| Block { title: title.to_owned(), ..team_move(setup, chart, made, pose) };
-    text + &beside(&[draw(Pose::Before, "before, with what each robot tries"), draw(Pose::After, "after")])
+    text + &beside(&[draw(Pose::Before, "before, with what each tries"), draw(Pose::After, "after")])
 }
 
 fn did(made: &TeamMove<'_>, robot: usize) -> String {
@@ -59,8 +59,7 @@ const fn towards(side: Side) -> &'static str {
 fn result(breach: Breach, made: &TeamMove<'_>) -> Vec<String> {
     let (before, after) = (made.before, made.frame.cells.as_slice());
     match breach {
-        Breach::Contact => pairs(after)
-            .filter(|&(_, [behind, ahead])| !Circle::COVERED.covers(behind, ahead))
+        Breach::Contact => pairs(breach, before, after)
             .map(|(robot, pair)| {
                 format!(
                     "So R_{} is {} from R_{robot}: outside E_C, its cell is not wholly covered.",
@@ -85,10 +84,8 @@ fn result(breach: Breach, made: &TeamMove<'_>) -> Vec<String> {
                 })
                 .collect()
         }
-        Breach::Coverage => pairs(before)
-            .zip(pairs(after))
-            .filter(|((_, from), (_, to))| !stays_in_range([from[0], to[0]], [from[1], to[1]]))
-            .map(|((robot, _), (_, pair))| {
+        Breach::Coverage => pairs(breach, before, after)
+            .map(|(robot, pair)| {
                 format!(
                     "So the centres of R_{robot} and R_{}, {} apart in the end, may leave r_cov.",
                     robot + 1,
@@ -99,9 +96,16 @@ fn result(breach: Breach, made: &TeamMove<'_>) -> Vec<String> {
     }
 }
 
-/// Neighbours in the chain, with the number of the one behind.
-fn pairs(cells: &[Cell]) -> impl Iterator<Item = (usize, [Cell; 2])> {
-    (1..).zip(cells.windows(2).map(|pair| [pair[0], pair[1]]))
+/// The neighbours in the chain that commit `breach` by themselves: the number of the one behind, and where they are.
+fn pairs<'a>(
+    breach: Breach,
+    before: &'a [Cell],
+    after: &'a [Cell],
+) -> impl Iterator<Item = (usize, [Cell; 2])> + use<'a> {
+    (1..)
+        .zip(before.windows(2).zip(after.windows(2)))
+        .filter(move |(_, (from, to))| breach.is_in(from, to))
+        .map(|(robot, (_, to))| (robot, [to[0], to[1]]))
 }
 
 fn apart([one, other]: [Cell; 2]) -> String {

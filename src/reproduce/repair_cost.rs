@@ -1,0 +1,208 @@
+//! What the repairs of the chain cost: team moves to 50 % and to 75 % of the cells, as published and repaired, on the
+//! same random layouts; and in how many runs each rule breaks a clause. Sums are whole numbers, so that the result is
+//! the same on any number of threads.
+
+use rayon::prelude::*;
+use serde::Serialize;
+use tautline_proofs::run::Breach;
+
+use crate::explore::{Limits, Milestone, Report, RuleName, SchemeName, Setup, explore};
+use crate::fault::{Fault, Halt};
+use crate::layout::Generator;
+
+/// The team of the paper.
+pub const ROBOTS: u16 = 8;
+
+/// The probabilities of a wall.
+pub const DENSITIES: [&str; 7] = ["0.01", "0.05", "0.1", "0.15", "0.2", "0.3", "0.4"];
+
+/// The milestones that are compared.
+pub const MILESTONES: [Milestone; 2] = [Milestone::Half, Milestone::ThreeQuarters];
+
+/// The same layouts under both rules.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Line {
+    /// The probability of a wall.
+    pub density: &'static str,
+    /// How many layouts: those of the seeds from the first one on.
+    pub layouts: u32,
+    /// For each of [`MILESTONES`].
+    pub milestones: [Comparison; MILESTONES.len()],
+    /// For each of [`Breach::ALL`]: runs that break it.
+    pub violations: [Violations; Breach::ALL.len()],
+}
+
+/// Team moves to a milestone.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Comparison {
+    /// The milestone.
+    pub percent: u32,
+    /// Layouts in which both reach it.
+    pub pairs: u32,
+    /// Layouts in which one or both do not.
+    pub left_out: u32,
+    /// The mean as published, over the pairs.
+    pub published: f64,
+    /// The mean repaired, over the pairs.
+    pub repaired: f64,
+    /// The mean of repaired less published.
+    pub difference: f64,
+    /// Half the width of its 95 % interval.
+    pub margin: f64,
+}
+
+/// Runs that break a clause.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+pub struct Violations {
+    /// Its id.
+    pub clause: &'static str,
+    /// As published.
+    pub published: u32,
+    /// Repaired.
+    pub repaired: u32,
+}
+
+/// Sums over layouts.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    milestones: [Paired; MILESTONES.len()],
+    violations: [[u32; Breach::ALL.len()]; RuleName::ALL.len()],
+}
+
+#[derive(Clone, Copy, Default)]
+struct Paired {
+    count: u32,
+    published: u64,
+    repaired: u64,
+    difference: i64,
+    difference_squared: u64,
+}
+
+/// Compares the rules at every density in the layouts of `layouts` seeds from `seed` on. `watch` is called after each
+/// layout, from any thread, and may stop the work.
+///
+/// # Errors
+/// [`Halt`], as `watch` returned it.
+pub fn compare(
+    layouts: u32,
+    seed: u64,
+    watch: &(dyn Fn() -> Result<(), Halt> + Sync),
+) -> Result<Vec<Line>, Halt> {
+    let compare_at = |density: &'static str| {
+        let description = format!("walls:15x15:{density}");
+        let generator: Generator = description
+            .parse()
+            .map_err(|problem: crate::layout::Problem| Fault::usage(&problem, problem.remedy()))?;
+        let sums = (0..u64::from(layouts)).into_par_iter().map(|index| {
+            let sums = Sums::of(&generator, seed.wrapping_add(index))?;
+            watch()?;
+            Ok(sums)
+        });
+        let sums = sums.try_reduce(Sums::default, |one, other| Ok::<_, Halt>(one.and(other)))?;
+        Ok(sums.line(density, layouts))
+    };
+    DENSITIES.into_iter().map(compare_at).collect()
+}
+
+impl Sums {
+    fn of(generator: &Generator, seed: u64) -> Result<Self, Halt> {
+        let mut layout =
+            generator.generate(seed).map_err(|problem| Fault::usage(&problem, problem.remedy()))?;
+        let base = Setup::choose_base(&mut layout, None)
+            .map_err(|problem| Fault::usage(&problem, problem.remedy()))?;
+        let run = |rule| {
+            let layout = layout.clone();
+            let limits = Limits::default();
+            let setup = Setup { scheme: SchemeName::Chain, rule, robots: ROBOTS, seed, layout, base, limits };
+            explore(&setup, &mut |_| Ok(()))
+        };
+        let (published, repaired) = (run(RuleName::Published)?, run(RuleName::Repaired)?);
+        let breaks = |report: &Report| {
+            Breach::ALL
+                .map(|breach| u32::from(report.violations.iter().any(|violation| violation.breach == breach)))
+        };
+        Ok(Self {
+            milestones: MILESTONES.map(|milestone| {
+                match (published.reached(milestone), repaired.reached(milestone)) {
+                    (Some(published), Some(repaired)) => Paired::of(published, repaired),
+                    (Some(_) | None, _) => Paired::default(),
+                }
+            }),
+            violations: [breaks(&published), breaks(&repaired)],
+        })
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self {
+            milestones: std::array::from_fn(|place| self.milestones[place].and(other.milestones[place])),
+            violations: std::array::from_fn(|rule| {
+                std::array::from_fn(|breach| self.violations[rule][breach] + other.violations[rule][breach])
+            }),
+        }
+    }
+
+    fn line(&self, density: &'static str, layouts: u32) -> Line {
+        Line {
+            density,
+            layouts,
+            milestones: std::array::from_fn(|place| {
+                self.milestones[place].comparison(MILESTONES[place], layouts)
+            }),
+            violations: std::array::from_fn(|breach| Violations {
+                clause: Breach::ALL[breach].clause(),
+                published: self.violations[RuleName::Published as usize][breach],
+                repaired: self.violations[RuleName::Repaired as usize][breach],
+            }),
+        }
+    }
+}
+
+impl Paired {
+    fn of(published: u32, repaired: u32) -> Self {
+        let difference = i64::from(repaired) - i64::from(published);
+        Self {
+            count: 1,
+            published: published.into(),
+            repaired: repaired.into(),
+            difference,
+            difference_squared: difference.unsigned_abs().pow(2),
+        }
+    }
+
+    const fn and(self, other: Self) -> Self {
+        Self {
+            count: self.count + other.count,
+            published: self.published + other.published,
+            repaired: self.repaired + other.repaired,
+            difference: self.difference + other.difference,
+            difference_squared: self.difference_squared + other.difference_squared,
+        }
+    }
+
+    /// Division and square root are the only steps that round, and they do so alike on every machine.
+    #[expect(clippy::cast_precision_loss, reason = "the sums stay far below 2⁵³")]
+    fn comparison(self, milestone: Milestone, layouts: u32) -> Comparison {
+        let pairs = f64::from(self.count.max(1));
+        let mean = |sum: f64| sum / pairs;
+        let difference = mean(self.difference as f64);
+        let variance = if self.count < 2 {
+            0.0
+        } else {
+            let spread = self.difference_squared as f64 - self.difference as f64 * difference;
+            spread.max(0.0) / (pairs - 1.0)
+        };
+        Comparison {
+            percent: milestone.percent(),
+            pairs: self.count,
+            left_out: layouts - self.count,
+            published: hundredths(mean(self.published as f64)),
+            repaired: hundredths(mean(self.repaired as f64)),
+            difference: hundredths(difference),
+            margin: hundredths(1.96 * (variance / pairs).sqrt()),
+        }
+    }
+}
+
+fn hundredths(number: f64) -> f64 {
+    (number * 100.0).round() / 100.0
+}

@@ -1,0 +1,131 @@
+//! A page that plays a run: one file without anything from elsewhere, stepped by buttons, slider and keys, in light and
+//! dark. The pictures are those of [`svg`](super::svg); the page only shows one team move at a time.
+
+use std::fmt::Write;
+
+use tautline_kernel::chain::Kind;
+use tautline_kernel::lattice::Step;
+use tautline_proofs::run::Frame as Outcome;
+
+use super::svg::{self, Frame};
+use crate::explore::{Chart, Report, Setup, TeamMove};
+use crate::fault::Fault;
+
+/// Robots that a page can draw, over all its team moves.
+const MAX_DRAWN: usize = 400_000;
+
+const TEMPLATE: &str = include_str!("page.html");
+
+/// A page in the making.
+#[derive(Debug)]
+pub struct Page<'a> {
+    setup: &'a Setup,
+    report: &'a Report,
+    moves: String,
+    drawn: usize,
+}
+
+impl<'a> Page<'a> {
+    /// The page of a run that came out as `report`.
+    pub fn new(setup: &'a Setup, report: &'a Report) -> Self {
+        Self { setup, report, moves: String::new(), drawn: 0 }
+    }
+
+    /// Adds a team move; before the first one, where the robots were.
+    ///
+    /// # Errors
+    /// A [`Fault`] if the page grows too large.
+    pub fn add(&mut self, made: &TeamMove<'_>) -> Result<(), Fault> {
+        let chart = &self.report.chart;
+        let frame = Frame(chart.area());
+        if self.moves.is_empty() {
+            let robots = made.before.len();
+            let start = Outcome {
+                kind: Kind::Advance,
+                steps: vec![Step::Stay; robots],
+                blocked: vec![false; robots],
+                cells: made.before.to_vec(),
+            };
+            let step = made.step - 1;
+            let start = TeamMove { step, before: made.before, frame: &start, breaches: &[] };
+            let words = if step == 0 { "The start".to_owned() } else { format!("After team move {step}") };
+            self.push(frame, &start, &words);
+        }
+        self.push(frame, made, &words(made, self.report));
+        self.drawn += made.before.len();
+        if self.drawn > MAX_DRAWN {
+            let what = format!("a page of more than {MAX_DRAWN} robots in all its team moves");
+            return Err(Fault::usage(what, "store a trace, and give `tautline replay` the --moves to show"));
+        }
+        Ok(())
+    }
+
+    fn push(&mut self, frame: Frame, made: &TeamMove<'_>, words: &str) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            self.moves,
+            "<g class=\"move\" data-step=\"{}\" hidden><title>{words}</title>{}</g>",
+            made.step,
+            svg::team(frame, made)
+        );
+    }
+
+    /// The whole page.
+    pub fn finish(self) -> String {
+        let Self { setup, report, moves, drawn: _ } = self;
+        let area = report.chart.area();
+        let picture = svg::open(area)
+            + &svg::ground(&setup.layout, area)
+            + &explored(&report.chart)
+            + &svg::walls(&setup.layout, area)
+            + &moves
+            + "</g></svg>";
+        let title = format!("{} as {}, {} robots", setup.scheme.word(), setup.rule, setup.robots);
+        let outcome = format!(
+            "{} team moves: {}. {} of {} cells explored; {}.",
+            report.steps,
+            report.stopped.words(),
+            report.explored,
+            report.cells,
+            broken(report)
+        );
+        TEMPLATE
+            .replace("{{style}}", svg::STYLE)
+            .replace("{{title}}", &title)
+            .replace("{{outcome}}", &outcome)
+            .replace("{{picture}}", &picture)
+    }
+}
+
+fn explored(chart: &Chart) -> String {
+    let frame = Frame(chart.area());
+    let cells = chart.area().cells().filter_map(|cell| chart.step(cell).map(|step| (cell, step)));
+    cells.fold(String::new(), |mut text, (cell, step)| {
+        let _ =
+            write!(text, "<g class=\"cell\" data-step=\"{step}\">{}</g>", svg::explored_cell(frame, cell));
+        text
+    })
+}
+
+fn broken(report: &Report) -> String {
+    match report.violations.as_slice() {
+        [] => "no clause is broken".to_owned(),
+        [first, ..] => format!("{} is broken in team move {}", first.breach.clause(), first.step),
+    }
+}
+
+fn words(made: &TeamMove<'_>, report: &Report) -> String {
+    let kind = match made.frame.kind {
+        Kind::Advance => "an advance",
+        Kind::Backtrack => "a backtrack",
+    };
+    let mut words = format!("Team move {} of {}, {kind}", made.step, report.steps);
+    let blocked = (1..).zip(&made.frame.blocked).filter(|&(_, &blocked)| blocked);
+    for (robot, _) in blocked {
+        let _ = write!(words, "; R{robot} meets a wall");
+    }
+    for breach in made.breaches {
+        let _ = write!(words, "; breaks {}", breach.clause());
+    }
+    words
+}

@@ -1,0 +1,329 @@
+//! Pictures as SVG, for light and dark pages: layouts, the environments of a cell, the order of exploration, team
+//! moves. Every text is escaped by being made of numbers and our own words.
+
+use std::fmt::Write;
+
+use tautline_kernel::grid::Area;
+use tautline_kernel::lattice::{Cell, Edge, Side, Step};
+use tautline_proofs::run::Breach;
+
+use super::{Environment, REACH};
+use crate::explore::{Chart, Setup, TeamMove};
+use crate::layout::Layout;
+
+/// The side of a cell.
+const CELL: i32 = 24;
+/// The space round a picture and between its panels.
+const MARGIN: i32 = 16;
+/// The height of a line of text above a panel.
+const CAPTION: i32 = 22;
+/// Panels beside each other take up at most so much.
+const PAGE_WIDTH: i32 = 960;
+
+/// The colours of all pictures, by the class of what they paint.
+pub(super) const STYLE: &str = "\
+svg{--ground:#fff;--ink:#1b1f24;--faint:#d4d9e0;--explored:#e3edf9;--blocked:#9aa4b1;--robot:#1d5fa8;--leader:#0b7a53;\
+--base:#5b3a8c;--bad:#c4261d;font:12px system-ui,sans-serif;background:var(--ground)}\
+@media(prefers-color-scheme:dark){svg{--ground:#14181d;--ink:#e6eaef;--faint:#333b45;--explored:#1f3550;--blocked:#5d6875;\
+--robot:#6aa9ee;--leader:#4cc79a;--base:#b795e6;--bad:#ff7b72}}\
+text{fill:var(--ink);text-anchor:middle;dominant-baseline:central}.caption{text-anchor:start}\
+.lines{stroke:var(--faint);fill:none}.walls{stroke:var(--ink);stroke-width:3;stroke-linecap:square;fill:none}\
+.blocked{fill:var(--blocked)}.explored{fill:var(--explored)}.member{fill:var(--robot);fill-opacity:.35}\
+.order{fill:var(--robot)}.small{font-size:10px}.robot{fill:var(--robot)}.leader{fill:var(--leader)}.base{fill:var(--base)}\
+.name{fill:var(--ground);font-size:10px;font-weight:600}.link{stroke:var(--robot);stroke-width:2;stroke-opacity:.5}\
+.way{stroke:var(--ink);stroke-width:1.5}.tip{fill:var(--ink)}.bump{stroke:var(--bad);stroke-width:3}\
+.broken{stroke:var(--bad);stroke-width:3;stroke-dasharray:5 3}.crowded{fill:var(--bad)}";
+
+/// A part of a picture with its size, its corner at 0,0.
+#[derive(Clone, Debug)]
+pub struct Panel {
+    caption: String,
+    width: i32,
+    height: i32,
+    body: String,
+}
+
+/// A whole picture of panels beside each other, as many in a row as the page holds.
+pub fn picture(title: &str, panels: &[Panel]) -> String {
+    let (mut body, mut x, mut y) = (String::new(), MARGIN, MARGIN);
+    let (mut width, mut row_height) = (0, 0);
+    for panel in panels {
+        if x > MARGIN && x + panel.width + MARGIN > PAGE_WIDTH {
+            (x, y, row_height) = (MARGIN, y + row_height + MARGIN, 0);
+        }
+        let caption = if panel.caption.is_empty() { 0 } else { CAPTION };
+        // Writing to a string cannot fail.
+        let _ = write!(body, "<g transform=\"translate({x},{y})\">");
+        if caption > 0 {
+            let _ =
+                write!(body, "<text class=\"caption\" y=\"{}\">{}</text>", CAPTION / 2 - 2, panel.caption);
+        }
+        let _ = writeln!(body, "<g transform=\"translate(0,{caption})\">{}</g></g>", panel.body);
+        let text_width = panel.caption.chars().count() as i32 * 7;
+        x += panel.width.max(text_width) + MARGIN;
+        width = width.max(x);
+        row_height = row_height.max(panel.height + caption);
+    }
+    let height = y + row_height + MARGIN;
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
+         height=\"{height}\" role=\"img\" aria-label=\"{title}\">\n<title>{title}</title>\n<style>{STYLE}</style>\n\
+         <rect width=\"{width}\" height=\"{height}\" style=\"fill:var(--ground)\"/>\n{body}</svg>\n"
+    )
+}
+
+/// The beginning of a picture of `area` alone, for a page that has the style; it ends with `</g></svg>`.
+pub(super) fn open(area: Area) -> String {
+    let (width, height) = (CELL * area.width() as i32 + MARGIN, CELL * area.height() as i32 + MARGIN);
+    let half = MARGIN / 2;
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
+         height=\"{height}\" role=\"img\" aria-label=\"The team in its area\"><g transform=\"translate({half},{half})\">"
+    )
+}
+
+/// A drawing of `layout`, the base marked if it has one.
+pub fn layout(layout: &Layout) -> Panel {
+    let area = whole(layout);
+    let mut body = ground(layout, area);
+    if let Some(base) = layout.base() {
+        body.push_str(&base_mark(Frame(area), base));
+    }
+    panel(area, String::new(), body + &walls(layout, area))
+}
+
+/// The order of exploration.
+pub fn order(setup: &Setup, chart: &Chart) -> Panel {
+    let area = chart.area();
+    let frame = Frame(area);
+    let last = area.cells().filter_map(|cell| chart.step(cell)).max().unwrap_or(0).max(1);
+    let mut body = ground(&setup.layout, area);
+    for (cell, step) in area.cells().filter_map(|cell| chart.step(cell).map(|step| (cell, step))) {
+        let (x, y) = frame.corner(cell);
+        let (cx, cy) = frame.centre(cell);
+        let percent = 8 + 50 * u64::from(step) / u64::from(last);
+        let _ = write!(
+            body,
+            "<rect class=\"order\" x=\"{x}\" y=\"{y}\" width=\"{CELL}\" height=\"{CELL}\" fill-opacity=\"0.{percent:02}\"/>"
+        );
+        if step > 0 {
+            let _ = write!(body, "<text class=\"small\" x=\"{cx}\" y=\"{cy}\">{step}</text>");
+        }
+    }
+    body.push_str(&base_mark(frame, setup.base));
+    panel(area, String::new(), body + &walls(&setup.layout, area))
+}
+
+/// One team move: where the robots were, what they tried, where they are.
+pub fn team_move(setup: &Setup, chart: &Chart, made: &TeamMove<'_>) -> Panel {
+    let area = chart.area();
+    let frame = Frame(area);
+    let mut body = ground(&setup.layout, area);
+    let explored = |cell: &Cell| chart.step(*cell).is_some_and(|step| step <= made.step);
+    for cell in area.cells().filter(explored) {
+        body.push_str(&explored_cell(frame, cell));
+    }
+    body.push_str(&walls(&setup.layout, area));
+    body.push_str(&team(frame, made));
+    panel(area, super::title(made), body)
+}
+
+/// The three environments.
+pub fn environments() -> Vec<Panel> {
+    let centre = Cell::new(0, 0);
+    let area = Area::new(Cell::new(-REACH, -REACH), Cell::new(REACH, REACH)).unwrap_or(Area::of(centre));
+    let frame = Frame(area);
+    Environment::ALL
+        .map(|environment| {
+            let mut body = lines(area);
+            for cell in environment.offsets() {
+                let (x, y) = frame.corner(cell);
+                let _ = write!(
+                    body,
+                    "<rect class=\"member\" x=\"{x}\" y=\"{y}\" width=\"{CELL}\" height=\"{CELL}\"/>"
+                );
+            }
+            let (x, y) = frame.centre(centre);
+            if let Some(radius) = environment.radius() {
+                let radius = radius * f64::from(CELL);
+                let _ = write!(
+                    body,
+                    "<circle class=\"way\" fill=\"none\" cx=\"{x}\" cy=\"{y}\" r=\"{radius:.1}\"/>"
+                );
+            }
+            let _ = write!(body, "<circle class=\"robot\" cx=\"{x}\" cy=\"{y}\" r=\"8\"/>");
+            panel(area, format!("{}: {}", environment.symbol(), environment.words()), body)
+        })
+        .into()
+}
+
+fn panel(area: Area, caption: String, body: String) -> Panel {
+    Panel { caption, width: area.width() as i32 * CELL, height: area.height() as i32 * CELL, body }
+}
+
+fn whole(layout: &Layout) -> Area {
+    let first = Cell::new(0, 0);
+    Area::new(first, Cell::new(layout.width() - 1, layout.height() - 1)).unwrap_or(Area::of(first))
+}
+
+/// Where the cells of an area are in its picture.
+#[derive(Clone, Copy)]
+pub(super) struct Frame(pub(super) Area);
+
+impl Frame {
+    fn corner(self, cell: Cell) -> (i32, i32) {
+        let first = self.0.first();
+        (CELL * (i32::from(cell.x) - i32::from(first.x)), CELL * (i32::from(cell.y) - i32::from(first.y)))
+    }
+
+    fn centre(self, cell: Cell) -> (i32, i32) {
+        let (x, y) = self.corner(cell);
+        (x + CELL / 2, y + CELL / 2)
+    }
+}
+
+/// The lines between cells.
+fn lines(area: Area) -> String {
+    let (columns, rows) = (area.width() as i32, area.height() as i32);
+    let mut path = String::new();
+    for column in 0..=columns {
+        let _ = write!(path, "M{} 0v{}", CELL * column, CELL * rows);
+    }
+    for row in 0..=rows {
+        let _ = write!(path, "M0 {}h{}", CELL * row, CELL * columns);
+    }
+    format!("<path class=\"lines\" d=\"{path}\"/>")
+}
+
+/// The lines between cells, and the blocked cells.
+pub(super) fn ground(layout: &Layout, area: Area) -> String {
+    let frame = Frame(area);
+    let mut path = String::new();
+    for cell in area.cells().filter(|&cell| !layout.is_free(cell)) {
+        let (x, y) = frame.corner(cell);
+        let _ = write!(path, "M{x} {y}h{CELL}v{CELL}h-{CELL}z");
+    }
+    let blocked = if path.is_empty() { path } else { format!("<path class=\"blocked\" d=\"{path}\"/>") };
+    lines(area) + &blocked
+}
+
+/// The walls and the rim.
+pub(super) fn walls(layout: &Layout, area: Area) -> String {
+    let frame = Frame(area);
+    let (columns, rows) = (CELL * area.width() as i32, CELL * area.height() as i32);
+    let mut path = format!("M0 0h{columns}v{rows}h-{columns}z");
+    for edge in area.edges().filter(|&edge| layout.has_wall(edge)) {
+        path.push_str(&side(frame, edge));
+    }
+    format!("<path class=\"walls\" d=\"{path}\"/>")
+}
+
+fn side(frame: Frame, edge: Edge) -> String {
+    let (x, y) = frame.corner(edge.cell().beyond(edge.side()));
+    match edge.side() {
+        Side::East | Side::West => format!("M{x} {y}v{CELL}"),
+        Side::South | Side::North => format!("M{x} {y}h{CELL}"),
+    }
+}
+
+/// A cell that is explored.
+pub(super) fn explored_cell(frame: Frame, cell: Cell) -> String {
+    let (x, y) = frame.corner(cell);
+    let inner = CELL - 1;
+    format!("<rect class=\"explored\" x=\"{x}.5\" y=\"{y}.5\" width=\"{inner}\" height=\"{inner}\"/>")
+}
+
+fn base_mark(frame: Frame, base: Cell) -> String {
+    let (x, y) = frame.corner(base);
+    format!("<rect class=\"base\" x=\"{}\" y=\"{}\" width=\"16\" height=\"16\" rx=\"3\"/>", x + 4, y + 4)
+        + &name(frame.centre(base), "B")
+}
+
+fn name((x, y): (i32, i32), text: &str) -> String {
+    format!("<text class=\"name\" x=\"{x}\" y=\"{y}\">{text}</text>")
+}
+
+/// The links of the chain, the ways of the robots and the robots.
+pub(super) fn team(frame: Frame, made: &TeamMove<'_>) -> String {
+    let (before, after) = (made.before, made.frame.cells.as_slice());
+    let mut body = String::new();
+    for (from, to) in before.windows(2).zip(after.windows(2)) {
+        let is_lost = |breach: Breach| breach.is_in(from, to);
+        let class = if is_lost(Breach::Contact) || is_lost(Breach::Coverage) { "broken" } else { "link" };
+        let ((x, y), (to_x, to_y)) = (frame.centre(to[0]), frame.centre(to[1]));
+        if (x, y) != (to_x, to_y) {
+            let _ = write!(body, "<path class=\"{class}\" d=\"M{x} {y}L{to_x} {to_y}\"/>");
+        }
+    }
+    body.push_str(&base_mark(frame, after[0]));
+    for (robot, &from) in before.iter().enumerate().skip(1) {
+        if let Step::Cross(side) = made.frame.steps[robot] {
+            body.push_str(&way(frame, from, side, made.frame.blocked[robot]));
+        }
+    }
+    for robot in 1..after.len() {
+        body.push_str(&self::robot(frame, after, robot));
+    }
+    body
+}
+
+/// The arrow of a robot that crosses `side`, or the bump of one that could not.
+fn way(frame: Frame, from: Cell, side: Side, is_blocked: bool) -> String {
+    let (x, y) = frame.centre(from);
+    let (dx, dy) = match side {
+        Side::East => (1, 0),
+        Side::South => (0, 1),
+        Side::West => (-1, 0),
+        Side::North => (0, -1),
+    };
+    let half = CELL / 2;
+    let (edge_x, edge_y) = (x + half * dx, y + half * dy);
+    if is_blocked {
+        let (across_x, across_y) = (half * dy, half * dx);
+        return format!(
+            "<path class=\"way\" d=\"M{x} {y}L{edge_x} {edge_y}\"/><path class=\"bump\" d=\"M{} {}L{} {}\"/>",
+            edge_x - across_x,
+            edge_y - across_y,
+            edge_x + across_x,
+            edge_y + across_y
+        );
+    }
+    // The tip is where the circle of the robot begins.
+    let (tip_x, tip_y) = (edge_x + 3 * dx, edge_y + 3 * dy);
+    let (foot_x, foot_y) = (edge_x - 2 * dx, edge_y - 2 * dy);
+    format!(
+        "<path class=\"way\" d=\"M{x} {y}L{foot_x} {foot_y}\"/><path class=\"tip\" d=\"M{tip_x} {tip_y}L{} {}L{} {}z\"/>",
+        foot_x + 3 * dy,
+        foot_y + 3 * dx,
+        foot_x - 3 * dy,
+        foot_y - 3 * dx
+    )
+}
+
+/// Where robots that share a cell are drawn, from its centre.
+const CORNERS: [(i32, i32); 4] = [(-6, -6), (6, -6), (-6, 6), (6, 6)];
+
+/// A robot, beside the others in its cell.
+fn robot(frame: Frame, team: &[Cell], robot: usize) -> String {
+    let cell = team[robot];
+    let is_base = cell == team[0];
+    let others = (1..robot).filter(|&other| team[other] == cell).count();
+    let all = (1..team.len()).filter(|&other| team[other] == cell).count();
+    let (x, y) = frame.centre(cell);
+    let (dx, dy) = match (all, is_base, CORNERS.get(others)) {
+        (1, false, _) => (0, 0),
+        (2, false, _) => (12 * others as i32 - 6, 0),
+        (_, _, Some(&corner)) => corner,
+        // More do not fit; those that are drawn hide them.
+        (_, _, None) => return String::new(),
+    };
+    let class = match (all > 2 && !is_base, robot + 1 == team.len()) {
+        (true, _) => "crowded",
+        (false, true) => "leader",
+        (false, false) => "robot",
+    };
+    let radius = if all == 1 && !is_base { 9 } else { 6 };
+    let at = (x + dx, y + dy);
+    format!("<circle class=\"{class}\" cx=\"{}\" cy=\"{}\" r=\"{radius}\"/>", at.0, at.1)
+        + &name(at, &(robot + 1).to_string())
+}
