@@ -9,7 +9,7 @@ use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput
 use tautline::layout::{Generator, Layout};
 use tautline::wide::WideGrid;
 use tautline_kernel::chain::{Chain, Intent, Rule};
-use tautline_kernel::grid::{Area, Grid, LargeGrid, MediumGrid, SmallGrid};
+use tautline_kernel::grid::{Area, Grid, MediumGrid, SmallGrid};
 use tautline_kernel::lattice::Cell;
 use tautline_proofs::plain::{PlainChain, PlainIntent};
 
@@ -63,10 +63,6 @@ fn small(area: Area) -> SmallGrid {
 
 fn medium(area: Area) -> MediumGrid {
     MediumGrid::new(area).expect("at most 64 cells wide")
-}
-
-fn large(area: Area) -> LargeGrid {
-    LargeGrid::new(area).expect("at most 128 cells wide")
 }
 
 /// Layouts for a chain of `robots`, each cell side a wall with the probability `walls`.
@@ -153,7 +149,7 @@ fn random_walls(criterion: &mut Criterion) -> Vec<(u16, f64, Cost)> {
     let mut costs = Vec::new();
     for walls in [0.05, 0.1, 0.2, 0.3] {
         macro_rules! each {
-            ($($robots:literal in $grid:ident),*) => {$(
+            ($($robots:literal in $grid:expr),*) => {$(
                 let layouts = random_layouts($robots, walls, 3);
                 let cost = measure(&mut group, BenchmarkId::new($robots.to_string(), walls), || {
                     in_all(&layouts, |layout| run::<_, $robots>(layout, $grid, TEAM_MOVES))
@@ -161,7 +157,7 @@ fn random_walls(criterion: &mut Criterion) -> Vec<(u16, f64, Cost)> {
                 costs.push(($robots, walls, cost));
             )*};
         }
-        each!(16 in medium, 24 in medium, 32 in medium, 64 in large);
+        each!(16 in medium, 24 in medium, 32 in medium, 64 in WideGrid::new);
     }
     costs
 }
