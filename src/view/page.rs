@@ -1,5 +1,5 @@
 //! A page that plays a run: one file without anything from elsewhere, stepped by buttons, slider and keys, in light and
-//! dark. The pictures are those of [`svg`](super::svg); the page only shows one team move at a time.
+//! dark. The pictures are those of [`svg`]; the page only shows one team move at a time.
 
 use std::fmt::Write;
 
