@@ -13,6 +13,7 @@ mod reproduce;
 mod show;
 
 use std::io::{self, IsTerminal, Write};
+use std::num::NonZeroU32;
 use std::panic;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -109,7 +110,7 @@ struct LayoutArgs {
     /// A layout file or a generator.
     layout: String,
     /// The seed of whatever is left to chance.
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value = "0", value_parser = number::<u64>)]
     seed: u64,
     /// The image of a ROS map, in place of the one that it names.
     #[arg(long, value_name = "FILE")]
@@ -148,6 +149,17 @@ impl FromStr for SizeArg {
         let size = Size::new(width, height);
         size.map(Self).map_err(|problem| format!("{problem}; {}", problem.remedy()))
     }
+}
+
+/// A whole number.
+fn number<T: FromStr>(text: &str) -> Result<T, String> {
+    let largest = u128::MAX >> (128 - 8 * size_of::<T>());
+    text.parse().map_err(|_| format!("write a whole number up to {largest}"))
+}
+
+/// A whole number above 0.
+fn positive(text: &str) -> Result<NonZeroU32, String> {
+    text.parse().map_err(|_| format!("write a whole number from 1 to {}", u32::MAX))
 }
 
 fn usage(problem: &Problem) -> Fault {

@@ -37,7 +37,7 @@ pub trait Scheme {
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SchemeName {
-    /// The recursive chain of paper 000: a base, a leader, and followers that keep radio contact.
+    /// A base, a leader that seeks the frontier, and followers that keep radio contact.
     Chain,
 }
 
@@ -123,6 +123,25 @@ pub struct Setup {
 }
 
 impl Setup {
+    /// The number of robots, the base counted, if a team of `most` can have so many.
+    ///
+    /// # Errors
+    /// A [`Fault`] of the command line.
+    pub fn count_robots(robots: u64, most: usize) -> Result<u16, Fault> {
+        let count = u16::try_from(robots).ok().filter(|&count| (2..=most).contains(&usize::from(count)));
+        count.ok_or_else(|| {
+            let what = match robots {
+                0 => "no robots".to_owned(),
+                1 => "the base alone".to_owned(),
+                _ => format!("{robots} robots"),
+            };
+            Fault::usage(
+                format_args!("{what} cannot be the team"),
+                format_args!("give --robots a number from 2 to {most}, the base counted"),
+            )
+        })
+    }
+
     /// The base of a run in `layout`: the one asked for, or that of the layout, or the free cell nearest the centre.
     ///
     /// # Errors

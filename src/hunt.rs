@@ -62,6 +62,9 @@ pub const fn breach(invariant: Invariant) -> Option<Breach> {
     }
 }
 
+/// The most robots that are hunted for.
+const MAX_ROBOTS: usize = 64;
+
 /// Ways in which one team move can come out, above which a search would fill the memory.
 const MAX_BRANCHES: u64 = 1 << 13;
 
@@ -70,14 +73,8 @@ const MAX_BRANCHES: u64 = 1 << 13;
 ///
 /// # Errors
 /// A [`Fault`] if there are too few or too many robots, or too many walls for them.
-pub fn bounds(rule: RuleName, robots: usize, max_walls: u32, size: Option<Size>) -> Result<Bounds, Fault> {
-    const MAX_ROBOTS: usize = 64;
-    if !(2..=MAX_ROBOTS).contains(&robots) {
-        return Err(Fault::usage(
-            format_args!("a hunt for a chain of {robots} robots"),
-            format_args!("give --robots a number from 2 to {MAX_ROBOTS}, the base counted"),
-        ));
-    }
+pub fn bounds(rule: RuleName, robots: u64, max_walls: u32, size: Option<Size>) -> Result<Bounds, Fault> {
+    let robots = usize::from(Setup::count_robots(robots, MAX_ROBOTS)?);
     let mut bounds = Bounds::new(rule.subject(), robots, max_walls);
     if let Some(size) = size {
         let last = Cell::new(size.width() - 1, size.height() - 1);

@@ -331,6 +331,7 @@ impl Lines {
         serde_json::from_str(text).map_err(|error| {
             let message = error.to_string();
             let message = message.split(" at line ").next().unwrap_or_default();
+            let message = format!("this is no line of a stored run: {message}");
             let column = error.column().saturating_sub(1);
             self.at(text, column..column + 1, message, remedy)
         })

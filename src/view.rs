@@ -22,6 +22,11 @@ const PAGE_COLUMNS: usize = 100;
 pub const LEGEND: &str = "B is the base, with the robots beside it or +K for K of them; 2, 3, … are the robots, the \
                           last one leads; · is explored, ## blocked; x stands where a robot met a wall.";
 
+/// What a picture of the run of `setup` is called.
+pub fn title_of(setup: &Setup) -> String {
+    format!("{} ({}), {} robots", setup.scheme.word(), setup.rule, setup.robots)
+}
+
 /// Lines of text with a title above them.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Block {
@@ -110,15 +115,6 @@ fn grid(
 
 fn beyond(edge: Edge) -> Cell {
     edge.cell().beyond(edge.side())
-}
-
-/// A drawing of `layout` with the `base`, as wide as it is; without the header that a file has.
-pub fn layout(layout: &Layout) -> String {
-    layout
-        .to_string()
-        .lines()
-        .filter(|line| line.starts_with(['+', '|', ' ']))
-        .fold(String::new(), |text, line| text + line + "\n")
 }
 
 /// What a drawing of a team move shows.

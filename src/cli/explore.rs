@@ -12,7 +12,7 @@ use tautline_kernel::chain::MAX_ROBOTS;
 use tautline_kernel::lattice::Cell;
 
 use super::output::{Output, store};
-use super::{CellArg, Exit, Format, FormatArgs, LayoutArgs, interrupt, progress, usage};
+use super::{CellArg, Exit, Format, FormatArgs, LayoutArgs, interrupt, number, positive, progress, usage};
 use crate::aside::Aside;
 use crate::explore::{
     Limits, Milestone, OnViolation, Report, RuleName, SchemeName, Setup, Stopped, Violation, explore,
@@ -41,16 +41,16 @@ pub(super) struct Explore {
     #[arg(long, value_enum, default_value = "repaired")]
     rule: RuleName,
     /// Robots; for the chain the base is one of them. Without it the layout says, or there are 8.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = number::<u64>)]
     robots: Option<u64>,
     /// Column and row of the base. Without it the layout says, or it is the free cell nearest the centre.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     base: Option<CellArg>,
     /// Stop when a robot has entered so many cells.
-    #[arg(long, value_name = "CELLS")]
+    #[arg(long, value_name = "CELLS", value_parser = positive)]
     max_moves: Option<NonZeroU32>,
     /// Stop when so many percent of the free cells in reach are explored.
-    #[arg(long, value_enum, value_name = "PERCENT")]
+    #[arg(long, value_enum, value_name = "50|75|100", hide_possible_values = true)]
     until: Option<Milestone>,
     /// Store the run as JSON lines.
     #[arg(long, value_name = "FILE")]
@@ -106,7 +106,7 @@ impl Explore {
                 Some(Draw::Moves) => panels(&setup, &report, &(1..=report.steps))?,
                 Some(Draw::Order) | None => vec![svg::order(&setup, &report.chart)],
             };
-            store(Some(path), &title(&setup), &panels)?;
+            store(Some(path), &view::title_of(&setup), &panels)?;
         }
         match self.format.format {
             Format::Json => out.json(&Summary::new(&setup, &self.layout.layout, &report))?,
@@ -120,10 +120,8 @@ impl Explore {
 
     fn setup(&self) -> Result<Setup, Fault> {
         let mut layout = self.layout.load()?;
-        let robots = match self.robots {
-            Some(robots) => robots_within(robots)?,
-            None => robots_within(u64::from(layout.robots().unwrap_or(DEFAULT_ROBOTS)))?,
-        };
+        let robots = self.robots.unwrap_or_else(|| layout.robots().unwrap_or(DEFAULT_ROBOTS).into());
+        let robots = Setup::count_robots(robots, MAX_ROBOTS)?;
         let base = Setup::choose_base(&mut layout, self.base.map(|CellArg(cell)| cell))
             .map_err(|problem| usage(&problem))?;
         let limits = Limits { until: self.until, max_moves: self.max_moves, violation: OnViolation::GoOn };
@@ -157,28 +155,6 @@ impl Explore {
         }
         Ok(())
     }
-}
-
-/// The number of robots, if a team can have so many.
-fn robots_within(robots: u64) -> Result<u16, Fault> {
-    u16::try_from(robots).ok().filter(|&robots| (2..=MAX_ROBOTS).contains(&usize::from(robots))).ok_or_else(
-        || {
-            let what = match robots {
-                0 => "no robots".to_owned(),
-                1 => "the base alone".to_owned(),
-                _ => format!("{robots} robots"),
-            };
-            Fault::usage(
-                format_args!("{what} cannot be a chain"),
-                format_args!("give --robots a number from 2 to {MAX_ROBOTS}, the base counted"),
-            )
-        },
-    )
-}
-
-/// The title of a picture.
-pub(super) fn title(setup: &Setup) -> String {
-    format!("{} as {}, {} robots", setup.scheme.word(), setup.rule, setup.robots)
 }
 
 /// Team moves that a picture can hold.
@@ -226,7 +202,7 @@ pub(super) fn summary(setup: &Setup, layout: &str, report: &Report) -> String {
     let Setup { scheme, rule, robots, base, .. } = setup;
     let percent = report.explored * 100 / report.cells;
     let mut text = format!(
-        "{} as {rule}, {robots} robots, base {base}: {layout}\n{} team moves: {}\n{} of {} cells explored ({percent} %)",
+        "{} ({rule}), {robots} robots, base {base}: {layout}\n{} team moves: {}\n{} of {} cells explored ({percent} %)",
         scheme.word(),
         report.steps,
         report.stopped.words(),

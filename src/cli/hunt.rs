@@ -9,7 +9,7 @@ use tautline_proofs::clause::Verdict;
 use tautline_proofs::search::{Bounds, Found, search};
 
 use super::output::Output;
-use super::{Exit, Format, FormatArgs, SizeArg, progress};
+use super::{Exit, Format, FormatArgs, SizeArg, number, progress};
 use crate::explore::{RuleName, SchemeName, Setup};
 use crate::fault::{Fault, Halt};
 use crate::{hunt, view};
@@ -31,16 +31,16 @@ pub(super) struct Hunt {
     #[arg(long, value_enum, default_value = "repaired")]
     rule: RuleName,
     /// Robots, the base counted.
-    #[arg(long, value_name = "N", default_value_t = 4)]
-    robots: usize,
+    #[arg(long, value_name = "N", default_value = "4", value_parser = number::<u64>)]
+    robots: u64,
     /// Most walls that are met in one run; the border is not counted.
-    #[arg(long, value_name = "K", default_value_t = 4)]
+    #[arg(long, value_name = "K", default_value = "4", value_parser = number::<u32>)]
     max_walls: u32,
     /// Columns and rows of the layouts, the base in the middle; without it the (2N−1)x(2N−1) cells in reach.
     #[arg(long, value_name = "WxH")]
     size: Option<SizeArg>,
     /// End after so many team moves.
-    #[arg(long, value_name = "MOVES")]
+    #[arg(long, value_name = "MOVES", value_parser = number::<u64>)]
     budget: Option<u64>,
     /// The folder for the counterexamples.
     #[arg(long, value_name = "DIR", default_value = ".")]
@@ -53,7 +53,7 @@ pub(super) struct Hunt {
 struct Hunted {
     scheme: SchemeName,
     rule: RuleName,
-    robots: usize,
+    robots: u64,
     runs: u64,
     moves: u64,
     max_walls: u32,
@@ -142,7 +142,7 @@ fn tell(hunted: &Hunted) -> Result<String, Halt> {
     let Hunted { scheme, rule, robots, runs, moves, max_walls, complete, counterexamples, verdict: _ } =
         hunted;
     let mut text = format!(
-        "{} as {rule}, {robots} robots, at most {max_walls} walls: {runs} runs, {moves} team moves\n",
+        "{} ({rule}), {robots} robots, at most {max_walls} walls: {runs} runs, {moves} team moves\n",
         scheme.word()
     );
     text.push_str(match (counterexamples.is_empty(), complete) {

@@ -9,7 +9,7 @@ use serde::Serialize;
 use tautline_proofs::judge::judge;
 use tautline_proofs::run::Breach;
 
-use super::explore::{Summary, panels, store_page, summary, title};
+use super::explore::{Summary, panels, store_page, summary};
 use super::output::{Output, store};
 use super::{Exit, Format, FormatArgs, interrupt};
 use crate::exhibit::exhibit;
@@ -94,7 +94,7 @@ impl Replay {
         }
         if let Some(path) = &self.svg {
             let moves = self.moves.as_ref().map_or(report.steps..=report.steps, |Moves(moves)| moves.clone());
-            store(Some(path), &title(&setup), &panels(&setup, &report, &moves)?)?;
+            store(Some(path), &view::title_of(&setup), &panels(&setup, &report, &moves)?)?;
         }
         let name = self.file.display().to_string();
         match self.format.format {

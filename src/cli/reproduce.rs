@@ -6,7 +6,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::output::Output;
-use super::{Exit, Format, FormatArgs, interrupt, progress};
+use super::{Exit, Format, FormatArgs, interrupt, number, progress};
 use crate::fault::Halt;
 use crate::reproduce::Reproduction;
 use crate::reproduce::repair_cost::{self, Comparison, DENSITIES, Line, ROBOTS};
@@ -28,7 +28,7 @@ pub(super) struct Reproduce {
     #[arg(long, value_name = "COUNT", default_value_t = 300, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     layouts: u32,
     /// The seed of the first layout; the others have the seeds after it.
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value = "0", value_parser = number::<u64>)]
     seed: u64,
     #[command(flatten)]
     format: FormatArgs,

@@ -80,7 +80,7 @@ impl<'a> Page<'a> {
             + &svg::walls(&setup.layout, area)
             + &moves
             + "</g></svg>";
-        let title = format!("{} as {}, {} robots", setup.scheme.word(), setup.rule, setup.robots);
+        let title = super::title_of(setup);
         let outcome = format!(
             "{} team moves: {}. {} of {} cells explored; {}.",
             report.steps,

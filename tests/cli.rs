@@ -1,0 +1,370 @@
+//! The program as its users run it: what it prints, what it stores, and with which exit code it ends.
+
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use insta::assert_snapshot;
+use serde_json::Value;
+use tempfile::TempDir;
+
+fn tautline(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_tautline"));
+    command.current_dir(folder).args(arguments).env("NO_COLOR", "1").env("COLUMNS", "100");
+    command
+}
+
+fn folder() -> TempDir {
+    tempfile::tempdir().expect("a folder")
+}
+
+fn ran(folder: &Path, arguments: &[&str]) -> Output {
+    tautline(folder, arguments).output().expect("the program runs")
+}
+
+/// What is printed, if the program ends with `code` and says nothing on stderr.
+fn printed(folder: &Path, arguments: &[&str], code: i32) -> String {
+    let output = ran(folder, arguments);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!((output.status.code(), &*errors), (Some(code), ""), "{arguments:?}");
+    String::from_utf8(output.stdout).expect("text")
+}
+
+fn json(folder: &Path, arguments: &[&str], code: i32) -> Value {
+    let arguments = [arguments, &["--format", "json"]].concat();
+    let value: Value = serde_json::from_str(&printed(folder, &arguments, code)).expect("JSON");
+    assert_eq!(value["schema_version"], 1);
+    value
+}
+
+/// What is said about wrong usage or bad input, without the blanks at the ends of lines; nothing is on stdout.
+fn refused(folder: &Path, arguments: &[&str]) -> String {
+    let output = ran(folder, arguments);
+    let errors = String::from_utf8(output.stderr).expect("text");
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{arguments:?}: {errors}");
+    errors.lines().map(str::trim_end).collect::<Vec<_>>().join("\n")
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("a folder");
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.expect("a file").file_name().into_string().expect("a name")).collect();
+    names.sort_unstable();
+    names
+}
+
+#[test]
+fn an_open_area_takes_62_team_moves() {
+    let folder = folder();
+    assert_snapshot!(
+        printed(folder.path(), &["explore", "open:15x15", "--robots", "8", "--format", "json"], 0),
+        @r#"{"schema_version":1,"scheme":"chain","rule":"repaired","robots":8,"seed":0,"layout":"open:15x15","base":[7,7],"steps":62,"explored":225,"cells":225,"milestones":{"50":34,"75":48,"100":62},"stopped":"explored","violations":[]}"#
+    );
+    assert_snapshot!(
+        "order_of_62_moves",
+        printed(folder.path(), &["explore", "open:15x15", "--robots", "8", "--draw", "order"], 0)
+    );
+    printed(folder.path(), &["explore", "open:15x15", "--robots", "8", "--trace", "run.jsonl"], 0);
+    assert_snapshot!("frames_of_62_moves", printed(folder.path(), &["replay", "run.jsonl"], 0));
+    assert_eq!(names(folder.path()), ["run.jsonl"]);
+}
+
+#[test]
+fn the_published_rule_is_refuted_and_its_counterexamples_replay() {
+    let folder = folder();
+    let folder = folder.path();
+    let hunt = ["hunt", "--scheme", "chain", "--rule", "published", "--robots", "4", "--max-walls", "4"];
+    let found = json(folder, &hunt, 1);
+    assert_eq!((&found["runs"], &found["moves"]), (&396_261.into(), &10_057_027.into()));
+    assert_eq!((&found["verdict"], &found["complete"]), (&"refuted".into(), &true.into()));
+    let counterexamples = found["counterexamples"].as_array().expect("a list");
+    let briefly = counterexamples.iter().map(|one| {
+        format!("{} {} walls {} steps {}", one["clause"], one["walls"], one["steps"], one["file"])
+    });
+    assert_snapshot!(briefly.collect::<Vec<_>>().join("\n"), @r#"
+    "CHAIN-1" 4 walls 19 steps "chain-1-published-n4.jsonl"
+    "CHAIN-2" 4 walls 32 steps "chain-2-published-n4.jsonl"
+    "#);
+    assert_eq!(names(folder), ["chain-1-published-n4.jsonl", "chain-2-published-n4.jsonl"]);
+    for (clause, file) in
+        [("CHAIN-1", "chain-1-published-n4.jsonl"), ("CHAIN-2", "chain-2-published-n4.jsonl")]
+    {
+        assert_snapshot!(format!("counterexample_to_{clause}"), printed(folder, &["replay", file], 1));
+        let replayed = json(folder, &["replay", file], 1);
+        assert_eq!(replayed["counterexample_to"], clause);
+        assert_eq!(replayed["violations"][0]["clause"], clause);
+        // Under the other rule it is another run.
+        let text = fs::read_to_string(folder.join(file)).expect("text");
+        fs::write(folder.join("other.jsonl"), text.replace("published", "repaired")).expect("a file");
+        assert!(refused(folder, &["replay", "other.jsonl"]).contains("the rule does not make this run"));
+    }
+}
+
+#[test]
+fn the_repaired_rule_breaks_in_no_layout_with_four_walls() {
+    let folder = folder();
+    let hunt = ["hunt", "--scheme", "chain", "--rule", "repaired", "--robots", "4", "--max-walls", "4"];
+    assert_snapshot!(printed(folder.path(), &hunt, 0), @r#"
+    chain (repaired), 4 robots, at most 4 walls: 396317 runs, 10065866 team moves
+    No clause is broken in any layout within this bound.
+    "#);
+    assert_eq!(names(folder.path()), [""; 0]);
+}
+
+#[test]
+fn a_hunt_that_ends_before_its_bound_claims_nothing() {
+    let folder = folder();
+    let found = json(folder.path(), &["hunt", "--rule", "repaired", "--budget", "1000"], 3);
+    assert_eq!((&found["verdict"], &found["complete"]), (&"open".into(), &false.into()));
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_a_hunt_without_a_claim() {
+    let folder = folder();
+    let mut hunt = tautline(folder.path(), &["hunt", "--robots", "6", "--max-walls", "6"])
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the program runs");
+    std::thread::sleep(std::time::Duration::from_millis(500));
+    let sent = Command::new("kill").args(["-INT", &hunt.id().to_string()]).status().expect("kill runs");
+    assert!(sent.success());
+    assert_eq!(hunt.wait().expect("it ends").code(), Some(3));
+    assert_eq!(names(folder.path()), [""; 0]);
+}
+
+#[test]
+fn a_reader_that_goes_away_ends_nothing_but_the_printing() {
+    let folder = folder();
+    let mut command = tautline(folder.path(), &["explore", "walls:15x15:0.1", "--draw", "moves"]);
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program runs");
+    let mut line = String::new();
+    BufReader::new(child.stdout.take().expect("a pipe")).read_line(&mut line).expect("a line");
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!((output.status.code(), String::from_utf8_lossy(&output.stderr).as_ref()), (Some(0), ""));
+}
+
+#[test]
+fn the_environments_are_drawn_from_the_radii() {
+    assert_snapshot!(printed(folder().path(), &["show", "environments"], 0), @r#"
+    E_N, one step or none       E_S, wholly within r_safe   E_C, wholly within r_cov
+    · · · · · · ·               · · · · · · ·               · · · · · · ·
+    · · · · · · ·               · · · · · · ·               · · · # · · ·
+    · · · # · · ·               · · # # # · ·               · · # # # · ·
+    · · # R # · ·               · · # R # · ·               · # # R # # ·
+    · · · # · · ·               · · # # # · ·               · · # # # · ·
+    · · · · · · ·               · · · · · · ·               · · · # · · ·
+    · · · · · · ·               · · · · · · ·               · · · · · · ·
+    "#);
+}
+
+#[test]
+fn a_layout_shown_is_a_layout_file() {
+    let folder = folder();
+    let drawing = printed(folder.path(), &["show", "walls:5x4:0.2", "--seed", "2"], 0);
+    fs::write(folder.path().join("walls.txt"), &drawing).expect("a file");
+    assert_eq!(printed(folder.path(), &["show", "walls.txt"], 0), drawing);
+    assert_snapshot!(drawing, @r#"
+    tautline layout 1
+    +--+--+--+--+--+
+    |              |
+    +  +  +  +  +  +
+    |  |           |
+    +  +  +--+  +  +
+    |              |
+    +  +  +--+  +  +
+    |  |     |  |  |
+    +--+--+--+--+--+
+    "#);
+    let shown = json(folder.path(), &["show", "walls.txt"], 0);
+    assert_eq!(
+        (&shown["width"], &shown["free_cells"], &shown["base"]),
+        (&5.into(), &20.into(), &serde_json::json!([2, 1]))
+    );
+}
+
+#[test]
+fn clauses_are_decided_by_name() {
+    let folder = folder();
+    assert_snapshot!(printed(folder.path(), &["prove", "LATTICE-1", "chain-5"], 0), @r#"
+    clause     rule       engine      bound                                cases  verdict  mutants killed
+    LATTICE-1  published  exhaustive  81 offsets                           81     holds    3/3
+    CHAIN-5    repaired   search      all layouts, N = 4, at most 3 walls  25742  holds    1/1
+
+    All 2 verdicts are the registered ones.
+    "#);
+    let ledger = json(folder.path(), &["prove", "CHAIN-10"], 0);
+    assert_eq!(ledger["as_registered"], true);
+    let first = &ledger["clauses"][0];
+    assert_eq!((&first["id"], &first["verdict"]), (&"CHAIN-10".into(), &"holds".into()));
+    assert_eq!(first["mutants"], serde_json::json!({ "killed": 2, "of": 2, "survived": [] }));
+    assert_snapshot!(refused(folder.path(), &["prove", "CHAIN-99"]), @r#"
+    Error: there is no clause "CHAIN-99"
+     Help: the clauses are LATTICE-1, CHAIN-1, CHAIN-2, CHAIN-3, CHAIN-4, CHAIN-5, CHAIN-6, CHAIN-7, CHAIN-8, CHAIN-9, CHAIN-10, CHAIN-11, CHAIN-12
+    "#);
+}
+
+#[test]
+fn the_cost_of_the_repairs_is_the_same_on_any_number_of_threads() {
+    let folder = folder();
+    let table = |threads| {
+        let mut command = tautline(folder.path(), &["reproduce", "repair-cost", "--layouts", "12"]);
+        let output = command.env("RAYON_NUM_THREADS", threads).output().expect("the program runs");
+        assert_eq!(output.status.code(), Some(0));
+        String::from_utf8(output.stdout).expect("text")
+    };
+    assert_eq!(table("1"), table("3"));
+    let measured = json(folder.path(), &["reproduce", "repair-cost", "--layouts", "3"], 0);
+    assert_eq!(measured["densities"].as_array().map(Vec::len), Some(7));
+    assert_snapshot!(printed(folder.path(), &["reproduce"], 0), @"repair-cost: the chain as published against the chain repaired on the same random layouts: mean team moves to 50 % and 75 %, and runs that break a clause");
+}
+
+#[test]
+fn pictures_and_pages_are_whole_and_need_nothing_from_elsewhere() {
+    let folder = folder();
+    let folder = folder.path();
+    let explore = ["explore", "walls:9x9:0.1", "--robots", "5", "--trace", "run.jsonl"];
+    printed(folder, &[&explore[..], &["--svg", "order.svg", "--replay", "run.html"]].concat(), 0);
+    printed(
+        folder,
+        &["replay", "run.jsonl", "--moves", "3..5", "--svg", "moves.svg", "--html", "moves.html"],
+        0,
+    );
+    printed(folder, &["show", "environments", "--svg", "environments.svg"], 0);
+    assert_eq!(
+        names(folder),
+        ["environments.svg", "moves.html", "moves.svg", "order.svg", "run.html", "run.jsonl"]
+    );
+    for name in names(folder) {
+        let text = fs::read_to_string(folder.join(&name)).expect("text");
+        let links = text.replace("http://www.w3.org/2000/svg", "");
+        assert!(!links.contains("http") && !text.contains("{{"), "{name}");
+        if name.ends_with("svg") {
+            assert!(text.starts_with("<svg ") && text.ends_with("</svg>\n"), "{name}");
+        }
+    }
+    let page =
+        |name: &str| fs::read_to_string(folder.join(name)).expect("text").matches("class=\"move\"").count();
+    assert_eq!(page("moves.html"), 4, "three team moves, and where the robots were before");
+}
+
+#[test]
+fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
+    let folder = folder();
+    fs::write(folder.path().join("file"), "").expect("a file");
+    let wrong: [&[&str]; 16] = [
+        &["explore", "open:9x9", "--robots", "0"],
+        &["explore", "open:9x9", "--robots", "1"],
+        &["explore", "open:9x9", "--robots", "257"],
+        &["explore", "open:9x9", "--robots", "many"],
+        &["explore", "open:9x9", "--base", "9,0"],
+        &["explore", "open:9x9", "--base", "here"],
+        &["explore", "open:9x9", "--max-moves", "0"],
+        &["explore", "open:40000x40000"],
+        &["explore", "nowhere.map"],
+        &["explore", "open:9x9", "--trace", "nowhere/run.jsonl"],
+        &["explore", "open:9x9", "--svg", "."],
+        &["hunt", "--out", "file"],
+        &["hunt", "--out", "nowhere"],
+        &["hunt", "--robots", "65"],
+        &["hunt", "--robots", "64", "--max-walls", "9"],
+        &["replay", "nowhere.jsonl"],
+    ];
+    let said = wrong.map(|arguments| {
+        format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder.path(), arguments))
+    });
+    assert_snapshot!("wrong_usage", said.join("\n"));
+    assert_eq!(names(folder.path()), ["file"]);
+}
+
+#[test]
+fn a_base_on_a_blocked_cell_is_refused_with_the_nearest_free_one() {
+    let folder = folder();
+    let drawing = "tautline layout 1\n+--+--+\n|##   |\n+--+--+\n";
+    fs::write(folder.path().join("layout"), drawing).expect("a file");
+    assert_snapshot!(refused(folder.path(), &["explore", "layout", "--base", "0,0"]), @r#"
+    Error: the base 0,0 is on a blocked cell; the nearest free cell is 1,0
+     Help: put the base on 1,0
+    "#);
+}
+
+#[test]
+fn what_is_wrong_with_a_stored_run_is_said_with_its_place() {
+    let folder = folder();
+    let folder = folder.path();
+    printed(folder, &["explore", "open:3x3", "--robots", "2", "--trace", "run.jsonl"], 0);
+    let run = fs::read_to_string(folder.join("run.jsonl")).expect("text");
+    let line = |number: usize| run.lines().nth(number - 1).expect("a line");
+    let up_to = |number: usize| run.lines().take(number).map(|line| format!("{line}\n")).collect::<String>();
+    assert_snapshot!(run, @r#"
+    {"format":"tautline run","version":1,"scheme":"chain","rule":"repaired","robots":2,"seed":0,"base":[1,1],"limits":{"until":null,"max_moves":null,"violation":"go-on"},"clause":null,"layout":"tautline layout 1\n+--+--+--+\n|        |\n+  +  +  +\n|   B    |\n+  +  +  +\n|        |\n+--+--+--+\n"}
+    {"move":{"step":1,"kind":"advance","tried":".E","blocked":[],"cells":[[1,1],[2,1]]}}
+    {"move":{"step":2,"kind":"advance","tried":".S","blocked":[],"cells":[[1,1],[2,2]]}}
+    {"move":{"step":3,"kind":"advance","tried":".W","blocked":[],"cells":[[1,1],[1,2]]}}
+    {"move":{"step":4,"kind":"advance","tried":".W","blocked":[],"cells":[[1,1],[0,2]]}}
+    {"move":{"step":5,"kind":"advance","tried":".N","blocked":[],"cells":[[1,1],[0,1]]}}
+    {"move":{"step":6,"kind":"advance","tried":".N","blocked":[],"cells":[[1,1],[0,0]]}}
+    {"move":{"step":7,"kind":"advance","tried":".E","blocked":[],"cells":[[1,1],[1,0]]}}
+    {"move":{"step":8,"kind":"advance","tried":".E","blocked":[],"cells":[[1,1],[2,0]]}}
+    {"end":{"stopped":"explored","steps":8,"explored":9,"cells":9,"violations":[]}}
+    "#);
+    let cases = [
+        ("no bytes", String::new()),
+        ("cut after the header", up_to(1)),
+        ("cut before the end", up_to(9)),
+        ("cut within a line", run[..run.len() / 2].to_owned()),
+        ("another version", run.replacen("\"version\":1", "\"version\":2", 1)),
+        ("another format", run.replacen("tautline run", "another run", 1)),
+        ("no JSON", run.replacen("{\"move\"", "move", 1)),
+        ("an unknown field", run.replacen("\"seed\":0", "\"seed\":0,\"mood\":1", 1)),
+        ("an unknown kind", run.replacen("advance", "dance", 1)),
+        ("another step", run.replacen("\"tried\":\".E\"", "\"tried\":\".W\"", 1)),
+        ("a wrong count", run.replacen("\"steps\":8", "\"steps\":7", 1)),
+        ("a line twice", format!("{}{}\n{}", up_to(3), line(3), line(4))),
+        ("a line after the end", run.clone() + "{}\n"),
+        ("too many robots", run.replacen("\"robots\":2", "\"robots\":999", 1)),
+        ("another base", run.replacen("\"base\":[1,1]", "\"base\":[0,1]", 1)),
+        ("a broken drawing", run.replacen("+--+--+--+", "+--+-?+--+", 1)),
+        ("a clause that no run can break", run.replacen("\"clause\":null", "\"clause\":\"CHAIN-7\"", 1)),
+        ("a clause that it does not break", run.replacen("\"clause\":null", "\"clause\":\"CHAIN-1\"", 1)),
+    ];
+    let said = cases.map(|(what, text)| {
+        fs::write(folder.join("run.jsonl"), text).expect("a file");
+        format!("{what}\n{}\n", refused(folder, &["replay", "run.jsonl"]))
+    });
+    assert_snapshot!("wrong_runs", said.join("\n"));
+    fs::write(folder.join("run.jsonl"), b"\xff\xfe").expect("a file");
+    assert_snapshot!(refused(folder, &["replay", "run.jsonl"]), @r#"
+    Error: this is not UTF-8 text
+       ╭─[ run.jsonl:1:1 ]
+       │
+     1 │ ��
+       │ ┬
+       │ ╰── here
+       │
+       │ Help: store the run again with `tautline explore --trace` or `tautline hunt`
+    ───╯
+    "#);
+}
+
+#[test]
+fn every_command_has_help_with_examples() {
+    let folder = folder();
+    for command in ["prove", "explore", "hunt", "replay", "show", "reproduce", "completions", "man"] {
+        let help = printed(folder.path(), &[command, "--help"], 0);
+        assert!(help.contains("Example"), "{command}");
+        assert_snapshot!(format!("help_{command}"), help);
+    }
+    assert_snapshot!("help", printed(folder.path(), &["--help"], 0));
+}
+
+#[test]
+fn completions_and_the_manual_page_are_printed() {
+    let folder = folder();
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let script = printed(folder.path(), &["completions", shell], 0);
+        assert!(script.contains("tautline") && script.contains("hunt"), "{shell}");
+    }
+    assert!(printed(folder.path(), &["man"], 0).contains(".TH tautline 1"));
+}
