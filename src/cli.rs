@@ -18,6 +18,7 @@ use std::panic;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::str::FromStr;
+use std::thread;
 
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
@@ -178,7 +179,21 @@ pub fn run() -> ExitCode {
         );
     }));
     let cli = Cli::parse();
-    panic::catch_unwind(|| command(&cli)).unwrap_or(Exit::Bug).into()
+    guarded(move || command(&cli)).into()
+}
+
+/// The longest chain is planned on the stack, and that of a process's first thread is small on some systems.
+const STACK_BYTES: usize = 64 << 20;
+
+/// Does `work` with stack enough; a panic, of which the hook has told, is a bug.
+fn guarded(work: impl FnOnce() -> Exit + Send + 'static) -> Exit {
+    match thread::Builder::new().stack_size(STACK_BYTES).spawn(work) {
+        Ok(worker) => worker.join().unwrap_or(Exit::Bug),
+        Err(error) => {
+            eprintln!("Error: no thread can be started: {error}\n Help: leave the system some memory");
+            Exit::Fault
+        }
+    }
 }
 
 /// Runs a command, and tells what went wrong.
@@ -258,5 +273,12 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn a_panic_is_a_bug_of_ours() {
+        assert_eq!(guarded(|| Exit::Violation), Exit::Violation);
+        assert_eq!(guarded(|| panic!("on purpose")), Exit::Bug);
+        assert_eq!(Exit::Bug as u8, 70);
     }
 }

@@ -12,7 +12,7 @@ use crate::explore::{Chart, Report, Setup, TeamMove};
 use crate::fault::Fault;
 
 /// Robots that a page can draw, over all its team moves.
-const MAX_DRAWN: usize = 400_000;
+const MAX_DRAWN: usize = 100_000;
 
 const TEMPLATE: &str = include_str!("page.html");
 
