@@ -3,7 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
-use tautline_kernel::lattice::Cell;
+use tautline_kernel::grid::Area;
+use tautline_kernel::lattice::{Cell, Edge};
 use tautline_proofs::invariant::Invariant;
 use tautline_proofs::run::Breach;
 use tautline_proofs::search::{Bounds, Counterexample};
@@ -22,7 +23,7 @@ pub fn setup(rule: RuleName, bounds: &Bounds, found: &Counterexample) -> Result<
     let origin = bounds.area.first();
     let shifted = |cell: Cell| Cell::new(cell.x - origin.x, cell.y - origin.y);
     for wall in &found.walls {
-        layout.build_wall(tautline_kernel::lattice::Edge::new(shifted(wall.cell()), wall.side()));
+        layout.build_wall(Edge::new(shifted(wall.cell()), wall.side()));
     }
     let base = shifted(bounds.base);
     layout.place_base(base)?;
@@ -80,8 +81,7 @@ pub fn bounds(rule: RuleName, robots: u64, max_walls: u32, size: Option<Size>) -
         let last = Cell::new(size.width() - 1, size.height() - 1);
         let first = Cell::new(0, 0);
         bounds.base = Cell::new(last.x / 2, last.y / 2);
-        bounds.area =
-            tautline_kernel::grid::Area::new(first, last).unwrap_or(tautline_kernel::grid::Area::of(first));
+        bounds.area = Area::new(first, last).unwrap_or(Area::of(first));
     }
     let branches = branches(robots as u64 - 1, u64::from(max_walls));
     if branches > MAX_BRANCHES {

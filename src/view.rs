@@ -8,6 +8,7 @@ pub mod svg;
 
 use std::fmt::Write;
 
+use tautline_kernel::chain::Kind;
 use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Circle, Edge, Side, Step, neighbours};
 use tautline_proofs::run::Frame;
@@ -136,7 +137,7 @@ pub fn team_move(setup: &Setup, chart: &Chart, made: &TeamMove<'_>, pose: Pose) 
     let is_explored = |cell| chart.step(cell).is_some_and(|explored| explored <= step);
     let bumps = bumps(made.before, made.frame);
     let lines = if is_bare(setup, chart.area()) && pose == Pose::After {
-        bare(&setup.layout, chart.area(), cells, is_explored)
+        bare(chart.area(), cells, is_explored)
     } else {
         let label = |cell| labels.label(cell, is_explored(cell));
         grid(&setup.layout, chart.area(), labels.width(), label, |edge| bumps.contains(&edge))
@@ -146,8 +147,8 @@ pub fn team_move(setup: &Setup, chart: &Chart, made: &TeamMove<'_>, pose: Pose) 
 
 fn title(made: &TeamMove<'_>) -> String {
     let kind = match made.frame.kind {
-        tautline_kernel::chain::Kind::Advance => "",
-        tautline_kernel::chain::Kind::Backtrack => " (back)",
+        Kind::Advance => "",
+        Kind::Backtrack => " (back)",
     };
     let broken: Vec<&str> = made.breaches.iter().map(|breach| breach.clause()).collect();
     let broken = if broken.is_empty() { String::new() } else { format!(" breaks {}", broken.join(", ")) };
@@ -175,20 +176,24 @@ struct Labels<'a> {
 impl Labels<'_> {
     fn label(&self, cell: Cell, is_explored: bool) -> String {
         let here: Vec<usize> = (1..self.cells.len()).filter(|&robot| self.cells[robot] == cell).collect();
-        let is_base = self.cells[0] == cell;
-        if here.is_empty() {
-            let explored = if is_explored { "·" } else { "" };
-            return if is_base { "B" } else { explored }.to_owned();
+        if self.cells[0] == cell {
+            let rests = |&robot: &usize| self.steps.is_none_or(|steps| steps[robot] == Step::Stay);
+            let (resting, leaving): (Vec<usize>, Vec<usize>) = here.into_iter().partition(rests);
+            return match (resting.len(), leaving.len()) {
+                (0 | 1, _) => format!("B{}{}", self.names(&resting), self.names(&leaving)),
+                (many, 0) => format!("B+{many}"),
+                (many, _) => format!("B+{many} {}", self.names(&leaving)),
+            };
         }
-        if is_base
-            && here.len() > 1
-            && self.steps.is_none_or(|steps| here.iter().all(|&robot| steps[robot] == Step::Stay))
-        {
-            return format!("B+{}", here.len());
+        match here.as_slice() {
+            [] if is_explored => "·".to_owned(),
+            here => self.names(here),
         }
-        let names: Vec<String> = here.iter().map(|&robot| self.name(robot)).collect();
-        let names = names.join(if self.cells.len() > 9 && self.steps.is_none() { "," } else { "" });
-        if is_base { format!("B{names}") } else { names }
+    }
+
+    fn names(&self, robots: &[usize]) -> String {
+        let names: Vec<String> = robots.iter().map(|&robot| self.name(robot)).collect();
+        names.join(if self.cells.len() > 9 && self.steps.is_none() { "," } else { "" })
     }
 
     fn name(&self, robot: usize) -> String {
@@ -217,20 +222,19 @@ const fn arrow(step: Step) -> &'static str {
 /// Digits and letters: the robots that have a character of their own.
 const SYMBOLS: &str = "123456789abcdefghijklmnopqrstuvwxyz";
 
-/// Whether one character for each cell is enough to draw the run: there are no walls.
+/// Whether one character for each cell is enough to draw the run: nothing is in the way.
 fn is_bare(setup: &Setup, area: Area) -> bool {
-    usize::from(setup.robots) <= SYMBOLS.len() && !area.edges().any(|edge| setup.layout.has_wall(edge))
+    usize::from(setup.robots) <= SYMBOLS.len() && area.edges().all(|edge| setup.layout.is_open(edge))
 }
 
-/// A drawing with one character for each cell, of a team in an area without walls.
-fn bare(layout: &Layout, area: Area, team: &[Cell], is_explored: impl Fn(Cell) -> bool) -> Vec<String> {
+/// A drawing with one character for each cell, of a team in an area with nothing in the way.
+fn bare(area: Area, team: &[Cell], is_explored: impl Fn(Cell) -> bool) -> Vec<String> {
     let symbol = |cell: Cell| {
         let mut here = (1..team.len()).filter(|&robot| team[robot] == cell);
         match (here.next(), here.next()) {
             _ if cell == team[0] => 'B',
             (Some(robot), None) => SYMBOLS.chars().nth(robot).unwrap_or('*'),
             (Some(_), Some(_)) => '*',
-            (None, _) if !layout.is_free(cell) => '#',
             (None, _) if is_explored(cell) => '·',
             (None, _) => ' ',
         }
