@@ -4,9 +4,11 @@
 //! [`Chain::plan`] says what the team intends; [`Chain::settle`] takes the answers of the world. The history
 //! that backtracking needs is the log of the robots' one-byte messages, kept by the caller and read backwards.
 
+mod choices;
 mod message;
 mod plan;
 mod rule;
+mod steps;
 mod team;
 
 pub use message::{Damaged, Message, Outcome};

@@ -121,6 +121,14 @@ impl Step {
         Self::Stay,
     ];
 
+    /// Its place in direction order.
+    pub const fn place(self) -> usize {
+        match self {
+            Self::Cross(side) => side as usize,
+            Self::Stay => 4,
+        }
+    }
+
     /// The step that takes this one back.
     pub const fn reverse(self) -> Self {
         match self {

@@ -1,9 +1,11 @@
 //! The planning of one team move: the leader's priority list, and for each of its candidates the search for
-//! followers (paper 000, III.D, Algorithm 1, equation (2)). It returns the plan that the paper's recursion
-//! returns, without its cost: a dead end is remembered for the whole plan, with the robots it depends on
-//! (clauses CHAIN-4 and CHAIN-11).
+//! followers (paper 000, III.D, Algorithm 1, equation (2)). Mostly every follower finds a step at once, in one
+//! descent from the leader to the base; where one does not, [`Choices`] find the plan that the paper's recursion
+//! would return, without its cost (clauses CHAIN-4, CHAIN-11 and CHAIN-12).
 
+use super::choices::Choices;
 use super::rule::{Condition, Move, Role, Rule};
+use super::steps::Steps;
 use crate::grid::{Avoid, CellMark, EdgeMark, Grid};
 use crate::lattice::{Cell, Edge, Side, Step};
 
@@ -34,125 +36,25 @@ impl<const ROBOTS: usize> Plan<ROBOTS> {
     }
 }
 
-/// A set of steps, one bit each in direction order.
-#[derive(Clone, Copy, PartialEq, Eq)]
-struct Steps(u8);
-
-impl Steps {
-    const NONE: Self = Self(0);
-
-    const fn with(self, step: Step) -> Self {
-        Self(self.0 | 1 << place(step))
-    }
-
-    const fn without(self, step: Step) -> Self {
-        Self(self.0 & !(1 << place(step)))
-    }
-
-    const fn has(self, step: Step) -> bool {
-        self.0 & (1 << place(step)) != 0
-    }
-
-    const fn len(self) -> u32 {
-        self.0.count_ones()
-    }
-
-    fn iter(self) -> impl Iterator<Item = Step> {
-        Step::ALL.into_iter().filter(move |&step| self.has(step))
-    }
-}
-
-/// A step's place in direction order.
-const fn place(step: Step) -> usize {
-    match step {
-        Step::Cross(side) => side as usize,
-        Step::Stay => 4,
-    }
-}
-
-/// Cells that robots farther ahead had taken, when a follower was refused them.
-#[derive(Clone, Copy)]
-struct Taken {
-    cells: [Cell; Taken::MOST],
-    /// How many there are; one more than `MOST` if they were too many to remember.
-    count: u8,
-}
-
-impl Taken {
-    const MOST: usize = KK;
-    const NONE: Self = Self { cells: [Cell::new(0, 0); Self::MOST], count: 0 };
-
-    /// The cells, unless they were too many to remember.
-    fn cells(&self) -> Option<&[Cell]> {
-        self.cells.get(..usize::from(self.count))
-    }
-
-    fn insert(&mut self, cell: Cell) {
-        let Some(cells) = self.cells() else { return };
-        if !cells.contains(&cell) {
-            if let Some(free) = self.cells.get_mut(usize::from(self.count)) {
-                *free = cell;
-            }
-            self.count += 1;
-        }
-    }
-
-    fn unite(&mut self, other: &Self, except: Cell) {
-        match other.cells() {
-            Some(cells) => cells.iter().filter(|&&cell| cell != except).for_each(|&cell| self.insert(cell)),
-            None => self.count = Self::MOST as u8 + 1,
-        }
-    }
-}
-const KK: usize = 24;
-const SLOTS: usize = 8;
-
-/// The state of one follower in the search.
-#[derive(Clone, Copy)]
-struct Level {
-    /// Candidates not tried yet.
-    untried: Steps,
-    /// The step it has now.
-    step: Step,
-    /// The cells that it, or a robot behind it, was refused because they were taken.
-    taken: Taken,
-    /// Dead ends, by the step of the robot ahead.
-    dead: [[Taken; SLOTS]; 5],
-    dead_count: [u8; 5],
-}
-
-impl Level {
-    const IDLE: Self = Self {
-        untried: Steps::NONE,
-        step: Step::Stay,
-        taken: Taken::NONE,
-        dead: [[Taken::NONE; SLOTS]; 5],
-        dead_count: [0; 5],
-    };
-}
-
 /// The making of one plan.
 pub(super) struct Planner<'a, G, const ROBOTS: usize> {
-    rule: &'a Rule,
-    grid: &'a mut G,
+    pub(super) rule: &'a Rule,
+    pub(super) grid: &'a mut G,
     /// P_1 … P_N.
-    team: &'a [Cell],
-    levels: [Level; ROBOTS],
-    /// Follower candidates looked at.
-    looked_at: u32,
+    pub(super) team: &'a [Cell],
+    /// What is planned so far, from the leader backwards.
+    pub(super) steps: [Step; ROBOTS],
+    /// Candidates of followers looked at.
+    pub(super) looked_at: u32,
 }
 
 impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
     /// A planner for the robots in `team`, base first, at least two and at most `ROBOTS`.
     pub(super) fn new(rule: &'a Rule, grid: &'a mut G, team: &'a [Cell]) -> Self {
-        Self { rule, grid, team, levels: [Level::IDLE; ROBOTS], looked_at: 0 }
+        Self { rule, grid, team, steps: [Step::Stay; ROBOTS], looked_at: 0 }
     }
 
-    fn base(&self) -> Cell {
-        self.team[0]
-    }
-
-    /// Makes the plan, and says how many follower candidates it looked at. `None` if the leader has no
+    /// Makes the plan, and says how many candidates of followers it looked at. `None` if the leader has no
     /// candidate that the others can follow. Refused candidates of the leader become virtual obstacles.
     pub(super) fn make(mut self) -> (Option<[Step; ROBOTS]>, u32) {
         self.mark_occupied();
@@ -161,13 +63,7 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
             self.grid.take(CellMark::Occupied, cell);
             self.grid.take(CellMark::Full, cell);
         }
-        if !found {
-            return (None, self.looked_at);
-        }
-        for (level, &cell) in self.levels.iter().zip(self.team) {
-            self.grid.take(CellMark::Planned, cell.after(level.step));
-        }
-        (Some(self.levels.map(|level| level.step)), self.looked_at)
+        (found.then_some(self.steps), self.looked_at)
     }
 
     fn mark_occupied(&mut self) {
@@ -194,13 +90,17 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
                 *candidate = (side, Step::Stay);
             }
         }
+        let mut choices = None;
         for &(side, step) in &list[..count] {
             if self.may_enter(Role::Leader, at, step) {
-                self.assign(leader, step);
-                if self.follow() {
+                self.steps[leader] = step;
+                if choices.is_none() && self.descend() {
                     return true;
                 }
-                self.release(leader);
+                let leads = list[..count].iter().fold(Steps::NONE, |steps, &(_, step)| steps.with(step));
+                if choices.get_or_insert_with(|| Choices::new(self, leads)).follow(self, step) {
+                    return true;
+                }
             }
             if self.rule.has(Condition::RefusedIsVirtual) {
                 self.grid.put_edge(EdgeMark::Virtual, Edge::new(at, side));
@@ -236,124 +136,67 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
         (keyed.map(|(_, side)| (side, Step::Cross(side))), count)
     }
 
-    /// Finds steps for all followers, the leader's being planned: the first that the paper's recursion finds.
-    fn follow(&mut self) -> bool {
-        let mut robot = self.team.len() - 2;
-        self.enter(robot);
-        loop {
-            if robot == 0 && !self.levels[0].untried.has(Step::Stay) {
-                // The base cannot close the chain, whoever took which cell.
-                self.give_up(0);
-            } else if robot == 0 {
-                return true;
-            } else if let Some(step) = self.next_candidate(robot) {
-                self.levels[robot].untried = self.levels[robot].untried.without(step);
-                self.assign(robot, step);
-                robot -= 1;
-                self.enter(robot);
-                continue;
-            } else {
-                self.give_up(robot);
+    /// Algorithm 1 as long as every follower finds a step at once: true if all did, and the chain closes.
+    fn descend(&mut self) -> bool {
+        let leader = self.team.len() - 1;
+        let mut planned = leader;
+        self.claim(leader);
+        let mut closes = false;
+        while let Some(robot) = planned.checked_sub(1) {
+            let ahead = self.planned(planned);
+            if robot == 0 {
+                closes = self.rule.admits_ahead(Move::stay(self.base()), ahead);
+                break;
             }
-            robot += 1;
-            if robot == self.team.len() - 1 {
-                return false;
-            }
-            self.release(robot);
+            self.looked_at += Step::ALL.len() as u32;
+            let distinct = self.rule.has(Condition::Distinct);
+            let candidates = self.candidates(robot).filter(|step| {
+                self.rule.admits_ahead(self.as_move(robot, step), ahead)
+                    && !(distinct && self.grid.has(CellMark::Planned, self.team[robot].after(step)))
+            });
+            let Some(step) = self.preferred(robot, candidates, ahead) else { break };
+            self.steps[robot] = step;
+            self.claim(robot);
+            planned = robot;
         }
+        for robot in planned..=leader {
+            self.grid.take(CellMark::Planned, self.planned(robot).to());
+        }
+        closes
     }
 
-    /// PLN_i as a set: the steps that the conditions admit for `robot`.
-    fn enter(&mut self, robot: usize) {
-        self.levels[robot].taken = Taken::NONE;
-        self.levels[robot].untried = Steps::NONE;
-        let ahead = self.planned(robot + 1);
-        if robot == 0 {
-            if self.rule.admits_ahead(Move::stay(self.base()), ahead) {
-                self.levels[0].untried = Steps::NONE.with(Step::Stay);
-            }
-            return;
-        }
-        if let Some(taken) = self.known_dead(robot, self.levels[robot + 1].step) {
-            self.levels[robot].taken = taken;
-            return;
-        }
-        let (at, behind) = (self.team[robot], self.team[robot - 1]);
-        for step in Step::ALL {
-            self.looked_at += 1;
-            let own = self.as_move(robot, step);
-            if self.meets_wall(at, step)
-                || !self.rule.admits_ahead(own, ahead)
-                || !self.rule.admits_behind(own.to(), behind)
-                || !self.may_enter(Role::Follower, at, step)
-            {
-                continue;
-            }
-            if self.rule.has(Condition::Distinct) && self.grid.has(CellMark::Planned, own.to()) {
-                self.levels[robot].taken.insert(own.to());
-            } else {
-                self.levels[robot].untried = self.levels[robot].untried.with(step);
-            }
-        }
-    }
-
-    /// The first untried candidate: staying, if it is in P_high; then P_high; then the nearest to the
-    /// frontier; then in direction order. The distance is only asked for where it decides.
-    fn next_candidate(&mut self, robot: usize) -> Option<Step> {
-        let untried = self.levels[robot].untried;
-        let ahead = self.planned(robot + 1);
-        let at = self.team[robot];
-        let high = untried
-            .iter()
-            .filter(|&step| self.rule.is_high(at.after(step), ahead))
-            .fold(Steps::NONE, Steps::with);
-        if high.has(Step::Stay) {
-            return Some(Step::Stay);
-        }
-        let best = if high == Steps::NONE { untried } else { high };
-        if best.len() <= 1 {
-            return best.iter().next();
-        }
-        best.iter().min_by_key(|&step| self.grid.distance(at.after(step), Avoid::Walls).unwrap_or(u32::MAX))
-    }
-
-    /// Remembers that no step of `robot` is left behind the present step of the robot ahead.
-    fn give_up(&mut self, robot: usize) {
-        let ahead = self.planned(robot + 1).to();
-        let mut taken = Taken::NONE;
-        taken.unite(&self.levels[robot].taken, ahead);
-        let p = place(self.levels[robot + 1].step);
-        if taken.cells().is_some() && self.known_dead(robot, self.levels[robot + 1].step).is_none() {
-            let l = &mut self.levels[robot];
-            l.dead[p][l.dead_count[p] as usize % SLOTS] = taken;
-            l.dead_count[p] = l.dead_count[p].wrapping_add(1);
-            if l.dead_count[p] == 0 {
-                l.dead_count[p] = SLOTS as u8;
-            }
-        }
-        self.levels[robot + 1].taken.unite(&taken, ahead);
-    }
-
-    fn known_dead(&self, robot: usize, ahead: Step) -> Option<Taken> {
-        let p = place(ahead);
-        let l = &self.levels[robot];
-        l.dead[p][..SLOTS.min(l.dead_count[p] as usize)]
-            .iter()
-            .find(|t| t.cells().is_some_and(|c| c.iter().all(|&c| self.grid.has(CellMark::Planned, c))))
-            .copied()
-    }
-
-    fn assign(&mut self, robot: usize, step: Step) {
-        self.levels[robot].step = step;
-        let to = self.team[robot].after(step);
+    /// Takes the cell that `robot` is to be in.
+    fn claim(&mut self, robot: usize) {
+        let to = self.planned(robot).to();
         if to != self.base() {
             self.grid.put(CellMark::Planned, to);
         }
     }
 
-    fn release(&mut self, robot: usize) {
-        let to = self.team[robot].after(self.levels[robot].step);
-        self.grid.take(CellMark::Planned, to);
+    /// The steps of a follower that the conditions on it alone admit.
+    pub(super) fn candidates(&self, robot: usize) -> Steps {
+        let (at, behind) = (self.team[robot], self.team[robot - 1]);
+        Steps::ALL.filter(|step| {
+            !self.meets_wall(at, step)
+                && self.rule.admits_behind(at.after(step), behind)
+                && self.may_enter(Role::Follower, at, step)
+        })
+    }
+
+    /// The first of a follower's `candidates` in the order of the paper: staying, if it is in P_high; then
+    /// P_high; then the nearest to the frontier; then in direction order. The distance is only asked for
+    /// where it decides.
+    pub(super) fn preferred(&mut self, robot: usize, candidates: Steps, ahead: Move) -> Option<Step> {
+        let at = self.team[robot];
+        let high = candidates.filter(|step| self.rule.is_high(at.after(step), ahead));
+        if high.has(Step::Stay) {
+            return Some(Step::Stay);
+        }
+        let best = if high == Steps::NONE { candidates } else { high };
+        if best.len() <= 1 {
+            return best.iter().next();
+        }
+        best.iter().min_by_key(|&step| self.grid.distance(at.after(step), Avoid::Walls).unwrap_or(u32::MAX))
     }
 
     fn may_enter(&self, role: Role, at: Cell, step: Step) -> bool {
@@ -369,11 +212,15 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
         }
     }
 
-    fn planned(&self, robot: usize) -> Move {
-        self.as_move(robot, self.levels[robot].step)
+    pub(super) fn base(&self) -> Cell {
+        self.team[0]
     }
 
-    fn as_move(&self, robot: usize, step: Step) -> Move {
+    fn planned(&self, robot: usize) -> Move {
+        self.as_move(robot, self.steps[robot])
+    }
+
+    pub(super) fn as_move(&self, robot: usize, step: Step) -> Move {
         let from = self.team[robot];
         let known_open = match step {
             Step::Cross(side) => self.grid.edge_has(EdgeMark::Open, Edge::new(from, side)),

@@ -1,0 +1,316 @@
+//! The followers' choices, once a descent from the leader to the base got stuck: which steps are left for each
+//! robot. What the paper's recursion finds out by trying everything, over and over, is found out here by striking
+//! out: a step that no step of a neighbour in the chain agrees with, and a step into the cell of a robot that has
+//! one step left. Where that does not decide, steps are tried, first for the robots that were left with none most
+//! often (Boussemart, Hemery, Lecoutre and Sais 2004), so that a dead end is left where it began. The plan is that
+//! of the recursion: every follower in turn, the leader's neighbour first, takes the first step in its order of
+//! preference from which the robots behind it can still close the chain.
+
+use core::cmp::Reverse;
+
+use super::plan::Planner;
+use super::rule::Condition;
+use super::steps::Steps;
+use crate::grid::Grid;
+use crate::lattice::{Cell, Step, neighbours};
+
+/// The steps that are left for each robot, base first.
+pub(super) struct Choices<'a, const ROBOTS: usize> {
+    /// P_1 … P_N.
+    team: &'a [Cell],
+    /// Whether two robots may not plan to be in one cell.
+    is_distinct: bool,
+    left: [Steps; ROBOTS],
+    /// By robot and place of its step: the steps of the robot behind that agree with it.
+    agreeing: [[Steps; Step::ALL.len()]; ROBOTS],
+    /// Whom something was struck out for, and what was left before: to be restored backwards.
+    trail: [[(u8, Steps); Step::ALL.len()]; ROBOTS],
+    trail_length: usize,
+    trials: [Trial; ROBOTS],
+    /// A whole plan that begins as the one in the making; no steps before the first is found.
+    witness: [Steps; ROBOTS],
+    /// How often no step was left for a robot.
+    failures: [u32; ROBOTS],
+    /// The robot whose trial was the last to leave some robot without a step.
+    culprit: usize,
+    looked_at: u32,
+}
+
+/// A step that was tried.
+#[derive(Clone, Copy)]
+struct Trial {
+    robot: u8,
+    step: Step,
+    /// The length of the trail before it.
+    mark: u16,
+    turn: Turn,
+}
+
+/// Whether a robot's step was tried when it was its turn: once all robots ahead had theirs.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Turn {
+    Own,
+    Early,
+}
+
+/// What was struck out and has not been followed up.
+struct Wave<const ROBOTS: usize> {
+    robots: Robots,
+    struck: [Steps; ROBOTS],
+    /// Whether no step is left for some robot.
+    is_over: bool,
+}
+
+/// A set of robots.
+struct Robots([u64; 4]);
+
+impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
+    /// What is left for every robot, if the leader takes one of the steps in `leads`.
+    pub(super) fn new<G: Grid>(planner: &Planner<'a, G, ROBOTS>, leads: Steps) -> Self {
+        let leader = planner.team.len() - 1;
+        let mut choices = Self {
+            team: planner.team,
+            is_distinct: planner.rule.has(Condition::Distinct),
+            left: [Steps::only(Step::Stay); ROBOTS],
+            agreeing: [[Steps::NONE; Step::ALL.len()]; ROBOTS],
+            trail: [[(0, Steps::NONE); Step::ALL.len()]; ROBOTS],
+            trail_length: 0,
+            trials: [Trial { robot: 0, step: Step::Stay, mark: 0, turn: Turn::Own }; ROBOTS],
+            witness: [Steps::NONE; ROBOTS],
+            failures: [0; ROBOTS],
+            culprit: 0,
+            looked_at: 0,
+        };
+        for robot in 1..=leader {
+            let steps = if robot == leader { leads } else { planner.candidates(robot) };
+            choices.looked_at += if robot == leader { 0 } else { Steps::ALL.len() };
+            let behind = choices.left[robot - 1];
+            choices.left[robot] = steps.filter(|step| {
+                let own = planner.as_move(robot, step);
+                let agreeing =
+                    behind.filter(|step| planner.rule.admits_ahead(planner.as_move(robot - 1, step), own));
+                choices.agreeing[robot][step.place()] = agreeing;
+                agreeing != Steps::NONE
+            });
+        }
+        for robot in (1..=leader).rev() {
+            let behind = choices.left[robot - 1];
+            choices.looked_at += behind.len();
+            choices.left[robot - 1] = behind.and(choices.agreeing(robot, choices.left[robot]));
+        }
+        let mut wave = Wave::NONE;
+        (0..=leader).for_each(|robot| wave.robots.insert(robot));
+        if choices.left[leader] != Steps::NONE && !choices.follow_up(wave) {
+            choices.left[leader] = Steps::NONE;
+        }
+        choices
+    }
+
+    /// Plans for all followers behind the leader's step `lead`; false if they cannot follow.
+    pub(super) fn follow<G: Grid>(&mut self, planner: &mut Planner<'a, G, ROBOTS>, lead: Step) -> bool {
+        let leader = self.team.len() - 1;
+        let start = self.trail_length;
+        self.witness = [Steps::NONE; ROBOTS];
+        let found =
+            self.left[leader].has(lead) && self.leave(leader, Steps::only(lead)) && self.decide(planner);
+        if found {
+            for (step, left) in planner.steps.iter_mut().zip(self.left).take(leader) {
+                *step = left.first();
+            }
+        }
+        planner.looked_at += core::mem::take(&mut self.looked_at);
+        self.restore(start);
+        found
+    }
+
+    /// Leaves every follower the one step that the recursion gives it; false if there is no plan.
+    fn decide<G: Grid>(&mut self, planner: &mut Planner<'a, G, ROBOTS>) -> bool {
+        let Some(trials) = self.complete(planner) else { return false };
+        if self.trials[..trials].iter().all(|trial| trial.turn == Turn::Own) {
+            return true;
+        }
+        self.take_back(trials);
+        for robot in (1..self.team.len() - 1).rev() {
+            while self.left[robot].len() > 1 {
+                let step = self.preferred(planner, robot);
+                let mark = self.trail_length;
+                let fits = self.leave(robot, Steps::only(step))
+                    && (self.witness[robot].has(step)
+                        || self.complete(planner).inspect(|&trials| self.take_back(trials)).is_some());
+                if !fits {
+                    self.restore(mark);
+                    self.leave(robot, self.left[robot].without(step));
+                }
+            }
+        }
+        true
+    }
+
+    /// Seeks a plan within what is left; the number of trials it rests on, if there is one. It is the new witness:
+    /// where the old one is still possible it stays, as its steps agree with each other.
+    fn complete<G: Grid>(&mut self, planner: &mut Planner<'a, G, ROBOTS>) -> Option<usize> {
+        let mut trials = 0;
+        while let Some((robot, turn)) = self.next() {
+            let step = self.preferred(planner, robot);
+            self.trials[trials] = Trial { robot: robot as u8, step, mark: self.trail_length as u16, turn };
+            trials += 1;
+            let mut fits = self.leave(robot, Steps::only(step));
+            if !fits {
+                self.culprit = robot;
+            }
+            while !fits {
+                trials = trials.checked_sub(1)?;
+                let Trial { robot, step, mark, turn: _ } = self.trials[trials];
+                let robot = usize::from(robot);
+                self.restore(usize::from(mark));
+                fits = self.leave(robot, self.left[robot].without(step));
+            }
+        }
+        for (witness, left) in self.witness.iter_mut().zip(self.left) {
+            *witness = if witness.and(left) == Steps::NONE { left } else { witness.and(left) };
+        }
+        Some(trials)
+    }
+
+    /// Takes the latest `trials` back, but not what was learned before the first of them.
+    fn take_back(&mut self, trials: usize) {
+        if trials > 0 {
+            self.restore(usize::from(self.trials[0].mark));
+        }
+    }
+
+    /// The robot to try a step for: among those that are undecided and that the witness does not help, the one
+    /// that failed most often for each step it has left; in doubt the nearest to the leader.
+    fn next(&self) -> Option<(usize, Turn)> {
+        let mut lost = (1..self.team.len()).rev().filter(|&robot| {
+            self.left[robot].len() > 1 && self.left[robot].and(self.witness[robot]) == Steps::NONE
+        });
+        let first = lost.next()?;
+        let urgency = |robot: usize| Reverse(FAILURE * self.failures[robot] / self.left[robot].len());
+        let urgent = if self.left[self.culprit].len() > 1 {
+            self.culprit
+        } else {
+            lost.fold(first, |best, robot| if urgency(robot) < urgency(best) { robot } else { best })
+        };
+        Some((urgent, if urgent == first { Turn::Own } else { Turn::Early }))
+    }
+
+    fn preferred<G: Grid>(&self, planner: &mut Planner<'a, G, ROBOTS>, robot: usize) -> Step {
+        let ahead = planner.as_move(robot + 1, self.left[robot + 1].first());
+        planner.preferred(robot, self.left[robot], ahead).unwrap_or(Step::Stay)
+    }
+
+    /// Leaves `robot` no other steps than these; false if some robot then has none.
+    fn leave(&mut self, robot: usize, steps: Steps) -> bool {
+        let mut wave = Wave::NONE;
+        self.strike(robot, self.left[robot].minus(steps), &mut wave);
+        self.follow_up(wave)
+    }
+
+    /// Strikes out what the steps struck out before entail; false if some robot is left with none.
+    fn follow_up(&mut self, mut wave: Wave<ROBOTS>) -> bool {
+        while !wave.is_over {
+            let Some(robot) = wave.next(&self.left) else { return true };
+            let struck = core::mem::replace(&mut wave.struck[robot], Steps::NONE);
+            let left = self.left[robot];
+            if let Some(behind) = robot.checked_sub(1) {
+                let doubtful = self.left[behind].and(self.agreeing(robot, struck));
+                self.looked_at += doubtful.len();
+                self.strike(behind, doubtful.minus(self.agreeing(robot, left)), &mut wave);
+            }
+            let ahead = robot + 1;
+            if ahead < self.team.len() {
+                let agreeing = self.agreeing[ahead];
+                let doubtful =
+                    self.left[ahead].filter(|step| agreeing[step.place()].and(struck) != Steps::NONE);
+                self.looked_at += doubtful.len();
+                let alone = doubtful.filter(|step| agreeing[step.place()].and(left) == Steps::NONE);
+                self.strike(ahead, alone, &mut wave);
+            }
+            if self.is_distinct && left.len() == 1 {
+                self.take(robot, self.team[robot].after(left.first()), &mut wave);
+            }
+        }
+        false
+    }
+
+    /// Gives `cell` to `robot` alone, unless it is the base.
+    fn take(&mut self, robot: usize, cell: Cell, wave: &mut Wave<ROBOTS>) {
+        if cell == self.team[0] {
+            return;
+        }
+        for other in 1..self.team.len() {
+            let at = self.team[other];
+            if other != robot && neighbours(at, cell) {
+                let steps = self.left[other].filter(|step| at.after(step) == cell);
+                self.strike(other, steps, wave);
+            }
+        }
+    }
+
+    fn strike(&mut self, robot: usize, steps: Steps, wave: &mut Wave<ROBOTS>) {
+        let before = self.left[robot];
+        let struck = before.and(steps);
+        if struck == Steps::NONE {
+            return;
+        }
+        self.trail.as_flattened_mut()[self.trail_length] = (robot as u8, before);
+        self.trail_length += 1;
+        self.left[robot] = before.minus(struck);
+        wave.robots.insert(robot);
+        wave.struck[robot] = wave.struck[robot].or(struck);
+        if struck == before {
+            self.failures[robot] += 1;
+            wave.is_over = true;
+        }
+    }
+
+    /// The steps of the robot behind that agree with one of the `steps` of `robot`.
+    fn agreeing(&self, robot: usize, steps: Steps) -> Steps {
+        steps.iter().fold(Steps::NONE, |all, step| all.or(self.agreeing[robot][step.place()]))
+    }
+
+    fn restore(&mut self, mark: usize) {
+        for &(robot, before) in self.trail.as_flattened()[mark..self.trail_length].iter().rev() {
+            self.left[usize::from(robot)] = before;
+        }
+        self.trail_length = mark;
+    }
+}
+
+/// A failure counts as much as a whole number can tell, divided by one to five steps.
+const FAILURE: u32 = 60;
+
+impl<const ROBOTS: usize> Wave<ROBOTS> {
+    const NONE: Self = Self { robots: Robots([0; 4]), struck: [Steps::NONE; ROBOTS], is_over: false };
+
+    /// Takes a robot: if possible one that is decided, as that tells most; else the nearest to the leader.
+    fn next(&mut self, left: &[Steps; ROBOTS]) -> Option<usize> {
+        let robot =
+            self.robots.iter().find(|&robot| left[robot].len() == 1).or_else(|| self.robots.iter().next())?;
+        self.robots.remove(robot);
+        Some(robot)
+    }
+}
+
+impl Robots {
+    const fn insert(&mut self, robot: usize) {
+        self.0[robot / 64] |= 1 << (robot % 64);
+    }
+
+    const fn remove(&mut self, robot: usize) {
+        self.0[robot / 64] &= !(1 << (robot % 64));
+    }
+
+    /// From the leader backwards.
+    fn iter(&self) -> impl Iterator<Item = usize> {
+        (0..self.0.len()).rev().flat_map(|word| {
+            let mut rest = self.0[word];
+            core::iter::from_fn(move || {
+                let bit = rest.checked_ilog2()?;
+                rest ^= 1 << bit;
+                Some(64 * word + bit as usize)
+            })
+        })
+    }
+}
