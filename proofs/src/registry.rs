@@ -353,8 +353,8 @@ const SAME_PLAN: Check = Check {
 
 const CHEAP: Check = Check {
     subject: Subject::REPAIRED,
-    method: Method::Sampled { body: whole::cheap, runs: 24, covers: &["a whole run"] },
-    bound: "24 random layouts, N = 16, 24, 32, 64, 5 to 30 % walls",
+    method: Method::Sampled { body: whole::cheap, runs: 24, covers: &["a longer run"] },
+    bound: "24 random layouts, N = 16 … 64, 5 to 30 % walls, 5,000 moves",
     expected: Verdict::Holds,
     mutants: &[mutant("dead ends forgotten", Subject::sabotaged(Sabotage::Forgetful))],
 };

@@ -1,10 +1,11 @@
 //! The followers' choices, once a descent from the leader to the base got stuck: which steps are left for each
 //! robot. What the paper's recursion finds out by trying everything, over and over, is found out here by striking
-//! out: a step that no step of a neighbour in the chain agrees with, and a step into the cell of a robot that has
-//! one step left. Where that does not decide, steps are tried, first for the robots that were left with none most
-//! often (Boussemart, Hemery, Lecoutre and Sais 2004), so that a dead end is left where it began. The plan is that
-//! of the recursion: every follower in turn, the leader's neighbour first, takes the first step in its order of
-//! preference from which the robots behind it can still close the chain.
+//! out: a step that no step of a neighbour in the chain agrees with, and a step into a cell that other robots are
+//! sure to need. Where that does not decide, steps are tried, first for the robot whose trial failed last (Lecoutre,
+//! Sais, Tabary and Vidal 2009), then for those that were left without a step most often (Boussemart, Hemery,
+//! Lecoutre and Sais 2004), so that a dead end is left where it began. The plan is that of the recursion: every
+//! follower in turn, the leader's neighbour first, takes the first step in its order of preference from which the
+//! robots behind it can still close the chain.
 
 use core::cmp::Reverse;
 
@@ -179,14 +180,16 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
         }
     }
 
-    /// The robot to try a step for: among those that are undecided and that the witness does not help, the one
-    /// that failed most often for each step it has left; in doubt the nearest to the leader.
+    /// The robot to try a step for, as long as there are some that are undecided and that the witness does not help:
+    /// the culprit, or else that one of them that failed most often for each step it has left; in doubt the
+    /// nearest to the leader.
     fn next(&self) -> Option<(usize, Turn)> {
         let mut lost = (1..self.team.len()).rev().filter(|&robot| {
             self.left[robot].len() > 1 && self.left[robot].and(self.witness[robot]) == Steps::NONE
         });
         let first = lost.next()?;
-        let urgency = |robot: usize| Reverse(FAILURE * self.failures[robot] / self.left[robot].len());
+        let urgency =
+            |robot: usize| Reverse(FAILURE.saturating_mul(self.failures[robot]) / self.left[robot].len());
         let urgent = if self.left[self.culprit].len() > 1 {
             self.culprit
         } else {
@@ -227,21 +230,39 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
                 let alone = doubtful.filter(|step| agreeing[step.place()].and(left) == Steps::NONE);
                 self.strike(ahead, alone, &mut wave);
             }
-            if self.is_distinct && left.len() == 1 {
-                self.take(robot, self.team[robot].after(left.first()), &mut wave);
+            if self.is_distinct {
+                self.claim(robot, &mut wave);
             }
         }
         false
     }
 
-    /// Gives `cell` to `robot` alone, unless it is the base.
-    fn take(&mut self, robot: usize, cell: Cell, wave: &mut Wave<ROBOTS>) {
-        if cell == self.team[0] {
-            return;
+    /// A robot with one cell left, or two robots with the same two cells left, leave them to no other. Only the base
+    /// has room for all.
+    fn claim(&mut self, robot: usize, wave: &mut Wave<ROBOTS>) {
+        let (left, team) = (self.left, self.team);
+        let cells = |robot: usize| left[robot].iter().map(move |step| team[robot].after(step));
+        let has_the_same = |other: &usize| {
+            *other != robot
+                && left[*other].len() == 2
+                && cells(*other).all(|cell| cells(robot).any(|own| own == cell))
+        };
+        let other = match left[robot].len() {
+            1 => Some(robot),
+            2 => (1..team.len()).find(has_the_same),
+            _ => None,
+        };
+        let Some(other) = other else { return };
+        if cells(robot).all(|cell| cell != team[0]) {
+            cells(robot).for_each(|cell| self.take([robot, other], cell, wave));
         }
+    }
+
+    /// Takes `cell` from all but its `owners`.
+    fn take(&mut self, owners: [usize; 2], cell: Cell, wave: &mut Wave<ROBOTS>) {
         for other in 1..self.team.len() {
             let at = self.team[other];
-            if other != robot && neighbours(at, cell) {
+            if !owners.contains(&other) && neighbours(at, cell) {
                 let steps = self.left[other].filter(|step| at.after(step) == cell);
                 self.strike(other, steps, wave);
             }
