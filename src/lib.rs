@@ -11,3 +11,8 @@ pub mod reproduce;
 pub mod trace;
 pub mod view;
 pub mod wide;
+
+/// The README's code, compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -87,6 +87,9 @@ fn the_published_rule_is_refuted_and_its_counterexamples_replay() {
     "CHAIN-2" 4 walls 32 steps "chain-2-published-n4.jsonl"
     "#);
     assert_eq!(names(folder), ["chain-1-published-n4.jsonl", "chain-2-published-n4.jsonl"]);
+    let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/chain-2-published-n4.jsonl");
+    let found = fs::read_to_string(folder.join("chain-2-published-n4.jsonl")).expect("a run");
+    assert_eq!(found, fs::read_to_string(kept).expect("a run"), "the README draws another one");
     for (clause, file) in
         [("CHAIN-1", "chain-1-published-n4.jsonl"), ("CHAIN-2", "chain-2-published-n4.jsonl")]
     {

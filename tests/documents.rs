@@ -1,0 +1,70 @@
+//! SPEC.md and the README say what the code says: the clauses' sentences, the ledger and the pictures.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use insta::assert_snapshot;
+use tautline_proofs::registry::CLAUSES;
+
+fn document(name: &str) -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(name)).expect("a document")
+}
+
+/// What the program prints in the project's folder, if it ends with `code`.
+fn printed(arguments: &[&str], code: i32) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_tautline"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(arguments)
+        .env("NO_COLOR", "1")
+        .output()
+        .expect("the program runs");
+    assert_eq!(output.status.code(), Some(code), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("text")
+}
+
+#[test]
+fn every_clause_stands_in_the_spec_word_for_word() {
+    let spec = document("SPEC.md");
+    let mut lines = spec.lines();
+    let mut stated = Vec::new();
+    while let Some(line) = lines.next() {
+        if let Some(id) = line.strip_prefix("### ") {
+            let sentence = lines.find(|line| !line.is_empty()).expect("a sentence");
+            stated.push((id, sentence));
+        }
+    }
+    let registered: Vec<_> = CLAUSES.iter().map(|clause| (clause.id, clause.sentence)).collect();
+    assert_eq!(stated, registered);
+}
+
+#[test]
+fn the_ledger_is_that_of_the_readme() {
+    let all = printed(&["prove"], 0);
+    let (ledger, _) = all.split_once("\n\n").expect("a ledger, then counterexamples");
+    assert_snapshot!("ledger", ledger);
+    assert!(document("README.md").contains(ledger), "the README shows another ledger:\n{ledger}");
+}
+
+#[test]
+fn the_pictures_of_the_readme_are_drawn_by_the_commands_beside_them() {
+    let readme = document("README.md");
+    let folder = tempfile::tempdir().expect("a folder");
+    for (picture, arguments, code) in [
+        ("environments.svg", "show environments --svg", 0),
+        ("move.svg", "replay docs/open-7x7.jsonl --moves 5..5 --svg", 0),
+        ("spiral.svg", "explore open:15x15 --robots 8 --draw order --svg", 0),
+        ("crowding.svg", "replay docs/chain-2-published-n4.jsonl --svg", 1),
+    ] {
+        assert!(readme.contains(&format!("tautline {arguments} docs/{picture}")), "{picture}");
+        let drawn = folder.path().join(picture);
+        let arguments: Vec<&str> =
+            arguments.split(' ').chain([drawn.to_str().expect("a plain name")]).collect();
+        printed(&arguments, code);
+        let drawn = fs::read_to_string(drawn).expect("a picture");
+        assert_eq!(drawn, document(&format!("docs/{picture}")), "{picture}");
+    }
+    let run = folder.path().join("run");
+    printed(&["explore", "open:7x7", "--robots", "4", "--trace", run.to_str().expect("a plain name")], 0);
+    assert_eq!(fs::read_to_string(run).expect("a run"), document("docs/open-7x7.jsonl"));
+}
