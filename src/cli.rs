@@ -14,11 +14,10 @@ mod show;
 
 use std::io::{self, IsTerminal, Write};
 use std::num::NonZeroU32;
-use std::panic;
+use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::str::FromStr;
-use std::thread;
 
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
@@ -179,21 +178,12 @@ pub fn run() -> ExitCode {
         );
     }));
     let cli = Cli::parse();
-    guarded(move || command(&cli)).into()
+    guarded(|| command(&cli)).into()
 }
 
-/// The longest chain is planned on the stack, and that of a process's first thread is small on some systems.
-const STACK_BYTES: usize = 64 << 20;
-
-/// Does `work` with stack enough; a panic, of which the hook has told, is a bug.
-fn guarded(work: impl FnOnce() -> Exit + Send + 'static) -> Exit {
-    match thread::Builder::new().stack_size(STACK_BYTES).spawn(work) {
-        Ok(worker) => worker.join().unwrap_or(Exit::Bug),
-        Err(error) => {
-            eprintln!("Error: no thread can be started: {error}\n Help: leave the system some memory");
-            Exit::Fault
-        }
-    }
+/// Does `work`; a panic, of which the hook has told, is a bug.
+fn guarded(work: impl FnOnce() -> Exit) -> Exit {
+    panic::catch_unwind(AssertUnwindSafe(work)).unwrap_or(Exit::Bug)
 }
 
 /// Runs a command, and tells what went wrong.
