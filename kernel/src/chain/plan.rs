@@ -90,6 +90,7 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
                 *candidate = (side, Step::Stay);
             }
         }
+        let leads = list[..count].iter().fold(Steps::NONE, |steps, &(_, step)| steps.with(step));
         let mut choices = None;
         for &(side, step) in &list[..count] {
             if self.may_enter(Role::Leader, at, step) {
@@ -97,7 +98,6 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
                 if choices.is_none() && self.descend() {
                     return true;
                 }
-                let leads = list[..count].iter().fold(Steps::NONE, |steps, &(_, step)| steps.with(step));
                 if choices.get_or_insert_with(|| Choices::new(self, leads)).follow(self, step) {
                     return true;
                 }
