@@ -193,9 +193,10 @@ fn clauses_are_decided_by_name() {
     assert_snapshot!(printed(folder.path(), &["prove", "LATTICE-1", "chain-5"], 0), @r#"
     clause     rule       engine      bound                                cases  verdict  mutants killed
     LATTICE-1  published  exhaustive  81 offsets                           81     holds    3/3
+    CHAIN-5    published  search      all layouts, N = 4, at most 3 walls  25742  holds    -
     CHAIN-5    repaired   search      all layouts, N = 4, at most 3 walls  25742  holds    1/1
 
-    All 2 verdicts are the registered ones.
+    All 3 verdicts are the registered ones.
     "#);
     let ledger = json(folder.path(), &["prove", "CHAIN-10"], 0);
     assert_eq!(ledger["as_registered"], true);

@@ -29,8 +29,8 @@ pub enum Sabotage {
     SwappedBits,
     /// The plan sends the base along with R_2.
     BaseFollows,
-    /// The planner forgets its dead ends: it is the plain recursion.
-    Forgetful,
+    /// The planner is the plain recursion.
+    PlainRecursion,
 }
 
 impl Sabotage {
@@ -38,7 +38,7 @@ impl Sabotage {
     pub const fn carry(self, byte: u8) -> u8 {
         match self {
             Self::SwappedBits => byte & !0b1001 | (byte & 1) << 3 | byte >> 3 & 1,
-            Self::None | Self::BaseFollows | Self::Forgetful => byte,
+            Self::None | Self::BaseFollows | Self::PlainRecursion => byte,
         }
     }
 }

@@ -162,8 +162,8 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
         require(!shared, "no two robots plan to be in one cell outside the base")
     }
 
-    /// Between two gains (a cell explored, a wall found) and two new virtual obstacles, first the history grows
-    /// shorter, then the leader comes nearer to the frontier: both end.
+    /// Between two gains (a cell explored, a wall found) and two new virtual obstacles, an advance brings the leader
+    /// nearer to the frontier, and a backtrack makes the history shorter: both end.
     fn progresses(&self) -> Result<(), Stop> {
         let leader = |chain: &Chain<G, ROBOTS>| chain.cells()[chain.cells().len() - 1];
         let to_frontier = |chain: &Chain<G, ROBOTS>| {

@@ -123,7 +123,8 @@ pub fn contact(subject: &Subject, source: &mut dyn Source) -> Outcome {
 /// [`Stop`] if the choices are no case, or break the clause.
 pub fn coverage(subject: &Subject, source: &mut dyn Source) -> Outcome {
     let pair = Pair::pick(&subject.rule, |behind, ahead| Circle::COVERED.reaches(behind, ahead), source)?;
-    let path = |robot: Tried| [robot.plan.from, robot.arrived];
+    // A robot that meets a wall goes part of its way, and back.
+    let path = |robot: Tried| [robot.plan.from, robot.plan.to()];
     require(
         stays_in_range(path(pair.behind), path(pair.ahead)),
         "the neighbours' centres stay within r_cov, at whatever speeds they move",

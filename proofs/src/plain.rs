@@ -1,6 +1,6 @@
 //! The chain as the paper writes it down, without any of the kernel's machinery: growing lists, the plain recursion
-//! of Algorithms 1 to 3, a flood fill for every candidate, the history as a list of team moves. It shares no code
-//! with the planner. CHAIN-11 compares the two; the benchmarks measure the one by the other.
+//! of Algorithms 1 to 3, a flood fill for every candidate, the history as a list of team moves. It shares no
+//! search, flood fill or bookkeeping with the planner, and asks the same [`Rule`] for its conditions. CHAIN-11 compares the two; the benchmarks measure the one by the other.
 
 use std::collections::VecDeque;
 

@@ -114,7 +114,7 @@ exhaustive! {
         covers ["a byte", "a message", "no message"], unwind 6, mutants {
             swapped_bits: "message bits swapped" => Subject::sabotaged(Sabotage::SwappedBits),
         };
-    ring: small::ring_of_neighbours, Subject::PUBLISHED, "every pair of neighbours",
+    ring: small::ring_of_neighbours, Subject::PUBLISHED, "every pair, the robot behind in 0…3 by 0…3",
         covers ["farther in", "farther out", "in the same ring"], unwind 6, mutants {
             safe_too_wide: "E_S with the radius of E_C" => Subject::with_safe(Circle::COVERED),
             without_safe_ahead: "without E_S ahead" => Subject::without(SafeAhead),
@@ -124,7 +124,7 @@ exhaustive! {
 /// The next larger circle: E_C with eight cells more.
 const WIDER: Circle = Circle::new(34);
 
-/// The bound at which the published rule first fails.
+/// The bound at which the published rule first fails with four robots.
 const FOUR: (usize, u32) = (4, 4);
 const FOUR_BOUND: &str = "all layouts, N = 4, at most 4 walls";
 
@@ -230,14 +230,17 @@ pub static CLAUSES: [Clause; 13] = [
     Clause {
         id: "CHAIN-5",
         sentence: "In a planned team move every robot MUST have a cell of its own, the base excepted.",
-        checks: &[search(
-            Subject::REPAIRED,
-            Invariant::Distinct,
-            THREE,
-            THREE_BOUND,
-            Verdict::Holds,
-            &[mutant("without distinctness", Subject::without(Distinct))],
-        )],
+        checks: &[
+            search(Subject::PUBLISHED, Invariant::Distinct, THREE, THREE_BOUND, Verdict::Holds, &[]),
+            search(
+                Subject::REPAIRED,
+                Invariant::Distinct,
+                THREE,
+                THREE_BOUND,
+                Verdict::Holds,
+                &[mutant("without distinctness", Subject::without(Distinct))],
+            ),
+        ],
     },
     Clause {
         id: "CHAIN-6",
@@ -356,7 +359,7 @@ const CHEAP: Check = Check {
     method: Method::Sampled { body: whole::cheap, runs: 24, covers: &["a longer run"] },
     bound: "24 random layouts, N = 16 … 64, 5 to 30 % walls, 5,000 moves",
     expected: Verdict::Holds,
-    mutants: &[mutant("dead ends forgotten", Subject::sabotaged(Sabotage::Forgetful))],
+    mutants: &[mutant("the plain recursion", Subject::sabotaged(Sabotage::PlainRecursion))],
 };
 
 #[cfg(test)]

@@ -134,8 +134,8 @@ pub fn cheap(subject: &Subject, source: &mut dyn Source) -> Outcome {
     let robots = one_of(source, &[16, 24, 32, 64]);
     let walls_percent = one_of(source, &[5, 10, 15, 20, 25, 30]);
     let is_open = &mut |_| source.pick(100) >= walls_percent;
-    if subject.sabotage == Sabotage::Forgetful {
-        forgetful_run(subject, robots, is_open)
+    if subject.sabotage == Sabotage::PlainRecursion {
+        plain_run(subject, robots, is_open)
     } else if robots <= 32 {
         cheap_run(start::<_, 32>(subject, robots, MediumGrid::new)?, is_open)
     } else {
@@ -159,7 +159,7 @@ fn cheap_run<G: Grid, const ROBOTS: usize>(
     Ok("a longer run")
 }
 
-fn forgetful_run(subject: &Subject, robots: usize, is_open: &mut dyn FnMut(Edge) -> bool) -> Outcome {
+fn plain_run(subject: &Subject, robots: usize, is_open: &mut dyn FnMut(Edge) -> bool) -> Outcome {
     let (area, base) = area(robots);
     let mut plain = PlainChain::new(subject.rule, robots, base, area);
     for _ in 0..CHEAP_MOVES {

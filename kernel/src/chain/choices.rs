@@ -2,8 +2,8 @@
 //! robot. What the paper's recursion finds out by trying everything, over and over, is found out here by striking
 //! out: a step that no step of a neighbour in the chain agrees with, and a step into a cell that other robots are
 //! sure to need. Where that does not decide, steps are tried, first for the robot whose trial failed last (Lecoutre,
-//! Sais, Tabary and Vidal 2009), then for those that were left without a step most often (Boussemart, Hemery,
-//! Lecoutre and Sais 2004), so that a dead end is left where it began. The plan is that of the recursion: every
+//! Sais, Tabary and Vidal 2009), then for those that were left without a step most often for each step they have
+//! left (in the manner of Boussemart, Hemery, Lecoutre and Sais 2004), so that a dead end is left where it began. The plan is that of the recursion: every
 //! follower in turn, the leader's neighbour first, takes the first step in its order of preference from which the
 //! robots behind it can still close the chain.
 
@@ -181,7 +181,7 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
     }
 
     /// The robot to try a step for, as long as there are some that are undecided and that the witness does not help:
-    /// the culprit, or else that one of them that failed most often for each step it has left; in doubt the
+    /// the culprit, even if the witness helps it, or else that one of them that failed most often for each step it has left; in doubt the
     /// nearest to the leader.
     fn next(&self) -> Option<(usize, Turn)> {
         let mut lost = (1..self.team.len()).rev().filter(|&robot| {

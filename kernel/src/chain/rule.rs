@@ -126,7 +126,7 @@ impl Move {
 }
 
 impl Rule {
-    /// The chain as the paper publishes it.
+    /// The chain as the paper publishes it, but for [`Condition::EpochMustGain`], without which it may never end.
     pub const PUBLISHED: Self = Self {
         conditions: Conditions::of(&[
             Condition::SafeAhead,
