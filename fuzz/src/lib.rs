@@ -14,7 +14,7 @@ use tautline::fault::{Colour, Fault, Halt};
 use tautline::layout::{Layout, Misread, Size, movingai, ros, text};
 use tautline::trace::Trace;
 use tautline::wide::WideGrid;
-use tautline_kernel::chain::{Chain, Intent, Rule};
+use tautline_kernel::chain::{Chain, Intent, Kind, Rule};
 use tautline_kernel::choice::{Source, one_of};
 use tautline_kernel::grid::{Area, Grid, SmallGrid};
 use tautline_kernel::lattice::{Cell, Edge};
@@ -123,7 +123,7 @@ fn follow<G: Grid, const ROBOTS: usize>(
 }
 
 /// A chain whose log is replaced by any bytes in the middle of its run: it goes on or says that the log is
-/// damaged.
+/// damaged. It never takes a move back by a log that is cut short.
 pub fn chain_log(bytes: &[u8]) {
     let (head, log) = bytes.split_at(bytes.len().min(16));
     let numbers = numbers(head);
@@ -136,8 +136,19 @@ pub fn chain_log(bytes: &[u8]) {
     let mut chain = Chain::<_, 8>::new(rule, robots, base, grid).expect("it fits");
     let mut good_log = Vec::new();
     for made in 0..2 * good_moves {
-        let log = if made < good_moves { &good_log } else { log };
-        let Ok(Intent::Go(plan)) = chain.plan(log) else { return };
+        let log: Vec<u8> = if made < good_moves {
+            good_log.clone()
+        } else {
+            log.iter().copied().chain(std::iter::repeat(0)).take(good_log.len()).collect()
+        };
+        if let Some((_, cut_short)) = log.split_last() {
+            let planned = chain.clone().plan(cut_short);
+            assert!(
+                !matches!(planned, Ok(Intent::Go(plan)) if plan.kind == Kind::Backtrack),
+                "a log cut short"
+            );
+        }
+        let Ok(Intent::Go(plan)) = chain.plan(&log) else { return };
         let settled = chain.settle(&plan, |_| is_open(&mut source));
         good_log.extend_from_slice(settled.messages());
     }

@@ -26,16 +26,31 @@ pub struct Message {
     pub outcome: Outcome,
 }
 
-/// A byte that is no message.
+/// Why a log of messages cannot be read.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Damaged(
-    /// The byte.
-    pub u8,
-);
+pub enum Damaged {
+    /// A byte is no message.
+    Byte(u8),
+    /// It is not as long as the run.
+    Length {
+        /// Bytes it has.
+        bytes: usize,
+        /// Bytes that the team sent: one for each robot but the base and each team move.
+        sent: usize,
+    },
+}
 
 impl fmt::Display for Damaged {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "byte {:#04x} is no message of the chain", self.0)
+        match self {
+            Self::Byte(byte) => write!(f, "byte {byte:#04x} is no message of the chain"),
+            Self::Length { bytes, sent } => {
+                write!(
+                    f,
+                    "the log has {bytes} bytes, the team sent {sent}: keep all messages, in their order"
+                )
+            }
+        }
     }
 }
 
@@ -71,12 +86,12 @@ impl Message {
     /// # Errors
     /// [`Damaged`] if no message is encoded so.
     pub fn decode(byte: u8) -> Result<Self, Damaged> {
-        let step = *Step::ALL.get(usize::from(byte & 0b111)).ok_or(Damaged(byte))?;
+        let step = *Step::ALL.get(usize::from(byte & 0b111)).ok_or(Damaged::Byte(byte))?;
         let outcome = match byte & !0b111 {
             0 => Outcome::Arrived,
             WALL_BIT if step != Step::Stay => Outcome::Blocked,
             BACKTRACK_BIT => Outcome::TookBack,
-            _ => return Err(Damaged(byte)),
+            _ => return Err(Damaged::Byte(byte)),
         };
         Ok(Self { step, outcome })
     }

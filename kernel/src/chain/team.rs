@@ -177,7 +177,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     /// gave them.
     ///
     /// # Errors
-    /// [`Damaged`] if a byte that a backtrack needs is no message.
+    /// [`Damaged`] if a backtrack needs the log, and it is not as long as the run or a byte needed is no message.
     pub fn plan(&mut self, log: &[u8]) -> Result<Intent<ROBOTS>, Damaged> {
         self.looked_at = 0;
         if self.grid.is_explored() {
@@ -210,6 +210,10 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     /// The plan that takes log entry `entry` back.
     fn backtrack(&self, log: &[u8], entry: u32) -> Result<Plan<ROBOTS>, Damaged> {
         let movers = self.robots - 1;
+        let sent = self.moves as usize * movers;
+        if log.len() != sent {
+            return Err(Damaged::Length { bytes: log.len(), sent });
+        }
         let messages = log.chunks_exact(movers).nth(entry as usize).unwrap_or(&[]);
         let mut steps = [Step::Stay; ROBOTS];
         for (step, &byte) in steps[1..].iter_mut().zip(messages) {
