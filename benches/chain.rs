@@ -53,8 +53,7 @@ fn run_plain(layout: &Layout, robots: usize) -> Work {
 }
 
 fn area_of(layout: &Layout) -> (Area, Cell) {
-    let last = Cell::new(layout.width() - 1, layout.height() - 1);
-    (Area::new(Cell::new(0, 0), last).expect("cells"), layout.default_base().expect("a free cell"))
+    (layout.size().area(), layout.default_base().expect("a free cell"))
 }
 
 fn small(area: Area) -> SmallGrid {

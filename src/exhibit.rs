@@ -1,7 +1,7 @@
 //! A run written down for the judge of counterexamples, who shares no code with what made the run.
 
 use tautline_kernel::chain::Kind;
-use tautline_kernel::lattice::{Cell, Side, Step};
+use tautline_kernel::lattice::Cell;
 use tautline_proofs::judge::{Exhibit, Move, Place, Repairs};
 use tautline_proofs::run::{Breach, Frame};
 
@@ -35,7 +35,7 @@ fn written_down(frame: &Frame) -> Move {
             Kind::Advance => false,
             Kind::Backtrack => true,
         },
-        tried: frame.steps.iter().copied().map(displacement).collect(),
+        tried: frame.steps.iter().map(|&step| place(Cell::new(0, 0).after(step))).collect(),
         blocked: frame.blocked.clone(),
         places: frame.cells.iter().copied().map(place).collect(),
     }
@@ -43,14 +43,4 @@ fn written_down(frame: &Frame) -> Move {
 
 fn place(cell: Cell) -> Place {
     (cell.x.into(), cell.y.into())
-}
-
-const fn displacement(step: Step) -> Place {
-    match step {
-        Step::Cross(Side::East) => (1, 0),
-        Step::Cross(Side::South) => (0, 1),
-        Step::Cross(Side::West) => (-1, 0),
-        Step::Cross(Side::North) => (0, -1),
-        Step::Stay => (0, 0),
-    }
 }

@@ -3,7 +3,6 @@
 
 use std::path::{Path, PathBuf};
 
-use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Edge};
 use tautline_proofs::invariant::Invariant;
 use tautline_proofs::run::Breach;
@@ -78,10 +77,8 @@ pub fn bounds(rule: RuleName, robots: u64, max_walls: u32, size: Option<Size>) -
     let robots = usize::from(Setup::count_robots(robots, MAX_ROBOTS)?);
     let mut bounds = Bounds::new(rule.subject(), robots, max_walls);
     if let Some(size) = size {
-        let last = Cell::new(size.width() - 1, size.height() - 1);
-        let first = Cell::new(0, 0);
-        bounds.base = Cell::new(last.x / 2, last.y / 2);
-        bounds.area = Area::new(first, last).unwrap_or(Area::of(first));
+        bounds.base = Cell::new((size.width() - 1) / 2, (size.height() - 1) / 2);
+        bounds.area = size.area();
     }
     let branches = branches(robots as u64 - 1, u64::from(max_walls));
     if branches > MAX_BRANCHES {

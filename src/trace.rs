@@ -71,20 +71,13 @@ enum Line {
 pub struct StoredMove {
     /// Its number, counted from 1.
     step: u32,
-    kind: StoredKind,
+    kind: Kind,
     /// One letter a robot: E, S, W, N, or `.` for a robot that stays.
     tried: String,
     /// The numbers of the robots that met a wall; the base is 1.
     blocked: Vec<usize>,
     /// Where the robots are now.
     cells: Vec<Cell>,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-enum StoredKind {
-    Advance,
-    Backtrack,
 }
 
 /// The last line.
@@ -118,10 +111,7 @@ impl StoredMove {
         };
         Self {
             step,
-            kind: match frame.kind {
-                Kind::Advance => StoredKind::Advance,
-                Kind::Backtrack => StoredKind::Backtrack,
-            },
+            kind: frame.kind,
             tried: frame.steps.iter().map(letter).collect(),
             blocked: (1..)
                 .zip(&frame.blocked)

@@ -69,8 +69,7 @@ fn area(robots: usize, source: &mut dyn Source) -> (Size, Area, Cell) {
     let (width, height) = (most - source.pick(most), most - source.pick(most));
     let base = Cell::new((width - 1 - source.pick(width)) as i16, (height - 1 - source.pick(height)) as i16);
     let size = Size::new(width.into(), height.into()).expect("a small layout");
-    let whole = Area::new(Cell::new(0, 0), Cell::new(size.width() - 1, size.height() - 1));
-    let area = whole.and_then(|whole| Chain::<SmallGrid, 8>::area(whole, base, robots));
+    let area = Chain::<SmallGrid, 8>::area(size.area(), base, robots);
     (size, area.expect("the base is in it"), base)
 }
 

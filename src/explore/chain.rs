@@ -30,8 +30,7 @@ fn begin<G: Grid + 'static, const ROBOTS: usize>(
     grid: impl Fn(Area) -> Option<G>,
 ) -> Result<Box<dyn Scheme>, Refused> {
     let (base, robots) = (setup.base, usize::from(setup.robots));
-    let last = Cell::new(setup.layout.width() - 1, setup.layout.height() - 1);
-    let whole = Area::new(Cell::new(0, 0), last).filter(|area| area.contains(base));
+    let whole = Some(setup.layout.size().area()).filter(|area| area.contains(base));
     let area = whole.and_then(|area| Chain::<G, ROBOTS>::area(area, base, robots));
     let area = area.ok_or(Refused::BaseOutside { base })?;
     let grid = grid(area).ok_or(Refused::TooManyRobots { robots, most: ROBOTS })?;

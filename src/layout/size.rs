@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::Cell;
 
 use super::Problem;
@@ -45,6 +46,12 @@ impl Size {
     /// Columns times rows.
     pub const fn cells(self) -> usize {
         self.width as usize * self.height as usize
+    }
+
+    /// All of them.
+    pub fn area(self) -> Area {
+        let first = Cell::new(0, 0);
+        Area::new(first, Cell::new(self.width - 1, self.height - 1)).unwrap_or(Area::of(first))
     }
 
     /// Whether `cell` is one of them.

@@ -3,9 +3,9 @@
 //! out: a step that no step of a neighbour in the chain agrees with, and a step into a cell that other robots are
 //! sure to need. Where that does not decide, steps are tried, first for the robot whose trial failed last (Lecoutre,
 //! Sais, Tabary and Vidal 2009), then for those that were left without a step most often for each step they have
-//! left (in the manner of Boussemart, Hemery, Lecoutre and Sais 2004), so that a dead end is left where it began. The plan is that of the recursion: every
-//! follower in turn, the leader's neighbour first, takes the first step in its order of preference from which the
-//! robots behind it can still close the chain.
+//! left (in the manner of Boussemart, Hemery, Lecoutre and Sais 2004), so that a dead end is left where it began.
+//! The plan is that of the recursion: every follower in turn, the leader's neighbour first, takes the first step in
+//! its order of preference from which the robots behind it can still close the chain.
 
 use core::cmp::Reverse;
 
@@ -101,7 +101,7 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
         }
         let mut wave = Wave::NONE;
         (0..=leader).for_each(|robot| wave.robots.insert(robot));
-        if choices.left[leader] != Steps::NONE && !choices.follow_up(wave) {
+        if !choices.follow_up(wave) {
             choices.left[leader] = Steps::NONE;
         }
         choices

@@ -70,10 +70,7 @@ impl Message {
 
     /// Bits 0 to 2: the step's place in direction order. Bit 3: met a wall. Bit 4: taken back.
     pub const fn encode(self) -> u8 {
-        let step = match self.step {
-            Step::Cross(side) => side as u8,
-            Step::Stay => 4,
-        };
+        let step = self.step.place() as u8;
         match self.outcome {
             Outcome::Arrived => step,
             Outcome::Blocked => step | WALL_BIT,

@@ -11,6 +11,7 @@ use crate::lattice::{Cell, Edge, Side, Step};
 
 /// Whether a team move seeks new cells or takes an earlier move back.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Kind {
     /// A planned exploration move.
     Advance,
