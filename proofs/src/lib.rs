@@ -9,6 +9,7 @@ pub mod invariant;
 pub mod judge;
 pub mod pair;
 pub mod plain;
+pub mod reach;
 pub mod registry;
 pub mod run;
 pub mod search;
