@@ -7,6 +7,7 @@ pub mod decide;
 pub mod engine;
 pub mod invariant;
 pub mod judge;
+pub mod optimum;
 pub mod pair;
 pub mod plain;
 pub mod reach;

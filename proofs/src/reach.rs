@@ -258,7 +258,7 @@ impl Ground {
         Ok(Search::new(self, rule)?.run(|reached| reached & wanted != 0) & wanted != 0)
     }
 
-    fn bits(&self, cells: &CellSet) -> Result<u128, TooLarge> {
+    pub(crate) fn bits(&self, cells: &CellSet) -> Result<u128, TooLarge> {
         let count = cells_of(self.area);
         if count > MAX_CELLS {
             return Err(TooLarge::Cells { cells: count });
@@ -296,10 +296,10 @@ impl Steps {
 pub const MAX_FOLLOWERS: usize = 20;
 
 /// Followers R_2 … R_{N−1}, by the index of their cells.
-type Followers = [u8; MAX_FOLLOWERS];
+pub(crate) type Followers = [u8; MAX_FOLLOWERS];
 
-/// The search through all configurations. Cells are indices, sets of them bits.
-struct Search {
+/// The team moves that a rule admits on a ground where every edge is known. Cells are indices, sets of them bits.
+pub(crate) struct Relation {
     rule: Rule,
     followers: usize,
     base: u8,
@@ -308,13 +308,6 @@ struct Search {
     east: u128,
     south: u128,
     cells: Vec<Around>,
-    /// By follower and cell: what it adds to the index of the followers' place; none where the follower cannot be.
-    strides: Vec<Vec<Option<u32>>>,
-    /// By place: the leader's cells seen, and those of them not yet moved on from.
-    seen: Vec<u128>,
-    pending: Vec<u128>,
-    work: VecDeque<(u32, Followers)>,
-    reached: u128,
 }
 
 /// What is round a cell.
@@ -327,8 +320,11 @@ struct Around {
     after: Vec<u8>,
 }
 
-impl Search {
-    fn new(ground: &Ground, rule: &Rule) -> Result<Self, TooLarge> {
+/// Takes the followers' next cells, and all those that the leader can then be in.
+type Sink<'a> = &'a mut dyn FnMut(&Followers, u128);
+
+impl Relation {
+    pub(crate) fn new(ground: &Ground, rule: &Rule) -> Result<Self, TooLarge> {
         let Ground { area, base, robots, .. } = *ground;
         let cells = cells_of(area);
         if cells > MAX_CELLS {
@@ -337,24 +333,6 @@ impl Search {
         let followers = robots.saturating_sub(2);
         if followers > MAX_FOLLOWERS {
             return Err(TooLarge::Places);
-        }
-        let (mut strides, mut places) = (Vec::with_capacity(followers), 1);
-        for follower in 0..followers {
-            // By SafeAhead a robot is at most one column and row from the one behind.
-            let reach = if rule.has(Condition::SafeAhead) { follower as u16 + 1 } else { u16::MAX };
-            let mut place = 0;
-            let stride = area.cells().map(|cell| {
-                let (dx, dy) = base.apart(cell);
-                (dx.max(dy) <= reach).then(|| {
-                    place += 1;
-                    (place - 1) * places
-                })
-            });
-            strides.push(stride.collect());
-            places *= place;
-            if places as usize > MAX_PLACES {
-                return Err(TooLarge::Places);
-            }
         }
         let set = |is_in: &dyn Fn(Cell) -> bool| {
             let places = area.cells().enumerate();
@@ -377,80 +355,73 @@ impl Search {
             east: set(&|cell| ground.admits(cell, Step::Cross(Side::East))),
             south: set(&|cell| ground.admits(cell, Step::Cross(Side::South))),
             cells: area.cells().map(around).collect(),
-            strides,
-            seen: vec![0; places as usize],
-            pending: vec![0; places as usize],
-            work: VecDeque::new(),
-            reached: 0,
         })
     }
 
-    /// The cells that some robot has been in when `is_enough` says so of them, or when there are no more.
-    fn run(mut self, is_enough: impl Fn(u128) -> bool) -> u128 {
-        let base = 1 << self.base;
-        self.reached = base;
+    /// All robots in the base.
+    pub(crate) fn start(&self) -> (Followers, u8) {
         let mut start = [0; MAX_FOLLOWERS];
         start[..self.followers].fill(self.base);
-        self.add(start, base);
-        while let Some((place, from)) = self.work.pop_front() {
-            if is_enough(self.reached) {
-                break;
-            }
-            let leaders = std::mem::take(&mut self.pending[place as usize]);
-            let present = &from[..self.followers];
-            let behind = present.last().copied().unwrap_or(self.base);
-            let led = self.led(leaders, present, behind);
-            self.advance(&from, &mut [0; MAX_FOLLOWERS], 0, leaders, led);
-        }
-        self.reached
+        (start, self.base)
+    }
+
+    /// The cells of the followers, as a set.
+    pub(crate) fn cells(&self, followers: &Followers) -> u128 {
+        followers[..self.followers].iter().fold(0, |cells, &cell| cells | 1 << cell)
+    }
+
+    /// Every team move with the followers in `from` and the leader in any of `leaders`.
+    pub(crate) fn moves(&self, from: &Followers, leaders: u128, sink: Sink<'_>) {
+        self.choose(from, &mut [0; MAX_FOLLOWERS], 0, leaders, self.led(from, leaders), sink);
     }
 
     /// Chooses the step of follower number `follower` and of those ahead of it. `led` is where the leaders can go.
-    fn advance(&mut self, from: &Followers, to: &mut Followers, follower: usize, leaders: u128, led: u128) {
+    fn choose(
+        &self,
+        from: &Followers,
+        to: &mut Followers,
+        follower: usize,
+        leaders: u128,
+        led: u128,
+        sink: Sink<'_>,
+    ) {
         let (planned_behind, behind) = match follower.checked_sub(1) {
             Some(behind) => (to[behind], from[behind]),
             None => (self.base, self.base),
         };
+        let (planned_behind, behind) =
+            (&self.cells[usize::from(planned_behind)], &self.cells[usize::from(behind)]);
+        let is_distinct = self.rule.has(Condition::Distinct);
         if follower == self.followers {
-            let is_taken = self.rule.has(Condition::Distinct);
-            let taken = to[..follower].iter().filter(|&&cell| is_taken && cell != self.base);
-            let taken = taken.fold(0, |taken, &cell| taken | 1_u128 << cell);
-            self.add(*to, led & self.cells[usize::from(planned_behind)].safe & !taken);
+            let taken = if is_distinct { self.cells(to) & !(1 << self.base) } else { 0 };
+            sink(to, led & planned_behind.safe & !taken);
             return;
         }
         let at = from[follower];
-        for choice in 0..self.cells[usize::from(at)].after.len() {
-            let cell = self.cells[usize::from(at)].after[choice];
-            let is_in = |set: u128| set >> cell & 1 == 1;
-            let is_taken =
-                self.rule.has(Condition::Distinct) && cell != self.base && to[..follower].contains(&cell);
-            if !is_in(self.cells[usize::from(planned_behind)].safe)
-                || !is_in(self.cells[usize::from(behind)].covered)
-                || is_taken
-            {
+        for &cell in &self.cells[usize::from(at)].after {
+            let is_taken = is_distinct && cell != self.base && to[..follower].contains(&cell);
+            if (planned_behind.safe & behind.covered) >> cell & 1 == 0 || is_taken {
                 continue;
             }
             to[follower] = cell;
-            let present = &from[..self.followers];
-            let guarded = self.rule.has(Condition::FullForFollower) && cell != self.base && cell != at;
-            let others = present.iter().filter(|&&other| guarded && other == cell).count();
+            let is_guarded = self.rule.has(Condition::FullForFollower) && cell != self.base && cell != at;
+            let others = from[..self.followers].iter().filter(|&&other| is_guarded && other == cell).count();
             // With one follower in it, the cell is full if the leader is there, too.
             let unhindered = match others {
                 0 => leaders,
                 1 => leaders & !(1 << cell),
                 _ => 0,
             };
-            if unhindered == leaders {
-                self.advance(from, to, follower + 1, leaders, led);
-            } else if unhindered != 0 {
-                let led = self.led(unhindered, present, present[self.followers - 1]);
-                self.advance(from, to, follower + 1, unhindered, led);
+            let led = if unhindered == leaders { led } else { self.led(from, unhindered) };
+            if led != 0 {
+                self.choose(from, to, follower + 1, unhindered, led, sink);
             }
         }
     }
 
-    /// Where leaders can go while the robot behind them is in `behind`.
-    fn led(&self, leaders: u128, present: &[u8], behind: u8) -> u128 {
+    /// Where leaders can go while the followers are in `from`.
+    fn led(&self, from: &Followers, leaders: u128) -> u128 {
+        let present = &from[..self.followers];
         let moved = (leaders & self.east) << 1
             | leaders >> 1 & self.east
             | (leaders & self.south) << self.width
@@ -462,13 +433,80 @@ impl Search {
                 once |= bit;
             }
         }
+        let behind = present.last().copied().unwrap_or(self.base);
         leaders | moved & self.cells[usize::from(behind)].covered & !twice
     }
+}
 
-    /// Notes the configurations with the followers in `place` and the leader in any of `leaders`.
-    fn add(&mut self, followers: Followers, leaders: u128) {
-        let cells = &followers[..self.followers];
-        let parts = cells.iter().zip(&self.strides).map(|(&cell, strides)| strides[usize::from(cell)]);
+/// The search through all configurations.
+struct Search {
+    relation: Relation,
+    visited: Visited,
+}
+
+/// The configurations that were met.
+struct Visited {
+    /// By follower and cell: what it adds to the index of the followers' place; none where the follower cannot be.
+    strides: Vec<Vec<Option<u32>>>,
+    /// By place: the leader's cells seen, and those of them not yet moved on from.
+    seen: Vec<u128>,
+    pending: Vec<u128>,
+    work: VecDeque<(u32, Followers)>,
+    /// Where some robot was.
+    reached: u128,
+}
+
+impl Search {
+    fn new(ground: &Ground, rule: &Rule) -> Result<Self, TooLarge> {
+        let relation = Relation::new(ground, rule)?;
+        let (mut strides, mut places) = (Vec::with_capacity(relation.followers), 1);
+        for follower in 0..relation.followers {
+            // By SafeAhead a robot is at most one column and row from the one behind.
+            let reach = if rule.has(Condition::SafeAhead) { follower as u16 + 1 } else { u16::MAX };
+            let mut place = 0;
+            let stride = ground.area.cells().map(|cell| {
+                let (dx, dy) = ground.base.apart(cell);
+                (dx.max(dy) <= reach).then(|| {
+                    place += 1;
+                    (place - 1) * places
+                })
+            });
+            strides.push(stride.collect());
+            places *= place;
+            if places as usize > MAX_PLACES {
+                return Err(TooLarge::Places);
+            }
+        }
+        let visited = Visited {
+            strides,
+            seen: vec![0; places as usize],
+            pending: vec![0; places as usize],
+            work: VecDeque::new(),
+            reached: 0,
+        };
+        Ok(Self { relation, visited })
+    }
+
+    /// The cells that some robot has been in when `is_enough` says so of them, or when there are no more.
+    fn run(self, is_enough: impl Fn(u128) -> bool) -> u128 {
+        let Self { relation, mut visited } = self;
+        let (start, leader) = relation.start();
+        visited.add(&relation, &start, 1 << leader);
+        while let Some((place, from)) = visited.work.pop_front() {
+            if is_enough(visited.reached) {
+                break;
+            }
+            let leaders = std::mem::take(&mut visited.pending[place as usize]);
+            relation.moves(&from, leaders, &mut |to, led| visited.add(&relation, to, led));
+        }
+        visited.reached
+    }
+}
+
+impl Visited {
+    /// Notes the configurations with the leader in any of `leaders`.
+    fn add(&mut self, relation: &Relation, followers: &Followers, leaders: u128) {
+        let parts = followers.iter().zip(&self.strides).map(|(&cell, strides)| strides[usize::from(cell)]);
         let Some(place) = parts.sum::<Option<u32>>() else { return };
         let new = leaders & !self.seen[place as usize];
         if new == 0 {
@@ -476,10 +514,10 @@ impl Search {
         }
         self.seen[place as usize] |= new;
         if self.pending[place as usize] == 0 {
-            self.work.push_back((place, followers));
+            self.work.push_back((place, *followers));
         }
         self.pending[place as usize] |= new;
-        self.reached |= cells.iter().fold(new, |reached, &cell| reached | 1 << cell);
+        self.reached |= relation.cells(followers) | new;
     }
 }
 
@@ -496,7 +534,7 @@ fn in_covered(one: Cell, other: Cell) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use std::collections::HashSet;
 
     use tautline_kernel::chain::{Move, Role};
@@ -504,6 +542,7 @@ mod tests {
 
     use super::*;
     use crate::engine::Seeded;
+    use crate::whole;
 
     const RULES: [Rule; 7] = [
         Rule::PUBLISHED,
@@ -516,17 +555,31 @@ mod tests {
     ];
 
     /// The area of the paper, with the walls that `is_wall` says.
-    fn ground(robots: usize, is_wall: impl Fn(Edge) -> bool) -> Ground {
-        let range = robots as i16 - 1;
-        let area = Area::new(Cell::new(0, 0), Cell::new(2 * range, 2 * range)).expect("cells");
-        Ground::new(area, Cell::new(range, range), robots, |edge| !is_wall(edge)).expect("a base inside")
+    pub(crate) fn ground(robots: usize, is_wall: impl Fn(Edge) -> bool) -> Ground {
+        let (area, base) = whole::area(robots);
+        Ground::new(area, base, robots, |edge| !is_wall(edge)).expect("a base inside")
     }
 
-    fn random(robots: usize, seed: u64, walls_percent: u32) -> Ground {
-        let area = ground(robots, |_| false).area;
-        let mut source = Seeded::new(seed, u64::from(walls_percent));
+    /// So many of the edges in a hundred are walls.
+    pub(crate) fn random(
+        robots: usize,
+        area: Area,
+        base: Cell,
+        source: &mut Seeded,
+        walls_percent: u32,
+    ) -> Ground {
         let walls: HashSet<Edge> = area.edges().filter(|_| source.pick(100) < walls_percent).collect();
-        ground(robots, |edge| walls.contains(&edge))
+        Ground::new(area, base, robots, |edge| !walls.contains(&edge)).expect("a base inside")
+    }
+
+    /// All 4096 of them.
+    pub(crate) fn layouts_of_two_robots() -> impl Iterator<Item = Ground> {
+        let edges: Vec<Edge> = whole::area(2).0.edges().collect();
+        (0..1_u32 << edges.len()).map(move |walls| {
+            ground(2, |edge| {
+                edges.iter().position(|&one| one == edge).is_some_and(|place| walls >> place & 1 == 1)
+            })
+        })
     }
 
     /// One configuration after the other, each team move tried step by step, and admitted by the kernel's relation.
@@ -549,7 +602,7 @@ mod tests {
         reached
     }
 
-    fn team_moves(ground: &Ground, rule: &Rule, cells: &[Cell]) -> Vec<Vec<Move>> {
+    pub(crate) fn team_moves(ground: &Ground, rule: &Rule, cells: &[Cell]) -> Vec<Vec<Move>> {
         let mut teams = vec![vec![Move::stay(cells[0])]];
         for (robot, &from) in cells.iter().enumerate().skip(1) {
             let is_leader = robot + 1 == cells.len();
@@ -593,12 +646,9 @@ mod tests {
 
     #[test]
     fn two_robots_reach_what_plain_search_says_in_all_layouts() {
-        let edges: Vec<Edge> = ground(2, |_| false).area.edges().collect();
-        for walls in 0..1_u32 << edges.len() {
-            let is_wall =
-                |edge| edges.iter().position(|&one| one == edge).is_some_and(|at| walls >> at & 1 == 1);
+        for ground in layouts_of_two_robots() {
             for rule in &RULES {
-                agrees(&ground(2, is_wall), rule);
+                agrees(&ground, rule);
             }
         }
     }
@@ -645,18 +695,23 @@ mod tests {
 
     #[test]
     fn more_robots_reach_what_plain_search_says_in_random_layouts() {
-        for (robots, layouts) in [(3, 60), (4, 6)] {
-            for seed in 0..layouts {
+        let mut source = Seeded::new(0, 0);
+        let mut next = |robots, walls_percent| {
+            let (area, base) = whole::area(robots);
+            random(robots, area, base, &mut source, walls_percent)
+        };
+        for (robots, layouts, rules) in [(3, 60, &RULES[..]), (4, 6, &RULES[..2])] {
+            for _ in 0..layouts {
                 for walls_percent in [10, 25, 40, 50] {
-                    let ground = random(robots, seed, walls_percent);
-                    for rule in &RULES[..if robots == 3 { 7 } else { 2 }] {
+                    let ground = next(robots, walls_percent);
+                    for rule in rules {
                         agrees(&ground, rule);
                     }
                 }
             }
         }
-        agrees(&random(4, 1, 30), &RULES[6]);
-        agrees(&random(5, 1, 35), &Rule::REPAIRED);
+        agrees(&next(4, 30), &RULES[6]);
+        agrees(&next(5, 35), &Rule::REPAIRED);
     }
 
     #[test]

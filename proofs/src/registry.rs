@@ -10,7 +10,7 @@ use tautline_kernel::lattice::Circle;
 use crate::clause::{Check, Clause, Method, Mutant, Sabotage, Subject, Verdict};
 use crate::invariant::Invariant;
 use crate::run::Breach;
-use crate::{crowd, pair, small, whole};
+use crate::{crowd, optimum, pair, small, whole};
 
 /// A mutant.
 const fn mutant(name: &'static str, subject: Subject) -> Mutant {
@@ -305,6 +305,8 @@ pub static CLAUSES: [Clause; 13] = [
                 expected: Verdict::Holds,
                 mutants: &[],
             },
+            solved(Subject::PUBLISHED, &[]),
+            solved(Subject::REPAIRED, &[mutant("without E_S ahead", Subject::without(SafeAhead))]),
         ],
     },
     Clause {
@@ -338,6 +340,11 @@ pub static CLAUSES: [Clause; 13] = [
 const fn runs(subject: Subject, mutants: &'static [Mutant]) -> Check {
     let method = Method::Exhaustive { body: whole::spiral, covers: &["an open area"] };
     Check { subject, method, bound: "N = 2 … 32", expected: Verdict::Holds, mutants }
+}
+
+const fn solved(subject: Subject, mutants: &'static [Mutant]) -> Check {
+    let method = Method::Exhaustive { body: optimum::least_in_the_open, covers: &["an open area"] };
+    Check { subject, method, bound: "N = 2 … 6, solved by A*", expected: Verdict::Holds, mutants }
 }
 
 const ENDS: [&str; 2] = ["everything explored", "exhausted"];
