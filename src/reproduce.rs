@@ -2,10 +2,8 @@
 
 pub mod repair_cost;
 
-use clap::ValueEnum;
-
 /// Every reproduction.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Reproduction {
     /// What the chain's repairs cost in team moves, and what they prevent.
     RepairCost,

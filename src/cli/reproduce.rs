@@ -1,37 +1,35 @@
 //! `tautline reproduce`: tables again.
 
-use std::fmt::Write;
+mod repair_cost;
 
-use clap::Args;
+use clap::{Args, Subcommand};
 use serde::Serialize;
 
 use super::output::Output;
-use super::{Exit, Format, FormatArgs, interrupt, number, progress};
+use super::{Exit, Format, FormatArgs};
 use crate::fault::Halt;
 use crate::reproduce::Reproduction;
-use crate::reproduce::repair_cost::{self, Comparison, DENSITIES, Line, ROBOTS};
 
 const EXAMPLES: &str = "\
 Examples:
   tautline reproduce
   tautline reproduce repair-cost
-  tautline reproduce repair-cost --layouts 10000 --format json";
+  tautline reproduce repair-cost --help";
 
 /// Measure a table again; without an id, list them.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = EXAMPLES, args_conflicts_with_subcommands = true, disable_help_subcommand = true)]
+#[command(subcommand_value_name = "ID", subcommand_help_heading = "Tables")]
 pub(super) struct Reproduce {
-    /// Which table.
-    #[arg(value_enum)]
-    id: Option<Reproduction>,
-    /// Random layouts at each density.
-    #[arg(long, value_name = "COUNT", default_value_t = 300, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    layouts: u32,
-    /// The seed of the first layout; the others have the seeds after it.
-    #[arg(long, default_value = "0", value_parser = number::<u64>)]
-    seed: u64,
+    #[command(subcommand)]
+    table: Option<Table>,
     #[command(flatten)]
     format: FormatArgs,
+}
+
+#[derive(Debug, Subcommand)]
+enum Table {
+    RepairCost(repair_cost::RepairCost),
 }
 
 #[derive(Serialize)]
@@ -45,19 +43,11 @@ struct List {
     reproductions: Vec<Listed>,
 }
 
-#[derive(Serialize)]
-struct RepairCost {
-    id: &'static str,
-    robots: u16,
-    seed: u64,
-    densities: Vec<Line>,
-}
-
 impl Reproduce {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        match self.id {
+        match &self.table {
             None => self.list(out),
-            Some(Reproduction::RepairCost) => self.repair_cost(out),
+            Some(Table::RepairCost(table)) => table.run(out),
         }
     }
 
@@ -74,62 +64,5 @@ impl Reproduce {
             }
         }
         Ok(Exit::Expected)
-    }
-
-    fn repair_cost(&self, out: &mut Output) -> Result<Exit, Halt> {
-        let bar = progress::bar("comparing", u64::from(self.layouts) * DENSITIES.len() as u64);
-        let lines = repair_cost::compare(self.layouts, self.seed, &|| {
-            bar.inc(1);
-            interrupt::check()
-        })?;
-        bar.finish_and_clear();
-        match self.format.format {
-            Format::Json => out.json(&RepairCost {
-                id: Reproduction::RepairCost.id(),
-                robots: ROBOTS,
-                seed: self.seed,
-                densities: lines.clone(),
-            })?,
-            Format::Text => out.text(self.table(&lines))?,
-        }
-        let is_safe = lines.iter().all(|line| line.violations.iter().all(|runs| runs.repaired == 0));
-        Ok(if is_safe { Exit::Expected } else { Exit::Violation })
-    }
-
-    fn table(&self, lines: &[Line]) -> String {
-        let mut text = format!(
-            "{ROBOTS} robots in walls:15x15:DENSITY, {} layouts at each density, seeds from {}\n",
-            self.layouts, self.seed
-        );
-        for (place, milestone) in repair_cost::MILESTONES.iter().enumerate() {
-            // Writing to a string cannot fail.
-            let _ = writeln!(
-                text,
-                "\nMean team moves to {} %, where both reach it; the difference with its 95 % interval\n\
-                 density  published   repaired       difference  layouts  left out",
-                milestone.percent()
-            );
-            for line in lines {
-                let Comparison { percent: _, pairs, left_out, published, repaired, difference, margin } =
-                    line.milestones[place];
-                let difference = format!("{difference:+.2} ± {margin:.2}");
-                let _ = writeln!(
-                    text,
-                    "{:<7}  {published:>9.2}  {repaired:>9.2}  {difference:>15}  {pairs:>7}  {left_out:>8}",
-                    line.density
-                );
-            }
-        }
-        text.push_str("\nRuns that break a clause, published / repaired\ndensity ");
-        for violations in lines.first().map_or(&[][..], |line| &line.violations) {
-            let _ = write!(text, "  {:>12}", violations.clause);
-        }
-        for line in lines {
-            let _ = write!(text, "\n{:<7} ", line.density);
-            for runs in line.violations {
-                let _ = write!(text, "  {:>12}", format!("{} / {}", runs.published, runs.repaired));
-            }
-        }
-        text + "\n"
     }
 }
