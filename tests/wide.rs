@@ -1,11 +1,14 @@
-//! The wide grid answers as the grid of a few machine words does, whatever is asked of it, and leads a chain
-//! the same way.
+//! The homes of the grid, from one machine word to the heap, give the same answers, whatever is asked of them, and
+//! lead a chain the same way.
 
 use proptest::prelude::*;
 use tautline::wide::WideGrid;
 use tautline_kernel::chain::{Chain, End, Intent, Rule};
-use tautline_kernel::grid::{Area, Avoid, CellMark, EdgeMark, Grid, MediumGrid};
-use tautline_kernel::lattice::{Cell, Edge, Side};
+use tautline_kernel::grid::{
+    Area, Avoid, BitGrid, CellMark, CompactGrid, EdgeMark, Grid, LargeGrid, MediumGrid, Plane, SmallGrid,
+    TinyGrid,
+};
+use tautline_kernel::lattice::{Cell, Edge, Side, Step, Steps};
 
 const CELL_MARKS: [CellMark; 4] = [CellMark::Explored, CellMark::Occupied, CellMark::Full, CellMark::Planned];
 const EDGE_MARKS: [EdgeMark; 3] = [EdgeMark::Wall, EdgeMark::Open, EdgeMark::Virtual];
@@ -20,6 +23,9 @@ enum Call {
     ClearEdges(EdgeMark),
     Distance(Cell, Avoid),
 }
+
+/// Distances of a cell and of its neighbours, east, south, west, north, as far as they were asked for.
+type Answer = [Option<u32>; Step::ALL.len()];
 
 impl Call {
     /// Makes the call; the answer, if it has one.
@@ -74,6 +80,7 @@ fn calls(area: Area) -> impl Strategy<Value = Vec<Call>> {
         1 => (cell_mark, cells(area)).prop_map(|(mark, cell)| Call::Take(mark, cell)),
         1 => Just(Call::ClearEdges(EdgeMark::Virtual)),
         1 => Just(Call::ClearEdges(EdgeMark::Open)),
+        1 => Just(Call::ClearEdges(EdgeMark::Wall)),
     ];
     proptest::collection::vec(call, 1..400)
 }
@@ -124,34 +131,52 @@ fn run<G: Grid>(
     (log, None)
 }
 
+/// All that can be asked of `grid` in a second, of its area and two rows and columns around it.
+fn everything(grid: &mut impl Grid) -> (Vec<bool>, Vec<Answer>) {
+    let area = grid.area();
+    let around = rectangle(
+        Cell::new(area.first().x - 2, area.first().y - 2),
+        area.width() as i16 + 4,
+        area.height() as i16 + 4,
+    );
+    let mut marks = vec![grid.is_explored()];
+    marks.extend(around.cells().flat_map(|cell| CELL_MARKS.map(|mark| grid.has(mark, cell))));
+    marks.extend(around.edges().flat_map(|edge| EDGE_MARKS.map(|mark| grid.edge_has(mark, edge))));
+    let questions = around.cells().flat_map(|cell| AVOIDS.map(|avoid| (cell, avoid)));
+    let distances = questions.map(|(cell, avoid)| {
+        let distances = grid.distances(cell, Steps::ALL, avoid);
+        assert_eq!(distances[Step::Stay.place()], grid.distance(cell, avoid));
+        distances
+    });
+    (marks, distances.collect())
+}
+
+/// The answers of a grid with planes `P`, if it holds `area`.
+fn answers<P: Plane>(area: Area, calls: &[Call]) -> Option<(Vec<Option<u32>>, (Vec<bool>, Vec<Answer>))> {
+    let mut grid = BitGrid::<P>::new(area)?;
+    let heard = calls.iter().map(|call| call.make(&mut grid)).collect();
+    Some((heard, everything(&mut grid)))
+}
+
 proptest! {
     #[test]
-    fn the_answers_are_those_of_the_bit_grid((area, calls) in histories()) {
+    fn all_homes_give_the_same_answers((area, calls) in histories()) {
         let mut wide = WideGrid::new(area);
-        let mut bits = MediumGrid::new(area).expect("it fits");
-        for call in calls {
-            prop_assert_eq!(call.make(&mut wide), call.make(&mut bits), "{:?}", call);
-            prop_assert_eq!(wide.is_explored(), bits.is_explored());
-        }
+        let heard: Vec<_> = calls.iter().map(|call| call.make(&mut wide)).collect();
         prop_assert_eq!(wide.area(), area);
-        let around = rectangle(
-            Cell::new(area.first().x - 2, area.first().y - 2),
-            area.width() as i16 + 4,
-            area.height() as i16 + 4,
-        );
-        for cell in around.cells() {
-            for mark in CELL_MARKS {
-                prop_assert_eq!(wide.has(mark, cell), bits.has(mark, cell), "{:?} {}", mark, cell);
-            }
-            for avoid in AVOIDS {
-                let (ours, theirs) = (wide.distance(cell, avoid), bits.distance(cell, avoid));
-                prop_assert_eq!(ours, theirs, "{:?} {}", avoid, cell);
-            }
-        }
-        for edge in around.edges() {
-            for mark in EDGE_MARKS {
-                prop_assert_eq!(wide.edge_has(mark, edge), bits.edge_has(mark, edge), "{:?} {:?}", mark, edge);
-            }
+        let ours = (heard, everything(&mut wide));
+        let most = area.width().max(area.height());
+        let theirs = [
+            (8, answers::<u64>(area, &calls)),
+            (11, answers::<u128>(area, &calls)),
+            (16, answers::<[u16; 16]>(area, &calls)),
+            (32, answers::<[u32; 32]>(area, &calls)),
+            (64, answers::<[u64; 64]>(area, &calls)),
+            (128, answers::<[u128; 128]>(area, &calls)),
+        ];
+        for (side, theirs) in theirs {
+            prop_assert_eq!(theirs.is_some(), most <= side);
+            prop_assert!(theirs.is_none_or(|theirs| theirs == ours), "{} cells a side", side);
         }
     }
 
@@ -186,8 +211,8 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
     #[test]
-    fn a_chain_leaves_the_same_log_on_both_grids(
-        robots in 2..=32_i16,
+    fn a_chain_leaves_the_same_log_on_all_grids(
+        robots in prop_oneof![2..=6_i16, 2..=32_i16],
         walls in prop_oneof![Just(0.0), 0.0..0.5_f64],
         seed in any::<u64>(),
         rule in proptest::sample::select(vec![Rule::PUBLISHED, Rule::REPAIRED]),
@@ -197,10 +222,16 @@ proptest! {
         let wall: std::collections::HashSet<_> = area.edges().filter(|_| chance(walls)).collect();
         let is_open = |edge| !wall.contains(&edge);
         let robots = robots as usize;
-        let bits = MediumGrid::new(area).expect("it fits");
         let ours = run(rule, robots, base, WideGrid::new(area), is_open);
-        let theirs = run(rule, robots, base, bits, is_open);
-        prop_assert!(ours == theirs);
+        let theirs = [
+            TinyGrid::new(area).map(|grid| run(rule, robots, base, grid, is_open)),
+            CompactGrid::new(area).map(|grid| run(rule, robots, base, grid, is_open)),
+            SmallGrid::new(area).map(|grid| run(rule, robots, base, grid, is_open)),
+            MediumGrid::new(area).map(|grid| run(rule, robots, base, grid, is_open)),
+            LargeGrid::new(area).map(|grid| run(rule, robots, base, grid, is_open)),
+        ];
+        prop_assert!(theirs[4].is_some());
+        prop_assert!(theirs.into_iter().flatten().all(|theirs| theirs == ours));
     }
 }
 

@@ -8,7 +8,6 @@ mod choices;
 mod message;
 mod plan;
 mod rule;
-mod steps;
 mod team;
 
 pub use message::{Damaged, Message, Outcome};

@@ -2,6 +2,10 @@
 //! Clause LATTICE-1 shows that the environments, derived here from the radii in whole numbers, are the
 //! sets that the paper draws.
 
+mod steps;
+
+pub use steps::Steps;
+
 use core::fmt;
 
 /// A square cell, by column and row: `x` grows eastwards, `y` grows southwards, as text and images are
@@ -21,22 +25,20 @@ pub struct Cell {
 
 impl Cell {
     /// The cell in column `x` and row `y`.
+    #[inline]
     pub const fn new(x: i16, y: i16) -> Self {
         Self { x, y }
     }
 
     /// The neighbour beyond `side`. At the rim of the coordinates (±32,767) a cell is its own neighbour.
+    #[inline]
     pub const fn beyond(self, side: Side) -> Self {
-        let (x, y) = (self.x, self.y);
-        match side {
-            Side::East => Self::new(x.saturating_add(1), y),
-            Side::South => Self::new(x, y.saturating_add(1)),
-            Side::West => Self::new(x.saturating_sub(1), y),
-            Side::North => Self::new(x, y.saturating_sub(1)),
-        }
+        let (columns, rows) = side.offset();
+        Self::new(self.x.saturating_add(columns), self.y.saturating_add(rows))
     }
 
     /// Where `step` leads from here, if nothing is in the way.
+    #[inline]
     pub const fn after(self, step: Step) -> Self {
         match step {
             Step::Cross(side) => self.beyond(side),
@@ -45,6 +47,7 @@ impl Cell {
     }
 
     /// Columns and rows between two cells, without sign.
+    #[inline]
     pub const fn apart(self, other: Self) -> (u16, u16) {
         (self.x.abs_diff(other.x), self.y.abs_diff(other.y))
     }
@@ -91,7 +94,15 @@ impl Side {
     /// All sides in direction order.
     pub const ALL: [Self; 4] = [Self::East, Self::South, Self::West, Self::North];
 
+    /// Columns and rows from a cell to its neighbour beyond this side.
+    #[inline]
+    const fn offset(self) -> (i16, i16) {
+        const OFFSETS: [(i16, i16); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
+        OFFSETS[self as usize]
+    }
+
     /// The same edge seen from the cell beyond it.
+    #[inline]
     pub const fn opposite(self) -> Self {
         match self {
             Self::East => Self::West,
@@ -122,6 +133,7 @@ impl Step {
     ];
 
     /// Its place in direction order.
+    #[inline]
     pub const fn place(self) -> usize {
         match self {
             Self::Cross(side) => side as usize,
@@ -130,6 +142,7 @@ impl Step {
     }
 
     /// The step that takes this one back.
+    #[inline]
     pub const fn reverse(self) -> Self {
         match self {
             Self::Cross(side) => Self::Cross(side.opposite()),
@@ -155,6 +168,7 @@ enum Axis {
 
 impl Edge {
     /// The edge on this `side` of `cell`.
+    #[inline]
     pub const fn new(cell: Cell, side: Side) -> Self {
         match side {
             Side::East => Self { cell, axis: Axis::EastWest },
@@ -165,11 +179,13 @@ impl Edge {
     }
 
     /// The western or northern cell of the two.
+    #[inline]
     pub const fn cell(self) -> Cell {
         self.cell
     }
 
     /// The side of [`Edge::cell`] on which the edge lies: east or south.
+    #[inline]
     pub const fn side(self) -> Side {
         match self.axis {
             Axis::EastWest => Side::East,
@@ -197,12 +213,14 @@ impl Circle {
     pub const COVERED: Self = Self { four_radius_squared: 26 };
 
     /// The circle whose radius r satisfies 4·r² = `four_radius_squared`.
+    #[inline]
     pub const fn new(four_radius_squared: u64) -> Self {
         Self { four_radius_squared }
     }
 
     /// Whether `cell` lies wholly inside the circle round the centre of `round`: E_S and E_C are the sets of
     /// such cells. The farthest corner decides; it is half a cell beyond the centre in both coordinates.
+    #[inline]
     pub const fn covers(self, round: Cell, cell: Cell) -> bool {
         let (dx, dy) = round.apart(cell);
         let (x, y) = (2 * dx as u64 + 1, 2 * dy as u64 + 1);
@@ -210,6 +228,7 @@ impl Circle {
     }
 
     /// Whether the centre of `cell` lies inside the circle round the centre of `round`.
+    #[inline]
     pub const fn reaches(self, round: Cell, cell: Cell) -> bool {
         let (dx, dy) = round.apart(cell);
         let (x, y) = (2 * dx as u64, 2 * dy as u64);
@@ -218,6 +237,7 @@ impl Circle {
 }
 
 /// Whether `to` is in E_N(`from`): the cell itself or one of its four side neighbours.
+#[inline]
 pub const fn neighbours(from: Cell, to: Cell) -> bool {
     let (dx, dy) = from.apart(to);
     dx as u32 + dy as u32 <= 1

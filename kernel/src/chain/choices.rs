@@ -11,9 +11,8 @@ use core::cmp::Reverse;
 
 use super::plan::Planner;
 use super::rule::Condition;
-use super::steps::Steps;
 use crate::grid::Grid;
-use crate::lattice::{Cell, Step, neighbours};
+use crate::lattice::{Cell, Step, Steps, neighbours};
 
 /// The steps that are left for each robot, base first.
 pub(super) struct Choices<'a, const ROBOTS: usize> {
@@ -83,7 +82,11 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
             looked_at: 0,
         };
         for robot in 1..=leader {
-            let steps = if robot == leader { leads } else { planner.candidates(robot) };
+            let steps = if robot == leader {
+                leads
+            } else {
+                Steps::ALL.filter(|step| planner.is_candidate(robot, step))
+            };
             choices.looked_at += if robot == leader { 0 } else { Steps::ALL.len() };
             let behind = choices.left[robot - 1];
             choices.left[robot] = steps.filter(|step| {
@@ -200,7 +203,7 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
 
     fn preferred<G: Grid>(&self, planner: &mut Planner<'a, G, ROBOTS>, robot: usize) -> Step {
         let ahead = planner.as_move(robot + 1, self.left[robot + 1].first());
-        planner.preferred(robot, self.left[robot], ahead).unwrap_or(Step::Stay)
+        planner.preferred(robot, ahead, |_, step| self.left[robot].has(step)).unwrap_or(Step::Stay)
     }
 
     /// Leaves `robot` no other steps than these; false if some robot then has none.

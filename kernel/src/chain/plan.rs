@@ -5,9 +5,8 @@
 
 use super::choices::Choices;
 use super::rule::{Condition, Move, Role, Rule};
-use super::steps::Steps;
 use crate::grid::{Avoid, CellMark, EdgeMark, Grid};
-use crate::lattice::{Cell, Edge, Side, Step};
+use crate::lattice::{Cell, Edge, Side, Step, Steps};
 
 /// Whether a team move seeks new cells or takes an earlier move back.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -121,15 +120,18 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
             Side::West => i32::from(base.x) - i32::from(at.x),
             Side::North => i32::from(base.y) - i32::from(at.y),
         };
+        let is_shut = |side| {
+            let edge = Edge::new(at, side);
+            self.grid.edge_has(EdgeMark::Wall, edge) || self.grid.edge_has(EdgeMark::Virtual, edge)
+        };
+        let sides = Side::ALL.into_iter().filter(|&side| !is_shut(side));
+        let steps = sides.fold(Steps::NONE, |steps, side| steps.with(Step::Cross(side)));
+        let distances = self.grid.distances(at, steps, Avoid::WallsAndVirtual);
         let mut keyed = [((0, 0), Side::East); 4];
         let mut count = 0;
-        for side in Side::ALL {
-            let edge = Edge::new(at, side);
-            if self.grid.edge_has(EdgeMark::Wall, edge) || self.grid.edge_has(EdgeMark::Virtual, edge) {
-                continue;
-            }
-            if let Some(steps) = self.grid.distance(at.beyond(side), Avoid::WallsAndVirtual) {
-                keyed[count] = ((steps, -outward(side)), side);
+        for (side, distance) in Side::ALL.into_iter().zip(distances) {
+            if let Some(distance) = distance {
+                keyed[count] = ((distance, -outward(side)), side);
                 count += 1;
             }
         }
@@ -149,13 +151,15 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
                 closes = self.rule.admits_ahead(Move::stay(self.base()), ahead);
                 break;
             }
-            self.looked_at += Step::ALL.len() as u32;
+            let at = self.team[robot];
             let distinct = self.rule.has(Condition::Distinct);
-            let candidates = self.candidates(robot).filter(|step| {
-                self.rule.admits_ahead(self.as_move(robot, step), ahead)
-                    && !(distinct && self.grid.has(CellMark::Planned, self.team[robot].after(step)))
-            });
-            let Some(step) = self.preferred(robot, candidates, ahead) else { break };
+            let fits = |planner: &mut Self, step| {
+                planner.looked_at += 1;
+                planner.is_candidate(robot, step)
+                    && planner.rule.admits_ahead(planner.as_move(robot, step), ahead)
+                    && !(distinct && planner.grid.has(CellMark::Planned, at.after(step)))
+            };
+            let Some(step) = self.preferred(robot, ahead, fits) else { break };
             self.steps[robot] = step;
             self.claim(robot);
             planned = robot;
@@ -174,30 +178,37 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
         }
     }
 
-    /// The steps of a follower that the conditions on it alone admit.
-    pub(super) fn candidates(&self, robot: usize) -> Steps {
+    /// Whether the conditions on a follower alone admit `step`.
+    pub(super) fn is_candidate(&self, robot: usize, step: Step) -> bool {
         let (at, behind) = (self.team[robot], self.team[robot - 1]);
-        Steps::ALL.filter(|step| {
-            !self.meets_wall(at, step)
-                && self.rule.admits_behind(at.after(step), behind)
-                && self.may_enter(Role::Follower, at, step)
-        })
+        !self.meets_wall(at, step)
+            && self.rule.admits_behind(at.after(step), behind)
+            && self.may_enter(Role::Follower, at, step)
     }
 
-    /// The first of a follower's `candidates` in the order of the paper: staying, if it is in P_high; then
-    /// P_high; then the nearest to the frontier; then in direction order. The distance is only asked for
-    /// where it decides.
-    pub(super) fn preferred(&mut self, robot: usize, candidates: Steps, ahead: Move) -> Option<Step> {
+    /// The first of a follower's steps that fit, in the order of the paper: staying, if it is in P_high; then
+    /// P_high; then the nearest to the frontier; then in direction order. Steps and distances are only looked at
+    /// where they decide.
+    pub(super) fn preferred(
+        &mut self,
+        robot: usize,
+        ahead: Move,
+        mut fits: impl FnMut(&mut Self, Step) -> bool,
+    ) -> Option<Step> {
         let at = self.team[robot];
-        let high = candidates.filter(|step| self.rule.is_high(at.after(step), ahead));
-        if high.has(Step::Stay) {
+        let high = Steps::ALL.filter(|step| self.rule.is_high(at.after(step), ahead));
+        if high.has(Step::Stay) && fits(self, Step::Stay) {
             return Some(Step::Stay);
         }
-        let best = if high == Steps::NONE { candidates } else { high };
+        let mut best = high.without(Step::Stay).filter(|step| fits(self, step));
+        if best == Steps::NONE {
+            best = Steps::ALL.minus(high).filter(|step| fits(self, step));
+        }
         if best.len() <= 1 {
             return best.iter().next();
         }
-        best.iter().min_by_key(|&step| self.grid.distance(at.after(step), Avoid::Walls).unwrap_or(u32::MAX))
+        let distances = self.grid.distances(at, best, Avoid::Walls);
+        best.iter().min_by_key(|&step| distances[step.place()].unwrap_or(u32::MAX))
     }
 
     fn may_enter(&self, role: Role, at: Cell, step: Step) -> bool {

@@ -57,6 +57,7 @@ impl Conditions {
     }
 
     /// Whether `condition` is in the set.
+    #[inline]
     pub const fn has(self, condition: Condition) -> bool {
         self.0 & (1 << condition as u8) != 0
     }
@@ -107,16 +108,19 @@ pub struct Move {
 
 impl Move {
     /// A robot that stays.
+    #[inline]
     pub const fn stay(at: Cell) -> Self {
         Self { from: at, step: Step::Stay, known_open: false }
     }
 
     /// P′: where the plan sends it.
+    #[inline]
     pub const fn to(self) -> Cell {
         self.from.after(self.step)
     }
 
     /// Whether it is sure to be at P′ afterwards: it stays, or its way is known to be open.
+    #[inline]
     pub const fn is_sure(self) -> bool {
         match self.step {
             Step::Stay => true,
@@ -150,11 +154,13 @@ impl Rule {
     }
 
     /// Whether the rule has `condition`.
+    #[inline]
     pub const fn has(&self, condition: Condition) -> bool {
         self.conditions.has(condition)
     }
 
     /// Whether R_i, or the base, may plan `own` while the robot ahead of it plans `ahead`.
+    #[inline]
     pub fn admits_ahead(&self, own: Move, ahead: Move) -> bool {
         let safe = !self.has(Condition::SafeAhead) || self.safe.covers(ahead.to(), own.to());
         let unsure = self.has(Condition::UnsureAhead) && !ahead.is_sure();
@@ -162,11 +168,13 @@ impl Rule {
     }
 
     /// Whether a robot may plan to be at `to` while the robot behind it is at `behind`.
+    #[inline]
     pub fn admits_behind(&self, to: Cell, behind: Cell) -> bool {
         !self.has(Condition::CoveredBehind) || self.covered.covers(behind, to)
     }
 
     /// Whether a robot may enter a cell outside the base that `occupants` others occupy now.
+    #[inline]
     pub const fn admits_entry(&self, role: Role, occupants: usize) -> bool {
         let guarded = match role {
             Role::Leader => self.has(Condition::FullForLeader),
@@ -176,6 +184,7 @@ impl Rule {
     }
 
     /// Whether a follower's position `to` is in P_high: the robot ahead would have all its moves from there.
+    #[inline]
     pub const fn is_high(&self, to: Cell, ahead: Move) -> bool {
         match self.high {
             High::Planned => neighbours(ahead.to(), to),

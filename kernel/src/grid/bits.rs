@@ -1,0 +1,165 @@
+//! The grid in machine words: a [`Plane`] for every mark. Distances are flood fills of whole planes at a time.
+
+use super::plane::Plane;
+use super::{Area, Avoid, CellMark, EdgeMark, Grid};
+use crate::lattice::{Cell, Edge, Side, Step, Steps};
+
+/// A grid in machine words: at most [`Plane::COLUMNS`] columns and [`Plane::ROWS`] rows.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct BitGrid<P> {
+    area: Area,
+    cells: [P; 4],
+    /// Marks on the east sides.
+    east: [P; 3],
+    /// Marks on the south sides.
+    south: [P; 3],
+}
+
+/// The grid of a chain of up to four robots: one word for each mark.
+pub type TinyGrid = BitGrid<u64>;
+/// The grid of a chain of up to six robots.
+pub type CompactGrid = BitGrid<u128>;
+/// The grid of a chain of up to eight robots.
+pub type SmallGrid = BitGrid<[u16; 16]>;
+/// The grid of a chain of up to 32 robots.
+pub type MediumGrid = BitGrid<[u64; 64]>;
+/// The grid of a chain of up to 64 robots.
+pub type LargeGrid = BitGrid<[u128; 128]>;
+
+impl<P: Plane> BitGrid<P> {
+    /// Nothing known of `area` but its border; `None` if it is wider or higher than this grid holds.
+    pub fn new(area: Area) -> Option<Self> {
+        if area.width() > P::COLUMNS || area.height() > P::ROWS {
+            return None;
+        }
+        let mut grid = Self { area, cells: [P::NONE; 4], east: [P::NONE; 3], south: [P::NONE; 3] };
+        grid.cells[CellMark::Explored as usize] = rectangle::<P>(area.width(), area.height()).not();
+        grid.clear_edges(EdgeMark::Wall);
+        Some(grid)
+    }
+
+    fn edge_plane(&self, mark: EdgeMark, edge: Edge) -> &P {
+        match edge.side() {
+            Side::East | Side::West => &self.east[mark as usize],
+            Side::South | Side::North => &self.south[mark as usize],
+        }
+    }
+
+    /// The cells whose east, and whose south side may be crossed.
+    fn open(&self, avoid: Avoid) -> (P, P) {
+        let [east, south] = [&self.east, &self.south].map(|marks| {
+            let walls = &marks[EdgeMark::Wall as usize];
+            match avoid {
+                Avoid::Walls => walls.not(),
+                Avoid::WallsAndVirtual => walls.or(&marks[EdgeMark::Virtual as usize]).not(),
+            }
+        });
+        (east, south)
+    }
+}
+
+/// The cells of the first `width` columns and `height` rows.
+fn rectangle<P: Plane>(width: usize, height: usize) -> P {
+    let mut plane = P::NONE;
+    for row in 0..height {
+        for column in 0..width {
+            plane.put(column, row);
+        }
+    }
+    plane
+}
+
+impl<P: Plane> Grid for BitGrid<P> {
+    fn area(&self) -> Area {
+        self.area
+    }
+
+    fn has(&self, mark: CellMark, cell: Cell) -> bool {
+        match self.area.locate(cell) {
+            Some((column, row)) => self.cells[mark as usize].has(column, row),
+            None => mark == CellMark::Explored,
+        }
+    }
+
+    fn put(&mut self, mark: CellMark, cell: Cell) {
+        if let Some((column, row)) = self.area.locate(cell) {
+            self.cells[mark as usize].put(column, row);
+        }
+    }
+
+    fn take(&mut self, mark: CellMark, cell: Cell) {
+        if let Some((column, row)) = self.area.locate(cell) {
+            self.cells[mark as usize].take(column, row);
+        }
+    }
+
+    fn edge_has(&self, mark: EdgeMark, edge: Edge) -> bool {
+        match self.area.locate(edge.cell()) {
+            Some((column, row)) => self.edge_plane(mark, edge).has(column, row),
+            None => mark == EdgeMark::Wall,
+        }
+    }
+
+    fn put_edge(&mut self, mark: EdgeMark, edge: Edge) {
+        if !self.area.contains(edge.cell().beyond(edge.side())) {
+            return;
+        }
+        if let Some((column, row)) = self.area.locate(edge.cell()) {
+            let plane = match edge.side() {
+                Side::East | Side::West => &mut self.east[mark as usize],
+                Side::South | Side::North => &mut self.south[mark as usize],
+            };
+            plane.put(column, row);
+        }
+    }
+
+    fn clear_edges(&mut self, mark: EdgeMark) {
+        let (width, height) = (self.area.width(), self.area.height());
+        // A side is a wall unless the cells on both sides of it are in the area.
+        let [east, south] = match mark {
+            EdgeMark::Wall => {
+                [rectangle(width - 1, height), rectangle(width, height - 1)].map(|inside: P| inside.not())
+            }
+            EdgeMark::Open | EdgeMark::Virtual => [P::NONE; 2],
+        };
+        self.east[mark as usize] = east;
+        self.south[mark as usize] = south;
+    }
+
+    fn is_explored(&self) -> bool {
+        self.cells[CellMark::Explored as usize] == P::NONE.not()
+    }
+
+    fn distance(&mut self, from: Cell, avoid: Avoid) -> Option<u32> {
+        self.distances(from, Steps::only(Step::Stay), avoid)[Step::Stay.place()]
+    }
+
+    fn distances(&mut self, at: Cell, steps: Steps, avoid: Avoid) -> [Option<u32>; Step::ALL.len()] {
+        // From the frontier outwards: one flood serves all.
+        let (east, south) = self.open(avoid);
+        let mut reached = self.cells[CellMark::Explored as usize].not();
+        let mut distances = [None; Step::ALL.len()];
+        let mut places = [(0, 0); Step::ALL.len()];
+        let mut missing = steps.filter(|step| {
+            let place = self.area.locate(at.after(step));
+            places[step.place()] = place.unwrap_or_default();
+            place.is_some()
+        });
+        let mut length = 0;
+        loop {
+            for step in missing.iter() {
+                let (column, row) = places[step.place()];
+                if reached.has(column, row) {
+                    distances[step.place()] = Some(length);
+                    missing = missing.without(step);
+                }
+            }
+            let wider = reached.or(&reached.along_rows(&east)).or(&reached.along_columns(&south));
+            if missing == Steps::NONE || wider == reached {
+                return distances;
+            }
+            reached = wider;
+            length += 1;
+        }
+    }
+}
