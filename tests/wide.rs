@@ -27,6 +27,9 @@ enum Call {
 /// Distances of a cell and of its neighbours, east, south, west, north, as far as they were asked for.
 type Answer = [Option<u32>; Step::ALL.len()];
 
+/// All marks, and all answers.
+type Everything = (Vec<bool>, Vec<Answer>);
+
 impl Call {
     /// Makes the call; the answer, if it has one.
     fn make(self, grid: &mut impl Grid) -> Option<u32> {
@@ -132,7 +135,7 @@ fn run<G: Grid>(
 }
 
 /// All that can be asked of `grid` in a second, of its area and two rows and columns around it.
-fn everything(grid: &mut impl Grid) -> (Vec<bool>, Vec<Answer>) {
+fn everything(grid: &mut impl Grid) -> Everything {
     let area = grid.area();
     let around = rectangle(
         Cell::new(area.first().x - 2, area.first().y - 2),
@@ -152,7 +155,7 @@ fn everything(grid: &mut impl Grid) -> (Vec<bool>, Vec<Answer>) {
 }
 
 /// The answers of a grid with planes `P`, if it holds `area`.
-fn answers<P: Plane>(area: Area, calls: &[Call]) -> Option<(Vec<Option<u32>>, (Vec<bool>, Vec<Answer>))> {
+fn answers<P: Plane>(area: Area, calls: &[Call]) -> Option<(Vec<Option<u32>>, Everything)> {
     let mut grid = BitGrid::<P>::new(area)?;
     let heard = calls.iter().map(|call| call.make(&mut grid)).collect();
     Some((heard, everything(&mut grid)))

@@ -94,7 +94,7 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
                 let agreeing =
                     behind.filter(|step| planner.rule.admits_ahead(planner.as_move(robot - 1, step), own));
                 choices.agreeing[robot][step.place()] = agreeing;
-                agreeing != Steps::NONE
+                !agreeing.is_empty()
             });
         }
         for robot in (1..=leader).rev() {
@@ -171,7 +171,7 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
             }
         }
         for (witness, left) in self.witness.iter_mut().zip(self.left) {
-            *witness = if witness.and(left) == Steps::NONE { left } else { witness.and(left) };
+            *witness = if witness.and(left).is_empty() { left } else { witness.and(left) };
         }
         Some(trials)
     }
@@ -188,7 +188,7 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
     /// nearest to the leader.
     fn next(&self) -> Option<(usize, Turn)> {
         let mut lost = (1..self.team.len()).rev().filter(|&robot| {
-            self.left[robot].len() > 1 && self.left[robot].and(self.witness[robot]) == Steps::NONE
+            self.left[robot].len() > 1 && self.left[robot].and(self.witness[robot]).is_empty()
         });
         let first = lost.next()?;
         let urgency =
@@ -227,10 +227,9 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
             let ahead = robot + 1;
             if ahead < self.team.len() {
                 let agreeing = self.agreeing[ahead];
-                let doubtful =
-                    self.left[ahead].filter(|step| agreeing[step.place()].and(struck) != Steps::NONE);
+                let doubtful = self.left[ahead].filter(|step| !agreeing[step.place()].and(struck).is_empty());
                 self.looked_at += doubtful.len();
-                let alone = doubtful.filter(|step| agreeing[step.place()].and(left) == Steps::NONE);
+                let alone = doubtful.filter(|step| agreeing[step.place()].and(left).is_empty());
                 self.strike(ahead, alone, &mut wave);
             }
             if self.is_distinct {
@@ -275,7 +274,7 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
     fn strike(&mut self, robot: usize, steps: Steps, wave: &mut Wave<ROBOTS>) {
         let before = self.left[robot];
         let struck = before.and(steps);
-        if struck == Steps::NONE {
+        if struck.is_empty() {
             return;
         }
         self.trail.as_flattened_mut()[self.trail_length] = (robot as u8, before);

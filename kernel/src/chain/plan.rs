@@ -201,7 +201,7 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
             return Some(Step::Stay);
         }
         let mut best = high.without(Step::Stay).filter(|step| fits(self, step));
-        if best == Steps::NONE {
+        if best.is_empty() {
             best = Steps::ALL.minus(high).filter(|step| fits(self, step));
         }
         if best.len() <= 1 {

@@ -155,7 +155,7 @@ impl<P: Plane> Grid for BitGrid<P> {
                 }
             }
             let wider = reached.or(&reached.along_rows(&east)).or(&reached.along_columns(&south));
-            if missing == Steps::NONE || wider == reached {
+            if missing.is_empty() || wider == reached {
                 return distances;
             }
             reached = wider;

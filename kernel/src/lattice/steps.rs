@@ -60,6 +60,12 @@ impl Steps {
         self.0.count_ones()
     }
 
+    /// Whether there is none.
+    #[inline]
+    pub const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
     /// The first in direction order; of none, staying.
     #[inline]
     pub fn first(self) -> Step {
