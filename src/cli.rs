@@ -5,6 +5,7 @@
 mod explore;
 mod hunt;
 mod interrupt;
+mod minimise;
 mod output;
 mod progress;
 mod prove;
@@ -22,6 +23,7 @@ use std::str::FromStr;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use tautline_kernel::lattice::Cell;
+use tautline_proofs::run::{Breach, NoBreach};
 
 use crate::fault::{Colour, Fault, Halt};
 use crate::layout::{self, Layout, Problem, Size};
@@ -71,6 +73,7 @@ enum Command {
     Prove(prove::Prove),
     Explore(explore::Explore),
     Hunt(hunt::Hunt),
+    Minimise(minimise::Minimise),
     Replay(replay::Replay),
     Show(show::Show),
     Reproduce(reproduce::Reproduce),
@@ -151,6 +154,11 @@ impl FromStr for SizeArg {
     }
 }
 
+/// The id of a clause that a run can break.
+fn clause(id: &str) -> Result<Breach, String> {
+    id.to_ascii_uppercase().parse().map_err(|none: NoBreach| format!("{none}; {}", none.remedy()))
+}
+
 /// A whole number.
 fn number<T: FromStr>(text: &str) -> Result<T, String> {
     let largest = u128::MAX >> (128 - 8 * size_of::<T>());
@@ -214,6 +222,7 @@ impl Command {
             Self::Prove(prove) => prove.run(out),
             Self::Explore(explore) => explore.run(out),
             Self::Hunt(hunt) => hunt.run(out),
+            Self::Minimise(minimise) => minimise.run(out),
             Self::Replay(replay) => replay.run(out),
             Self::Show(show) => show.run(out),
             Self::Reproduce(reproduce) => reproduce.run(out),

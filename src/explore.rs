@@ -8,10 +8,10 @@ use std::fmt;
 use std::num::NonZeroU32;
 
 use clap::ValueEnum;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use tautline_kernel::chain::Rule;
 use tautline_kernel::grid::Area;
-use tautline_kernel::lattice::{Cell, Edge};
+use tautline_kernel::lattice::{Cell, Edge, Step};
 use tautline_proofs::clause::Subject;
 use tautline_proofs::run::{Breach, Frame};
 
@@ -177,6 +177,18 @@ pub enum OnViolation {
     GoOn,
     /// It stops, as a counterexample does.
     Stop,
+    /// It stops if this is what was broken, as a minimal run does; otherwise it goes on.
+    #[serde(serialize_with = "write_clause", deserialize_with = "read_clause")]
+    StopAt(Breach),
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "so serde calls it")]
+fn write_clause<S: Serializer>(breach: &Breach, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(breach.clause())
+}
+
+fn read_clause<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Breach, D::Error> {
+    String::deserialize(deserializer)?.parse().map_err(de::Error::custom)
 }
 
 /// A share of the free cells of the area.
@@ -273,6 +285,17 @@ pub struct TeamMove<'a> {
     pub frame: &'a Frame,
     /// What was broken.
     pub breaches: &'a [Breach],
+}
+
+impl TeamMove<'_> {
+    /// The edges where robots met a wall or a blocked cell.
+    pub fn bumps(&self) -> impl Iterator<Item = Edge> {
+        let tried = self.before.iter().zip(self.frame.steps.iter().zip(&self.frame.blocked));
+        tried.filter_map(|(&cell, (&step, &blocked))| match step {
+            Step::Cross(side) if blocked => Some(Edge::new(cell, side)),
+            Step::Cross(_) | Step::Stay => None,
+        })
+    }
 }
 
 /// Which cell was explored when.
@@ -411,7 +434,12 @@ pub fn explore(
 
 fn limit(limits: Limits, report: &Report, entered: &[u32]) -> Option<Stopped> {
     let is_far = |most: NonZeroU32| entered.iter().any(|&count| count >= most.get());
-    if limits.violation == OnViolation::Stop && !report.violations.is_empty() {
+    let is_broken = match limits.violation {
+        OnViolation::GoOn => false,
+        OnViolation::Stop => !report.violations.is_empty(),
+        OnViolation::StopAt(breach) => report.violations.iter().any(|violation| violation.breach == breach),
+    };
+    if is_broken {
         Some(Stopped::Violation)
     } else if limits.until.is_some_and(|milestone| report.reached(milestone).is_some()) {
         Some(Stopped::Until)

@@ -37,13 +37,18 @@ pub fn setup(rule: RuleName, bounds: &Bounds, found: &Counterexample) -> Result<
     })
 }
 
+/// The place in `folder` of a run of `setup` that breaks `breach`.
+pub fn path(folder: &Path, setup: &Setup, breach: Breach) -> PathBuf {
+    let clause = breach.clause().to_lowercase();
+    folder.join(format!("{clause}-{}-n{}.jsonl", setup.rule, setup.robots))
+}
+
 /// Stores the run of `setup`, which breaks `breach`, in `folder` under a name that says so.
 ///
 /// # Errors
 /// [`Halt`] if it cannot be written.
 pub fn store(folder: &Path, setup: &Setup, breach: Breach) -> Result<(PathBuf, Report), Halt> {
-    let clause = breach.clause().to_lowercase();
-    let path = folder.join(format!("{clause}-{}-n{}.jsonl", setup.rule, setup.robots));
+    let path = path(folder, setup, breach);
     let mut writer = trace::Writer::new(&path, setup, Some(breach))?;
     let report = explore(setup, &mut |made| Ok(writer.add(made)?))?;
     writer.end(&report)?;

@@ -129,6 +129,13 @@ impl Layout {
         }
     }
 
+    /// Makes `cell` free. Walls beside it stay.
+    pub fn unblock(&mut self, cell: Cell) {
+        if let Some(index) = self.size.index(cell) {
+            self.blocked.take(index);
+        }
+    }
+
     /// All edges inside the rim, by row, then column, then eastern before southern.
     pub fn edges(&self) -> impl Iterator<Item = Edge> + use<> {
         let size = self.size;

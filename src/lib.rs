@@ -7,6 +7,7 @@ pub mod explore;
 pub mod fault;
 pub mod hunt;
 pub mod layout;
+pub mod minimise;
 pub mod reproduce;
 pub mod trace;
 pub mod view;

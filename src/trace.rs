@@ -343,12 +343,7 @@ impl Lines {
             return Err(self.fault(text, "\"base\"", what, AGAIN));
         }
         let clause = clause.map(|id| {
-            let breach = Breach::ALL.into_iter().find(|breach| breach.clause() == id);
-            let known = Breach::ALL.map(Breach::clause).join(", ");
-            breach.ok_or_else(|| {
-                let what = format!("no run can break the clause {id:?}");
-                self.fault(text, "\"clause\"", what, format_args!("the clauses are {known}"))
-            })
+            id.parse::<Breach>().map_err(|none| self.fault(text, "\"clause\"", &none, none.remedy()))
         });
         let clause = clause.transpose()?;
         Ok(Trace { setup: Setup { scheme, rule, robots, seed, layout, base, limits }, clause, lines: self })

@@ -11,7 +11,6 @@ use std::fmt::Write;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Circle, Edge, Side, Step, neighbours};
-use tautline_proofs::run::Frame;
 
 use crate::explore::{Chart, Setup, TeamMove};
 use crate::layout::Layout;
@@ -135,7 +134,7 @@ pub fn team_move(setup: &Setup, chart: &Chart, made: &TeamMove<'_>, pose: Pose) 
     };
     let labels = Labels { cells, steps: (pose == Pose::Before).then_some(&made.frame.steps) };
     let is_explored = |cell| chart.step(cell).is_some_and(|explored| explored <= step);
-    let bumps = bumps(made.before, made.frame);
+    let bumps: Vec<Edge> = made.bumps().collect();
     let lines = if is_bare(setup, chart.area()) && pose == Pose::After {
         bare(chart.area(), cells, is_explored)
     } else {
@@ -153,17 +152,6 @@ fn title(made: &TeamMove<'_>) -> String {
     let broken: Vec<&str> = made.breaches.iter().map(|breach| breach.clause()).collect();
     let broken = if broken.is_empty() { String::new() } else { format!(" breaks {}", broken.join(", ")) };
     format!("move {}{kind}{broken}", made.step)
-}
-
-/// The edges where robots met a wall.
-fn bumps(before: &[Cell], frame: &Frame) -> Vec<Edge> {
-    let tried = before.iter().zip(frame.steps.iter().zip(&frame.blocked));
-    tried
-        .filter_map(|(&cell, (&step, &blocked))| match step {
-            Step::Cross(side) if blocked => Some(Edge::new(cell, side)),
-            Step::Cross(_) | Step::Stay => None,
-        })
-        .collect()
 }
 
 /// The labels of the cells in a drawing of a team.

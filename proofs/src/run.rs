@@ -1,6 +1,9 @@
 //! A run as plain data: the team moves, one [`Frame`] each, and the chain's safety sentences that every frame is
 //! checked against (CHAIN-1, CHAIN-2, CHAIN-3). Simulation, search and proofs all use these.
 
+use std::fmt;
+use std::str::FromStr;
+
 use tautline_kernel::chain::{Kind, Message, Outcome, Settled};
 use tautline_kernel::lattice::{Cell, Circle, Step};
 
@@ -66,6 +69,34 @@ impl Breach {
                 .zip(after.windows(2))
                 .any(|(from, to)| !stays_in_range([from[0], to[0]], [from[1], to[1]])),
         }
+    }
+}
+
+/// An id that is of no clause about runs.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct NoBreach(String);
+
+impl NoBreach {
+    /// What would be right.
+    pub fn remedy(&self) -> String {
+        format!("the clauses are {}", Breach::ALL.map(Breach::clause).join(", "))
+    }
+}
+
+impl fmt::Display for NoBreach {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "no run can break the clause {:?}", self.0)
+    }
+}
+
+impl std::error::Error for NoBreach {}
+
+/// The breach of the clause with this id.
+impl FromStr for Breach {
+    type Err = NoBreach;
+
+    fn from_str(id: &str) -> Result<Self, NoBreach> {
+        Self::ALL.into_iter().find(|breach| breach.clause() == id).ok_or_else(|| NoBreach(id.to_owned()))
     }
 }
 

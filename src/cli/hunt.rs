@@ -78,10 +78,7 @@ impl Hunt {
         match self.scheme {
             SchemeName::Chain => {}
         }
-        if !self.out.is_dir() {
-            let what = if self.out.exists() { "this is no folder" } else { "there is no such folder" };
-            return Err(Fault::in_file(&self.out, what, "give --out a folder that is there").into());
-        }
+        check_folder(&self.out)?;
         let mut bounds =
             hunt::bounds(self.rule, self.robots, self.max_walls, self.size.map(|SizeArg(size)| size))?;
         bounds.budget_moves = self.budget;
@@ -133,8 +130,17 @@ impl Hunt {
     }
 }
 
+/// Checks that --out names a folder.
+pub(super) fn check_folder(out: &Path) -> Result<(), Fault> {
+    if out.is_dir() {
+        return Ok(());
+    }
+    let what = if out.exists() { "this is no folder" } else { "there is no such folder" };
+    Err(Fault::in_file(out, what, "give --out a folder that is there"))
+}
+
 /// The path as one would type it.
-fn shown(path: &Path) -> String {
+pub(super) fn shown(path: &Path) -> String {
     path.strip_prefix(".").unwrap_or(path).display().to_string()
 }
 

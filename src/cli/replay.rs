@@ -28,7 +28,7 @@ Examples:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Replay {
-    /// A file that `explore --trace` or `hunt` wrote.
+    /// A file that `explore --trace`, `hunt` or `minimise` wrote.
     file: PathBuf,
     /// The team moves to show, the first and the last. Without it all are shown, or the last 100.
     #[arg(long, value_name = "A..B")]
@@ -131,7 +131,12 @@ impl Replay {
 }
 
 /// Draws the team moves, and tells the story of every violation among them.
-fn draw(setup: &Setup, report: &Report, moves: &RangeInclusive<u32>, out: &mut Output) -> Result<(), Halt> {
+pub(super) fn draw(
+    setup: &Setup,
+    report: &Report,
+    moves: &RangeInclusive<u32>,
+    out: &mut Output,
+) -> Result<(), Halt> {
     let (mut blocks, mut stories) = (Vec::new(), String::new());
     explore(setup, &mut |made| {
         interrupt::check()?;

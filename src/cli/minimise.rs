@@ -1,0 +1,136 @@
+//! `tautline minimise`: from a run that breaks a clause to one in which nothing can go.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::PathBuf;
+
+use clap::Args;
+use serde::Serialize;
+use tautline_proofs::run::Breach;
+
+use super::output::Output;
+use super::replay::draw;
+use super::{Exit, Format, FormatArgs, clause, hunt, interrupt, progress};
+use crate::explore::{Report, RuleName, SchemeName};
+use crate::fault::{Fault, Halt};
+use crate::hunt::{path, store};
+use crate::minimise::{Extent, Failure, Minimal, minimise};
+use crate::trace::Trace;
+
+const EXAMPLES: &str = "\
+Examples:
+  tautline minimise run.jsonl
+  tautline minimise chain-1-published-n4.jsonl --out minimal
+  tautline minimise run.jsonl --clause CHAIN-2 --format json";
+
+/// Shrink a run that breaks a clause until nothing of it can go, and store what is left.
+///
+/// Of the minimal run no robot, column, row, blocked cell or wall can go: taken alone, without any one of them the
+/// clause is not broken. It ends with the team move that breaks it.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Minimise {
+    /// A file that `explore --trace` or `hunt` wrote.
+    file: PathBuf,
+    /// The clause that is to stay broken. Without it, the one that the run breaks first.
+    #[arg(long, value_name = "CLAUSE", value_parser = clause)]
+    clause: Option<Breach>,
+    /// The folder for the minimal run.
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    out: PathBuf,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+#[derive(Serialize)]
+struct Minimised {
+    scheme: SchemeName,
+    rule: RuleName,
+    clause: &'static str,
+    before: Extent,
+    after: Extent,
+    /// Runs that were made to find it.
+    runs: u32,
+    file: String,
+}
+
+impl Minimise {
+    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        hunt::check_folder(&self.out)?;
+        let trace = Trace::open(&self.file)?;
+        let setup = trace.setup.clone();
+        trace.replay(&mut |_| interrupt::check())?;
+        let bar = progress::spinner("minimising");
+        let mut shown = None;
+        let minimal = minimise(&setup, self.clause, &mut |progress| {
+            if shown.replace(progress.runs) != Some(progress.runs) {
+                let Extent { robots, columns, rows, walls, blocked, steps: _ } = progress.smallest;
+                bar.set_message(format!(
+                    "run {}; {robots} robots, {columns}x{rows} cells, {walls} walls, {blocked} blocked cells",
+                    progress.runs
+                ));
+            }
+            interrupt::check()
+        });
+        bar.finish_and_clear();
+        let minimal = minimal.map_err(|failure| match failure {
+            Failure::Refused(refused) => Fault::in_file(&self.file, &refused, refused.remedy()).into(),
+            Failure::Halted(halt) => halt,
+        })?;
+        let (minimised, report) = self.store(&minimal)?;
+        match self.format.format {
+            Format::Json => out.json(&minimised)?,
+            Format::Text => {
+                out.text(tell(&self.file.display().to_string(), &minimised))?;
+                draw(&minimal.setup, &report, &(1..=report.steps), out)?;
+                out.text(format_args!("\nreplay it with: tautline replay {}\n", minimised.file))?;
+            }
+        }
+        Ok(Exit::Expected)
+    }
+
+    fn store(&self, minimal: &Minimal) -> Result<(Minimised, Report), Halt> {
+        let Minimal { setup, breach, before, after, runs } = minimal;
+        let place = path(&self.out, setup, *breach);
+        if fs::canonicalize(&place)
+            .is_ok_and(|place| fs::canonicalize(&self.file).is_ok_and(|file| file == place))
+        {
+            let what = "the minimal run would take the place of this one";
+            return Err(Fault::in_file(&self.file, what, "give --out another folder").into());
+        }
+        let (place, report) = store(&self.out, setup, *breach)?;
+        let minimised = Minimised {
+            scheme: setup.scheme,
+            rule: setup.rule,
+            clause: breach.clause(),
+            before: *before,
+            after: *after,
+            runs: *runs,
+            file: hunt::shown(&place),
+        };
+        Ok((minimised, report))
+    }
+}
+
+fn tell(name: &str, minimised: &Minimised) -> String {
+    let Minimised { scheme, rule, clause, before, after, runs, file: _ } = minimised;
+    let mut text = format!("{} ({rule}), {clause}: {name}\n\n               before   after\n", scheme.word());
+    let rows = [
+        ("robots", before.robots.to_string(), after.robots.to_string()),
+        ("columns", before.columns.to_string(), after.columns.to_string()),
+        ("rows", before.rows.to_string(), after.rows.to_string()),
+        ("blocked cells", before.blocked.to_string(), after.blocked.to_string()),
+        ("walls", before.walls.to_string(), after.walls.to_string()),
+        ("team moves", before.steps.to_string(), after.steps.to_string()),
+    ];
+    for (what, before, after) in rows {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{what:13}{before:>8}{after:>8}");
+    }
+    let _ = writeln!(
+        text,
+        "\nNo robot, column, row, blocked cell or wall can go: without any one of them {clause} is not broken ({runs} \
+         runs tried)."
+    );
+    text
+}
