@@ -161,11 +161,17 @@ pub fn minimise(
     watch: &mut dyn FnMut(Progress) -> Result<(), Halt>,
 ) -> Result<Minimal, Failure> {
     let mut before = Extent::new(setup, 0);
-    let report = explore(setup, &mut |_| watch(Progress { runs: 0, smallest: before }))?;
+    let violation = match (setup.limits.violation, asked) {
+        (OnViolation::GoOn, Some(asked)) => OnViolation::StopAt(asked),
+        (OnViolation::GoOn, None) => OnViolation::Stop,
+        (stop @ (OnViolation::Stop | OnViolation::StopAt(_)), _) => stop,
+    };
+    let first = Setup { limits: Limits { violation, ..setup.limits }, ..setup.clone() };
+    let report = explore(&first, &mut |_| watch(Progress { runs: 0, smallest: before }))?;
     let Violation { breach, step } = first_violation(&report, asked)?;
     before.steps = step;
     let limits = Limits { violation: OnViolation::StopAt(breach), ..Limits::default() };
-    let smallest = Setup { limits, ..setup.clone() };
+    let smallest = Setup { limits, ..first };
     let mut shrinking = Shrinking { smallest, progress: Progress { runs: 0, smallest: before }, watch };
     shrinking.attempt(&shrinking.smallest.clone())?;
     loop {

@@ -257,7 +257,7 @@ fn pictures_and_pages_are_whole_and_need_nothing_from_elsewhere() {
 fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
     let folder = folder();
     fs::write(folder.path().join("file"), "").expect("a file");
-    let wrong: [&[&str]; 16] = [
+    let wrong: [&[&str]; 20] = [
         &["explore", "open:9x9", "--robots", "0"],
         &["explore", "open:9x9", "--robots", "1"],
         &["explore", "open:9x9", "--robots", "257"],
@@ -274,6 +274,10 @@ fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
         &["hunt", "--robots", "65"],
         &["hunt", "--robots", "64", "--max-walls", "9"],
         &["replay", "nowhere.jsonl"],
+        &["minimise", "nowhere.jsonl"],
+        &["minimise", "file", "--out", "nowhere"],
+        &["minimise", "file", "--clause", "CHAIN-4"],
+        &["minimise"],
     ];
     let said = wrong.map(|arguments| {
         format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder.path(), arguments))
@@ -330,11 +334,14 @@ fn what_is_wrong_with_a_stored_run_is_said_with_its_place() {
         ("another base", run.replacen("\"base\":[1,1]", "\"base\":[0,1]", 1)),
         ("a broken drawing", run.replacen("+--+--+--+", "+--+-?+--+", 1)),
         ("a clause that no run can break", run.replacen("\"clause\":null", "\"clause\":\"CHAIN-7\"", 1)),
+        ("a clause that no run can stop at", run.replacen("\"go-on\"", "{\"stop-at\":\"CHAIN-7\"}", 1)),
         ("a clause that it does not break", run.replacen("\"clause\":null", "\"clause\":\"CHAIN-1\"", 1)),
     ];
     let said = cases.map(|(what, text)| {
         fs::write(folder.join("run.jsonl"), text).expect("a file");
-        format!("{what}\n{}\n", refused(folder, &["replay", "run.jsonl"]))
+        let refusal = refused(folder, &["replay", "run.jsonl"]);
+        assert_eq!(refused(folder, &["minimise", "run.jsonl"]), refusal);
+        format!("{what}\n{refusal}\n")
     });
     assert_snapshot!("wrong_runs", said.join("\n"));
     fs::write(folder.join("run.jsonl"), b"\xff\xfe").expect("a file");
@@ -352,9 +359,70 @@ fn what_is_wrong_with_a_stored_run_is_said_with_its_place() {
 }
 
 #[test]
+fn a_run_on_a_map_shrinks_to_one_that_replays() {
+    let folder = folder();
+    let folder = folder.path();
+    let explore = ["explore", "walls:15x15:0.15", "--seed", "41", "--robots", "8", "--rule", "published"];
+    printed(folder, &[&explore[..], &["--trace", "run.jsonl"]].concat(), 1);
+    assert_snapshot!("minimal_run", printed(folder, &["minimise", "run.jsonl"], 0));
+    assert_eq!(names(folder), ["chain-1-published-n5.jsonl", "run.jsonl"]);
+    let stored = fs::read(folder.join("chain-1-published-n5.jsonl")).expect("a run");
+    let replayed = json(folder, &["replay", "chain-1-published-n5.jsonl"], 1);
+    assert_eq!(replayed["counterexample_to"], "CHAIN-1");
+    // It does not take the place of what it is made from; elsewhere it is the same again.
+    assert_snapshot!(refused(folder, &["minimise", "chain-1-published-n5.jsonl"]), @r#"
+    Error: chain-1-published-n5.jsonl: the minimal run would take the place of this one
+     Help: give --out another folder
+    "#);
+    fs::create_dir(folder.join("again")).expect("a folder");
+    let again = json(folder, &["minimise", "chain-1-published-n5.jsonl", "--out", "again"], 0);
+    assert_eq!(again["before"], again["after"]);
+    assert_snapshot!(again["after"], @r#"{"blocked":0,"columns":4,"robots":5,"rows":4,"steps":7,"walls":2}"#);
+    assert_eq!(fs::read(folder.join("again/chain-1-published-n5.jsonl")).expect("a run"), stored);
+    assert_eq!(fs::read(folder.join("chain-1-published-n5.jsonl")).expect("a run"), stored);
+}
+
+#[test]
+fn a_run_that_breaks_nothing_cannot_be_minimised() {
+    let folder = folder();
+    let folder = folder.path();
+    printed(folder, &["explore", "open:3x3", "--robots", "2", "--trace", "run.jsonl"], 0);
+    assert_snapshot!(refused(folder, &["minimise", "run.jsonl"]), @r#"
+    Error: run.jsonl: this run breaks no clause: there is nothing to minimise
+     Help: name a counterexample of `tautline hunt`, or a trace of a run that ended `tautline explore` with exit code 1
+    "#);
+    let crowded = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/chain-2-published-n4.jsonl");
+    fs::copy(crowded, folder.join("crowded.jsonl")).expect("a file");
+    assert_snapshot!(refused(folder, &["minimise", "crowded.jsonl", "--clause", "chain-1"]), @r#"
+    Error: crowded.jsonl: this run does not break CHAIN-1: there is nothing to minimise
+     Help: it breaks CHAIN-2
+    "#);
+    assert_eq!(names(folder), ["crowded.jsonl", "run.jsonl"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_minimising_with_nothing_stored() {
+    let folder = folder();
+    let explore = ["explore", "walls:127x127:0.05", "--seed", "3", "--robots", "64", "--rule", "published"];
+    printed(folder.path(), &[&explore[..], &["--max-moves", "200", "--trace", "run.jsonl"]].concat(), 1);
+    let mut minimise = tautline(folder.path(), &["minimise", "run.jsonl"])
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the program runs");
+    std::thread::sleep(std::time::Duration::from_millis(500));
+    let sent = Command::new("kill").args(["-INT", &minimise.id().to_string()]).status().expect("kill runs");
+    assert!(sent.success());
+    assert_eq!(minimise.wait().expect("it ends").code(), Some(3));
+    assert_eq!(names(folder.path()), ["run.jsonl"]);
+}
+
+#[test]
 fn every_command_has_help_with_examples() {
     let folder = folder();
-    for command in ["prove", "explore", "hunt", "replay", "show", "reproduce", "completions", "man"] {
+    for command in
+        ["prove", "explore", "hunt", "minimise", "replay", "show", "reproduce", "completions", "man"]
+    {
         let help = printed(folder.path(), &[command, "--help"], 0);
         assert!(help.contains("Example"), "{command}");
         assert_snapshot!(format!("help_{command}"), help);

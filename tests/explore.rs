@@ -69,6 +69,11 @@ fn setups() -> impl Strategy<Value = Setup> {
         .prop_map(|(layout, robots, rule)| setup(rule, robots, layout))
 }
 
+fn on_violation() -> impl Strategy<Value = OnViolation> {
+    let stops = Breach::ALL.map(OnViolation::StopAt);
+    prop::sample::select([&[OnViolation::GoOn, OnViolation::Stop][..], &stops].concat())
+}
+
 /// Whether a robot can do in the layout what it did.
 fn is_possible(setup: &Setup, made: &TeamMove<'_>, robot: usize) -> bool {
     let (from, to) = (made.before[robot], made.frame.cells[robot]);
@@ -137,8 +142,7 @@ proptest! {
     }
 
     #[test]
-    fn a_stored_run_reads_back_as_it_was(setup in setups(), stop in any::<bool>()) {
-        let violation = if stop { OnViolation::Stop } else { OnViolation::GoOn };
+    fn a_stored_run_reads_back_as_it_was(setup in setups(), violation in on_violation()) {
         let setup = Setup { limits: Limits { violation, ..Limits::default() }, ..setup };
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("run.jsonl");

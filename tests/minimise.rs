@@ -2,16 +2,12 @@
 //! run breaks its clause no more.
 
 use std::collections::BTreeSet;
-use std::path::Path;
-use std::{env, fs};
 
 use tautline::exhibit::exhibit;
-use tautline::explore::{Limits, OnViolation, RuleName, SchemeName, Setup, Stopped, explore};
+use tautline::explore::{Limits, RuleName, SchemeName, Setup, Stopped, explore};
 use tautline::fault::Halt;
-use tautline::hunt::store;
-use tautline::layout::{self, Generator, Layout};
-use tautline::minimise::{Extent, Failure, Minimal, Refused, minimise};
-use tautline::trace::Trace;
+use tautline::layout::{Generator, Layout};
+use tautline::minimise::{Extent, Failure, Minimal, minimise};
 use tautline_kernel::lattice::{Cell, Edge, Side};
 use tautline_proofs::judge::judge;
 use tautline_proofs::run::Breach;

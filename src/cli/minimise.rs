@@ -32,7 +32,8 @@ Examples:
 pub(super) struct Minimise {
     /// A file that `explore --trace` or `hunt` wrote.
     file: PathBuf,
-    /// The clause that is to stay broken. Without it, the one that the run breaks first.
+    /// The clause that is to stay broken. Without it, the one that the file is a counterexample to, or else the first
+    /// that the run breaks.
     #[arg(long, value_name = "CLAUSE", value_parser = clause)]
     clause: Option<Breach>,
     /// The folder for the minimal run.
@@ -58,11 +59,11 @@ impl Minimise {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         hunt::check_folder(&self.out)?;
         let trace = Trace::open(&self.file)?;
-        let setup = trace.setup.clone();
+        let (setup, clause) = (trace.setup.clone(), self.clause.or(trace.clause));
         trace.replay(&mut |_| interrupt::check())?;
         let bar = progress::spinner("minimising");
         let mut shown = None;
-        let minimal = minimise(&setup, self.clause, &mut |progress| {
+        let minimal = minimise(&setup, clause, &mut |progress| {
             if shown.replace(progress.runs) != Some(progress.runs) {
                 let Extent { robots, columns, rows, walls, blocked, steps: _ } = progress.smallest;
                 bar.set_message(format!(
