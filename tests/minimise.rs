@@ -2,12 +2,17 @@
 //! run breaks its clause no more.
 
 use std::collections::BTreeSet;
+use std::env;
+use std::num::NonZeroU32;
+use std::path::Path;
 
 use tautline::exhibit::exhibit;
-use tautline::explore::{Limits, RuleName, SchemeName, Setup, Stopped, explore};
+use tautline::explore::{Limits, OnViolation, RuleName, SchemeName, Setup, Stopped, explore};
 use tautline::fault::Halt;
-use tautline::layout::{Generator, Layout};
-use tautline::minimise::{Extent, Failure, Minimal, minimise};
+use tautline::hunt::store;
+use tautline::layout::{self, Generator, Layout};
+use tautline::minimise::{Extent, Failure, Minimal, Refused, minimise};
+use tautline::trace::Trace;
 use tautline_kernel::lattice::{Cell, Edge, Side};
 use tautline_proofs::judge::judge;
 use tautline_proofs::run::Breach;
@@ -208,4 +213,91 @@ fn nothing_of_a_minimal_run_among_blocked_cells_and_walls_can_go() {
     }
     println!("{found} runs");
     assert!(found > 20, "{found}");
+}
+
+#[test]
+fn minimising_is_the_same_every_time_and_leaves_a_minimal_run_as_it_is() {
+    let setup = setup(8, generated("walls:15x15:0.15", 9));
+    let first = minimal(&setup, None).expect("it breaks CHAIN-1");
+    let second = minimal(&setup, None).expect("it breaks CHAIN-1");
+    assert_eq!((Case::of(&first.setup), first.runs), (Case::of(&second.setup), second.runs));
+    let again = minimal(&first.setup, None).expect("it breaks CHAIN-1");
+    assert_eq!(Case::of(&again.setup), Case::of(&first.setup));
+    assert_eq!((again.before, again.after), (first.after, first.after));
+}
+
+#[test]
+fn the_clause_asked_for_stays_broken_whatever_breaks_before() {
+    let setup = setup(8, generated("walls:15x15:0.2", 80));
+    let first = minimal(&setup, None).expect("it breaks CHAIN-1");
+    assert_eq!(first.breach, Breach::Contact);
+    check(&first);
+    let crowded = minimal(&setup, Some(Breach::Crowding)).expect("it breaks CHAIN-2 later");
+    assert_eq!(crowded.breach, Breach::Crowding);
+    assert!(crowded.before.steps > first.before.steps);
+    check(&crowded);
+}
+
+#[test]
+fn a_minimal_run_that_breaks_another_clause_before_replays_to_its_own() {
+    let setup = setup(10, generated("walls:19x19:0.3", 1917));
+    let minimal = minimal(&setup, Some(Breach::Crowding)).expect("it breaks CHAIN-2");
+    check(&minimal);
+    let folder = tempfile::tempdir().expect("a folder");
+    let (path, report) = store(folder.path(), &minimal.setup, minimal.breach).expect("a file");
+    assert_eq!(path.file_name(), Some("chain-2-published-n10.jsonl".as_ref()));
+    let broken: Vec<Breach> = report.violations.iter().map(|violation| violation.breach).collect();
+    assert_eq!(broken, [Breach::Contact, Breach::Crowding]);
+    let trace = Trace::open(&path).expect("a stored run");
+    assert_eq!(trace.clause, Some(Breach::Crowding));
+    assert_eq!(trace.replay(&mut |_| Ok(())), Ok(report));
+}
+
+#[test]
+fn a_run_is_taken_to_its_end_and_no_further() {
+    let crowded = setup(8, generated("walls:15x15:0.2", 80));
+    let ended =
+        |limits| minimise(&Setup { limits, ..crowded.clone() }, Some(Breach::Crowding), &mut |_| Ok(()));
+    let refused = |result: Result<Minimal, Failure>| match result {
+        Err(Failure::Refused(refused)) => refused,
+        other => panic!("{other:?}"),
+    };
+    let stopped = Limits { violation: OnViolation::Stop, ..Limits::default() };
+    assert_eq!(
+        refused(ended(stopped)),
+        Refused::Otherwise { asked: Breach::Crowding, broken: vec![Breach::Contact] }
+    );
+    let short = Limits { max_moves: NonZeroU32::new(1), ..Limits::default() };
+    assert_eq!(refused(ended(short)), Refused::Unbroken);
+}
+
+#[test]
+fn who_watches_can_end_the_work() {
+    let setup = setup(8, generated("walls:15x15:0.15", 9));
+    let mut last = 0;
+    let ended = minimise(&setup, None, &mut |progress| {
+        last = progress.runs;
+        if progress.runs < 20 { Ok(()) } else { Err(Halt::Interrupted) }
+    });
+    assert_eq!((ended.err(), last), (Some(Failure::Halted(Halt::Interrupted)), 20));
+}
+
+#[test]
+fn runs_on_published_maps_shrink_if_they_are_there() {
+    let Some(folder) = env::var_os("TAUTLINE_MAPS") else {
+        println!("TAUTLINE_MAPS names no folder of published maps: nothing to do");
+        return;
+    };
+    for (map, robots) in [
+        ("room-32-32-4.map", 16),
+        ("random512-10-0.map", 16),
+        ("den312d.map", 24),
+        ("warehouse-10-20-10-2-1.map", 24),
+    ] {
+        let path = Path::new(&folder).join(map);
+        let layout = layout::load(path.to_str().expect("a name"), 0, None).expect("a map");
+        let minimal = minimal(&setup(robots, layout), None).expect("it breaks CHAIN-1");
+        println!("{map}: {:?} to {:?}", minimal.before, minimal.after);
+        check(&minimal);
+    }
 }
