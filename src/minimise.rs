@@ -175,18 +175,20 @@ pub fn minimise(
     let mut shrinking = Shrinking { smallest, progress: Progress { runs: 0, smallest: before }, watch };
     shrinking.attempt(&shrinking.smallest.clone())?;
     loop {
-        let Progress { runs: _, smallest: last } = shrinking.progress;
+        let last = shrinking.progress.smallest;
         shrinking.dismiss_robots()?;
         for part in Part::ALL {
             shrinking.thin(part)?;
         }
-        let Shrinking { smallest: setup, progress: Progress { runs, smallest: after }, .. } = &shrinking;
-        if *after == last {
-            return Ok(Minimal { setup: setup.clone(), breach, before, after: *after, runs: *runs });
+        if shrinking.progress.smallest == last {
+            break;
         }
     }
+    let Shrinking { smallest: setup, progress: Progress { runs, smallest: after }, watch: _ } = shrinking;
+    Ok(Minimal { setup, breach, before, after, runs })
 }
 
+/// The first violation of what is `asked`, if something is.
 fn first_violation(report: &Report, asked: Option<Breach>) -> Result<Violation, Refused> {
     let mut violations = report.violations.iter();
     let found = violations.find(|violation| asked.is_none_or(|asked| violation.breach == asked));
@@ -224,22 +226,21 @@ impl Part {
 
     /// What `setup` can become without those in `range`, the first choice first.
     fn without(self, setup: &Setup, range: &Range<usize>) -> Result<Vec<Setup>, Problem> {
-        let mut layout = setup.layout.clone();
-        let (columns, rows) = (0..layout.width(), 0..layout.height());
-        let stays = |line: &i16| !range.contains(&(*line as usize));
+        let whole = &setup.layout;
+        let mut layout = whole.clone();
         match self {
             Self::Columns => {
-                return reduced(setup, &columns.filter(stays).collect::<Vec<_>>(), &rows.collect::<Vec<_>>());
+                return with_lines(setup, &outside(range, whole.width()), &outside(&(0..0), whole.height()));
             }
             Self::Rows => {
-                return reduced(setup, &columns.collect::<Vec<_>>(), &rows.filter(stays).collect::<Vec<_>>());
+                return with_lines(setup, &outside(&(0..0), whole.width()), &outside(range, whole.height()));
             }
             Self::Blocked => {
-                let blocked = setup.layout.cells().filter(|&cell| !setup.layout.is_free(cell));
+                let blocked = whole.cells().filter(|&cell| !whole.is_free(cell));
                 blocked.skip(range.start).take(range.len()).for_each(|cell| layout.unblock(cell));
             }
             Self::Walls => {
-                let walls = setup.layout.walls().skip(range.start).take(range.len());
+                let walls = whole.walls().skip(range.start).take(range.len());
                 walls.for_each(|wall| layout.remove_wall(wall));
             }
         }
@@ -247,8 +248,13 @@ impl Part {
     }
 }
 
+/// The lines below `count` that are not in `range`.
+fn outside(range: &Range<usize>, count: i16) -> Vec<i16> {
+    (0..count).filter(|&line| !range.contains(&(line as usize))).collect()
+}
+
 /// What `setup` can become with only these columns and rows: one for each place that the base can have.
-fn reduced(setup: &Setup, columns: &[i16], rows: &[i16]) -> Result<Vec<Setup>, Problem> {
+fn with_lines(setup: &Setup, columns: &[i16], rows: &[i16]) -> Result<Vec<Setup>, Problem> {
     if columns.is_empty() || rows.is_empty() {
         return Ok(Vec::new());
     }

@@ -254,6 +254,29 @@ fn a_minimal_run_that_breaks_another_clause_before_replays_to_its_own() {
 }
 
 #[test]
+fn what_a_run_never_met_goes_at_once_and_its_moves_stay() {
+    let layout = generated("walls:300x200:0.1", 3);
+    let mut walls = BTreeSet::new();
+    let mut first_smaller = None;
+    let setup = setup(12, layout);
+    let minimal = minimise(&setup, None, &mut |progress| {
+        if progress.runs == 2 {
+            first_smaller.get_or_insert(progress.smallest);
+        }
+        Ok(())
+    });
+    let minimal = minimal.expect("it breaks CHAIN-1");
+    let limits = minimal.setup.limits;
+    let run = explore(&Setup { limits, ..setup }, &mut |made| {
+        walls.extend(made.bumps().map(|edge| format!("{edge:?}")));
+        Ok(())
+    });
+    let met = Extent { columns: 23, rows: 23, walls: walls.len(), ..minimal.before };
+    assert_eq!((first_smaller, run.map(|report| report.steps)), (Some(met), Ok(minimal.before.steps)));
+    check(&minimal);
+}
+
+#[test]
 fn a_run_is_taken_to_its_end_and_no_further() {
     let crowded = setup(8, generated("walls:15x15:0.2", 80));
     let ended =
