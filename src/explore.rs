@@ -313,6 +313,17 @@ impl Chart {
         Self { area, steps: vec![UNEXPLORED; area.width() * area.height()] }
     }
 
+    /// What the robots explore that are in the cells of `teams` at the start and after each team move.
+    pub fn of<'a>(area: Area, teams: impl IntoIterator<Item = &'a [Cell]>) -> Self {
+        let mut chart = Self::new(area);
+        for (step, team) in (0..).zip(teams) {
+            for &cell in team {
+                chart.mark(cell, step);
+            }
+        }
+        chart
+    }
+
     /// The cells that it spans.
     pub const fn area(&self) -> Area {
         self.area

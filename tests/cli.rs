@@ -221,7 +221,36 @@ fn the_cost_of_the_repairs_is_the_same_on_any_number_of_threads() {
     assert_eq!(table("1"), table("3"));
     let measured = json(folder.path(), &["reproduce", "repair-cost", "--layouts", "3"], 0);
     assert_eq!(measured["densities"].as_array().map(Vec::len), Some(7));
-    assert_snapshot!(printed(folder.path(), &["reproduce"], 0), @"repair-cost: the chain as published against the chain repaired on the same random layouts: mean team moves to 50 % and 75 %, and runs that break a clause");
+}
+
+#[test]
+fn the_distance_from_the_optimum_is_the_same_on_any_number_of_threads() {
+    let folder = folder();
+    let table = |threads| {
+        let mut command = tautline(folder.path(), &["reproduce", "optimum", "--max-walls", "2"]);
+        let output = command.env("RAYON_NUM_THREADS", threads).output().expect("the program runs");
+        assert_eq!(output.status.code(), Some(0));
+        String::from_utf8(output.stdout).expect("text")
+    };
+    assert_eq!(table("1"), table("3"));
+    assert_snapshot!("optimum_of_two_walls", table("2"));
+    let measured = json(folder.path(), &["reproduce", "optimum", "--max-walls", "0"], 0);
+    assert_eq!((&measured["id"], &measured["lines"][2]["mean"]), (&"optimum".into(), &1.0.into()));
+    let layout = measured["lines"][0]["worst"]["layout"].as_str().expect("a drawing");
+    fs::write(folder.path().join("worst.txt"), layout).expect("a file");
+    printed(folder.path(), &["show", "worst.txt"], 0);
+    assert!(refused(folder.path(), &["reproduce", "optimum", "--max-walls", "7"]).contains("0..=6"));
+}
+
+#[test]
+fn the_tables_are_listed_and_have_help_with_examples() {
+    let folder = folder();
+    assert_snapshot!("tables", printed(folder.path(), &["reproduce"], 0));
+    for table in ["repair-cost", "optimum"] {
+        let help = printed(folder.path(), &["reproduce", table, "--help"], 0);
+        assert!(help.contains("Example"), "{table}");
+        assert_snapshot!(format!("help_reproduce_{table}"), help);
+    }
 }
 
 #[test]

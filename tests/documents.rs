@@ -47,6 +47,12 @@ fn the_ledger_is_that_of_the_readme() {
 }
 
 #[test]
+fn the_distance_from_the_optimum_is_that_of_the_readme() {
+    let table = printed(&["reproduce", "optimum"], 0);
+    assert!(document("README.md").contains(&table), "the README shows another table:\n{table}");
+}
+
+#[test]
 fn the_pictures_of_the_readme_are_drawn_by_the_commands_beside_them() {
     let readme = document("README.md");
     let folder = tempfile::tempdir().expect("a folder");

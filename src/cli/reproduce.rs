@@ -1,5 +1,6 @@
 //! `tautline reproduce`: tables again.
 
+mod optimum;
 mod repair_cost;
 
 use clap::{Args, Subcommand};
@@ -30,6 +31,7 @@ pub(super) struct Reproduce {
 #[derive(Debug, Subcommand)]
 enum Table {
     RepairCost(repair_cost::RepairCost),
+    Optimum(optimum::Optimum),
 }
 
 #[derive(Serialize)]
@@ -48,6 +50,7 @@ impl Reproduce {
         match &self.table {
             None => self.list(out),
             Some(Table::RepairCost(table)) => table.run(out),
+            Some(Table::Optimum(table)) => table.run(out),
         }
     }
 
