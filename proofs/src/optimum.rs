@@ -108,11 +108,12 @@ pub fn explore_all(
 ) -> Result<Optimum, Unsolved> {
     let graph = Graph::new(ground, rule)?;
     let cells: Vec<Cell> = ground.area().cells().collect();
-    let goals = ground.bits(goals).map_err(Unsolved::TooLarge)?;
     let reached = graph.occupied.iter().fold(0, |reached, &occupied| reached | occupied);
-    if let Some(index) = ones(goals & !reached).next() {
-        return Err(Unsolved::OutOfReach { cell: cells[usize::from(index)] });
+    let reached = CellSet::of_bits(ground.area(), reached);
+    if let Some(cell) = goals.iter().find(|&goal| !reached.contains(goal)) {
+        return Err(Unsolved::OutOfReach { cell });
     }
+    let goals = ground.bits(goals).map_err(Unsolved::TooLarge)?;
     let bound = Bound::new(&graph, cells.len(), guide);
     let search = Search { graph: &graph, bound, nodes: Vec::new(), known: HashMap::new(), open: Vec::new() };
     let (path, states) = search.run(goals, most_states)?;
@@ -511,6 +512,9 @@ mod tests {
         };
         let corner = Cell::new(0, 0);
         assert_eq!(solve(&ground(3), corner, MANY), Err(Unsolved::OutOfReach { cell: corner }));
+        let outside = goals(&ground(4), Cell::new(6, 6));
+        let solved = explore_all(&ground(3), &Rule::REPAIRED, &outside, Guide::Distances, MANY);
+        assert_eq!(solved, Err(Unsolved::OutOfReach { cell: Cell::new(6, 6) }));
         assert_eq!(solve(&ground(3), Cell::new(4, 4), 3), Err(Unsolved::States { most: 3 }));
         let too_large = TooLarge::Cells { cells: 169 };
         assert_eq!(solve(&ground(7), corner, MANY), Err(Unsolved::TooLarge(too_large)));

@@ -92,7 +92,7 @@ impl CellSet {
         self.area.cells().filter(|&cell| self.contains(cell))
     }
 
-    fn of_bits(area: Area, bits: u128) -> Self {
+    pub(crate) fn of_bits(area: Area, bits: u128) -> Self {
         let words = (0..cells_of(area).div_ceil(64)).map(|word| (bits >> (64 * word)) as u64).collect();
         Self { area, words }
     }
@@ -334,13 +334,17 @@ impl Relation {
         if followers > MAX_FOLLOWERS {
             return Err(TooLarge::Places);
         }
-        let set = |is_in: &dyn Fn(Cell) -> bool| {
-            let places = area.cells().enumerate();
-            places.fold(0, |bits, (index, cell)| if is_in(cell) { bits | 1 << index } else { bits })
+        let set = |cells: &mut dyn Iterator<Item = Cell>| {
+            cells.filter_map(|cell| index(area, cell)).fold(0_u128, |set, index| set | 1 << index)
         };
+        let environment = |condition, cell: Cell, is_in: fn(Cell, Cell) -> bool| {
+            let near = area.around(cell, 2).into_iter().flat_map(Area::cells);
+            if rule.has(condition) { set(&mut near.filter(|&other| is_in(cell, other))) } else { u128::MAX }
+        };
+        let open = |side| set(&mut area.cells().filter(|&cell| ground.admits(cell, Step::Cross(side))));
         let around = |cell: Cell| Around {
-            safe: set(&|other| !rule.has(Condition::SafeAhead) || in_safe(cell, other)),
-            covered: set(&|other| !rule.has(Condition::CoveredBehind) || in_covered(cell, other)),
+            safe: environment(Condition::SafeAhead, cell, in_safe),
+            covered: environment(Condition::CoveredBehind, cell, in_covered),
             after: Step::ALL
                 .into_iter()
                 .filter(|&step| ground.admits(cell, step))
@@ -352,8 +356,8 @@ impl Relation {
             followers,
             base: index(area, base).unwrap_or(0) as u8,
             width: area.width() as u32,
-            east: set(&|cell| ground.admits(cell, Step::Cross(Side::East))),
-            south: set(&|cell| ground.admits(cell, Step::Cross(Side::South))),
+            east: open(Side::East),
+            south: open(Side::South),
             cells: area.cells().map(around).collect(),
         })
     }
