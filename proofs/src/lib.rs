@@ -1,5 +1,6 @@
 //! What Tautline claims, and how the claims are decided: the clauses of `SPEC.md` with their mutants, the engines
-//! that answer every choice, the search over all layouts, and the judge of counterexamples.
+//! that answer every choice, the search over all layouts, what a chain can reach and in how few team moves, and the
+//! judge of counterexamples.
 
 pub mod clause;
 pub mod crowd;
