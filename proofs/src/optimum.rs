@@ -415,7 +415,7 @@ const UNSOLVED: Stop = Stop::Violated("the fewest team moves are found within th
 
 #[cfg(test)]
 mod tests {
-    use tautline_kernel::chain::Move;
+    use tautline_kernel::chain::{Condition, Move};
     use tautline_kernel::grid::Area;
     use tautline_kernel::lattice::{Edge, Side};
 
@@ -496,6 +496,15 @@ mod tests {
         agrees(&ground, &ring);
         assert_eq!(solve(&ground, &Rule::REPAIRED, &ring, Guide::Blind), 17);
         assert_eq!(solve(&ground, &Rule::REPAIRED, &reachable(&ground), Guide::Distances), 17);
+    }
+
+    #[test]
+    fn without_e_s_ahead_four_robots_need_fewer_and_three_do_not() {
+        let rule = Rule::REPAIRED.without(Condition::SafeAhead);
+        for (robots, moves) in [(3, 17), (4, 25)] {
+            let ground = ground(robots, |_| false);
+            assert_eq!(solve(&ground, &rule, &reachable(&ground), Guide::Distances), moves);
+        }
     }
 
     #[test]

@@ -339,6 +339,8 @@ impl Sums {
 
 #[cfg(test)]
 mod tests {
+    use tautline_kernel::lattice::Side;
+
     use super::*;
 
     #[test]
@@ -373,6 +375,23 @@ mod tests {
                 })
                 .collect();
             assert!(optima.iter().all(|&moves| moves == optima[0]), "{orbit:?}: {optima:?}");
+        }
+    }
+
+    #[test]
+    fn a_blocked_follower_lets_the_leader_into_a_cell_that_is_not_chain_reachable() {
+        let area = Area::new(3).map_err(|_| ()).expect("an area");
+        let mut layout = area.layout(0);
+        for x in 1..=3 {
+            layout.build_wall(Edge::new(Cell::new(x, 1), Side::South));
+        }
+        let (_, goals) = area.goals(&layout).map_err(|_| ()).expect("a ground");
+        let beyond = Cell::new(2, 0);
+        assert!(!goals.contains(beyond));
+        for rule in RuleName::ALL {
+            let setup = area.setup(rule, layout.clone());
+            let report = explore(&setup, &mut |_| Ok(())).map_err(|_| ()).expect("a run");
+            assert!(report.chart.step(beyond).is_some() && report.violations.is_empty(), "{rule}");
         }
     }
 }
