@@ -5,7 +5,7 @@
 //! and Likhachev 2005): a path that still stands is walked straight down, and a region without a way out is
 //! searched once.
 
-use tautline_kernel::grid::{Area, Avoid, CellMark, EdgeMark, Grid};
+use tautline_kernel::grid::{Area, Avoid, CellMark, EdgeMark, Grid, links};
 use tautline_kernel::lattice::{Cell, Edge, Side};
 
 /// The marks of one cell: four bits for the cell, then for each mark of edges four bits, one a side. An edge is
@@ -56,6 +56,12 @@ impl WideGrid {
             leader: Field::new(cells, &[EdgeMark::Wall, EdgeMark::Virtual]),
             search: Search { steps: vec![UNREACHED; cells], reached: Vec::new(), open: Default::default() },
         }
+    }
+
+    /// The cell at `place`.
+    fn cell(&self, place: usize) -> Cell {
+        let first = self.area.first();
+        Cell::new(first.x + (place % self.map.width) as i16, first.y + (place / self.map.width) as i16)
     }
 
     /// The place of `cell` in the lists of cells; `None` outside the area.
@@ -174,6 +180,23 @@ impl Grid for WideGrid {
         let steps = field.bounds[from].steps;
         (steps != UNREACHED).then_some(steps)
     }
+
+    fn stops(&mut self, from: Cell, stops: &mut [Cell]) -> Option<usize> {
+        let (start, most) = (self.place(from)?, stops.len().checked_sub(1)?);
+        let target = self.search.link_up(&self.map, start, most);
+        if let Some((target, count)) = target {
+            let mut stop = self.cell(target);
+            for nearer in (0..count).rev() {
+                stops[nearer + 1] = stop;
+                let is_nearer =
+                    |cell| self.place(cell).is_some_and(|place| self.search.steps[place] as usize == nearer);
+                stop = links(self, stop).map(|(cell, _)| cell).find(|&cell| is_nearer(cell)).unwrap_or(from);
+            }
+            stops[0] = stop;
+        }
+        self.search.clear();
+        target.map(|(_, count)| count)
+    }
 }
 
 /// The marks of all cells, row by row.
@@ -210,16 +233,34 @@ impl Map {
     /// The neighbours of the cell at `place` beyond sides that carry none of the `blocked` marks. The border,
     /// a wall for good, keeps them in the area.
     fn neighbours(&self, place: usize, blocked: Marks) -> impl Iterator<Item = usize> + use<> {
-        let closed = self.marks[place] & blocked;
-        let width = self.width;
-        Side::ALL.into_iter().filter(move |&side| closed & edge_sides(side) == 0).map(
-            move |side| match side {
-                Side::East => place + 1,
-                Side::South => place + width,
-                Side::West => place - 1,
-                Side::North => place - width,
-            },
-        )
+        let (closed, width) = (self.marks[place] & blocked, self.width);
+        Side::ALL
+            .into_iter()
+            .filter(move |&side| closed & edge_sides(side) == 0)
+            .map(move |side| beyond(place, side, width))
+    }
+
+    /// The neighbours of the cell at `place` that are one link away: beyond its sides, and round its corners.
+    fn linked(&self, place: usize) -> impl Iterator<Item = usize> {
+        let open = |place: usize| {
+            let walls = self.marks[place];
+            Side::ALL.into_iter().filter(move |&side| walls & edge_mark(EdgeMark::Wall, side) == 0)
+        };
+        open(place).flat_map(move |side| {
+            let next = beyond(place, side, self.width);
+            let turns = open(next).filter(move |&turn| turn != side && turn != side.opposite());
+            std::iter::once(next).chain(turns.map(move |turn| beyond(next, turn, self.width)))
+        })
+    }
+}
+
+/// The neighbour beyond `side` of the cell at `place`, where rows have `width` cells.
+const fn beyond(place: usize, side: Side, width: usize) -> usize {
+    match side {
+        Side::East => place + 1,
+        Side::South => place + width,
+        Side::West => place - 1,
+        Side::North => place - width,
     }
 }
 
@@ -311,7 +352,7 @@ impl Field {
 /// The working space of a search.
 #[derive(Clone, Debug)]
 struct Search {
-    /// Steps from the start to each cell on the shortest path found, or `UNREACHED`.
+    /// Steps, or links, from the start to each cell on the shortest path found, or `UNREACHED`.
     steps: Vec<u32>,
     /// The cells with a path found.
     reached: Vec<usize>,
@@ -352,6 +393,31 @@ impl Search {
                 }
             }
         }
+    }
+
+    /// Reaches the cells at most `most` links from the one at `start`, up to the nearest unexplored: the place of
+    /// the first of these, and how many links away it is. `steps` are links until the next search.
+    fn link_up(&mut self, map: &Map, start: usize, most: usize) -> Option<(usize, usize)> {
+        self.steps[start] = 0;
+        self.reached.push(start);
+        let mut layer = 0;
+        for count in 0..=most {
+            let unexplored = |&&place: &&usize| map.marks[place] & EXPLORED == 0;
+            if let Some(&target) = self.reached[layer..].iter().filter(unexplored).min() {
+                return Some((target, count));
+            }
+            let nearer = layer..self.reached.len();
+            layer = nearer.end;
+            for index in nearer {
+                for next in map.linked(self.reached[index]) {
+                    if self.steps[next] == UNREACHED {
+                        self.steps[next] = count as u32 + 1;
+                        self.reached.push(next);
+                    }
+                }
+            }
+        }
+        None
     }
 
     /// Makes ready for the next search.

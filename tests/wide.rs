@@ -22,13 +22,14 @@ enum Call {
     PutEdge(EdgeMark, Edge),
     ClearEdges(EdgeMark),
     Distance(Cell, Avoid),
+    Stops(Cell, usize),
 }
 
 /// Distances of a cell and of its neighbours, east, south, west, north, as far as they were asked for.
 type Answer = [Option<u32>; Step::ALL.len()];
 
-/// All marks, and all answers.
-type Everything = (Vec<bool>, Vec<Answer>);
+/// All marks, all distances, and some walks.
+type Everything = (Vec<bool>, Vec<Answer>, Vec<Option<Vec<Cell>>>);
 
 impl Call {
     /// Makes the call; the answer, if it has one.
@@ -39,6 +40,7 @@ impl Call {
             Self::PutEdge(mark, edge) => grid.put_edge(mark, edge),
             Self::ClearEdges(mark) => grid.clear_edges(mark),
             Self::Distance(cell, avoid) => return grid.distance(cell, avoid),
+            Self::Stops(cell, most) => return stops(grid, cell, most).map(|stops| stops.len() as u32),
         }
         None
     }
@@ -77,6 +79,7 @@ fn calls(area: Area) -> impl Strategy<Value = Vec<Call>> {
     let avoid = proptest::sample::select(AVOIDS.to_vec());
     let call = prop_oneof![
         40 => (cells(area), avoid).prop_map(|(cell, avoid)| Call::Distance(cell, avoid)),
+        5 => (cells(area), 0..9_usize).prop_map(|(cell, most)| Call::Stops(cell, most)),
         10 => cells(area).prop_map(|cell| Call::Put(CellMark::Explored, cell)),
         20 => (edge_mark, edges(area)).prop_map(|(mark, edge)| Call::PutEdge(mark, edge)),
         5 => (cell_mark.clone(), cells(area)).prop_map(|(mark, cell)| Call::Put(mark, cell)),
@@ -151,7 +154,58 @@ fn everything(grid: &mut impl Grid) -> Everything {
         assert_eq!(distances[Step::Stay.place()], grid.distance(cell, avoid));
         distances
     });
-    (marks, distances.collect())
+    let distances = distances.collect();
+    let starts = around.cells().step_by(1 + around.width() * around.height() / 12);
+    let walks = starts.flat_map(|cell| [0, 1, 4, 200].map(|most| stops(grid, cell, most))).collect();
+    (marks, distances, walks)
+}
+
+/// The stops of the walk from `from` to an unexplored cell at most `most` links away.
+fn stops(grid: &mut impl Grid, from: Cell, most: usize) -> Option<Vec<Cell>> {
+    let mut stops = vec![Cell::new(i16::MIN, i16::MIN); most + 1];
+    let links = grid.stops(from, &mut stops)?;
+    stops.truncate(links + 1);
+    Some(stops)
+}
+
+/// The same, by asking of every two cells whether they are one link apart.
+fn plain_stops(grid: &impl Grid, from: Cell, most: usize) -> Option<Vec<Cell>> {
+    const AROUND: [(i16, i16); 8] = [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)];
+    let is_open = |one: Cell, other: Cell| {
+        let side = Side::ALL.into_iter().find(|&side| one.beyond(side) == other);
+        side.is_some_and(|side| !grid.edge_has(EdgeMark::Wall, Edge::new(one, side)))
+    };
+    let is_link = |one: Cell, other: Cell| {
+        let corners = [Cell::new(one.x, other.y), Cell::new(other.x, one.y)];
+        is_open(one, other)
+            || corners.into_iter().any(|corner| is_open(one, corner) && is_open(corner, other))
+    };
+    let linked = |cell: Cell| {
+        let around = AROUND.map(|(dx, dy)| Cell::new(cell.x + dx, cell.y + dy));
+        around.into_iter().filter(move |&other| is_link(cell, other))
+    };
+    let mut layers = vec![vec![from]];
+    grid.area().locate(from)?;
+    let mut target = None;
+    while target.is_none() {
+        let nearest = layers.last()?;
+        target =
+            grid.area().cells().find(|cell| nearest.contains(cell) && !grid.has(CellMark::Explored, *cell));
+        let mut next: Vec<Cell> = nearest.iter().flat_map(|&cell| linked(cell)).collect();
+        next.retain(|cell| !layers.iter().any(|layer| layer.contains(cell)));
+        next.sort_unstable();
+        next.dedup();
+        if target.is_none() && (next.is_empty() || layers.len() > most) {
+            return None;
+        }
+        layers.push(next);
+    }
+    let mut stops = vec![target?];
+    for nearer in layers.iter().rev().skip(2) {
+        stops.push(linked(stops[stops.len() - 1]).find(|cell| nearer.contains(cell))?);
+    }
+    stops.reverse();
+    Some(stops)
 }
 
 /// The answers of a grid with planes `P`, if it holds `area`.
@@ -180,6 +234,19 @@ proptest! {
         for (side, theirs) in theirs {
             prop_assert_eq!(theirs.is_some(), most <= side);
             prop_assert!(theirs.is_none_or(|theirs| theirs == ours), "{} cells a side", side);
+        }
+    }
+
+    #[test]
+    fn a_walk_has_the_fewest_links_and_the_first_stops((area, calls) in histories()) {
+        let mut grid = WideGrid::new(area);
+        for call in calls {
+            call.make(&mut grid);
+        }
+        for from in area.cells().step_by(1 + area.width() * area.height() / 8) {
+            for most in [0, 1, 3, 7, 200] {
+                prop_assert_eq!(stops(&mut grid, from, most), plain_stops(&grid, from, most), "{} {}", from, most);
+            }
         }
     }
 

@@ -1,5 +1,5 @@
 //! The recursive chain of robots (paper 000, III: Algorithms 1 to 3): a base, a leader that seeks the nearest
-//! unexplored cell, and followers between them that keep radio contact. Clauses CHAIN-1 to CHAIN-12.
+//! unexplored cell, and followers between them that keep radio contact. Clauses CHAIN-1 to CHAIN-13.
 //!
 //! [`Chain::plan`] says what the team intends; [`Chain::settle`] takes the answers of the world. The history
 //! that backtracking needs is the log of the robots' one-byte messages, kept by the caller and read backwards.
@@ -9,11 +9,13 @@ mod message;
 mod plan;
 mod rule;
 mod team;
+mod unfold;
 
 pub use message::{Damaged, Message, Outcome};
 pub use plan::{Kind, Plan};
 pub use rule::{Condition, Conditions, High, Move, Role, Rule};
 pub use team::{Chain, End, Intent, Refused, Settled};
+pub use unfold::goes_on;
 
 /// The longest chain, base included: its area is 511×511 cells.
 pub const MAX_ROBOTS: usize = 256;

@@ -3,9 +3,11 @@
 //! its home in a few machine words, small enough to be copied at every fork of a search.
 
 mod bits;
+mod link;
 mod plane;
 
 pub use bits::{BitGrid, CompactGrid, LargeGrid, MediumGrid, SmallGrid, TinyGrid};
+pub use link::{Link, link, links};
 pub use plane::{Plane, Word};
 
 use crate::lattice::{Cell, Edge, Side, Step, Steps};
@@ -73,6 +75,11 @@ pub trait Grid {
         }
         distances
     }
+    /// A walk from `from` to the unexplored cell that is fewest [`links`] away, the first in row order of these: how
+    /// many links it has, at most one less than there are `stops`, and the cells where they begin and end in
+    /// `stops`, `from` first. Going back, each stop is the first of those linked to the one after it that is
+    /// nearer to `from`. `None` if all cells so near are explored.
+    fn stops(&mut self, from: Cell, stops: &mut [Cell]) -> Option<usize>;
 }
 
 /// A rectangle of cells, not empty: what a team is to explore.

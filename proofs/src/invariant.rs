@@ -7,6 +7,7 @@ use tautline_kernel::lattice::{Cell, Edge, Step};
 
 use crate::clause::Subject;
 use crate::engine::{Stop, require};
+use crate::plain::walk;
 use crate::run::Breach;
 
 /// One team move, with the chain in its three states.
@@ -163,7 +164,8 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
     }
 
     /// Between two gains (a cell explored, a wall found) and two new virtual obstacles, an advance brings the leader
-    /// nearer to the frontier, and a backtrack makes the history shorter: both end.
+    /// nearer to the frontier, or while the chain unfolds one cell farther along the walk, and a backtrack makes the
+    /// history shorter: all of these end.
     fn progresses(&self) -> Result<(), Stop> {
         let leader = |chain: &Chain<G, ROBOTS>| chain.cells()[chain.cells().len() - 1];
         let to_frontier = |chain: &Chain<G, ROBOTS>| {
@@ -171,9 +173,25 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
             grid.distance(leader(chain), Avoid::WallsAndVirtual)
         };
         let turned = self.planned.epochs() > self.before.epochs();
-        require(!turned || self.before.gained(), "an epoch without gain is the last")?;
+        let unfolds = self.planned.is_unfolding();
+        require(
+            !turned || self.before.gained() || unfolds,
+            "an epoch without gain is the last, or the next unfolds the chain",
+        )?;
+        let explores =
+            self.after.cells().iter().any(|&cell| !self.planned.grid().has(CellMark::Explored, cell));
+        let finds_wall = self
+            .messages
+            .iter()
+            .any(|&byte| Message::decode(byte).is_ok_and(|message| message.outcome == Outcome::Blocked));
+        let gains = explores || finds_wall;
+        require(
+            self.after.gained() == (self.planned.gained() || gains),
+            "a cell explored and a wall found are gains, and nothing else is",
+        )?;
         match self.kind {
             Kind::Backtrack => {
+                require(!unfolds, "an epoch that unfolds the chain gains before it takes anything back")?;
                 require(
                     self.after.last_open() < self.before.last_open(),
                     "a backtrack shortens the history",
@@ -183,23 +201,38 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
                     "a backtrack leaves a place without a way to the frontier",
                 )
             }
+            Kind::Advance if unfolds => {
+                let walk = self.walk();
+                let along = |chain| walk.iter().position(|&cell| cell == leader(chain));
+                let farther =
+                    along(self.after).zip(along(self.planned)).is_some_and(|(then, now)| then == now + 1);
+                require(
+                    gains || farther,
+                    "while the chain unfolds, it explores, finds a wall, or the leader goes on along the walk",
+                )
+            }
             Kind::Advance => {
-                let explores =
-                    self.after.cells().iter().any(|&cell| !self.planned.grid().has(CellMark::Explored, cell));
-                let finds_wall = self.messages.iter().any(|&byte| {
-                    Message::decode(byte).is_ok_and(|message| message.outcome == Outcome::Blocked)
-                });
                 let new_obstacle = self.planned.grid() != self.before.grid();
                 let nearer = || {
                     let (now, then) = (to_frontier(self.after), to_frontier(self.before));
                     now.is_some_and(|now| then == Some(now + 1))
                 };
                 require(
-                    explores || finds_wall || new_obstacle || nearer(),
+                    gains || new_obstacle || nearer(),
                     "an advance explores, finds a wall, adds a virtual obstacle or brings the leader nearer",
                 )
             }
         }
+    }
+
+    /// The cells of the walk from the base to the nearest unexplored cell, by links; none if it is out of reach. It
+    /// stays as it is until something is gained.
+    fn walk(&self) -> Vec<Cell> {
+        let (grid, team) = (self.planned.grid(), self.planned.cells());
+        let is_open = |edge| !grid.edge_has(EdgeMark::Wall, edge);
+        let is_explored = |cell| grid.has(CellMark::Explored, cell);
+        walk(grid.area(), team[0], team.len() - 1, is_open, is_explored)
+            .map_or(Vec::new(), |(cells, _)| cells)
     }
 
     /// What a listener makes of the state before and the bytes, is the state after.

@@ -18,4 +18,5 @@ pub mod search;
 pub mod small;
 #[cfg(kani)]
 mod symbolic;
+pub mod walk;
 pub mod whole;

@@ -1,6 +1,8 @@
 //! The chain as the paper writes it down, without any of the kernel's machinery: growing lists, the plain recursion
 //! of Algorithms 1 to 3, a flood fill for every candidate, the history as a list of team moves. It shares no
-//! search, flood fill or bookkeeping with the planner, and asks the same [`Rule`] for its conditions. CHAIN-11 compares the two; the benchmarks measure the one by the other.
+//! search, flood fill or bookkeeping with the planner, and asks the same [`Rule`] for its conditions. What the repair
+//! *Unfold* adds is written down here once more, too. CHAIN-11 compares the two; the benchmarks measure the one by
+//! the other.
 
 use std::collections::VecDeque;
 
@@ -20,6 +22,8 @@ pub struct PlainChain {
     /// The steps that were really made and not taken back.
     history: Vec<Vec<Step>>,
     gained: bool,
+    /// Whether this epoch began by unfolding the chain.
+    unfolds: bool,
 }
 
 /// What is known of an edge.
@@ -69,6 +73,7 @@ impl PlainChain {
             south: vec![Marks::default(); cells],
             history: Vec::new(),
             gained: true,
+            unfolds: false,
         };
         for cell in area.cells() {
             for side in Side::ALL {
@@ -101,6 +106,12 @@ impl PlainChain {
         }
         let mut looked_at = 0;
         for fresh_epoch in [false, true] {
+            if self.unfolds
+                && !self.gained
+                && let Some(steps) = self.unfold()
+            {
+                return Ok((PlainIntent::Advance(steps), looked_at));
+            }
             if let Some(steps) = self.lead(most, &mut looked_at)? {
                 return Ok((PlainIntent::Advance(steps), looked_at));
             }
@@ -108,8 +119,9 @@ impl PlainChain {
                 let back = steps.iter().map(|step| step.reverse()).collect();
                 return Ok((PlainIntent::Backtrack(back), looked_at));
             }
+            self.unfolds = self.rule.has(Condition::Unfold) && self.walk().is_some();
             let gainless = !self.gained && self.rule.has(Condition::EpochMustGain);
-            if gainless || fresh_epoch {
+            if fresh_epoch || (gainless && !self.unfolds) {
                 break;
             }
             self.gained = false;
@@ -199,6 +211,32 @@ impl PlainChain {
         Ok(None)
     }
 
+    /// The walk on which the chain unfolds, if it is to: its cells, and which of them are stops.
+    fn walk(&self) -> Option<(Vec<Cell>, Vec<usize>)> {
+        let is_open = |edge| !self.marks(edge).wall;
+        let is_explored = |cell| self.index(cell).is_none_or(|index| self.explored[index]);
+        walk(self.area, self.cells[0], self.cells.len() - 1, is_open, is_explored)
+    }
+
+    /// The steps of all robots that unfold the chain further.
+    fn unfold(&self) -> Option<Vec<Step>> {
+        let (walk, stops) = self.walk()?;
+        let leader = self.cells.len() - 1;
+        let at = |robot: usize| walk.iter().position(|&cell| cell == self.cells[robot]).unwrap_or(0);
+        // Where on the walk each robot is to be, the leader first.
+        let mut planned = vec![at(leader) + 1];
+        for robot in (0..leader).rev() {
+            let behind = leader - robot;
+            let last = if behind < stops.len() { stops[stops.len() - 1 - behind] } else { 0 };
+            let waits = at(robot) == last || planned[behind - 1] <= at(robot) + 1;
+            planned.push(if waits { at(robot) } else { at(robot) + 1 });
+        }
+        let steps = self.cells.iter().zip(planned.into_iter().rev()).map(|(&cell, planned)| {
+            Step::ALL.into_iter().find(|&step| Some(cell.after(step)) == walk.get(planned).copied())
+        });
+        steps.collect()
+    }
+
     fn is_full(&self, cell: Cell) -> bool {
         cell != self.cells[0] && self.cells.iter().filter(|&&other| other == cell).count() >= 2
     }
@@ -252,6 +290,77 @@ impl PlainChain {
             });
         }
     }
+}
+
+/// The walk of fewest links, at most `most`, from `base` to an unexplored cell of `area`, as a list of its cells and
+/// the places of its stops among them. Of equally near cells the first in row order; going back from it, stops beyond
+/// a side before those beyond a corner, in direction order.
+pub(crate) fn walk(
+    area: Area,
+    base: Cell,
+    most: usize,
+    is_open: impl Fn(Edge) -> bool,
+    is_explored: impl Fn(Cell) -> bool,
+) -> Option<(Vec<Cell>, Vec<usize>)> {
+    // East, south, west, north, and the corners between them, from east over south round to east again.
+    let around = [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)];
+    // The cells from one to another that is linked to it, the first left out.
+    let way = |from: Cell, (dx, dy): (i16, i16)| -> Option<Vec<Cell>> {
+        let horizontal = if dx > 0 { Side::East } else { Side::West };
+        let vertical = if dy > 0 { Side::South } else { Side::North };
+        let mut ways = match (dx, dy) {
+            (_, 0) => vec![vec![horizontal]],
+            (0, _) => vec![vec![vertical]],
+            (_, _) => vec![vec![horizontal, vertical], vec![vertical, horizontal]],
+        };
+        ways.sort();
+        ways.into_iter().find_map(|sides| {
+            let mut cell = from;
+            let mut cells = Vec::new();
+            for side in sides {
+                if !is_open(Edge::new(cell, side)) {
+                    return None;
+                }
+                cell = cell.beyond(side);
+                cells.push(cell);
+            }
+            Some(cells)
+        })
+    };
+    let mut layers = vec![vec![base]];
+    let target = loop {
+        let nearest = layers.last()?;
+        let target = area.cells().find(|cell| nearest.contains(cell) && !is_explored(*cell));
+        if let Some(target) = target {
+            break target;
+        }
+        if layers.len() > most || nearest.is_empty() {
+            return None;
+        }
+        let next = area.cells().filter(|&cell| {
+            let is_new = layers.iter().all(|layer| !layer.contains(&cell));
+            let is_near = |&(dx, dy): &(i16, i16)| {
+                nearest.contains(&Cell::new(cell.x + dx, cell.y + dy)) && way(cell, (dx, dy)).is_some()
+            };
+            is_new && around.iter().any(is_near)
+        });
+        layers.push(next.collect());
+    };
+    let mut stops = vec![target];
+    for nearer in layers.iter().rev().skip(1) {
+        let stop = stops[stops.len() - 1];
+        let linked = around.iter().filter(|&&offset| way(stop, offset).is_some());
+        let back =
+            linked.map(|&(dx, dy)| Cell::new(stop.x + dx, stop.y + dy)).find(|cell| nearer.contains(cell));
+        stops.push(back?);
+    }
+    stops.reverse();
+    let (mut cells, mut places) = (vec![base], vec![0]);
+    for pair in stops.windows(2) {
+        cells.extend(way(pair[0], (pair[1].x - pair[0].x, pair[1].y - pair[0].y))?);
+        places.push(cells.len() - 1);
+    }
+    Some((cells, places))
 }
 
 impl Recursion<'_> {

@@ -2,7 +2,7 @@
 
 use tautline_kernel::chain::Condition::{
     CoveredBehind, Distinct, EpochMustGain, FullForFollower, FullForLeader, RefusedIsVirtual, SafeAhead,
-    UnsureAhead,
+    Unfold, UnsureAhead,
 };
 use tautline_kernel::chain::Rule;
 use tautline_kernel::lattice::Circle;
@@ -10,7 +10,7 @@ use tautline_kernel::lattice::Circle;
 use crate::clause::{Check, Clause, Method, Mutant, Sabotage, Subject, Verdict};
 use crate::invariant::Invariant;
 use crate::run::Breach;
-use crate::{crowd, optimum, pair, small, whole};
+use crate::{crowd, optimum, pair, small, walk, whole};
 
 /// A mutant.
 const fn mutant(name: &'static str, subject: Subject) -> Mutant {
@@ -119,10 +119,18 @@ exhaustive! {
             safe_too_wide: "E_S with the radius of E_C" => Subject::with_safe(Circle::COVERED),
             without_safe_ahead: "without E_S ahead" => Subject::without(SafeAhead),
         };
+    unfolding: walk::unfolding, Subject::REPAIRED, "every pair of neighbours on a walk, and every turn of it",
+        covers ["both go on", "both stay", "the robot ahead goes on"], unwind 6, mutants {
+            safe_too_narrow: "E_S narrowed to E_N" => Subject::with_safe(NARROWER),
+            covered_too_narrow: "E_C with the radius of E_S" => Subject::with_covered(Circle::SAFE),
+        };
 }
 
 /// The next larger circle: E_C with eight cells more.
 const WIDER: Circle = Circle::new(34);
+
+/// The next smaller circle than that of E_S: the cell and its four side neighbours.
+const NARROWER: Circle = Circle::new(10);
 
 /// The bound at which the published rule first fails with four robots.
 const FOUR: (usize, u32) = (4, 4);
@@ -133,7 +141,7 @@ const THREE: (usize, u32) = (4, 3);
 const THREE_BOUND: &str = "all layouts, N = 4, at most 3 walls";
 
 /// Every clause, in the order of `SPEC.md`.
-pub static CLAUSES: [Clause; 13] = [
+pub static CLAUSES: [Clause; 14] = [
     Clause {
         id: "LATTICE-1",
         sentence: "The environments derived from the radii MUST be the sets that the paper draws: E_N the cell and \
@@ -335,6 +343,11 @@ pub static CLAUSES: [Clause; 13] = [
         sentence: "A plan MUST look at fewer than 100·N candidates of followers.",
         checks: &[Check { subject: Subject::PUBLISHED, ..CHEAP }, CHEAP],
     },
+    Clause {
+        id: "CHAIN-13",
+        sentence: "When a run ends, every cell within reach of the chain MUST be explored.",
+        checks: &[unfolding::CHECK],
+    },
 ];
 
 const fn runs(subject: Subject, mutants: &'static [Mutant]) -> Check {
@@ -358,6 +371,7 @@ const SAME_PLAN: Check = Check {
         mutant("P_high from present positions", Subject::high_from_present()),
         mutant("without distinctness", Subject::without(Distinct)),
         mutant("refusals leave no obstacle", Subject::without(RefusedIsVirtual)),
+        mutant("without unfolding", Subject::without(Unfold)),
     ],
 };
 

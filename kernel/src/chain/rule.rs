@@ -24,11 +24,14 @@ pub enum Condition {
     FullForFollower,
     /// Repair: nor does the leader.
     FullForLeader,
+    /// Repair: when an epoch is over and an unexplored cell is within reach, the next begins by unfolding the chain
+    /// towards it. Within reach is what is at most N−1 links from the base in the map known so far.
+    Unfold,
 }
 
 impl Condition {
     /// Every condition.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::SafeAhead,
         Self::CoveredBehind,
         Self::Distinct,
@@ -37,12 +40,13 @@ impl Condition {
         Self::UnsureAhead,
         Self::FullForFollower,
         Self::FullForLeader,
+        Self::Unfold,
     ];
 }
 
 /// A set of conditions.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Conditions(u8);
+pub struct Conditions(u16);
 
 impl Conditions {
     /// The set of these conditions.
@@ -144,7 +148,7 @@ impl Rule {
         high: High::Planned,
     };
 
-    /// The chain with the two repairs, of contact and of crowding.
+    /// The chain with the three repairs, of contact, of crowding and of what is left unexplored.
     pub const REPAIRED: Self = Self { conditions: Conditions::of(&Condition::ALL), ..Self::PUBLISHED };
 
     /// This rule with one condition taken out.

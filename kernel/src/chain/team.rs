@@ -6,6 +6,7 @@ use super::MAX_ROBOTS;
 use super::message::{Damaged, Message, Outcome};
 use super::plan::{Kind, Plan, Planner};
 use super::rule::{Condition, Rule};
+use super::unfold::unfold;
 use crate::grid::{Area, CellMark, EdgeMark, Grid};
 use crate::lattice::{Cell, Edge, Step};
 
@@ -79,6 +80,17 @@ impl<const ROBOTS: usize> Settled<ROBOTS> {
     }
 }
 
+/// How far an epoch is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Stage {
+    /// The chain is being unfolded towards an unexplored cell, and has not yet explored one or found a wall.
+    Unfolding,
+    /// It has not yet explored a cell or found a wall.
+    Seeking,
+    /// It has.
+    Gained,
+}
+
 /// A chain of at most `ROBOTS` robots that explores a grid.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Chain<G, const ROBOTS: usize> {
@@ -93,8 +105,7 @@ pub struct Chain<G, const ROBOTS: usize> {
     last_open: Option<u32>,
     /// Epochs that ended.
     epochs: u32,
-    /// Whether this epoch explored a cell or found a wall.
-    gained: bool,
+    stage: Stage,
     looked_at: u32,
 }
 
@@ -132,7 +143,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             moves: 0,
             last_open: None,
             epochs: 0,
-            gained: true,
+            stage: Stage::Gained,
             looked_at: 0,
         })
     }
@@ -170,7 +181,12 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
 
     /// Whether the present epoch has explored a cell or found a wall; the first counts its start as a gain.
     pub const fn gained(&self) -> bool {
-        self.gained
+        matches!(self.stage, Stage::Gained)
+    }
+
+    /// Whether the chain is being unfolded: see [`Condition::Unfold`]. Over as soon as the epoch gains.
+    pub const fn is_unfolding(&self) -> bool {
+        matches!(self.stage, Stage::Unfolding)
     }
 
     /// What the team intends. `log` holds the messages of all team moves so far, as [`Settled::messages`]
@@ -185,26 +201,41 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         }
         let mut fresh_epoch = false;
         loop {
+            if self.is_unfolding()
+                && let Some(steps) = unfold(&mut self.grid, &self.cells[..self.robots])
+            {
+                return Ok(Intent::Go(self.advance(steps)));
+            }
             let (steps, looked_at) =
                 Planner::<G, ROBOTS>::new(&self.rule, &mut self.grid, &self.cells[..self.robots]).make();
             self.looked_at += looked_at;
             if let Some(steps) = steps {
-                let plan =
-                    Plan { kind: Kind::Advance, steps, robots: self.robots, last_open: Some(self.moves) };
-                return Ok(Intent::Go(plan));
+                return Ok(Intent::Go(self.advance(steps)));
             }
             if let Some(entry) = self.last_open {
                 return self.backtrack(log, entry).map(Intent::Go);
             }
-            let gainless = !self.gained && self.rule.has(Condition::EpochMustGain);
-            if gainless || fresh_epoch {
+            let gainless = !self.gained() && self.rule.has(Condition::EpochMustGain);
+            let unfolds = !fresh_epoch && self.has_target();
+            if fresh_epoch || (gainless && !unfolds) {
                 return Ok(Intent::Done(End::Exhausted));
             }
             fresh_epoch = true;
             self.epochs += 1;
-            self.gained = false;
+            self.stage = if unfolds { Stage::Unfolding } else { Stage::Seeking };
             self.grid.clear_edges(EdgeMark::Virtual);
         }
+    }
+
+    /// Whether there is an unexplored cell to unfold the chain towards.
+    fn has_target(&mut self) -> bool {
+        let mut stops = self.cells;
+        self.rule.has(Condition::Unfold)
+            && self.grid.stops(self.cells[0], &mut stops[..self.robots]).is_some()
+    }
+
+    fn advance(&self, steps: [Step; ROBOTS]) -> Plan<ROBOTS> {
+        Plan { kind: Kind::Advance, steps, robots: self.robots, last_open: Some(self.moves) }
     }
 
     /// The plan that takes log entry `entry` back.
@@ -255,7 +286,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             self.cells[robot] = cell;
             if !self.grid.has(CellMark::Explored, cell) {
                 self.grid.put(CellMark::Explored, cell);
-                self.gained = true;
+                self.stage = Stage::Gained;
             }
         }
         self.moves += 1;
@@ -275,7 +306,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             Outcome::Arrived
         } else {
             self.grid.put_edge(EdgeMark::Wall, edge);
-            self.gained = true;
+            self.stage = Stage::Gained;
             Outcome::Blocked
         }
     }

@@ -1,7 +1,7 @@
 //! The grid in machine words: a [`Plane`] for every mark. Distances are flood fills of whole planes at a time.
 
 use super::plane::Plane;
-use super::{Area, Avoid, CellMark, EdgeMark, Grid};
+use super::{Area, Avoid, CellMark, EdgeMark, Grid, links};
 use crate::lattice::{Cell, Edge, Side, Step, Steps};
 
 /// A grid in machine words: at most [`Plane::COLUMNS`] columns and [`Plane::ROWS`] rows.
@@ -161,5 +161,38 @@ impl<P: Plane> Grid for BitGrid<P> {
             reached = wider;
             length += 1;
         }
+    }
+
+    fn stops(&mut self, from: Cell, stops: &mut [Cell]) -> Option<usize> {
+        let (column, row) = self.area.locate(from)?;
+        let (east, south) = self.open(Avoid::Walls);
+        let unexplored = self.cells[CellMark::Explored as usize].not();
+        let mut reached = P::NONE;
+        reached.put(column, row);
+        // The cells by how many links away they are, modulo 3: linked cells differ by one at most.
+        let mut layers = [reached, P::NONE, P::NONE];
+        let mut count = 0;
+        while reached.and(&unexplored) == P::NONE {
+            count += 1;
+            let (beside, above) = (reached.along_rows(&east), reached.along_columns(&south));
+            let round = beside.along_columns(&south).or(&above.along_rows(&east));
+            let wider = reached.or(&beside).or(&above).or(&round);
+            if wider == reached || count >= stops.len() {
+                return None;
+            }
+            layers[count % 3] = layers[count % 3].or(&wider.and(&reached.not()));
+            reached = wider;
+        }
+        let is_in =
+            |plane: &P, cell| self.area.locate(cell).is_some_and(|(column, row)| plane.has(column, row));
+        let targets = reached.and(&unexplored);
+        let mut stop = self.area.cells().find(|&cell| is_in(&targets, cell))?;
+        for place in (1..=count).rev() {
+            stops[place] = stop;
+            let nearer = &layers[(place - 1) % 3];
+            stop = links(self, stop).map(|(cell, _)| cell).find(|&cell| is_in(nearer, cell))?;
+        }
+        *stops.first_mut()? = stop;
+        Some(count)
     }
 }
