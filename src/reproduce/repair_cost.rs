@@ -1,5 +1,6 @@
-//! What the repairs of the chain cost: team moves to 50 % and to 75 % of the cells, as published and repaired, on the
-//! same random layouts; and in how many runs each rule breaks a clause. Sums are whole numbers, so that the result is
+//! What the repairs of the chain cost: team moves to 50 % and to 75 % of the cells and of whole runs, as published and
+//! repaired, on the same random layouts; and what they give: how many cells are explored, and in how many runs each
+//! rule breaks a clause. Sums are whole numbers, so that the result is
 //! the same on any number of threads.
 
 use rayon::prelude::*;
@@ -27,19 +28,31 @@ pub struct Line {
     /// How many layouts: those of the seeds from the first one on.
     pub layouts: u32,
     /// For each of [`MILESTONES`].
-    pub milestones: [Comparison; MILESTONES.len()],
+    pub milestones: [Reached; MILESTONES.len()],
+    /// Team moves of whole runs.
+    pub moves: Comparison,
+    /// Cells explored when a run ends.
+    pub explored: Comparison,
     /// For each of [`Breach::ALL`]: runs that break it.
     pub violations: [Violations; Breach::ALL.len()],
 }
 
-/// Team moves to a milestone.
+/// Team moves to a milestone, where both rules reach it.
 #[derive(Clone, PartialEq, Debug, Serialize)]
-pub struct Comparison {
+pub struct Reached {
     /// The milestone.
     pub percent: u32,
-    /// Layouts in which both reach it.
+    /// The team moves.
+    #[serde(flatten)]
+    pub moves: Comparison,
+}
+
+/// One number of both rules.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Comparison {
+    /// Layouts in which there is one under both.
     pub pairs: u32,
-    /// Layouts in which one or both do not.
+    /// Layouts in which there is not.
     pub left_out: u32,
     /// The mean as published, over the pairs.
     pub published: f64,
@@ -66,6 +79,8 @@ pub struct Violations {
 #[derive(Clone, Copy, Default)]
 struct Sums {
     milestones: [Paired; MILESTONES.len()],
+    moves: Paired,
+    explored: Paired,
     violations: [[u32; Breach::ALL.len()]; RuleName::ALL.len()],
 }
 
@@ -128,6 +143,8 @@ impl Sums {
                     (Some(_) | None, _) => Paired::default(),
                 }
             }),
+            moves: Paired::of(published.steps, repaired.steps),
+            explored: Paired::of(published.explored, repaired.explored),
             violations: [breaks(&published), breaks(&repaired)],
         })
     }
@@ -135,6 +152,8 @@ impl Sums {
     fn and(self, other: Self) -> Self {
         Self {
             milestones: std::array::from_fn(|place| self.milestones[place].and(other.milestones[place])),
+            moves: self.moves.and(other.moves),
+            explored: self.explored.and(other.explored),
             violations: std::array::from_fn(|rule| {
                 std::array::from_fn(|breach| self.violations[rule][breach] + other.violations[rule][breach])
             }),
@@ -145,9 +164,12 @@ impl Sums {
         Line {
             density,
             layouts,
-            milestones: std::array::from_fn(|place| {
-                self.milestones[place].comparison(MILESTONES[place], layouts)
+            milestones: std::array::from_fn(|place| Reached {
+                percent: MILESTONES[place].percent(),
+                moves: self.milestones[place].comparison(layouts),
             }),
+            moves: self.moves.comparison(layouts),
+            explored: self.explored.comparison(layouts),
             violations: std::array::from_fn(|breach| Violations {
                 clause: Breach::ALL[breach].clause(),
                 published: self.violations[RuleName::Published as usize][breach],
@@ -181,7 +203,7 @@ impl Paired {
 
     /// Division and square root are the only steps that round, and they do so alike on every machine.
     #[expect(clippy::cast_precision_loss, reason = "the sums stay far below 2⁵³")]
-    fn comparison(self, milestone: Milestone, layouts: u32) -> Comparison {
+    fn comparison(self, layouts: u32) -> Comparison {
         let pairs = f64::from(self.count.max(1));
         let mean = |sum: f64| sum / pairs;
         let difference = mean(self.difference as f64);
@@ -192,7 +214,6 @@ impl Paired {
             spread.max(0.0) / (pairs - 1.0)
         };
         Comparison {
-            percent: milestone.percent(),
             pairs: self.count,
             left_out: layouts - self.count,
             published: hundredths(mean(self.published as f64)),

@@ -65,24 +65,11 @@ impl RepairCost {
             self.layouts, self.seed
         );
         for (place, milestone) in repair_cost::MILESTONES.iter().enumerate() {
-            // Writing to a string cannot fail.
-            let _ = writeln!(
-                text,
-                "\nMean team moves to {} %, where both reach it; the difference with its 95 % interval\n\
-                 density  published   repaired       difference  layouts  left out",
-                milestone.percent()
-            );
-            for line in lines {
-                let Comparison { percent: _, pairs, left_out, published, repaired, difference, margin } =
-                    line.milestones[place];
-                let difference = format!("{difference:+.2} ± {margin:.2}");
-                let _ = writeln!(
-                    text,
-                    "{:<7}  {published:>9.2}  {repaired:>9.2}  {difference:>15}  {pairs:>7}  {left_out:>8}",
-                    line.density
-                );
-            }
+            let title = format!("Mean team moves to {} %, where both reach it", milestone.percent());
+            text.push_str(&compared(&title, lines, |line| &line.milestones[place].moves));
         }
+        text.push_str(&compared("Mean team moves of whole runs", lines, |line| &line.moves));
+        text.push_str(&compared("Mean cells explored when a run ends", lines, |line| &line.explored));
         text.push_str("\nRuns that break a clause, published / repaired\ndensity ");
         for violations in lines.first().map_or(&[][..], |line| &line.violations) {
             let _ = write!(text, "  {:>12}", violations.clause);
@@ -95,4 +82,23 @@ impl RepairCost {
         }
         text + "\n"
     }
+}
+
+/// A table of one number of both rules.
+fn compared<'a>(title: &str, lines: &'a [Line], number: impl Fn(&'a Line) -> &'a Comparison) -> String {
+    let mut text = format!(
+        "\n{title}; the difference with its 95 % interval\n\
+         density  published   repaired       difference  layouts  left out\n"
+    );
+    for line in lines {
+        let Comparison { pairs, left_out, published, repaired, difference, margin } = number(line);
+        let difference = format!("{difference:+.2} ± {margin:.2}");
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{:<7}  {published:>9.2}  {repaired:>9.2}  {difference:>15}  {pairs:>7}  {left_out:>8}",
+            line.density
+        );
+    }
+    text
 }
