@@ -2,7 +2,7 @@
 //! the layout answers for the edges it tries; every move becomes a [`Frame`] and is checked for the sentences of
 //! `SPEC.md` that the scheme is bound to. A run goes on after a violation, so that its cost can be compared.
 
-mod chain;
+pub(crate) mod chain;
 
 use std::fmt;
 use std::num::NonZeroU32;
@@ -11,8 +11,9 @@ use clap::ValueEnum;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use tautline_kernel::chain::Rule;
 use tautline_kernel::grid::Area;
-use tautline_kernel::lattice::{Cell, Edge, Step};
+use tautline_kernel::lattice::{Cell, Edge};
 use tautline_proofs::clause::Subject;
+use tautline_proofs::links::within_reach;
 use tautline_proofs::run::{Breach, Frame};
 
 use crate::fault::{Fault, Halt};
@@ -29,7 +30,7 @@ pub trait Scheme {
     /// # Errors
     /// [`End`] if the team has nothing left to do.
     fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End>;
-    /// What its team moves may never be.
+    /// What its team moves, and the end of its run, may never be.
     fn breaches(&self) -> &'static [Breach];
 }
 
@@ -182,6 +183,17 @@ pub enum OnViolation {
     StopAt(Breach),
 }
 
+impl OnViolation {
+    /// Whether a run goes no farther when it breaks `breach`.
+    pub fn is_final(self, breach: Breach) -> bool {
+        match self {
+            Self::GoOn => false,
+            Self::Stop => true,
+            Self::StopAt(last) => last == breach,
+        }
+    }
+}
+
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "so serde calls it")]
 fn write_clause<S: Serializer>(breach: &Breach, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(breach.clause())
@@ -285,17 +297,6 @@ pub struct TeamMove<'a> {
     pub frame: &'a Frame,
     /// What was broken.
     pub breaches: &'a [Breach],
-}
-
-impl TeamMove<'_> {
-    /// The edges where robots met a wall or a blocked cell.
-    pub fn bumps(&self) -> impl Iterator<Item = Edge> {
-        let tried = self.before.iter().zip(self.frame.steps.iter().zip(&self.frame.blocked));
-        tried.filter_map(|(&cell, (&step, &blocked))| match step {
-            Step::Cross(side) if blocked => Some(Edge::new(cell, side)),
-            Step::Cross(_) | Step::Stay => None,
-        })
-    }
 }
 
 /// Which cell was explored when.
@@ -426,6 +427,10 @@ pub fn explore(
                     End::Explored => Stopped::Explored,
                     End::Exhausted => Stopped::Exhausted,
                 };
+                let breach = Breach::Completeness;
+                if scheme.breaches().contains(&breach) && !missed(setup, &report.chart).is_empty() {
+                    report.violations.push(Violation { breach, step: report.steps });
+                }
                 return Ok(report);
             }
         };
@@ -443,13 +448,19 @@ pub fn explore(
     }
 }
 
+/// The cells that the run of `setup` is bound to explore before it ends, and has not, as `chart` shows.
+pub fn missed(setup: &Setup, chart: &Chart) -> Vec<Cell> {
+    let due = match setup.scheme {
+        SchemeName::Chain => {
+            within_reach(chart.area(), setup.base, setup.robots.into(), |edge| setup.layout.is_open(edge))
+        }
+    };
+    due.into_iter().filter(|&cell| chart.step(cell).is_none()).collect()
+}
+
 fn limit(limits: Limits, report: &Report, entered: &[u32]) -> Option<Stopped> {
     let is_far = |most: NonZeroU32| entered.iter().any(|&count| count >= most.get());
-    let is_broken = match limits.violation {
-        OnViolation::GoOn => false,
-        OnViolation::Stop => !report.violations.is_empty(),
-        OnViolation::StopAt(breach) => report.violations.iter().any(|violation| violation.breach == breach),
-    };
+    let is_broken = report.violations.iter().any(|broken| limits.violation.is_final(broken.breach));
     if is_broken {
         Some(Stopped::Violation)
     } else if limits.until.is_some_and(|milestone| report.reached(milestone).is_some()) {

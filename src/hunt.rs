@@ -1,14 +1,18 @@
 //! From the search over all layouts to files that anyone can replay: a [`Counterexample`] becomes the setup of a run
 //! in a layout that has the walls met and no others.
 
+mod saved;
+
 use std::path::{Path, PathBuf};
 
 use tautline_kernel::lattice::{Cell, Edge};
 use tautline_proofs::invariant::Invariant;
 use tautline_proofs::run::Breach;
-use tautline_proofs::search::{Bounds, Counterexample};
+use tautline_proofs::search::{Bounds, Counterexample, Unsearchable};
 
-use crate::explore::{Limits, OnViolation, Report, RuleName, SchemeName, Setup, explore};
+use self::saved::AGAIN;
+pub use self::saved::Saved;
+use crate::explore::{self, Limits, OnViolation, Report, RuleName, SchemeName, Setup, explore};
 use crate::fault::{Fault, Halt};
 use crate::layout::{Layout, Problem, Size};
 use crate::trace;
@@ -63,21 +67,20 @@ pub const fn breach(invariant: Invariant) -> Option<Breach> {
         | Invariant::Distinct
         | Invariant::BaseStays
         | Invariant::Progress
-        | Invariant::Heard => None,
+        | Invariant::Ends
+        | Invariant::Heard
+        | Invariant::Exhausts => None,
     }
 }
 
 /// The most robots that are hunted for.
 const MAX_ROBOTS: usize = 64;
 
-/// Ways in which one team move can come out, above which a search would fill the memory.
-const MAX_BRANCHES: u64 = 1 << 13;
-
 /// The bounds of a hunt for `robots` in layouts of `size`, by default the (2N−1)² cells of the paper, with at most
 /// `max_walls`.
 ///
 /// # Errors
-/// A [`Fault`] if there are too few or too many robots, or too many walls for them.
+/// A [`Fault`] if there are too few or too many robots.
 pub fn bounds(rule: RuleName, robots: u64, max_walls: u32, size: Option<Size>) -> Result<Bounds, Fault> {
     let robots = usize::from(Setup::count_robots(robots, MAX_ROBOTS)?);
     let mut bounds = Bounds::new(rule.subject(), robots, max_walls);
@@ -85,28 +88,18 @@ pub fn bounds(rule: RuleName, robots: u64, max_walls: u32, size: Option<Size>) -
         bounds.base = Cell::new((size.width() - 1) / 2, (size.height() - 1) / 2);
         bounds.area = size.area();
     }
-    let branches = branches(robots as u64 - 1, u64::from(max_walls));
-    if branches > MAX_BRANCHES {
-        return Err(Fault::usage(
-            format_args!(
-                "with {robots} robots and {max_walls} walls one team move can come out in more than {MAX_BRANCHES} ways"
-            ),
-            "give fewer --robots or --max-walls",
-        ));
-    }
     Ok(bounds)
 }
 
-/// The number of subsets of at most `most` of `items`, or something above [`MAX_BRANCHES`].
-fn branches(items: u64, most: u64) -> u64 {
-    let mut sum = 0;
-    let mut subsets = 1;
-    for chosen in 0..=most.min(items) {
-        sum += subsets;
-        if sum > MAX_BRANCHES {
-            break;
+/// What would be right where a hunt is refused.
+pub fn remedy(refused: Unsearchable) -> String {
+    match refused {
+        Unsearchable::Team(refused) => explore::chain::remedy(refused),
+        Unsearchable::TooManyWalls { edges, .. } => format!("give --max-walls a number up to {edges}"),
+        Unsearchable::TooLarge { .. } => "give fewer --robots or a smaller --size".to_owned(),
+        Unsearchable::Beyond { walls } => {
+            format!("give --max-walls {walls} or more, or another --resume file")
         }
-        subsets = subsets * (items - chosen) / (chosen + 1);
+        Unsearchable::Foreign => AGAIN.to_owned(),
     }
-    sum
 }

@@ -28,7 +28,7 @@ use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Edge, Side};
 use tautline_proofs::run::Breach;
 
-use crate::explore::{Limits, OnViolation, Report, Setup, Stopped, Violation, explore};
+use crate::explore::{Limits, OnViolation, Report, Setup, Violation, explore};
 use crate::fault::{Fault, Halt};
 use crate::layout::{Layout, Problem};
 
@@ -371,10 +371,11 @@ impl Shrinking<'_> {
         self.progress.runs += 1;
         let mut met = Vec::new();
         let report = explore(candidate, &mut |made| {
-            met.extend(made.bumps());
+            met.extend(made.frame.bumps());
             (self.watch)(self.progress)
         })?;
-        if report.stopped != Stopped::Violation {
+        let violation = candidate.limits.violation;
+        if !report.violations.iter().any(|broken| violation.is_final(broken.breach)) {
             return Ok(false);
         }
         self.smallest = cut_down(candidate, report.chart.area(), &met).map_err(|problem| fault(&problem))?;

@@ -134,7 +134,7 @@ pub fn team_move(setup: &Setup, chart: &Chart, made: &TeamMove<'_>, pose: Pose) 
     };
     let labels = Labels { cells, steps: (pose == Pose::Before).then_some(&made.frame.steps) };
     let is_explored = |cell| chart.step(cell).is_some_and(|explored| explored <= step);
-    let bumps: Vec<Edge> = made.bumps().collect();
+    let bumps: Vec<Edge> = made.frame.bumps().collect();
     let lines = if is_bare(setup, chart.area()) && pose == Pose::After {
         bare(chart.area(), cells, is_explored)
     } else {

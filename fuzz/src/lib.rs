@@ -114,7 +114,7 @@ fn follow<G: Grid, const ROBOTS: usize>(
         let before = chain.cells().to_vec();
         let settled = chain.settle(&plan, &mut is_open);
         log.extend_from_slice(settled.messages());
-        if show(&before, &Frame::new(plan.kind, &settled, chain.cells())) == Next::Stop {
+        if show(&before, &Frame::new(plan.kind, settled.messages(), chain.cells())) == Next::Stop {
             return Last::Cut;
         }
     }

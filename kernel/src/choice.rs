@@ -14,6 +14,12 @@ pub trait Source {
     fn flip(&mut self) -> bool {
         self.pick(2) == 1
     }
+
+    /// Whether the world is against the robots: an edge is a wall, a sensor is missed, a message is lost. Searches
+    /// bound how often it is; the plain case is `false`.
+    fn mishap(&mut self) -> bool {
+        self.flip()
+    }
 }
 
 /// One of the `options`, which must not be empty.

@@ -1,11 +1,9 @@
 //! Deciding a check: its verdict, and whether its mutants are rejected. A verdict of a search is remembered, since
 //! one search looks for several invariants at once.
 
-use tautline_kernel::chain::Refused;
-
 use crate::clause::{Check, Method, Subject, Verdict};
 use crate::engine::{self, Tally};
-use crate::search::{Bounds, Counterexample, Found, Until, Watch, search};
+use crate::search::{Bounds, Counterexample, Found, Unsearchable, Until, Watch, search};
 
 /// What came of a check.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -51,8 +49,8 @@ impl Prover {
     /// Decides `check`. `watch` hears of searches only; a search that it ends leaves the check open.
     ///
     /// # Errors
-    /// [`Refused`] if a registered search has too many robots.
-    pub fn decide(&mut self, check: &Check, watch: Watch<'_>) -> Result<Decision, Refused> {
+    /// [`Unsearchable`] if a registered search has too many robots.
+    pub fn decide(&mut self, check: &Check, watch: Watch<'_>) -> Result<Decision, Unsearchable> {
         let mut decision = self.settle(check, &check.subject, Until::Exhausted, watch)?;
         for mutant in check.mutants {
             let verdict = self.settle(check, &mutant.subject, Until::Violation, watch)?.verdict;
@@ -70,7 +68,7 @@ impl Prover {
         subject: &Subject,
         until: Until,
         watch: Watch<'_>,
-    ) -> Result<Decision, Refused> {
+    ) -> Result<Decision, Unsearchable> {
         match check.method {
             Method::Exhaustive { body, covers } => {
                 Ok(Decision::of_tally(engine::exhaust(|source| body(subject, source)), covers))
@@ -97,7 +95,7 @@ impl Prover {
         }
     }
 
-    fn search(&mut self, bounds: Bounds, watch: Watch<'_>) -> Result<&Found, Refused> {
+    fn search(&mut self, bounds: Bounds, watch: Watch<'_>) -> Result<&Found, Unsearchable> {
         let known = self.searches.iter().position(|(known, _)| *known == bounds);
         let place = known.unwrap_or(self.searches.len());
         if known.is_none() {

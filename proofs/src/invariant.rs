@@ -1,6 +1,7 @@
 //! What every team move of a run is checked for. The sentences are those of `SPEC.md`, in plain arithmetic of
 //! their own: of the kernel's rule only the names of its conditions are used.
 
+use serde::{Deserialize, Serialize};
 use tautline_kernel::chain::{Chain, Condition, Kind, Message, Outcome};
 use tautline_kernel::grid::{Avoid, CellMark, EdgeMark, Grid};
 use tautline_kernel::lattice::{Cell, Edge, Step};
@@ -27,9 +28,10 @@ pub(crate) struct Moment<'a, G, const ROBOTS: usize> {
 }
 
 /// A demand on every team move.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Invariant {
-    /// CHAIN-1, CHAIN-2, CHAIN-3.
+    /// CHAIN-1, CHAIN-2, CHAIN-3, and at the end of a run CHAIN-13.
     Without(Breach),
     /// CHAIN-4: only admitted plans.
     Admitted,
@@ -39,19 +41,29 @@ pub enum Invariant {
     BaseStays,
     /// CHAIN-7: the measure that makes every run end.
     Progress,
+    /// CHAIN-7, by another way: no run comes back to where it was.
+    Ends,
     /// CHAIN-8: who hears the bytes knows the state.
     Heard,
+    /// CHAIN-14: at the end of a run, every cell that a chain can reach at all is explored.
+    Exhausts,
 }
 
 impl Invariant {
-    /// The three of safety.
-    pub const SAFETY: [Self; 3] =
-        [Self::Without(Breach::Contact), Self::Without(Breach::Crowding), Self::Without(Breach::Coverage)];
+    /// Those that a run can be seen to break from outside.
+    pub const OF_RUNS: [Self; 5] = [
+        Self::Without(Breach::Contact),
+        Self::Without(Breach::Crowding),
+        Self::Without(Breach::Coverage),
+        Self::Without(Breach::Completeness),
+        Self::Ends,
+    ];
 
     /// Those that are looked for in one search with this one.
     pub const fn family(self) -> &'static [Self] {
         match self {
-            Self::Without(_) => &Self::SAFETY,
+            Self::Without(_) | Self::Ends => &Self::OF_RUNS,
+            Self::Exhausts => &[Self::Exhausts],
             Self::Admitted | Self::Distinct | Self::BaseStays | Self::Progress | Self::Heard => {
                 &[Self::Admitted, Self::Distinct, Self::BaseStays, Self::Progress, Self::Heard]
             }
@@ -65,8 +77,9 @@ impl Invariant {
             Self::Admitted => "CHAIN-4",
             Self::Distinct => "CHAIN-5",
             Self::BaseStays => "CHAIN-6",
-            Self::Progress => "CHAIN-7",
+            Self::Progress | Self::Ends => "CHAIN-7",
             Self::Heard => "CHAIN-8",
+            Self::Exhausts => "CHAIN-14",
         }
     }
 
@@ -84,6 +97,7 @@ impl Invariant {
                         Breach::Contact => "each neighbour's cell is wholly covered",
                         Breach::Crowding => "no three robots are in one cell outside the base",
                         Breach::Coverage => "the neighbours' centres stay within r_cov",
+                        Breach::Completeness => "no team move is an end",
                     },
                 )
             }
@@ -95,6 +109,8 @@ impl Invariant {
                 require(stays && is_there, "the base neither plans to move nor moves")
             }
             Self::Progress => moment.progresses(),
+            // Of the end of a run, or of its never coming.
+            Self::Ends | Self::Exhausts => Ok(()),
             Self::Heard => moment.is_heard(),
         }
     }

@@ -11,7 +11,7 @@ pub type Place = (i32, i32);
 /// A counterexample, written down.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Exhibit {
-    /// The clause that its last move is said to break: `CHAIN-1`, `CHAIN-2` or `CHAIN-3`.
+    /// The clause that its last move is said to break, `CHAIN-1`, `CHAIN-2` or `CHAIN-3`, or its end, `CHAIN-13`.
     pub clause: String,
     /// The rule that the team is said to follow.
     pub repairs: Repairs,
@@ -36,7 +36,7 @@ pub struct Exhibit {
 pub enum Repairs {
     /// The rule as published.
     Without,
-    /// The rule with both repairs.
+    /// The rule with all repairs.
     With,
 }
 
@@ -75,18 +75,24 @@ impl fmt::Display for Objection {
 impl std::error::Error for Objection {}
 
 /// Judges an exhibit: whether its moves are possible in its layout and admitted by its rule, whether each of its
-/// walls was met, and whether its last move, and no earlier one, breaks the clause.
+/// walls was met, and whether its last move, and no earlier one, breaks the clause; or whether the clause is broken if
+/// the run ends here.
 ///
 /// # Errors
 /// The first [`Objection`].
 pub fn judge(exhibit: &Exhibit) -> Result<(), Objection> {
     let whole = |what| Objection { at: 0, what };
-    let is_broken = match exhibit.clause.as_str() {
-        "CHAIN-1" => contact_is_lost,
-        "CHAIN-2" => cell_is_crowded,
-        "CHAIN-3" => range_is_left,
+    let is_broken: fn(&Court<'_>, &Move) -> bool = match exhibit.clause.as_str() {
+        "CHAIN-1" => |_, made| contact_is_lost(&made.places),
+        "CHAIN-2" => |_, made| cell_is_crowded(&made.places),
+        "CHAIN-3" => |court, made| range_is_left(&court.places, &made.places),
+        "CHAIN-13" => |court, _| court.misses_a_cell(),
         _ => return Err(whole("there is no such clause to break in a run")),
     };
+    let is_about_the_end = exhibit.clause == "CHAIN-13";
+    if is_about_the_end && exhibit.repairs == Repairs::With {
+        return Err(whole("with its repairs the team would go on: it unfolds towards the cell"));
+    }
     let first = exhibit.moves.first().filter(|_| exhibit.robots >= 2);
     let Some(first) = first else { return Err(whole("a counterexample needs two robots and a move")) };
     if !exhibit.is_free(exhibit.base) {
@@ -99,13 +105,16 @@ pub fn judge(exhibit: &Exhibit) -> Result<(), Objection> {
         history: Vec::new(),
         walls: BTreeSet::new(),
         open: BTreeSet::new(),
+        explored: BTreeSet::from([exhibit.base]),
     };
     for (index, made) in exhibit.moves.iter().enumerate() {
         let at = index + 1;
         court.hear(made).map_err(|what| Objection { at, what })?;
-        let broken = is_broken(&court.places, &made.places);
+        court.explored.extend(&made.places);
+        let is_last = at == exhibit.moves.len();
+        let broken = (is_last || !is_about_the_end) && is_broken(&court, made);
         court.places.clone_from(&made.places);
-        match (broken, at == exhibit.moves.len()) {
+        match (broken, is_last) {
             (true, false) => return Err(Objection { at, what: "the clause is broken before the last move" }),
             (false, true) => return Err(Objection { at, what: "the last move does not break the clause" }),
             (true, true) | (false, false) => {}
@@ -126,16 +135,34 @@ impl Exhibit {
         self.is_free(side.0) && self.is_free(side.1) && !self.walls.contains(&side)
     }
 
-    /// The border of the area that the team is given: known from the start.
-    fn is_border(&self, side: (Place, Place)) -> bool {
+    /// Whether a place is in the area that the team is given.
+    fn is_inside(&self, (x, y): Place) -> bool {
         let range = self.robots as i32 - 1;
-        let inside = |(x, y): Place| {
-            (0..self.width).contains(&x)
-                && (0..self.height).contains(&y)
-                && (x - self.base.0).abs() <= range
-                && (y - self.base.1).abs() <= range
+        (0..self.width).contains(&x)
+            && (0..self.height).contains(&y)
+            && (x - self.base.0).abs() <= range
+            && (y - self.base.1).abs() <= range
+    }
+
+    /// The border of the area: known from the start.
+    fn is_border(&self, side: (Place, Place)) -> bool {
+        !(self.is_inside(side.0) && self.is_inside(side.1))
+    }
+
+    /// The places of the area that are one link from `from`.
+    fn linked(&self, from: Place) -> Vec<Place> {
+        let pass = |from: Place, step: Place| {
+            let to = add(from, step);
+            (self.is_inside(to) && self.is_open(side_between(from, to))).then_some(to)
         };
-        !(inside(side.0) && inside(side.1))
+        let mut linked = Vec::new();
+        for (x, y) in [(1, 0), (0, 1), (-1, 0), (0, -1)] {
+            if let Some(next) = pass(from, (x, y)) {
+                linked.push(next);
+                linked.extend([(y, x), (-y, -x)].into_iter().filter_map(|turn| pass(next, turn)));
+            }
+        }
+        linked
     }
 }
 
@@ -147,6 +174,7 @@ struct Court<'a> {
     history: Vec<Vec<Place>>,
     walls: BTreeSet<(Place, Place)>,
     open: BTreeSet<(Place, Place)>,
+    explored: BTreeSet<Place>,
 }
 
 impl Court<'_> {
@@ -245,6 +273,17 @@ impl Court<'_> {
         Ok(())
     }
 
+    /// CHAIN-13: everything is taken back, and some place at most N−1 links from the base was never explored.
+    fn misses_a_cell(&self) -> bool {
+        let mut within_reach = BTreeSet::from([self.exhibit.base]);
+        for _ in 1..self.exhibit.robots {
+            let wider: Vec<Place> =
+                within_reach.iter().flat_map(|&place| self.exhibit.linked(place)).collect();
+            within_reach.extend(wider);
+        }
+        self.history.is_empty() && !within_reach.is_subset(&self.explored)
+    }
+
     fn target(&self, made: &Move, robot: usize) -> Place {
         add(self.places[robot], made.tried[robot])
     }
@@ -273,12 +312,12 @@ fn is_covered(centre: Place, place: Place) -> bool {
 }
 
 /// CHAIN-1
-fn contact_is_lost(_: &[Place], after: &[Place]) -> bool {
+fn contact_is_lost(after: &[Place]) -> bool {
     after.windows(2).any(|pair| !is_covered(pair[0], pair[1]))
 }
 
 /// CHAIN-2
-fn cell_is_crowded(_: &[Place], after: &[Place]) -> bool {
+fn cell_is_crowded(after: &[Place]) -> bool {
     after.iter().any(|place| *place != after[0] && after.iter().filter(|other| *other == place).count() > 2)
 }
 
@@ -302,7 +341,7 @@ mod tests {
 
     use super::*;
     use crate::clause::Subject;
-    use crate::search::{Bounds, Counterexample, UNWATCHED, search};
+    use crate::search::{Bounds, Counterexample, search, unwatched};
 
     fn place(cell: Cell) -> Place {
         (i32::from(cell.x), i32::from(cell.y))
@@ -338,7 +377,7 @@ mod tests {
 
     fn counterexamples() -> Vec<Exhibit> {
         assert_eq!(Subject::PUBLISHED.rule, Rule::PUBLISHED);
-        let found = search(&Bounds::new(Subject::PUBLISHED, 4, 4), UNWATCHED).expect("four robots fit");
+        let found = search(&Bounds::new(Subject::PUBLISHED, 4, 4), &mut unwatched).expect("four robots fit");
         found.counterexamples.iter().map(exhibit).collect()
     }
 
@@ -347,7 +386,7 @@ mod tests {
         let exhibits = counterexamples();
         assert_eq!(
             exhibits.iter().map(|exhibit| exhibit.clause.as_str()).collect::<Vec<_>>(),
-            ["CHAIN-1", "CHAIN-2"]
+            ["CHAIN-1", "CHAIN-2", "CHAIN-13"]
         );
         for exhibit in exhibits {
             assert_eq!(judge(&exhibit), Ok(()));

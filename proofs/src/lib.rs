@@ -8,6 +8,7 @@ pub mod decide;
 pub mod engine;
 pub mod invariant;
 pub mod judge;
+pub mod links;
 pub mod optimum;
 pub mod pair;
 pub mod plain;
@@ -18,5 +19,6 @@ pub mod search;
 pub mod small;
 #[cfg(kani)]
 mod symbolic;
+pub mod three;
 pub mod walk;
 pub mod whole;

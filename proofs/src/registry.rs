@@ -4,13 +4,13 @@ use tautline_kernel::chain::Condition::{
     CoveredBehind, Distinct, EpochMustGain, FullForFollower, FullForLeader, RefusedIsVirtual, SafeAhead,
     Unfold, UnsureAhead,
 };
-use tautline_kernel::chain::Rule;
+use tautline_kernel::chain::{High, Rule};
 use tautline_kernel::lattice::Circle;
 
 use crate::clause::{Check, Clause, Method, Mutant, Sabotage, Subject, Verdict};
 use crate::invariant::Invariant;
 use crate::run::Breach;
-use crate::{crowd, optimum, pair, small, walk, whole};
+use crate::{crowd, optimum, pair, small, three, walk, whole};
 
 /// A mutant.
 const fn mutant(name: &'static str, subject: Subject) -> Mutant {
@@ -114,6 +114,14 @@ exhaustive! {
         covers ["a byte", "a message", "no message"], unwind 6, mutants {
             swapped_bits: "message bits swapped" => Subject::sabotaged(Sabotage::SwappedBits),
         };
+    contact_of_three: three::contact, Subject::PUBLISHED, "every place, plan and answer of R_2 and R_3",
+        covers ["R_2 may do anything else", "R_2 stays"], unwind 6, mutants {
+            high_from_present: "P_high from present positions" =>
+                Subject::following(Rule { high: High::Present, ..Rule::PUBLISHED }),
+            without_safe_ahead: "without E_S ahead" => Subject::following(Rule::PUBLISHED.without(SafeAhead)),
+            without_covered_behind: "without E_C behind" =>
+                Subject::following(Rule::PUBLISHED.without(CoveredBehind)),
+        };
     ring: small::ring_of_neighbours, Subject::PUBLISHED, "every pair, the robot behind in 0…3 by 0…3",
         covers ["farther in", "farther out", "in the same ring"], unwind 6, mutants {
             safe_too_wide: "E_S with the radius of E_C" => Subject::with_safe(Circle::COVERED),
@@ -141,7 +149,7 @@ const THREE: (usize, u32) = (4, 3);
 const THREE_BOUND: &str = "all layouts, N = 4, at most 3 walls";
 
 /// Every clause, in the order of `SPEC.md`.
-pub static CLAUSES: [Clause; 14] = [
+pub static CLAUSES: [Clause; 16] = [
     Clause {
         id: "LATTICE-1",
         sentence: "The environments derived from the radii MUST be the sets that the paper draws: E_N the cell and \
@@ -265,17 +273,11 @@ pub static CLAUSES: [Clause; 14] = [
     Clause {
         id: "CHAIN-7",
         sentence: "Every run MUST end.",
-        checks: &[search(
-            Subject::REPAIRED,
-            Invariant::Progress,
-            THREE,
-            THREE_BOUND,
-            Verdict::Holds,
-            &[
-                mutant("epochs need no gain", Subject::without(EpochMustGain)),
-                mutant("refusals leave no obstacle", Subject::without(RefusedIsVirtual)),
-            ],
-        )],
+        checks: &[
+            search(Subject::REPAIRED, Invariant::Progress, THREE, THREE_BOUND, Verdict::Holds, &ENDLESS),
+            search(Subject::PUBLISHED, Invariant::Ends, FOUR, FOUR_BOUND, Verdict::Holds, &[]),
+            search(Subject::REPAIRED, Invariant::Ends, FOUR, FOUR_BOUND, Verdict::Holds, &ENDLESS),
+        ],
     },
     Clause {
         id: "CHAIN-8",
@@ -346,7 +348,78 @@ pub static CLAUSES: [Clause; 14] = [
     Clause {
         id: "CHAIN-13",
         sentence: "When a run ends, every cell within reach of the chain MUST be explored.",
-        checks: &[unfolding::CHECK],
+        checks: &[
+            search(
+                Subject::PUBLISHED,
+                Invariant::Without(Breach::Completeness),
+                FOUR,
+                FOUR_BOUND,
+                Verdict::Refuted,
+                &[],
+            ),
+            unfolding::CHECK,
+            search(
+                Subject::REPAIRED,
+                Invariant::Without(Breach::Completeness),
+                FOUR,
+                FOUR_BOUND,
+                Verdict::Holds,
+                &[mutant("without unfolding", Subject::without(Unfold))],
+            ),
+        ],
+    },
+    Clause {
+        id: "CHAIN-14",
+        sentence: "When a run ends, every chain-reachable cell MUST be explored.",
+        checks: &[
+            search(
+                Subject::PUBLISHED,
+                Invariant::Exhausts,
+                (3, 2),
+                "all layouts, N = 3, at most 2 walls",
+                Verdict::Refuted,
+                &[],
+            ),
+            search(
+                Subject::REPAIRED,
+                Invariant::Exhausts,
+                (3, 2),
+                "all layouts, N = 3, at most 2 walls",
+                Verdict::Holds,
+                &[mutant("without unfolding", Subject::without(Unfold))],
+            ),
+            search(
+                Subject::REPAIRED,
+                Invariant::Exhausts,
+                (3, 3),
+                "all layouts, N = 3, at most 3 walls",
+                Verdict::Refuted,
+                &[],
+            ),
+        ],
+    },
+    Clause {
+        id: "CHAIN-15",
+        sentence: "As published a chain of three robots MUST keep to CHAIN-1 and CHAIN-2 in every layout.",
+        checks: &[
+            contact_of_three::CHECK,
+            search(
+                Subject::PUBLISHED,
+                Invariant::Without(Breach::Contact),
+                (3, 5),
+                "all layouts, N = 3, at most 5 walls",
+                Verdict::Holds,
+                &[mutant("without E_S ahead", Subject::following(Rule::PUBLISHED.without(SafeAhead)))],
+            ),
+            search(
+                Subject::PUBLISHED,
+                Invariant::Without(Breach::Crowding),
+                (3, 5),
+                "all layouts, N = 3, at most 5 walls",
+                Verdict::Holds,
+                &[],
+            ),
+        ],
     },
 ];
 
@@ -359,6 +432,12 @@ const fn solved(subject: Subject, mutants: &'static [Mutant]) -> Check {
     let method = Method::Exhaustive { body: optimum::least_in_the_open, covers: &["an open area"] };
     Check { subject, method, bound: "N = 2 … 6, solved by A*", expected: Verdict::Holds, mutants }
 }
+
+/// Rules under which runs do not end.
+const ENDLESS: [Mutant; 2] = [
+    mutant("epochs need no gain", Subject::without(EpochMustGain)),
+    mutant("refusals leave no obstacle", Subject::without(RefusedIsVirtual)),
+];
 
 const ENDS: [&str; 2] = ["everything explored", "exhausted"];
 
@@ -392,11 +471,11 @@ mod tests {
     use crate::clause::Body;
     use crate::decide::Prover;
     use crate::engine::{Stop, Tape};
-    use crate::search::UNWATCHED;
+    use crate::search::unwatched;
 
     /// The check comes out as registered, and every mutant is rejected.
     pub(super) fn decides(check: &Check) {
-        let decision = Prover::default().decide(check, UNWATCHED).expect("registered checks fit");
+        let decision = Prover::default().decide(check, &mut unwatched).expect("registered checks fit");
         assert!(decision.is_as_registered(check), "{}: {decision:?}", check.bound);
     }
 

@@ -4,8 +4,9 @@
 use std::fmt;
 use std::str::FromStr;
 
-use tautline_kernel::chain::{Kind, Message, Outcome, Settled};
-use tautline_kernel::lattice::{Cell, Circle, Step};
+use serde::{Deserialize, Serialize};
+use tautline_kernel::chain::{Kind, Message, Outcome};
+use tautline_kernel::lattice::{Cell, Circle, Edge, Step};
 
 /// One team move, base first.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -21,20 +22,30 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The frame of a team move that came out as `settled` and left the team in `cells`.
-    pub fn new<const ROBOTS: usize>(kind: Kind, settled: &Settled<ROBOTS>, cells: &[Cell]) -> Self {
+    /// The frame of a team move after which the messages of R_2 … R_N were sent and the team was in `cells`.
+    pub fn new(kind: Kind, messages: &[u8], cells: &[Cell]) -> Self {
         let base = Message { step: Step::Stay, outcome: Outcome::Arrived };
-        let messages = settled.messages().iter().filter_map(|&byte| Message::decode(byte).ok());
+        let messages = messages.iter().filter_map(|&byte| Message::decode(byte).ok());
         let (steps, blocked) = std::iter::once(base)
             .chain(messages)
             .map(|message| (message.step, message.outcome == Outcome::Blocked))
             .unzip();
         Self { kind, steps, blocked, cells: cells.to_vec() }
     }
+
+    /// The edges where robots met a wall or a blocked cell: they stand where they stood.
+    pub fn bumps(&self) -> impl Iterator<Item = Edge> {
+        let tried = self.cells.iter().zip(self.steps.iter().zip(&self.blocked));
+        tried.filter_map(|(&cell, (&step, &blocked))| match step {
+            Step::Cross(side) if blocked => Some(Edge::new(cell, side)),
+            Step::Cross(_) | Step::Stay => None,
+        })
+    }
 }
 
 /// What no robot team may do, whatever the layout.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Breach {
     /// The whole cell of a neighbour in the chain is not covered: CHAIN-1, E_C membership.
     Contact,
@@ -42,11 +53,13 @@ pub enum Breach {
     Crowding,
     /// The centres of two neighbours in the chain were, perhaps only on the way, out of range: CHAIN-3.
     Coverage,
+    /// The run has ended, and a cell within reach is unexplored: CHAIN-13.
+    Completeness,
 }
 
 impl Breach {
     /// Every breach.
-    pub const ALL: [Self; 3] = [Self::Contact, Self::Crowding, Self::Coverage];
+    pub const ALL: [Self; 4] = [Self::Contact, Self::Crowding, Self::Coverage, Self::Completeness];
 
     /// The id of the clause that is broken.
     pub const fn clause(self) -> &'static str {
@@ -54,10 +67,12 @@ impl Breach {
             Self::Contact => "CHAIN-1",
             Self::Crowding => "CHAIN-2",
             Self::Coverage => "CHAIN-3",
+            Self::Completeness => "CHAIN-13",
         }
     }
 
-    /// Whether the team move from `before` to `after` commits it; the base stands first in both.
+    /// Whether the team move from `before` to `after` commits it; the base stands first in both. Completeness is of
+    /// the end of a run, and in no team move.
     pub fn is_in(self, before: &[Cell], after: &[Cell]) -> bool {
         match self {
             Self::Contact => after.windows(2).any(|pair| !Circle::COVERED.covers(pair[0], pair[1])),
@@ -68,6 +83,7 @@ impl Breach {
                 .windows(2)
                 .zip(after.windows(2))
                 .any(|(from, to)| !stays_in_range([from[0], to[0]], [from[1], to[1]])),
+            Self::Completeness => false,
         }
     }
 }

@@ -2,23 +2,28 @@
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use clap::Args;
 use serde::Serialize;
 use tautline_proofs::clause::Verdict;
-use tautline_proofs::search::{Bounds, Found, search};
+use tautline_proofs::search::{Bounds, Found, Search};
 
 use super::output::Output;
 use super::{Exit, Format, FormatArgs, SizeArg, number, progress};
 use crate::explore::{RuleName, SchemeName, Setup};
 use crate::fault::{Fault, Halt};
+use crate::hunt::Saved;
 use crate::{hunt, view};
+
+/// How often a hunt is kept in its file.
+const KEEP_EVERY: Duration = Duration::from_secs(5);
 
 const EXAMPLES: &str = "\
 Examples:
   tautline hunt --rule published --robots 4 --max-walls 4 --out counterexamples
   tautline hunt --rule repaired --robots 4 --max-walls 4 --format json
-  tautline hunt --robots 5 --max-walls 8 --budget 100000000";
+  tautline hunt --robots 5 --max-walls 8 --budget 100000000 --resume hunt.json";
 
 /// Search all layouts with few walls for runs that break a clause, and store the smallest.
 #[derive(Debug, Args)]
@@ -42,6 +47,9 @@ pub(super) struct Hunt {
     /// End after so many team moves.
     #[arg(long, value_name = "MOVES", value_parser = number::<u64>)]
     budget: Option<u64>,
+    /// Keep the hunt in FILE while it goes on; if FILE is there, go on from it, also with more walls.
+    #[arg(long, value_name = "FILE")]
+    resume: Option<PathBuf>,
     /// The folder for the counterexamples.
     #[arg(long, value_name = "DIR", default_value = ".")]
     out: PathBuf,
@@ -56,9 +64,13 @@ struct Hunted {
     robots: u64,
     runs: u64,
     moves: u64,
+    /// Team moves of the longest run.
+    longest: u32,
     max_walls: u32,
     /// Whether every layout within the bound was covered.
     complete: bool,
+    /// The most walls up to which every layout was covered.
+    walls_done: Option<u32>,
     verdict: &'static str,
     counterexamples: Vec<Stored>,
 }
@@ -66,9 +78,12 @@ struct Hunted {
 #[derive(Serialize)]
 struct Stored {
     clause: &'static str,
+    /// Runs that break it.
+    runs: u64,
     walls: usize,
-    steps: u32,
-    file: String,
+    steps: usize,
+    /// Where the smallest is stored; a run without end is not.
+    file: Option<String>,
     #[serde(skip)]
     setup: Setup,
 }
@@ -82,10 +97,7 @@ impl Hunt {
         let mut bounds =
             hunt::bounds(self.rule, self.robots, self.max_walls, self.size.map(|SizeArg(size)| size))?;
         bounds.budget_moves = self.budget;
-        let bar = progress::bar("hunting", 1);
-        let found = search(&bounds, &|progress| progress::show(&bar, progress))
-            .map_err(|refused| Fault::usage(refused, "give fewer --robots or a larger --size"))?;
-        bar.finish_and_clear();
+        let found = self.search(&bounds)?;
         let hunted = self.store(&bounds, &found)?;
         match self.format.format {
             Format::Json => out.json(&hunted)?,
@@ -100,14 +112,42 @@ impl Hunt {
         })
     }
 
+    fn search(&self, bounds: &Bounds) -> Result<Found, Fault> {
+        let saved = self.resume.as_deref().map(|path| Saved::new(path, self.scheme, self.rule, bounds));
+        let mut search = match &saved {
+            Some(saved) => saved.search(bounds)?,
+            None => Search::new(bounds).map_err(|refused| Fault::usage(refused, hunt::remedy(refused)))?,
+        };
+        let bar = progress::bar("hunting", 1);
+        let mut written = Instant::now();
+        while progress::show(&bar, &search.progress()).is_continue() && search.wave() {
+            if let Some(saved) = saved.as_ref().filter(|_| written.elapsed() > KEEP_EVERY) {
+                saved.write(&search)?;
+                written = Instant::now();
+            }
+        }
+        bar.finish_and_clear();
+        if let Some(saved) = saved {
+            saved.write(&search)?;
+        }
+        Ok(search.found())
+    }
+
     fn store(&self, bounds: &Bounds, found: &Found) -> Result<Hunted, Halt> {
-        let counterexamples = found.counterexamples.iter().filter_map(|counterexample| {
-            hunt::breach(counterexample.invariant).map(|breach| {
-                let setup = hunt::setup(self.rule, bounds, counterexample)
-                    .map_err(|problem| super::usage(&problem))?;
-                let (path, report) = hunt::store(&self.out, &setup, breach)?;
-                let walls = counterexample.walls.len();
-                Ok(Stored { clause: breach.clause(), walls, steps: report.steps, file: shown(&path), setup })
+        let counterexamples = found.counterexamples.iter().map(|counterexample| {
+            let setup =
+                hunt::setup(self.rule, bounds, counterexample).map_err(|problem| super::usage(&problem))?;
+            let file = match hunt::breach(counterexample.invariant) {
+                Some(breach) => Some(shown(&hunt::store(&self.out, &setup, breach)?.0)),
+                None => None,
+            };
+            Ok(Stored {
+                clause: counterexample.invariant.clause(),
+                runs: counterexample.runs,
+                walls: counterexample.walls.len(),
+                steps: counterexample.frames.len(),
+                file,
+                setup,
             })
         });
         let counterexamples = counterexamples.collect::<Result<Vec<Stored>, Halt>>()?;
@@ -122,8 +162,10 @@ impl Hunt {
             robots: self.robots,
             runs: found.runs,
             moves: found.moves,
+            longest: found.longest,
             max_walls: self.max_walls,
             complete: found.complete,
+            walls_done: (found.levels.len() as u32).checked_sub(1),
             verdict: verdict.word(),
             counterexamples,
         })
@@ -145,26 +187,33 @@ pub(super) fn shown(path: &Path) -> String {
 }
 
 fn tell(hunted: &Hunted) -> Result<String, Halt> {
-    let Hunted { scheme, rule, robots, runs, moves, max_walls, complete, counterexamples, verdict: _ } =
+    let Hunted { scheme, rule, robots, runs, moves, longest, max_walls, walls_done, counterexamples, .. } =
         hunted;
     let mut text = format!(
-        "{} ({rule}), {robots} robots, at most {max_walls} walls: {runs} runs, {moves} team moves\n",
+        "{} ({rule}), {robots} robots, at most {max_walls} walls: {runs} runs, {moves} team moves, {longest} the longest\n",
         scheme.word()
     );
-    text.push_str(match (counterexamples.is_empty(), complete) {
-        (true, true) => "No clause is broken in any layout within this bound.\n",
-        (true, false) => "The hunt was ended before its bound: nothing is claimed.\n",
-        (false, true) => "The smallest counterexample to each clause that is broken:\n",
-        (false, false) => "The hunt was ended before its bound; counterexamples so far:\n",
-    });
-    for stored in counterexamples {
-        let story = view::story::last_move(&stored.setup)?;
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "\n{}, {} walls, {} team moves\n\n{story}\nreplay it with: tautline replay {}",
-            stored.clause, stored.walls, stored.steps, stored.file
-        );
+    let bound = match walls_done {
+        Some(walls) if *walls == *max_walls => "in any layout within this bound".to_owned(),
+        Some(walls) => {
+            format!("in any layout with at most {walls} walls; the hunt was ended before its bound")
+        }
+        None => "so far; the hunt was ended before it had covered any layout".to_owned(),
+    };
+    // Writing to a string cannot fail.
+    let _ = match counterexamples[..] {
+        [] => writeln!(text, "No clause is broken {bound}."),
+        _ => writeln!(text, "The smallest counterexample to each clause that is broken {bound}:"),
+    };
+    for Stored { clause, runs, walls, steps, file, setup } in counterexamples {
+        let _ = writeln!(text, "\n{clause}, {walls} walls, {steps} team moves; broken in {runs} runs");
+        let _ = match file {
+            Some(file) => {
+                let story = view::story::last_move(setup)?;
+                writeln!(text, "\n{story}\nreplay it with: tautline replay {file}")
+            }
+            None => writeln!(text, "\nA run without end in this layout:\n\n{}", setup.layout),
+        };
     }
     Ok(text)
 }

@@ -1,8 +1,9 @@
 //! Progress on stderr, on a terminal only.
 
 use std::ops::ControlFlow;
+use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tautline_proofs::search::Progress;
 
 use super::interrupt;
@@ -16,11 +17,23 @@ pub(super) fn bar(prefix: impl Into<String>, of: u64) -> ProgressBar {
     bar.with_prefix(prefix.into())
 }
 
-/// Shows how far a search is, and ends it when the user wants that.
-pub(super) fn show(bar: &ProgressBar, progress: Progress) -> ControlFlow<()> {
-    bar.set_length(progress.of);
-    bar.set_position(progress.done);
-    bar.set_message(format!("{} runs, {} moves", progress.runs, progress.moves));
+/// Shows how far a search is, and ends it when the user wants that. What is left is estimated.
+#[expect(clippy::cast_precision_loss, reason = "an estimate")]
+pub(super) fn show(bar: &ProgressBar, progress: &Progress<'_>) -> ControlFlow<()> {
+    let Progress { runs, moves, levels, max_walls, edges: _ } = *progress;
+    let expected = progress.expected_moves().unwrap_or(0.0).max(moves as f64);
+    bar.set_length(expected as u64);
+    bar.set_position(moves);
+    let rate = bar.per_sec();
+    let rest = Duration::try_from_secs_f64((expected - moves as f64) / rate)
+        .map_or_else(|_| String::new(), |rest| format!(", about {} left", HumanDuration(rest)));
+    bar.set_message(format!(
+        "walls {} of {max_walls}, {} runs, {} moves, {}/s{rest}",
+        levels.len().min(max_walls as usize),
+        HumanCount(runs),
+        HumanCount(moves),
+        HumanCount(rate as u64),
+    ));
     if interrupt::is_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
 }
 

@@ -90,7 +90,7 @@ impl Prove {
             let bar = progress::bar(format!("{place}/{} {}", checks.len(), clause.id), 1);
             let start = Instant::now();
             let decision =
-                prover.decide(check, &|progress| progress::show(&bar, progress)).map_err(|refused| {
+                prover.decide(check, &mut |progress| progress::show(&bar, progress)).map_err(|refused| {
                     Fault::usage(refused, "this is a bug in the registry: please report it")
                 })?;
             bar.finish_and_clear();

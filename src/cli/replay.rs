@@ -152,5 +152,10 @@ pub(super) fn draw(
     if blocks.is_empty() {
         return Ok(());
     }
+    let end = view::story::of_end(setup, report);
+    if moves.contains(&report.steps) && !end.is_empty() {
+        stories.push('\n');
+        stories.push_str(&end);
+    }
     Ok(out.text(format_args!("\n{}\n\n{}{stories}", view::LEGEND, view::beside(&blocks)))?)
 }

@@ -62,7 +62,7 @@ impl<G: Grid, const ROBOTS: usize> Scheme for ChainScheme<G, ROBOTS> {
             Ok(Intent::Go(plan)) => {
                 let settled = self.chain.settle(&plan, is_open);
                 self.log.extend_from_slice(settled.messages());
-                Ok(Frame::new(plan.kind, &settled, self.chain.cells()))
+                Ok(Frame::new(plan.kind, settled.messages(), self.chain.cells()))
             }
             Ok(Intent::Done(chain::End::Explored)) => Err(End::Explored),
             Ok(Intent::Done(chain::End::Exhausted)) => Err(End::Exhausted),

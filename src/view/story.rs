@@ -6,8 +6,8 @@ use tautline_kernel::lattice::{Cell, Side, Step};
 use tautline_proofs::registry::CLAUSES;
 use tautline_proofs::run::Breach;
 
-use super::{Block, Pose, beside, team_move};
-use crate::explore::{Chart, Setup, TeamMove, explore};
+use super::{Block, Pose, beside, outcome, team_move};
+use crate::explore::{Chart, Report, Setup, TeamMove, Violation, explore, missed};
 use crate::fault::Halt;
 
 /// The sentence of the clause `id`.
@@ -93,6 +93,7 @@ fn result(breach: Breach, made: &TeamMove<'_>) -> Vec<String> {
                 )
             })
             .collect(),
+        Breach::Completeness => Vec::new(),
     }
 }
 
@@ -114,12 +115,39 @@ fn apart([one, other]: [Cell; 2]) -> String {
     format!("{} and {}", count(columns, "column"), count(rows, "row"))
 }
 
-/// How the last team move of the run of `setup` breaks its clauses.
+/// How the end of a run breaks its clauses: the sentence, the cells that it missed, and the layout drawn. Nothing, if it
+/// does not.
+pub fn of_end(setup: &Setup, report: &Report) -> String {
+    let is_broken = |violation: &&Violation| violation.breach == Breach::Completeness;
+    report.violations.iter().find(is_broken).map_or_else(String::new, |Violation { breach, step }| {
+        let clause = breach.clause();
+        let head = format!("The end after team move {step} breaks {clause}: {}", sentence(clause));
+        unexplored(setup, report, &head, "Within reach and unexplored", &missed(setup, &report.chart))
+    })
+}
+
+fn unexplored(setup: &Setup, report: &Report, head: &str, what: &str, cells: &[Cell]) -> String {
+    let cells: Vec<String> = cells.iter().map(|cell| format!("({cell})")).collect();
+    let team = vec![setup.base; setup.robots.into()];
+    format!("{head}\n\n  {what}: {}.\n\n{}", cells.join(" "), outcome(setup, &report.chart, &team))
+}
+
+/// How the last team move of the run of `setup`, or its end, breaks its clauses.
 ///
 /// # Errors
 /// [`Halt`] if the setup does not fit its scheme.
 pub fn last_move(setup: &Setup) -> Result<String, Halt> {
     let report = explore(setup, &mut |_| Ok(()))?;
+    let end = of_end(setup, &report);
+    if !end.is_empty() {
+        return Ok(end);
+    }
+    if report.violations.is_empty() {
+        let head = format!("The run ends after team move {}: {}.", report.steps, report.stopped.words());
+        let left: Vec<Cell> =
+            report.chart.area().cells().filter(|&cell| report.chart.step(cell).is_none()).collect();
+        return Ok(unexplored(setup, &report, &head, "Unexplored", &left));
+    }
     let mut story = String::new();
     explore(setup, &mut |made| {
         if made.step == report.steps {

@@ -1,0 +1,378 @@
+//! One part of the tree of runs, searched depth first: a run, the places on its way where the world has more answers,
+//! and the answers that it gave so far. The answers alone say where a lane is, so a list of them is all that a search
+//! needs to be resumed.
+
+use std::slice;
+
+use serde::{Deserialize, Serialize};
+use tautline_kernel::choice::Source;
+
+use super::game::{Demand, Game, Turn};
+use super::{Broken, Count, Violation, WAVE};
+use crate::run::Frame;
+
+/// One answer of the world.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Answer {
+    value: u32,
+    below: u32,
+    /// Whether 1 counts as a mishap.
+    is_mishap: bool,
+}
+
+/// The answers on the way, with at most `most` mishaps. Where all mishaps are spent, nothing is asked.
+#[derive(Clone, Debug)]
+struct Answers {
+    given: Vec<Answer>,
+    mishaps: u32,
+    most: u32,
+}
+
+impl Answers {
+    fn give(&mut self, answer: Answer) -> u32 {
+        self.mishaps += u32::from(answer.is_mishap && answer.value == 1);
+        self.given.push(answer);
+        answer.value
+    }
+
+    /// Takes the last answer back, if it is not one of the first `kept`.
+    fn take(&mut self, kept: usize) -> Option<Answer> {
+        let answer = (self.given.len() > kept).then(|| self.given.pop()).flatten()?;
+        self.mishaps -= u32::from(answer.is_mishap && answer.value == 1);
+        Some(answer)
+    }
+
+    /// The values from place `from` on.
+    fn values(&self, from: usize) -> impl Iterator<Item = u32> {
+        self.given[from..].iter().map(|answer| answer.value)
+    }
+}
+
+/// Answers as a script says, and plainly where it has ended.
+struct World<'a> {
+    answers: &'a mut Answers,
+    script: slice::Iter<'a, u32>,
+    /// Whether every line of the script was an answer to its question.
+    fits: bool,
+}
+
+impl World<'_> {
+    fn answer(&mut self, below: u32, is_mishap: bool) -> u32 {
+        let value = self.script.next().copied().unwrap_or(0);
+        self.fits &= value < below;
+        self.answers.give(Answer { value: value.min(below - 1), below, is_mishap })
+    }
+}
+
+impl Source for World<'_> {
+    fn pick(&mut self, below: u32) -> u32 {
+        if below > 1 { self.answer(below, false) } else { 0 }
+    }
+
+    fn mishap(&mut self) -> bool {
+        self.answers.mishaps < self.answers.most && self.answer(2, true) == 1
+    }
+}
+
+/// A team move whose outcome was asked for.
+struct Fork<G: Game> {
+    before: G::State,
+    planned: G::State,
+    plan: G::Plan,
+    /// Team moves, bytes of the log and answers before it.
+    steps: u32,
+    sent: usize,
+    answered: usize,
+}
+
+#[cfg(test)]
+impl Place {
+    /// A place that is none: one answer more than there are questions with it.
+    pub(super) fn lengthen(&mut self, answer: u32) {
+        self.answers.push(answer);
+    }
+}
+
+impl<G: Game> Clone for Fork<G> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<G: Game> Copy for Fork<G> {}
+
+/// Where a lane is.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Place {
+    /// The answers of its run.
+    answers: Vec<u32>,
+    /// How many of them, from the first on, are not its own to change.
+    fixed: usize,
+    next: Next,
+}
+
+/// What a lane does next.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Next {
+    /// The run goes on.
+    #[default]
+    Advance,
+    /// The run is over, or another lane's: back to the last other answer.
+    Retreat,
+}
+
+/// A part of the tree.
+pub(super) struct Lane<G: Game> {
+    state: G::State,
+    log: Vec<u8>,
+    steps: u32,
+    answers: Answers,
+    forks: Vec<Fork<G>>,
+    /// The forks before this one belong to other lanes.
+    floor: usize,
+    next: Next,
+    mark: Mark<G::State>,
+    /// The first answers to the next team move.
+    script: Vec<u32>,
+}
+
+/// A state that the run may come back to, moved on at powers of two (Brent's search for cycles). An answer reveals
+/// something that was not known, so no state comes again after it, and the search begins anew.
+struct Mark<S> {
+    state: S,
+    sent: usize,
+    /// Team moves since the last answer, and at how many the mark is moved.
+    moved: u32,
+    due: u32,
+}
+
+impl<S> Mark<S> {
+    /// Team moves without an answer from which on a run is watched.
+    const FIRST: u32 = 32;
+
+    const fn new(state: S) -> Self {
+        Self { state, sent: 0, moved: 0, due: Self::FIRST }
+    }
+}
+
+impl<G: Game> Lane<G> {
+    /// The memory that one answer on the way takes at most.
+    pub(super) const FORK_BYTES: usize = size_of::<Fork<G>>() + size_of::<Answer>();
+
+    /// The whole tree of runs with at most `mishaps`.
+    pub(super) fn whole(game: &G, mishaps: u32) -> Self {
+        let state = game.start();
+        Self {
+            state,
+            log: Vec::new(),
+            steps: 0,
+            answers: Answers { given: Vec::new(), mishaps: 0, most: mishaps },
+            forks: Vec::new(),
+            floor: 0,
+            next: Next::Advance,
+            mark: Mark::new(state),
+            script: Vec::new(),
+        }
+    }
+
+    /// The lane that was at `place`; `None` if no run gets there.
+    pub(super) fn at(game: &G, mishaps: u32, place: &Place) -> Option<Self> {
+        let mut lane = Self::whole(game, mishaps);
+        while lane.answers.given.len() < place.answers.len() {
+            let fork = lane.plan(game)?;
+            lane.follow(game, fork, &place.answers)?;
+            if lane.recurs(game).is_some() {
+                return None;
+            }
+        }
+        lane.next = place.next;
+        lane.floor = lane.forks.iter().filter(|fork| fork.answered < place.fixed).count();
+        (lane.place() == *place).then_some(lane)
+    }
+
+    /// Where it is.
+    pub(super) fn place(&self) -> Place {
+        let fixed = self.forks.get(self.floor).map_or(self.answers.given.len(), |fork| fork.answered);
+        Place { answers: self.answers.values(0).collect(), fixed, next: self.next }
+    }
+
+    /// The next team move of the run; `None` if it is over.
+    fn plan(&self, game: &G) -> Option<Fork<G>> {
+        let mut planned = self.state;
+        let plan = game.plan(&mut planned, &self.log)?;
+        let (steps, sent, answered) = (self.steps, self.log.len(), self.answers.given.len());
+        Some(Fork { before: self.state, planned, plan, steps, sent, answered })
+    }
+
+    /// Makes the team move of `fork` in a run of which all answers are known; `None` if they do not fit.
+    fn follow(&mut self, game: &G, fork: Fork<G>, answers: &[u32]) -> Option<()> {
+        self.script.extend_from_slice(answers.get(fork.answered..)?);
+        self.settle(game, fork).then_some(())
+    }
+
+    /// Makes the team move of `fork`, with the answers of the script first; whether they fit its questions.
+    fn settle(&mut self, game: &G, fork: Fork<G>) -> bool {
+        self.state = fork.planned;
+        self.steps = fork.steps + 1;
+        self.log.truncate(fork.sent);
+        let mut world = World { answers: &mut self.answers, script: self.script.iter(), fits: true };
+        game.settle(&mut self.state, &fork.plan, &mut self.log, &mut world);
+        let fits = world.fits;
+        self.script.clear();
+        if self.answers.given.len() > fork.answered {
+            self.mark = Mark::new(self.state);
+            self.forks.push(fork);
+        } else {
+            self.mark.moved += 1;
+        }
+        fits
+    }
+
+    /// Searches on, at most a wave or about `most` team moves that are new, and then to the next answer. Returns whether
+    /// something is left.
+    pub(super) fn search(&mut self, game: &G, most: u64, count: &mut Count) -> bool {
+        loop {
+            let fork = match self.next {
+                Next::Advance => self.plan(game),
+                Next::Retreat => self.retreat(),
+            };
+            match (fork, self.next) {
+                (Some(fork), _) => {
+                    let answered = fork.answered;
+                    self.make(game, fork, count);
+                    let is_far = count.made >= WAVE || count.moves >= most;
+                    if is_far && self.answers.given.len() > answered {
+                        return true;
+                    }
+                }
+                (None, Next::Advance) => self.end(game.broken_at_end(&self.state), count),
+                (None, Next::Retreat) => return false,
+            }
+        }
+    }
+
+    /// Makes the team move of `fork` and checks it.
+    fn make(&mut self, game: &G, fork: Fork<G>, count: &mut Count) {
+        let Fork { before, planned, plan, sent, .. } = fork;
+        self.settle(game, fork);
+        self.next = Next::Advance;
+        count.made += 1;
+        count.moves += u64::from(self.is_new());
+        let sent = &self.log[sent..];
+        let turn = Turn { before: &before, planned: &planned, after: &self.state, plan: &plan, sent };
+        if let Some(broken) = game.broken_by(&turn).or_else(|| self.recurs(game)) {
+            self.end(Some(broken), count);
+        }
+    }
+
+    /// What is broken if the run comes back to where it was, and so never ends.
+    fn recurs(&mut self, game: &G) -> Option<Demand> {
+        let Mark { state, sent, moved, due } = &self.mark;
+        if moved < due {
+            let is_watched = *due > Mark::<G::State>::FIRST;
+            return is_watched
+                .then(|| game.broken_by_recurring(state, *sent, &self.state, &self.log))
+                .flatten();
+        }
+        self.mark = Mark { state: self.state, sent: self.log.len(), moved: *moved, due: 2 * due };
+        None
+    }
+
+    /// The run is over, perhaps since it breaks something.
+    fn end(&mut self, broken: Option<Demand>, count: &mut Count) {
+        self.next = Next::Retreat;
+        if !self.is_new() {
+            return;
+        }
+        count.runs += 1;
+        count.longest = count.longest.max(self.steps);
+        if let Some((invariant, _)) = broken {
+            let answers = self.answers.values(0).collect();
+            let smallest = Violation { mishaps: self.answers.mishaps, steps: self.steps, answers };
+            count.add_broken(Broken { invariant, runs: 1, smallest });
+        }
+    }
+
+    /// Whether a search with one mishap less did not come here.
+    const fn is_new(&self) -> bool {
+        self.answers.mishaps == self.answers.most
+    }
+
+    /// Goes back to the last team move that can come out otherwise, and puts the next answers to it into the script.
+    fn retreat(&mut self) -> Option<Fork<G>> {
+        while self.forks.len() > self.floor {
+            let fork = self.forks.pop()?;
+            while let Some(answer) = self.answers.take(fork.answered) {
+                if answer.value + 1 < answer.below {
+                    self.script.extend(self.answers.values(fork.answered));
+                    self.script.push(answer.value + 1);
+                    while self.answers.take(fork.answered).is_some() {}
+                    return Some(fork);
+                }
+            }
+        }
+        None
+    }
+
+    /// The first of its own forks with another outcome left, and where the answers to it end.
+    fn first_open(&self) -> Option<(usize, usize)> {
+        (self.floor..self.forks.len()).find_map(|place| {
+            let from = self.forks[place].answered;
+            let to = self.forks.get(place + 1).map_or(self.answers.given.len(), |next| next.answered);
+            let is_open = self.answers.given[from..to].iter().any(|answer| answer.value + 1 < answer.below);
+            is_open.then_some((place, to))
+        })
+    }
+
+    /// The team moves before its first fork with another outcome left.
+    pub(super) fn depth(&self) -> Option<u32> {
+        self.first_open().map(|(place, _)| self.forks[place].steps)
+    }
+
+    /// Splits off the other outcomes of its first fork.
+    pub(super) fn split(&mut self) -> Option<Self> {
+        let (place, answered) = self.first_open()?;
+        self.floor = place + 1;
+        let mut answers = self.answers.clone();
+        while answers.take(answered).is_some() {}
+        Some(Self {
+            state: self.state,
+            log: self.log[..self.forks[place].sent].to_vec(),
+            steps: self.steps,
+            answers,
+            forks: self.forks[..=place].to_vec(),
+            floor: place,
+            next: Next::Retreat,
+            mark: Mark::new(self.state),
+            script: Vec::new(),
+        })
+    }
+}
+
+/// The team moves of the run with these answers, and what it breaks in the last of them; `None` if that is nothing, or
+/// there is no such run.
+pub(super) fn record<G: Game>(
+    game: &G,
+    mishaps: u32,
+    steps: u32,
+    answers: &[u32],
+) -> Option<(Demand, Vec<Frame>)> {
+    let mut lane = Lane::whole(game, mishaps);
+    let mut frames = Vec::new();
+    let mut broken = None;
+    while lane.steps < steps {
+        let fork = lane.plan(game)?;
+        let Fork { before, planned, plan, sent, .. } = fork;
+        lane.follow(game, fork, answers)?;
+        let sent = &lane.log[sent..];
+        let turn = Turn { before: &before, planned: &planned, after: &lane.state, plan: &plan, sent };
+        frames.push(game.frame(&turn));
+        broken = game.broken_by(&turn).or_else(|| lane.recurs(game));
+    }
+    if broken.is_none() && lane.plan(game).is_none() {
+        broken = game.broken_at_end(&lane.state);
+    }
+    Some((broken?, frames))
+}

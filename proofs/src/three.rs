@@ -1,0 +1,44 @@
+//! The chain of three as published, during one team move: the inductive step of CHAIN-15. The base stands still, so
+//! R_2 can stay wherever it is; and it prefers to, unless that costs R_3 a way. The order of preference beyond that
+//! first place is left open.
+
+use tautline_kernel::chain::{Condition, Move};
+use tautline_kernel::choice::Source;
+use tautline_kernel::lattice::{Cell, Circle};
+
+use crate::clause::Subject;
+use crate::engine::{Outcome, assume, require};
+use crate::pair::World;
+
+/// CHAIN-15, inductive step: a base, R_2 in E_S of it, and R_3 in E_C of R_2.
+///
+/// # Errors
+/// [`Stop`](crate::engine::Stop) if the choices are no case, or break the clause.
+pub fn contact(subject: &Subject, source: &mut dyn Source) -> Outcome {
+    let rule = &subject.rule;
+    let base = Cell::new(0, 0);
+    let at = Cell::new(source.pick(3) as i16 - 1, source.pick(3) as i16 - 1);
+    let ahead = Cell::new(at.x + source.pick(5) as i16 - 2, at.y + source.pick(5) as i16 - 2);
+    assume(Circle::COVERED.covers(at, ahead))?;
+    let mut world = World::<2>::new();
+    let leader = world.pick(ahead, source);
+    let to = leader.plan.to();
+    assume(to == ahead || rule.admits_behind(to, at))?;
+    let is_admitted = |own: Move| {
+        rule.admits_ahead(own, leader.plan)
+            && rule.admits_behind(own.to(), base)
+            && rule.admits_ahead(Move::stay(base), own)
+            && (own.to() != to || to == base || !rule.has(Condition::Distinct))
+    };
+    let follower = world.pick(at, source);
+    let stay = Move::stay(at);
+    assume(is_admitted(follower.plan))?;
+    let stays_first = is_admitted(stay) && rule.is_high(at, leader.plan);
+    assume(!stays_first || follower.plan == stay)?;
+    require(
+        Circle::COVERED.covers(follower.arrived, leader.arrived),
+        "R_3 is in E_C of R_2 after the move, and R_2 of it",
+    )?;
+    require(Circle::SAFE.covers(base, follower.arrived), "R_2 is in E_S of the base after the move")?;
+    Ok(if stays_first { "R_2 stays" } else { "R_2 may do anything else" })
+}
