@@ -1,5 +1,6 @@
 //! What the papers and SPEC.md report as tables, measured again.
 
+pub mod atlas;
 pub mod optimum;
 pub mod repair_cost;
 
@@ -10,17 +11,20 @@ pub enum Reproduction {
     RepairCost,
     /// How far the chain is from the optimum of a team that knows the walls.
     Optimum,
+    /// What becomes of all runs in all layouts.
+    Atlas,
 }
 
 impl Reproduction {
     /// All, in order.
-    pub const ALL: [Self; 2] = [Self::RepairCost, Self::Optimum];
+    pub const ALL: [Self; 3] = [Self::RepairCost, Self::Optimum, Self::Atlas];
 
     /// Its name.
     pub const fn id(self) -> &'static str {
         match self {
             Self::RepairCost => "repair-cost",
             Self::Optimum => "optimum",
+            Self::Atlas => "atlas",
         }
     }
 
@@ -34,6 +38,10 @@ impl Reproduction {
             Self::Optimum => {
                 "the chain against the fewest team moves of a team that knows the walls, in all layouts of small areas: \
                  how often it takes as few, how many times as many on average and at worst, and what it misses"
+            }
+            Self::Atlas => {
+                "all runs of the chain in all layouts with few walls, by rule and number of robots: how many there are, \
+                 how long, and how many break which clause"
             }
         }
     }

@@ -47,6 +47,14 @@ fn the_ledger_is_that_of_the_readme() {
 }
 
 #[test]
+fn the_atlas_is_that_of_the_readme() {
+    let atlas = printed(&["reproduce", "atlas"], 0);
+    assert_snapshot!("atlas", atlas);
+    let (table, _) = atlas.split_once("\n\nlayouts:").expect("a table, then what it means");
+    assert!(document("README.md").contains(table), "the README shows another atlas:\n{table}");
+}
+
+#[test]
 fn the_distance_from_the_optimum_is_that_of_the_readme() {
     let table = printed(&["reproduce", "optimum"], 0);
     assert!(document("README.md").contains(&table), "the README shows another table:\n{table}");

@@ -1,5 +1,6 @@
 //! `tautline reproduce`: tables again.
 
+mod atlas;
 mod optimum;
 mod repair_cost;
 
@@ -32,6 +33,7 @@ pub(super) struct Reproduce {
 enum Table {
     RepairCost(repair_cost::RepairCost),
     Optimum(optimum::Optimum),
+    Atlas(atlas::Atlas),
 }
 
 #[derive(Serialize)]
@@ -51,6 +53,7 @@ impl Reproduce {
             None => self.list(out),
             Some(Table::RepairCost(table)) => table.run(out),
             Some(Table::Optimum(table)) => table.run(out),
+            Some(Table::Atlas(table)) => table.run(out),
         }
     }
 
