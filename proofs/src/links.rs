@@ -1,6 +1,7 @@
 //! Which cells are within reach of a chain, in the words of `SPEC.md` alone: the cells at most N−1 links from the
 //! base. Two cells are one link apart if they share a side without a wall, or meet at a corner and one of the two
-//! ways round it has no wall.
+//! ways round it has no wall. The chain can be brought there by team moves that every rule admits; the argument is that
+//! of CHAIN-13.
 
 use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Edge, Side};

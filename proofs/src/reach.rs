@@ -4,7 +4,8 @@
 //!
 //! A configuration is where the robots R_2 … R_N are. [`Ground::reachable`] goes through all of them: it keeps for
 //! every place of the followers the set of the leader's cells, one bit each, and moves whole sets at once. Where that
-//! is too much, [`Ground::surely_reachable`] and [`Ground::perhaps_reachable`] bound the answer from both sides.
+//! is too much, [`within_reach`](crate::links::within_reach) and [`Ground::perhaps_reachable`] bound the answer from both
+//! sides.
 
 use std::collections::VecDeque;
 use std::fmt;
@@ -162,30 +163,21 @@ impl Ground {
         }
     }
 
-    /// The cells at most `most` steps from the base.
-    fn within(&self, most: usize) -> CellSet {
+    /// The cells that can be walked to from the base.
+    fn walkable(&self) -> CellSet {
         let mut seen = CellSet::new(self.area);
         seen.insert(self.base);
-        let mut queue = VecDeque::from([(self.base, 0)]);
-        while let Some((cell, steps)) = queue.pop_front() {
+        let mut queue = VecDeque::from([self.base]);
+        while let Some(cell) = queue.pop_front() {
             for side in Side::ALL {
                 let beyond = cell.beyond(side);
-                if steps < most && self.admits(cell, Step::Cross(side)) && !seen.contains(beyond) {
+                if self.admits(cell, Step::Cross(side)) && !seen.contains(beyond) {
                     seen.insert(beyond);
-                    queue.push_back((beyond, steps + 1));
+                    queue.push_back(beyond);
                 }
             }
         }
         seen
-    }
-
-    /// Cells that the chain can reach under every rule, for any number of robots: those at most N−1 steps from the
-    /// base. Let the last robots walk a shortest path c_0 … c_k in single file, each one cell behind the one ahead.
-    /// Planned neighbours are at most one step apart, so in E_S; who goes to c_{j+1} does so with the robot behind in
-    /// c_{j−1} (or both at the base), two steps away, so in E_C; outside the base the cells of a path are distinct and
-    /// hold one robot each. With k ≤ N−1 the robot in c_1 is R_2 at the latest.
-    pub fn surely_reachable(&self) -> CellSet {
-        self.within(self.robots.saturating_sub(1))
     }
 
     /// All cells that the chain can reach under `rule`, and perhaps others, for any number of robots.
@@ -196,7 +188,7 @@ impl Ground {
     /// *SafeAhead* neighbours can be anywhere, and all cells that can be walked to are returned.
     pub fn perhaps_reachable(&self, rule: &Rule) -> CellSet {
         if !rule.has(Condition::SafeAhead) {
-            return self.within(usize::MAX);
+            return self.walkable();
         }
         let mut reached = CellSet::new(self.area);
         reached.insert(self.base);
@@ -244,7 +236,7 @@ impl Ground {
     /// # Errors
     /// [`TooLarge`] if there are too many.
     pub fn reachable(&self, rule: &Rule) -> Result<CellSet, TooLarge> {
-        let walkable = self.bits(&self.within(usize::MAX))?;
+        let walkable = self.bits(&self.walkable())?;
         let reached = Search::new(self, rule)?.run(|reached| reached == walkable);
         Ok(CellSet::of_bits(self.area, reached))
     }
@@ -546,6 +538,7 @@ pub(crate) mod tests {
 
     use super::*;
     use crate::engine::Seeded;
+    use crate::links::within_reach;
     use crate::whole;
 
     const RULES: [Rule; 7] = [
@@ -637,9 +630,11 @@ pub(crate) mod tests {
     fn agrees(ground: &Ground, rule: &Rule) {
         let reached = ground.reachable(rule).expect("a small ground");
         assert_eq!(reached, plainly(ground, rule), "{rule:?} {ground:?}");
-        let (surely, perhaps) = (ground.surely_reachable(), ground.perhaps_reachable(rule));
+        let perhaps = ground.perhaps_reachable(rule);
+        let is_open = |edge: Edge| ground.admits(edge.cell(), Step::Cross(edge.side()));
+        let within_reach = within_reach(ground.area, ground.base, ground.robots, is_open);
+        assert!(within_reach.into_iter().all(|cell| reached.contains(cell)), "{rule:?} {ground:?}");
         for cell in ground.area.cells() {
-            assert!(!surely.contains(cell) || reached.contains(cell), "{cell} {rule:?} {ground:?}");
             assert!(!reached.contains(cell) || perhaps.contains(cell), "{cell} {rule:?} {ground:?}");
             let mut wanted = CellSet::new(ground.area);
             wanted.insert(cell);
@@ -666,7 +661,7 @@ pub(crate) mod tests {
                 let ground = ground(3, |edge| edge == one || edge == other);
                 agrees(&ground, &Rule::REPAIRED);
                 let reached = ground.reachable(&Rule::REPAIRED).expect("a small ground");
-                let walkable = ground.within(usize::MAX);
+                let walkable = ground.walkable();
                 let cells: Vec<Cell> = walkable.iter().filter(|&cell| !reached.contains(cell)).collect();
                 missed.extend((!cells.is_empty()).then_some(((one, other), cells)));
             }
@@ -726,6 +721,5 @@ pub(crate) mod tests {
             assert_eq!(ground.reachable(&Rule::REPAIRED).expect("a small ground").len(), all, "{robots}");
         }
         assert_eq!(ground(40, |_| false).perhaps_reachable(&Rule::REPAIRED).len(), 79 * 79);
-        assert_eq!(ground(40, |_| false).surely_reachable().len(), 2 * 39 * 40 + 1);
     }
 }
