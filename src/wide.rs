@@ -39,6 +39,17 @@ pub struct WideGrid {
     /// Bounds that are never below the followers'.
     leader: Field,
     search: Search,
+    /// The last walk asked for, as long as nothing more is explored or a wall.
+    walk: Option<Walk>,
+}
+
+/// What [`Grid::stops`] found.
+#[derive(Clone, Debug)]
+struct Walk {
+    from: Cell,
+    /// Most links.
+    most: usize,
+    stops: Option<Vec<Cell>>,
 }
 
 impl WideGrid {
@@ -55,6 +66,7 @@ impl WideGrid {
             followers: Field::new(cells, &[EdgeMark::Wall]),
             leader: Field::new(cells, &[EdgeMark::Wall, EdgeMark::Virtual]),
             search: Search { steps: vec![UNREACHED; cells], reached: Vec::new(), open: Default::default() },
+            walk: None,
         }
     }
 
@@ -62,6 +74,25 @@ impl WideGrid {
     fn cell(&self, place: usize) -> Cell {
         let first = self.area.first();
         Cell::new(first.x + (place % self.map.width) as i16, first.y + (place / self.map.width) as i16)
+    }
+
+    /// The stops of the walk of at most `most` links from `from` to an unexplored cell, if there is one.
+    fn find_stops(&mut self, from: Cell, most: usize) -> Option<Vec<Cell>> {
+        let start = self.place(from)?;
+        let target = self.search.link_up(&self.map, start, most);
+        let stops = target.map(|(target, links_away)| {
+            let mut stops = vec![self.cell(target)];
+            for nearer in (0..links_away).rev() {
+                let is_nearer =
+                    |cell| self.place(cell).is_some_and(|place| self.search.steps[place] == nearer);
+                let mut linked = links(self, stops[stops.len() - 1]).map(|(cell, _)| cell);
+                stops.extend(linked.find(|&cell| is_nearer(cell)));
+            }
+            stops.reverse();
+            stops
+        });
+        self.search.clear();
+        stops
     }
 
     /// The place of `cell` in the lists of cells; `None` outside the area.
@@ -86,6 +117,7 @@ impl Grid for WideGrid {
         let Some(place) = self.place(cell) else { return };
         if mark == CellMark::Explored && self.map.marks[place] & EXPLORED == 0 {
             self.unexplored -= 1;
+            self.walk = None;
             self.followers.doubt();
             self.leader.doubt();
         }
@@ -96,6 +128,7 @@ impl Grid for WideGrid {
         let Some(place) = self.place(cell) else { return };
         if mark == CellMark::Explored && self.map.marks[place] & EXPLORED != 0 {
             self.unexplored += 1;
+            self.walk = None;
             self.followers.forget();
             self.leader.forget();
         }
@@ -118,8 +151,10 @@ impl Grid for WideGrid {
         }
         self.map.marks[near] |= edge_mark(mark, side);
         self.map.marks[far] |= edge_mark(mark, side.opposite());
-        if mark == EdgeMark::Virtual {
-            self.virtual_edges.push(edge);
+        match mark {
+            EdgeMark::Wall => self.walk = None,
+            EdgeMark::Open => {}
+            EdgeMark::Virtual => self.virtual_edges.push(edge),
         }
         for field in [&mut self.followers, &mut self.leader] {
             if field.blocked & all_sides(mark) != 0 {
@@ -131,6 +166,7 @@ impl Grid for WideGrid {
     fn clear_edges(&mut self, mark: EdgeMark) {
         match mark {
             EdgeMark::Wall => {
+                self.walk = None;
                 self.map.clear(mark);
                 self.map.close_border();
                 self.followers.forget();
@@ -182,20 +218,12 @@ impl Grid for WideGrid {
     }
 
     fn stops(&mut self, from: Cell, stops: &mut [Cell]) -> Option<usize> {
-        let (start, most) = (self.place(from)?, stops.len().checked_sub(1)?);
-        let target = self.search.link_up(&self.map, start, most);
-        if let Some((target, count)) = target {
-            let mut stop = self.cell(target);
-            for nearer in (0..count).rev() {
-                stops[nearer + 1] = stop;
-                let is_nearer =
-                    |cell| self.place(cell).is_some_and(|place| self.search.steps[place] as usize == nearer);
-                stop = links(self, stop).map(|(cell, _)| cell).find(|&cell| is_nearer(cell)).unwrap_or(from);
-            }
-            stops[0] = stop;
-        }
-        self.search.clear();
-        target.map(|(_, count)| count)
+        let most = stops.len().checked_sub(1)?;
+        let known = self.walk.take().filter(|walk| (walk.from, walk.most) == (from, most));
+        let walk = known.unwrap_or_else(|| Walk { from, most, stops: self.find_stops(from, most) });
+        let found = self.walk.insert(walk).stops.as_deref()?;
+        stops[..found.len()].copy_from_slice(found);
+        Some(found.len() - 1)
     }
 }
 
@@ -397,11 +425,11 @@ impl Search {
 
     /// Reaches the cells at most `most` links from the one at `start`, up to the nearest unexplored: the place of
     /// the first of these, and how many links away it is. `steps` are links until the next search.
-    fn link_up(&mut self, map: &Map, start: usize, most: usize) -> Option<(usize, usize)> {
+    fn link_up(&mut self, map: &Map, start: usize, most: usize) -> Option<(usize, u32)> {
         self.steps[start] = 0;
         self.reached.push(start);
         let mut layer = 0;
-        for count in 0..=most {
+        for count in 0..=most as u32 {
             let unexplored = |&&place: &&usize| map.marks[place] & EXPLORED == 0;
             if let Some(&target) = self.reached[layer..].iter().filter(unexplored).min() {
                 return Some((target, count));
@@ -411,7 +439,7 @@ impl Search {
             for index in nearer {
                 for next in map.linked(self.reached[index]) {
                     if self.steps[next] == UNREACHED {
-                        self.steps[next] = count as u32 + 1;
+                        self.steps[next] = count + 1;
                         self.reached.push(next);
                     }
                 }

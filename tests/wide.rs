@@ -80,6 +80,7 @@ fn calls(area: Area) -> impl Strategy<Value = Vec<Call>> {
     let call = prop_oneof![
         40 => (cells(area), avoid).prop_map(|(cell, avoid)| Call::Distance(cell, avoid)),
         5 => (cells(area), 0..9_usize).prop_map(|(cell, most)| Call::Stops(cell, most)),
+        10 => Just(Call::Stops(area.first(), 200)),
         10 => cells(area).prop_map(|cell| Call::Put(CellMark::Explored, cell)),
         20 => (edge_mark, edges(area)).prop_map(|(mark, edge)| Call::PutEdge(mark, edge)),
         5 => (cell_mark.clone(), cells(area)).prop_map(|(mark, cell)| Call::Put(mark, cell)),
