@@ -15,7 +15,7 @@ pub enum Condition {
     Distinct,
     /// A candidate of the leader that is refused gets a virtual obstacle.
     RefusedIsVirtual,
-    /// An epoch that explored no cell and found no wall ends the run.
+    /// An epoch that explored no cell and found no wall ends the run, unless the next unfolds the chain.
     EpochMustGain,
     /// Repair: unless the robot ahead is sure to arrive, a follower also plans to be in E_C of its present
     /// position: P′_i ∈ E_C(P_{i+1}).

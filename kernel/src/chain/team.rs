@@ -53,7 +53,8 @@ impl core::error::Error for Refused {}
 pub enum End {
     /// Every cell of the area is explored.
     Explored,
-    /// An epoch explored no cell and found no wall; the next would repeat it.
+    /// An epoch explored no cell and found no wall; the next would repeat it. With [`Condition::Unfold`] no
+    /// unexplored cell is within reach.
     Exhausted,
 }
 
