@@ -1,11 +1,9 @@
 //! What a team move of the chain costs: against the plain recursion, in open areas of every size, and among
 //! random walls. Criterion follows each figure over time; the tables at the end relate them to one another.
 
-use std::hint::black_box;
-use std::time::{Duration, Instant};
+mod common;
 
-use criterion::measurement::WallTime;
-use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
+use criterion::{BenchmarkId, Criterion};
 use tautline::layout::{Generator, Layout};
 use tautline::wide::WideGrid;
 use tautline_kernel::chain::{Chain, Intent, Rule};
@@ -13,12 +11,20 @@ use tautline_kernel::grid::{Area, Grid, MediumGrid, SmallGrid};
 use tautline_kernel::lattice::Cell;
 use tautline_proofs::plain::{PlainChain, PlainIntent};
 
+use self::common::{Cost, group, measure};
+
 /// What was done in a run, or in several.
 #[derive(Clone, Copy, Default)]
 struct Work {
     team_moves: u32,
     /// The most candidates of followers that one plan looked at.
     most_looked_at: u32,
+}
+
+impl common::Work for Work {
+    fn team_moves(&self) -> u32 {
+        self.team_moves
+    }
 }
 
 /// A chain of `ROBOTS` in a layout of its own size, followed for `most` team moves.
@@ -79,42 +85,8 @@ fn in_all(layouts: &[Layout], run: impl Fn(&Layout) -> Work) -> Work {
     })
 }
 
-type Group<'a> = BenchmarkGroup<'a, WallTime>;
-
-fn group<'a>(criterion: &'a mut Criterion, name: &str) -> Group<'a> {
-    let mut group = criterion.benchmark_group(name);
-    group.sampling_mode(SamplingMode::Flat).sample_size(10);
-    group.warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_millis(1500));
-    group
-}
-
-/// What one team move took.
-struct Cost {
-    work: Work,
-    /// By the fastest sample; infinite if nothing was measured.
-    micros: f64,
-}
-
-fn measure(group: &mut Group<'_>, id: BenchmarkId, run: impl Fn() -> Work) -> Cost {
-    let work = run();
-    let mut fastest_seconds = f64::INFINITY;
-    group.throughput(Throughput::Elements(work.team_moves.into()));
-    group.bench_function(id, |bencher| {
-        bencher.iter_custom(|times| {
-            let start = Instant::now();
-            for _ in 0..times {
-                black_box(run());
-            }
-            let taken = start.elapsed();
-            fastest_seconds = fastest_seconds.min((taken / times as u32).as_secs_f64());
-            taken
-        });
-    });
-    Cost { work, micros: 1e6 * fastest_seconds / f64::from(work.team_moves) }
-}
-
 /// The kernel's cost and the plain recursion's: 8 robots in 20 layouts with a tenth of the cell sides walls.
-fn against_the_plain_recursion(criterion: &mut Criterion) -> [Cost; 2] {
+fn against_the_plain_recursion(criterion: &mut Criterion) -> [Cost<Work>; 2] {
     let layouts = random_layouts(8, 0.1, 20);
     let mut group = group(criterion, "against the plain recursion");
     let kernel = measure(&mut group, BenchmarkId::from_parameter("kernel"), || {
@@ -128,7 +100,7 @@ fn against_the_plain_recursion(criterion: &mut Criterion) -> [Cost; 2] {
 }
 
 /// Whole runs without obstacles, by the number of robots.
-fn open_areas(criterion: &mut Criterion) -> [(u16, Cost); 6] {
+fn open_areas(criterion: &mut Criterion) -> [(u16, Cost<Work>); 6] {
     let mut group = group(criterion, "open area");
     macro_rules! each {
         ($($robots:literal),*) => {[$({
@@ -142,7 +114,7 @@ fn open_areas(criterion: &mut Criterion) -> [(u16, Cost); 6] {
 }
 
 /// The first team moves in random layouts, by the number of robots and the share of walls.
-fn random_walls(criterion: &mut Criterion) -> Vec<(u16, f64, Cost)> {
+fn random_walls(criterion: &mut Criterion) -> Vec<(u16, f64, Cost<Work>)> {
     const TEAM_MOVES: u32 = 500;
     let mut group = group(criterion, "random walls");
     let mut costs = Vec::new();

@@ -91,6 +91,12 @@ impl PlainChain {
         &self.cells
     }
 
+    /// Whether the team knows if `edge` is open.
+    pub fn is_known(&self, edge: Edge) -> bool {
+        let marks = self.marks(edge);
+        marks.open || marks.wall
+    }
+
     /// Whether the leader may not cross `edge` in this epoch.
     pub fn is_virtual(&self, edge: Edge) -> bool {
         self.marks(edge).virtual_obstacle

@@ -1,0 +1,53 @@
+//! What the benchmarks share: how a group of them is sampled, and what one team move costs.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
+
+pub(crate) type Group<'a> = BenchmarkGroup<'a, WallTime>;
+
+pub(crate) fn group<'a>(criterion: &'a mut Criterion, name: &str) -> Group<'a> {
+    let mut group = criterion.benchmark_group(name);
+    group.sampling_mode(SamplingMode::Flat).sample_size(10);
+    group.warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_millis(1500));
+    group
+}
+
+/// What was done.
+pub(crate) trait Work {
+    fn team_moves(&self) -> u32;
+}
+
+/// What one team move took.
+pub(crate) struct Cost<W> {
+    pub(crate) work: W,
+    /// By the fastest sample; infinite if nothing was measured.
+    pub(crate) micros: f64,
+}
+
+impl<W: Work> Cost<W> {
+    pub(crate) fn new(work: W, seconds: f64) -> Self {
+        let micros = 1e6 * seconds / f64::from(work.team_moves());
+        Self { work, micros }
+    }
+}
+
+pub(crate) fn measure<W: Work>(group: &mut Group<'_>, id: BenchmarkId, run: impl Fn() -> W) -> Cost<W> {
+    let work = run();
+    let mut fastest_seconds = f64::INFINITY;
+    group.throughput(Throughput::Elements(work.team_moves().into()));
+    group.bench_function(id, |bencher| {
+        bencher.iter_custom(|times| {
+            let start = Instant::now();
+            for _ in 0..times {
+                black_box(run());
+            }
+            let taken = start.elapsed();
+            fastest_seconds = fastest_seconds.min((taken / times as u32).as_secs_f64());
+            taken
+        });
+    });
+    Cost::new(work, fastest_seconds)
+}
