@@ -182,7 +182,7 @@ impl<G: Game> Lane<G> {
         let mut lane = Self::whole(game, mishaps);
         while lane.answers.given.len() < place.answers.len() {
             let fork = lane.plan(game)?;
-            lane.follow(game, fork, &place.answers)?;
+            lane.follow(game, &fork, &place.answers)?;
             if lane.recurs(game).is_some() {
                 return None;
             }
@@ -198,32 +198,31 @@ impl<G: Game> Lane<G> {
         Place { answers: self.answers.values(0).collect(), fixed, next: self.next }
     }
 
-    /// The next team move of the run; `None` if it is over.
-    fn plan(&self, game: &G) -> Option<Fork<G>> {
-        let mut planned = self.state;
-        let plan = game.plan(&mut planned, &self.log)?;
+    /// Plans the next team move of the run; `None` if it is over.
+    fn plan(&mut self, game: &G) -> Option<Fork<G>> {
+        let before = self.state;
+        let plan = game.plan(&mut self.state, &self.log)?;
         let (steps, sent, answered) = (self.steps, self.log.len(), self.answers.given.len());
-        Some(Fork { before: self.state, planned, plan, steps, sent, answered })
+        Some(Fork { before, planned: self.state, plan, steps, sent, answered })
     }
 
     /// Makes the team move of `fork` in a run of which all answers are known; `None` if they do not fit.
-    fn follow(&mut self, game: &G, fork: Fork<G>, answers: &[u32]) -> Option<()> {
+    fn follow(&mut self, game: &G, fork: &Fork<G>, answers: &[u32]) -> Option<()> {
         self.script.extend_from_slice(answers.get(fork.answered..)?);
         self.settle(game, fork).then_some(())
     }
 
-    /// Makes the team move of `fork`, with the answers of the script first; whether they fit its questions.
-    fn settle(&mut self, game: &G, fork: Fork<G>) -> bool {
-        self.state = fork.planned;
-        self.steps = fork.steps + 1;
-        self.log.truncate(fork.sent);
+    /// Makes the team move of `fork`, which is planned, with the answers of the script first; whether they fit its
+    /// questions.
+    fn settle(&mut self, game: &G, fork: &Fork<G>) -> bool {
+        self.steps += 1;
         let mut world = World { answers: &mut self.answers, script: self.script.iter(), fits: true };
         game.settle(&mut self.state, &fork.plan, &mut self.log, &mut world);
         let fits = world.fits;
         self.script.clear();
         if self.answers.given.len() > fork.answered {
             self.mark = Mark::new(self.state);
-            self.forks.push(fork);
+            self.forks.push(*fork);
         } else {
             self.mark.moved += 1;
         }
@@ -238,33 +237,36 @@ impl<G: Game> Lane<G> {
                 Next::Advance => self.plan(game),
                 Next::Retreat => self.retreat(),
             };
-            match (fork, self.next) {
-                (Some(fork), _) => {
-                    let answered = fork.answered;
-                    self.make(game, fork, count);
-                    let is_far = count.made >= WAVE || count.moves >= most;
-                    if is_far && self.answers.given.len() > answered {
-                        return true;
-                    }
+            let Some(fork) = fork else {
+                match self.next {
+                    Next::Advance => self.end(game.broken_at_end(&self.state), count),
+                    Next::Retreat => return false,
                 }
-                (None, Next::Advance) => self.end(game.broken_at_end(&self.state), count),
-                (None, Next::Retreat) => return false,
+                continue;
+            };
+            self.make(game, &fork, count);
+            let is_far = count.made >= WAVE || count.moves >= most;
+            if is_far && self.answers.given.len() > fork.answered {
+                return true;
             }
         }
     }
 
     /// Makes the team move of `fork` and checks it.
-    fn make(&mut self, game: &G, fork: Fork<G>, count: &mut Count) {
-        let Fork { before, planned, plan, sent, .. } = fork;
+    fn make(&mut self, game: &G, fork: &Fork<G>, count: &mut Count) {
         self.settle(game, fork);
         self.next = Next::Advance;
         count.made += 1;
         count.moves += u64::from(self.is_new());
-        let sent = &self.log[sent..];
-        let turn = Turn { before: &before, planned: &planned, after: &self.state, plan: &plan, sent };
-        if let Some(broken) = game.broken_by(&turn).or_else(|| self.recurs(game)) {
+        if let Some(broken) = game.broken_by(&self.turn(fork)).or_else(|| self.recurs(game)) {
             self.end(Some(broken), count);
         }
+    }
+
+    /// The team move of `fork`, which is the latest.
+    fn turn<'a>(&'a self, fork: &'a Fork<G>) -> Turn<'a, G> {
+        let Fork { before, planned, plan, sent, .. } = fork;
+        Turn { before, planned, after: &self.state, plan, sent: &self.log[*sent..] }
     }
 
     /// What is broken if the run comes back to where it was, and so never ends.
@@ -300,7 +302,8 @@ impl<G: Game> Lane<G> {
         self.answers.mishaps == self.answers.most
     }
 
-    /// Goes back to the last team move that can come out otherwise, and puts the next answers to it into the script.
+    /// Goes back to the last team move that can come out otherwise, as it was when it was planned, and puts the next
+    /// answers to it into the script.
     fn retreat(&mut self) -> Option<Fork<G>> {
         while self.forks.len() > self.floor {
             let fork = self.forks.pop()?;
@@ -309,6 +312,9 @@ impl<G: Game> Lane<G> {
                     self.script.extend(self.answers.values(fork.answered));
                     self.script.push(answer.value + 1);
                     while self.answers.take(fork.answered).is_some() {}
+                    self.state = fork.planned;
+                    self.steps = fork.steps;
+                    self.log.truncate(fork.sent);
                     return Some(fork);
                 }
             }
@@ -364,10 +370,8 @@ pub(super) fn record<G: Game>(
     let mut broken = None;
     while lane.steps < steps {
         let fork = lane.plan(game)?;
-        let Fork { before, planned, plan, sent, .. } = fork;
-        lane.follow(game, fork, answers)?;
-        let sent = &lane.log[sent..];
-        let turn = Turn { before: &before, planned: &planned, after: &lane.state, plan: &plan, sent };
+        lane.follow(game, &fork, answers)?;
+        let turn = lane.turn(&fork);
         frames.push(game.frame(&turn));
         broken = game.broken_by(&turn).or_else(|| lane.recurs(game));
     }
