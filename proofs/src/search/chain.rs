@@ -78,17 +78,24 @@ where
     }
 
     fn broken_by(&self, turn: &Turn<'_, Self>) -> Option<Demand> {
+        let Turn { before, planned, after, plan, sent } = *turn;
         let subject = &self.bounds.subject;
-        let mut steps = [Step::Stay; ROBOTS];
-        let steps = &mut steps[..self.bounds.robots];
-        steps.copy_from_slice(turn.plan.steps());
-        if subject.sabotage == Sabotage::BaseFollows {
-            steps[0] = steps[1];
+        let (mut forged_steps, mut forged_messages) = ([Step::Stay; ROBOTS], [0; ROBOTS]);
+        let (mut steps, mut messages) = (plan.steps(), sent);
+        match subject.sabotage {
+            Sabotage::None | Sabotage::PlainRecursion => {}
+            Sabotage::BaseFollows => {
+                let forged = &mut forged_steps[..steps.len()];
+                forged.copy_from_slice(steps);
+                forged[0] = forged[1];
+                steps = forged;
+            }
+            Sabotage::SwappedBits => {
+                let forged = &mut forged_messages[..sent.len()];
+                forged.iter_mut().zip(sent).for_each(|(heard, &sent)| *heard = subject.sabotage.carry(sent));
+                messages = forged;
+            }
         }
-        let mut messages = [0; ROBOTS];
-        let messages = &mut messages[..self.bounds.robots - 1];
-        messages.iter_mut().zip(turn.sent).for_each(|(heard, &sent)| *heard = subject.sabotage.carry(sent));
-        let Turn { before, planned, after, plan, sent: _ } = *turn;
         let moment = Moment { subject, before, planned, after, kind: plan.kind, steps, messages };
         self.bounds.invariants.iter().find_map(|&invariant| match invariant.check(&moment) {
             Err(Stop::Violated(demand)) => Some((invariant, demand)),

@@ -138,11 +138,11 @@ pub(super) struct Lane<G: Game> {
     script: Vec<u32>,
 }
 
-/// A state that the run may come back to, moved on at powers of two (Brent's search for cycles). An answer reveals
-/// something that was not known, so no state comes again after it, and the search begins anew.
+/// A state that the run may come back to, and the bytes of the log before it, moved on at powers of two (Brent's search
+/// for cycles). An answer reveals something that was not known, so no state comes again after it, and the search begins
+/// anew.
 struct Mark<S> {
-    state: S,
-    sent: usize,
+    at: Option<(S, usize)>,
     /// Team moves since the last answer, and at how many the mark is moved.
     moved: u32,
     due: u32,
@@ -152,9 +152,7 @@ impl<S> Mark<S> {
     /// Team moves without an answer from which on a run is watched.
     const FIRST: u32 = 32;
 
-    const fn new(state: S) -> Self {
-        Self { state, sent: 0, moved: 0, due: Self::FIRST }
-    }
+    const NONE: Self = Self { at: None, moved: 0, due: Self::FIRST };
 }
 
 impl<G: Game> Lane<G> {
@@ -163,16 +161,15 @@ impl<G: Game> Lane<G> {
 
     /// The whole tree of runs with at most `mishaps`.
     pub(super) fn whole(game: &G, mishaps: u32) -> Self {
-        let state = game.start();
         Self {
-            state,
+            state: game.start(),
             log: Vec::new(),
             steps: 0,
             answers: Answers { given: Vec::new(), mishaps: 0, most: mishaps },
             forks: Vec::new(),
             floor: 0,
             next: Next::Advance,
-            mark: Mark::new(state),
+            mark: Mark::NONE,
             script: Vec::new(),
         }
     }
@@ -221,7 +218,7 @@ impl<G: Game> Lane<G> {
         let fits = world.fits;
         self.script.clear();
         if self.answers.given.len() > fork.answered {
-            self.mark = Mark::new(self.state);
+            self.mark = Mark::NONE;
             self.forks.push(*fork);
         } else {
             self.mark.moved += 1;
@@ -233,27 +230,28 @@ impl<G: Game> Lane<G> {
     /// something is left.
     pub(super) fn search(&mut self, game: &G, most: u64, count: &mut Count) -> bool {
         loop {
-            let fork = match self.next {
-                Next::Advance => self.plan(game),
-                Next::Retreat => self.retreat(),
-            };
-            let Some(fork) = fork else {
-                match self.next {
-                    Next::Advance => self.end(game.broken_at_end(&self.state), count),
-                    Next::Retreat => return false,
+            let answered = match self.next {
+                Next::Advance => {
+                    let Some(fork) = self.plan(game) else {
+                        self.end(game.broken_at_end(&self.state), count);
+                        continue;
+                    };
+                    self.make(game, &fork, count)
                 }
-                continue;
+                Next::Retreat => {
+                    let Some(fork) = self.retreat() else { return false };
+                    self.make(game, &fork, count)
+                }
             };
-            self.make(game, &fork, count);
             let is_far = count.made >= WAVE || count.moves >= most;
-            if is_far && self.answers.given.len() > fork.answered {
+            if is_far && self.answers.given.len() > answered {
                 return true;
             }
         }
     }
 
-    /// Makes the team move of `fork` and checks it.
-    fn make(&mut self, game: &G, fork: &Fork<G>, count: &mut Count) {
+    /// Makes the team move of `fork` and checks it; how many answers there were before.
+    fn make(&mut self, game: &G, fork: &Fork<G>, count: &mut Count) -> usize {
         self.settle(game, fork);
         self.next = Next::Advance;
         count.made += 1;
@@ -261,6 +259,7 @@ impl<G: Game> Lane<G> {
         if let Some(broken) = game.broken_by(&self.turn(fork)).or_else(|| self.recurs(game)) {
             self.end(Some(broken), count);
         }
+        fork.answered
     }
 
     /// The team move of `fork`, which is the latest.
@@ -271,14 +270,12 @@ impl<G: Game> Lane<G> {
 
     /// What is broken if the run comes back to where it was, and so never ends.
     fn recurs(&mut self, game: &G) -> Option<Demand> {
-        let Mark { state, sent, moved, due } = &self.mark;
+        let Mark { at, moved, due } = &self.mark;
         if moved < due {
-            let is_watched = *due > Mark::<G::State>::FIRST;
-            return is_watched
-                .then(|| game.broken_by_recurring(state, *sent, &self.state, &self.log))
-                .flatten();
+            let (state, sent) = at.as_ref()?;
+            return game.broken_by_recurring(state, *sent, &self.state, &self.log);
         }
-        self.mark = Mark { state: self.state, sent: self.log.len(), moved: *moved, due: 2 * due };
+        self.mark = Mark { at: Some((self.state, self.log.len())), moved: *moved, due: 2 * due };
         None
     }
 
@@ -351,7 +348,7 @@ impl<G: Game> Lane<G> {
             forks: self.forks[..=place].to_vec(),
             floor: place,
             next: Next::Retreat,
-            mark: Mark::new(self.state),
+            mark: Mark::NONE,
             script: Vec::new(),
         })
     }
