@@ -286,7 +286,7 @@ fn pictures_and_pages_are_whole_and_need_nothing_from_elsewhere() {
 fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
     let folder = folder();
     fs::write(folder.path().join("file"), "").expect("a file");
-    let wrong: [&[&str]; 20] = [
+    let wrong: [&[&str]; 21] = [
         &["explore", "open:9x9", "--robots", "0"],
         &["explore", "open:9x9", "--robots", "1"],
         &["explore", "open:9x9", "--robots", "257"],
@@ -301,6 +301,7 @@ fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
         &["hunt", "--out", "file"],
         &["hunt", "--out", "nowhere"],
         &["hunt", "--robots", "65"],
+        &["hunt", "--robots", "64", "--max-walls", "9"],
         &["hunt", "--robots", "2", "--max-walls", "13"],
         &["replay", "nowhere.jsonl"],
         &["minimise", "nowhere.jsonl"],

@@ -342,7 +342,7 @@ const WAVE: u64 = 1 << 14;
 const SHARE: u64 = 1 << 8;
 
 /// Bytes that the lanes may need.
-const MEMORY: u64 = 1 << 31;
+const MEMORY: u64 = 1 << 30;
 
 /// Numbers of walls, from none on, whose runs a resumed search counts again, to see that it is of the same rule.
 const COUNTED_AGAIN: usize = 2;
