@@ -3,7 +3,8 @@
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::Duration;
 
 use insta::assert_snapshot;
 use serde_json::Value;
@@ -130,11 +131,104 @@ fn ctrl_c_ends_a_hunt_without_a_claim() {
         .stdout(Stdio::piped())
         .spawn()
         .expect("the program runs");
-    std::thread::sleep(std::time::Duration::from_millis(500));
+    std::thread::sleep(Duration::from_millis(500));
     let sent = Command::new("kill").args(["-INT", &hunt.id().to_string()]).status().expect("kill runs");
     assert!(sent.success());
     assert_eq!(hunt.wait().expect("it ends").code(), Some(3));
     assert_eq!(names(folder.path()), [""; 0]);
+}
+
+/// It is killed at work and, after a Ctrl-C, perhaps while it writes its file; budgets take it further in between.
+#[cfg(unix)]
+#[test]
+fn a_hunt_killed_at_any_moment_and_resumed_comes_out_the_same() {
+    let hunt = ["hunt", "--rule", "published", "--robots", "4", "--max-walls", "3", "--format", "json"];
+    let run = |folder: &Path, threads: &str, more: &[&str]| {
+        let mut command = tautline(folder, &[&hunt, more].concat());
+        command.env("RAYON_NUM_THREADS", threads).stdout(Stdio::piped()).stderr(Stdio::piped());
+        command.spawn().expect("the program runs")
+    };
+    let ended = |child: Child| {
+        let output = child.wait_with_output().expect("it ends");
+        assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+        (output.status.code(), String::from_utf8(output.stdout).expect("text"))
+    };
+    let runs_in = |folder: &Path| {
+        let stored = names(folder).into_iter().filter(|name| name.ends_with(".jsonl"));
+        stored.map(|name| (fs::read(folder.join(&name)).expect("a run"), name)).collect::<Vec<_>>()
+    };
+    let undisturbed = folder();
+    let whole = ended(run(undisturbed.path(), "2", &[]));
+    assert_eq!(whole.0, Some(1));
+    for threads in ["1", "2"] {
+        let folder = folder();
+        let folder = folder.path();
+        let kept = || fs::read(folder.join("hunt.json")).ok();
+        for (budget, millis) in [("1000", 3), ("30000", 37), ("150000", 11), ("300000", 61)] {
+            let (code, _) = ended(run(folder, threads, &["--resume", "hunt.json", "--budget", budget]));
+            assert!(matches!(code, Some(1 | 3)), "{budget}: {code:?}");
+            for ending in [["-KILL", "-KILL"], ["-INT", "-KILL"]] {
+                let mut child = run(folder, threads, &["--resume", "hunt.json"]);
+                for signal in ending {
+                    std::thread::sleep(Duration::from_millis(millis));
+                    Command::new("kill").args([signal, &child.id().to_string()]).output().expect("kill runs");
+                }
+                child.wait().expect("it ends");
+            }
+        }
+        assert_eq!(ended(run(folder, threads, &["--resume", "hunt.json"])), whole, "{threads} threads");
+        assert_eq!(runs_in(folder), runs_in(undisturbed.path()), "{threads} threads");
+        let done = kept();
+        assert_eq!(ended(run(folder, threads, &["--resume", "hunt.json"])), whole, "nothing is left to do");
+        assert_eq!(kept(), done);
+    }
+}
+
+#[test]
+fn a_kept_hunt_that_is_damaged_or_another_is_refused_with_its_place() {
+    let folder = folder();
+    let folder = folder.path();
+    let file = folder.join("hunt.json");
+    let hunt = ["hunt", "--rule", "repaired", "--robots", "3", "--max-walls", "2", "--resume", "hunt.json"];
+    printed(folder, &hunt, 0);
+    let kept = fs::read_to_string(&file).expect("text");
+    let lines: Vec<&str> = kept.split_inclusive('\n').collect();
+    let damaged = [
+        ("no bytes", String::new()),
+        ("cut after a line", lines[..2].concat()),
+        ("cut within the last line", kept[..kept.len() - 5].to_owned()),
+        ("a line too many", kept.clone() + "{}\n"),
+        ("a digit changed", kept.replacen("\"runs\":1", "\"runs\":2", 1)),
+        ("no JSON", kept.replacen("{\"format\"", "hunt", 1)),
+        ("another version", kept.replacen("\"version\":1", "\"version\":2", 1)),
+        ("another format", kept.replacen("tautline hunt", "tautline run", 1)),
+        ("an unknown rule", kept.replacen("repaired", "mended", 1)),
+        ("another checksum", kept.replacen("{\"crc32\":", "{\"crc32\":1", 1)),
+    ];
+    let mut said = Vec::new();
+    for (what, text) in damaged {
+        assert_ne!(text, kept, "{what}");
+        fs::write(&file, &text).expect("a file");
+        said.push(format!("{what}\n{}\n", refused(folder, &hunt)));
+        assert_eq!(fs::read_to_string(&file).expect("text"), text, "{what}: it is left as it is");
+    }
+    fs::write(&file, &kept).expect("a file");
+    let other: [&[&str]; 6] = [
+        &["--rule", "published", "--robots", "3", "--max-walls", "2"],
+        &["--rule", "repaired", "--robots", "4", "--max-walls", "2"],
+        &["--rule", "repaired", "--robots", "3", "--max-walls", "2", "--size", "4x5"],
+        &["--rule", "repaired", "--robots", "3", "--max-walls", "1"],
+        &["--rule", "repaired", "--robots", "3", "--max-walls", "41"],
+        &["--rule", "repaired", "--robots", "3", "--max-walls", "2", "--resume", "."],
+    ];
+    for arguments in other {
+        let resume: &[&str] = if arguments.contains(&"--resume") { &[] } else { &["--resume", "hunt.json"] };
+        let arguments = [&["hunt"], arguments, resume].concat();
+        said.push(format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder, &arguments)));
+    }
+    assert_snapshot!("wrong_kept_hunts", said.join("\n"));
+    assert_eq!(fs::read_to_string(&file).expect("text"), kept);
+    assert_eq!(names(folder), ["hunt.json"]);
 }
 
 #[test]
@@ -440,7 +534,7 @@ fn ctrl_c_ends_minimising_with_nothing_stored() {
         .stdout(Stdio::piped())
         .spawn()
         .expect("the program runs");
-    std::thread::sleep(std::time::Duration::from_millis(500));
+    std::thread::sleep(Duration::from_millis(500));
     let sent = Command::new("kill").args(["-INT", &minimise.id().to_string()]).status().expect("kill runs");
     assert!(sent.success());
     assert_eq!(minimise.wait().expect("it ends").code(), Some(3));
