@@ -154,7 +154,7 @@ fn a_hunt_killed_at_any_moment_and_resumed_comes_out_the_same() {
         (output.status.code(), String::from_utf8(output.stdout).expect("text"))
     };
     let runs_in = |folder: &Path| {
-        let stored = names(folder).into_iter().filter(|name| name.ends_with(".jsonl"));
+        let stored = names(folder).into_iter().filter(|name| name.starts_with("chain-"));
         stored.map(|name| (fs::read(folder.join(&name)).expect("a run"), name)).collect::<Vec<_>>()
     };
     let undisturbed = folder();
@@ -213,13 +213,14 @@ fn a_kept_hunt_that_is_damaged_or_another_is_refused_with_its_place() {
         assert_eq!(fs::read_to_string(&file).expect("text"), text, "{what}: it is left as it is");
     }
     fs::write(&file, &kept).expect("a file");
-    let other: [&[&str]; 6] = [
+    let other: [&[&str]; 7] = [
         &["--rule", "published", "--robots", "3", "--max-walls", "2"],
         &["--rule", "repaired", "--robots", "4", "--max-walls", "2"],
         &["--rule", "repaired", "--robots", "3", "--max-walls", "2", "--size", "4x5"],
         &["--rule", "repaired", "--robots", "3", "--max-walls", "1"],
         &["--rule", "repaired", "--robots", "3", "--max-walls", "41"],
         &["--rule", "repaired", "--robots", "3", "--max-walls", "2", "--resume", "."],
+        &["--rule", "repaired", "--robots", "3", "--max-walls", "2", "--resume", "nowhere/hunt.json"],
     ];
     for arguments in other {
         let resume: &[&str] = if arguments.contains(&"--resume") { &[] } else { &["--resume", "hunt.json"] };

@@ -4,6 +4,7 @@
 
 #![allow(clippy::missing_panics_doc, reason = "a panic is how a body tells what it found")]
 
+use std::fs;
 use std::hint::black_box;
 use std::io::Write;
 use std::path::Path;
@@ -11,6 +12,7 @@ use std::path::Path;
 use tautline::exhibit::exhibit;
 use tautline::explore::{Limits, RuleName, SchemeName, Setup};
 use tautline::fault::{Colour, Fault, Halt};
+use tautline::hunt::{self, Saved};
 use tautline::layout::{Layout, Misread, Size, movingai, ros, text};
 use tautline::trace::Trace;
 use tautline::wide::WideGrid;
@@ -21,15 +23,17 @@ use tautline_kernel::lattice::{Cell, Edge};
 use tautline_proofs::engine::{Seeded, Tape};
 use tautline_proofs::judge::{self, Exhibit};
 use tautline_proofs::run::{Breach, Frame};
+use tautline_proofs::search::{self, Bounds, Found, Search};
 
 /// The body of a target.
 pub type Body = fn(&[u8]);
 
 /// Every target's name and body.
-pub const TARGETS: [(&str, Body); 8] = [
+pub const TARGETS: [(&str, Body); 9] = [
     ("chain", chain),
     ("chain_log", chain_log),
     ("judge", judge),
+    ("kept_hunt", kept_hunt),
     ("layout_movingai", layout_movingai),
     ("layout_ros", layout_ros),
     ("layout_text", layout_text),
@@ -240,6 +244,57 @@ pub fn plan_cost(bytes: &[u8]) {
     // A fuzzer counts how often a loop turns: so it sees that an input is dearer than those before it.
     for _ in 0..dearest / robots as u32 {
         black_box(());
+    }
+}
+
+/// Any bytes as a hunt that was kept in a file, also with a checksum that fits them: it is refused, or goes on to an end.
+/// A real one, left anywhere, with some of its bytes changed: it is refused, or goes on to the end of one that was
+/// never left.
+pub fn kept_hunt(bytes: &[u8]) {
+    let bounds = hunt::bounds(RuleName::Published, 3, 2, None).expect("three robots fit");
+    hunt_on(&bounds, bytes);
+    let lines: Vec<&[u8]> = bytes.split_inclusive(|&byte| byte == b'\n').take(2).collect();
+    let mut sealed = lines.concat();
+    let crc32 = crc32fast::hash(&sealed);
+    sealed.extend_from_slice(format!("{{\"crc32\":{crc32}}}\n").as_bytes());
+    hunt_on(&bounds, &sealed);
+
+    let numbers = numbers(bytes);
+    let mut source = Tape(&numbers);
+    let mut number = |below: usize| (256 * source.pick(256) + source.pick(256)) as usize % below;
+    let cut = Bounds { budget_moves: Some(number(5_000) as u64), ..bounds.clone() };
+    let mut search = Search::new(&cut).expect("three robots fit");
+    while search.wave() {}
+    let file = tempfile::NamedTempFile::new().expect("a file");
+    Saved::new(file.path(), SchemeName::Chain, RuleName::Published, &bounds)
+        .write(&search)
+        .expect("it can be written");
+    let mut kept = fs::read(file.path()).expect("a kept hunt");
+    for _ in 0..number(4) {
+        let place = number(kept.len());
+        kept[place] = number(256) as u8;
+    }
+    let whole = search::search(&bounds, &mut search::unwatched).expect("three robots fit");
+    assert!(hunt_on(&bounds, &kept).is_none_or(|found| found == whole), "it goes another way");
+}
+
+/// What a hunt finds that goes on from a file with these bytes.
+fn hunt_on(bounds: &Bounds, bytes: &[u8]) -> Option<Found> {
+    let mut file = tempfile::NamedTempFile::new().expect("a file");
+    file.write_all(bytes).expect("it can be written");
+    match Saved::new(file.path(), SchemeName::Chain, RuleName::Published, bounds).search(bounds) {
+        Ok(mut search) => {
+            let mut waves = 0;
+            while search.wave() {
+                waves += 1;
+                assert!(waves < 10_000, "the hunt is still under way");
+            }
+            Some(search.found())
+        }
+        Err(fault) => {
+            told(&fault);
+            None
+        }
     }
 }
 

@@ -347,6 +347,9 @@ const MEMORY: u64 = 1 << 30;
 /// Numbers of walls, from none on, whose runs a resumed search counts again, to see that it is of the same rule.
 const COUNTED_AGAIN: usize = 2;
 
+/// More than any search lives to count, with room for more.
+const COUNTABLE: u128 = 1 << 63;
+
 /// A run that breaks something: its answers.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -389,6 +392,15 @@ impl Count {
             }
             None => self.broken.push(new),
         }
+    }
+
+    /// Whether a search that has these levels behind it can have counted so.
+    fn follows(&self, levels: &[Level]) -> bool {
+        let runs: u128 = levels.iter().map(|level| u128::from(level.runs)).sum();
+        let moves: u128 = levels.iter().map(|level| u128::from(level.moves)).sum();
+        let broken: u128 = self.broken.iter().map(|broken| u128::from(broken.runs)).sum();
+        let (all_runs, all_moves) = (u128::from(self.runs), u128::from(self.moves));
+        runs.max(broken) <= all_runs && moves <= all_moves && all_runs.max(all_moves) < COUNTABLE
     }
 
     fn add(&mut self, other: Self) {
@@ -521,9 +533,9 @@ impl<G: Game> Waves for Tree<G> {
         }
         let lane = |place| Lane::at(&self.game, walls, place).ok_or(Unsearchable::Foreign);
         let lanes = position.lanes.iter().map(lane).collect::<Result<_, _>>()?;
-        let is_broken =
+        let is_recorded =
             |broken: &Broken| self.record(broken).is_some_and(|found| found.invariant == broken.invariant);
-        if !position.count.broken.iter().all(is_broken) {
+        if !position.count.follows(&position.levels) || !position.count.broken.iter().all(is_recorded) {
             return Err(Unsearchable::Foreign);
         }
         self.levels.clone_from(&position.levels);

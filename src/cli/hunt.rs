@@ -118,6 +118,10 @@ impl Hunt {
             Some(saved) => saved.search(bounds)?,
             None => Search::new(bounds).map_err(|refused| Fault::usage(refused, hunt::remedy(refused)))?,
         };
+        // What cannot be kept is refused before it has cost anything.
+        if let Some(saved) = &saved {
+            saved.write(&search)?;
+        }
         let bar = progress::bar("hunting", 1);
         let mut written = Instant::now();
         while progress::show(&bar, &search.progress()).is_continue() && search.wave() {

@@ -6,6 +6,7 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 use tautline_kernel::lattice::Cell;
 use tautline_proofs::search::{Bounds, Position, Search};
 
@@ -22,6 +23,13 @@ const MAX_BYTES: u64 = 1 << 26;
 
 /// What to do about a file that is no hunt of ours.
 pub(super) const AGAIN: &str = "name another file, or remove it and hunt from the start";
+
+/// What every version of the header begins with.
+#[derive(Deserialize)]
+struct Magic {
+    format: String,
+    version: u32,
+}
 
 /// What is hunted.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
@@ -90,6 +98,9 @@ impl<'a> Saved<'a> {
 
     fn read(&self) -> Result<Option<Position>, Fault> {
         let whole = |what: String| Fault::in_file(self.path, what, AGAIN);
+        if self.path.is_dir() {
+            return Err(Fault::in_file(self.path, "this is a folder", "name a file in it"));
+        }
         let too_long = fs::metadata(self.path).is_ok_and(|data| data.is_file() && data.len() > MAX_BYTES);
         if too_long {
             return Err(whole(format!("a kept hunt has at most {MAX_BYTES} bytes, and this file more")));
@@ -103,6 +114,15 @@ impl<'a> Saved<'a> {
         let [first, second, third] = lines[..] else {
             return Err(whole(format!("a kept hunt has three lines, and this file {}", lines.len())));
         };
+        let magic: Magic = self.parse(1, first)?;
+        if magic.format != FORMAT {
+            let what = format!("the format is {:?}", magic.format);
+            return Err(self.in_header(first, "format", what, AGAIN));
+        }
+        if magic.version != VERSION {
+            let what = format!("this is version {}, this program reads version {VERSION}", magic.version);
+            return Err(self.in_header(first, "version", what, AGAIN));
+        }
         let header: Header = self.parse(1, first)?;
         let seal: Seal = self.parse(3, third)?;
         let crc32 = crc32fast::hash(format!("{first}\n{second}\n").as_bytes());
@@ -110,11 +130,21 @@ impl<'a> Saved<'a> {
             let what = format!("the file is damaged: its checksum is {}, its lines give {crc32}", seal.crc32);
             return Err(Fault::in_line(self.path, 3, third, 0..third.len(), what, AGAIN));
         }
-        if header != self.header {
-            let what = format!("this is another hunt; asked for is {}", line(&self.header).trim());
-            return Err(Fault::in_line(self.path, 1, first, 0..first.len(), what, AGAIN));
+        let (kept, asked) = (json!(header), json!(self.header));
+        let differs = |key: &&str| kept[key] != asked[key];
+        if let Some(key) = ["scheme", "rule", "robots", "area", "base"].into_iter().find(differs) {
+            let what =
+                format!("this is another hunt: its {key} is {}, asked for is {}", kept[key], asked[key]);
+            return Err(self.in_header(first, key, what, "ask for the same, or give another --resume file"));
         }
         self.parse(2, second).map(Some)
+    }
+
+    /// A fault at a key of the header.
+    fn in_header(&self, text: &str, key: &str, what: String, remedy: &str) -> Fault {
+        let key = format!("{key:?}");
+        let start = text.find(&key).unwrap_or(0);
+        Fault::in_line(self.path, 1, text, start..start + key.len(), what, remedy)
     }
 
     fn parse<'b, T: Deserialize<'b>>(&self, number: usize, text: &'b str) -> Result<T, Fault> {
