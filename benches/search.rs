@@ -50,8 +50,8 @@ fn threads(count: usize) -> ThreadPool {
     ThreadPoolBuilder::new().num_threads(count).build().expect("threads")
 }
 
-/// The same runs, depth first over plain chains: each is followed to its end, and wherever edges are tried that
-/// nobody knows, a copy of it goes on for every way in which some of them are walls.
+/// The same runs, depth first over plain chains: each team move copies the chain, with all its vectors, for every way in
+/// which some of the edges that nobody knows are walls.
 fn search_naively(bounds: &Bounds) -> Searched {
     let chain = PlainChain::new(Rule::PUBLISHED, bounds.robots, bounds.base, bounds.area);
     let mut searched = Searched::default();
@@ -60,26 +60,18 @@ fn search_naively(bounds: &Bounds) -> Searched {
 }
 
 fn follow(mut chain: PlainChain, walls: u32, searched: &mut Searched) {
-    loop {
-        let (intent, _) = chain.plan(u64::MAX).expect("no limit");
-        if matches!(intent, PlainIntent::Explored | PlainIntent::Exhausted) {
-            searched.runs += 1;
-            return;
-        }
-        let tried = tried(&chain, &intent);
-        for blocked in 1_u32..1 << tried.len() {
-            if blocked.count_ones() <= walls {
-                let mut other = chain.clone();
-                let is_open = |edge| {
-                    tried.iter().position(|&one| one == edge).is_none_or(|place| blocked >> place & 1 == 0)
-                };
-                if settle(&mut other, &intent, is_open, searched) {
-                    follow(other, walls - blocked.count_ones(), searched);
-                }
-            }
-        }
-        if !settle(&mut chain, &intent, |_| true, searched) {
-            return;
+    let (intent, _) = chain.plan(u64::MAX).expect("no limit");
+    if matches!(intent, PlainIntent::Explored | PlainIntent::Exhausted) {
+        searched.runs += 1;
+        return;
+    }
+    let tried = tried(&chain, &intent);
+    for blocked in (0_u32..1 << tried.len()).filter(|blocked| blocked.count_ones() <= walls) {
+        let mut next = chain.clone();
+        let is_open =
+            |edge| tried.iter().position(|&one| one == edge).is_none_or(|place| blocked >> place & 1 == 0);
+        if settle(&mut next, &intent, is_open, searched) {
+            follow(next, walls - blocked.count_ones(), searched);
         }
     }
 }
