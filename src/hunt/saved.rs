@@ -133,8 +133,7 @@ impl<'a> Saved<'a> {
         let (kept, asked) = (json!(header), json!(self.header));
         let differs = |key: &&str| kept[key] != asked[key];
         if let Some(key) = ["scheme", "rule", "robots", "area", "base"].into_iter().find(differs) {
-            let what =
-                format!("this is another hunt: its {key} is {}, asked for is {}", kept[key], asked[key]);
+            let what = format!("this is another hunt: {key} {}, asked for is {}", kept[key], asked[key]);
             return Err(self.in_header(first, key, what, "ask for the same, or give another --resume file"));
         }
         self.parse(2, second).map(Some)
