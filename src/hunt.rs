@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use tautline_kernel::lattice::{Cell, Edge};
 use tautline_proofs::invariant::Invariant;
 use tautline_proofs::run::Breach;
-use tautline_proofs::search::{Bounds, Counterexample, Unsearchable};
+use tautline_proofs::search::{Bounds, Counterexample, Search, Unsearchable};
 
 use self::saved::AGAIN;
 pub use self::saved::Saved;
@@ -89,6 +89,14 @@ pub fn bounds(rule: RuleName, robots: u64, max_walls: u32, size: Option<Size>) -
         bounds.area = size.area();
     }
     Ok(bounds)
+}
+
+/// The search within `bounds`, from the start.
+///
+/// # Errors
+/// A [`Fault`] if it cannot be made.
+pub fn start(bounds: &Bounds) -> Result<Search, Fault> {
+    Search::new(bounds).map_err(|refused| Fault::usage(refused, remedy(refused)))
 }
 
 /// What would be right where a hunt is refused.

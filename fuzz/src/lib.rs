@@ -16,7 +16,7 @@ use tautline::hunt::{self, Saved};
 use tautline::layout::{Layout, Misread, Size, movingai, ros, text};
 use tautline::trace::Trace;
 use tautline::wide::WideGrid;
-use tautline_kernel::chain::{Chain, Intent, Kind, Rule};
+use tautline_kernel::chain::{self, Chain, Intent, Kind, Rule};
 use tautline_kernel::choice::{Source, one_of};
 use tautline_kernel::grid::{Area, Grid, SmallGrid};
 use tautline_kernel::lattice::{Cell, Edge};
@@ -73,7 +73,7 @@ fn area(robots: usize, source: &mut dyn Source) -> (Size, Area, Cell) {
     let (width, height) = (most - source.pick(most), most - source.pick(most));
     let base = Cell::new((width - 1 - source.pick(width)) as i16, (height - 1 - source.pick(height)) as i16);
     let size = Size::new(width.into(), height.into()).expect("a small layout");
-    let area = Chain::<SmallGrid, 8>::area(size.area(), base, robots);
+    let area = chain::area(size.area(), base, robots);
     (size, area.expect("the base is in it"), base)
 }
 

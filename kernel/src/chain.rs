@@ -14,7 +14,7 @@ mod unfold;
 pub use message::{Damaged, Message, Outcome};
 pub use plan::{Kind, Plan};
 pub use rule::{Condition, Conditions, High, Move, Role, Rule};
-pub use team::{Chain, End, Intent, Refused, Settled};
+pub use team::{Chain, End, Intent, Refused, Settled, area};
 pub use unfold::goes_on;
 
 /// The longest chain, base included: its area is 511×511 cells.

@@ -101,8 +101,12 @@ impl Area {
         Self { first: cell, last: cell }
     }
 
-    /// The cells of this area at most `range_cells` columns and rows from `centre`; `None` if there are none.
+    /// The cells of this area at most `range_cells` columns and rows from `centre`; `None` if the centre
+    /// is outside.
     pub fn around(self, centre: Cell, range_cells: u16) -> Option<Self> {
+        if !self.contains(centre) {
+            return None;
+        }
         let range = i16::try_from(range_cells).unwrap_or(i16::MAX);
         let (first, last) = (self.first, self.last);
         Self::new(

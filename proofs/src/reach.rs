@@ -10,7 +10,7 @@
 use std::collections::VecDeque;
 use std::fmt;
 
-use tautline_kernel::chain::{Condition, Rule};
+use tautline_kernel::chain::{self, Condition, Rule};
 use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Edge, Side, Step};
 
@@ -127,8 +127,7 @@ impl Ground {
     /// The ground of `robots`, the base counted, all in the cell `base` of `area`. `is_open` tells of every edge inside
     /// the area whether it can be crossed; the border is closed. `None` if the base is outside the area.
     pub fn new(area: Area, base: Cell, robots: usize, is_open: impl Fn(Edge) -> bool) -> Option<Self> {
-        let range = u16::try_from(robots.saturating_sub(1)).unwrap_or(u16::MAX);
-        let area = area.around(base, range).filter(|area| area.contains(base))?;
+        let area = chain::area(area, base, robots)?;
         let mut open = vec![[false; 4]; cells_of(area)];
         for edge in area.edges() {
             let (one, other) = (edge.cell(), edge.cell().beyond(edge.side()));

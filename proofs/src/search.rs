@@ -19,7 +19,7 @@ use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use tautline_kernel::chain::{Chain, Refused};
+use tautline_kernel::chain::{Refused, area};
 use tautline_kernel::grid::{Area, CompactGrid, LargeGrid, MediumGrid, SmallGrid, TinyGrid};
 use tautline_kernel::lattice::{Cell, Edge};
 
@@ -29,6 +29,7 @@ use self::lane::{Lane, Place};
 use crate::clause::Subject;
 use crate::invariant::Invariant;
 use crate::run::Frame;
+use crate::whole;
 
 /// What to search for, and how far.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -55,9 +56,7 @@ impl Bounds {
     /// The area of the paper for `robots`: (2N−1)² cells, the base in the middle, everything looked for that a run of
     /// its own can break.
     pub fn new(subject: Subject, robots: usize, max_walls: u32) -> Self {
-        let range = i16::try_from(robots.saturating_sub(1)).unwrap_or(i16::MAX / 2);
-        let base = Cell::new(range, range);
-        let area = Area::new(Cell::new(0, 0), Cell::new(2 * range, 2 * range)).unwrap_or(Area::of(base));
+        let (area, base) = whole::area(robots);
         Self {
             subject,
             robots,
@@ -76,9 +75,7 @@ impl Bounds {
     /// [`Refused`] if the base is outside.
     pub fn reach(&self) -> Result<Area, Refused> {
         let base = self.base;
-        Chain::<SmallGrid, 2>::area(self.area, base, self.robots)
-            .filter(|area| area.contains(base))
-            .ok_or(Refused::BaseOutside { base })
+        area(self.area, base, self.robots).ok_or(Refused::BaseOutside { base })
     }
 
     /// How many edges can be walls.
@@ -190,13 +187,6 @@ pub struct Position {
     levels: Vec<Level>,
     count: Count,
     lanes: Vec<Place>,
-}
-
-impl Position {
-    /// The numbers of walls that are done.
-    pub fn levels(&self) -> &[Level] {
-        &self.levels
-    }
 }
 
 /// Why there is no search.

@@ -12,7 +12,7 @@ use crate::plain::{PlainChain, PlainIntent, TooMany};
 
 /// The area of the paper for `robots`: (2N−1)² cells with the base in the middle.
 pub(crate) fn area(robots: usize) -> (Area, Cell) {
-    let range = robots as i16 - 1;
+    let range = i16::try_from(robots.saturating_sub(1)).unwrap_or(i16::MAX / 2);
     let base = Cell::new(range, range);
     (Area::new(Cell::new(0, 0), Cell::new(2 * range, 2 * range)).unwrap_or(Area::of(base)), base)
 }

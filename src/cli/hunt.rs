@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use serde::Serialize;
 use tautline_proofs::clause::Verdict;
-use tautline_proofs::search::{Bounds, Found, Search};
+use tautline_proofs::search::{Bounds, Found};
 
 use super::output::Output;
 use super::{Exit, Format, FormatArgs, SizeArg, number, progress};
@@ -116,7 +116,7 @@ impl Hunt {
         let saved = self.resume.as_deref().map(|path| Saved::new(path, self.scheme, self.rule, bounds));
         let mut search = match &saved {
             Some(saved) => saved.search(bounds)?,
-            None => Search::new(bounds).map_err(|refused| Fault::usage(refused, hunt::remedy(refused)))?,
+            None => hunt::start(bounds)?,
         };
         // What cannot be kept is refused before it has cost anything.
         if let Some(saved) = &saved {

@@ -30,9 +30,7 @@ fn begin<G: Grid + 'static, const ROBOTS: usize>(
     grid: impl Fn(Area) -> Option<G>,
 ) -> Result<Box<dyn Scheme>, Refused> {
     let (base, robots) = (setup.base, usize::from(setup.robots));
-    let whole = Some(setup.layout.size().area()).filter(|area| area.contains(base));
-    let area = whole.and_then(|area| Chain::<G, ROBOTS>::area(area, base, robots));
-    let area = area.ok_or(Refused::BaseOutside { base })?;
+    let area = chain::area(setup.layout.size().area(), base, robots).ok_or(Refused::BaseOutside { base })?;
     let grid = grid(area).ok_or(Refused::TooManyRobots { robots, most: ROBOTS })?;
     let chain = Chain::<G, ROBOTS>::new(setup.rule.chain(), robots, base, grid)?;
     Ok(Box::new(ChainScheme { chain, log: Vec::new() }))

@@ -10,7 +10,7 @@ use serde_json::json;
 use tautline_kernel::lattice::Cell;
 use tautline_proofs::search::{Bounds, Position, Search};
 
-use super::remedy;
+use super::{remedy, start};
 use crate::aside::Aside;
 use crate::explore::{RuleName, SchemeName};
 use crate::fault::Fault;
@@ -80,7 +80,7 @@ impl<'a> Saved<'a> {
     /// A [`Fault`] if the file is damaged or of another hunt, or the bounds cannot be searched.
     pub fn search(&self, bounds: &Bounds) -> Result<Search, Fault> {
         match self.read()? {
-            None => Search::new(bounds).map_err(|refused| Fault::usage(refused, remedy(refused))),
+            None => start(bounds),
             Some(position) => Search::at(bounds, &position)
                 .map_err(|refused| Fault::in_file(self.path, refused, remedy(refused))),
         }

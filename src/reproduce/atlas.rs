@@ -7,10 +7,10 @@ use serde::Serialize;
 use tautline_kernel::lattice::{Cell, Edge};
 use tautline_proofs::invariant::Invariant;
 use tautline_proofs::run::Breach;
-use tautline_proofs::search::{Bounds, Counterexample, Progress, Search};
+use tautline_proofs::search::{Bounds, Counterexample, Progress};
 
 use crate::explore::RuleName;
-use crate::fault::{Fault, Halt};
+use crate::fault::Halt;
 use crate::hunt;
 
 /// A number of robots, and the bound on the walls that one run meets.
@@ -139,8 +139,7 @@ pub fn line(
     if sheet.reach == Reach::Counted {
         bounds.invariants.push(Invariant::Exhausts);
     }
-    let refused = |refused| Fault::usage(refused, hunt::remedy(refused));
-    let mut search = Search::new(&bounds).map_err(refused)?;
+    let mut search = hunt::start(&bounds)?;
     while search.wave() {
         if watch(&search.progress()).is_break() {
             return Err(Halt::Interrupted);

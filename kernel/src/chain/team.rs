@@ -92,6 +92,12 @@ enum Stage {
     Gained,
 }
 
+/// The part of `whole` that a chain of `robots` can explore from `base`: no cell farther than N−1 columns or rows;
+/// `None` if the base is outside.
+pub fn area(whole: Area, base: Cell, robots: usize) -> Option<Area> {
+    whole.around(base, u16::try_from(robots.saturating_sub(1)).unwrap_or(u16::MAX))
+}
+
 /// A chain of at most `ROBOTS` robots that explores a grid.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Chain<G, const ROBOTS: usize> {
@@ -112,12 +118,6 @@ pub struct Chain<G, const ROBOTS: usize> {
 
 impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     const CAPACITY: () = assert!(ROBOTS <= MAX_ROBOTS, "a chain holds at most 256 robots");
-
-    /// The part of `area` that a chain of `robots` can explore from `base`: no cell farther than N−1 columns
-    /// or rows.
-    pub fn area(area: Area, base: Cell, robots: usize) -> Option<Area> {
-        area.around(base, u16::try_from(robots.saturating_sub(1)).unwrap_or(u16::MAX))
-    }
 
     /// A chain of `robots`, the base counted, all in the `base` cell of a `grid` of which nothing is known but
     /// the border.

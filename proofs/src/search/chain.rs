@@ -117,7 +117,10 @@ where
         {
             return Some((complete, "at the end every cell within reach is explored"));
         }
-        let ground = Ground::new(grid.area(), base, robots, is_open).filter(|_| self.looks_for(exhausts))?;
+        if !self.looks_for(exhausts) {
+            return None;
+        }
+        let ground = Ground::new(grid.area(), base, robots, is_open)?;
         let mut missed = CellSet::new(grid.area());
         grid.area().cells().filter(|&cell| is_missed(cell)).for_each(|cell| missed.insert(cell));
         let is_reachable = ground.reaches_any(chain.rule(), &missed).unwrap_or(false);
