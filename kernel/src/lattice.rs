@@ -101,6 +101,23 @@ impl Side {
         OFFSETS[self as usize]
     }
 
+    /// The side to the left of who goes through this one.
+    #[inline]
+    pub const fn turned_left(self) -> Self {
+        match self {
+            Self::East => Self::North,
+            Self::South => Self::East,
+            Self::West => Self::South,
+            Self::North => Self::West,
+        }
+    }
+
+    /// The side to the right of who goes through this one.
+    #[inline]
+    pub const fn turned_right(self) -> Self {
+        self.turned_left().opposite()
+    }
+
     /// The same edge seen from the cell beyond it.
     #[inline]
     pub const fn opposite(self) -> Self {

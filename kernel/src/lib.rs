@@ -7,7 +7,10 @@
 
 #![no_std]
 
+pub mod ants;
+pub mod bricks;
 pub mod chain;
 pub mod choice;
+pub mod floor;
 pub mod grid;
 pub mod lattice;

@@ -67,7 +67,7 @@ pub fn exhaust(mut body: impl FnMut(&mut dyn Source) -> Outcome) -> Tally {
     let mut odometer = Odometer::default();
     loop {
         let outcome = body(&mut odometer);
-        let choices: Vec<u32> = odometer.digits.iter().map(|digit| digit.value).collect();
+        let choices = odometer.answers();
         if tally.count(outcome, &choices) || !odometer.advance() {
             return tally;
         }
@@ -103,7 +103,7 @@ pub fn sample(runs: u64, seed: u64, body: impl Fn(&mut dyn Source) -> Outcome + 
 
 /// Every alternative in turn: a counter whose digits have each the base that the body asked for.
 #[derive(Default)]
-struct Odometer {
+pub(crate) struct Odometer {
     digits: Vec<Digit>,
     position: usize,
 }
@@ -114,8 +114,13 @@ struct Digit {
 }
 
 impl Odometer {
+    /// The combination that was last asked for.
+    pub(crate) fn answers(&self) -> Vec<u32> {
+        self.digits[..self.position].iter().map(|digit| digit.value).collect()
+    }
+
     /// Goes to the next combination; false after the last.
-    fn advance(&mut self) -> bool {
+    pub(crate) fn advance(&mut self) -> bool {
         self.digits.truncate(self.position);
         self.position = 0;
         while let Some(digit) = self.digits.last_mut() {

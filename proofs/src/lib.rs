@@ -2,6 +2,7 @@
 //! that answer every choice, the search over all layouts, what a chain can reach and in how few team moves, and the
 //! judge of counterexamples.
 
+mod bricks;
 pub mod clause;
 pub mod crowd;
 pub mod decide;
@@ -17,6 +18,7 @@ pub mod registry;
 pub mod run;
 pub mod search;
 pub mod small;
+mod states;
 #[cfg(kani)]
 mod symbolic;
 pub mod three;

@@ -1,0 +1,95 @@
+//! The rule of Brick&Mortar as a set of named conditions.
+
+/// One condition of the rule, by the sentence it stands for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Condition {
+    /// Two side neighbours are connected past the cell only if the corner between them can be gone through.
+    Corners,
+    /// Repair: an agent marks its cell as visited only if no other agent is in it or on its way into it.
+    Alone,
+    /// Repair: an agent that can neither mark its cell nor see an unexplored one walks laps and shuts sides.
+    Laps,
+    /// Robustness: what reads as unexplored may be a missed sensor, so no connection goes through it.
+    SeenOnly,
+    /// Robustness: an agent that has nothing unexplored beside it, or finds itself in a visited cell, goes on as an
+    /// ant between its laps.
+    AntsWhenIdle,
+}
+
+/// A set of conditions.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Conditions(u8);
+
+impl Conditions {
+    /// The set of these conditions.
+    pub const fn of(conditions: &[Condition]) -> Self {
+        let mut bits = 0;
+        let mut i = 0;
+        while i < conditions.len() {
+            bits |= 1 << conditions[i] as u8;
+            i += 1;
+        }
+        Self(bits)
+    }
+
+    /// Whether `condition` is in the set.
+    #[inline]
+    pub const fn has(self, condition: Condition) -> bool {
+        self.0 & 1 << condition as u8 != 0
+    }
+}
+
+/// Whose lap is void when an agent on a lap comes to the cell where another's began.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Precedence {
+    /// That of the agent with the lower id.
+    Higher,
+    /// Neither.
+    Nobody,
+    /// Both.
+    Everybody,
+}
+
+/// The rule of a team of agents.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Rule {
+    /// The conditions in force.
+    pub conditions: Conditions,
+    /// How laps that meet are told apart.
+    pub precedence: Precedence,
+}
+
+impl Rule {
+    /// What the paper publishes: no loop closure.
+    pub const PUBLISHED: Self =
+        Self { conditions: Conditions::of(&[Condition::Corners]), precedence: Precedence::Higher };
+
+    /// With loop closure.
+    pub const REPAIRED: Self = Self {
+        conditions: Conditions::of(&[Condition::Corners, Condition::Alone, Condition::Laps]),
+        ..Self::PUBLISHED
+    };
+
+    /// With loop closure, robust against missed sensors.
+    pub const ROBUST: Self = Self {
+        conditions: Conditions::of(&[
+            Condition::Corners,
+            Condition::Alone,
+            Condition::Laps,
+            Condition::SeenOnly,
+            Condition::AntsWhenIdle,
+        ]),
+        ..Self::PUBLISHED
+    };
+
+    /// The rule without `condition`.
+    pub const fn without(self, condition: Condition) -> Self {
+        Self { conditions: Conditions(self.conditions.0 & !(1 << condition as u8)), ..self }
+    }
+
+    /// Whether `condition` is in force.
+    #[inline]
+    pub const fn has(self, condition: Condition) -> bool {
+        self.conditions.has(condition)
+    }
+}

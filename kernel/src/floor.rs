@@ -1,0 +1,55 @@
+//! The sensor-instrumented floor (paper 004, I): cells with a fixed sensor in each that is no wall. An agent reads the
+//! sensors of its cell and of the eight cells around, writes what it has to remember into them, and goes to a side
+//! neighbour. It has no map and no radio to other agents: the floor is all that they share.
+
+mod ring;
+mod scan;
+mod sensor;
+
+pub use ring::Ring;
+pub use scan::Scan;
+pub use sensor::{Claim, Mark, Sensor, Sides};
+
+use crate::lattice::{Cell, Edge, Side};
+
+/// The sides in the order that settles every tie of paper 004: north, east, south, west.
+pub const COMPASS: [Side; 4] = [Side::North, Side::East, Side::South, Side::West];
+
+/// The sensors of an area and the walls between them.
+pub trait Floor {
+    /// The sensor in `cell`; `None` if the cell is a wall or outside.
+    fn sensor(&self, cell: Cell) -> Option<Sensor>;
+    /// Changes what the sensor in `cell` stores; no effect where there is none.
+    fn put(&mut self, cell: Cell, sensor: Sensor);
+    /// The identifier of a sensor that is about to be placed in `cell`: it differs from that of any sensor that has been
+    /// there, and is not 0.
+    fn unpack(&mut self, cell: Cell) -> u16;
+    /// Whether no wall stands on `edge`, which is between two cells that have sensors.
+    fn is_open(&self, edge: Edge) -> bool;
+}
+
+/// What an agent goes to find in the cell that it enters.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Entry {
+    /// The sensor that it has seen there.
+    Known,
+    /// None: it has seen no sensor, takes the cell for unexplored and places a new one.
+    New,
+}
+
+/// Enters `cell`: counts the agent there, and places a new sensor if it is to find none. Whatever an old one stored
+/// that was only missed is lost.
+pub fn enter(floor: &mut impl Floor, cell: Cell, entry: Entry) {
+    let known = match entry {
+        Entry::Known => floor.sensor(cell).unwrap_or_default(),
+        Entry::New => Sensor { serial: floor.unpack(cell), ..Sensor::default() },
+    };
+    floor.put(cell, known.entered());
+}
+
+/// Leaves `cell`, whose sensor counts an agent less.
+pub fn leave(floor: &mut impl Floor, cell: Cell) {
+    if let Some(sensor) = floor.sensor(cell) {
+        floor.put(cell, sensor.left());
+    }
+}

@@ -1,0 +1,64 @@
+//! The eight cells around a cell, as a ring of bits: clockwise from the northern one, so that side neighbours have
+//! even places and corners odd ones.
+
+use crate::lattice::Side;
+
+/// A set of the eight cells around a cell, or of the eight edges between each of them and the next.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+pub struct Ring(pub u8);
+
+impl Ring {
+    /// The place of the neighbour beyond `side`.
+    #[inline]
+    pub const fn place(side: Side) -> u32 {
+        match side {
+            Side::North => 0,
+            Side::East => 2,
+            Side::South => 4,
+            Side::West => 6,
+        }
+    }
+
+    /// The neighbour beyond `side`.
+    #[inline]
+    pub const fn of(side: Side) -> Self {
+        Self(1 << Self::place(side))
+    }
+
+    /// Whether the neighbour beyond `side` is in the set.
+    #[inline]
+    pub const fn has(self, side: Side) -> bool {
+        self.0 & Self::of(side).0 != 0
+    }
+
+    /// Whether the corner clockwise from the neighbour beyond `side` is in the set.
+    #[inline]
+    pub const fn has_right_of(self, side: Side) -> bool {
+        self.0 & Self::of(side).0 << 1 != 0
+    }
+
+    /// Those in both sets.
+    #[inline]
+    pub const fn and(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+
+    /// Those not in the set.
+    #[inline]
+    pub const fn not(self) -> Self {
+        Self(!self.0)
+    }
+
+    /// How many there are.
+    #[inline]
+    pub const fn count(self) -> u32 {
+        self.0.count_ones()
+    }
+
+    /// The cells one step along the ring from those of the set, where `rims` are the edges that can be crossed; edge
+    /// *i* lies between the cells in places *i* and *i*+1.
+    #[inline]
+    pub const fn beside(self, rims: Self) -> Self {
+        Self((self.0 & rims.0).rotate_left(1) | self.0.rotate_right(1) & rims.0)
+    }
+}

@@ -1,0 +1,156 @@
+//! What an agent sees from a cell (paper 004, I: localisation and querying).
+
+use super::{COMPASS, Claim, Entry, Floor, Mark, Ring, Sensor};
+use crate::choice::Source;
+use crate::lattice::{Cell, Edge, Side};
+
+/// One scan: the sensor underfoot, which is always found, and what was seen around. A sensor that was missed reads as
+/// an unexplored cell, as the paper has it; walls are always seen.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Scan {
+    /// The sensor of the cell.
+    pub here: Sensor,
+    /// Cells that read as accessible: all but walls and visited cells.
+    pub accessible: Ring,
+    /// Those of them whose sensor was seen.
+    pub explored: Ring,
+    /// Those of them that nobody enters.
+    pub closing: Ring,
+    /// Side neighbours with neither a wall nor a shut side in between.
+    pub open: Ring,
+    /// Edges between each cell and the next with neither a wall nor a sensor that says they are shut.
+    pub rims: Ring,
+    /// Sensors that were seen around.
+    pub detected: u8,
+    /// Side neighbours with a sensor, whatever it says, and no wall in between.
+    pub beside: Ring,
+    /// What the side neighbours' sensors counted, by the place of the side in [`COMPASS`]; 0 where none was seen.
+    pub crossings: [u32; 4],
+    /// The claims on the side neighbours, likewise.
+    pub claims: [Option<Claim>; 4],
+    /// The identifiers of the sensors that were seen around, clockwise from the northern one; 0 where none was.
+    pub serials: [u16; 8],
+}
+
+/// The cells around, clockwise from the northern one, and the side that leads from each to the next.
+const AROUND: [(i16, i16, Side); 8] = [
+    (0, -1, Side::East),
+    (1, -1, Side::South),
+    (1, 0, Side::South),
+    (1, 1, Side::West),
+    (0, 1, Side::West),
+    (-1, 1, Side::North),
+    (-1, 0, Side::North),
+    (-1, -1, Side::East),
+];
+
+impl Scan {
+    /// Scans from `cell`, which has a sensor. Whether a sensor is missed is asked of `world`, once for each that an
+    /// agent has been at.
+    pub fn new(floor: &impl Floor, cell: Cell, world: &mut (impl Source + ?Sized)) -> Self {
+        let mut scan = Self {
+            here: floor.sensor(cell).unwrap_or_default(),
+            accessible: Ring::default(),
+            explored: Ring::default(),
+            closing: Ring::default(),
+            open: Ring::default(),
+            rims: Ring::default(),
+            detected: 0,
+            beside: Ring::default(),
+            crossings: [0; 4],
+            claims: [None; 4],
+            serials: [0; 8],
+        };
+        let around = AROUND.map(|(columns, rows, onward)| {
+            let there = Cell::new(cell.x.saturating_add(columns), cell.y.saturating_add(rows));
+            let sensor = floor.sensor(there).map(|sensor| match sensor.mark {
+                Mark::Unexplored => Sensor::default(),
+                Mark::Explored | Mark::Closing | Mark::Visited if world.mishap() => Sensor::default(),
+                Mark::Explored | Mark::Closing | Mark::Visited => sensor,
+            });
+            (there, onward, sensor)
+        });
+        for (place, &(there, onward, sensor)) in around.iter().enumerate() {
+            let Some(sensor) = sensor else { continue };
+            let bit = 1 << place;
+            match sensor.mark {
+                Mark::Unexplored => scan.accessible.0 |= bit,
+                Mark::Explored => {
+                    scan.accessible.0 |= bit;
+                    scan.explored.0 |= bit;
+                }
+                Mark::Closing => {
+                    scan.accessible.0 |= bit;
+                    scan.explored.0 |= bit;
+                    scan.closing.0 |= bit;
+                }
+                Mark::Visited => {}
+            }
+            scan.serials[place] = sensor.serial;
+            scan.detected += u8::from(sensor.mark != Mark::Unexplored);
+            if let (_, _, Some(next)) = around[(place + 1) % around.len()] {
+                let is_shut = sensor.shut.has(onward) || next.shut.has(onward.opposite());
+                if !is_shut && floor.is_open(Edge::new(there, onward)) {
+                    scan.rims.0 |= bit;
+                }
+            }
+        }
+        for (place, side) in COMPASS.into_iter().enumerate() {
+            let (_, _, sensor) = around[2 * place];
+            let Some(sensor) = sensor.filter(|_| floor.is_open(Edge::new(cell, side))) else { continue };
+            scan.beside.0 |= Ring::of(side).0;
+            scan.crossings[place] = sensor.crossings;
+            scan.claims[place] = sensor.claim;
+            let is_shut = scan.here.shut.has(side) && sensor.shut.has(side.opposite());
+            if !is_shut {
+                scan.open.0 |= Ring::of(side).0;
+            }
+        }
+        scan
+    }
+
+    /// The side neighbours that read as accessible, with an open side in between.
+    #[inline]
+    pub const fn reachable(&self) -> Ring {
+        self.accessible.and(self.open)
+    }
+
+    /// Those of them that read as unexplored.
+    #[inline]
+    pub const fn unexplored(&self) -> Ring {
+        self.reachable().and(self.explored.not())
+    }
+
+    /// The claim on the neighbour beyond `side`, if one was seen.
+    #[inline]
+    pub fn claim(&self, side: Side) -> Option<Claim> {
+        self.claims.into_iter().zip(COMPASS).find_map(|(claim, at)| claim.filter(|_| at == side))
+    }
+
+    /// What the neighbour beyond `side`, which has a sensor, is entered as.
+    #[inline]
+    pub const fn entry(&self, side: Side) -> Entry {
+        if self.accessible.and(self.explored.not()).has(side) { Entry::New } else { Entry::Known }
+    }
+
+    /// Whether the square to the left of the way through `side`, which is reachable, is free all round: the neighbours
+    /// beyond `side` and to the left of it, the corner between them, and the edges to it.
+    #[inline]
+    pub fn is_filled_left(&self, side: Side) -> bool {
+        self.is_filled(Ring::place(side) + 6)
+    }
+
+    /// The same for the right.
+    #[inline]
+    pub fn is_filled_right(&self, side: Side) -> bool {
+        self.is_filled(Ring::place(side))
+    }
+
+    /// Whether the square clockwise from the side neighbour in `place` is free all round.
+    fn is_filled(&self, place: u32) -> bool {
+        let at = |bits: u8| bits.rotate_right(place % 8);
+        at(self.reachable().0) & 0b101 == 0b101
+            && at(self.accessible.0) & 0b10 != 0
+            && at(self.rims.0) & 0b11 == 0b11
+    }
+}

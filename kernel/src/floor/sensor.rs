@@ -1,0 +1,150 @@
+//! What one sensor stores.
+
+use crate::lattice::Side;
+
+/// The state of a cell (paper 004, II.A). Walls have no sensor.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+pub enum Mark {
+    /// No agent has been in the cell.
+    #[default]
+    Unexplored,
+    /// Agents have been there, and may need to go through it again.
+    Explored,
+    /// Explored, and to be visited as soon as the last agent has left it: nobody enters. The paper does not have it.
+    Closing,
+    /// Agents have been there, and need not go through it again: it counts as a wall.
+    Visited,
+}
+
+/// A set of sides of a cell.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+pub struct Sides(u8);
+
+impl Sides {
+    /// Whether `side` is in the set.
+    #[inline]
+    pub const fn has(self, side: Side) -> bool {
+        self.0 & 1 << side as u8 != 0
+    }
+
+    /// The set with `side`.
+    #[inline]
+    pub const fn with(self, side: Side) -> Self {
+        Self(self.0 | 1 << side as u8)
+    }
+}
+
+/// An agent's hold on the cell where its lap began (clause BRICKS-5).
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct Claim {
+    /// The agent.
+    pub owner: u8,
+    /// Whether another agent has made it void.
+    pub is_void: bool,
+}
+
+/// The memory of one sensor.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+pub struct Sensor {
+    /// The state of the cell.
+    pub mark: Mark,
+    /// How many times an agent has entered, for Ants; it stays at the greatest number it can store.
+    pub crossings: u32,
+    /// Agents that are in the cell or on their way into it.
+    pub agents: u8,
+    /// The sides that a loop closure has shut. A side is shut when the sensors on both sides of it say so.
+    pub shut: Sides,
+    /// The claim on the cell, if there is one.
+    pub claim: Option<Claim>,
+    /// The sensor's own identifier; 0 where there is none yet.
+    pub serial: u16,
+}
+
+impl Sensor {
+    /// The bits that a sensor stores: 2 for the mark, 32 for the crossings, 8 for the agents, 4 for the sides that are
+    /// shut, 10 for the claim. Its identifier is not counted: every sensor has one built in.
+    pub const BITS: u32 = 56;
+
+    /// The bits of a sensor that Ants needs.
+    pub const BITS_FOR_ANTS: u32 = 32;
+
+    /// What it stores once one agent more has entered.
+    #[inline]
+    pub(super) const fn entered(self) -> Self {
+        let mark = match self.mark {
+            Mark::Unexplored | Mark::Explored => Mark::Explored,
+            mark @ (Mark::Closing | Mark::Visited) => mark,
+        };
+        let (crossings, agents) = (self.crossings.saturating_add(1), self.agents.saturating_add(1));
+        Self { mark, crossings, agents, ..self }
+    }
+
+    /// What it stores once one agent has left.
+    #[inline]
+    pub(super) const fn left(self) -> Self {
+        Self { agents: self.agents.saturating_sub(1), ..self }
+    }
+
+    /// All that it stores but its identifier, in its lowest [`Sensor::BITS`] bits.
+    pub const fn to_bits(self) -> u64 {
+        let claim = match self.claim {
+            None => 0,
+            Some(Claim { owner, is_void }) => 1 | (is_void as u64) << 1 | (owner as u64) << 2,
+        };
+        self.mark as u64
+            | (self.crossings as u64) << 2
+            | (self.agents as u64) << 34
+            | (self.shut.0 as u64) << 42
+            | claim << 46
+    }
+
+    /// The sensor that stores `bits`; `None` if no sensor does.
+    pub const fn from_bits(bits: u64) -> Option<Self> {
+        let mark = match bits & 3 {
+            0 => Mark::Unexplored,
+            1 => Mark::Explored,
+            2 => Mark::Closing,
+            _ => Mark::Visited,
+        };
+        let claim = match (bits >> 46) & 3 {
+            0 => None,
+            held @ (1 | 3) => Some(Claim { owner: (bits >> 48) as u8, is_void: held == 3 }),
+            _ => return None,
+        };
+        let sensor = Self {
+            mark,
+            crossings: (bits >> 2) as u32,
+            agents: (bits >> 34) as u8,
+            shut: Sides((bits >> 42) as u8 & 0b1111),
+            claim,
+            serial: 0,
+        };
+        if sensor.to_bits() == bits { Some(sensor) } else { None }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sensor_fits_into_its_bits_and_comes_back() {
+        let full = Sensor {
+            mark: Mark::Visited,
+            crossings: u32::MAX,
+            agents: u8::MAX,
+            shut: Sides(0b1111),
+            claim: Some(Claim { owner: u8::MAX, is_void: true }),
+            serial: 0,
+        };
+        assert!(full.to_bits() < 1 << Sensor::BITS);
+        let part = Sensor { shut: Sides::default().with(Side::West), claim: None, ..full };
+        let owned = Sensor { claim: Some(Claim { owner: 0, is_void: false }), ..Sensor::default() };
+        for sensor in [full, part, owned, Sensor::default()] {
+            assert_eq!(Sensor::from_bits(sensor.to_bits()), Some(sensor));
+        }
+        for wrong in [1 << 47, 1 << Sensor::BITS, 1 << 48] {
+            assert_eq!(Sensor::from_bits(wrong), None, "{wrong:b}");
+        }
+    }
+}
