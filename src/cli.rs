@@ -26,6 +26,7 @@ use tautline_kernel::lattice::Cell;
 use tautline_proofs::run::{Breach, NoBreach};
 
 use crate::fault::{Colour, Fault, Halt};
+use crate::layout::generate::Probability;
 use crate::layout::{self, Layout, Problem, Size};
 use output::Output;
 
@@ -163,6 +164,11 @@ fn clause(id: &str) -> Result<Breach, String> {
 fn number<T: FromStr>(text: &str) -> Result<T, String> {
     let largest = u128::MAX >> (128 - 8 * size_of::<T>());
     text.parse().map_err(|_| format!("write a whole number up to {largest}"))
+}
+
+/// A number from 0 to 1.
+fn probability(text: &str) -> Result<Probability, String> {
+    text.parse().map_err(|problem: Problem| format!("{problem}; {}", problem.remedy()))
 }
 
 /// A whole number above 0.

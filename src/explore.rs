@@ -2,14 +2,20 @@
 //! the layout answers for the edges it tries; every move becomes a [`Frame`] and is checked for the sentences of
 //! `SPEC.md` that the scheme is bound to. A run goes on after a violation, so that its cost can be compared.
 
+pub mod agents;
 pub(crate) mod chain;
+pub mod floor;
+mod misfit;
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::num::NonZeroU32;
 
 use clap::ValueEnum;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+use tautline_kernel::bricks;
 use tautline_kernel::chain::Rule;
+use tautline_kernel::floor::Mark;
 use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Edge};
 use tautline_proofs::clause::Subject;
@@ -17,21 +23,34 @@ use tautline_proofs::links::within_reach;
 use tautline_proofs::run::{Breach, Frame};
 
 use crate::fault::{Fault, Halt};
+use crate::layout::generate::Probability;
 use crate::layout::{Layout, Problem};
+
+use self::agents::Way;
+use self::floor::Component;
+pub use self::misfit::Misfit;
 
 /// A way for a team to explore.
 pub trait Scheme {
-    /// The cells that it is to explore.
+    /// The cells among which it is to explore.
     fn area(&self) -> Area;
-    /// Where the robots are, the base first.
+    /// Where the robots are; the base of a chain is the first.
     fn cells(&self) -> &[Cell];
+    /// How many cells of `layout` it is to explore.
+    fn due(&self, layout: &Layout) -> u32;
     /// Makes one team move. `is_open` answers for every edge that is crossed without being known.
     ///
     /// # Errors
-    /// [`End`] if the team has nothing left to do.
+    /// [`End`] if the run is over.
     fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End>;
-    /// What its team moves, and the end of its run, may never be.
-    fn breaches(&self) -> &'static [Breach];
+    /// What the last team move, in which the robots went on from `before`, may not be.
+    fn broken_in_move(&self, before: &[Cell], frame: &Frame) -> Vec<Breach>;
+    /// What the end of a run that has explored what is in `chart` may not be.
+    fn broken_at_end(&self, setup: &Setup, chart: &Chart, end: End) -> Vec<Breach>;
+    /// The marks of cells that the last team move has changed, in order.
+    fn marked(&self) -> &[(Cell, Mark)];
+    /// The parts of a sensor floor in which agents started; none for schemes without one.
+    fn components(&self) -> &[Component];
 }
 
 /// Every scheme.
@@ -40,6 +59,21 @@ pub trait Scheme {
 pub enum SchemeName {
     /// A base, a leader that seeks the frontier, and followers that keep radio contact.
     Chain,
+    /// Agents on a sensor floor that go where they have been least; they never know that they are done.
+    Ants,
+    /// Brick&Mortar: agents on a sensor floor that mark cells as visited until none is left.
+    Bricks,
+    /// Brick&Mortar with ants' ways, robust against missed sensors.
+    BricksAnts,
+}
+
+/// Who explores.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Crew {
+    /// Robots in a chain from the base, which is the first of them.
+    Chain,
+    /// Agents on a sensor floor, each for itself.
+    Agents(Way),
 }
 
 impl SchemeName {
@@ -47,12 +81,20 @@ impl SchemeName {
     pub const fn word(self) -> &'static str {
         match self {
             Self::Chain => "chain",
+            Self::Ants => "ants",
+            Self::Bricks => "bricks",
+            Self::BricksAnts => "bricks-ants",
         }
     }
 
-    fn start(self, setup: &Setup) -> Result<Box<dyn Scheme>, Fault> {
-        match self {
-            Self::Chain => chain::start(setup),
+    /// Who explores by it under `rule`.
+    pub const fn crew(self, rule: RuleName) -> Crew {
+        match (self, rule) {
+            (Self::Chain, _) => Crew::Chain,
+            (Self::Ants, _) => Crew::Agents(Way::Ants),
+            (Self::Bricks, RuleName::Published) => Crew::Agents(Way::Bricks(bricks::Rule::PUBLISHED)),
+            (Self::Bricks, RuleName::Repaired) => Crew::Agents(Way::Bricks(bricks::Rule::REPAIRED)),
+            (Self::BricksAnts, _) => Crew::Agents(Way::Bricks(bricks::Rule::ROBUST)),
         }
     }
 }
@@ -111,19 +153,39 @@ pub struct Setup {
     pub scheme: SchemeName,
     /// As published or repaired.
     pub rule: RuleName,
-    /// Robots, base included.
+    /// Robots, the base of a chain included.
     pub robots: u16,
     /// The seed of whatever is left to chance.
     pub seed: u64,
     /// The ground truth.
     pub layout: Layout,
-    /// Where all robots start: a free cell.
+    /// Where the robots start that have no start of their own: a free cell.
     pub base: Cell,
+    /// Where each agent starts, if not all start at the base: free cells.
+    pub starts: Option<Vec<Cell>>,
+    /// How likely it is that an agent misses a sensor that it could see.
+    pub miss: Probability,
     /// When the run is stopped.
     pub limits: Limits,
 }
 
 impl Setup {
+    /// A run of `scheme` in `layout` with a base, all robots starting there, nothing missed, and no limits.
+    pub fn new(scheme: SchemeName, rule: RuleName, robots: u16, layout: Layout, base: Cell) -> Self {
+        let (limits, miss) = (Limits::default(), Probability::NEVER);
+        Self { scheme, rule, robots, seed: 0, layout, base, starts: None, miss, limits }
+    }
+
+    /// Who explores.
+    pub const fn crew(&self) -> Crew {
+        self.scheme.crew(self.rule)
+    }
+
+    /// Where the robots start.
+    pub fn starts(&self) -> Vec<Cell> {
+        self.starts.clone().unwrap_or_else(|| vec![self.base; self.robots.into()])
+    }
+
     /// The number of robots, the base counted, if a team of `most` can have so many.
     ///
     /// # Errors
@@ -246,6 +308,8 @@ pub enum End {
     Explored,
     /// What is left cannot be reached.
     Exhausted,
+    /// The team goes round and round.
+    Endless,
 }
 
 /// Why a run is over.
@@ -256,6 +320,8 @@ pub enum Stopped {
     Explored,
     /// What is left cannot be reached.
     Exhausted,
+    /// The team goes round and round, and would for ever.
+    Endless,
     /// A robot has entered as many cells as it may.
     MaxMoves,
     /// As much is explored as was asked for.
@@ -270,6 +336,7 @@ impl Stopped {
         match self {
             Self::Explored => "every cell of the area is explored",
             Self::Exhausted => "the team can explore nothing more",
+            Self::Endless => "the team is where it was, and would go round for ever",
             Self::MaxMoves => "a robot has entered as many cells as it may",
             Self::Until => "as much is explored as was asked for",
             Self::Violation => "a clause was broken",
@@ -291,7 +358,7 @@ pub struct Violation {
 pub struct TeamMove<'a> {
     /// Its number, counted from 1.
     pub step: u32,
-    /// Where the robots were, the base first.
+    /// Where the robots were; the base of a chain is the first.
     pub before: &'a [Cell],
     /// What they did.
     pub frame: &'a Frame,
@@ -299,19 +366,21 @@ pub struct TeamMove<'a> {
     pub breaches: &'a [Breach],
 }
 
-/// Which cell was explored when.
+/// Which cell was explored when, and how it was marked.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Chart {
     area: Area,
     /// Row by row: the team move, or `UNEXPLORED`.
     steps: Vec<u32>,
+    /// The marks that cells have from a team move on; a cell that has none from before is as explored as `steps` says.
+    marks: BTreeMap<(Cell, u32), Mark>,
 }
 
 const UNEXPLORED: u32 = u32::MAX;
 
 impl Chart {
     fn new(area: Area) -> Self {
-        Self { area, steps: vec![UNEXPLORED; area.width() * area.height()] }
+        Self { area, steps: vec![UNEXPLORED; area.width() * area.height()], marks: BTreeMap::new() }
     }
 
     /// What the robots explore that are in the cells of `teams` at the start and after each team move.
@@ -319,7 +388,7 @@ impl Chart {
         let mut chart = Self::new(area);
         for (step, team) in (0..).zip(teams) {
             for &cell in team {
-                chart.mark(cell, step);
+                chart.enter(cell, step);
             }
         }
         chart
@@ -339,8 +408,22 @@ impl Chart {
         self.place(cell).map(|place| self.steps[place]).filter(|&step| step != UNEXPLORED)
     }
 
-    /// Marks `cell`; whether it was new.
-    fn mark(&mut self, cell: Cell, step: u32) -> bool {
+    /// The mark of `cell` after team move number `step`.
+    pub fn mark(&self, cell: Cell, step: u32) -> Mark {
+        match self.marks.range((cell, 0)..=(cell, step)).next_back() {
+            Some((_, &mark)) => mark,
+            None if self.step(cell).is_some_and(|explored| explored <= step) => Mark::Explored,
+            None => Mark::Unexplored,
+        }
+    }
+
+    /// All marks that cells got after they were explored: from which team move on, row by row and in order.
+    pub fn marks(&self) -> impl Iterator<Item = (Cell, u32, Mark)> {
+        self.marks.iter().map(|(&(cell, step), &mark)| (cell, step, mark))
+    }
+
+    /// Notes that a robot is in `cell`; whether that is new.
+    fn enter(&mut self, cell: Cell, step: u32) -> bool {
         let Some(place) = self.place(cell).filter(|&place| self.steps[place] == UNEXPLORED) else {
             return false;
         };
@@ -354,9 +437,9 @@ impl Chart {
 pub struct Report {
     /// Team moves, backtracks included.
     pub steps: u32,
-    /// Free cells of the area that were occupied.
+    /// Cells that were occupied.
     pub explored: u32,
-    /// Free cells of the area.
+    /// Cells that the team is to explore.
     pub cells: u32,
     /// In which team move each [`Milestone`] was reached, if it was.
     pub milestones: [Option<u32>; Milestone::ALL.len()],
@@ -364,8 +447,12 @@ pub struct Report {
     pub stopped: Stopped,
     /// What was broken, in order.
     pub violations: Vec<Violation>,
-    /// Which cell was explored when.
+    /// Which cell was explored when, and how it was marked.
     pub chart: Chart,
+    /// Where the robots are in the end.
+    pub team: Vec<Cell>,
+    /// The parts of a sensor floor in which agents started.
+    pub components: Vec<Component>,
 }
 
 impl Report {
@@ -374,25 +461,44 @@ impl Report {
         self.milestones[milestone as usize]
     }
 
-    /// What is known at the start: the base is explored.
+    /// All parts of a sensor floor in which agents started, taken together.
+    pub fn whole(&self) -> Component {
+        self.components.iter().fold(Component::default(), |sum, part| Component {
+            robots: sum.robots + part.robots,
+            active: sum.active + part.active,
+            cells: sum.cells + part.cells,
+            explored: sum.explored + part.explored,
+            visited: sum.visited + part.visited,
+        })
+    }
+
+    /// What is known at the start: where the robots are is explored.
     fn new(setup: &Setup, scheme: &dyn Scheme) -> Self {
         let area = scheme.area();
         let mut report = Self {
             steps: 0,
             explored: 0,
-            cells: area.cells().filter(|&cell| setup.layout.is_free(cell)).count() as u32,
+            cells: scheme.due(&setup.layout),
             milestones: [None; Milestone::ALL.len()],
             stopped: Stopped::Exhausted,
             violations: Vec::new(),
             chart: Chart::new(area),
+            team: scheme.cells().to_vec(),
+            components: Vec::new(),
         };
-        report.mark(scheme.cells());
+        report.note(scheme.cells(), &[]);
         report
     }
 
-    fn mark(&mut self, cells: &[Cell]) {
+    /// Notes where the robots are and what they have marked.
+    fn note(&mut self, cells: &[Cell], marked: &[(Cell, Mark)]) {
         for &cell in cells {
-            self.explored += u32::from(self.chart.mark(cell, self.steps));
+            self.explored += u32::from(self.chart.enter(cell, self.steps));
+        }
+        for &(cell, mark) in marked {
+            if mark != self.chart.mark(cell, self.steps) {
+                self.chart.marks.insert((cell, self.steps), mark);
+            }
         }
         for milestone in Milestone::ALL {
             let reached = &mut self.milestones[milestone as usize];
@@ -400,6 +506,12 @@ impl Report {
                 *reached = Some(self.steps);
             }
         }
+    }
+
+    /// The report of a run that is over.
+    fn ended(self, stopped: Stopped, scheme: &dyn Scheme) -> Self {
+        let (team, components) = (scheme.cells().to_vec(), scheme.components().to_vec());
+        Self { stopped, team, components, ..self }
     }
 }
 
@@ -411,36 +523,37 @@ pub fn explore(
     setup: &Setup,
     watch: &mut dyn FnMut(&TeamMove<'_>) -> Result<(), Halt>,
 ) -> Result<Report, Halt> {
-    let mut scheme = setup.scheme.start(setup)?;
+    setup.check().map_err(|misfit| Fault::usage(&misfit, misfit.remedy()))?;
+    let mut scheme = match setup.crew() {
+        Crew::Chain => chain::start(setup)?,
+        Crew::Agents(way) => agents::start(setup, way),
+    };
     let mut report = Report::new(setup, &*scheme);
     let mut entered = vec![0_u32; scheme.cells().len()];
     let mut before = scheme.cells().to_vec();
     loop {
         if let Some(stopped) = limit(setup.limits, &report, &entered) {
-            report.stopped = stopped;
-            return Ok(report);
+            return Ok(report.ended(stopped, &*scheme));
         }
         let frame = match scheme.advance(&mut |edge| setup.layout.is_open(edge)) {
             Ok(frame) => frame,
             Err(end) => {
-                report.stopped = match end {
+                let stopped = match end {
                     End::Explored => Stopped::Explored,
                     End::Exhausted => Stopped::Exhausted,
+                    End::Endless => Stopped::Endless,
                 };
-                let breach = Breach::Completeness;
-                if scheme.breaches().contains(&breach) && !missed(setup, &report.chart).is_empty() {
-                    report.violations.push(Violation { breach, step: report.steps });
-                }
-                return Ok(report);
+                let (step, broken) = (report.steps, scheme.broken_at_end(setup, &report.chart, end));
+                report.violations.extend(broken.into_iter().map(|breach| Violation { breach, step }));
+                return Ok(report.ended(stopped, &*scheme));
             }
         };
         report.steps += 1;
-        report.mark(&frame.cells);
+        report.note(&frame.cells, scheme.marked());
         for (count, (from, to)) in entered.iter_mut().zip(before.iter().zip(&frame.cells)) {
             *count += u32::from(from != to);
         }
-        let breaches: Vec<Breach> =
-            scheme.breaches().iter().copied().filter(|breach| breach.is_in(&before, &frame.cells)).collect();
+        let breaches = scheme.broken_in_move(&before, &frame);
         let step = report.steps;
         report.violations.extend(breaches.iter().map(|&breach| Violation { breach, step }));
         watch(&TeamMove { step, before: &before, frame: &frame, breaches: &breaches })?;
@@ -448,14 +561,21 @@ pub fn explore(
     }
 }
 
-/// The cells that the run of `setup` is bound to explore before it ends, and has not, as `chart` shows.
+/// The cells that the run of `setup` is bound to explore, and on a sensor floor to mark as visited, before it ends, and
+/// has not, as `chart` shows.
 pub fn missed(setup: &Setup, chart: &Chart) -> Vec<Cell> {
-    let due = match setup.scheme {
-        SchemeName::Chain => {
-            within_reach(chart.area(), setup.base, setup.robots.into(), |edge| setup.layout.is_open(edge))
+    match setup.crew() {
+        Crew::Chain => {
+            let is_open = |edge| setup.layout.is_open(edge);
+            let due = within_reach(chart.area(), setup.base, setup.robots.into(), is_open);
+            due.into_iter().filter(|&cell| chart.step(cell).is_none()).collect()
         }
-    };
-    due.into_iter().filter(|&cell| chart.step(cell).is_none()).collect()
+        Crew::Agents(way) => {
+            let team = agents::Team::new(way, &setup.layout, &setup.starts(), setup.miss, setup.seed);
+            let due = chart.area().cells().filter(|&cell| team.floor().component(cell).is_some());
+            due.filter(|&cell| chart.mark(cell, u32::MAX) != Mark::Visited).collect()
+        }
+    }
 }
 
 fn limit(limits: Limits, report: &Report, entered: &[u32]) -> Option<Stopped> {

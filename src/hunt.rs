@@ -30,15 +30,8 @@ pub fn setup(rule: RuleName, bounds: &Bounds, found: &Counterexample) -> Result<
     }
     let base = shifted(bounds.base);
     layout.place_base(base)?;
-    Ok(Setup {
-        scheme: SchemeName::Chain,
-        rule,
-        robots: bounds.robots as u16,
-        seed: 0,
-        layout,
-        base,
-        limits: Limits { violation: OnViolation::Stop, ..Limits::default() },
-    })
+    let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
+    Ok(Setup { limits, ..Setup::new(SchemeName::Chain, rule, bounds.robots as u16, layout, base) })
 }
 
 /// The place in `folder` of a run of `setup` that breaks `breach`.

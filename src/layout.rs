@@ -181,6 +181,21 @@ impl Layout {
         Ok(())
     }
 
+    /// Whether a robot can start in `cell`.
+    ///
+    /// # Errors
+    /// [`Problem::StartOutside`] and [`Problem::StartBlocked`]; the latter names the nearest free cell.
+    pub fn check_start(&self, cell: Cell) -> Result<(), Problem> {
+        if !self.contains(cell) {
+            return Err(Problem::StartOutside { start: cell, size: self.size });
+        }
+        if self.is_free(cell) {
+            return Ok(());
+        }
+        let nearest = self.nearest_free((2 * i64::from(cell.x), 2 * i64::from(cell.y)));
+        Err(nearest.map_or(Problem::NoFreeCell, |nearest| Problem::StartBlocked { start: cell, nearest }))
+    }
+
     /// How many robots the layout is meant for, the base counted, if it says so.
     pub fn robots(&self) -> Option<u16> {
         self.robots.map(NonZeroU16::get)

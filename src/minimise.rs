@@ -28,7 +28,7 @@ use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Edge, Side};
 use tautline_proofs::run::Breach;
 
-use crate::explore::{Limits, OnViolation, Report, Setup, Violation, explore};
+use crate::explore::{Crew, Limits, OnViolation, Report, Setup, Violation, explore};
 use crate::fault::{Fault, Halt};
 use crate::layout::{Layout, Problem};
 
@@ -92,6 +92,8 @@ pub struct Progress {
 pub enum Refused {
     /// The run breaks no clause.
     Unbroken,
+    /// The run is not that of a chain: what agents never met, their sensors may still have seen.
+    OfAgents,
     /// The run breaks other clauses than the one asked for.
     Otherwise {
         /// What was asked for.
@@ -108,6 +110,7 @@ impl Refused {
             Self::Unbroken => "name a counterexample of `tautline hunt`, or a trace of a run that ended \
                                `tautline explore` with exit code 1"
                 .to_owned(),
+            Self::OfAgents => "name a run of the scheme chain".to_owned(),
             Self::Otherwise { broken, .. } => {
                 let broken: Vec<&str> = broken.iter().map(|breach| breach.clause()).collect();
                 format!("it breaks {}", broken.join(", "))
@@ -120,6 +123,7 @@ impl fmt::Display for Refused {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unbroken => f.write_str("this run breaks no clause: there is nothing to minimise"),
+            Self::OfAgents => f.write_str("this is a run of agents: they are not minimised"),
             Self::Otherwise { asked, .. } => {
                 write!(f, "this run does not break {}: there is nothing to minimise", asked.clause())
             }
@@ -160,6 +164,10 @@ pub fn minimise(
     asked: Option<Breach>,
     watch: &mut dyn FnMut(Progress) -> Result<(), Halt>,
 ) -> Result<Minimal, Failure> {
+    match setup.crew() {
+        Crew::Chain => {}
+        Crew::Agents(_) => return Err(Refused::OfAgents.into()),
+    }
     let mut before = Extent::new(setup, 0);
     let violation = match (setup.limits.violation, asked) {
         (OnViolation::GoOn, Some(asked)) => OnViolation::StopAt(asked),

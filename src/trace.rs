@@ -15,13 +15,14 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use tautline_kernel::chain::{Kind, MAX_ROBOTS};
+use tautline_kernel::chain::Kind;
 use tautline_kernel::lattice::{Cell, Side, Step};
 use tautline_proofs::run::{Breach, Frame};
 
 use crate::aside::Aside;
 use crate::explore::{Limits, Report, RuleName, SchemeName, Setup, Stopped, TeamMove, Violation, explore};
 use crate::fault::{Fault, Halt};
+use crate::layout::generate::Probability;
 use crate::layout::{Layout, MAX_FILE_BYTES};
 
 const FORMAT: &str = "tautline run";
@@ -50,6 +51,12 @@ struct Header {
     robots: u16,
     seed: u64,
     base: Cell,
+    /// Where each agent starts, if not all start at the base.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    starts: Option<Vec<Cell>>,
+    /// How likely it is that a sensor is missed, if that happens at all.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    miss: Option<Probability>,
     limits: Limits,
     /// The clause that the last move breaks, in a counterexample.
     clause: Option<String>,
@@ -65,7 +72,7 @@ enum Line {
     End(StoredEnd),
 }
 
-/// One team move, base first, as it is stored.
+/// One team move, in the order of the robots, as it is stored.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StoredMove {
@@ -74,7 +81,7 @@ pub struct StoredMove {
     kind: Kind,
     /// One letter a robot: E, S, W, N, or `.` for a robot that stays.
     tried: String,
-    /// The numbers of the robots that met a wall; the base is 1.
+    /// The numbers of the robots that met a wall; the base of a chain is 1.
     blocked: Vec<usize>,
     /// Where the robots are now.
     cells: Vec<Cell>,
@@ -165,6 +172,8 @@ impl Writer {
             robots: setup.robots,
             seed: setup.seed,
             base: setup.base,
+            starts: setup.starts.clone(),
+            miss: Some(setup.miss).filter(|miss| !miss.is_never()),
             limits: setup.limits,
             clause: clause.map(|breach| breach.clause().to_owned()),
             layout: setup.layout.to_string(),
@@ -329,13 +338,7 @@ impl Lines {
 
     /// The setup of a header.
     fn check(self, text: &str, header: Header) -> Result<Trace, Fault> {
-        let Header { format: _, version: _, scheme, rule, robots, seed, base, limits, clause, layout } =
-            header;
-        if !(2..=MAX_ROBOTS).contains(&usize::from(robots)) {
-            let what = format!("{robots} robots are no chain");
-            let remedy = format!("a chain has 2 to {MAX_ROBOTS} robots, the base counted");
-            return Err(self.fault(text, "\"robots\"", what, remedy));
-        }
+        let Header { scheme, rule, robots, seed, base, starts, limits, clause, layout, .. } = header;
         let layout: Layout =
             layout.parse().map_err(|problem| self.fault(text, "\"layout\"", problem, AGAIN))?;
         if layout.base() != Some(base) {
@@ -346,7 +349,12 @@ impl Lines {
             id.parse::<Breach>().map_err(|none| self.fault(text, "\"clause\"", &none, none.remedy()))
         });
         let clause = clause.transpose()?;
-        Ok(Trace { setup: Setup { scheme, rule, robots, seed, layout, base, limits }, clause, lines: self })
+        let miss = header.miss.unwrap_or_default();
+        let setup = Setup { scheme, rule, robots, seed, layout, base, starts, miss, limits };
+        setup.check().map_err(|misfit| {
+            self.fault(text, &format!("\"{}\"", misfit.field()), &misfit, misfit.remedy())
+        })?;
+        Ok(Trace { setup, clause, lines: self })
     }
 
     /// A fault where `key` stands in the line.

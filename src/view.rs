@@ -9,22 +9,43 @@ pub mod svg;
 use std::fmt::Write;
 
 use tautline_kernel::chain::Kind;
+use tautline_kernel::floor::Mark;
 use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Circle, Edge, Side, Step, neighbours};
 
-use crate::explore::{Chart, Setup, TeamMove};
+use crate::explore::agents::Way;
+use crate::explore::{Chart, Crew, Setup, TeamMove};
 use crate::layout::Layout;
 
 /// Drawings beside each other take up at most so many columns.
 const PAGE_COLUMNS: usize = 100;
 
 /// What a drawing of team moves means.
-pub const LEGEND: &str = "B is the base, with the robots beside it or +K for K of them; 2, 3, … are the robots, the \
-                          last one leads; · is explored, ## blocked; x stands where a robot met a wall.";
+pub const fn legend(crew: Crew) -> &'static str {
+    match crew {
+        Crew::Chain => {
+            "B is the base, with the robots beside it or +K for K of them; 2, 3, … are the robots, the last one leads; \
+             · is explored, ## blocked; x stands where a robot met a wall."
+        }
+        Crew::Agents(_) => {
+            "1, 2, … are the agents, K× stands for K of them in one cell; · is explored, : explored and entered by \
+             nobody any more, ░░░ visited, ## blocked."
+        }
+    }
+}
 
 /// What a picture of the run of `setup` is called.
 pub fn title_of(setup: &Setup) -> String {
-    format!("{} ({}), {} robots", setup.scheme.word(), setup.rule, setup.robots)
+    let Setup { scheme, rule, robots, .. } = setup;
+    let team = match (setup.crew(), robots) {
+        (Crew::Chain, _) => format!("{robots} robots"),
+        (Crew::Agents(_), 1) => "1 agent".to_owned(),
+        (Crew::Agents(_), _) => format!("{robots} agents"),
+    };
+    match setup.crew() {
+        Crew::Agents(Way::Ants) => format!("{}, {team}", scheme.word()),
+        Crew::Chain | Crew::Agents(Way::Bricks(_)) => format!("{} ({rule}), {team}", scheme.word()),
+    }
 }
 
 /// Lines of text with a title above them.
@@ -132,13 +153,13 @@ pub fn team_move(setup: &Setup, chart: &Chart, made: &TeamMove<'_>, pose: Pose) 
         Pose::Before => (made.before, made.step - 1),
         Pose::After => (made.frame.cells.as_slice(), made.step),
     };
-    let labels = Labels { cells, steps: (pose == Pose::Before).then_some(&made.frame.steps) };
-    let is_explored = |cell| chart.step(cell).is_some_and(|explored| explored <= step);
+    let labels =
+        Labels { crew: setup.crew(), cells, steps: (pose == Pose::Before).then_some(&made.frame.steps) };
     let bumps: Vec<Edge> = made.frame.bumps().collect();
     let lines = if is_bare(setup, chart.area()) && pose == Pose::After {
-        bare(chart.area(), cells, is_explored)
+        bare(setup.crew(), chart.area(), cells, |cell| chart.mark(cell, step))
     } else {
-        let label = |cell| labels.label(cell, is_explored(cell));
+        let label = |cell| labels.label(cell, chart.mark(cell, step));
         grid(&setup.layout, chart.area(), labels.width(), label, |edge| bumps.contains(&edge))
     };
     Block { title: title(made), lines }
@@ -154,17 +175,27 @@ fn title(made: &TeamMove<'_>) -> String {
     format!("move {}{kind}{broken}", made.step)
 }
 
+/// The place of the first robot that is drawn as one: the first of a chain is the base.
+const fn first_drawn(crew: Crew) -> usize {
+    match crew {
+        Crew::Chain => 1,
+        Crew::Agents(_) => 0,
+    }
+}
+
 /// The labels of the cells in a drawing of a team.
 struct Labels<'a> {
+    crew: Crew,
     cells: &'a [Cell],
     /// What each robot tries, if arrows are to be drawn.
     steps: Option<&'a Vec<Step>>,
 }
 
 impl Labels<'_> {
-    fn label(&self, cell: Cell, is_explored: bool) -> String {
-        let here: Vec<usize> = (1..self.cells.len()).filter(|&robot| self.cells[robot] == cell).collect();
-        if self.cells[0] == cell {
+    fn label(&self, cell: Cell, mark: Mark) -> String {
+        let first = first_drawn(self.crew);
+        let here: Vec<usize> = (first..self.cells.len()).filter(|&robot| self.cells[robot] == cell).collect();
+        if self.crew == Crew::Chain && self.cells[0] == cell {
             let rests = |&robot: &usize| self.steps.is_none_or(|steps| steps[robot] == Step::Stay);
             let (resting, leaving): (Vec<usize>, Vec<usize>) = here.into_iter().partition(rests);
             return match (resting.len(), leaving.len()) {
@@ -173,9 +204,15 @@ impl Labels<'_> {
                 (many, _) => format!("B+{many} {}", self.names(&leaving)),
             };
         }
-        match here.as_slice() {
-            [] if is_explored => "·".to_owned(),
-            here => self.names(here),
+        match (self.crew, here.as_slice()) {
+            (_, []) => match mark {
+                Mark::Unexplored => String::new(),
+                Mark::Explored => "·".to_owned(),
+                Mark::Closing => ":".to_owned(),
+                Mark::Visited => "░░░".to_owned(),
+            },
+            (Crew::Agents(_), here @ [_, _, _, ..]) => format!("{}×", here.len()),
+            (Crew::Chain | Crew::Agents(_), here) => self.names(here),
         }
     }
 
@@ -192,7 +229,12 @@ impl Labels<'_> {
     /// Columns of the widest label.
     fn width(&self) -> usize {
         let least = if self.cells.len() > 9 { 4 } else { 3 };
-        self.cells.iter().map(|&cell| self.label(cell, false).chars().count()).max().unwrap_or(0).max(least)
+        self.cells
+            .iter()
+            .map(|&cell| self.label(cell, Mark::Unexplored).chars().count())
+            .max()
+            .unwrap_or(0)
+            .max(least)
     }
 }
 
@@ -216,15 +258,17 @@ fn is_bare(setup: &Setup, area: Area) -> bool {
 }
 
 /// A drawing with one character for each cell, of a team in an area with nothing in the way.
-fn bare(area: Area, team: &[Cell], is_explored: impl Fn(Cell) -> bool) -> Vec<String> {
+fn bare(crew: Crew, area: Area, team: &[Cell], mark: impl Fn(Cell) -> Mark) -> Vec<String> {
     let symbol = |cell: Cell| {
-        let mut here = (1..team.len()).filter(|&robot| team[robot] == cell);
-        match (here.next(), here.next()) {
-            _ if cell == team[0] => 'B',
-            (Some(robot), None) => SYMBOLS.chars().nth(robot).unwrap_or('*'),
-            (Some(_), Some(_)) => '*',
-            (None, _) if is_explored(cell) => '·',
-            (None, _) => ' ',
+        let mut here = (first_drawn(crew)..team.len()).filter(|&robot| team[robot] == cell);
+        match (here.next(), here.next(), mark(cell)) {
+            _ if crew == Crew::Chain && cell == team[0] => 'B',
+            (Some(robot), None, _) => SYMBOLS.chars().nth(robot).unwrap_or('*'),
+            (Some(_), Some(_), _) => '*',
+            (None, _, Mark::Unexplored) => ' ',
+            (None, _, Mark::Explored) => '·',
+            (None, _, Mark::Closing) => ':',
+            (None, _, Mark::Visited) => '░',
         }
     };
     let rim = format!("+{}+", "-".repeat(area.width()));
@@ -238,10 +282,10 @@ fn bare(area: Area, team: &[Cell], is_explored: impl Fn(Cell) -> bool) -> Vec<St
 
 /// The order of exploration: in each cell the team move in which it was explored.
 pub fn order(setup: &Setup, chart: &Chart) -> String {
-    let label = |cell| match chart.step(cell) {
-        Some(0) => "B".to_owned(),
-        Some(step) => step.to_string(),
-        None => String::new(),
+    let label = |cell| match (chart.step(cell), setup.crew()) {
+        (Some(0), Crew::Chain) => "B".to_owned(),
+        (Some(step), _) => step.to_string(),
+        (None, _) => String::new(),
     };
     let width = chart.area().cells().map(|cell| label(cell).len()).max().unwrap_or(0).max(2);
     grid(&setup.layout, chart.area(), width, label, |_| false).join("\n") + "\n"
@@ -249,8 +293,8 @@ pub fn order(setup: &Setup, chart: &Chart) -> String {
 
 /// What was explored, and where the team is in the end.
 pub fn outcome(setup: &Setup, chart: &Chart, team: &[Cell]) -> String {
-    let labels = Labels { cells: team, steps: None };
-    let label = |cell| labels.label(cell, chart.step(cell).is_some());
+    let labels = Labels { crew: setup.crew(), cells: team, steps: None };
+    let label = |cell| labels.label(cell, chart.mark(cell, u32::MAX));
     grid(&setup.layout, chart.area(), labels.width(), label, |_| false).join("\n") + "\n"
 }
 

@@ -381,7 +381,7 @@ fn pictures_and_pages_are_whole_and_need_nothing_from_elsewhere() {
 fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
     let folder = folder();
     fs::write(folder.path().join("file"), "").expect("a file");
-    let wrong: [&[&str]; 21] = [
+    let wrong: [&[&str]; 33] = [
         &["explore", "open:9x9", "--robots", "0"],
         &["explore", "open:9x9", "--robots", "1"],
         &["explore", "open:9x9", "--robots", "257"],
@@ -390,6 +390,18 @@ fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
         &["explore", "open:9x9", "--base", "here"],
         &["explore", "open:9x9", "--max-moves", "0"],
         &["explore", "open:40000x40000"],
+        &["explore", "open:9x9", "--scheme", "bricks", "--robots", "0"],
+        &["explore", "open:9x9", "--scheme", "ants", "--robots", "256"],
+        &["explore", "open:9x9", "--scheme", "bricks-ants", "--rule", "published"],
+        &["explore", "open:9x9", "--scheme", "bricks", "--miss", "1.5"],
+        &["explore", "open:9x9", "--scheme", "bricks", "--miss", "-0.1"],
+        &["explore", "open:9x9", "--scheme", "bricks", "--miss", "NaN"],
+        &["explore", "open:9x9", "--miss", "0.1"],
+        &["explore", "open:9x9", "--start", "1,1", "--start", "2,2"],
+        &["explore", "open:9x9", "--scheme", "bricks", "--start", "9,0"],
+        &["explore", "open:9x9", "--scheme", "bricks", "--start", "1,1", "--start", "2,2", "--robots", "3"],
+        &["explore", "open:9x9", "--scheme", "bricks", "--start", "1,1", "--base", "2,2"],
+        &["hunt", "--scheme", "ants"],
         &["explore", "nowhere.map"],
         &["explore", "open:9x9", "--trace", "nowhere/run.jsonl"],
         &["explore", "open:9x9", "--svg", "."],
@@ -420,6 +432,96 @@ fn a_base_on_a_blocked_cell_is_refused_with_the_nearest_free_one() {
     Error: the base 0,0 is on a blocked cell; the nearest free cell is 1,0
      Help: put the base on 1,0
     "#);
+    let starts =
+        ["explore", "layout", "--scheme", "bricks", "--robots", "2", "--start", "1,0", "--start", "0,0"];
+    assert_snapshot!(refused(folder.path(), &starts), @r#"
+    Error: the start 0,0 is on a blocked cell; the nearest free cell is 1,0
+     Help: start on 1,0
+    "#);
+}
+
+/// A ring of eight cells, and a part of three cells that is not connected with it.
+const RING: &str = "\
+tautline layout 1
++--+--+--+--+
+|        |  |
++  +  +  +  +
+|   ##   |  |
++  +  +  +  +
+|        |  |
++--+--+--+--+
+";
+
+#[test]
+fn agents_in_parts_that_are_not_connected_are_reported_part_by_part() {
+    let folder = folder();
+    let folder = folder.path();
+    fs::write(folder.join("ring"), RING).expect("a file");
+    let starts = ["--robots", "3", "--start", "0,0", "--start", "3,1", "--start", "2,2"];
+    let explore = |scheme: &'static str| [&["explore", "ring", "--scheme", scheme], &starts[..]].concat();
+    assert_snapshot!("agents_in_two_parts", printed(folder, &explore("bricks"), 0));
+    let bricks = json(folder, &explore("bricks"), 0);
+    assert_snapshot!(bricks["components"], @r#"[{"cells":8,"explored":8,"robots":2,"terminated":true,"visited":8},{"cells":3,"explored":3,"robots":1,"terminated":true,"visited":3}]"#);
+    assert_eq!((&bricks["cells"], &bricks["visited"]), (&11.into(), &11.into()));
+    let ants = json(folder, &explore("ants"), 0);
+    assert_snapshot!(ants["components"], @r#"[{"cells":8,"explored":8,"robots":2},{"cells":3,"explored":3,"robots":1}]"#);
+    assert_eq!((ants.get("visited"), ants.get("terminated")), (None, None), "ants never know");
+    let one_part = json(folder, &["explore", "ring", "--scheme", "bricks", "--start", "3,0"], 0);
+    assert_eq!((&one_part["cells"], one_part.get("components")), (&3.into(), None));
+}
+
+#[test]
+fn a_run_of_agents_without_end_is_found_and_drawn() {
+    let folder = folder();
+    let folder = folder.path();
+    fs::write(folder.join("ring"), RING).expect("a file");
+    let explore = ["explore", "ring", "--scheme", "bricks", "--rule", "published", "--robots", "1"];
+    printed(folder, &[&explore[..], &["--trace", "run.jsonl"]].concat(), 1);
+    assert_snapshot!(
+        "endless_run_of_an_agent",
+        printed(folder, &["replay", "run.jsonl", "--moves", "8..11"], 1)
+    );
+    let replayed = json(folder, &["replay", "run.jsonl"], 1);
+    assert_eq!((&replayed["stopped"], &replayed["terminated"]), (&"endless".into(), &false.into()));
+    assert!(refused(folder, &["minimise", "run.jsonl"]).contains("name a run of the scheme chain"));
+}
+
+#[test]
+fn runs_of_agents_are_stored_and_replayed() {
+    let folder = folder();
+    let folder = folder.path();
+    let starts = ["--robots", "2", "--start", "0,0", "--start", "4,2", "--miss", "0.2", "--seed", "3"];
+    for scheme in ["ants", "bricks", "bricks-ants"] {
+        let explore =
+            [&["explore", "open:5x3", "--scheme", scheme, "--trace", "run.jsonl"], &starts[..]].concat();
+        let explored = ran(folder, &explore);
+        let replayed = ran(folder, &["replay", "run.jsonl"]);
+        assert!(explored.status.code().is_some_and(|code| code < 2), "{scheme}");
+        assert_eq!(replayed.status, explored.status, "{scheme}");
+    }
+    let explore = ["explore", "open:5x3", "--scheme", "bricks-ants", "--trace", "run.jsonl"];
+    let page = ["--replay", "run.html", "--svg", "order.svg"];
+    printed(folder, &[&explore[..], &["--robots", "2", "--start", "4,2"], &page].concat(), 0);
+    assert_snapshot!("frames_of_agents", printed(folder, &["replay", "run.jsonl", "--svg", "last.svg"], 0));
+    let drawn = fs::read_to_string(folder.join("last.svg")).expect("text");
+    assert!(drawn.contains("class=\"visited\"") && !drawn.contains("class=\"base\""));
+    printed(folder, &[&explore[..], &starts[..]].concat(), 0);
+    let run = fs::read_to_string(folder.join("run.jsonl")).expect("text");
+    let cases = [
+        ("no agent", run.replacen("\"robots\":2", "\"robots\":0", 1)),
+        ("a start too few", run.replacen("[[0,0],[4,2]]", "[[0,0]]", 1)),
+        ("a start outside", run.replacen("[[0,0],[4,2]]", "[[0,0],[5,2]]", 1)),
+        ("no probability", run.replacen("\"miss\":0.2", "\"miss\":1.2", 1)),
+        ("another probability", run.replacen("\"miss\":0.2", "\"miss\":0.3", 1)),
+        ("a rule that nobody has published", run.replacen("repaired", "published", 1)),
+        ("a chain that misses sensors", run.replacen("bricks-ants", "chain", 1)),
+    ];
+    let said = cases.map(|(what, text)| {
+        assert_ne!(text, run, "{what}");
+        fs::write(folder.join("run.jsonl"), text).expect("a file");
+        format!("{what}\n{}\n", refused(folder, &["replay", "run.jsonl"]))
+    });
+    assert_snapshot!("wrong_runs_of_agents", said.join("\n"));
 }
 
 #[test]

@@ -57,8 +57,7 @@ impl Case {
         }
         let base = Cell::new(self.base.0, self.base.1);
         layout.place_base(base).expect("a free cell");
-        let limits = Limits::default();
-        Setup { scheme: SchemeName::Chain, rule, robots: self.robots, seed: 0, layout, base, limits }
+        Setup::new(SchemeName::Chain, rule, self.robots, layout, base)
     }
 
     /// Columns for rows.
@@ -140,8 +139,7 @@ impl Case {
 
 fn setup(robots: u16, mut layout: Layout) -> Setup {
     let base = Setup::choose_base(&mut layout, None).expect("a free cell");
-    let limits = Limits::default();
-    Setup { scheme: SchemeName::Chain, rule: RuleName::Published, robots, seed: 0, layout, base, limits }
+    Setup::new(SchemeName::Chain, RuleName::Published, robots, layout, base)
 }
 
 fn generated(description: &str, seed: u64) -> Layout {

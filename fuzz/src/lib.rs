@@ -10,7 +10,7 @@ use std::io::Write;
 use std::path::Path;
 
 use tautline::exhibit::exhibit;
-use tautline::explore::{Limits, RuleName, SchemeName, Setup};
+use tautline::explore::{RuleName, SchemeName, Setup};
 use tautline::fault::{Colour, Fault, Halt};
 use tautline::hunt::{self, Saved};
 use tautline::layout::{Layout, Misread, Size, movingai, ros, text};
@@ -52,7 +52,7 @@ pub fn chain(bytes: &[u8]) {
     let numbers = numbers(bytes);
     let mut source = Tape(&numbers);
     let (rule, kept): (Rule, &[Breach]) =
-        if source.flip() { (Rule::PUBLISHED, &[Breach::Coverage]) } else { (Rule::REPAIRED, &Breach::ALL) };
+        if source.flip() { (Rule::PUBLISHED, &[Breach::Coverage]) } else { (Rule::REPAIRED, &Breach::CHAIN) };
     let robots = source.pick(31) as usize + 2;
     let (_, area, base) = area(robots, &mut source);
     let last = if robots <= 8 {
@@ -178,19 +178,11 @@ pub fn judge(bytes: &[u8]) {
     };
     follow(chain, 500, answer, |before, frame| {
         frames.push(frame.clone());
-        broken = Breach::ALL.into_iter().find(|breach| breach.is_in(before, &frame.cells));
+        broken = Breach::CHAIN.into_iter().find(|breach| breach.is_in(before, &frame.cells));
         if broken.is_some() { Next::Stop } else { Next::Go }
     });
     let Some(breach) = broken else { return };
-    let setup = Setup {
-        scheme: SchemeName::Chain,
-        rule: RuleName::Published,
-        robots: robots as u16,
-        seed: 0,
-        layout,
-        base,
-        limits: Limits::default(),
-    };
+    let setup = Setup::new(SchemeName::Chain, RuleName::Published, robots as u16, layout, base);
     let mut exhibit = exhibit(&setup, breach, &frames);
     assert_eq!(judge::judge(&exhibit), Ok(()));
     if let Some(wall) = exhibit.walls.iter().nth(change[0] as usize).copied() {

@@ -1,5 +1,6 @@
-//! A run as plain data: the team moves, one [`Frame`] each, and the chain's safety sentences that every frame is
-//! checked against (CHAIN-1, CHAIN-2, CHAIN-3). Simulation, search and proofs all use these.
+//! A run as plain data: the team moves, one [`Frame`] each, and what a run may never break: the chain's safety sentences
+//! that every frame is checked against (CHAIN-1, CHAIN-2, CHAIN-3), and those about the ends of runs and of agents.
+//! Simulation, search and proofs all use these.
 
 use std::fmt;
 use std::str::FromStr;
@@ -8,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use tautline_kernel::chain::{Kind, Message, Outcome};
 use tautline_kernel::lattice::{Cell, Circle, Edge, Step};
 
-/// One team move, base first.
+/// One team move of robots in the order of their numbers; the base of a chain is the first.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Frame {
     /// An advance or a backtrack.
@@ -55,11 +56,19 @@ pub enum Breach {
     Coverage,
     /// The run has ended, and a cell within reach is unexplored: CHAIN-13.
     Completeness,
+    /// An agent is done, and a cell that it could get to is unexplored: BRICKS-4.
+    Premature,
+    /// The run has ended, or goes on for ever, and a cell that an agent could get to is not visited: BRICKS-6.
+    Unvisited,
 }
 
 impl Breach {
     /// Every breach.
-    pub const ALL: [Self; 4] = [Self::Contact, Self::Crowding, Self::Coverage, Self::Completeness];
+    pub const ALL: [Self; 6] =
+        [Self::Contact, Self::Crowding, Self::Coverage, Self::Completeness, Self::Premature, Self::Unvisited];
+
+    /// Those of the chain.
+    pub const CHAIN: [Self; 4] = [Self::Contact, Self::Crowding, Self::Coverage, Self::Completeness];
 
     /// The id of the clause that is broken.
     pub const fn clause(self) -> &'static str {
@@ -68,11 +77,13 @@ impl Breach {
             Self::Crowding => "CHAIN-2",
             Self::Coverage => "CHAIN-3",
             Self::Completeness => "CHAIN-13",
+            Self::Premature => "BRICKS-4",
+            Self::Unvisited => "BRICKS-6",
         }
     }
 
     /// Whether the team move from `before` to `after` commits it; the base stands first in both. Completeness is of
-    /// the end of a run, and in no team move.
+    /// the end of a run, and in no team move; where agents are does not tell what they know.
     pub fn is_in(self, before: &[Cell], after: &[Cell]) -> bool {
         match self {
             Self::Contact => after.windows(2).any(|pair| !Circle::COVERED.covers(pair[0], pair[1])),
@@ -83,7 +94,7 @@ impl Breach {
                 .windows(2)
                 .zip(after.windows(2))
                 .any(|(from, to)| !stays_in_range([from[0], to[0]], [from[1], to[1]])),
-            Self::Completeness => false,
+            Self::Completeness | Self::Premature | Self::Unvisited => false,
         }
     }
 }

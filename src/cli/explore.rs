@@ -8,16 +8,20 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use serde::Serialize;
-use tautline_kernel::chain::MAX_ROBOTS;
 use tautline_kernel::lattice::Cell;
 
 use super::output::{Output, store};
-use super::{CellArg, Exit, Format, FormatArgs, LayoutArgs, interrupt, number, positive, progress, usage};
+use super::{
+    CellArg, Exit, Format, FormatArgs, LayoutArgs, interrupt, number, positive, probability, progress, usage,
+};
 use crate::aside::Aside;
+use crate::explore::agents::Way;
+use crate::explore::floor::Component;
 use crate::explore::{
-    Limits, Milestone, OnViolation, Report, RuleName, SchemeName, Setup, Stopped, Violation, explore,
+    Crew, Limits, Milestone, OnViolation, Report, RuleName, SchemeName, Setup, Stopped, Violation, explore,
 };
 use crate::fault::{Fault, Halt};
+use crate::layout::generate::Probability;
 use crate::view::page::Page;
 use crate::view::svg::{self, Panel};
 use crate::{trace, view};
@@ -26,7 +30,9 @@ const EXAMPLES: &str = "\
 Examples:
   tautline explore open:15x15 --robots 8 --draw order
   tautline explore walls:15x15:0.1 --seed 7 --rule published --trace run.jsonl --replay run.html
-  tautline explore room-32-32-4.map --robots 16 --base 10,12 --format json";
+  tautline explore room-32-32-4.map --robots 16 --base 10,12 --format json
+  tautline explore office:30x30:4x4 --scheme bricks --robots 20 --replay run.html
+  tautline explore office:30x30:4x4 --scheme bricks-ants --robots 2 --miss 0.0556 --start 0,0 --start 29,29";
 
 /// Explore a layout once, and check every team move.
 #[derive(Debug, Args)]
@@ -40,12 +46,18 @@ pub(super) struct Explore {
     /// The scheme as published, or repaired.
     #[arg(long, value_enum, default_value = "repaired")]
     rule: RuleName,
-    /// Robots; for the chain the base is one of them. Without it the layout says, or there are 8.
+    /// Robots or agents; for the chain the base is one of them. Without it the layout says, or there are 8.
     #[arg(long, value_name = "N", value_parser = number::<u64>)]
     robots: Option<u64>,
     /// Column and row of the base. Without it the layout says, or it is the free cell nearest the centre.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     base: Option<CellArg>,
+    /// Column and row where the agents start; once for all, or once for each. Without it they start at the base.
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, conflicts_with = "base")]
+    start: Vec<CellArg>,
+    /// How likely it is that an agent misses a sensor, from 0 to 1.
+    #[arg(long, value_name = "PROBABILITY", default_value = "0", value_parser = probability, allow_hyphen_values = true)]
+    miss: Probability,
     /// Stop when a robot has entered so many cells.
     #[arg(long, value_name = "CELLS", value_parser = positive)]
     max_moves: Option<NonZeroU32>,
@@ -89,11 +101,9 @@ impl Explore {
         let mut writer =
             self.trace.as_deref().map(|path| trace::Writer::new(path, &setup, None)).transpose()?;
         let bar = progress::spinner("exploring");
-        let mut team = vec![setup.base; usize::from(setup.robots)];
         let report = explore(&setup, &mut |made| {
             interrupt::check()?;
             bar.set_message(format!("team move {}", made.step));
-            team.clone_from(&made.frame.cells);
             Ok(writer.as_mut().map_or(Ok(()), |writer| writer.add(made))?)
         })?;
         bar.finish_and_clear();
@@ -112,7 +122,7 @@ impl Explore {
             Format::Json => out.json(&Summary::new(&setup, &self.layout.layout, &report))?,
             Format::Text => {
                 out.text(summary(&setup, &self.layout.layout, &report))?;
-                self.draw(&setup, &report, &team, out)?;
+                self.draw(&setup, &report, out)?;
             }
         }
         Ok(if report.violations.is_empty() { Exit::Expected } else { Exit::Violation })
@@ -121,22 +131,26 @@ impl Explore {
     fn setup(&self) -> Result<Setup, Fault> {
         let mut layout = self.layout.load()?;
         let robots = self.robots.unwrap_or_else(|| layout.robots().unwrap_or(DEFAULT_ROBOTS).into());
-        let robots = Setup::count_robots(robots, MAX_ROBOTS)?;
-        let base = Setup::choose_base(&mut layout, self.base.map(|CellArg(cell)| cell))
-            .map_err(|problem| usage(&problem))?;
+        let robots =
+            Setup::count(self.scheme, robots).map_err(|misfit| Fault::usage(&misfit, misfit.remedy()))?;
+        let starts: Vec<Cell> = self.start.iter().map(|&CellArg(cell)| cell).collect();
+        if let Some(&first) = starts.first() {
+            layout.check_start(first).map_err(|problem| usage(&problem))?;
+        }
+        let asked = self.base.map(|CellArg(cell)| cell).or(starts.first().copied());
+        let base = Setup::choose_base(&mut layout, asked).map_err(|problem| usage(&problem))?;
         let limits = Limits { until: self.until, max_moves: self.max_moves, violation: OnViolation::GoOn };
-        Ok(Setup {
-            scheme: self.scheme,
-            rule: self.rule,
-            robots,
-            seed: self.layout.seed,
-            layout,
-            base,
-            limits,
-        })
+        let starts = match (self.scheme.crew(self.rule), starts.len()) {
+            (_, 0) | (Crew::Agents(_), 1) => None,
+            (Crew::Chain | Crew::Agents(_), _) => Some(starts),
+        };
+        let (scheme, rule, seed, miss) = (self.scheme, self.rule, self.layout.seed, self.miss);
+        let setup = Setup { scheme, rule, robots, seed, layout, base, starts, miss, limits };
+        setup.check().map_err(|misfit| Fault::usage(&misfit, misfit.remedy()))?;
+        Ok(setup)
     }
 
-    fn draw(&self, setup: &Setup, report: &Report, team: &[Cell], out: &mut Output) -> Result<(), Halt> {
+    fn draw(&self, setup: &Setup, report: &Report, out: &mut Output) -> Result<(), Halt> {
         match self.draw {
             Some(Draw::Order) => out.text(format_args!("\n{}", view::order(setup, &report.chart)))?,
             Some(Draw::Moves) => {
@@ -146,10 +160,10 @@ impl Explore {
                     blocks.push(view::team_move(setup, &report.chart, made, view::Pose::Before));
                     Ok(())
                 })?;
-                out.text(format_args!("\n{}\n\n{}", view::LEGEND, view::beside(&blocks)))?;
+                out.text(format_args!("\n{}\n\n{}", view::legend(setup.crew()), view::beside(&blocks)))?;
             }
             None if report.chart.area().width() <= SMALL_COLUMNS => {
-                out.text(format_args!("\n{}", view::outcome(setup, &report.chart, team)))?;
+                out.text(format_args!("\n{}", view::outcome(setup, &report.chart, &report.team)))?;
             }
             None => {}
         }
@@ -199,11 +213,11 @@ pub(super) fn store_page(
 
 /// What came of a run, in a few lines.
 pub(super) fn summary(setup: &Setup, layout: &str, report: &Report) -> String {
-    let Setup { scheme, rule, robots, base, .. } = setup;
     let percent = report.explored * 100 / report.cells;
     let mut text = format!(
-        "{} ({rule}), {robots} robots, base {base}: {layout}\n{} team moves: {}\n{} of {} cells explored ({percent} %)",
-        scheme.word(),
+        "{}, {}: {layout}\n{} team moves: {}\n{} of {} cells explored ({percent} %)",
+        view::title_of(setup),
+        place(setup),
         report.steps,
         report.stopped.words(),
         report.explored,
@@ -217,7 +231,59 @@ pub(super) fn summary(setup: &Setup, layout: &str, report: &Report) -> String {
         };
     }
     text.push('\n');
+    match setup.crew() {
+        Crew::Chain => {}
+        Crew::Agents(Way::Ants) => {
+            text.push_str("ants never know that they are done: whoever watches them ends the run\n");
+            text.push_str(&components(report, |_| String::new()));
+        }
+        Crew::Agents(Way::Bricks(_)) => {
+            let words = |Component { active, visited, .. }: &Component| {
+                let ends =
+                    if *active == 0 { "every agent is done".to_owned() } else { format!("{active} go on") };
+                format!(", {visited} visited; {ends}")
+            };
+            let whole = report.whole();
+            let percent = whole.visited * 100 / whole.cells;
+            let ends = match whole.active {
+                0 => "every agent knows that it is done".to_owned(),
+                active => format!("{active} of {} agents do not know that they are done", whole.robots),
+            };
+            let _ =
+                writeln!(text, "{} of {} cells visited ({percent} %); {ends}", whole.visited, whole.cells);
+            text.push_str(&components(report, words));
+        }
+    }
     text + &violations(report)
+}
+
+/// Where the robots start.
+fn place(setup: &Setup) -> String {
+    match (setup.crew(), &setup.starts) {
+        (Crew::Chain, _) => format!("base {}", setup.base),
+        (Crew::Agents(_), None) => format!("start {}", setup.base),
+        (Crew::Agents(_), Some(starts)) => {
+            let starts: Vec<String> = starts.iter().map(Cell::to_string).collect();
+            format!("starts {}", starts.join(" "))
+        }
+    }
+}
+
+/// The parts of the layout in which agents started, if there are several.
+fn components(report: &Report, words: impl Fn(&Component) -> String) -> String {
+    let mut text = String::new();
+    if report.components.len() < 2 {
+        return text;
+    }
+    let count = report.components.len();
+    let _ = writeln!(text, "the agents start in {count} parts of the layout that are not connected:");
+    for component in &report.components {
+        let Component { robots, cells, explored, .. } = component;
+        let agents = if *robots == 1 { "agent" } else { "agents" };
+        let _ =
+            writeln!(text, "  {robots} {agents}, {explored} of {cells} cells explored{}", words(component));
+    }
+    text
 }
 
 /// Violations that are listed; the others are counted.
@@ -253,6 +319,8 @@ pub(super) struct Summary<'a> {
     seed: u64,
     layout: &'a str,
     base: Cell,
+    #[serde(flatten)]
+    floor: Option<FloorSummary<'a>>,
     steps: u32,
     explored: u32,
     cells: u32,
@@ -261,8 +329,63 @@ pub(super) struct Summary<'a> {
     violations: Vec<trace::StoredViolation>,
 }
 
+/// What there is of a sensor floor besides. Ants mark nothing and never know that they are done: of them nothing is said
+/// about that.
+#[derive(Serialize)]
+struct FloorSummary<'a> {
+    miss: Probability,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    starts: Option<&'a [Cell]>,
+    #[serde(flatten)]
+    knowledge: Option<Knowledge>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    components: Vec<Part>,
+}
+
+/// What agents that mark cells have done and know.
+#[derive(Serialize)]
+struct Knowledge {
+    visited: u32,
+    terminated: bool,
+}
+
+/// A part of the layout that is not connected with the others.
+#[derive(Serialize)]
+struct Part {
+    robots: u16,
+    cells: u32,
+    explored: u32,
+    #[serde(flatten)]
+    knowledge: Option<Knowledge>,
+}
+
+impl Knowledge {
+    fn of(way: Way, component: &Component) -> Option<Self> {
+        match way {
+            Way::Ants => None,
+            Way::Bricks(_) => Some(Self { visited: component.visited, terminated: component.active == 0 }),
+        }
+    }
+}
+
+impl<'a> FloorSummary<'a> {
+    fn of(way: Way, setup: &'a Setup, report: &Report) -> Self {
+        let part = |component: &Component| {
+            let Component { robots, cells, explored, .. } = *component;
+            Part { robots, cells, explored, knowledge: Knowledge::of(way, component) }
+        };
+        let parts = if report.components.len() < 2 { &[] } else { report.components.as_slice() };
+        Self {
+            miss: setup.miss,
+            starts: setup.starts.as_deref(),
+            knowledge: Knowledge::of(way, &report.whole()),
+            components: parts.iter().map(part).collect(),
+        }
+    }
+}
+
 impl<'a> Summary<'a> {
-    pub(super) fn new(setup: &Setup, layout: &'a str, report: &Report) -> Self {
+    pub(super) fn new(setup: &'a Setup, layout: &'a str, report: &Report) -> Self {
         let milestones = Milestone::ALL.map(|milestone| (milestone.percent(), report.reached(milestone)));
         Self {
             scheme: setup.scheme,
@@ -271,6 +394,10 @@ impl<'a> Summary<'a> {
             seed: setup.seed,
             layout,
             base: setup.base,
+            floor: match setup.crew() {
+                Crew::Chain => None,
+                Crew::Agents(way) => Some(FloorSummary::of(way, setup, report)),
+            },
             steps: report.steps,
             explored: report.explored,
             cells: report.cells,

@@ -92,6 +92,10 @@ impl Hunt {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         match self.scheme {
             SchemeName::Chain => {}
+            SchemeName::Ants | SchemeName::Bricks | SchemeName::BricksAnts => {
+                let what = format!("{} is not hunted", self.scheme.word());
+                return Err(Fault::usage(what, "give --scheme chain").into());
+            }
         }
         check_folder(&self.out)?;
         let mut bounds =

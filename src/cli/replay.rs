@@ -13,7 +13,7 @@ use super::explore::{Summary, panels, store_page, summary};
 use super::output::{Output, store};
 use super::{Exit, Format, FormatArgs, interrupt};
 use crate::exhibit::exhibit;
-use crate::explore::{Report, Setup, explore};
+use crate::explore::{Crew, Report, Setup, explore};
 use crate::fault::{Fault, Halt};
 use crate::trace::{StoredMove, Trace};
 use crate::view;
@@ -65,7 +65,7 @@ const SHOWN: u32 = 100;
 struct Replayed<'a> {
     #[serde(flatten)]
     run: Summary<'a>,
-    /// The clause that the file says it is a counterexample to: the judge agrees.
+    /// The clause that the file says it is a counterexample to; for a chain the judge agrees.
     counterexample_to: Option<&'static str>,
     moves: Vec<StoredMove>,
 }
@@ -74,13 +74,17 @@ impl Replay {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let trace = Trace::open(&self.file)?;
         let (setup, clause) = (trace.setup.clone(), trace.clause);
+        let judged = match setup.crew() {
+            Crew::Chain => clause,
+            Crew::Agents(_) => None,
+        };
         let mut frames = Vec::new();
         let report = trace.replay(&mut |made| {
             interrupt::check()?;
-            frames.extend(clause.is_some().then(|| made.frame.clone()));
+            frames.extend(judged.is_some().then(|| made.frame.clone()));
             Ok(())
         })?;
-        if let Some(breach) = clause {
+        if let Some(breach) = judged {
             judge(&exhibit(&setup, breach, &frames)).map_err(|objection| {
                 let what = format!("the judge rejects this counterexample: {objection}");
                 Fault::in_file(&self.file, what, "make it again with `tautline hunt`")
@@ -110,7 +114,7 @@ impl Replay {
             }
             Format::Text => {
                 out.text(summary(&setup, &name, &report))?;
-                if let Some(breach) = clause {
+                if let Some(breach) = judged {
                     out.text(format_args!(
                         "the judge accepts it as a counterexample to {}\n",
                         breach.clause()
@@ -157,5 +161,5 @@ pub(super) fn draw(
         stories.push('\n');
         stories.push_str(&end);
     }
-    Ok(out.text(format_args!("\n{}\n\n{}{stories}", view::LEGEND, view::beside(&blocks)))?)
+    Ok(out.text(format_args!("\n{}\n\n{}{stories}", view::legend(setup.crew()), view::beside(&blocks)))?)
 }

@@ -2,12 +2,15 @@
 //! history from, and the smallest grid that holds its area.
 
 use tautline_kernel::chain::{self, Chain, Intent, MAX_ROBOTS, Refused};
+use tautline_kernel::floor::Mark;
 use tautline_kernel::grid::{Area, Grid, MediumGrid, SmallGrid};
 use tautline_kernel::lattice::{Cell, Edge};
 use tautline_proofs::run::{Breach, Frame};
 
-use super::{End, Scheme, Setup};
+use super::floor::Component;
+use super::{Chart, End, Scheme, Setup, missed};
 use crate::fault::Fault;
+use crate::layout::Layout;
 use crate::wide::WideGrid;
 
 struct ChainScheme<G, const ROBOTS: usize> {
@@ -55,6 +58,10 @@ impl<G: Grid, const ROBOTS: usize> Scheme for ChainScheme<G, ROBOTS> {
         self.chain.cells()
     }
 
+    fn due(&self, layout: &Layout) -> u32 {
+        self.area().cells().filter(|&cell| layout.is_free(cell)).count() as u32
+    }
+
     fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
         match self.chain.plan(&self.log) {
             Ok(Intent::Go(plan)) => {
@@ -68,7 +75,19 @@ impl<G: Grid, const ROBOTS: usize> Scheme for ChainScheme<G, ROBOTS> {
         }
     }
 
-    fn breaches(&self) -> &'static [Breach] {
-        &Breach::ALL
+    fn broken_in_move(&self, before: &[Cell], frame: &Frame) -> Vec<Breach> {
+        Breach::CHAIN.into_iter().filter(|breach| breach.is_in(before, &frame.cells)).collect()
+    }
+
+    fn broken_at_end(&self, setup: &Setup, chart: &Chart, _: End) -> Vec<Breach> {
+        if missed(setup, chart).is_empty() { Vec::new() } else { vec![Breach::Completeness] }
+    }
+
+    fn marked(&self) -> &[(Cell, Mark)] {
+        &[]
+    }
+
+    fn components(&self) -> &[Component] {
+        &[]
     }
 }

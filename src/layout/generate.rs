@@ -8,6 +8,7 @@ use std::str::FromStr;
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
+use serde::{Deserialize, Serialize};
 use tautline_kernel::lattice::{Cell, Edge, Side};
 
 use super::{Layout, Problem, Size, text};
@@ -45,7 +46,8 @@ pub struct Rooms {
 }
 
 /// A number from 0 to 1.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
+#[serde(try_from = "f64", into = "f64")]
 pub struct Probability(f64);
 
 /// How a generator is described.
@@ -109,14 +111,23 @@ impl Probability {
         (0.0..=1.0).contains(&p).then_some(Self(p))
     }
 
+    /// What never happens.
+    pub const NEVER: Self = Self(0.0);
+
+    /// Whether it never happens.
+    pub fn is_never(self) -> bool {
+        self == Self::NEVER
+    }
+
     /// Draws once: 53 random bits are compared with p·2⁵³, which is exact.
-    fn happens(self, rng: &mut ChaCha8Rng) -> bool {
+    pub(crate) fn happens(self, rng: &mut ChaCha8Rng) -> bool {
         let threshold = (self.0 * TWO_TO_THE_53) as u64;
         rng.next_u64() >> 11 < threshold
     }
 }
 
-fn source(seed: u64, tag: [u8; 8]) -> ChaCha8Rng {
+/// The generator of whatever `tag` names.
+pub(crate) fn source(seed: u64, tag: [u8; 8]) -> ChaCha8Rng {
     let mut bytes = [0; 32];
     bytes[..8].copy_from_slice(&seed.to_le_bytes());
     bytes[8..16].copy_from_slice(&tag);
@@ -124,8 +135,8 @@ fn source(seed: u64, tag: [u8; 8]) -> ChaCha8Rng {
 }
 
 /// A number below `n`: the high half of n times 64 random bits.
-fn below(n: i16, rng: &mut ChaCha8Rng) -> i16 {
-    ((u128::from(rng.next_u64()) * n as u128) >> 64) as i16
+pub(crate) fn below(n: u32, rng: &mut ChaCha8Rng) -> u32 {
+    ((u128::from(rng.next_u64()) * u128::from(n)) >> 64) as u32
 }
 
 fn walls(size: Size, probability: Probability, rng: &mut ChaCha8Rng) -> Layout {
@@ -158,13 +169,13 @@ fn office(size: Size, rooms: Rooms, rng: &mut ChaCha8Rng) -> Layout {
     {
         let (columns, rows) = (column(across)..column(across + 1), row(down)..row(down + 1));
         if across + 1 < rooms.across {
-            let door = rows.start + below(rows.end - rows.start, rng);
+            let door = rows.start + below((rows.end - rows.start) as u32, rng) as i16;
             for y in rows.clone().filter(|&y| y != door) {
                 layout.build_wall(Edge::new(Cell::new(columns.end, y), Side::West));
             }
         }
         if down + 1 < rooms.down {
-            let door = columns.start + below(columns.end - columns.start, rng);
+            let door = columns.start + below((columns.end - columns.start) as u32, rng) as i16;
             for x in columns.filter(|&x| x != door) {
                 layout.build_wall(Edge::new(Cell::new(x, rows.end), Side::North));
             }
@@ -182,7 +193,7 @@ impl FromStr for Generator {
         let parts: Vec<&str> = description.split(':').collect();
         match parts.as_slice() {
             ["open", size] => Ok(Self::Open(parse_size(size, wrong)?)),
-            ["walls", size, p] => Ok(Self::Walls(parse_size(size, wrong)?, parse_probability(p)?)),
+            ["walls", size, p] => Ok(Self::Walls(parse_size(size, wrong)?, p.parse()?)),
             ["rooms-a"] => Ok(Self::RoomsA),
             ["rooms-b"] => Ok(Self::RoomsB),
             ["office", size, rooms] => {
@@ -191,7 +202,7 @@ impl FromStr for Generator {
                 let rooms = Rooms::new(across, down, size).ok_or(Problem::Rooms { across, down, size })?;
                 Ok(Self::Office(size, rooms))
             }
-            ["cells", size, p] => Ok(Self::Cells(parse_size(size, wrong)?, parse_probability(p)?)),
+            ["cells", size, p] => Ok(Self::Cells(parse_size(size, wrong)?, p.parse()?)),
             _ => Err(wrong()),
         }
     }
@@ -207,19 +218,43 @@ fn parse_size(size: &str, wrong: impl FnOnce() -> Problem) -> Result<Size, Probl
     Size::new(width, height)
 }
 
-fn parse_probability(p: &str) -> Result<Probability, Problem> {
-    p.parse().ok().and_then(Probability::new).ok_or_else(|| Problem::Probability(p.to_owned()))
+impl FromStr for Probability {
+    type Err = Problem;
+
+    fn from_str(p: &str) -> Result<Self, Problem> {
+        p.parse().ok().and_then(Self::new).ok_or_else(|| Problem::Probability(p.to_owned()))
+    }
+}
+
+impl TryFrom<f64> for Probability {
+    type Error = Problem;
+
+    fn try_from(p: f64) -> Result<Self, Problem> {
+        Self::new(p).ok_or_else(|| Problem::Probability(p.to_string()))
+    }
+}
+
+impl From<Probability> for f64 {
+    fn from(Probability(p): Probability) -> Self {
+        p
+    }
+}
+
+impl fmt::Display for Probability {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
 }
 
 impl fmt::Display for Generator {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Open(size) => write!(f, "open:{size}"),
-            Self::Walls(size, Probability(p)) => write!(f, "walls:{size}:{p}"),
+            Self::Walls(size, p) => write!(f, "walls:{size}:{p}"),
             Self::RoomsA => f.write_str("rooms-a"),
             Self::RoomsB => f.write_str("rooms-b"),
             Self::Office(size, Rooms { across, down }) => write!(f, "office:{size}:{across}x{down}"),
-            Self::Cells(size, Probability(p)) => write!(f, "cells:{size}:{p}"),
+            Self::Cells(size, p) => write!(f, "cells:{size}:{p}"),
         }
     }
 }

@@ -33,6 +33,10 @@ pub enum Problem {
     BaseOutside { base: Cell, size: Size },
     /// The base is on a blocked cell.
     BaseBlocked { base: Cell, nearest: Cell },
+    /// A start is not inside the rim.
+    StartOutside { start: Cell, size: Size },
+    /// A start is on a blocked cell.
+    StartBlocked { start: Cell, nearest: Cell },
 
     /// The first line is not that of a drawing.
     NotALayout,
@@ -107,6 +111,10 @@ impl fmt::Display for Problem {
             Self::BaseBlocked { base, nearest } => {
                 write!(f, "the base {base} is on a blocked cell; the nearest free cell is {nearest}")
             }
+            Self::StartOutside { start, size } => write!(f, "the start {start} is outside the {size} cells"),
+            Self::StartBlocked { start, nearest } => {
+                write!(f, "the start {start} is on a blocked cell; the nearest free cell is {nearest}")
+            }
             Self::NotALayout => f.write_str("this is not the first line of a layout"),
             Self::Version(version) => write!(f, "this is version {version}, this program reads version 1"),
             Self::Robots(count) => write!(f, "{count:?} is no number of robots"),
@@ -154,10 +162,11 @@ impl Problem {
                 format!("a layout has 1 to {MAX_SIDE_CELLS} cells on a side and at most {MAX_CELLS} in all")
             }
             Self::NoFreeCell => "leave at least one cell free for the base".to_owned(),
-            Self::BaseOutside { size, .. } => {
+            Self::BaseOutside { size, .. } | Self::StartOutside { size, .. } => {
                 format!("columns go from 0 to {}, rows from 0 to {}", size.width() - 1, size.height() - 1)
             }
             Self::BaseBlocked { nearest, .. } => format!("put the base on {nearest}"),
+            Self::StartBlocked { nearest, .. } => format!("start on {nearest}"),
             Self::NotALayout => {
                 "a drawing begins with `tautline layout 1`; name MovingAI maps .map and ROS maps .yaml"
                     .to_owned()

@@ -14,7 +14,7 @@ use tautline_kernel::lattice::{Cell, Edge};
 use tautline_proofs::optimum::{Guide, Optimum, explore_all};
 use tautline_proofs::reach::{CellSet, Ground};
 
-use crate::explore::{Chart, Limits, RuleName, SchemeName, Setup, explore};
+use crate::explore::{Chart, RuleName, SchemeName, Setup, explore};
 use crate::fault::{Fault, Halt};
 use crate::layout::{Layout, Problem, Size};
 
@@ -213,9 +213,7 @@ impl Area {
     }
 
     fn setup(&self, rule: RuleName, layout: Layout) -> Setup {
-        let limits = Limits::default();
-        let Self { robots, base, .. } = *self;
-        Setup { scheme: SchemeName::Chain, rule, robots, seed: 0, layout, base, limits }
+        Setup::new(SchemeName::Chain, rule, self.robots, layout, self.base)
     }
 
     /// What a team that knows the `layout` has to explore.

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use tautline_proofs::run::Breach;
 
-use crate::explore::{Limits, Milestone, Report, RuleName, SchemeName, Setup, explore};
+use crate::explore::{Milestone, Report, RuleName, SchemeName, Setup, explore};
 use crate::fault::{Fault, Halt};
 use crate::layout::Generator;
 
@@ -33,8 +33,8 @@ pub struct Line {
     pub moves: Comparison,
     /// Cells explored when a run ends.
     pub explored: Comparison,
-    /// For each of [`Breach::ALL`]: runs that break it.
-    pub violations: [Violations; Breach::ALL.len()],
+    /// For each of [`Breach::CHAIN`]: runs that break it.
+    pub violations: [Violations; Breach::CHAIN.len()],
 }
 
 /// Team moves to a milestone, where both rules reach it.
@@ -81,7 +81,7 @@ struct Sums {
     milestones: [Paired; MILESTONES.len()],
     moves: Paired,
     explored: Paired,
-    violations: [[u32; Breach::ALL.len()]; RuleName::ALL.len()],
+    violations: [[u32; Breach::CHAIN.len()]; RuleName::ALL.len()],
 }
 
 #[derive(Clone, Copy, Default)]
@@ -127,13 +127,12 @@ impl Sums {
             .map_err(|problem| Fault::usage(&problem, problem.remedy()))?;
         let run = |rule| {
             let layout = layout.clone();
-            let limits = Limits::default();
-            let setup = Setup { scheme: SchemeName::Chain, rule, robots: ROBOTS, seed, layout, base, limits };
+            let setup = Setup { seed, ..Setup::new(SchemeName::Chain, rule, ROBOTS, layout, base) };
             explore(&setup, &mut |_| Ok(()))
         };
         let (published, repaired) = (run(RuleName::Published)?, run(RuleName::Repaired)?);
         let breaks = |report: &Report| {
-            Breach::ALL
+            Breach::CHAIN
                 .map(|breach| u32::from(report.violations.iter().any(|violation| violation.breach == breach)))
         };
         Ok(Self {
@@ -171,7 +170,7 @@ impl Sums {
             moves: self.moves.comparison(layouts),
             explored: self.explored.comparison(layouts),
             violations: std::array::from_fn(|breach| Violations {
-                clause: Breach::ALL[breach].clause(),
+                clause: Breach::CHAIN[breach].clause(),
                 published: self.violations[RuleName::Published as usize][breach],
                 repaired: self.violations[RuleName::Repaired as usize][breach],
             }),

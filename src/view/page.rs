@@ -4,11 +4,12 @@
 use std::fmt::Write;
 
 use tautline_kernel::chain::Kind;
+use tautline_kernel::floor::Mark;
 use tautline_kernel::lattice::Step;
 use tautline_proofs::run::Frame as Outcome;
 
 use super::svg::{self, Frame};
-use crate::explore::{Chart, Report, Setup, TeamMove};
+use crate::explore::{Chart, Crew, Report, Setup, TeamMove};
 use crate::fault::Fault;
 
 /// Robots that a page can draw, over all its team moves.
@@ -51,7 +52,7 @@ impl<'a> Page<'a> {
             let words = if step == 0 { "The start".to_owned() } else { format!("After team move {step}") };
             self.push(frame, &start, &words);
         }
-        self.push(frame, made, &words(made, self.report));
+        self.push(frame, made, &words(self.setup.crew(), made, self.report));
         self.drawn += made.before.len();
         if self.drawn > MAX_DRAWN {
             let what = format!("a page of more than {MAX_DRAWN} robots in all its team moves");
@@ -66,7 +67,7 @@ impl<'a> Page<'a> {
             self.moves,
             "<g class=\"move\" data-step=\"{}\" hidden><title>{words}</title>{}</g>",
             made.step,
-            svg::team(frame, made)
+            svg::team(self.setup.crew(), frame, made)
         );
     }
 
@@ -76,7 +77,7 @@ impl<'a> Page<'a> {
         let area = report.chart.area();
         let picture = svg::open(area)
             + &svg::ground(&setup.layout, area)
-            + &explored(&report.chart)
+            + &marked(&report.chart)
             + &svg::walls(&setup.layout, area)
             + &moves
             + "</g></svg>";
@@ -97,12 +98,14 @@ impl<'a> Page<'a> {
     }
 }
 
-fn explored(chart: &Chart) -> String {
+/// The cells as they are from a team move on, each mark over the one before it.
+fn marked(chart: &Chart) -> String {
     let frame = Frame(chart.area());
-    let cells = chart.area().cells().filter_map(|cell| chart.step(cell).map(|step| (cell, step)));
-    cells.fold(String::new(), |mut text, (cell, step)| {
-        let _ =
-            write!(text, "<g class=\"cell\" data-step=\"{step}\">{}</g>", svg::explored_cell(frame, cell));
+    let cells = chart.area().cells();
+    let explored = cells.filter_map(|cell| chart.step(cell).map(|step| (cell, step, Mark::Explored)));
+    explored.chain(chart.marks()).fold(String::new(), |mut text, (cell, step, mark)| {
+        let drawn = svg::marked_cell(frame, cell, mark);
+        let _ = write!(text, "<g class=\"cell\" data-step=\"{step}\">{drawn}</g>");
         text
     })
 }
@@ -114,12 +117,13 @@ fn broken(report: &Report) -> String {
     }
 }
 
-fn words(made: &TeamMove<'_>, report: &Report) -> String {
-    let kind = match made.frame.kind {
-        Kind::Advance => "an advance",
-        Kind::Backtrack => "a backtrack",
+fn words(crew: Crew, made: &TeamMove<'_>, report: &Report) -> String {
+    let kind = match (crew, made.frame.kind) {
+        (Crew::Chain, Kind::Advance) => ", an advance",
+        (Crew::Chain, Kind::Backtrack) => ", a backtrack",
+        (Crew::Agents(_), Kind::Advance | Kind::Backtrack) => "",
     };
-    let mut words = format!("Team move {} of {}, {kind}", made.step, report.steps);
+    let mut words = format!("Team move {} of {}{kind}", made.step, report.steps);
     let blocked = (1..).zip(&made.frame.blocked).filter(|&(_, &blocked)| blocked);
     for (robot, _) in blocked {
         let _ = write!(words, "; R{robot} meets a wall");

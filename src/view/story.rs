@@ -2,12 +2,13 @@
 
 use std::fmt::Write;
 
+use tautline_kernel::floor::Mark;
 use tautline_kernel::lattice::{Cell, Side, Step};
 use tautline_proofs::registry::CLAUSES;
 use tautline_proofs::run::Breach;
 
-use super::{Block, Pose, beside, outcome, team_move};
-use crate::explore::{Chart, Report, Setup, TeamMove, Violation, explore, missed};
+use super::{Block, Pose, beside, first_drawn, outcome, team_move};
+use crate::explore::{Chart, Crew, Report, Setup, TeamMove, Violation, explore, missed};
 use crate::fault::Halt;
 
 /// The sentence of the clause `id`.
@@ -24,11 +25,15 @@ pub fn of(setup: &Setup, chart: &Chart, made: &TeamMove<'_>) -> String {
         let _ = writeln!(text, "Team move {} breaks {clause}: {}", made.step, sentence(clause));
     }
     text.push('\n');
-    for (robot, &from) in made.before.iter().enumerate().skip(1) {
-        let _ = writeln!(text, "  R_{} at {from} {}.", robot + 1, did(made, robot));
+    let who = match setup.crew() {
+        Crew::Chain => "R_",
+        Crew::Agents(_) => "Agent ",
+    };
+    for (robot, &from) in made.before.iter().enumerate().skip(first_drawn(setup.crew())) {
+        let _ = writeln!(text, "  {who}{} at {from} {}.", robot + 1, did(made, robot));
     }
     for &breach in made.breaches {
-        for line in result(breach, made) {
+        for line in result(breach, setup, chart, made) {
             let _ = writeln!(text, "  {line}");
         }
     }
@@ -56,7 +61,7 @@ const fn towards(side: Side) -> &'static str {
 }
 
 /// What is wrong afterwards, one line for each pair or cell.
-fn result(breach: Breach, made: &TeamMove<'_>) -> Vec<String> {
+fn result(breach: Breach, setup: &Setup, chart: &Chart, made: &TeamMove<'_>) -> Vec<String> {
     let (before, after) = (made.before, made.frame.cells.as_slice());
     match breach {
         Breach::Contact => pairs(breach, before, after)
@@ -93,7 +98,12 @@ fn result(breach: Breach, made: &TeamMove<'_>) -> Vec<String> {
                 )
             })
             .collect(),
-        Breach::Completeness => Vec::new(),
+        Breach::Premature => {
+            let is_left = |cell: &Cell| chart.mark(*cell, made.step) == Mark::Unexplored;
+            let left = missed(setup, chart).into_iter().filter(is_left).count();
+            vec![format!("So an agent is done, and {left} cells are unexplored.")]
+        }
+        Breach::Completeness | Breach::Unvisited => Vec::new(),
     }
 }
 
@@ -118,18 +128,22 @@ fn apart([one, other]: [Cell; 2]) -> String {
 /// How the end of a run breaks its clauses: the sentence, the cells that it missed, and the layout drawn. Nothing, if it
 /// does not.
 pub fn of_end(setup: &Setup, report: &Report) -> String {
-    let is_broken = |violation: &&Violation| violation.breach == Breach::Completeness;
-    report.violations.iter().find(is_broken).map_or_else(String::new, |Violation { breach, step }| {
+    let what = |breach| match breach {
+        Breach::Contact | Breach::Crowding | Breach::Coverage | Breach::Premature => None,
+        Breach::Completeness => Some("Within reach and unexplored"),
+        Breach::Unvisited => Some("Connected with a start and not visited"),
+    };
+    let mut broken = report.violations.iter().filter_map(|broken| Some((broken, what(broken.breach)?)));
+    broken.next().map_or_else(String::new, |(Violation { breach, step }, what)| {
         let clause = breach.clause();
         let head = format!("The end after team move {step} breaks {clause}: {}", sentence(clause));
-        unexplored(setup, report, &head, "Within reach and unexplored", &missed(setup, &report.chart))
+        unexplored(setup, report, &head, what, &missed(setup, &report.chart))
     })
 }
 
 fn unexplored(setup: &Setup, report: &Report, head: &str, what: &str, cells: &[Cell]) -> String {
     let cells: Vec<String> = cells.iter().map(|cell| format!("({cell})")).collect();
-    let team = vec![setup.base; setup.robots.into()];
-    format!("{head}\n\n  {what}: {}.\n\n{}", cells.join(" "), outcome(setup, &report.chart, &team))
+    format!("{head}\n\n  {what}: {}.\n\n{}", cells.join(" "), outcome(setup, &report.chart, &report.team))
 }
 
 /// How the last team move of the run of `setup`, or its end, breaks its clauses.

@@ -3,12 +3,13 @@
 
 use std::fmt::Write;
 
+use tautline_kernel::floor::Mark;
 use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Edge, Side, Step};
 use tautline_proofs::run::Breach;
 
-use super::{Environment, REACH};
-use crate::explore::{Chart, Setup, TeamMove};
+use super::{Environment, REACH, first_drawn};
+use crate::explore::{Chart, Crew, Setup, TeamMove};
 use crate::layout::Layout;
 
 /// The side of a cell.
@@ -22,13 +23,14 @@ const PAGE_WIDTH: i32 = 960;
 
 /// The colours of all pictures, by the class of what they paint.
 pub(super) const STYLE: &str = "\
-svg{--ground:#fff;--ink:#1b1f24;--faint:#d4d9e0;--explored:#e3edf9;--blocked:#9aa4b1;--robot:#1d5fa8;--leader:#0b7a53;\
+svg{--ground:#fff;--ink:#1b1f24;--faint:#d4d9e0;--explored:#e3edf9;--visited:#e9c7a4;--blocked:#9aa4b1;--robot:#1d5fa8;--leader:#0b7a53;\
 --base:#5b3a8c;--bad:#c4261d;font:12px system-ui,sans-serif;background:var(--ground)}\
-@media(prefers-color-scheme:dark){svg{--ground:#14181d;--ink:#e6eaef;--faint:#333b45;--explored:#1f3550;--blocked:#5d6875;\
+@media(prefers-color-scheme:dark){svg{--ground:#14181d;--ink:#e6eaef;--faint:#333b45;--explored:#1f3550;--visited:#63452b;--blocked:#5d6875;\
 --robot:#6aa9ee;--leader:#4cc79a;--base:#b795e6;--bad:#ff7b72}}\
 text{fill:var(--ink);text-anchor:middle;dominant-baseline:central}.caption{text-anchor:start}\
 .lines{stroke:var(--faint);fill:none}.walls{stroke:var(--ink);stroke-width:3;stroke-linecap:square;fill:none}\
-.blocked{fill:var(--blocked)}.explored{fill:var(--explored)}.member{fill:var(--robot);fill-opacity:.35}\
+.blocked{fill:var(--blocked)}.explored{fill:var(--explored)}\
+.visited{fill:var(--visited)}.closing{fill:var(--explored);stroke:var(--visited);stroke-width:3}.member{fill:var(--robot);fill-opacity:.35}\
 .order{fill:var(--robot)}.small{font-size:10px}.robot{fill:var(--robot)}.leader{fill:var(--leader)}.base{fill:var(--base)}\
 .name{fill:var(--ground);font-size:10px;font-weight:600}.link{stroke:var(--robot);stroke-width:2;stroke-opacity:.5}\
 .way{stroke:var(--ink);stroke-width:1.5}.tip{fill:var(--ink)}.bump{stroke:var(--bad);stroke-width:3}\
@@ -110,7 +112,10 @@ pub fn order(setup: &Setup, chart: &Chart) -> Panel {
             let _ = write!(body, "<text class=\"small\" x=\"{cx}\" y=\"{cy}\">{step}</text>");
         }
     }
-    body.push_str(&base_mark(frame, setup.base));
+    match setup.crew() {
+        Crew::Chain => body.push_str(&base_mark(frame, setup.base)),
+        Crew::Agents(_) => {}
+    }
     panel(area, String::new(), body + &walls(&setup.layout, area))
 }
 
@@ -119,12 +124,11 @@ pub fn team_move(setup: &Setup, chart: &Chart, made: &TeamMove<'_>) -> Panel {
     let area = chart.area();
     let frame = Frame(area);
     let mut body = ground(&setup.layout, area);
-    let explored = |cell: &Cell| chart.step(*cell).is_some_and(|step| step <= made.step);
-    for cell in area.cells().filter(explored) {
-        body.push_str(&explored_cell(frame, cell));
+    for cell in area.cells() {
+        body.push_str(&marked_cell(frame, cell, chart.mark(cell, made.step)));
     }
     body.push_str(&walls(&setup.layout, area));
-    body.push_str(&team(frame, made));
+    body.push_str(&team(setup.crew(), frame, made));
     panel(area, super::title(made), body)
 }
 
@@ -226,11 +230,17 @@ fn side(frame: Frame, edge: Edge) -> String {
     }
 }
 
-/// A cell that is explored.
-pub(super) fn explored_cell(frame: Frame, cell: Cell) -> String {
+/// A cell with its mark; nothing if it is unexplored.
+pub(super) fn marked_cell(frame: Frame, cell: Cell, mark: Mark) -> String {
+    let class = match mark {
+        Mark::Unexplored => return String::new(),
+        Mark::Explored => "explored",
+        Mark::Closing => "closing",
+        Mark::Visited => "visited",
+    };
     let (x, y) = frame.corner(cell);
     let inner = CELL - 1;
-    format!("<rect class=\"explored\" x=\"{x}.5\" y=\"{y}.5\" width=\"{inner}\" height=\"{inner}\"/>")
+    format!("<rect class=\"{class}\" x=\"{x}.5\" y=\"{y}.5\" width=\"{inner}\" height=\"{inner}\"/>")
 }
 
 fn base_mark(frame: Frame, base: Cell) -> String {
@@ -243,9 +253,25 @@ fn name((x, y): (i32, i32), text: &str) -> String {
     format!("<text class=\"name\" x=\"{x}\" y=\"{y}\">{text}</text>")
 }
 
-/// The links of the chain, the ways of the robots and the robots.
-pub(super) fn team(frame: Frame, made: &TeamMove<'_>) -> String {
+/// The links and the base of a chain, the ways of the robots and the robots.
+pub(super) fn team(crew: Crew, frame: Frame, made: &TeamMove<'_>) -> String {
     let (before, after) = (made.before, made.frame.cells.as_slice());
+    let mut body = match crew {
+        Crew::Chain => links(frame, before, after) + &base_mark(frame, after[0]),
+        Crew::Agents(_) => String::new(),
+    };
+    for (robot, &from) in before.iter().enumerate().skip(first_drawn(crew)) {
+        if let Step::Cross(side) = made.frame.steps[robot] {
+            body.push_str(&way(frame, from, side, made.frame.blocked[robot]));
+        }
+    }
+    for robot in first_drawn(crew)..after.len() {
+        body.push_str(&self::robot(crew, frame, after, robot));
+    }
+    body
+}
+
+fn links(frame: Frame, before: &[Cell], after: &[Cell]) -> String {
     let mut body = String::new();
     for (from, to) in before.windows(2).zip(after.windows(2)) {
         let is_lost = |breach: Breach| breach.is_in(from, to);
@@ -254,15 +280,6 @@ pub(super) fn team(frame: Frame, made: &TeamMove<'_>) -> String {
         if (x, y) != (to_x, to_y) {
             let _ = write!(body, "<path class=\"{class}\" d=\"M{x} {y}L{to_x} {to_y}\"/>");
         }
-    }
-    body.push_str(&base_mark(frame, after[0]));
-    for (robot, &from) in before.iter().enumerate().skip(1) {
-        if let Step::Cross(side) = made.frame.steps[robot] {
-            body.push_str(&way(frame, from, side, made.frame.blocked[robot]));
-        }
-    }
-    for robot in 1..after.len() {
-        body.push_str(&self::robot(frame, after, robot));
     }
     body
 }
@@ -304,11 +321,11 @@ fn way(frame: Frame, from: Cell, side: Side, is_blocked: bool) -> String {
 const CORNERS: [(i32, i32); 4] = [(-6, -6), (6, -6), (-6, 6), (6, 6)];
 
 /// A robot, beside the others in its cell.
-fn robot(frame: Frame, team: &[Cell], robot: usize) -> String {
+fn robot(crew: Crew, frame: Frame, team: &[Cell], robot: usize) -> String {
     let cell = team[robot];
-    let is_base = cell == team[0];
-    let others = (1..robot).filter(|&other| team[other] == cell).count();
-    let all = (1..team.len()).filter(|&other| team[other] == cell).count();
+    let is_base = crew == Crew::Chain && cell == team[0];
+    let others = (first_drawn(crew)..robot).filter(|&other| team[other] == cell).count();
+    let all = (first_drawn(crew)..team.len()).filter(|&other| team[other] == cell).count();
     let (x, y) = frame.centre(cell);
     let (dx, dy) = match (all, is_base, CORNERS.get(others)) {
         (1, false, _) => (0, 0),
@@ -317,10 +334,10 @@ fn robot(frame: Frame, team: &[Cell], robot: usize) -> String {
         // More do not fit; those that are drawn hide them.
         (_, _, None) => return String::new(),
     };
-    let class = match (all > 2 && !is_base, robot + 1 == team.len()) {
-        (true, _) => "crowded",
-        (false, true) => "leader",
-        (false, false) => "robot",
+    let class = match (crew, all > 2 && !is_base, robot + 1 == team.len()) {
+        (Crew::Chain, true, _) => "crowded",
+        (Crew::Chain, false, true) => "leader",
+        (Crew::Chain, false, false) | (Crew::Agents(_), ..) => "robot",
     };
     let radius = if all == 1 && !is_base { 9 } else { 6 };
     let at = (x + dx, y + dy);

@@ -1,0 +1,309 @@
+//! Agents on a sensor floor as schemes (paper 004): Ants, Brick&Mortar, and Brick&Mortar robust against missed sensors.
+//! In a team move every agent that is not done acts once, in the order of the agents' ids.
+//!
+//! Missed sensors are drawn from `ChaCha8`, seeded with the seed of the run as layouts are, with the tag `miss`: one
+//! draw for each sensor that is asked about, agent by agent, clockwise from the northern neighbour. Where the
+//! probability is 0 nothing is drawn.
+
+use rand_chacha::ChaCha8Rng;
+use tautline_kernel::ants::least_crossed;
+use tautline_kernel::bricks::{self, Agent, Condition, Next, Rule};
+use tautline_kernel::chain::Kind;
+use tautline_kernel::choice::Source;
+use tautline_kernel::floor::{COMPASS, Claim, Entry, Mark, Scan, enter, leave};
+use tautline_kernel::grid::Area;
+use tautline_kernel::lattice::{Cell, Edge, Step};
+use tautline_proofs::run::{Breach, Frame};
+
+use super::floor::{Component, SensorFloor};
+use super::{Chart, End, Scheme, Setup};
+use crate::layout::Layout;
+use crate::layout::generate::{self, Probability};
+
+/// How agents decide.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Way {
+    /// By the crossings of the cells around.
+    Ants,
+    /// By marking cells.
+    Bricks(Rule),
+}
+
+/// The seeded world: which sensors are missed.
+#[derive(Clone)]
+struct Misses {
+    chance: Probability,
+    generator: ChaCha8Rng,
+}
+
+impl Source for Misses {
+    fn pick(&mut self, below: u32) -> u32 {
+        generate::below(below, &mut self.generator)
+    }
+
+    fn mishap(&mut self) -> bool {
+        !self.chance.is_never() && self.chance.happens(&mut self.generator)
+    }
+}
+
+/// An agent on the floor.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Body {
+    agent: Agent,
+    is_done: bool,
+}
+
+/// A team of agents on a floor.
+#[derive(Clone)]
+pub struct Team {
+    way: Way,
+    floor: SensorFloor,
+    bodies: Vec<Body>,
+    cells: Vec<Cell>,
+    /// What each agent did in the last team move.
+    steps: Vec<Step>,
+    /// Whether in the last team move an agent was done although it could have got to an unexplored cell.
+    is_premature: bool,
+    misses: Misses,
+}
+
+impl Team {
+    /// A team in `layout`, an agent in each of `starts`: at most 255 free cells. They miss sensors by `chance`, drawn
+    /// from `seed`.
+    pub fn new(way: Way, layout: &Layout, starts: &[Cell], chance: Probability, seed: u64) -> Self {
+        let mut floor = SensorFloor::new(layout, starts);
+        for &start in starts {
+            let entry = match floor.mark(start) {
+                Mark::Unexplored => Entry::New,
+                Mark::Explored | Mark::Closing | Mark::Visited => Entry::Known,
+            };
+            enter(&mut floor, start, entry);
+        }
+        let bodies = (0..=u8::MAX).zip(starts).map(|(id, _)| Body { agent: Agent::new(id), is_done: false });
+        Self {
+            way,
+            floor,
+            bodies: bodies.collect(),
+            cells: starts.to_vec(),
+            steps: vec![Step::Stay; starts.len()],
+            is_premature: false,
+            misses: Misses { chance, generator: generate::source(seed, *b"miss    ") },
+        }
+    }
+
+    /// Where the agents are.
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// What each agent did in the last team move.
+    pub fn steps(&self) -> &[Step] {
+        &self.steps
+    }
+
+    /// The floor.
+    pub const fn floor(&self) -> &SensorFloor {
+        &self.floor
+    }
+
+    /// How many agents are not done. Ants are never done.
+    pub fn active(&self) -> u32 {
+        self.sum(|component| component.active.into())
+    }
+
+    /// Makes one team move.
+    pub fn advance(&mut self) {
+        self.floor.clear_marked();
+        self.is_premature = false;
+        for number in 0..self.bodies.len() {
+            self.steps[number] = if self.bodies[number].is_done { Step::Stay } else { self.act(number) };
+        }
+    }
+
+    /// An agent acts; what it does.
+    fn act(&mut self, number: usize) -> Step {
+        let (body, cell) = (&mut self.bodies[number], &mut self.cells[number]);
+        let scan = Scan::new(&self.floor, *cell, &mut self.misses);
+        match self.way {
+            Way::Ants => {
+                let Some(side) = least_crossed(&scan, scan.beside) else { return Step::Stay };
+                leave(&mut self.floor, *cell);
+                *cell = cell.beyond(side);
+                enter(&mut self.floor, *cell, scan.entry(side));
+                Step::Cross(side)
+            }
+            Way::Bricks(rule) => {
+                let act = body.agent.decide(rule, &scan);
+                *cell = bricks::carry_out(&mut self.floor, *cell, &act);
+                match act.next {
+                    Next::Goes(side, ..) => Step::Cross(side),
+                    Next::Waits => Step::Stay,
+                    Next::Done => {
+                        body.is_done = true;
+                        self.is_premature |= self.floor.retire(*cell);
+                        Step::Stay
+                    }
+                }
+            }
+        }
+    }
+
+    /// Cells that agents can get to.
+    pub fn due(&self) -> u32 {
+        self.sum(|component| component.cells)
+    }
+
+    /// Those of them that are explored.
+    pub fn explored(&self) -> u32 {
+        self.sum(|component| component.explored)
+    }
+
+    /// Those of them that are visited.
+    pub fn visited(&self) -> u32 {
+        self.sum(|component| component.visited)
+    }
+
+    fn sum(&self, number: impl Fn(&Component) -> u32) -> u32 {
+        self.floor.components().iter().map(number).sum()
+    }
+
+    /// Whether the run is over: every agent is done or, where some can never know that they are, nothing that they do
+    /// can matter any more.
+    pub fn is_over(&self) -> bool {
+        let is_settled = match self.way {
+            Way::Ants => true,
+            Way::Bricks(rule) => rule.has(Condition::AntsWhenIdle) && !self.misses.chance.is_never(),
+        };
+        self.active() == 0 || is_settled && self.explored() == self.due() && self.is_roaming()
+    }
+
+    /// Whether no agent that is not done has anything but visited cells around, if agents mark cells as visited at all.
+    fn is_roaming(&self) -> bool {
+        let is_visited = |cell| self.floor.mark(cell) == Mark::Visited;
+        let is_shut_in = |(body, &cell): (&Body, &Cell)| {
+            let mut sides = COMPASS.into_iter().filter(|&side| self.floor.has_open(cell, side));
+            body.is_done || is_visited(cell) && sides.all(|side| is_visited(cell.beyond(side)))
+        };
+        match self.way {
+            Way::Ants => true,
+            Way::Bricks(_) => self.bodies.iter().zip(&self.cells).all(is_shut_in),
+        }
+    }
+
+    /// Whether a run that comes back to where it was goes on for ever: nothing is left to chance, and no agent reads
+    /// the crossings, which only grow.
+    fn repeats(&self) -> bool {
+        match self.way {
+            Way::Ants => false,
+            Way::Bricks(rule) => !rule.has(Condition::AntsWhenIdle) && self.misses.chance.is_never(),
+        }
+    }
+}
+
+/// A scheme of agents.
+struct Agents {
+    team: Team,
+    area: Area,
+    watch: Option<Watch>,
+}
+
+/// The agents of `setup`, each at its start.
+pub(super) fn start(setup: &Setup, way: Way) -> Box<dyn Scheme> {
+    let team = Team::new(way, &setup.layout, &setup.starts(), setup.miss, setup.seed);
+    let watch = team.repeats().then(|| Watch::new(&team));
+    Box::new(Agents { team, area: setup.layout.size().area(), watch })
+}
+
+impl Scheme for Agents {
+    fn area(&self) -> Area {
+        self.area
+    }
+
+    fn cells(&self) -> &[Cell] {
+        self.team.cells()
+    }
+
+    fn due(&self, _: &Layout) -> u32 {
+        self.team.due()
+    }
+
+    fn advance(&mut self, _: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+        if self.team.is_over() {
+            let is_explored = self.team.explored() == self.team.due();
+            return Err(if is_explored { End::Explored } else { End::Exhausted });
+        }
+        if self.watch.as_mut().is_some_and(|watch| watch.has_come_round(&self.team)) {
+            return Err(End::Endless);
+        }
+        self.team.advance();
+        let (steps, cells) = (self.team.steps.clone(), self.team.cells.clone());
+        Ok(Frame { kind: Kind::Advance, blocked: vec![false; steps.len()], steps, cells })
+    }
+
+    fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<Breach> {
+        if self.team.is_premature { vec![Breach::Premature] } else { Vec::new() }
+    }
+
+    /// That every cell is visited is promised where no sensor is missed, and by those who mark cells.
+    fn broken_at_end(&self, setup: &Setup, _: &Chart, _: End) -> Vec<Breach> {
+        let is_promised = match self.team.way {
+            Way::Ants => false,
+            Way::Bricks(_) => setup.miss.is_never(),
+        };
+        let is_broken = is_promised && self.team.visited() < self.team.due();
+        if is_broken { vec![Breach::Unvisited] } else { Vec::new() }
+    }
+
+    fn marked(&self) -> &[(Cell, Mark)] {
+        self.team.floor.marked()
+    }
+
+    fn components(&self) -> &[Component] {
+        self.team.floor.components()
+    }
+}
+
+/// Looks for runs that go on for ever: agents and claims that are as they were, with no mark and no side changed in
+/// between, go round (Brent 1980).
+struct Watch {
+    bodies: Vec<Body>,
+    cells: Vec<Cell>,
+    claims: Vec<(usize, Claim)>,
+    gains: u64,
+    /// Team moves since this was noted, and how many there are until the next note.
+    moves: u64,
+    due: u64,
+}
+
+impl Watch {
+    fn new(team: &Team) -> Self {
+        Self {
+            bodies: team.bodies.clone(),
+            cells: team.cells.clone(),
+            claims: team.floor.claims().to_vec(),
+            gains: team.floor.gains(),
+            moves: 0,
+            due: 1,
+        }
+    }
+
+    /// Whether the team, which has made a team move since the last call, is where it was.
+    fn has_come_round(&mut self, team: &Team) -> bool {
+        if self.gains != team.floor.gains() {
+            *self = Self { moves: 1, ..Self::new(team) };
+            return false;
+        }
+        let is_back = self.moves > 0
+            && self.cells == team.cells
+            && self.bodies == team.bodies
+            && self.claims == team.floor.claims();
+        if is_back {
+            return true;
+        }
+        if self.moves == self.due {
+            *self = Self { due: 2 * self.due, ..Self::new(team) };
+        }
+        self.moves += 1;
+        false
+    }
+}
