@@ -48,6 +48,17 @@ pub fn enter(floor: &mut impl Floor, cell: Cell, entry: Entry) {
     floor.put(cell, known.entered());
 }
 
+/// Puts agents into the cells where they start: the first in a cell places the sensor there.
+pub fn settle(floor: &mut impl Floor, starts: &[Cell]) {
+    for &start in starts {
+        let entry = match floor.sensor(start).unwrap_or_default().mark {
+            Mark::Unexplored => Entry::New,
+            Mark::Explored | Mark::Closing | Mark::Visited | Mark::Sealed => Entry::Known,
+        };
+        enter(floor, start, entry);
+    }
+}
+
 /// Leaves `cell`, whose sensor counts an agent less.
 pub fn leave(floor: &mut impl Floor, cell: Cell) {
     if let Some(sensor) = floor.sensor(cell) {

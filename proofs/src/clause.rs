@@ -2,11 +2,12 @@
 //! rule it is about, the engine, the bound, the expected verdict and the mutants that must be rejected. Of a step
 //! check one macro makes the exhaustive test, the property, the Kani harnesses and the line in the ledger.
 
+use tautline_kernel::bricks;
 use tautline_kernel::chain::{Condition, High, Rule};
 use tautline_kernel::choice::Source;
 use tautline_kernel::lattice::Circle;
 
-use crate::engine::Outcome;
+use crate::engine::{Outcome, Tally};
 use crate::invariant::Invariant;
 
 /// What a check is about: the rule, and how the observer of a mutant is deceived.
@@ -18,6 +19,10 @@ pub struct Subject {
     pub intended: Rule,
     /// What is done to it behind its back.
     pub sabotage: Sabotage,
+    /// The rule of Brick&Mortar.
+    pub bricks: bricks::Rule,
+    /// That of Brick&Mortar made robust against missed sensors.
+    pub bricks_ants: bricks::Rule,
 }
 
 /// What no set of conditions can express, done to a mutant on the way from the rule to the check.
@@ -31,6 +36,10 @@ pub enum Sabotage {
     BaseFollows,
     /// The planner is the plain recursion.
     PlainRecursion,
+    /// Agents beside each other scan and write at once.
+    ActsAtOnce,
+    /// Sensors do not count crossings.
+    CountsNothing,
 }
 
 impl Sabotage {
@@ -38,17 +47,41 @@ impl Sabotage {
     pub const fn carry(self, byte: u8) -> u8 {
         match self {
             Self::SwappedBits => byte & !0b1001 | (byte & 1) << 3 | byte >> 3 & 1,
-            Self::None | Self::BaseFollows | Self::PlainRecursion => byte,
+            Self::None
+            | Self::BaseFollows
+            | Self::PlainRecursion
+            | Self::ActsAtOnce
+            | Self::CountsNothing => byte,
         }
     }
 }
 
 impl Subject {
-    /// The chain as published.
-    pub const PUBLISHED: Self =
-        Self { rule: Rule::PUBLISHED, intended: Rule::PUBLISHED, sabotage: Sabotage::None };
-    /// The chain repaired.
-    pub const REPAIRED: Self = Self { rule: Rule::REPAIRED, intended: Rule::REPAIRED, ..Self::PUBLISHED };
+    /// Everything as published.
+    pub const PUBLISHED: Self = Self {
+        rule: Rule::PUBLISHED,
+        intended: Rule::PUBLISHED,
+        sabotage: Sabotage::None,
+        bricks: bricks::Rule::PUBLISHED,
+        bricks_ants: bricks::Rule::ROBUST,
+    };
+    /// Everything repaired.
+    pub const REPAIRED: Self = Self {
+        rule: Rule::REPAIRED,
+        intended: Rule::REPAIRED,
+        bricks: bricks::Rule::REPAIRED,
+        ..Self::PUBLISHED
+    };
+
+    /// Agents that follow `rule`.
+    pub const fn marking(rule: bricks::Rule) -> Self {
+        Self { bricks: rule, ..Self::REPAIRED }
+    }
+
+    /// Agents that follow the robust rule without one condition.
+    pub const fn marking_twice_without(condition: bricks::Condition) -> Self {
+        Self { bricks_ants: bricks::Rule::ROBUST.without(condition), ..Self::REPAIRED }
+    }
 
     /// A team that claims to follow the repaired rule, but follows `rule`.
     pub const fn following(rule: Rule) -> Self {
@@ -129,6 +162,13 @@ pub enum Method {
         /// The situations that must occur, sorted.
         covers: &'static [&'static str],
     },
+    /// Every state that can be reached, equal ones merged.
+    States {
+        /// Goes through them.
+        explore: fn(&Subject) -> Tally,
+        /// The situations that must occur, sorted.
+        covers: &'static [&'static str],
+    },
     /// Every layout within a bound.
     Search {
         /// Robots, base included.
@@ -146,6 +186,7 @@ impl Method {
         match self {
             Self::Exhaustive { .. } => "exhaustive",
             Self::Sampled { .. } => "sampled",
+            Self::States { .. } => "states",
             Self::Search { .. } => "search",
         }
     }

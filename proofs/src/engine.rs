@@ -50,14 +50,16 @@ impl Tally {
         match outcome {
             Err(Stop::Assumed) => return false,
             Err(Stop::Violated(demand)) => self.violation = Some((choices.to_vec(), demand)),
-            Ok(situation) => {
-                if let Err(place) = self.covered.binary_search(&situation) {
-                    self.covered.insert(place, situation);
-                }
-            }
+            Ok(situation) => self.cover(situation),
         }
         self.cases += 1;
         self.violation.is_some()
+    }
+
+    pub(crate) fn cover(&mut self, situation: &'static str) {
+        if let Err(place) = self.covered.binary_search(&situation) {
+            self.covered.insert(place, situation);
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 //! that answer every choice, the search over all layouts, what a chain can reach and in how few team moves, and the
 //! judge of counterexamples.
 
+mod ants;
 mod bricks;
 pub mod clause;
 pub mod crowd;
@@ -10,9 +11,11 @@ pub mod engine;
 pub mod invariant;
 pub mod judge;
 pub mod links;
+mod marking;
 pub mod optimum;
 pub mod pair;
 pub mod plain;
+mod plans;
 pub mod reach;
 pub mod registry;
 pub mod run;

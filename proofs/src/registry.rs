@@ -1,5 +1,7 @@
 //! The list of all clauses, in the order of `SPEC.md`.
 
+use tautline_kernel::bricks::Condition::{Alone, Corners, SeenOnly};
+use tautline_kernel::bricks::{self, Precedence};
 use tautline_kernel::chain::Condition::{
     CoveredBehind, Distinct, EpochMustGain, FullForFollower, FullForLeader, RefusedIsVirtual, SafeAhead,
     Unfold, UnsureAhead,
@@ -7,10 +9,12 @@ use tautline_kernel::chain::Condition::{
 use tautline_kernel::chain::{High, Rule};
 use tautline_kernel::lattice::Circle;
 
+use crate::bricks as floors;
 use crate::clause::{Check, Clause, Method, Mutant, Sabotage, Subject, Verdict};
+use crate::engine::Tally;
 use crate::invariant::Invariant;
 use crate::run::Breach;
-use crate::{crowd, optimum, pair, small, three, walk, whole};
+use crate::{ants, crowd, marking, optimum, pair, small, three, walk, whole};
 
 /// A mutant.
 const fn mutant(name: &'static str, subject: Subject) -> Mutant {
@@ -132,6 +136,40 @@ exhaustive! {
             safe_too_narrow: "E_S narrowed to E_N" => Subject::with_safe(NARROWER),
             covered_too_narrow: "E_C with the radius of E_S" => Subject::with_covered(Circle::SAFE),
         };
+    neighbourhood: marking::neighbourhood, Subject::PUBLISHED, "all 256 neighbourhoods",
+        covers ["explored", "visited"], unwind 17, mutants {
+            without_corners: "without corners" => NO_CORNERS,
+        };
+    walled: marking::walled, Subject::REPAIRED, "all neighbourhoods, walls between cells",
+        covers ["explored", "visited"], unwind 17, mutants {
+            without_corners: "without corners" => NO_CORNERS,
+        };
+    half_seen: marking::half_seen, Subject::REPAIRED, "all neighbourhoods, any sensors missed",
+        covers ["explored", "visited"], unwind 17, mutants {
+            without_seen_only: "ways through what reads as unexplored" => Subject::marking_twice_without(SeenOnly),
+        };
+}
+
+/// Agents that do not look at corners.
+const NO_CORNERS: Subject = Subject::marking(bricks::Rule::REPAIRED.without(Corners));
+
+/// Agents that mark cells in which others are.
+const NOT_ALONE: Subject = Subject::marking(bricks::Rule::REPAIRED.without(Alone));
+
+/// Agents whose laps are told apart in another way.
+const fn laps(precedence: Precedence) -> Subject {
+    Subject::marking(bricks::Rule { precedence, ..bricks::Rule::REPAIRED })
+}
+
+/// A check of every state of agents on small floors.
+const fn states(
+    subject: Subject,
+    explore: fn(&Subject) -> Tally,
+    bound: &'static str,
+    expected: Verdict,
+    mutants: &'static [Mutant],
+) -> Check {
+    Check { subject, method: Method::States { explore, covers: &["an end"] }, bound, expected, mutants }
 }
 
 /// The next larger circle: E_C with eight cells more.
@@ -149,7 +187,7 @@ const THREE: (usize, u32) = (4, 3);
 const THREE_BOUND: &str = "all layouts, N = 4, at most 3 walls";
 
 /// Every clause, in the order of `SPEC.md`.
-pub static CLAUSES: [Clause; 16] = [
+pub static CLAUSES: [Clause; 23] = [
     Clause {
         id: "LATTICE-1",
         sentence: "The environments derived from the radii MUST be the sets that the paper draws: E_N the cell and \
@@ -419,6 +457,126 @@ pub static CLAUSES: [Clause; 16] = [
                 Verdict::Holds,
                 &[],
             ),
+        ],
+    },
+    Clause {
+        id: "ANTS-1",
+        sentence: "Ants MUST explore every cell that is connected with their start, whatever sensors are missed a \
+                   finite number of times.",
+        checks: &[states(
+            Subject::PUBLISHED,
+            ants::explores,
+            ants::EXPLORES,
+            Verdict::Holds,
+            &[mutant("sensors count nothing", Subject::sabotaged(Sabotage::CountsNothing))],
+        )],
+    },
+    Clause {
+        id: "BRICKS-1",
+        sentence: "Marking a cell MUST leave its accessible side neighbours connected with each other through the \
+                   eight cells around it.",
+        checks: &[neighbourhood::CHECK, walled::CHECK, half_seen::CHECK],
+    },
+    Clause {
+        id: "BRICKS-2",
+        sentence: "The accessible cells MUST stay connected.",
+        checks: &[
+            states(
+                Subject::PUBLISHED,
+                floors::connected_alone,
+                floors::ALONE,
+                Verdict::Holds,
+                &[mutant("without corners", NO_CORNERS)],
+            ),
+            states(
+                Subject::REPAIRED,
+                floors::connected,
+                floors::TOGETHER,
+                Verdict::Holds,
+                &[
+                    mutant("without corners", NO_CORNERS),
+                    mutant("no lap gives way to another", laps(Precedence::Nobody)),
+                ],
+            ),
+            states(
+                Subject::REPAIRED,
+                floors::connected_half_blind,
+                floors::HALF_BLIND,
+                Verdict::Holds,
+                &[mutant("ways through what reads as unexplored", Subject::marking_twice_without(SeenOnly))],
+            ),
+        ],
+    },
+    Clause {
+        id: "BRICKS-3",
+        sentence: "It MUST be enough for BRICKS-2 that two agents take turns whose scans overlap.",
+        checks: &[states(
+            Subject::REPAIRED,
+            floors::connected_in_turns,
+            floors::IN_TURNS,
+            Verdict::Holds,
+            &[mutant("agents beside each other act at once", Subject::sabotaged(Sabotage::ActsAtOnce))],
+        )],
+    },
+    Clause {
+        id: "BRICKS-4",
+        sentence: "An agent MUST be done only when every cell is explored and no other cell is left to go through.",
+        checks: &[
+            states(Subject::PUBLISHED, floors::knowing, floors::TOGETHER, Verdict::Refuted, &[]),
+            states(
+                Subject::REPAIRED,
+                floors::knowing,
+                floors::TOGETHER,
+                Verdict::Holds,
+                &[mutant("marks cells in which others are", NOT_ALONE)],
+            ),
+            states(Subject::PUBLISHED, floors::knowing_half_blind, floors::HALF_BLIND, Verdict::Refuted, &[]),
+            states(
+                Subject::REPAIRED,
+                floors::robust_knowing_half_blind,
+                floors::HALF_BLIND,
+                Verdict::Holds,
+                &[mutant("ways through what reads as unexplored", Subject::marking_twice_without(SeenOnly))],
+            ),
+        ],
+    },
+    Clause {
+        id: "BRICKS-5",
+        sentence: "Every cell MUST be explored, whatever sensors are missed a finite number of times.",
+        checks: &[
+            states(
+                Subject::PUBLISHED,
+                floors::explores_half_blind,
+                floors::HALF_BLIND,
+                Verdict::Refuted,
+                &[],
+            ),
+            states(
+                Subject::REPAIRED,
+                floors::robust_explores_half_blind,
+                floors::HALF_BLIND,
+                Verdict::Holds,
+                &[mutant("ways through what reads as unexplored", Subject::marking_twice_without(SeenOnly))],
+            ),
+        ],
+    },
+    Clause {
+        id: "BRICKS-6",
+        sentence: "If no sensor is missed and every agent acts again and again, every run MUST end with every cell \
+                   visited.",
+        checks: &[
+            states(Subject::PUBLISHED, floors::ends_alone, floors::ALONE, Verdict::Refuted, &[]),
+            states(
+                Subject::REPAIRED,
+                floors::ends,
+                floors::TOGETHER,
+                Verdict::Holds,
+                &[
+                    mutant("both laps give way", laps(Precedence::Everybody)),
+                    mutant("marks cells in which others are", NOT_ALONE),
+                ],
+            ),
+            states(Subject::REPAIRED, floors::robust_ends, floors::TWICE, Verdict::Holds, &[]),
         ],
     },
 ];

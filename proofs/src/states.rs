@@ -21,6 +21,10 @@ pub(crate) trait System {
     /// What is wrong with the end of a run in `state`.
     fn broken_at_end(&self, state: &Self::State) -> Option<&'static str>;
 
+    /// What is broken by a run that never ends although every agent acts again and again; `None` if that is not looked
+    /// for.
+    fn broken_by_endless_runs(&self) -> Option<&'static str>;
+
     /// The agents that have something left to do in `state`, as bits.
     fn awake(&self, state: &Self::State) -> u32;
 }
@@ -53,9 +57,6 @@ pub(crate) struct Run {
     pub(crate) demand: &'static str,
 }
 
-/// What is broken by a run that never ends.
-pub(crate) const ENDLESS: &str = "no run goes on for ever in which every agent acts again and again";
-
 /// Searches all states that `system` gets to from `starts`, until something is broken.
 pub(crate) fn search<S: System>(system: &S, starts: impl IntoIterator<Item = S::State>) -> Found {
     let mut graph =
@@ -69,7 +70,11 @@ pub(crate) fn search<S: System>(system: &S, starts: impl IntoIterator<Item = S::
         broken = graph.expand(system, next);
         next += 1;
     }
-    let broken = broken.or_else(|| graph.endless(system).map(|node| graph.run(system, node, ENDLESS)));
+    let endless = || {
+        let demand = system.broken_by_endless_runs()?;
+        graph.endless(system).map(|node| graph.run(system, node, demand))
+    };
+    let broken = broken.or_else(endless);
     Found { states: graph.nodes.len() as u64, steps: graph.arcs.len() as u64, broken }
 }
 

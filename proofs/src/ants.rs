@@ -1,0 +1,100 @@
+//! Ants on small floors, as systems whose states are all looked at (ANTS-1): which agent acts next and which sensors
+//! it misses are choices. A run is over when every cell is explored, since crossings go on to grow for ever.
+
+use tautline_kernel::ants::least_crossed;
+use tautline_kernel::choice::Source;
+use tautline_kernel::floor::{Mark, Scan, Sensor, enter, leave, settle};
+use tautline_kernel::lattice::Cell;
+
+use crate::bricks::{Misses, Small, look};
+use crate::clause::{Sabotage, Subject};
+use crate::engine::Tally;
+use crate::plans::{CELLS, Plan, blocked};
+use crate::states::{Step, System};
+
+struct Colony {
+    plan: Plan,
+    max_misses: u8,
+    sabotage: Sabotage,
+}
+
+#[derive(Clone, PartialEq, Eq, Hash)]
+struct State {
+    sensors: [Sensor; CELLS],
+    ants: Vec<Cell>,
+    misses: u8,
+}
+
+impl Colony {
+    fn starts(&self, ants: u32) -> Vec<State> {
+        let cells: Vec<Cell> = self.plan.cells().collect();
+        let start = |start: usize| {
+            let place = |ant| start / cells.len().pow(ant) % cells.len();
+            let ants: Vec<Cell> = (0..ants).map(|ant| cells[place(ant)]).collect();
+            let mut state = State { sensors: [Sensor::default(); CELLS], ants, misses: 0 };
+            let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors, placed: &mut [0; CELLS] };
+            settle(&mut floor, &state.ants);
+            state
+        };
+        (0..cells.len().pow(ants)).map(start).collect()
+    }
+
+    fn is_explored(&self, state: &State) -> bool {
+        self.plan.cells().all(|cell| {
+            self.plan.place(cell).is_none_or(|place| state.sensors[place].mark != Mark::Unexplored)
+        })
+    }
+}
+
+impl System for Colony {
+    type State = State;
+
+    fn step(&self, state: &State, world: &mut dyn Source) -> Option<Step<State>> {
+        if self.is_explored(state) {
+            return None;
+        }
+        let mut state = state.clone();
+        let ant = if state.ants.len() > 1 { world.pick(state.ants.len() as u32) } else { 0 };
+        let cell = state.ants[ant as usize];
+        let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors, placed: &mut [0; CELLS] };
+        let mut world = Misses { world, count: &mut state.misses, most: self.max_misses };
+        let scan = Scan::new(&floor, cell, &mut world);
+        if let Some(side) = least_crossed(&scan, scan.beside) {
+            leave(&mut floor, cell);
+            enter(&mut floor, cell.beyond(side), scan.entry(side));
+            state.ants[ant as usize] = cell.beyond(side);
+        }
+        for sensor in &mut state.sensors {
+            sensor.serial = 0;
+            if self.sabotage == Sabotage::CountsNothing {
+                sensor.crossings = sensor.crossings.min(1);
+            }
+        }
+        Some(Step { agent: ant, state, breaks: None })
+    }
+
+    fn broken_at_end(&self, _: &State) -> Option<&'static str> {
+        None
+    }
+
+    fn broken_by_endless_runs(&self) -> Option<&'static str> {
+        Some("every cell is explored: no run goes on for ever before")
+    }
+
+    fn awake(&self, state: &State) -> u32 {
+        (1 << state.ants.len()) - 1
+    }
+}
+
+/// ANTS-1 on every small floor.
+pub(crate) fn explores(subject: &Subject) -> Tally {
+    let mut tally = Tally::default();
+    let colony = |max_misses| move |plan| Colony { plan, max_misses, sabotage: subject.sabotage };
+    look(&mut tally, blocked(4, 4).map(colony(0)), |colony| colony.starts(1));
+    look(&mut tally, blocked(3, 3).map(colony(2)), |colony| colony.starts(1));
+    look(&mut tally, blocked(3, 2).map(colony(0)), |colony| colony.starts(2));
+    tally
+}
+
+/// What [`explores`] covers.
+pub(crate) const EXPLORES: &str = "1 ant to 4×4, to 3×3, 2 misses; 2 to 3×2 cells, every order";
