@@ -11,3 +11,4 @@ pub mod chain;
 pub mod choice;
 pub mod grid;
 pub mod lattice;
+pub mod rescue;
