@@ -11,4 +11,5 @@ pub mod chain;
 pub mod choice;
 pub mod grid;
 pub mod lattice;
+pub mod perception;
 pub mod rescue;
