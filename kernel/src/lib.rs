@@ -7,6 +7,7 @@
 
 #![no_std]
 
+pub mod broadcast;
 pub mod chain;
 pub mod choice;
 pub mod grid;
