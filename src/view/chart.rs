@@ -157,7 +157,7 @@ impl LineChart {
         // The title is larger than other text, and the last label sticks out by half.
         let texts = [
             left + WIDTH + LINE,
-            left + (WIDTH + text_width(&x_name)) / 2,
+            left + WIDTH / 2 + text_width(&x_name) / 2,
             MARGIN + text_width(&y_name),
             MARGIN + text_width(&title) * 5 / 4,
         ];
