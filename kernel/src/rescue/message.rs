@@ -59,8 +59,8 @@ pub struct Resb {
     pub call: Call,
     /// Who is told.
     pub robot: RobotId,
-    /// MID: who is to come.
-    pub chosen: RobotId,
+    /// MID: who is to come. Nobody, when a robot has come already: it may be the one that asks.
+    pub chosen: Option<RobotId>,
 }
 
 /// What a robot gets.

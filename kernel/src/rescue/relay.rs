@@ -73,7 +73,7 @@ mod tests {
 
     const fn resb(robot: u16, epoch: u32) -> Resb {
         let Upward { call, robot, .. } = message(robot, epoch, 0);
-        Resb { call, robot, chosen: robot }
+        Resb { call, robot, chosen: None }
     }
 
     #[test]

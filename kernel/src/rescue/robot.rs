@@ -176,7 +176,7 @@ impl<const CALLS: usize> Robot<CALLS> {
             Task::Asking { call: asked, .. } => (asked.wfr == call.wfr, false),
             Task::Leased { call: held } => (false, held.wfr == call.wfr),
         };
-        if chosen == self.id {
+        if chosen == Some(self.id) {
             let takes = is_asking || !has_consent;
             if takes {
                 self.task = Task::Leased { call };
@@ -249,7 +249,7 @@ mod tests {
     }
 
     const fn resb(call: Call, robot: RobotId, chosen: RobotId) -> Downward {
-        Downward::Resb(Resb { call, robot, chosen })
+        Downward::Resb(Resb { call, robot, chosen: Some(chosen) })
     }
 
     fn after(rule: Rule, messages: &[Downward]) -> (Robot<2>, Option<Upward>) {

@@ -159,7 +159,7 @@ impl<const ROBOTS: usize> Wfr<ROBOTS> {
             Phase::Collecting { best: Some(best) } => self.choose(best),
             Phase::Offered { choice, repeats_left } if repeats_left > 0 => {
                 self.phase = Phase::Offered { choice, repeats_left: repeats_left - 1 };
-                (self, self.tell(choice.robot, choice.robot))
+                (self, self.tell(choice.robot, Some(choice.robot)))
             }
             Phase::Collecting { best: None } if !self.rule.has(Condition::Renewal) => (self, Sent::Nothing),
             Phase::Collecting { best: None } | Phase::Offered { .. } | Phase::Leased { .. } => self.renew(),
@@ -187,13 +187,13 @@ impl<const ROBOTS: usize> Wfr<ROBOTS> {
             }
             Phase::Offered { choice, .. } | Phase::Leased { choice } => {
                 if self.rule.has(Condition::ChoiceStands) {
-                    return (self, self.answer(bid.robot, choice.robot));
+                    return (self, self.answer(bid.robot, Some(choice.robot)));
                 }
                 self.remember(bid.robot);
                 let better = self.better(choice, bid);
                 if better.robot == choice.robot { (self, self.tell_all(choice)) } else { self.choose(better) }
             }
-            Phase::Rescued { by } => (self, self.answer(bid.robot, by)),
+            Phase::Rescued { .. } => (self, self.answer(bid.robot, None)),
         }
     }
 
@@ -219,16 +219,16 @@ impl<const ROBOTS: usize> Wfr<ROBOTS> {
         (self, self.tell_all(choice))
     }
 
-    fn answer(&self, robot: RobotId, chosen: RobotId) -> Sent<ROBOTS> {
+    fn answer(&self, robot: RobotId, chosen: Option<RobotId>) -> Sent<ROBOTS> {
         if self.rule.has(Condition::AnswersAgain) { self.tell(robot, chosen) } else { Sent::Nothing }
     }
 
-    const fn tell(&self, robot: RobotId, chosen: RobotId) -> Sent<ROBOTS> {
+    const fn tell(&self, robot: RobotId, chosen: Option<RobotId>) -> Sent<ROBOTS> {
         Sent::One(Resb { call: self.call, robot, chosen })
     }
 
     fn tell_all(&self, choice: Bid) -> Sent<ROBOTS> {
-        let chosen = choice.robot;
+        let chosen = Some(choice.robot);
         Sent::All(self.asked.map(|asked| asked.map(|robot| Resb { call: self.call, robot, chosen })))
     }
 
@@ -269,7 +269,11 @@ mod tests {
     }
 
     const fn resb(robot: u16, chosen: u16) -> Resb {
-        Resb { call: Call { wfr: ME, epoch: Epoch::FIRST }, robot: RobotId(robot), chosen: RobotId(chosen) }
+        Resb {
+            call: Call { wfr: ME, epoch: Epoch::FIRST },
+            robot: RobotId(robot),
+            chosen: Some(RobotId(chosen)),
+        }
     }
 
     #[test]
@@ -297,7 +301,10 @@ mod tests {
         let (wfr, _) = closed(after(Rule::REPAIRED, &[bid(1, 4)]).0);
         assert_eq!(wfr.receive(bid(2, 1)), (wfr, Sent::One(resb(2, 1))));
         let rescued = wfr.reach(RobotId(1));
-        assert_eq!(rescued.receive(bid(2, 1)), (rescued, Sent::One(resb(2, 1))));
+        for robot in [1, 2] {
+            let nobody = Resb { chosen: None, ..resb(robot, 1) };
+            assert_eq!(rescued.receive(bid(robot, 1)), (rescued, Sent::One(nobody)));
+        }
     }
 
     #[test]
