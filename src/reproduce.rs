@@ -1,6 +1,7 @@
 //! What the papers and SPEC.md report as tables, measured again.
 
 pub mod atlas;
+pub mod interval;
 pub mod optimum;
 pub mod repair_cost;
 

@@ -15,6 +15,7 @@ pub mod pair;
 pub mod plain;
 pub mod reach;
 pub mod registry;
+pub mod rescue;
 pub mod run;
 pub mod search;
 pub mod small;

@@ -6,6 +6,7 @@
 //! probability is 0 nothing is drawn.
 
 use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::Rng;
 use tautline_kernel::ants::least_crossed;
 use tautline_kernel::bricks::{self, Agent, Condition, Next, Rule};
 use tautline_kernel::chain::Kind;
@@ -38,7 +39,7 @@ struct Misses {
 
 impl Source for Misses {
     fn pick(&mut self, below: u32) -> u32 {
-        generate::below(below, &mut self.generator)
+        ((u128::from(self.generator.next_u64()) * u128::from(below)) >> 64) as u32
     }
 
     fn mishap(&mut self) -> bool {

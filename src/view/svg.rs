@@ -15,7 +15,7 @@ use crate::layout::Layout;
 /// The side of a cell.
 const CELL: i32 = 24;
 /// The space round a picture and between its panels.
-const MARGIN: i32 = 16;
+pub(super) const MARGIN: i32 = 16;
 /// The height of a line of text above a panel.
 const CAPTION: i32 = 22;
 /// Panels beside each other take up at most so much.
@@ -61,15 +61,23 @@ pub fn picture(title: &str, panels: &[Panel]) -> String {
                 write!(body, "<text class=\"caption\" y=\"{}\">{}</text>", CAPTION / 2 - 2, panel.caption);
         }
         let _ = writeln!(body, "<g transform=\"translate(0,{caption})\">{}</g></g>", panel.body);
-        let text_width = panel.caption.chars().count() as i32 * 7;
-        x += panel.width.max(text_width) + MARGIN;
+        x += panel.width.max(text_width(&panel.caption)) + MARGIN;
         width = width.max(x);
         row_height = row_height.max(panel.height + caption);
     }
-    let height = y + row_height + MARGIN;
+    document(title, "", (width, y + row_height + MARGIN), &body)
+}
+
+/// About how wide a line of text is.
+pub(super) fn text_width(text: &str) -> i32 {
+    text.chars().count() as i32 * 7
+}
+
+/// A picture of `body` alone, which wants `style` beside that of all pictures. The title is escaped.
+pub(super) fn document(title: &str, style: &str, (width, height): (i32, i32), body: &str) -> String {
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
-         height=\"{height}\" role=\"img\" aria-label=\"{title}\">\n<title>{title}</title>\n<style>{STYLE}</style>\n\
+         height=\"{height}\" role=\"img\" aria-label=\"{title}\">\n<title>{title}</title>\n<style>{STYLE}{style}</style>\n\
          <rect width=\"{width}\" height=\"{height}\" style=\"fill:var(--ground)\"/>\n{body}</svg>\n"
     )
 }
