@@ -14,6 +14,7 @@ use tautline_kernel::choice::Source;
 use tautline_kernel::floor::{COMPASS, Claim, Entry, Mark, Scan, enter, leave};
 use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Edge, Step};
+use tautline_kernel::perception::time;
 use tautline_proofs::run::{Breach, Frame};
 
 use super::floor::{Component, SensorFloor};
@@ -54,6 +55,14 @@ struct Body {
     is_done: bool,
 }
 
+/// How long an agent scans and goes in a team move, by the paper's means.
+fn milliseconds(scan: &Scan, step: Step) -> u64 {
+    u64::from(match step {
+        Step::Cross(_) => time::step_milliseconds(scan.detected),
+        Step::Stay => time::scan_milliseconds(scan.detected),
+    })
+}
+
 /// A team of agents on a floor.
 #[derive(Clone)]
 pub struct Team {
@@ -65,6 +74,8 @@ pub struct Team {
     steps: Vec<Step>,
     /// Whether in the last team move an agent was done although it could have got to an unexplored cell.
     is_premature: bool,
+    /// How long each agent has scanned and gone.
+    milliseconds: Vec<u64>,
     misses: Misses,
 }
 
@@ -88,6 +99,7 @@ impl Team {
             cells: starts.to_vec(),
             steps: vec![Step::Stay; starts.len()],
             is_premature: false,
+            milliseconds: vec![0; starts.len()],
             misses: Misses { chance, generator: generate::source(seed, *b"miss    ") },
         }
     }
@@ -125,14 +137,13 @@ impl Team {
     fn act(&mut self, number: usize) -> Step {
         let (body, cell) = (&mut self.bodies[number], &mut self.cells[number]);
         let scan = Scan::new(&self.floor, *cell, &mut self.misses);
-        match self.way {
-            Way::Ants => {
-                let Some(side) = least_crossed(&scan, scan.beside) else { return Step::Stay };
+        let step = match self.way {
+            Way::Ants => least_crossed(&scan, scan.beside).map_or(Step::Stay, |side| {
                 leave(&mut self.floor, *cell);
                 *cell = cell.beyond(side);
                 enter(&mut self.floor, *cell, scan.entry(side));
                 Step::Cross(side)
-            }
+            }),
             Way::Bricks(rule) => {
                 let act = body.agent.decide(rule, &scan);
                 *cell = bricks::carry_out(&mut self.floor, *cell, &act);
@@ -146,7 +157,14 @@ impl Team {
                     }
                 }
             }
-        }
+        };
+        self.milliseconds[number] += milliseconds(&scan, step);
+        step
+    }
+
+    /// How long the slowest agent has scanned and gone.
+    pub fn milliseconds(&self) -> u64 {
+        self.milliseconds.iter().copied().max().unwrap_or(0)
     }
 
     /// Cells that agents can get to.
@@ -261,6 +279,10 @@ impl Scheme for Agents {
 
     fn components(&self) -> &[Component] {
         self.team.floor.components()
+    }
+
+    fn milliseconds(&self) -> Option<u64> {
+        Some(self.team.milliseconds())
     }
 }
 
