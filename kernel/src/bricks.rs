@@ -8,7 +8,7 @@ mod lap;
 mod marking;
 mod rule;
 
-pub use agent::{Act, Agent, Next, act, carry_out};
+pub use agent::{Act, Agent, Next, Pass, act, carry_out};
 pub use lap::Lap;
 pub use marking::{blocks, is_thin};
 pub use rule::{Condition, Conditions, Precedence, Rule};

@@ -37,12 +37,13 @@ pub enum Entry {
     New,
 }
 
-/// Enters `cell`: counts the agent there, and places a new sensor if it is to find none. Whatever an old one stored
-/// that was only missed is lost.
+/// Enters `cell`: its sensor counts an agent more. Where the agent is to find none it places a new one, and whatever an
+/// old one stored that was only missed is lost; the agents that are in the cell register with the new one.
 pub fn enter(floor: &mut impl Floor, cell: Cell, entry: Entry) {
+    let there = floor.sensor(cell).unwrap_or_default();
     let known = match entry {
-        Entry::Known => floor.sensor(cell).unwrap_or_default(),
-        Entry::New => Sensor { serial: floor.unpack(cell), ..Sensor::default() },
+        Entry::Known => there,
+        Entry::New => Sensor { serial: floor.unpack(cell), agents: there.agents, ..Sensor::default() },
     };
     floor.put(cell, known.entered());
 }

@@ -162,7 +162,7 @@ impl Team {
             tautline_kernel::floor::enter(&mut floor, cell, tautline_kernel::floor::Entry::Known);
         }
         self.forget(&mut sensors);
-        if !self.rule.has(tautline_kernel::bricks::Condition::SeenOnly) {
+        if !self.rule.has(tautline_kernel::bricks::Condition::SeenOnly) || self.max_misses == 0 {
             placed = [0; CELLS];
         }
         let bodies = (0..)
@@ -174,7 +174,9 @@ impl Team {
 
     /// What no agent reads is left out of the state.
     fn forget(&self, sensors: &mut [Sensor; CELLS]) {
-        if !self.rule.has(tautline_kernel::bricks::Condition::AntsWhenIdle) {
+        if self.max_misses == 0
+            && (self.rule.patience == 0 || !self.rule.has(tautline_kernel::bricks::Condition::LeastCrossed))
+        {
             for sensor in sensors {
                 sensor.crossings = 0;
                 sensor.serial = 0;
@@ -195,7 +197,12 @@ impl Team {
     }
 
     fn broken(&self, state: &State, ended: Option<Cell>) -> Option<&'static str> {
-        let accessible = self.marked(state, |mark| mark != Mark::Visited);
+        let second = self.rule.has(tautline_kernel::bricks::Condition::SecondPass);
+        let accessible = self.marked(state, |mark| match mark {
+            Mark::Visited => second,
+            Mark::Sealed => false,
+            Mark::Unexplored | Mark::Explored | Mark::Closing => true,
+        });
         if self.plan.spread(accessible, |edge| self.is_shut(state, edge)) != accessible {
             return Some("the accessible cells stay connected");
         }
@@ -274,7 +281,7 @@ impl System for Team {
             body.pending = Some(act);
         }
         self.forget(&mut state.sensors);
-        if !self.rule.has(tautline_kernel::bricks::Condition::SeenOnly) {
+        if !self.rule.has(tautline_kernel::bricks::Condition::SeenOnly) || self.max_misses == 0 {
             state.placed = [0; CELLS];
         }
         let breaks = self.broken(&state, ended);
@@ -286,7 +293,7 @@ impl System for Team {
             return (self.marked(state, |mark| mark == Mark::Unexplored) != 0)
                 .then_some("everything is explored");
         }
-        let left = self.marked(state, |mark| mark != Mark::Visited);
+        let left = self.marked(state, |mark| !matches!(mark, Mark::Visited | Mark::Sealed));
         (left != 0).then_some("when all agents are done, every cell is visited")
     }
 
@@ -312,8 +319,9 @@ mod tests {
                 let mark = match state.sensors[place].mark {
                     Mark::Unexplored => '?',
                     Mark::Explored => '.',
-                    Mark::Visited => 'x',
                     Mark::Closing => '-',
+                    Mark::Visited => 'x',
+                    Mark::Sealed => 'X',
                 };
                 text.push(mark);
                 let who = state.bodies.iter().position(|body| body.cell == cell && !body.is_done);
@@ -335,8 +343,11 @@ mod tests {
         let rule = match var("RULE", "repaired").as_str() {
             "published" => Rule::PUBLISHED,
             "robust" => Rule::ROBUST,
+            "walls" => Rule::REPAIRED.without(tautline_kernel::bricks::Condition::LeastCrossed),
+            "unseen" => Rule::ROBUST.without(tautline_kernel::bricks::Condition::SeenOnly),
             _ => Rule::REPAIRED,
         };
+        let rule = Rule { patience: var("PATIENCE", "0").parse().unwrap(), ..rule };
         let turns = match var("TURNS", "whole").as_str() {
             "free" => Turns::Free,
             "overlap" => Turns::Overlapping,

@@ -16,11 +16,21 @@ pub struct Agent {
     pub id: u8,
     /// The side that it went through last.
     heading: Side,
+    pass: Pass,
     lap: Option<Lap>,
-    /// Moves since it marked a cell, found a new one or began a lap; counted under [`Condition::AntsWhenIdle`].
+    /// Whether its last lap did not come home, so that its claim may still stand somewhere.
+    is_lost: bool,
+    /// Moves since it marked a cell, found a new one or shut a side, under [`Condition::LeastCrossed`].
     idle: u16,
-    /// How many of them it takes to begin a lap.
-    patience: u16,
+}
+
+/// Whether visited cells count as walls (see [`Condition::SecondPass`]).
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Pass {
+    /// Yes: the agent explores and marks.
+    First,
+    /// No, only sealed ones do: it goes over what is visited and seals it.
+    Second,
 }
 
 /// What an agent does after a scan.
@@ -45,13 +55,10 @@ pub enum Next {
     Done,
 }
 
-/// Idle moves before the first lap, under [`Condition::AntsWhenIdle`].
-const PATIENCE: u16 = 4;
-
 impl Agent {
     /// An agent before its first action.
     pub const fn new(id: u8) -> Self {
-        Self { id, heading: Side::North, lap: None, idle: 0, patience: PATIENCE }
+        Self { id, heading: Side::North, pass: Pass::First, lap: None, is_lost: false, idle: 0 }
     }
 
     /// The lap that it is on.
@@ -61,7 +68,11 @@ impl Agent {
 
     /// What it does after `scan`.
     pub fn decide(&mut self, rule: Rule, scan: &Scan) -> Act {
-        let mut scan = *scan;
+        self.choose_pass(rule, scan);
+        let (rule, mut scan) = match self.pass {
+            Pass::First => (rule.without(Condition::SeenOnly), *scan),
+            Pass::Second => (rule, scan.with_visited()),
+        };
         let was = scan.here.mark;
         self.meet(rule, &mut scan.here.claim);
         let end = self.end_lap(rule, &mut scan);
@@ -73,39 +84,58 @@ impl Agent {
         let next = self.choose(rule, &mut scan, end);
         let is_simple = scan.here.claim.is_none() && !blocks(rule, &scan);
         let is_alone = scan.here.agents <= 1 || !rule.has(Condition::Alone);
-        scan.here.mark = match (was, next) {
-            (Mark::Visited, _) => Mark::Visited,
-            (_, Next::Goes(..) | Next::Done) if is_simple && is_alone => Mark::Visited,
-            (_, Next::Goes(..) | Next::Done) if is_simple => Mark::Closing,
-            (_, Next::Goes(..) | Next::Done | Next::Waits) => Mark::Explored,
+        let leaves = next != Next::Waits && is_simple;
+        scan.here.mark = match (was, self.pass) {
+            (Mark::Sealed, Pass::First | Pass::Second) | (Mark::Visited, Pass::First) => was,
+            (_, Pass::First) if leaves && is_alone => Mark::Visited,
+            (_, Pass::Second) if leaves && is_alone => Mark::Sealed,
+            (_, Pass::First | Pass::Second) if leaves => Mark::Closing,
+            (Mark::Visited, Pass::Second) => Mark::Visited,
+            (_, Pass::First | Pass::Second) => Mark::Explored,
         };
         if let Next::Goes(side, entry, _) = next {
-            let gains = shuts.is_some() || scan.here.mark != was || entry == Entry::New;
-            self.rest(rule, gains);
+            self.rest(rule, shuts.is_some() || scan.here.mark != was || entry == Entry::New);
             self.heading = side;
         }
         Act { here: scan.here, shuts, next }
     }
 
-    /// Counts a move that gains something, or another idle one.
-    fn rest(&mut self, rule: Rule, gains: bool) {
-        if gains {
-            (self.idle, self.patience) = (0, PATIENCE);
-        } else if rule.has(Condition::AntsWhenIdle) {
-            self.idle = self.idle.saturating_add(1);
+    /// The first pass while something unexplored is beside it. The second when it has nowhere to go in the first, or
+    /// has gained nothing for long.
+    fn choose_pass(&mut self, rule: Rule, scan: &Scan) {
+        if scan.reachable().and(scan.unexplored) != Ring::default() && self.lap.is_none() {
+            self.pass = Pass::First;
+        } else if rule.has(Condition::SecondPass) && self.pass == Pass::First {
+            let is_stuck = scan.reachable() == Ring::default() || self.idle >= rule.hope();
+            if is_stuck {
+                (self.pass, self.idle) = (Pass::Second, 0);
+            }
         }
     }
 
-    /// Control: where a lap comes to the cell in which another began, one of them is void.
+    /// Counts a move that gains something, or another idle one.
+    fn rest(&mut self, rule: Rule, gains: bool) {
+        if gains {
+            self.idle = 0;
+        } else if rule.has(Condition::LeastCrossed) {
+            self.idle = (self.idle + 1).min(rule.hope());
+        }
+    }
+
+    /// Control: where a lap comes to the cell in which another began, one of them is in vain.
     fn meet(&mut self, rule: Rule, claim: &mut Option<Claim>) {
-        let (Some(lap), Some(claim)) = (&mut self.lap, claim) else { return };
-        if claim.owner == self.id || claim.is_void || lap.is_void {
+        let Some(owner) = claim.map(|claim| claim.owner) else { return };
+        if owner == self.id {
+            if self.is_lost {
+                (*claim, self.is_lost) = (None, false);
+            }
             return;
         }
+        let Some(lap) = self.lap.as_mut().filter(|lap| !lap.is_void) else { return };
         match rule.precedence {
-            Precedence::Higher if claim.owner > self.id => lap.is_void = true,
-            Precedence::Higher => claim.is_void = true,
-            Precedence::Everybody => (lap.is_void, claim.is_void) = (true, true),
+            Precedence::Higher if owner > self.id => lap.is_void = true,
+            Precedence::Higher => *claim = None,
+            Precedence::Everybody => (lap.is_void, *claim) = (true, None),
             Precedence::Nobody => {}
         }
     }
@@ -114,10 +144,10 @@ impl Agent {
     fn end_lap(&mut self, rule: Rule, scan: &mut Scan) -> Option<Ended> {
         let lap = self.lap.filter(Lap::is_home)?;
         let first = lap.first;
-        let Some(claim) = scan.here.claim.filter(|claim| claim.owner == self.id) else {
+        if scan.here.claim.is_none_or(|claim| claim.owner != self.id) {
             self.lap = None;
             return Some(Ended::InVain(first));
-        };
+        }
         let is_there = scan.reachable().has(first);
         let came_back = self.heading == first.opposite();
         let comes_round = self.left_hand(scan, scan.reachable()) == Some(first);
@@ -126,7 +156,7 @@ impl Agent {
         }
         self.lap = None;
         scan.here.claim = None;
-        let is_shown = is_there && !came_back && !lap.is_void && !claim.is_void;
+        let is_shown = is_there && !came_back && !lap.is_void;
         let is_unchanged = !rule.has(Condition::SeenOnly) || scan.serials == lap.around;
         let can_shut = is_shown && is_unchanged && is_thin(scan, first) && scan.explored.has(first);
         Some(if can_shut { Ended::Shut(first) } else { Ended::InVain(first) })
@@ -141,9 +171,10 @@ impl Agent {
             let along = along.filter(|&side| free.has(side));
             if let Some(side) = along {
                 self.lap = lap.moved(side);
+                self.is_lost = self.lap.is_none();
             }
             along
-        } else if scan.unexplored() != Ring::default() {
+        } else if reachable.and(scan.unexplored) != Ring::default() {
             most_walled(scan)
         } else if rule.has(Condition::Laps) {
             self.go_round(rule, scan, free, end)
@@ -163,36 +194,22 @@ impl Agent {
 
     /// The way on among explored cells, perhaps the first one of a lap.
     fn go_round(&mut self, rule: Rule, scan: &mut Scan, free: Ring, end: Option<Ended>) -> Option<Side> {
-        let is_ant = rule.has(Condition::AntsWhenIdle);
-        if is_ant && scan.here.mark == Mark::Visited && scan.reachable() == Ring::default() {
-            return least_crossed(scan, scan.beside);
-        }
         let along = match end {
             // The next lap begins one move farther along the same material.
             Some(Ended::InVain(first)) if free.has(first) => first,
             Some(_) | None => self.left_hand(scan, free)?,
         };
-        let is_due = end.is_none() && scan.here.claim.is_none() && blocks(rule, scan) && is_thin(scan, along);
-        if is_due && self.is_patient_enough(rule) {
-            scan.here.claim = Some(Claim { owner: self.id, is_void: false });
+        // It goes to the least crossed neighbour for a while, and then round the material until something comes of it.
+        let is_calm = self.idle < u16::from(rule.patience) || self.is_lost;
+        let is_early = self.pass == Pass::First && rule.has(Condition::SecondPass);
+        if rule.has(Condition::LeastCrossed) && (is_calm || is_early) {
+            return least_crossed(scan, free);
+        }
+        if end.is_none() && scan.here.claim.is_none() && blocks(rule, scan) && is_thin(scan, along) {
+            scan.here.claim = Some(Claim { owner: self.id });
             self.lap = Lap::new(along, scan.serials).moved(along);
-            return Some(along);
         }
-        if is_ant { least_crossed(scan, free) } else { Some(along) }
-    }
-
-    /// Whether it has been idle for so long that it begins a lap; then the next one has to wait twice as long, unless
-    /// something comes of this one.
-    fn is_patient_enough(&mut self, rule: Rule) -> bool {
-        if !rule.has(Condition::AntsWhenIdle) {
-            return true;
-        }
-        let is_due = self.idle >= self.patience;
-        if is_due {
-            self.idle = 0;
-            self.patience = self.patience.saturating_mul(2);
-        }
-        is_due
+        Some(along)
     }
 
     /// An explored neighbour, not back unless forced; ties in the order of the compass.
@@ -234,12 +251,9 @@ impl Ended {
 /// The unexplored neighbour with the most inaccessible sides, as far as the scan shows them; ties in the order of the
 /// compass.
 fn most_walled(scan: &Scan) -> Option<Side> {
-    let unexplored = scan.unexplored();
-    let walled = |side| {
-        let flanks = Ring::of(side).beside(scan.rims).and(scan.accessible);
-        flanks.count()
-    };
-    COMPASS.into_iter().filter(|&side| unexplored.has(side)).min_by_key(|&side| walled(side))
+    let unexplored = scan.reachable().and(scan.unexplored);
+    let flanks = |side| Ring::of(side).beside(scan.rims).and(scan.accessible()).count();
+    COMPASS.into_iter().filter(|&side| unexplored.has(side)).min_by_key(|&side| flanks(side))
 }
 
 /// Writes what an agent in `cell` has decided; where it is then.

@@ -9,11 +9,14 @@ pub enum Condition {
     Alone,
     /// Repair: an agent that can neither mark its cell nor see an unexplored one walks laps and shuts sides.
     Laps,
-    /// Robustness: what reads as unexplored may be a missed sensor, so no connection goes through it.
+    /// Repair: of several explored neighbours an agent goes to the one that was entered least, as Ants does.
+    LeastCrossed,
+    /// Robustness: an agent that has nowhere to go, or finds nothing, goes over the visited cells again and seals them.
+    /// It is done when there is nothing left to seal.
+    SecondPass,
+    /// Robustness: in the second pass, what reads as unexplored may be a missed sensor, so no connection goes through
+    /// it.
     SeenOnly,
-    /// Robustness: an agent that has nothing unexplored beside it, or finds itself in a visited cell, goes on as an
-    /// ant between its laps.
-    AntsWhenIdle,
 }
 
 /// A set of conditions.
@@ -57,16 +60,26 @@ pub struct Rule {
     pub conditions: Conditions,
     /// How laps that meet are told apart.
     pub precedence: Precedence,
+    /// Moves without any gain, laps not counted, before a lap, under [`Condition::LeastCrossed`].
+    pub patience: u8,
 }
 
 impl Rule {
     /// What the paper publishes: no loop closure.
-    pub const PUBLISHED: Self =
-        Self { conditions: Conditions::of(&[Condition::Corners]), precedence: Precedence::Higher };
+    pub const PUBLISHED: Self = Self {
+        conditions: Conditions::of(&[Condition::Corners]),
+        precedence: Precedence::Higher,
+        patience: 32,
+    };
 
     /// With loop closure.
     pub const REPAIRED: Self = Self {
-        conditions: Conditions::of(&[Condition::Corners, Condition::Alone, Condition::Laps]),
+        conditions: Conditions::of(&[
+            Condition::Corners,
+            Condition::Alone,
+            Condition::Laps,
+            Condition::LeastCrossed,
+        ]),
         ..Self::PUBLISHED
     };
 
@@ -76,8 +89,9 @@ impl Rule {
             Condition::Corners,
             Condition::Alone,
             Condition::Laps,
+            Condition::LeastCrossed,
+            Condition::SecondPass,
             Condition::SeenOnly,
-            Condition::AntsWhenIdle,
         ]),
         ..Self::PUBLISHED
     };
@@ -85,6 +99,12 @@ impl Rule {
     /// The rule without `condition`.
     pub const fn without(self, condition: Condition) -> Self {
         Self { conditions: Conditions(self.conditions.0 & !(1 << condition as u8)), ..self }
+    }
+
+    /// Moves without any gain before the second pass.
+    #[inline]
+    pub(super) const fn hope(self) -> u16 {
+        4 * self.patience as u16
     }
 
     /// Whether `condition` is in force.

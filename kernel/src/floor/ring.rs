@@ -43,6 +43,12 @@ impl Ring {
         Self(self.0 & other.0)
     }
 
+    /// Those in either set.
+    #[inline]
+    pub const fn or(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
     /// Those not in the set.
     #[inline]
     pub const fn not(self) -> Self {

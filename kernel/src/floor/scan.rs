@@ -10,12 +10,14 @@ use crate::lattice::{Cell, Edge, Side};
 pub struct Scan {
     /// The sensor of the cell.
     pub here: Sensor,
-    /// Cells that read as accessible: all but walls and visited cells.
-    pub accessible: Ring,
-    /// Those of them whose sensor was seen.
+    /// Cells that read as unexplored.
+    pub unexplored: Ring,
+    /// Cells whose sensor was seen and says explored, or closing.
     pub explored: Ring,
     /// Those of them that nobody enters.
     pub closing: Ring,
+    /// Cells whose sensor was seen and says visited.
+    pub visited: Ring,
     /// Side neighbours with neither a wall nor a shut side in between.
     pub open: Ring,
     /// Edges between each cell and the next with neither a wall nor a sensor that says they are shut.
@@ -50,9 +52,10 @@ impl Scan {
     pub fn new(floor: &impl Floor, cell: Cell, world: &mut (impl Source + ?Sized)) -> Self {
         let mut scan = Self {
             here: floor.sensor(cell).unwrap_or_default(),
-            accessible: Ring::default(),
+            unexplored: Ring::default(),
             explored: Ring::default(),
             closing: Ring::default(),
+            visited: Ring::default(),
             open: Ring::default(),
             rims: Ring::default(),
             detected: 0,
@@ -65,8 +68,10 @@ impl Scan {
             let there = Cell::new(cell.x.saturating_add(columns), cell.y.saturating_add(rows));
             let sensor = floor.sensor(there).map(|sensor| match sensor.mark {
                 Mark::Unexplored => Sensor::default(),
-                Mark::Explored | Mark::Closing | Mark::Visited if world.mishap() => Sensor::default(),
-                Mark::Explored | Mark::Closing | Mark::Visited => sensor,
+                Mark::Explored | Mark::Closing | Mark::Visited | Mark::Sealed if world.mishap() => {
+                    Sensor::default()
+                }
+                Mark::Explored | Mark::Closing | Mark::Visited | Mark::Sealed => sensor,
             });
             (there, onward, sensor)
         });
@@ -74,17 +79,13 @@ impl Scan {
             let Some(sensor) = sensor else { continue };
             let bit = 1 << place;
             match sensor.mark {
-                Mark::Unexplored => scan.accessible.0 |= bit,
-                Mark::Explored => {
-                    scan.accessible.0 |= bit;
-                    scan.explored.0 |= bit;
-                }
+                Mark::Unexplored => scan.unexplored.0 |= bit,
+                Mark::Explored => scan.explored.0 |= bit,
                 Mark::Closing => {
-                    scan.accessible.0 |= bit;
-                    scan.explored.0 |= bit;
-                    scan.closing.0 |= bit;
+                    (scan.explored.0, scan.closing.0) = (scan.explored.0 | bit, scan.closing.0 | bit)
                 }
-                Mark::Visited => {}
+                Mark::Visited => scan.visited.0 |= bit,
+                Mark::Sealed => {}
             }
             scan.serials[place] = sensor.serial;
             scan.detected += u8::from(sensor.mark != Mark::Unexplored);
@@ -109,16 +110,22 @@ impl Scan {
         scan
     }
 
+    /// The scan as it is read by one who goes through visited cells as through explored ones.
+    #[inline]
+    pub const fn with_visited(self) -> Self {
+        Self { explored: self.explored.or(self.visited), ..self }
+    }
+
+    /// Cells that read as accessible: unexplored or explored.
+    #[inline]
+    pub const fn accessible(&self) -> Ring {
+        self.unexplored.or(self.explored)
+    }
+
     /// The side neighbours that read as accessible, with an open side in between.
     #[inline]
     pub const fn reachable(&self) -> Ring {
-        self.accessible.and(self.open)
-    }
-
-    /// Those of them that read as unexplored.
-    #[inline]
-    pub const fn unexplored(&self) -> Ring {
-        self.reachable().and(self.explored.not())
+        self.accessible().and(self.open)
     }
 
     /// The claim on the neighbour beyond `side`, if one was seen.
@@ -130,7 +137,7 @@ impl Scan {
     /// What the neighbour beyond `side`, which has a sensor, is entered as.
     #[inline]
     pub const fn entry(&self, side: Side) -> Entry {
-        if self.accessible.and(self.explored.not()).has(side) { Entry::New } else { Entry::Known }
+        if self.unexplored.has(side) { Entry::New } else { Entry::Known }
     }
 
     /// Whether the square to the left of the way through `side`, which is reachable, is free all round: the neighbours
@@ -150,7 +157,7 @@ impl Scan {
     fn is_filled(&self, place: u32) -> bool {
         let at = |bits: u8| bits.rotate_right(place % 8);
         at(self.reachable().0) & 0b101 == 0b101
-            && at(self.accessible.0) & 0b10 != 0
+            && at(self.accessible().0) & 0b10 != 0
             && at(self.rims.0) & 0b11 == 0b11
     }
 }

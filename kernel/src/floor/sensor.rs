@@ -14,6 +14,8 @@ pub enum Mark {
     Closing,
     /// Agents have been there, and need not go through it again: it counts as a wall.
     Visited,
+    /// Visited, and so in spite of whatever sensors have been missed. The paper does not have it.
+    Sealed,
 }
 
 /// A set of sides of a cell.
@@ -39,8 +41,6 @@ impl Sides {
 pub struct Claim {
     /// The agent.
     pub owner: u8,
-    /// Whether another agent has made it void.
-    pub is_void: bool,
 }
 
 /// The memory of one sensor.
@@ -61,8 +61,8 @@ pub struct Sensor {
 }
 
 impl Sensor {
-    /// The bits that a sensor stores: 2 for the mark, 32 for the crossings, 8 for the agents, 4 for the sides that are
-    /// shut, 10 for the claim. Its identifier is not counted: every sensor has one built in.
+    /// The bits that a sensor stores: 3 for the mark, 32 for the crossings, 8 for the agents, 4 for the sides that are
+    /// shut, 9 for the claim. Its identifier is not counted: every sensor has one built in.
     pub const BITS: u32 = 56;
 
     /// The bits of a sensor that Ants needs.
@@ -73,7 +73,7 @@ impl Sensor {
     pub(super) const fn entered(self) -> Self {
         let mark = match self.mark {
             Mark::Unexplored | Mark::Explored => Mark::Explored,
-            mark @ (Mark::Closing | Mark::Visited) => mark,
+            mark @ (Mark::Closing | Mark::Visited | Mark::Sealed) => mark,
         };
         let (crossings, agents) = (self.crossings.saturating_add(1), self.agents.saturating_add(1));
         Self { mark, crossings, agents, ..self }
@@ -89,33 +89,31 @@ impl Sensor {
     pub const fn to_bits(self) -> u64 {
         let claim = match self.claim {
             None => 0,
-            Some(Claim { owner, is_void }) => 1 | (is_void as u64) << 1 | (owner as u64) << 2,
+            Some(Claim { owner }) => 1 | (owner as u64) << 1,
         };
         self.mark as u64
-            | (self.crossings as u64) << 2
-            | (self.agents as u64) << 34
-            | (self.shut.0 as u64) << 42
-            | claim << 46
+            | (self.crossings as u64) << 3
+            | (self.agents as u64) << 35
+            | (self.shut.0 as u64) << 43
+            | claim << 47
     }
 
     /// The sensor that stores `bits`; `None` if no sensor does.
     pub const fn from_bits(bits: u64) -> Option<Self> {
-        let mark = match bits & 3 {
+        let mark = match bits & 0b111 {
             0 => Mark::Unexplored,
             1 => Mark::Explored,
             2 => Mark::Closing,
-            _ => Mark::Visited,
-        };
-        let claim = match (bits >> 46) & 3 {
-            0 => None,
-            held @ (1 | 3) => Some(Claim { owner: (bits >> 48) as u8, is_void: held == 3 }),
+            3 => Mark::Visited,
+            4 => Mark::Sealed,
             _ => return None,
         };
+        let claim = if bits >> 47 & 1 == 0 { None } else { Some(Claim { owner: (bits >> 48) as u8 }) };
         let sensor = Self {
             mark,
-            crossings: (bits >> 2) as u32,
-            agents: (bits >> 34) as u8,
-            shut: Sides((bits >> 42) as u8 & 0b1111),
+            crossings: (bits >> 3) as u32,
+            agents: (bits >> 35) as u8,
+            shut: Sides((bits >> 43) as u8 & 0b1111),
             claim,
             serial: 0,
         };
@@ -130,20 +128,20 @@ mod tests {
     #[test]
     fn a_sensor_fits_into_its_bits_and_comes_back() {
         let full = Sensor {
-            mark: Mark::Visited,
+            mark: Mark::Sealed,
             crossings: u32::MAX,
             agents: u8::MAX,
             shut: Sides(0b1111),
-            claim: Some(Claim { owner: u8::MAX, is_void: true }),
+            claim: Some(Claim { owner: u8::MAX }),
             serial: 0,
         };
         assert!(full.to_bits() < 1 << Sensor::BITS);
         let part = Sensor { shut: Sides::default().with(Side::West), claim: None, ..full };
-        let owned = Sensor { claim: Some(Claim { owner: 0, is_void: false }), ..Sensor::default() };
+        let owned = Sensor { claim: Some(Claim { owner: 0 }), ..Sensor::default() };
         for sensor in [full, part, owned, Sensor::default()] {
             assert_eq!(Sensor::from_bits(sensor.to_bits()), Some(sensor));
         }
-        for wrong in [1 << 47, 1 << Sensor::BITS, 1 << 48] {
+        for wrong in [5, 1 << 48, 1 << Sensor::BITS] {
             assert_eq!(Sensor::from_bits(wrong), None, "{wrong:b}");
         }
     }
