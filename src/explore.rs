@@ -578,7 +578,7 @@ pub fn missed(setup: &Setup, chart: &Chart) -> Vec<Cell> {
         Crew::Agents(way) => {
             let team = agents::Team::new(way, &setup.layout, &setup.starts(), setup.miss, setup.seed);
             let due = chart.area().cells().filter(|&cell| team.floor().component(cell).is_some());
-            due.filter(|&cell| chart.mark(cell, u32::MAX) != Mark::Visited).collect()
+            due.filter(|&cell| !floor::is_visited(chart.mark(cell, u32::MAX))).collect()
         }
     }
 }

@@ -248,9 +248,13 @@ pub(super) fn summary(setup: &Setup, layout: &str, report: &Report) -> String {
             };
             let whole = report.whole();
             let percent = whole.visited * 100 / whole.cells;
-            let ends = match whole.active {
-                0 => "every agent knows that it is done".to_owned(),
-                active => format!("{active} of {} agents do not know that they are done", whole.robots),
+            let ends = match (whole.active, report.stopped) {
+                (0, _) => "every agent knows that it is done".to_owned(),
+                (active, Stopped::Explored) => format!(
+                    "{active} of {} agents may never know that they are done: whoever watches them ends the run",
+                    whole.robots
+                ),
+                (active, _) => format!("{active} of {} agents do not know that they are done", whole.robots),
             };
             let _ =
                 writeln!(text, "{} of {} cells visited ({percent} %); {ends}", whole.visited, whole.cells);

@@ -11,7 +11,7 @@ use tautline_kernel::ants::least_crossed;
 use tautline_kernel::bricks::{self, Agent, Condition, Next, Rule};
 use tautline_kernel::chain::Kind;
 use tautline_kernel::choice::Source;
-use tautline_kernel::floor::{COMPASS, Claim, Entry, Mark, Scan, enter, leave};
+use tautline_kernel::floor::{Claim, Entry, Mark, Scan, enter, leave};
 use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Edge, Step};
 use tautline_kernel::perception::time;
@@ -87,7 +87,7 @@ impl Team {
         for &start in starts {
             let entry = match floor.mark(start) {
                 Mark::Unexplored => Entry::New,
-                Mark::Explored | Mark::Closing | Mark::Visited => Entry::Known,
+                Mark::Explored | Mark::Closing | Mark::Visited | Mark::Sealed => Entry::Known,
             };
             enter(&mut floor, start, entry);
         }
@@ -186,26 +186,17 @@ impl Team {
         self.floor.components().iter().map(number).sum()
     }
 
-    /// Whether the run is over: every agent is done or, where some can never know that they are, nothing that they do
-    /// can matter any more.
+    /// Whether the run is over: every agent is done or, where some may never know that they are, everything is explored.
     pub fn is_over(&self) -> bool {
-        let is_settled = match self.way {
-            Way::Ants => true,
-            Way::Bricks(rule) => rule.has(Condition::AntsWhenIdle) && !self.misses.chance.is_never(),
-        };
-        self.active() == 0 || is_settled && self.explored() == self.due() && self.is_roaming()
+        self.active() == 0 || self.explored() == self.due() && self.may_roam()
     }
 
-    /// Whether no agent that is not done has anything but visited cells around, if agents mark cells as visited at all.
-    fn is_roaming(&self) -> bool {
-        let is_visited = |cell| self.floor.mark(cell) == Mark::Visited;
-        let is_shut_in = |(body, &cell): (&Body, &Cell)| {
-            let mut sides = COMPASS.into_iter().filter(|&side| self.floor.has_open(cell, side));
-            body.is_done || is_visited(cell) && sides.all(|side| is_visited(cell.beyond(side)))
-        };
+    /// Whether agents may go on for ever although nothing is left to explore: ants, and those that go over visited cells
+    /// again, to whom missed sensors always show something.
+    fn may_roam(&self) -> bool {
         match self.way {
             Way::Ants => true,
-            Way::Bricks(_) => self.bodies.iter().zip(&self.cells).all(is_shut_in),
+            Way::Bricks(rule) => rule.has(Condition::SecondPass) && !self.misses.chance.is_never(),
         }
     }
 
@@ -214,7 +205,7 @@ impl Team {
     fn repeats(&self) -> bool {
         match self.way {
             Way::Ants => false,
-            Way::Bricks(rule) => !rule.has(Condition::AntsWhenIdle) && self.misses.chance.is_never(),
+            Way::Bricks(rule) => !rule.has(Condition::LeastCrossed) && self.misses.chance.is_never(),
         }
     }
 }
