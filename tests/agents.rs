@@ -16,6 +16,9 @@ use tautline_kernel::lattice::{Cell, Edge, Side};
 /// More team moves than any run here has.
 const MANY: u32 = 300_000;
 
+/// Maps with a larger part than this are left out: laps round all that stands in them take minutes.
+const MOST_CELLS: u32 = 10_000;
+
 fn run(setup: &Setup) -> Report {
     let report = explore(setup, &mut |made| {
         assert!(made.step < MANY, "the run does not end: {setup:?}");
@@ -125,11 +128,10 @@ fn largest_part(layout: &Layout) -> (Cell, u32) {
     largest.expect("a free cell")
 }
 
-/// Every team visits the whole of the largest part of `layout` and knows it.
-fn is_visited(name: &str, layout: &Layout) {
-    let (start, cells) = largest_part(layout);
+/// Every team visits the whole of the part of `layout` that `start` is in, which has so many cells, and knows it.
+fn is_visited(name: &str, layout: &Layout, (start, cells): (Cell, u32)) {
     for (rule, agents) in
-        [Rule::REPAIRED, Rule::ROBUST].into_iter().flat_map(|rule| [(rule, 1), (rule, 4), (rule, 20)])
+        [Rule::REPAIRED, Rule::ROBUST].into_iter().flat_map(|rule| [1, 4, 20].map(|agents| (rule, agents)))
     {
         assert_eq!(
             ended(rule, layout, start, agents),
@@ -145,7 +147,8 @@ fn built_in_layouts_are_visited() {
         ["rooms-a", "rooms-b", "open:20x7", "office:30x30:4x4", "cells:24x24:0.3", "walls:24x24:0.3"]
     {
         let generator: Generator = described.parse().expect("a generator");
-        is_visited(described, &generator.generate(1).expect("a layout"));
+        let layout = generator.generate(1).expect("a layout");
+        is_visited(described, &layout, largest_part(&layout));
     }
 }
 
@@ -156,8 +159,12 @@ fn published_maps_are_visited_if_they_are_there() {
     let maps: BTreeSet<_> = files.filter(|path| path.extension().is_some_and(|end| end == "map")).collect();
     for path in maps {
         let name = path.display().to_string();
-        let started = std::time::Instant::now();
-        is_visited(&name, &layout::load(&name, 0, None::<&Path>).expect("a map"));
-        println!("{name} {:?}", started.elapsed());
+        let layout = layout::load(&name, 0, None::<&Path>).expect("a map");
+        let part = largest_part(&layout);
+        if part.1 <= MOST_CELLS {
+            is_visited(&name, &layout, part);
+        } else {
+            println!("{name} is left out: {} cells", part.1);
+        }
     }
 }
