@@ -51,6 +51,8 @@ pub trait Scheme {
     fn marked(&self) -> &[(Cell, Mark)];
     /// The parts of a sensor floor in which agents started; none for schemes without one.
     fn components(&self) -> &[Component];
+    /// How long the run has taken its slowest robot, where that is known.
+    fn milliseconds(&self) -> Option<u64>;
 }
 
 /// Every scheme.
@@ -453,6 +455,8 @@ pub struct Report {
     pub team: Vec<Cell>,
     /// The parts of a sensor floor in which agents started.
     pub components: Vec<Component>,
+    /// How long the run took its slowest robot, where that is known.
+    pub milliseconds: Option<u64>,
 }
 
 impl Report {
@@ -485,6 +489,7 @@ impl Report {
             chart: Chart::new(area),
             team: scheme.cells().to_vec(),
             components: Vec::new(),
+            milliseconds: None,
         };
         report.note(scheme.cells(), &[]);
         report
@@ -511,7 +516,7 @@ impl Report {
     /// The report of a run that is over.
     fn ended(self, stopped: Stopped, scheme: &dyn Scheme) -> Self {
         let (team, components) = (scheme.cells().to_vec(), scheme.components().to_vec());
-        Self { stopped, team, components, ..self }
+        Self { stopped, team, components, milliseconds: scheme.milliseconds(), ..self }
     }
 }
 
@@ -573,7 +578,7 @@ pub fn missed(setup: &Setup, chart: &Chart) -> Vec<Cell> {
         Crew::Agents(way) => {
             let team = agents::Team::new(way, &setup.layout, &setup.starts(), setup.miss, setup.seed);
             let due = chart.area().cells().filter(|&cell| team.floor().component(cell).is_some());
-            due.filter(|&cell| chart.mark(cell, u32::MAX) != Mark::Visited).collect()
+            due.filter(|&cell| !floor::is_visited(chart.mark(cell, u32::MAX))).collect()
         }
     }
 }

@@ -8,6 +8,7 @@ pub mod fault;
 pub mod hunt;
 pub mod layout;
 pub mod minimise;
+pub mod radio;
 pub mod reproduce;
 pub mod trace;
 pub mod view;

@@ -1,6 +1,8 @@
 //! What the papers and SPEC.md report as tables, measured again.
 
+pub mod agents;
 pub mod atlas;
+pub mod interval;
 pub mod optimum;
 pub mod repair_cost;
 
@@ -13,11 +15,24 @@ pub enum Reproduction {
     Optimum,
     /// What becomes of all runs in all layouts.
     Atlas,
+    /// What agents explore by their number, with missed sensors.
+    BricksFig11,
+    /// What agents explore by the area, with missed sensors.
+    BricksFig12,
+    /// How long agents take, with none missed.
+    BricksIdeal,
 }
 
 impl Reproduction {
     /// All, in order.
-    pub const ALL: [Self; 3] = [Self::RepairCost, Self::Optimum, Self::Atlas];
+    pub const ALL: [Self; 6] = [
+        Self::RepairCost,
+        Self::Optimum,
+        Self::Atlas,
+        Self::BricksFig11,
+        Self::BricksFig12,
+        Self::BricksIdeal,
+    ];
 
     /// Its name.
     pub const fn id(self) -> &'static str {
@@ -25,6 +40,9 @@ impl Reproduction {
             Self::RepairCost => "repair-cost",
             Self::Optimum => "optimum",
             Self::Atlas => "atlas",
+            Self::BricksFig11 => "bricks-fig11",
+            Self::BricksFig12 => "bricks-fig12",
+            Self::BricksIdeal => "bricks-ideal",
         }
     }
 
@@ -42,6 +60,18 @@ impl Reproduction {
             Self::Atlas => {
                 "all runs of the chain in all layouts with few walls, by rule and number of robots: how many there are, \
                  how long, and how many break which clause"
+            }
+            Self::BricksFig11 => {
+                "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what they explore and mark \
+                 as visited, by the number of agents"
+            }
+            Self::BricksFig12 => {
+                "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what 20 agents explore and \
+                 mark as visited, by the area"
+            }
+            Self::BricksIdeal => {
+                "Brick&Mortar, Ants and both together in offices, no sensor missed: how long until everything is explored, \
+                 and until all agents know it, by the number of agents"
             }
         }
     }

@@ -1,7 +1,8 @@
 //! Drawings in text that a person can judge: layouts, team moves, the order of exploration, the environments of a
-//! cell. Walls are drawn as in our layout format. Pictures for pages are in [`svg`], the words that go with a
+//! cell. Walls are drawn as in our layout format. Pictures for pages are in [`svg`] and [`chart`], the words that go with a
 //! counterexample in [`story`].
 
+pub mod chart;
 pub mod page;
 pub mod story;
 pub mod svg;
@@ -29,7 +30,7 @@ pub const fn legend(crew: Crew) -> &'static str {
         }
         Crew::Agents(_) => {
             "1, 2, … are the agents, K× stands for K of them in one cell; · is explored, : explored and entered by \
-             nobody any more, ░░░ visited, ## blocked."
+             nobody any more, ░░░ visited, ▒▒▒ sealed, ## blocked."
         }
     }
 }
@@ -210,6 +211,7 @@ impl Labels<'_> {
                 Mark::Explored => "·".to_owned(),
                 Mark::Closing => ":".to_owned(),
                 Mark::Visited => "░░░".to_owned(),
+                Mark::Sealed => "▒▒▒".to_owned(),
             },
             (Crew::Agents(_), here @ [_, _, _, ..]) => format!("{}×", here.len()),
             (Crew::Chain | Crew::Agents(_), here) => self.names(here),
@@ -269,6 +271,7 @@ fn bare(crew: Crew, area: Area, team: &[Cell], mark: impl Fn(Cell) -> Mark) -> V
             (None, _, Mark::Explored) => '·',
             (None, _, Mark::Closing) => ':',
             (None, _, Mark::Visited) => '░',
+            (None, _, Mark::Sealed) => '▒',
         }
     };
     let rim = format!("+{}+", "-".repeat(area.width()));

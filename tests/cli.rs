@@ -338,10 +338,30 @@ fn the_distance_from_the_optimum_is_the_same_on_any_number_of_threads() {
 }
 
 #[test]
+fn the_figures_of_agents_are_the_same_on_any_number_of_threads() {
+    let folder = folder();
+    let figure = |threads| {
+        let arguments =
+            ["reproduce", "bricks-fig11", "--layouts", "3", "--max-steps", "3000", "--svg", "fig11.svg"];
+        let output = tautline(folder.path(), &arguments).env("RAYON_NUM_THREADS", threads).output();
+        let output = output.expect("the program runs");
+        assert_eq!(output.status.code(), Some(0));
+        let drawn = fs::read_to_string(folder.path().join("fig11.svg")).expect("text");
+        (String::from_utf8(output.stdout).expect("text"), drawn)
+    };
+    assert_eq!(figure("1"), figure("3"));
+    let short = ["--layouts", "1", "--max-steps", "500"];
+    let area = json(folder.path(), &[&["reproduce", "bricks-fig12"], &short[..]].concat(), 0);
+    assert_eq!((&area["miss"], area["lines"].as_array().map(Vec::len)), (&0.0556.into(), Some(24)));
+    let ideal = json(folder.path(), &[&["reproduce", "bricks-ideal"], &short[..]].concat(), 0);
+    assert_eq!((&ideal["miss"], &ideal["lines"][1]["visited"]), (&0.0.into(), &Value::Null));
+}
+
+#[test]
 fn the_tables_are_listed_and_have_help_with_examples() {
     let folder = folder();
     assert_snapshot!("tables", printed(folder.path(), &["reproduce"], 0));
-    for table in ["repair-cost", "optimum"] {
+    for table in ["repair-cost", "optimum", "bricks-fig11"] {
         let help = printed(folder.path(), &["reproduce", table, "--help"], 0);
         assert!(help.contains("Example"), "{table}");
         assert_snapshot!(format!("help_reproduce_{table}"), help);
@@ -504,7 +524,7 @@ fn runs_of_agents_are_stored_and_replayed() {
     printed(folder, &[&explore[..], &["--robots", "2", "--start", "4,2"], &page].concat(), 0);
     assert_snapshot!("frames_of_agents", printed(folder, &["replay", "run.jsonl", "--svg", "last.svg"], 0));
     let drawn = fs::read_to_string(folder.join("last.svg")).expect("text");
-    assert!(drawn.contains("class=\"visited\"") && !drawn.contains("class=\"base\""));
+    assert!(drawn.contains("class=\"sealed\"") && !drawn.contains("class=\"base\""));
     printed(folder, &[&explore[..], &starts[..]].concat(), 0);
     let run = fs::read_to_string(folder.join("run.jsonl")).expect("text");
     let cases = [

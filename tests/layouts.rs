@@ -1,5 +1,6 @@
 //! Layouts are read, written and made as their formats say, and what is wrong with one is told in one line.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::{self, Write};
 use std::num::NonZeroU16;
@@ -420,20 +421,94 @@ fn the_same_seed_makes_the_same_layout() {
     assert_snapshot!(made("office:7x5:3x2", 1), @r"
     tautline layout 1
     +--+--+--+--+--+--+--+
-    |     |              |
+    |        |     |     |
     +  +  +  +  +  +  +  +
-    |           |        |
-    +--+  +--+  +--+  +--+
-    |     |     |        |
+    |        |           |
     +  +  +  +  +  +  +  +
-    |     |              |
+    |              |     |
+    +--+  +--+  +--+--+  +
+    |              |     |
     +  +  +  +  +  +  +  +
-    |           |        |
+    |        |           |
     +--+--+--+--+--+--+--+
     ");
     assert_ne!(made("walls:6x3:0.3", 1), made("walls:6x3:0.3", 2));
     assert_eq!(made("walls:4x4:0", 1), made("open:4x4", 1));
     assert_eq!(made("walls:4x4:1", 1).walls().count(), 24);
+}
+
+/// Where the columns and the rows of an office are divided: its lines of walls, each with a door for every room.
+fn divisions(layout: &Layout, across: i16, down: i16) -> [Vec<i16>; 2] {
+    let (width, height) = (layout.width(), layout.height());
+    let west = |x, y| layout.has_wall(Edge::new(Cell::new(x, y), Side::West));
+    let north = |x, y| layout.has_wall(Edge::new(Cell::new(x, y), Side::North));
+    let columns = (1..width).filter(|&x| (0..height).filter(|&y| west(x, y)).count() as i16 == height - down);
+    let rows = (1..height).filter(|&y| (0..width).filter(|&x| north(x, y)).count() as i16 == width - across);
+    [columns.collect(), rows.collect()]
+}
+
+/// The cells between divisions.
+fn between(divisions: &[i16], cells: i16) -> Vec<i16> {
+    let ends = divisions.iter().copied().chain([cells]);
+    let starts = [0].into_iter().chain(divisions.iter().copied());
+    starts.zip(ends).map(|(start, end)| end - start).collect()
+}
+
+#[test]
+fn rooms_of_an_office_are_three_cells_wide_or_as_wide_as_all_can_be() {
+    for (description, across, down, least) in [
+        ("office:30x30:4x4", 4, 4, [3, 3]),
+        ("office:12x20:4x3", 4, 3, [3, 3]),
+        ("office:11x7:4x3", 4, 3, [2, 2]),
+        ("office:9x40:1x13", 1, 13, [9, 3]),
+    ] {
+        for seed in 0..50 {
+            let layout = made(description, seed);
+            let [columns, rows] = divisions(&layout, across, down);
+            let place = format!("{description}, seed {seed}");
+            assert_eq!((columns.len() as i16, rows.len() as i16), (across - 1, down - 1), "{place}");
+            assert!(between(&columns, layout.width()).iter().all(|&cells| cells >= least[0]), "{place}");
+            assert!(between(&rows, layout.height()).iter().all(|&cells| cells >= least[1]), "{place}");
+            // A wall between any two rooms is whole but for one door.
+            let (lines, doors) = (
+                (across - 1) * layout.height() + (down - 1) * layout.width(),
+                (across - 1) * down + (down - 1) * across,
+            );
+            assert_eq!(layout.walls().count() as i16, lines - doors, "{place}");
+            assert_eq!(reached(&layout), layout.free_cells(), "{place}");
+        }
+    }
+    // Rooms of one cell are all doors.
+    for seed in 0..5 {
+        assert_eq!(made("office:4x3:4x3", seed), made("open:4x3", 0));
+        assert_eq!(made("office:1x1:1x1", seed), made("open:1x1", 0));
+        assert_eq!(made("office:9x9:1x1", seed), made("open:9x9", 0));
+        assert_eq!(made("office:1x9:1x4", seed), made("open:1x9", 0));
+    }
+}
+
+#[test]
+fn all_ways_to_divide_an_office_are_as_likely() {
+    // Ten columns of three rooms, each at least three: the spare column goes to one of them.
+    // Eight rows of two rooms: 3 and 5, 4 and 4, 5 and 3.
+    let mut counts = BTreeMap::new();
+    for seed in 0..900 {
+        let divided = divisions(&made("office:10x8:3x2", seed), 3, 2);
+        *counts.entry(divided).or_insert(0_u32) += 1;
+    }
+    let ways = |divisions: &[Vec<i16>; 2]| (between(&divisions[0], 10), between(&divisions[1], 8));
+    assert_eq!(counts.keys().map(ways).collect::<BTreeSet<_>>().len(), 9);
+    // 100 each, with a standard deviation of 9.4.
+    assert!(counts.values().all(|count| (65..=135).contains(count)), "{counts:?}");
+}
+
+#[test]
+fn every_seed_makes_another_office() {
+    let offices: BTreeSet<String> = (0..500).map(|seed| made("office:30x30:4x4", seed).to_string()).collect();
+    assert_eq!(offices.len(), 500);
+    let lines: BTreeSet<[Vec<i16>; 2]> =
+        (0..500).map(|seed| divisions(&made("office:30x30:4x4", seed), 4, 4)).collect();
+    assert!(lines.len() > 490, "{}", lines.len());
 }
 
 #[test]

@@ -9,8 +9,11 @@
 
 pub mod ants;
 pub mod bricks;
+pub mod broadcast;
 pub mod chain;
 pub mod choice;
 pub mod floor;
 pub mod grid;
 pub mod lattice;
+pub mod perception;
+pub mod rescue;

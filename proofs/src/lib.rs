@@ -18,6 +18,7 @@ pub mod plain;
 mod plans;
 pub mod reach;
 pub mod registry;
+pub mod rescue;
 pub mod run;
 pub mod search;
 pub mod small;

@@ -231,6 +231,9 @@ pub(super) fn summary(setup: &Setup, layout: &str, report: &Report) -> String {
         };
     }
     text.push('\n');
+    if let Some(milliseconds) = report.milliseconds {
+        let _ = writeln!(text, "the slowest agent took {} s", milliseconds / 1000);
+    }
     match setup.crew() {
         Crew::Chain => {}
         Crew::Agents(Way::Ants) => {
@@ -245,9 +248,13 @@ pub(super) fn summary(setup: &Setup, layout: &str, report: &Report) -> String {
             };
             let whole = report.whole();
             let percent = whole.visited * 100 / whole.cells;
-            let ends = match whole.active {
-                0 => "every agent knows that it is done".to_owned(),
-                active => format!("{active} of {} agents do not know that they are done", whole.robots),
+            let ends = match (whole.active, report.stopped) {
+                (0, _) => "every agent knows that it is done".to_owned(),
+                (active, Stopped::Explored) => format!(
+                    "{active} of {} agents may never know that they are done: whoever watches them ends the run",
+                    whole.robots
+                ),
+                (active, _) => format!("{active} of {} agents do not know that they are done", whole.robots),
             };
             let _ =
                 writeln!(text, "{} of {} cells visited ({percent} %); {ends}", whole.visited, whole.cells);
@@ -338,8 +345,16 @@ struct FloorSummary<'a> {
     starts: Option<&'a [Cell]>,
     #[serde(flatten)]
     knowledge: Option<Knowledge>,
+    /// How long the slowest agent scanned and went.
+    seconds: f64,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     components: Vec<Part>,
+}
+
+/// How long the slowest agent took; exact, since no run takes 2⁵³ milliseconds.
+#[expect(clippy::cast_precision_loss, reason = "285,000 years are fewer milliseconds than 2⁵³")]
+fn seconds(report: &Report) -> f64 {
+    report.milliseconds.unwrap_or(0) as f64 / 1000.0
 }
 
 /// What agents that mark cells have done and know.
@@ -379,6 +394,7 @@ impl<'a> FloorSummary<'a> {
             miss: setup.miss,
             starts: setup.starts.as_deref(),
             knowledge: Knowledge::of(way, &report.whole()),
+            seconds: seconds(report),
             components: parts.iter().map(part).collect(),
         }
     }

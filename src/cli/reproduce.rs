@@ -1,5 +1,6 @@
 //! `tautline reproduce`: tables again.
 
+mod agents;
 mod atlas;
 mod optimum;
 mod repair_cost;
@@ -11,6 +12,7 @@ use super::output::Output;
 use super::{Exit, Format, FormatArgs};
 use crate::fault::Halt;
 use crate::reproduce::Reproduction;
+use crate::reproduce::agents::Figure;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -34,6 +36,14 @@ enum Table {
     RepairCost(repair_cost::RepairCost),
     Optimum(optimum::Optimum),
     Atlas(atlas::Atlas),
+    /// What agents explore by their number, with missed sensors.
+    #[command(name = "bricks-fig11")]
+    BricksFig11(agents::Agents),
+    /// What agents explore by the area, with missed sensors.
+    #[command(name = "bricks-fig12")]
+    BricksFig12(agents::Agents),
+    /// How long agents take, with none missed.
+    BricksIdeal(agents::Agents),
 }
 
 #[derive(Serialize)]
@@ -54,6 +64,9 @@ impl Reproduce {
             Some(Table::RepairCost(table)) => table.run(out),
             Some(Table::Optimum(table)) => table.run(out),
             Some(Table::Atlas(table)) => table.run(out),
+            Some(Table::BricksFig11(table)) => table.run(Reproduction::BricksFig11, Figure::Agents, out),
+            Some(Table::BricksFig12(table)) => table.run(Reproduction::BricksFig12, Figure::Area, out),
+            Some(Table::BricksIdeal(table)) => table.run(Reproduction::BricksIdeal, Figure::Ideal, out),
         }
     }
 

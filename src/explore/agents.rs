@@ -6,13 +6,15 @@
 //! probability is 0 nothing is drawn.
 
 use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::Rng;
 use tautline_kernel::ants::least_crossed;
 use tautline_kernel::bricks::{self, Agent, Condition, Next, Rule};
 use tautline_kernel::chain::Kind;
 use tautline_kernel::choice::Source;
-use tautline_kernel::floor::{COMPASS, Claim, Entry, Mark, Scan, enter, leave};
+use tautline_kernel::floor::{Claim, Entry, Mark, Scan, enter, leave};
 use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Edge, Step};
+use tautline_kernel::perception::time;
 use tautline_proofs::run::{Breach, Frame};
 
 use super::floor::{Component, SensorFloor};
@@ -38,7 +40,7 @@ struct Misses {
 
 impl Source for Misses {
     fn pick(&mut self, below: u32) -> u32 {
-        generate::below(below, &mut self.generator)
+        ((u128::from(self.generator.next_u64()) * u128::from(below)) >> 64) as u32
     }
 
     fn mishap(&mut self) -> bool {
@@ -53,6 +55,14 @@ struct Body {
     is_done: bool,
 }
 
+/// How long an agent scans and goes in a team move, by the paper's means.
+fn milliseconds(scan: &Scan, step: Step) -> u64 {
+    u64::from(match step {
+        Step::Cross(_) => time::step_milliseconds(scan.detected),
+        Step::Stay => time::scan_milliseconds(scan.detected),
+    })
+}
+
 /// A team of agents on a floor.
 #[derive(Clone)]
 pub struct Team {
@@ -64,6 +74,8 @@ pub struct Team {
     steps: Vec<Step>,
     /// Whether in the last team move an agent was done although it could have got to an unexplored cell.
     is_premature: bool,
+    /// How long each agent has scanned and gone.
+    milliseconds: Vec<u64>,
     misses: Misses,
 }
 
@@ -75,7 +87,7 @@ impl Team {
         for &start in starts {
             let entry = match floor.mark(start) {
                 Mark::Unexplored => Entry::New,
-                Mark::Explored | Mark::Closing | Mark::Visited => Entry::Known,
+                Mark::Explored | Mark::Closing | Mark::Visited | Mark::Sealed => Entry::Known,
             };
             enter(&mut floor, start, entry);
         }
@@ -87,6 +99,7 @@ impl Team {
             cells: starts.to_vec(),
             steps: vec![Step::Stay; starts.len()],
             is_premature: false,
+            milliseconds: vec![0; starts.len()],
             misses: Misses { chance, generator: generate::source(seed, *b"miss    ") },
         }
     }
@@ -124,14 +137,13 @@ impl Team {
     fn act(&mut self, number: usize) -> Step {
         let (body, cell) = (&mut self.bodies[number], &mut self.cells[number]);
         let scan = Scan::new(&self.floor, *cell, &mut self.misses);
-        match self.way {
-            Way::Ants => {
-                let Some(side) = least_crossed(&scan, scan.beside) else { return Step::Stay };
+        let step = match self.way {
+            Way::Ants => least_crossed(&scan, scan.beside).map_or(Step::Stay, |side| {
                 leave(&mut self.floor, *cell);
                 *cell = cell.beyond(side);
                 enter(&mut self.floor, *cell, scan.entry(side));
                 Step::Cross(side)
-            }
+            }),
             Way::Bricks(rule) => {
                 let act = body.agent.decide(rule, &scan);
                 *cell = bricks::carry_out(&mut self.floor, *cell, &act);
@@ -145,7 +157,14 @@ impl Team {
                     }
                 }
             }
-        }
+        };
+        self.milliseconds[number] += milliseconds(&scan, step);
+        step
+    }
+
+    /// How long the slowest agent has scanned and gone.
+    pub fn milliseconds(&self) -> u64 {
+        self.milliseconds.iter().copied().max().unwrap_or(0)
     }
 
     /// Cells that agents can get to.
@@ -167,26 +186,17 @@ impl Team {
         self.floor.components().iter().map(number).sum()
     }
 
-    /// Whether the run is over: every agent is done or, where some can never know that they are, nothing that they do
-    /// can matter any more.
+    /// Whether the run is over: every agent is done or, where some may never know that they are, everything is explored.
     pub fn is_over(&self) -> bool {
-        let is_settled = match self.way {
-            Way::Ants => true,
-            Way::Bricks(rule) => rule.has(Condition::AntsWhenIdle) && !self.misses.chance.is_never(),
-        };
-        self.active() == 0 || is_settled && self.explored() == self.due() && self.is_roaming()
+        self.active() == 0 || self.explored() == self.due() && self.may_roam()
     }
 
-    /// Whether no agent that is not done has anything but visited cells around, if agents mark cells as visited at all.
-    fn is_roaming(&self) -> bool {
-        let is_visited = |cell| self.floor.mark(cell) == Mark::Visited;
-        let is_shut_in = |(body, &cell): (&Body, &Cell)| {
-            let mut sides = COMPASS.into_iter().filter(|&side| self.floor.has_open(cell, side));
-            body.is_done || is_visited(cell) && sides.all(|side| is_visited(cell.beyond(side)))
-        };
+    /// Whether agents may go on for ever although nothing is left to explore: ants, and those that go over visited cells
+    /// again, to whom missed sensors always show something.
+    fn may_roam(&self) -> bool {
         match self.way {
             Way::Ants => true,
-            Way::Bricks(_) => self.bodies.iter().zip(&self.cells).all(is_shut_in),
+            Way::Bricks(rule) => rule.has(Condition::SecondPass) && !self.misses.chance.is_never(),
         }
     }
 
@@ -195,7 +205,7 @@ impl Team {
     fn repeats(&self) -> bool {
         match self.way {
             Way::Ants => false,
-            Way::Bricks(rule) => !rule.has(Condition::AntsWhenIdle) && self.misses.chance.is_never(),
+            Way::Bricks(rule) => !rule.has(Condition::LeastCrossed) && self.misses.chance.is_never(),
         }
     }
 }
@@ -260,6 +270,10 @@ impl Scheme for Agents {
 
     fn components(&self) -> &[Component] {
         self.team.floor.components()
+    }
+
+    fn milliseconds(&self) -> Option<u64> {
+        Some(self.team.milliseconds())
     }
 }
 

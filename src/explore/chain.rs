@@ -90,4 +90,8 @@ impl<G: Grid, const ROBOTS: usize> Scheme for ChainScheme<G, ROBOTS> {
     fn components(&self) -> &[Component] {
         &[]
     }
+
+    fn milliseconds(&self) -> Option<u64> {
+        None
+    }
 }

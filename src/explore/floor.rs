@@ -19,8 +19,16 @@ pub struct Component {
     pub cells: u32,
     /// Those of them that are not unexplored.
     pub explored: u32,
-    /// Those of them that are visited.
+    /// Those of them that are visited, sealed or not.
     pub visited: u32,
+}
+
+/// Whether `mark` says that agents need not go through the cell again.
+pub const fn is_visited(mark: Mark) -> bool {
+    match mark {
+        Mark::Unexplored | Mark::Explored | Mark::Closing => false,
+        Mark::Visited | Mark::Sealed => true,
+    }
 }
 
 /// The number of a component, counted from 1; 0 stands for the cells that no agent can get to.
@@ -175,8 +183,8 @@ impl SensorFloor {
         self.marked.push((cell, is));
         if let Some(component) = self.components.get_mut(usize::from(component).wrapping_sub(1)) {
             component.explored += u32::from(was == Mark::Unexplored);
-            component.visited += u32::from(is == Mark::Visited);
-            component.visited -= u32::from(was == Mark::Visited);
+            component.visited += u32::from(is_visited(is));
+            component.visited -= u32::from(is_visited(was));
         }
     }
 

@@ -4,6 +4,7 @@
 //! promise.
 
 use std::fmt;
+use std::ops::Range;
 use std::str::FromStr;
 
 use rand_chacha::ChaCha8Rng;
@@ -15,6 +16,9 @@ use super::{Layout, Problem, Size, text};
 
 const ROOMS_A: &str = include_str!("generate/rooms-a.txt");
 const ROOMS_B: &str = include_str!("generate/rooms-b.txt");
+
+/// The least width and height of a room in an office that is large enough.
+const LEAST_ROOM_CELLS: i16 = 3;
 
 const TWO_TO_THE_53: f64 = 9_007_199_254_740_992.0;
 
@@ -30,9 +34,13 @@ pub enum Generator {
     RoomsA,
     /// `rooms-b`: a building of 15×15 cells with many small rooms, one-cell doors, all cells connected.
     RoomsB,
-    /// `office:30x30:4x4`: an area divided into rooms by columns and rows of walls, as evenly as whole cells
-    /// allow, with one one-cell door at a random place between any two neighbouring rooms, so that all cells
-    /// are connected. Drawn room by room in row order, the eastern door before the southern.
+    /// `office:30x30:4x4`: an area divided into rooms by random columns and rows of walls, with one one-cell door
+    /// at a random place between any two neighbouring rooms, so that all cells are connected. Rooms are at least
+    /// three cells wide and high, or as many as all of them can be; all ways to divide the columns so are as
+    /// likely, and those to divide the rows. Drawn first are the columns from west to east: after the least width
+    /// of a room either its wall follows or one more cell, as likely as walls and spare cells are left, until
+    /// there is no wall left; then the rows in the same way; then the doors room by room in row order, the eastern
+    /// door before the southern.
     Office(Size, Rooms),
     /// `cells:32x32:0.2`: each cell is blocked with this probability, drawn in row order.
     Cells(Size, Probability),
@@ -135,8 +143,8 @@ pub(crate) fn source(seed: u64, tag: [u8; 8]) -> ChaCha8Rng {
 }
 
 /// A number below `n`: the high half of n times 64 random bits.
-pub(crate) fn below(n: u32, rng: &mut ChaCha8Rng) -> u32 {
-    ((u128::from(rng.next_u64()) * u128::from(n)) >> 64) as u32
+fn below(n: i16, rng: &mut ChaCha8Rng) -> i16 {
+    ((u128::from(rng.next_u64()) * n as u128) >> 64) as i16
 }
 
 fn walls(size: Size, probability: Probability, rng: &mut ChaCha8Rng) -> Layout {
@@ -161,27 +169,43 @@ fn cells(size: Size, probability: Probability, rng: &mut ChaCha8Rng) -> Result<L
 
 fn office(size: Size, rooms: Rooms, rng: &mut ChaCha8Rng) -> Layout {
     let mut layout = Layout::of(size);
-    let first =
-        |room: i16, rooms: i16, cells: i16| (i32::from(room) * i32::from(cells) / i32::from(rooms)) as i16;
-    let column = |room| first(room, rooms.across, size.width());
-    let row = |room| first(room, rooms.down, size.height());
-    for (down, across) in (0..rooms.down).flat_map(|down| (0..rooms.across).map(move |across| (down, across)))
-    {
-        let (columns, rows) = (column(across)..column(across + 1), row(down)..row(down + 1));
-        if across + 1 < rooms.across {
-            let door = rows.start + below((rows.end - rows.start) as u32, rng) as i16;
+    let across = divide(size.width(), rooms.across, rng);
+    let down = divide(size.height(), rooms.down, rng);
+    for (rows, columns) in down.iter().flat_map(|rows| across.iter().map(move |columns| (rows, columns))) {
+        if columns.end < size.width() {
+            let door = rows.start + below(rows.end - rows.start, rng);
             for y in rows.clone().filter(|&y| y != door) {
                 layout.build_wall(Edge::new(Cell::new(columns.end, y), Side::West));
             }
         }
-        if down + 1 < rooms.down {
-            let door = columns.start + below((columns.end - columns.start) as u32, rng) as i16;
-            for x in columns.filter(|&x| x != door) {
+        if rows.end < size.height() {
+            let door = columns.start + below(columns.end - columns.start, rng);
+            for x in columns.clone().filter(|&x| x != door) {
                 layout.build_wall(Edge::new(Cell::new(x, rows.end), Side::North));
             }
         }
     }
     layout
+}
+
+/// Columns or rows divided into rooms: choosing the places of walls among walls and spare cells, one after the other,
+/// makes all choices as likely.
+fn divide(cells: i16, rooms: i16, rng: &mut ChaCha8Rng) -> Vec<Range<i16>> {
+    let least = LEAST_ROOM_CELLS.min(cells / rooms);
+    let (mut walls, mut spare) = (rooms - 1, cells - rooms * least);
+    let (mut divided, mut room) = (Vec::new(), 0..least);
+    while walls > 0 {
+        if below(walls + spare, rng) < walls {
+            walls -= 1;
+            divided.push(room.clone());
+            room = room.end..room.end + least;
+        } else {
+            spare -= 1;
+            room.end += 1;
+        }
+    }
+    divided.push(room.start..cells);
+    divided
 }
 
 impl FromStr for Generator {

@@ -14,6 +14,7 @@ use tautline_kernel::lattice::{Cell, Edge};
 use tautline_proofs::optimum::{Guide, Optimum, explore_all};
 use tautline_proofs::reach::{CellSet, Ground};
 
+use super::interval::hundredths;
 use crate::explore::{Chart, RuleName, SchemeName, Setup, explore};
 use crate::fault::{Fault, Halt};
 use crate::layout::{Layout, Problem, Size};
@@ -325,7 +326,7 @@ impl Sums {
             compared,
             below: self.layouts(|chain, optimum| chain < optimum),
             optimal: self.layouts(|chain, optimum| chain == optimum),
-            mean: (compared > 0).then(|| (mean * 100.0).round() / 100.0),
+            mean: (compared > 0).then(|| hundredths(mean)),
             worst: worst.map(|(&(chain, optimum), &(_, (_, walls)))| Worst {
                 chain,
                 optimum,

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 use tautline_proofs::run::Breach;
 
+use super::interval::{Estimate, Moments, hundredths};
 use crate::explore::{Milestone, Report, RuleName, SchemeName, Setup, explore};
 use crate::fault::{Fault, Halt};
 use crate::layout::Generator;
@@ -86,11 +87,9 @@ struct Sums {
 
 #[derive(Clone, Copy, Default)]
 struct Paired {
-    count: u32,
-    published: u64,
-    repaired: u64,
-    difference: i64,
-    difference_squared: u64,
+    published: Moments,
+    repaired: Moments,
+    difference: Moments,
 }
 
 /// Compares the rules at every density in the layouts of `layouts` seeds from `seed` on. `watch` is called after each
@@ -180,49 +179,33 @@ impl Sums {
 
 impl Paired {
     fn of(published: u32, repaired: u32) -> Self {
-        let difference = i64::from(repaired) - i64::from(published);
+        let (published, repaired) = (i64::from(published), i64::from(repaired));
         Self {
-            count: 1,
-            published: published.into(),
-            repaired: repaired.into(),
-            difference,
-            difference_squared: difference.unsigned_abs().pow(2),
+            published: Moments::of(published),
+            repaired: Moments::of(repaired),
+            difference: Moments::of(repaired - published),
         }
     }
 
     const fn and(self, other: Self) -> Self {
         Self {
-            count: self.count + other.count,
-            published: self.published + other.published,
-            repaired: self.repaired + other.repaired,
-            difference: self.difference + other.difference,
-            difference_squared: self.difference_squared + other.difference_squared,
+            published: self.published.and(other.published),
+            repaired: self.repaired.and(other.repaired),
+            difference: self.difference.and(other.difference),
         }
     }
 
-    /// Division and square root are the only steps that round, and they do so alike on every machine.
-    #[expect(clippy::cast_precision_loss, reason = "the sums stay far below 2⁵³")]
+    /// Without pairs everything is 0, and of one pair the margin.
     fn comparison(self, layouts: u32) -> Comparison {
-        let pairs = f64::from(self.count.max(1));
-        let mean = |sum: f64| sum / pairs;
-        let difference = mean(self.difference as f64);
-        let variance = if self.count < 2 {
-            0.0
-        } else {
-            let spread = self.difference_squared as f64 - self.difference as f64 * difference;
-            spread.max(0.0) / (pairs - 1.0)
-        };
+        let mean = |moments: Moments| hundredths(moments.estimate().map_or(0.0, |estimate| estimate.mean));
+        let margin = self.difference.estimate().and_then(Estimate::margin);
         Comparison {
-            pairs: self.count,
-            left_out: layouts - self.count,
-            published: hundredths(mean(self.published as f64)),
-            repaired: hundredths(mean(self.repaired as f64)),
-            difference: hundredths(difference),
-            margin: hundredths(1.96 * (variance / pairs).sqrt()),
+            pairs: self.difference.count(),
+            left_out: layouts - self.difference.count(),
+            published: mean(self.published),
+            repaired: mean(self.repaired),
+            difference: mean(self.difference),
+            margin: hundredths(margin.unwrap_or(0.0)),
         }
     }
-}
-
-fn hundredths(number: f64) -> f64 {
-    (number * 100.0).round() / 100.0
 }

@@ -15,7 +15,7 @@ use crate::layout::Layout;
 /// The side of a cell.
 const CELL: i32 = 24;
 /// The space round a picture and between its panels.
-const MARGIN: i32 = 16;
+pub(super) const MARGIN: i32 = 16;
 /// The height of a line of text above a panel.
 const CAPTION: i32 = 22;
 /// Panels beside each other take up at most so much.
@@ -23,14 +23,14 @@ const PAGE_WIDTH: i32 = 960;
 
 /// The colours of all pictures, by the class of what they paint.
 pub(super) const STYLE: &str = "\
-svg{--ground:#fff;--ink:#1b1f24;--faint:#d4d9e0;--explored:#e3edf9;--visited:#e9c7a4;--blocked:#9aa4b1;--robot:#1d5fa8;--leader:#0b7a53;\
+svg{--ground:#fff;--ink:#1b1f24;--faint:#d4d9e0;--explored:#e3edf9;--visited:#f0d6ba;--sealed:#d9a878;--blocked:#9aa4b1;--robot:#1d5fa8;--leader:#0b7a53;\
 --base:#5b3a8c;--bad:#c4261d;font:12px system-ui,sans-serif;background:var(--ground)}\
-@media(prefers-color-scheme:dark){svg{--ground:#14181d;--ink:#e6eaef;--faint:#333b45;--explored:#1f3550;--visited:#63452b;--blocked:#5d6875;\
+@media(prefers-color-scheme:dark){svg{--ground:#14181d;--ink:#e6eaef;--faint:#333b45;--explored:#1f3550;--visited:#4f3a26;--sealed:#7d5632;--blocked:#5d6875;\
 --robot:#6aa9ee;--leader:#4cc79a;--base:#b795e6;--bad:#ff7b72}}\
 text{fill:var(--ink);text-anchor:middle;dominant-baseline:central}.caption{text-anchor:start}\
 .lines{stroke:var(--faint);fill:none}.walls{stroke:var(--ink);stroke-width:3;stroke-linecap:square;fill:none}\
 .blocked{fill:var(--blocked)}.explored{fill:var(--explored)}\
-.visited{fill:var(--visited)}.closing{fill:var(--explored);stroke:var(--visited);stroke-width:3}.member{fill:var(--robot);fill-opacity:.35}\
+.visited{fill:var(--visited)}.sealed{fill:var(--sealed)}.closing{fill:var(--explored);stroke:var(--visited);stroke-width:3}.member{fill:var(--robot);fill-opacity:.35}\
 .order{fill:var(--robot)}.small{font-size:10px}.robot{fill:var(--robot)}.leader{fill:var(--leader)}.base{fill:var(--base)}\
 .name{fill:var(--ground);font-size:10px;font-weight:600}.link{stroke:var(--robot);stroke-width:2;stroke-opacity:.5}\
 .way{stroke:var(--ink);stroke-width:1.5}.tip{fill:var(--ink)}.bump{stroke:var(--bad);stroke-width:3}\
@@ -61,15 +61,23 @@ pub fn picture(title: &str, panels: &[Panel]) -> String {
                 write!(body, "<text class=\"caption\" y=\"{}\">{}</text>", CAPTION / 2 - 2, panel.caption);
         }
         let _ = writeln!(body, "<g transform=\"translate(0,{caption})\">{}</g></g>", panel.body);
-        let text_width = panel.caption.chars().count() as i32 * 7;
-        x += panel.width.max(text_width) + MARGIN;
+        x += panel.width.max(text_width(&panel.caption)) + MARGIN;
         width = width.max(x);
         row_height = row_height.max(panel.height + caption);
     }
-    let height = y + row_height + MARGIN;
+    document(title, "", (width, y + row_height + MARGIN), &body)
+}
+
+/// About how wide a line of text is.
+pub(super) fn text_width(text: &str) -> i32 {
+    text.chars().count() as i32 * 7
+}
+
+/// A picture of `body` alone, which wants `style` beside that of all pictures. The title is escaped.
+pub(super) fn document(title: &str, style: &str, (width, height): (i32, i32), body: &str) -> String {
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
-         height=\"{height}\" role=\"img\" aria-label=\"{title}\">\n<title>{title}</title>\n<style>{STYLE}</style>\n\
+         height=\"{height}\" role=\"img\" aria-label=\"{title}\">\n<title>{title}</title>\n<style>{STYLE}{style}</style>\n\
          <rect width=\"{width}\" height=\"{height}\" style=\"fill:var(--ground)\"/>\n{body}</svg>\n"
     )
 }
@@ -237,6 +245,7 @@ pub(super) fn marked_cell(frame: Frame, cell: Cell, mark: Mark) -> String {
         Mark::Explored => "explored",
         Mark::Closing => "closing",
         Mark::Visited => "visited",
+        Mark::Sealed => "sealed",
     };
     let (x, y) = frame.corner(cell);
     let inner = CELL - 1;

@@ -1,0 +1,75 @@
+//! What an agent's step on a sensor floor costs: by scheme, among rooms and in the open, on 30×30 and on 512×512 cells.
+//! Criterion follows each figure over time; the table at the end relates them to one another.
+
+mod common;
+
+use criterion::{BenchmarkId, Criterion};
+use tautline::explore::agents::{Team, Way};
+use tautline::layout::Generator;
+use tautline::layout::generate::Probability;
+use tautline_kernel::bricks::Rule;
+
+use self::common::{group, measure};
+
+/// What was done in a run.
+#[derive(Clone, Copy, Default)]
+struct Work {
+    team_moves: u32,
+    /// Actions of agents that were not done.
+    agent_steps: u32,
+}
+
+impl common::Work for Work {
+    fn team_moves(&self) -> u32 {
+        self.team_moves
+    }
+}
+
+const AGENTS: usize = 20;
+
+/// The most team moves of a run.
+const MOST: u32 = 20_000;
+
+const SCHEMES: [(&str, Way); 3] = [
+    ("bricks", Way::Bricks(Rule::REPAIRED)),
+    ("bricks-ants", Way::Bricks(Rule::ROBUST)),
+    ("ants", Way::Ants),
+];
+
+const LAYOUTS: [&str; 4] = ["office:30x30:4x4", "open:30x30", "office:512x512:16x16", "open:512x512"];
+
+/// A team of ants and one that marks cells as visited are both followed to the end of exploration; the latter until all
+/// agents are done.
+fn follow(mut team: Team) -> Work {
+    let mut work = Work::default();
+    while work.team_moves < MOST && !team.is_over() {
+        work.team_moves += 1;
+        work.agent_steps += team.active();
+        team.advance();
+    }
+    work
+}
+
+fn main() {
+    let mut criterion = Criterion::default().configure_from_args();
+    let mut rows = Vec::new();
+    for described in LAYOUTS {
+        let generator: Generator = described.parse().expect("a generator");
+        let layout = generator.generate(0).expect("a layout");
+        let starts = vec![layout.default_base().expect("a free cell"); AGENTS];
+        let mut group = group(&mut criterion, described);
+        for (scheme, way) in SCHEMES {
+            let team = Team::new(way, &layout, &starts, Probability::NEVER, 0);
+            let cost = measure(&mut group, BenchmarkId::from_parameter(scheme), || follow(team.clone()));
+            rows.push((described, scheme, cost));
+        }
+    }
+    criterion.final_summary();
+
+    println!("\nAgent steps a second, {AGENTS} agents, at most {MOST} team moves");
+    for (described, scheme, cost) in rows {
+        let seconds = 1e-6 * cost.micros * f64::from(cost.work.team_moves);
+        let millions = 1e-6 * f64::from(cost.work.agent_steps) / seconds;
+        println!("  {described:22} {scheme:12} {:>8} steps {millions:>7.2} million/s", cost.work.agent_steps);
+    }
+}

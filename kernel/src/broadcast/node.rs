@@ -1,0 +1,449 @@
+//! One node and the events of one source: what a NOTICE makes of it, and whether it forwards when its wait is over.
+//!
+//! What a protocol has to ignore is ignored: NOTICEs of another source or an older event, what the source hears of its
+//! own event, a node's own NOTICE, a sender heard before, and a hop count that cannot be counted on from.
+
+use super::rule::{Condition, Count, Rule, Scheme};
+use super::{NodeId, Surroundings};
+use crate::choice::Source;
+
+/// NOTICE<RID, ID, HC>, with the number of the event, which the paper leaves out.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Notice {
+    /// RID: the node that waits for rescue.
+    pub source: NodeId,
+    /// Which of its events: from 1 on, each larger than the one before.
+    pub event: u32,
+    /// ID: who sends it.
+    pub sender: NodeId,
+    /// HC: the sender's hop count.
+    pub hops: u16,
+}
+
+/// A NOTICE as it is heard.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Reception {
+    /// The NOTICE.
+    pub notice: Notice,
+    /// D: how far off the sender is, by the strength of its signal, in micrometres.
+    pub distance_um: u32,
+    /// When, in nanoseconds.
+    pub now_ns: u64,
+}
+
+/// How far a node is with an event.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Stage {
+    /// It has heard of none.
+    Unaware,
+    /// It may still forward.
+    Waiting {
+        /// When its wait is over, in nanoseconds.
+        until_ns: u64,
+    },
+    /// It does not forward.
+    Silent,
+    /// It has forwarded: it is a path node. So is the source.
+    Forwarded,
+}
+
+/// What a NOTICE makes of a node.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Reaction {
+    /// Nothing at all.
+    Ignored,
+    /// The node is to be asked again, by [`Node::expire`], when its wait is over.
+    Armed {
+        /// The end of the wait, in nanoseconds.
+        at_ns: u64,
+    },
+    /// It goes on waiting.
+    Noted,
+    /// It does not forward this event. A timer that is still armed may expire all the same.
+    Silenced,
+}
+
+/// The state of one node for the events of one source.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Node {
+    id: NodeId,
+    source: NodeId,
+    /// The latest event heard of; 0 before the first.
+    event: u32,
+    parent: NodeId,
+    hops: u16,
+    stage: Stage,
+    heard: Heard,
+}
+
+/// Senders heard, as many as are counted, ascending: the same senders are the same value in whatever order they came.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+struct Heard {
+    senders: [NodeId; HEARD],
+    count: u8,
+}
+
+/// The first sender, and the others that are counted.
+const HEARD: usize = Count::MOST as usize + 1;
+
+impl Heard {
+    const NOBODY: Self = Self { senders: [NodeId(0); HEARD], count: 0 };
+
+    const fn nobody_but(sender: NodeId) -> Self {
+        let mut heard = Self::NOBODY;
+        heard.senders[0] = sender;
+        heard.count = 1;
+        heard
+    }
+
+    fn has(&self, sender: NodeId) -> bool {
+        self.senders.iter().take(self.count.into()).any(|&heard| heard == sender)
+    }
+
+    /// Remembers `sender`, if there is room.
+    fn add(&mut self, mut sender: NodeId) {
+        if usize::from(self.count) < self.senders.len() {
+            for place in self.senders.iter_mut().take(self.count.into()) {
+                if sender < *place {
+                    core::mem::swap(&mut sender, place);
+                }
+            }
+            if let Some(place) = self.senders.get_mut(usize::from(self.count)) {
+                *place = sender;
+            }
+            self.count += 1;
+        }
+    }
+}
+
+/// Whether a NOTICE is about something new to a node.
+enum News {
+    First,
+    Again,
+    None,
+}
+
+impl Node {
+    /// Node `id`, which has not heard of any event of `source`.
+    pub const fn new(id: NodeId, source: NodeId) -> Self {
+        Self { id, source, event: 0, parent: id, hops: 0, stage: Stage::Unaware, heard: Heard::NOBODY }
+    }
+
+    /// How far it is with the latest event.
+    pub const fn stage(&self) -> Stage {
+        self.stage
+    }
+
+    /// The number of the latest event that it has heard of; `None` before the first.
+    pub const fn event(&self) -> Option<u32> {
+        if self.event == 0 { None } else { Some(self.event) }
+    }
+
+    /// HC: its hops to the source, once it has heard of an event.
+    pub const fn hops(&self) -> Option<u16> {
+        if self.event == 0 { None } else { Some(self.hops) }
+    }
+
+    /// The next node on the way to the source. The source has none, and nobody who has not heard of an event.
+    pub fn parent(&self) -> Option<NodeId> {
+        (self.event != 0 && self.id != self.source).then_some(self.parent)
+    }
+
+    /// The source begins its next event. `None` if the node is not the source, or has no number left.
+    pub fn originate(&mut self) -> Option<Notice> {
+        if self.id != self.source {
+            return None;
+        }
+        self.event = self.event.checked_add(1)?;
+        self.stage = Stage::Forwarded;
+        Some(self.notice())
+    }
+
+    /// Hears a NOTICE. `around` matters to [`Scheme::Scalable`] alone; `chance` is asked for the wait of the schemes that
+    /// wait at random.
+    #[inline]
+    pub fn receive(
+        &mut self,
+        rule: &Rule,
+        reception: Reception,
+        around: Surroundings<'_>,
+        chance: &mut dyn Source,
+    ) -> Reaction {
+        let notice = reception.notice;
+        let is_foreign = notice.source != self.source
+            || self.id == self.source
+            || notice.sender == self.id
+            || notice.hops == u16::MAX;
+        if is_foreign {
+            return Reaction::Ignored;
+        }
+        match self.news(rule, notice) {
+            News::First => self.begin(rule, reception, around, chance),
+            News::Again => self.hear_again(rule, reception, around),
+            News::None => Reaction::Ignored,
+        }
+    }
+
+    /// Its wait may be over: the NOTICE that it forwards, if it does. A timer that was armed for a wait since given up, or
+    /// for an older event, comes to nothing.
+    #[inline]
+    pub fn expire(&mut self, now_ns: u64) -> Option<Notice> {
+        match self.stage {
+            Stage::Waiting { until_ns } if until_ns <= now_ns => {
+                self.stage = Stage::Forwarded;
+                Some(self.notice())
+            }
+            Stage::Unaware | Stage::Waiting { .. } | Stage::Silent | Stage::Forwarded => None,
+        }
+    }
+
+    const fn notice(&self) -> Notice {
+        Notice { source: self.source, event: self.event, sender: self.id, hops: self.hops }
+    }
+
+    fn news(&self, rule: &Rule, notice: Notice) -> News {
+        let is_newer = notice.event > self.event && (self.event == 0 || rule.has(Condition::NumberedEvents));
+        let is_older = notice.event < self.event && rule.has(Condition::NumberedEvents);
+        if is_newer {
+            return News::First;
+        }
+        if is_older || notice.event == 0 {
+            return News::None;
+        }
+        match self.stage {
+            Stage::Forwarded if !rule.has(Condition::RememberEvent) => News::First,
+            Stage::Waiting { .. } => News::Again,
+            Stage::Forwarded if !rule.has(Condition::FrozenOnceForwarded) => News::Again,
+            Stage::Unaware | Stage::Silent | Stage::Forwarded => News::None,
+        }
+    }
+
+    fn begin(
+        &mut self,
+        rule: &Rule,
+        reception: Reception,
+        mut around: Surroundings<'_>,
+        chance: &mut dyn Source,
+    ) -> Reaction {
+        let Reception { notice, distance_um, now_ns } = reception;
+        self.event = notice.event;
+        self.parent = notice.sender;
+        self.hops = notice.hops.saturating_add(1);
+        self.heard = Heard::nobody_but(notice.sender);
+        around.begin();
+        if self.is_settled(rule, reception, around) {
+            return self.be_silent();
+        }
+        let wait_ns = match rule.scheme {
+            Scheme::Farthest { .. } => rule.backoff_ns(distance_um),
+            Scheme::Flooding | Scheme::Counter { .. } | Scheme::Distance { .. } | Scheme::Scalable => {
+                chance.pick(rule.longest_wait_ns.max(1)).into()
+            }
+        };
+        let until_ns = now_ns.saturating_add(wait_ns);
+        self.stage = Stage::Waiting { until_ns };
+        Reaction::Armed { at_ns: until_ns }
+    }
+
+    fn hear_again(&mut self, rule: &Rule, reception: Reception, around: Surroundings<'_>) -> Reaction {
+        let notice = reception.notice;
+        if self.stage == Stage::Forwarded {
+            if notice.hops > self.hops {
+                return Reaction::Ignored;
+            }
+            self.parent = notice.sender;
+            self.hops = notice.hops.saturating_add(1);
+            return Reaction::Noted;
+        }
+        if self.heard.has(notice.sender) {
+            return Reaction::Ignored;
+        }
+        let hops = notice.hops.saturating_add(1);
+        if hops < self.hops || !rule.has(Condition::LeastHops) {
+            self.parent = notice.sender;
+        }
+        self.hops = self.hops.min(hops);
+        if is_counted(rule.scheme) {
+            self.heard.add(notice.sender);
+        }
+        if self.is_settled(rule, reception, around) { self.be_silent() } else { Reaction::Noted }
+    }
+
+    fn be_silent(&mut self) -> Reaction {
+        self.stage = Stage::Silent;
+        Reaction::Silenced
+    }
+
+    /// Whether with this NOTICE the node has heard enough not to forward.
+    fn is_settled(&self, rule: &Rule, reception: Reception, mut around: Surroundings<'_>) -> bool {
+        match rule.scheme {
+            // The first is not counted: k = 1 would else never forward.
+            Scheme::Farthest { k } => k.is_some_and(|k| self.heard.count > k.get()),
+            Scheme::Flooding => false,
+            Scheme::Counter { below } => self.heard.count >= below.get(),
+            Scheme::Distance { least_um } => reception.distance_um < least_um,
+            Scheme::Scalable => {
+                around.reach(reception.notice.sender);
+                around.all_reached()
+            }
+        }
+    }
+}
+
+/// Whether a scheme has to remember whom it has heard. Where it need not, hearing a sender again changes nothing.
+const fn is_counted(scheme: Scheme) -> bool {
+    match scheme {
+        Scheme::Farthest { k } => k.is_some(),
+        Scheme::Counter { .. } => true,
+        Scheme::Flooding | Scheme::Distance { .. } | Scheme::Scalable => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use core::num::NonZeroU32;
+
+    use super::*;
+    use crate::broadcast::{Conditions, words};
+
+    const SOURCE: NodeId = NodeId(0);
+
+    /// Waits 7 ns where it is left to chance.
+    struct Seven;
+
+    impl Source for Seven {
+        fn pick(&mut self, below: u32) -> u32 {
+            7.min(below - 1)
+        }
+    }
+
+    fn rule(scheme: Scheme) -> Rule {
+        Rule::new(scheme, NonZeroU32::new(1000).expect("a range"), 1000)
+    }
+
+    fn farthest(k: u8) -> Rule {
+        rule(Scheme::Farthest { k: Count::new(k) })
+    }
+
+    fn notice(sender: u32, hops: u16) -> Notice {
+        Notice { source: SOURCE, event: 1, sender: NodeId(sender), hops }
+    }
+
+    fn hear(node: &mut Node, rule: &Rule, notice: Notice, distance_um: u32) -> Reaction {
+        node.receive(rule, Reception { notice, distance_um, now_ns: 100 }, Surroundings::none(), &mut Seven)
+    }
+
+    fn fresh() -> Node {
+        Node::new(NodeId(9), SOURCE)
+    }
+
+    #[test]
+    fn the_first_is_not_counted_and_the_kth_other_silences() {
+        for k in 1..=Count::MOST {
+            let (mut node, rule) = (fresh(), farthest(k));
+            assert_eq!(hear(&mut node, &rule, notice(50, 0), 600), Reaction::Armed { at_ns: 500 });
+            for other in 1..k {
+                assert_eq!(hear(&mut node, &rule, notice(50 - u32::from(other), 1), 0), Reaction::Noted);
+            }
+            assert_eq!(hear(&mut node, &rule, notice(1, 1), 0), Reaction::Silenced);
+            assert_eq!((node.stage(), node.expire(u64::MAX)), (Stage::Silent, None));
+        }
+    }
+
+    #[test]
+    fn a_node_forwards_at_the_end_of_its_wait_with_the_least_hop_count_and_the_first_heard_of_equals() {
+        let (mut node, rule) = (fresh(), farthest(8));
+        hear(&mut node, &rule, notice(4, 5), 0);
+        hear(&mut node, &rule, notice(3, 2), 0);
+        hear(&mut node, &rule, notice(2, 2), 0);
+        hear(&mut node, &rule, notice(1, 4), 0);
+        assert_eq!((node.parent(), node.hops()), (Some(NodeId(3)), Some(3)));
+        assert_eq!(node.expire(1099), None);
+        assert_eq!(node.expire(1100), Some(Notice { sender: NodeId(9), hops: 3, ..notice(0, 0) }));
+        assert_eq!(node.expire(1100), None);
+        assert_eq!(hear(&mut node, &rule, notice(7, 0), 0), Reaction::Ignored);
+        assert_eq!((node.parent(), node.hops()), (Some(NodeId(3)), Some(3)));
+    }
+
+    #[test]
+    fn what_a_protocol_must_ignore_changes_nothing() {
+        let rule = farthest(1);
+        let mut node = fresh();
+        hear(&mut node, &rule, notice(4, 5), 0);
+        let ignored = [
+            Notice { source: NodeId(8), ..notice(3, 0) },
+            Notice { event: 0, ..notice(3, 0) },
+            notice(4, 5),
+            notice(9, 0),
+            notice(3, u16::MAX),
+        ];
+        for notice in ignored {
+            let before = node;
+            assert_eq!((hear(&mut node, &rule, notice, 0), node), (Reaction::Ignored, before), "{notice:?}");
+        }
+        let mut source = Node::new(SOURCE, SOURCE);
+        assert_eq!(source.originate(), Some(notice(0, 0)));
+        assert_eq!(hear(&mut source, &rule, notice(4, 1), 0), Reaction::Ignored);
+        assert_eq!((source.parent(), source.hops(), fresh().originate()), (None, Some(0), None));
+    }
+
+    #[test]
+    fn a_newer_event_is_a_first_one_and_an_older_one_is_ignored() {
+        let rule = farthest(1);
+        let second = Notice { event: 2, ..notice(5, 1) };
+        let mut node = fresh();
+        hear(&mut node, &rule, notice(4, 0), 0);
+        node.expire(u64::MAX);
+        assert_eq!(hear(&mut node, &rule, second, 1000), Reaction::Armed { at_ns: 100 });
+        assert_eq!((node.parent(), node.event()), (Some(NodeId(5)), Some(2)));
+        assert_eq!(hear(&mut node, &rule, notice(3, 0), 0), Reaction::Ignored);
+        let published = Rule { conditions: Conditions::PUBLISHED, ..rule };
+        let mut deaf = fresh();
+        hear(&mut deaf, &published, notice(4, 0), 0);
+        deaf.expire(u64::MAX);
+        assert_eq!(hear(&mut deaf, &published, second, 0), Reaction::Ignored);
+    }
+
+    #[test]
+    fn a_source_has_as_many_events_as_numbers() {
+        let mut source = Node::new(SOURCE, SOURCE);
+        source.event = u32::MAX - 1;
+        assert_eq!(source.originate().map(|notice| notice.event), Some(u32::MAX));
+        assert_eq!(source.originate(), None);
+    }
+
+    #[test]
+    fn who_has_heard_c_senders_is_silent() {
+        let rule = rule(Scheme::Counter { below: Count::new(3).expect("a count") });
+        let mut node = fresh();
+        assert_eq!(hear(&mut node, &rule, notice(4, 0), 0), Reaction::Armed { at_ns: 107 });
+        assert_eq!(hear(&mut node, &rule, notice(4, 0), 0), Reaction::Ignored);
+        assert_eq!(hear(&mut node, &rule, notice(5, 0), 0), Reaction::Noted);
+        assert_eq!(hear(&mut node, &rule, notice(6, 0), 0), Reaction::Silenced);
+    }
+
+    #[test]
+    fn who_has_heard_a_near_sender_is_silent() {
+        let rule = rule(Scheme::Distance { least_um: 500 });
+        let mut node = fresh();
+        assert_eq!(hear(&mut node, &rule, notice(4, 0), 500), Reaction::Armed { at_ns: 107 });
+        assert_eq!(hear(&mut node, &rule, notice(5, 0), 499), Reaction::Silenced);
+        assert_eq!(hear(&mut fresh(), &rule, notice(5, 0), 499), Reaction::Silenced);
+    }
+
+    #[test]
+    fn who_has_no_neighbour_left_to_reach_is_silent() {
+        let rule = rule(Scheme::Scalable);
+        let mut node = fresh();
+        let own = [NodeId(1), NodeId(2), NodeId(3)];
+        let mut unreached = [0; words(3)];
+        let mut hear = |sender, of_sender: &[NodeId]| {
+            let around = Surroundings { neighbours: &own, of_sender, unreached: &mut unreached };
+            let reception = Reception { notice: notice(sender, 0), distance_um: 0, now_ns: 0 };
+            node.receive(&rule, reception, around, &mut Seven)
+        };
+        assert_eq!(hear(1, &[NodeId(2), NodeId(9)]), Reaction::Armed { at_ns: 7 });
+        assert_eq!(hear(2, &[NodeId(1), NodeId(9)]), Reaction::Noted);
+        assert_eq!(hear(3, &[NodeId(9)]), Reaction::Silenced);
+    }
+}

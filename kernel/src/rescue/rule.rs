@@ -1,0 +1,107 @@
+//! MRC's rule as a set of named conditions. What the paper says is the first two; the others repair what it leaves
+//! open: when a WFR chooses, what becomes of later MOVEs, and of messages, nodes and robots that fail.
+
+/// One condition of the rule, by the sentence it stands for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Condition {
+    /// A free robot asks for the call of least (HC, SN), not for the one it heard first.
+    NearestCall,
+    /// A WFR chooses the robot of least (MHC, MID), not the one it heard first.
+    NearestRobot,
+    /// Repair: a WFR chooses when its window closes, not when the first MOVE arrives.
+    Window,
+    /// Repair: a MOVE that arrives after the choice does not change it.
+    ChoiceStands,
+    /// Repair: a MOVE that arrives after the choice is answered with it, each time that it arrives.
+    AnswersAgain,
+    /// Repair: what belongs to another epoch is ignored. A call under a newer one is a new call: its SBit is clear, and
+    /// whatever a robot had to do with the older one is over.
+    Epochs,
+    /// Repair: the robot that is chosen accepts or, where it does something else by now, declines; the WFR counts on it
+    /// when it has accepted. One that has accepted heeds no other choice.
+    Consent,
+    /// Repair: a window without a MOVE, a choice that is declined or not answered, and a lease that lapses make the WFR
+    /// call again under a new epoch.
+    Renewal,
+    /// Repair: a MOVE, and the RESB to the robot chosen, are repeated when nobody answers; a robot that is never answered
+    /// leaves the call to others.
+    Repetition,
+}
+
+impl Condition {
+    /// Every condition.
+    pub const ALL: [Self; 9] = [
+        Self::NearestCall,
+        Self::NearestRobot,
+        Self::Window,
+        Self::ChoiceStands,
+        Self::AnswersAgain,
+        Self::Epochs,
+        Self::Consent,
+        Self::Renewal,
+        Self::Repetition,
+    ];
+}
+
+/// A set of conditions.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Conditions(u16);
+
+impl Conditions {
+    /// The set of these conditions.
+    pub const fn of(conditions: &[Condition]) -> Self {
+        let mut bits = 0;
+        let mut i = 0;
+        while i < conditions.len() {
+            bits |= 1 << conditions[i] as u8;
+            i += 1;
+        }
+        Self(bits)
+    }
+
+    /// Whether `condition` is in the set.
+    pub const fn has(self, condition: Condition) -> bool {
+        self.0 & (1 << condition as u8) != 0
+    }
+}
+
+/// The rule of a rescue.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Rule {
+    /// The conditions in force.
+    pub conditions: Conditions,
+    /// How often a message without an answer is repeated, under [`Condition::Repetition`].
+    pub repeats: u8,
+}
+
+impl Rule {
+    /// MRC as the paper publishes it. A WFR chooses at every MOVE anew among those that it has heard, and a robot does
+    /// what the latest RESB says: the paper names no time at which either would stop.
+    pub const PUBLISHED: Self =
+        Self { conditions: Conditions::of(&[Condition::NearestCall, Condition::NearestRobot]), repeats: 0 };
+
+    /// MRC with all repairs; a message without an answer is repeated once.
+    pub const REPAIRED: Self = Self { conditions: Conditions::of(&Condition::ALL), repeats: 1 };
+
+    /// This rule with one condition taken out.
+    #[must_use]
+    pub const fn without(self, condition: Condition) -> Self {
+        Self { conditions: Conditions(self.conditions.0 & !(1 << condition as u8)), ..self }
+    }
+
+    /// This rule with one condition put in.
+    #[must_use]
+    pub const fn with(self, condition: Condition) -> Self {
+        Self { conditions: Conditions(self.conditions.0 | 1 << condition as u8), ..self }
+    }
+
+    /// Whether the rule has `condition`.
+    pub const fn has(&self, condition: Condition) -> bool {
+        self.conditions.has(condition)
+    }
+
+    /// How often a message without an answer is sent again.
+    pub(super) const fn repeats(self) -> u8 {
+        if self.has(Condition::Repetition) { self.repeats } else { 0 }
+    }
+}

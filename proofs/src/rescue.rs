@@ -1,0 +1,744 @@
+//! MRC under a network that misbehaves: the kernel's robots and WFRs, the messages between them, and everything that can
+//! go wrong within a [`Setting`]. What is searched for all states that can be reached is in [`space`]; a run is drawn
+//! by [`chart`].
+//!
+//! A message takes any time and overtakes others. A timer runs longer than any message or robot is on its way: it goes
+//! off when nothing else is left to happen, or earlier, which is one of the [`Faults`]. Epochs are only compared: two
+//! states that differ by a renumbering that keeps their order are one, and so the states are finitely many.
+
+pub mod chart;
+pub mod space;
+
+use std::hash::{Hash, Hasher};
+
+use tautline_kernel::rescue::{
+    Bid, Call, Condition, Downward, Epoch, NodeId, Notice, Phase, Resb, Robot, RobotId, Rule, Sent, Served,
+    Task, Upward, Wfr, WfrTimer, Word,
+};
+
+/// Most robots of a setting.
+pub const ROBOTS: usize = 3;
+/// Most WFRs of a setting.
+pub const WFRS: usize = 2;
+
+/// How much may still go wrong in a run.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+pub struct Faults {
+    /// Faults of all kinds together.
+    pub in_all: u8,
+    /// Messages that are lost.
+    pub losses: u8,
+    /// Messages that arrive once more.
+    pub duplicates: u8,
+    /// Timers that go off while a message or a robot is on its way: a delay beyond what the timers allow for.
+    pub delays: u8,
+    /// Robots that fail.
+    pub robots: u8,
+    /// Path nodes that fail, each on the way between a robot and a WFR: until the next call, which makes a new tree, no
+    /// message gets through between the two, and the robot does not find its way.
+    pub nodes: u8,
+}
+
+/// Which messages can be lost.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Lossy {
+    /// Any.
+    All,
+    /// Those that tell of a choice.
+    Resb,
+}
+
+/// What is searched.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Setting {
+    /// The rule of robots and WFRs.
+    pub rule: Rule,
+    /// Robots, at most [`ROBOTS`].
+    pub robots: usize,
+    /// WFRs, at most [`WFRS`].
+    pub wfrs: usize,
+    /// Events, each at one of the WFRs; the next at the same WFR when a robot has come.
+    pub events: u8,
+    /// Hops from each robot to each WFR: all combinations of 1 to this.
+    pub max_hops: u16,
+    /// What may go wrong.
+    pub faults: Faults,
+    /// Which messages may be lost.
+    pub lossy: Lossy,
+}
+
+/// A message on its way.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Message {
+    /// A NOTICE, on its way to one of the robots.
+    Notice(RobotId, Notice),
+    /// A RESB, on its way to its robot.
+    Resb(Resb),
+    /// A robot's message, on its way to the WFR.
+    Up(Upward),
+}
+
+impl Message {
+    /// The robot that has sent it or is to get it.
+    pub const fn robot(self) -> RobotId {
+        match self {
+            Self::Notice(robot, _) => robot,
+            Self::Resb(resb) => resb.robot,
+            Self::Up(upward) => upward.robot,
+        }
+    }
+
+    /// The call that it is about.
+    pub const fn call(self) -> Call {
+        match self {
+            Self::Notice(_, notice) => notice.call,
+            Self::Resb(resb) => resb.call,
+            Self::Up(upward) => upward.call,
+        }
+    }
+}
+
+/// A robot or a WFR, by its place.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Actor {
+    /// A robot.
+    Robot(usize),
+    /// A WFR.
+    Wfr(usize),
+}
+
+/// What happens next.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Action {
+    /// Something happens at a WFR.
+    Raise(usize),
+    /// The message at this place arrives.
+    Deliver(usize),
+    /// A timer goes off.
+    Expire(Actor),
+    /// A robot reaches the WFR to which it is on its way.
+    Arrive(usize),
+    /// The message at this place is lost.
+    Lose(usize),
+    /// The message at this place will arrive once more.
+    Duplicate(usize),
+    /// A robot fails.
+    FailRobot(usize),
+    /// A path node between a robot and a WFR fails.
+    FailNode {
+        /// The robot.
+        robot: usize,
+        /// The WFR.
+        wfr: usize,
+    },
+}
+
+/// What the clauses MRC-1 to MRC-6 demand.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Demand {
+    /// MRC-1.
+    OneRobotForACall,
+    /// MRC-2.
+    OneCallForARobot,
+    /// MRC-3.
+    BestOfTheWindow,
+    /// MRC-4.
+    CountsOnConsent,
+    /// MRC-5.
+    IsServed,
+    /// MRC-6.
+    AsksAnew,
+}
+
+impl Demand {
+    /// Every demand.
+    pub const ALL: [Self; 6] = [
+        Self::OneRobotForACall,
+        Self::OneCallForARobot,
+        Self::BestOfTheWindow,
+        Self::CountsOnConsent,
+        Self::IsServed,
+        Self::AsksAnew,
+    ];
+
+    /// What is not so when it is broken.
+    pub const fn broken(self) -> &'static str {
+        match self {
+            Self::OneRobotForACall => "two robots are on their way for one call",
+            Self::OneCallForARobot => "two WFRs count on one robot",
+            Self::BestOfTheWindow => {
+                "the robot chosen is not the best of those heard while the window was open"
+            }
+            Self::CountsOnConsent => "a WFR counts on a robot that has not taken its lease",
+            Self::IsServed => "a WFR waits for ever, and a robot lives",
+            Self::AsksAnew => "a robot has heard a new call, and its SBit is set",
+        }
+    }
+}
+
+/// What an observer notes down beside the machines' own states, to see whether a demand is broken.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+struct Notes {
+    /// The best MOVE of each WFR's latest call that arrived while its window was open.
+    best: [Option<Bid>; WFRS],
+    /// The WFRs whose window is open.
+    open: [bool; WFRS],
+    /// The latest call of each WFR whose lease each robot has taken.
+    taken: [[Option<Epoch>; WFRS]; ROBOTS],
+    /// Whether a robot has heard a new call and kept its SBit.
+    kept: bool,
+}
+
+/// Robots, WFRs and what is between them.
+#[derive(Clone, Debug)]
+pub struct State {
+    hops: [[u16; WFRS]; ROBOTS],
+    robots: [Robot<WFRS>; ROBOTS],
+    wfrs: [Wfr<ROBOTS>; WFRS],
+    failed: [bool; ROBOTS],
+    /// The call on whose tree a path node between robot and WFR has failed.
+    cut: [[Option<Epoch>; WFRS]; ROBOTS],
+    /// Sorted.
+    network: Vec<Message>,
+    left: Faults,
+    events_left: u8,
+    notes: Notes,
+}
+
+const fn node(wfr: usize) -> NodeId {
+    NodeId(wfr as u16)
+}
+
+const fn place(id: NodeId) -> usize {
+    id.0 as usize
+}
+
+const fn robot_id(robot: usize) -> RobotId {
+    RobotId(robot as u16)
+}
+
+impl Faults {
+    /// At most `in_all` faults, of whichever kinds.
+    pub const fn any(in_all: u8) -> Self {
+        Self { in_all, losses: in_all, duplicates: in_all, delays: in_all, robots: in_all, nodes: in_all }
+    }
+
+    /// At most one fault of each kind, and `in_all` together.
+    pub const fn one_of_each(in_all: u8) -> Self {
+        Self { in_all, losses: 1, duplicates: 1, delays: 1, robots: 1, nodes: 1 }
+    }
+
+    /// What is left of one kind.
+    fn left(self, kind: impl Fn(&Self) -> u8) -> u8 {
+        kind(&self).min(self.in_all)
+    }
+
+    /// One fault less.
+    fn spend(&mut self, kind: impl Fn(&mut Self) -> &mut u8) {
+        *kind(self) -= 1;
+        self.in_all -= 1;
+    }
+}
+
+impl Setting {
+    /// The states in which nothing has happened, one for each combination of hops.
+    pub fn starts(&self) -> Vec<State> {
+        let ways = self.robots * self.wfrs;
+        let all = u32::from(self.max_hops).pow(ways as u32);
+        (0..all).map(|number| self.start(number)).collect()
+    }
+
+    fn start(&self, mut number: u32) -> State {
+        let mut hops = [[1; WFRS]; ROBOTS];
+        for row in &mut hops[..self.robots] {
+            for hops in &mut row[..self.wfrs] {
+                *hops = 1 + (number % u32::from(self.max_hops)) as u16;
+                number /= u32::from(self.max_hops);
+            }
+        }
+        State {
+            hops,
+            robots: std::array::from_fn(|robot| Robot::new(self.rule, robot_id(robot))),
+            wfrs: std::array::from_fn(|wfr| Wfr::new(self.rule, node(wfr))),
+            failed: [false; ROBOTS],
+            cut: [[None; WFRS]; ROBOTS],
+            network: Vec::new(),
+            left: self.faults,
+            events_left: self.events,
+            notes: Notes::default(),
+        }
+    }
+}
+
+impl State {
+    /// The messages on their way.
+    pub fn network(&self) -> &[Message] {
+        &self.network
+    }
+
+    /// Everything that can happen next in `setting`.
+    pub fn actions(&self, setting: &Setting) -> Vec<Action> {
+        let mut actions = Vec::new();
+        let (robots, wfrs) = (0..setting.robots, 0..setting.wfrs);
+        let can_expire = |actor: Actor| {
+            self.timer_runs(actor) && (self.left.left(|left| left.delays) > 0 || self.is_due(setting, actor))
+        };
+        for (at, message) in self.network.iter().enumerate() {
+            if at > 0 && self.network[at - 1] == *message {
+                continue;
+            }
+            actions.push(Action::Deliver(at));
+            let can_be_lost = match (setting.lossy, message) {
+                (Lossy::All, _) | (Lossy::Resb, Message::Resb(_)) => true,
+                (Lossy::Resb, Message::Notice(..) | Message::Up(_)) => false,
+            };
+            if can_be_lost && self.left.left(|left| left.losses) > 0 {
+                actions.push(Action::Lose(at));
+            }
+            if self.left.left(|left| left.duplicates) > 0 {
+                actions.push(Action::Duplicate(at));
+            }
+        }
+        for wfr in wfrs.clone() {
+            if self.events_left > 0 && !self.wfrs[wfr].is_waiting() {
+                actions.push(Action::Raise(wfr));
+            }
+            if can_expire(Actor::Wfr(wfr)) {
+                actions.push(Action::Expire(Actor::Wfr(wfr)));
+            }
+        }
+        for robot in robots.filter(|&robot| !self.failed[robot]) {
+            if self.can_arrive(robot) {
+                actions.push(Action::Arrive(robot));
+            }
+            if can_expire(Actor::Robot(robot)) {
+                actions.push(Action::Expire(Actor::Robot(robot)));
+            }
+            if self.left.left(|left| left.robots) > 0 {
+                actions.push(Action::FailRobot(robot));
+            }
+            for wfr in wfrs.clone().filter(|_| self.left.left(|left| left.nodes) > 0) {
+                let epoch = Some(self.wfrs[wfr].call().epoch);
+                if self.wfrs[wfr].is_waiting() && self.cut[robot][wfr] != epoch {
+                    actions.push(Action::FailNode { robot, wfr });
+                }
+            }
+        }
+        actions
+    }
+
+    /// Whether `action` is bound to happen sooner or later if nothing else does: no fault, and no event.
+    pub fn is_bound_to_happen(&self, setting: &Setting, action: Action) -> bool {
+        match action {
+            Action::Deliver(_) | Action::Arrive(_) => true,
+            Action::Expire(actor) => self.is_due(setting, actor),
+            Action::Raise(_)
+            | Action::Lose(_)
+            | Action::Duplicate(_)
+            | Action::FailRobot(_)
+            | Action::FailNode { .. } => false,
+        }
+    }
+
+    /// Whether the timer of a robot that lives, or of a WFR, runs.
+    pub fn timer_runs(&self, actor: Actor) -> bool {
+        match actor {
+            Actor::Robot(robot) => !self.failed[robot] && self.robots[robot].timer().is_some(),
+            Actor::Wfr(wfr) => self.wfrs[wfr].timer().is_some(),
+        }
+    }
+
+    /// Whether a timer that runs may go off without a fault: no message and no robot is on its way, and the window is
+    /// closed for which a robot waits.
+    fn is_due(&self, setting: &Setting, actor: Actor) -> bool {
+        let is_window_open = match actor {
+            Actor::Wfr(_) => false,
+            Actor::Robot(robot) => self.robots[robot].timer().is_some_and(|timer| {
+                let wfr = &self.wfrs[place(timer.call.wfr)];
+                wfr.timer() == Some(WfrTimer::Window(timer.call.epoch))
+            }),
+        };
+        let is_calm = self.network.is_empty() && !(0..setting.robots).any(|robot| self.can_arrive(robot));
+        is_calm && !is_window_open
+    }
+
+    fn can_arrive(&self, robot: usize) -> bool {
+        match self.robots[robot].task() {
+            Task::Leased { call } => {
+                !self.failed[robot] && self.cut[robot][place(call.wfr)] != Some(call.epoch)
+            }
+            Task::Free | Task::Asking { .. } => false,
+        }
+    }
+
+    /// The state after `action`, which must be one of [`Self::actions`].
+    #[must_use]
+    pub fn after(&self, setting: &Setting, action: Action) -> Self {
+        let mut next = self.clone();
+        match action {
+            Action::Raise(wfr) => {
+                next.events_left -= 1;
+                next.turn_wfr(setting, wfr, Wfr::raise);
+            }
+            Action::Deliver(at) => {
+                let message = next.network.remove(at);
+                next.deliver(setting, message);
+            }
+            Action::Expire(actor) => {
+                if !self.is_due(setting, actor) {
+                    next.left.spend(|left| &mut left.delays);
+                }
+                next.expire(setting, actor);
+            }
+            Action::Arrive(robot) => {
+                if let Task::Leased { call } = self.robots[robot].task() {
+                    let wfr = place(call.wfr);
+                    next.wfrs[wfr] = self.wfrs[wfr].reach(robot_id(robot));
+                    next.turn_robot(robot, Robot::arrive);
+                }
+            }
+            Action::Lose(at) => {
+                next.left.spend(|left| &mut left.losses);
+                next.network.remove(at);
+            }
+            Action::Duplicate(at) => {
+                next.left.spend(|left| &mut left.duplicates);
+                next.network.insert(at, self.network[at]);
+            }
+            Action::FailRobot(robot) => {
+                next.left.spend(|left| &mut left.robots);
+                next.failed[robot] = true;
+                next.network.retain(|message| match message {
+                    Message::Notice(..) | Message::Resb(_) => message.robot() != robot_id(robot),
+                    Message::Up(_) => true,
+                });
+            }
+            Action::FailNode { robot, wfr } => {
+                next.left.spend(|left| &mut left.nodes);
+                let call = self.wfrs[wfr].call();
+                next.cut[robot][wfr] = Some(call.epoch);
+                next.network.retain(|message| match message {
+                    Message::Notice(..) => true,
+                    Message::Resb(_) | Message::Up(_) => {
+                        (message.robot(), message.call()) != (robot_id(robot), call)
+                    }
+                });
+            }
+        }
+        next.note(setting);
+        next
+    }
+
+    fn deliver(&mut self, setting: &Setting, message: Message) {
+        match message {
+            Message::Notice(id, notice) => {
+                let robot = usize::from(id.0);
+                let wfr = notice.call.wfr;
+                let known = self.robots[robot].request(wfr).map(|request| request.call.epoch);
+                self.turn_robot(robot, |robot| robot.receive(Downward::Notice(notice)));
+                let is_new = known.is_none_or(|known| known < notice.call.epoch);
+                let is_served =
+                    self.robots[robot].request(wfr).is_some_and(|request| request.served == Served::Yes);
+                self.notes.kept |= is_new && is_served;
+            }
+            Message::Resb(resb) => {
+                self.turn_robot(usize::from(resb.robot.0), |robot| robot.receive(Downward::Resb(resb)));
+            }
+            Message::Up(upward) => {
+                let wfr = place(upward.call.wfr);
+                if let Word::Move { hops } = upward.word
+                    && self.notes.open[wfr]
+                    && upward.call == self.wfrs[wfr].call()
+                {
+                    let bid = Bid { hops, robot: upward.robot };
+                    self.notes.best[wfr] = Some(self.notes.best[wfr].map_or(bid, |best| best.min(bid)));
+                }
+                self.turn_wfr(setting, wfr, |wfr| wfr.receive(upward));
+            }
+        }
+    }
+
+    fn expire(&mut self, setting: &Setting, actor: Actor) {
+        match actor {
+            Actor::Robot(robot) => {
+                if let Some(timer) = self.robots[robot].timer() {
+                    self.turn_robot(robot, |robot| robot.expire(timer));
+                }
+            }
+            Actor::Wfr(wfr) => {
+                if let Some(timer) = self.wfrs[wfr].timer() {
+                    self.turn_wfr(setting, wfr, |wfr| wfr.expire(timer));
+                    let has_chosen = match self.wfrs[wfr].phase() {
+                        Phase::Offered { .. } | Phase::Leased { .. } => true,
+                        Phase::Idle | Phase::Collecting { .. } | Phase::Rescued { .. } => false,
+                    };
+                    if has_chosen && matches!(timer, WfrTimer::Window(_)) {
+                        self.notes.open[wfr] = false;
+                    }
+                }
+            }
+        }
+    }
+
+    fn turn_robot(&mut self, robot: usize, turn: impl FnOnce(Robot<WFRS>) -> (Robot<WFRS>, Option<Upward>)) {
+        let (next, sent) = turn(self.robots[robot]);
+        self.robots[robot] = next;
+        if let Task::Leased { call } = next.task() {
+            self.notes.taken[robot][place(call.wfr)] = Some(call.epoch);
+        }
+        self.send(sent.map(Message::Up));
+    }
+
+    fn turn_wfr(
+        &mut self,
+        setting: &Setting,
+        wfr: usize,
+        turn: impl FnOnce(Wfr<ROBOTS>) -> (Wfr<ROBOTS>, Sent<ROBOTS>),
+    ) {
+        let (next, sent) = turn(self.wfrs[wfr]);
+        self.wfrs[wfr] = next;
+        let sent: Vec<Message> = match sent {
+            Sent::Nothing => Vec::new(),
+            Sent::One(resb) => vec![Message::Resb(resb)],
+            Sent::All(resbs) => resbs.into_iter().flatten().map(Message::Resb).collect(),
+            Sent::Notice(notice) => {
+                self.notes.open[wfr] = true;
+                self.notes.best[wfr] = None;
+                let to = |robot: usize| {
+                    // The last sender on the way is one hop nearer to the WFR than the robot.
+                    let hops = self.hops[robot][wfr] - 1;
+                    Message::Notice(robot_id(robot), Notice { hops, ..notice })
+                };
+                (0..setting.robots).map(to).collect()
+            }
+        };
+        self.send(sent);
+    }
+
+    fn send(&mut self, messages: impl IntoIterator<Item = Message>) {
+        for message in messages {
+            if self.gets_through(message) {
+                self.network.push(message);
+            }
+        }
+        self.network.sort_unstable();
+    }
+
+    /// Whether a message that is sent now is on its way: the robot lives, and so do the nodes between.
+    fn gets_through(&self, message: Message) -> bool {
+        let robot = usize::from(message.robot().0);
+        let call = message.call();
+        match message {
+            Message::Notice(..) => !self.failed[robot],
+            Message::Resb(_) | Message::Up(_) => {
+                !self.failed[robot] && self.cut[robot][place(call.wfr)] != Some(call.epoch)
+            }
+        }
+    }
+
+    /// Closes windows that no timer closes, and forgets what can no longer play a part.
+    fn note(&mut self, setting: &Setting) {
+        for wfr in 0..setting.wfrs {
+            let call = self.wfrs[wfr].call();
+            if !setting.rule.has(Condition::Window) && self.network.is_empty() {
+                self.notes.open[wfr] = false;
+            }
+            if !self.wfrs[wfr].is_waiting() {
+                (self.notes.open[wfr], self.notes.best[wfr]) = (false, None);
+            }
+            for robot in 0..setting.robots {
+                let task = match self.robots[robot].task() {
+                    Task::Free => None,
+                    Task::Asking { call, .. } | Task::Leased { call } => Some(call),
+                };
+                let known = self.robots[robot].request(node(wfr)).map(|request| request.call);
+                let is_of_use = |epoch: Epoch| {
+                    let cut = Call { epoch, ..call };
+                    cut == call
+                        || task == Some(cut)
+                        || known == Some(cut)
+                        || self.network.iter().any(|message| message.call() == cut)
+                };
+                self.cut[robot][wfr] = self.cut[robot][wfr].filter(|&epoch| is_of_use(epoch));
+            }
+        }
+    }
+
+    /// Whether this state breaks `demand`; whether a WFR is served in the end no single state tells.
+    pub fn breaks(&self, demand: Demand) -> bool {
+        let leases = |robot: usize| match self.robots[robot].task() {
+            Task::Leased { call } if !self.failed[robot] => Some(call),
+            Task::Free | Task::Asking { .. } | Task::Leased { .. } => None,
+        };
+        let counts_on = |wfr: usize| match self.wfrs[wfr].phase() {
+            Phase::Leased { choice } => Some(usize::from(choice.robot.0)),
+            Phase::Idle | Phase::Collecting { .. } | Phase::Offered { .. } | Phase::Rescued { .. } => None,
+        };
+        match demand {
+            Demand::OneRobotForACall => (1..ROBOTS).any(|robot| {
+                leases(robot).is_some_and(|call| (0..robot).any(|other| leases(other) == Some(call)))
+            }),
+            Demand::OneCallForARobot => (1..WFRS).any(|wfr| {
+                counts_on(wfr).is_some_and(|robot| {
+                    !self.failed[robot] && (0..wfr).any(|other| counts_on(other) == Some(robot))
+                })
+            }),
+            Demand::BestOfTheWindow => (0..WFRS).any(|wfr| match self.wfrs[wfr].phase() {
+                Phase::Offered { choice, .. } | Phase::Leased { choice } => {
+                    self.notes.best[wfr].is_some_and(|best| best.robot != choice.robot)
+                }
+                Phase::Idle | Phase::Collecting { .. } | Phase::Rescued { .. } => false,
+            }),
+            Demand::CountsOnConsent => (0..WFRS).any(|wfr| {
+                let taken = |robot: RobotId| self.notes.taken[usize::from(robot.0)][wfr];
+                match self.wfrs[wfr].phase() {
+                    Phase::Leased { choice } => taken(choice.robot) != Some(self.wfrs[wfr].call().epoch),
+                    Phase::Rescued { by } => taken(by).is_none(),
+                    Phase::Idle | Phase::Collecting { .. } | Phase::Offered { .. } => false,
+                }
+            }),
+            Demand::AsksAnew => self.notes.kept,
+            Demand::IsServed => false,
+        }
+    }
+
+    /// Whether a WFR waits while a robot lives.
+    pub fn is_owed_service(&self, setting: &Setting, wfr: usize) -> bool {
+        self.wfrs[wfr].is_waiting() && self.failed[..setting.robots].iter().any(|failed| !failed)
+    }
+
+    /// This state in bytes, epochs by their order among those of the same WFR: equal for states that differ in no other
+    /// way.
+    pub fn key(&self) -> Box<[u8]> {
+        let mut writer = Writer::default();
+        self.write(&mut writer);
+        writer.ranked()
+    }
+
+    fn write(&self, out: &mut Writer) {
+        let by_first_heard =
+            self.robots.iter().map(|robot| robot.requests().next().map(|request| request.call.wfr));
+        out.bytes(self.hops.as_flattened().iter().map(|&hops| hops as u8));
+        out.bytes(by_first_heard.map(|wfr| wfr.map_or(0, |wfr| 1 + wfr.0 as u8)));
+        for (robot, machine) in self.robots.iter().enumerate() {
+            out.byte(u8::from(self.failed[robot]));
+            for wfr in 0..WFRS {
+                match machine.request(node(wfr)) {
+                    None => out.byte(0),
+                    Some(request) => {
+                        out.byte(1 + u8::from(request.served == Served::Yes));
+                        out.call(request.call);
+                    }
+                }
+                out.epoch(wfr, self.cut[robot][wfr]);
+                let current = self.wfrs[wfr].call().epoch;
+                out.byte(self.notes.taken[robot][wfr].map_or(0, |taken| 1 + u8::from(taken == current)));
+            }
+            match machine.task() {
+                Task::Free => out.byte(0),
+                Task::Asking { call, repeats_left } => {
+                    out.bytes([1, repeats_left]);
+                    out.call(call);
+                }
+                Task::Leased { call } => {
+                    out.byte(2);
+                    out.call(call);
+                }
+            }
+        }
+        let bid = |bid: Option<Bid>| bid.map_or(0, |bid| 1 + bid.robot.0 as u8);
+        for (wfr, machine) in self.wfrs.iter().enumerate() {
+            out.call(machine.call());
+            out.bytes([u8::from(self.notes.open[wfr]), bid(self.notes.best[wfr])]);
+            out.byte(machine.asked().map(|robot| 1 << robot.0).sum());
+            match machine.phase() {
+                Phase::Idle => out.byte(0),
+                Phase::Collecting { best } => out.bytes([1, bid(best)]),
+                Phase::Offered { choice, repeats_left } => out.bytes([2, bid(Some(choice)), repeats_left]),
+                Phase::Leased { choice } => out.bytes([3, bid(Some(choice))]),
+                Phase::Rescued { by } => out.bytes([4, by.0 as u8]),
+            }
+        }
+        let Faults { in_all, losses, duplicates, delays, robots, nodes } = self.left;
+        out.bytes([
+            in_all,
+            losses,
+            duplicates,
+            delays,
+            robots,
+            nodes,
+            self.events_left,
+            u8::from(self.notes.kept),
+        ]);
+        for message in &self.network {
+            let kind = match message {
+                Message::Notice(..) => 0,
+                Message::Resb(resb) => 1 + resb.chosen.map_or(0, |robot| 1 + robot.0 as u8),
+                Message::Up(Upward { word: Word::Move { .. }, .. }) => 100,
+                Message::Up(Upward { word: Word::Accept, .. }) => 101,
+                Message::Up(Upward { word: Word::Decline, .. }) => 102,
+            };
+            out.bytes([kind, message.robot().0 as u8]);
+            out.call(message.call());
+        }
+    }
+}
+
+impl PartialEq for State {
+    fn eq(&self, other: &Self) -> bool {
+        self.key() == other.key()
+    }
+}
+
+impl Eq for State {}
+
+impl Hash for State {
+    fn hash<H: Hasher>(&self, hasher: &mut H) {
+        self.key().hash(hasher);
+    }
+}
+
+/// Bytes among which the epochs stay marked until all are known.
+#[derive(Default)]
+struct Writer {
+    bytes: Vec<u8>,
+    epochs: Vec<(usize, usize, Epoch)>,
+}
+
+impl Writer {
+    fn byte(&mut self, byte: u8) {
+        self.bytes.push(byte);
+    }
+
+    fn bytes(&mut self, bytes: impl IntoIterator<Item = u8>) {
+        self.bytes.extend(bytes);
+    }
+
+    fn call(&mut self, call: Call) {
+        self.byte(call.wfr.0 as u8);
+        self.epoch(place(call.wfr), Some(call.epoch));
+    }
+
+    /// A byte that is 0 for no epoch, and otherwise will be the epoch's place among those of the WFR.
+    fn epoch(&mut self, wfr: usize, epoch: Option<Epoch>) {
+        if let Some(epoch) = epoch {
+            self.epochs.push((self.bytes.len(), wfr, epoch));
+        }
+        self.byte(0);
+    }
+
+    fn ranked(mut self) -> Box<[u8]> {
+        for wfr in 0..WFRS {
+            let mut known: Vec<Epoch> =
+                self.epochs.iter().filter(|&&(_, of, _)| of == wfr).map(|&(_, _, epoch)| epoch).collect();
+            known.sort_unstable();
+            known.dedup();
+            for &(at, of, epoch) in &self.epochs {
+                if of == wfr {
+                    self.bytes[at] = 1 + known.partition_point(|&other| other < epoch) as u8;
+                }
+            }
+        }
+        self.bytes.into_boxed_slice()
+    }
+}

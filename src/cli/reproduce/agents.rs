@@ -1,0 +1,250 @@
+//! `tautline reproduce bricks-fig11`, `bricks-fig12` and `bricks-ideal`: agents on the floors of offices.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use serde::Serialize;
+
+use crate::aside::Aside;
+use crate::cli::output::Output;
+use crate::cli::{Exit, Format, FormatArgs, interrupt, number, progress};
+use crate::explore::SchemeName;
+use crate::fault::Halt;
+use crate::reproduce::Reproduction;
+use crate::reproduce::agents::{self, Duration, Extent, Figure, Line, SCHEMES};
+use crate::reproduce::interval::Estimate;
+use crate::view::chart::{Axis, LineChart, Point, Series, Stroke};
+
+/// Agents on the floors of offices: what they explore and mark, and how long they take.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  tautline reproduce bricks-fig11 --svg fig11.svg
+  tautline reproduce bricks-ideal --layouts 20 --format json")]
+pub(super) struct Agents {
+    /// Random layouts at each point.
+    #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    layouts: u32,
+    /// The seed of the first layout and its runs; the others have the seeds after it.
+    #[arg(long, default_value = "0", value_parser = number::<u64>)]
+    seed: u64,
+    /// Steps of all agents together after which a run is ended.
+    #[arg(long, value_name = "STEPS", default_value_t = 200_000, value_parser = clap::value_parser!(u32).range(1..))]
+    max_steps: u32,
+    /// Store a chart.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+#[derive(Serialize)]
+struct Measured<'a> {
+    id: &'static str,
+    layouts: u32,
+    seed: u64,
+    miss: f64,
+    max_steps: u32,
+    lines: &'a [Line],
+    paper: &'a [Printed],
+}
+
+/// A figure that the paper prints, and ours.
+#[derive(Serialize)]
+struct Printed {
+    what: &'static str,
+    paper: f64,
+    ours: Estimate,
+    difference: f64,
+}
+
+impl Agents {
+    pub(super) fn run(
+        &self,
+        reproduction: Reproduction,
+        figure: Figure,
+        out: &mut Output,
+    ) -> Result<Exit, Halt> {
+        let runs = u64::from(self.layouts) * (figure.points().len() * SCHEMES.len()) as u64;
+        let bar = progress::bar("exploring", runs);
+        let extent = Extent { layouts: self.layouts, seed: self.seed, max_steps: self.max_steps };
+        let lines = agents::measure(figure, extent, &|| {
+            bar.inc(1);
+            interrupt::check()
+        })?;
+        bar.finish_and_clear();
+        let printed = printed(figure, &lines);
+        if let Some(path) = &self.svg {
+            Aside::write(path, chart(figure, &lines).svg())?;
+        }
+        match self.format.format {
+            Format::Json => out.json(&Measured {
+                id: reproduction.id(),
+                layouts: self.layouts,
+                seed: self.seed,
+                miss: figure.miss().map_or(0.0, f64::from),
+                max_steps: self.max_steps,
+                lines: &lines,
+                paper: &printed,
+            })?,
+            Format::Text => out.text(self.text(figure, &lines, &printed))?,
+        }
+        Ok(Exit::Expected)
+    }
+
+    fn text(&self, figure: Figure, lines: &[Line], printed: &[Printed]) -> String {
+        let missed = match figure {
+            Figure::Agents | Figure::Area => "5.56 % of the sensors missed",
+            Figure::Ideal => "no sensor missed",
+        };
+        let mut text = format!(
+            "Offices of 4x4 rooms, {missed}, {} layouts at each point, seeds from {}; means with 95 % intervals\n\n",
+            self.layouts, self.seed
+        );
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{:7} {:>6}  {:11} {:>15} {:>15} {:>26} {:>26} {:>5}",
+            "area",
+            "agents",
+            "scheme",
+            "% explored",
+            "% visited",
+            "moves until explored",
+            "moves until done",
+            "ended"
+        );
+        for line in lines {
+            let area = format!("{0}x{0}", line.side);
+            let visited = line.visited.map_or_else(|| "-".to_owned(), |visited| with_margin(visited, 1));
+            let _ = writeln!(
+                text,
+                "{area:7} {:>6}  {:11} {:>15} {visited:>15} {:>26} {:>26} {:>5}",
+                line.agents,
+                line.scheme.word(),
+                with_margin(line.explored, 1),
+                self.moves(line.exploration),
+                self.moves(line.termination),
+                line.ended
+            );
+        }
+        let _ = writeln!(
+            text,
+            "\nended: runs that were stopped after {} steps of all agents. Where fewer than all runs explored every cell, or \
+             were\ndone, their number follows.",
+            self.max_steps
+        );
+        match figure {
+            Figure::Agents | Figure::Area => {}
+            Figure::Ideal => text.push_str(&self.seconds(lines)),
+        }
+        if !printed.is_empty() {
+            text.push_str("\n                               paper   ours   difference\n");
+        }
+        for Printed { what, paper, ours, difference } in printed {
+            let _ = writeln!(text, "{what:30} {paper:>5.1}  {:>5.1}  {difference:>+5.1}", ours.mean);
+        }
+        text
+    }
+
+    fn moves(&self, duration: Option<Duration>) -> String {
+        duration.map_or_else(|| "never".to_owned(), |Duration { team_moves, .. }| self.of_runs(team_moves))
+    }
+
+    fn of_runs(&self, estimate: Estimate) -> String {
+        let of = if estimate.count < self.layouts { format!(" ({})", estimate.count) } else { String::new() };
+        with_margin(estimate, 0) + &of
+    }
+
+    fn seconds(&self, lines: &[Line]) -> String {
+        let mut text = format!(
+            "\nHours of the slowest agent\n{:>6}  {:11} {:>20} {:>20}\n",
+            "agents", "scheme", "until explored", "until done"
+        );
+        let hours = |duration: Option<Duration>| {
+            let hours = |Duration { seconds, .. }: Duration| {
+                let of = if seconds.count < self.layouts {
+                    format!(" ({})", seconds.count)
+                } else {
+                    String::new()
+                };
+                with_margin(seconds.times(1.0 / 3600.0), 1) + &of
+            };
+            duration.map_or_else(|| "never".to_owned(), hours)
+        };
+        for line in lines {
+            let (explored, done) = (hours(line.exploration), hours(line.termination));
+            let _ = writeln!(text, "{:>6}  {:11} {explored:>20} {done:>20}", line.agents, line.scheme.word());
+        }
+        text
+    }
+}
+
+fn with_margin(estimate: Estimate, decimals: usize) -> String {
+    let mean = format!("{:.decimals$}", estimate.mean);
+    estimate.margin().map_or(mean.clone(), |margin| format!("{mean} ± {margin:.decimals$}"))
+}
+
+/// What the paper says of Fig. 11 in numbers.
+fn printed(figure: Figure, lines: &[Line]) -> Vec<Printed> {
+    let one = lines.iter().find(|line| (line.scheme, line.agents) == (SchemeName::Bricks, 1));
+    let Some(one) = one.filter(|_| figure == Figure::Agents) else { return Vec::new() };
+    let claims = [
+        ("% explored by one agent", 50.0, Some(one.explored)),
+        ("% visited by one agent", 40.0, one.visited),
+    ];
+    let printed = claims.into_iter().filter_map(|(what, paper, ours)| {
+        ours.map(|ours| Printed { what, paper, ours, difference: ours.mean - paper })
+    });
+    printed.collect()
+}
+
+fn chart(figure: Figure, lines: &[Line]) -> LineChart {
+    let along = |line: &Line| match figure {
+        Figure::Agents | Figure::Ideal => f64::from(line.agents),
+        Figure::Area => f64::from(line.side) * f64::from(line.side),
+    };
+    let series = |name: String, scheme: SchemeName, of: &dyn Fn(&Line) -> Option<Estimate>| {
+        let lines = lines.iter().filter(|line| line.scheme == scheme);
+        let points: Vec<Point> =
+            lines.filter_map(|line| of(line).map(|estimate| estimate.at(along(line)))).collect();
+        Series { name, stroke: Stroke::Solid, points }
+    };
+    let mut drawn = Vec::new();
+    for scheme in SCHEMES {
+        let word = scheme.word();
+        match figure {
+            Figure::Agents | Figure::Area => {
+                drawn.push(series(format!("{word}: explored"), scheme, &|line| Some(line.explored)));
+                drawn.push(series(format!("{word}: visited"), scheme, &|line| line.visited));
+            }
+            Figure::Ideal => {
+                let explored = |line: &Line| line.exploration.map(|duration| duration.team_moves);
+                let done = |line: &Line| line.termination.map(|duration| duration.team_moves);
+                drawn.push(series(format!("{word}: until explored"), scheme, &explored));
+                drawn.push(series(format!("{word}: until done"), scheme, &done));
+            }
+        }
+        let printed: &[(&str, f64)] = match (figure, scheme) {
+            (Figure::Agents, SchemeName::Bricks) => &[("explored", 50.0), ("visited", 40.0)],
+            (Figure::Agents | Figure::Area | Figure::Ideal, _) => &[],
+        };
+        for (what, percent) in printed {
+            let points = vec![Point { x: 1.0, y: *percent, interval: None }];
+            drawn.push(Series { name: format!("{word}: {what}, paper"), stroke: Stroke::Dashed, points });
+        }
+    }
+    drawn.retain(|series| !series.points.is_empty());
+    let (x, y) = match figure {
+        Figure::Agents => (Axis::new("agents", ""), Axis::new("cells", "%").showing([0.0, 100.0])),
+        Figure::Area => (Axis::new("area", "cells"), Axis::new("cells", "%").showing([0.0, 100.0])),
+        Figure::Ideal => (Axis::new("agents", ""), Axis::new("team moves", "").showing([0.0, 0.0])),
+    };
+    let title = match figure {
+        Figure::Agents => "Offices of 30x30 cells, 5.56 % of the sensors missed",
+        Figure::Area => "Offices, 20 agents, 5.56 % of the sensors missed",
+        Figure::Ideal => "Offices of 30x30 cells, no sensor missed",
+    };
+    LineChart { title: title.to_owned(), x, y, series: drawn }
+}

@@ -1,0 +1,258 @@
+//! One event broadcast through a network by the kernel's rules (paper 003, 3.2).
+
+use tautline_kernel::broadcast::{
+    Node, NodeId, Notice, Reaction, Reception, Rule, Scheme, Stage, Surroundings, words,
+};
+use tautline_kernel::choice::Source;
+
+use super::air::Heard;
+use super::{Air, Channel, Faults, Network, Problem, Protocol, run};
+
+/// What became of a broadcast.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Report {
+    /// Nodes that know of the event, the source included.
+    pub reached: u32,
+    /// Nodes that forwarded it, the source not included.
+    pub rebroadcasts: u32,
+    /// What was on the air.
+    pub air: Air,
+}
+
+/// Broadcasts one event from `source`, whose timer goes off at 0, and returns what came of it with the nodes' states.
+///
+/// # Errors
+/// [`Problem::NoNode`] if there is no such source.
+pub fn broadcast(
+    network: &Network,
+    rule: &Rule,
+    channel: Channel,
+    faults: &Faults,
+    source: NodeId,
+    chance: &mut dyn Source,
+) -> Result<(Report, Vec<Node>), Problem> {
+    let mut broadcast = Broadcast::new(network, *rule, source);
+    let air = run(network, channel, faults, &mut broadcast, &[(source, 0)], chance)?;
+    let nodes = broadcast.nodes;
+    let count =
+        |is_counted: fn(Stage) -> bool| nodes.iter().filter(|node| is_counted(node.stage())).count() as u32;
+    let report = Report {
+        reached: count(|stage| stage != Stage::Unaware),
+        rebroadcasts: count(|stage| stage == Stage::Forwarded) - 1,
+        air,
+    };
+    Ok((report, nodes))
+}
+
+/// The nodes of a network while an event spreads.
+#[derive(Clone, Debug)]
+pub struct Broadcast<'a> {
+    network: &'a Network,
+    rule: Rule,
+    nodes: Vec<Node>,
+    source: NodeId,
+    hellos: Hellos,
+}
+
+/// What the scalable broadcast remembers of the neighbours: where the words of each node begin, and the words. The other
+/// schemes need none.
+#[derive(Clone, Default, Debug)]
+struct Hellos {
+    first: Vec<usize>,
+    unreached: Vec<u64>,
+}
+
+impl<'a> Broadcast<'a> {
+    /// No event has happened yet. The first time that the timer of `source` goes off, one does.
+    pub fn new(network: &'a Network, rule: Rule, source: NodeId) -> Self {
+        let ids = (0..network.nodes() as u32).map(NodeId);
+        let hellos = match rule.scheme {
+            Scheme::Scalable => {
+                let mut end = 0;
+                let mut next = |node| {
+                    let first = end;
+                    end += words(network.neighbours(node).len());
+                    first
+                };
+                let first = ids.clone().map(&mut next).collect();
+                Hellos { first, unreached: vec![0; end] }
+            }
+            Scheme::Farthest { .. } | Scheme::Flooding | Scheme::Counter { .. } | Scheme::Distance { .. } => {
+                Hellos::default()
+            }
+        };
+        Self { network, rule, nodes: ids.map(|id| Node::new(id, source)).collect(), source, hellos }
+    }
+}
+
+impl Protocol for Broadcast<'_> {
+    type Message = Notice;
+
+    #[inline]
+    fn receive(&mut self, at: NodeId, heard: Heard<Notice>, chance: &mut dyn Source) -> Option<u64> {
+        let Heard { message: notice, distance_um, now_ns } = heard;
+        let node = &mut self.nodes[at.0 as usize];
+        let around = match self.hellos.first.get(at.0 as usize) {
+            None => Surroundings::none(),
+            Some(&first) => {
+                let neighbours = self.network.neighbours(at);
+                Surroundings {
+                    neighbours,
+                    of_sender: self.network.neighbours(notice.sender),
+                    unreached: &mut self.hellos.unreached[first..first + words(neighbours.len())],
+                }
+            }
+        };
+        match node.receive(&self.rule, Reception { notice, distance_um, now_ns }, around, chance) {
+            Reaction::Armed { at_ns } => Some(at_ns),
+            Reaction::Ignored | Reaction::Noted | Reaction::Silenced => None,
+        }
+    }
+
+    fn expire(&mut self, at: NodeId, now_ns: u64) -> Option<Notice> {
+        let node = &mut self.nodes[at.0 as usize];
+        if at == self.source { node.originate() } else { node.expire(now_ns) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::num::NonZeroU32;
+
+    use proptest::prelude::*;
+    use tautline_kernel::broadcast::Count;
+    use tautline_proofs::engine::Seeded;
+
+    use super::*;
+    use crate::radio::{Area, Chance, Field, Model, Radio, Shared};
+
+    fn network(nodes: usize, seed: u64) -> Network {
+        let area = Area::new(300.0, 300.0).expect("an area");
+        let source = &mut Seeded::new(seed, 0);
+        let field = Field::random(area, vec![], nodes, source).expect("a field");
+        Network::new(&field, Radio::new(25.0, Model::Disc).expect("a radio"), source).expect("a network")
+    }
+
+    fn rule(scheme: Scheme) -> Rule {
+        Rule::new(scheme, NonZeroU32::new(25_000_000).expect("a range"), 100_000_000)
+    }
+
+    fn schemes() -> [Scheme; 7] {
+        let count = |count| Count::new(count).expect("a count");
+        [
+            Scheme::Farthest { k: Some(Count::ONE) },
+            Scheme::Farthest { k: Some(count(3)) },
+            Scheme::Farthest { k: None },
+            Scheme::Flooding,
+            Scheme::Counter { below: count(2) },
+            Scheme::Distance { least_um: 20_000_000 },
+            Scheme::Scalable,
+        ]
+    }
+
+    /// Each node that knows of the event is one hop farther than its parent, which has forwarded it.
+    fn is_a_tree(nodes: &[Node], source: NodeId) -> bool {
+        nodes.iter().filter(|node| node.hops().is_some()).all(|node| match node.parent() {
+            None => node == &nodes[source.0 as usize] && node.hops() == Some(0),
+            Some(parent) => {
+                let parent = &nodes[parent.0 as usize];
+                parent.stage() == Stage::Forwarded && parent.hops().map(|hops| hops + 1) == node.hops()
+            }
+        })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(48))]
+
+        #[test]
+        fn parents_form_a_tree_whatever_the_air_does(
+            seed in any::<u64>(), nodes in 2_usize..600, scheme in 0..schemes().len(), loss in 0.0..0.6, is_shared: bool
+        ) {
+            let network = network(nodes, seed);
+            let mut chance = Seeded::new(seed, 1);
+            let source = NodeId(chance.pick(nodes as u32));
+            let channel = if is_shared { Channel::Shared(Shared::SENSOR) } else { Channel::Ideal };
+            let faults = Faults::NONE.with_loss(Chance::new(loss).expect("a probability"));
+            let faults = faults.with_noise(loss * 10.0, 3.0).expect("a noise");
+            let (report, states) =
+                broadcast(&network, &rule(schemes()[scheme]), channel, &faults, source, &mut chance).expect("a source");
+            prop_assert!(is_a_tree(&states, source));
+            prop_assert!(report.reached as usize <= network.component(source));
+            prop_assert_eq!(report.air.sent, u64::from(report.rebroadcasts) + 1);
+        }
+
+        #[test]
+        fn without_a_limit_everybody_connected_hears_and_forwards_as_under_flooding(
+            seed in any::<u64>(), nodes in 2_usize..600
+        ) {
+            let network = network(nodes, seed);
+            let source = NodeId(nodes as u32 / 2);
+            for scheme in [Scheme::Farthest { k: None }, Scheme::Flooding] {
+                let chance = &mut Seeded::new(seed, 1);
+                let (report, _) =
+                    broadcast(&network, &rule(scheme), Channel::Ideal, &Faults::NONE, source, chance).expect("a source");
+                prop_assert_eq!(report.reached as usize, network.component(source));
+                prop_assert_eq!(report.rebroadcasts + 1, report.reached);
+            }
+        }
+
+        #[test]
+        fn the_scalable_broadcast_reaches_everybody_connected(seed in any::<u64>(), nodes in 2_usize..600) {
+            let network = network(nodes, seed);
+            let chance = &mut Seeded::new(seed, 1);
+            let (report, _) =
+                broadcast(&network, &rule(Scheme::Scalable), Channel::Ideal, &Faults::NONE, NodeId(0), chance)
+                    .expect("a source");
+            prop_assert_eq!(report.reached as usize, network.component(NodeId(0)));
+        }
+    }
+
+    /// With shadows, noise, loss and collisions: whatever a library of floats could have a say in.
+    #[test]
+    fn the_same_seed_makes_the_same_broadcast_on_every_machine() {
+        let area = Area::new(300.0, 300.0).expect("an area");
+        let mut seeded = Seeded::new(7, 0);
+        let field = Field::random(area, vec![], 700, &mut seeded).expect("a field");
+        let model = Model::Shadowed { exponent: 3.0, deviation_db: 4.0 };
+        let radio = Radio::new(25.0, model).expect("a radio");
+        let network = Network::new(&field, radio, &mut seeded).expect("a network");
+        let faults = Faults::NONE.with_loss(Chance::new(0.1).expect("a probability"));
+        let faults = faults.with_noise(2.0, 3.0).expect("a noise");
+        let made = schemes().map(|scheme| {
+            let channel = Channel::Shared(Shared::SENSOR);
+            let chance = &mut Seeded::new(7, 1);
+            let made =
+                broadcast(&network, &rule(scheme), channel, &faults, NodeId(5), chance).expect("a source");
+            let Report { reached, rebroadcasts, air } = made.0;
+            (reached, rebroadcasts, air.heard, air.collided, air.end_ns)
+        });
+        assert_eq!(
+            made,
+            [
+                (691, 196, 2388, 447, 226_890_280),
+                (700, 323, 3826, 859, 176_583_460),
+                (700, 699, 8197, 2663, 167_244_316),
+                (700, 699, 8789, 2005, 306_439_582),
+                (695, 185, 2427, 156, 479_966_383),
+                (649, 119, 1804, 28, 742_010_112),
+                (700, 404, 5401, 913, 341_912_137),
+            ]
+        );
+    }
+
+    #[test]
+    fn a_source_that_there_is_not_is_refused() {
+        let network = network(3, 0);
+        let broadcast = |source| {
+            broadcast(
+                &network,
+                &rule(Scheme::Flooding),
+                Channel::Ideal,
+                &Faults::NONE,
+                source,
+                &mut Seeded::new(0, 0),
+            )
+        };
+        assert_eq!(broadcast(NodeId(3)), Err(Problem::NoNode { node: 3, nodes: 3 }));
+    }
+}

@@ -1,0 +1,170 @@
+//! Runs of agents on sensor floors: without missed sensors every cell that they can get to is visited and every agent
+//! knows that it is done, in random layouts and on published maps; ants and robust agents explore everything.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::{env, fs};
+
+use proptest::prelude::*;
+use tautline::explore::agents::{Team, Way};
+use tautline::explore::{Report, RuleName, SchemeName, Setup, Stopped, explore};
+use tautline::layout::generate::Probability;
+use tautline::layout::{self, Generator, Layout};
+use tautline_kernel::bricks::Rule;
+use tautline_kernel::lattice::{Cell, Edge, Side};
+
+/// More team moves than any run here has.
+const MANY: u32 = 300_000;
+
+/// Maps with a larger part than this are left out: laps round all that stands in them take minutes.
+const MOST_CELLS: u32 = 10_000;
+
+fn run(setup: &Setup) -> Report {
+    let report = explore(setup, &mut |made| {
+        assert!(made.step < MANY, "the run does not end: {setup:?}");
+        Ok(())
+    });
+    report.expect("a run")
+}
+
+/// Random layouts of every generator that has chance in it, and up to eight agents anywhere in them.
+fn setups() -> impl Strategy<Value = Setup> {
+    let size = (1_u64..=12, 1_u64..=12);
+    let described = prop_oneof![
+        (size.clone(), 0.0..0.5_f64).prop_map(|((width, height), p)| format!("walls:{width}x{height}:{p}")),
+        (size.clone(), 0.0..0.5_f64).prop_map(|((width, height), p)| format!("cells:{width}x{height}:{p}")),
+        (size, 1_u64..=4, 1_u64..=4).prop_map(|((width, height), across, down)| {
+            format!("office:{width}x{height}:{}x{}", across.min(width), down.min(height))
+        }),
+    ];
+    (described, 0_u64..1000, prop::collection::vec(any::<prop::sample::Index>(), 1..=8)).prop_filter_map(
+        "every cell is blocked",
+        |(described, seed, places)| {
+            let generator: Generator = described.parse().expect("a generator");
+            let mut layout = generator.generate(seed).ok()?;
+            let free: Vec<Cell> = layout.cells().filter(|&cell| layout.is_free(cell)).collect();
+            let starts: Vec<Cell> = places.iter().map(|place| *place.get(&free)).collect();
+            let base = Setup::choose_base(&mut layout, None).ok()?;
+            let robots = starts.len() as u16;
+            let setup = Setup::new(SchemeName::Bricks, RuleName::Repaired, robots, layout, base);
+            Some(Setup { seed, starts: Some(starts), ..setup })
+        },
+    )
+}
+
+/// The cells that can be reached from `start`.
+fn connected(layout: &Layout, start: Cell) -> BTreeSet<Cell> {
+    let (mut reached, mut left) = (BTreeSet::from([start]), vec![start]);
+    while let Some(cell) = left.pop() {
+        for side in Side::ALL {
+            if layout.is_open(Edge::new(cell, side)) && reached.insert(cell.beyond(side)) {
+                left.push(cell.beyond(side));
+            }
+        }
+    }
+    reached
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_cell_is_visited_and_every_agent_knows_it(
+        setup in setups(),
+        scheme in prop::sample::select(vec![SchemeName::Bricks, SchemeName::BricksAnts]),
+    ) {
+        let report = run(&Setup { scheme, ..setup.clone() });
+        prop_assert_eq!(&report.violations, &[]);
+        prop_assert_eq!(report.stopped, Stopped::Explored);
+        let due: BTreeSet<Cell> = setup.starts().iter().flat_map(|&start| connected(&setup.layout, start)).collect();
+        let whole = report.whole();
+        prop_assert_eq!(due.len() as u32, report.cells);
+        prop_assert_eq!((whole.visited, whole.explored, whole.active), (report.cells, report.cells, 0));
+        for component in &report.components {
+            prop_assert_eq!((component.visited, component.active), (component.cells, 0));
+        }
+        prop_assert!(due.iter().all(|&cell| report.chart.step(cell).is_some()));
+    }
+
+    #[test]
+    fn ants_explore_everything(setup in setups()) {
+        let report = run(&Setup { scheme: SchemeName::Ants, ..setup });
+        prop_assert_eq!((report.stopped, report.explored), (Stopped::Explored, report.cells));
+        prop_assert_eq!(report.violations, []);
+    }
+
+    #[test]
+    fn robust_agents_explore_everything_although_sensors_are_missed(setup in setups(), miss in 0.0..0.1_f64) {
+        let miss = Probability::new(miss).expect("a probability");
+        let report = run(&Setup { scheme: SchemeName::BricksAnts, miss, ..setup });
+        prop_assert_eq!((report.stopped, report.explored), (Stopped::Explored, report.cells));
+    }
+}
+
+/// The end of a team in `layout`, all agents starting in `start`: cells, visited cells, and agents that are not done.
+fn ended(rule: Rule, layout: &Layout, start: Cell, agents: usize) -> (u32, u32, u32) {
+    let starts = vec![start; agents];
+    let mut team = Team::new(Way::Bricks(rule), layout, &starts, Probability::NEVER, 0);
+    while !team.is_over() {
+        team.advance();
+    }
+    (team.due(), team.visited(), team.active())
+}
+
+/// A free cell of the largest part of `layout`, and how many cells the part has.
+fn largest_part(layout: &Layout) -> (Cell, u32) {
+    let mut seen = BTreeSet::new();
+    let mut largest = None;
+    for cell in layout.cells().filter(|&cell| layout.is_free(cell)) {
+        if seen.contains(&cell) {
+            continue;
+        }
+        let part = connected(layout, cell);
+        if largest.is_none_or(|(_, cells)| cells < part.len() as u32) {
+            largest = Some((cell, part.len() as u32));
+        }
+        seen.extend(part);
+    }
+    largest.expect("a free cell")
+}
+
+/// Every team visits the whole of the part of `layout` that `start` is in, which has so many cells, and knows it.
+fn is_visited(name: &str, layout: &Layout, (start, cells): (Cell, u32)) {
+    for (rule, agents) in
+        [Rule::REPAIRED, Rule::ROBUST].into_iter().flat_map(|rule| [1, 4, 20].map(|agents| (rule, agents)))
+    {
+        assert_eq!(
+            ended(rule, layout, start, agents),
+            (cells, cells, 0),
+            "{name}, {agents} agents, {rule:?}"
+        );
+    }
+}
+
+#[test]
+fn built_in_layouts_are_visited() {
+    for described in
+        ["rooms-a", "rooms-b", "open:20x7", "office:30x30:4x4", "cells:24x24:0.3", "walls:24x24:0.3"]
+    {
+        let generator: Generator = described.parse().expect("a generator");
+        let layout = generator.generate(1).expect("a layout");
+        is_visited(described, &layout, largest_part(&layout));
+    }
+}
+
+#[test]
+fn published_maps_are_visited_if_they_are_there() {
+    let Some(folder) = env::var_os("TAUTLINE_MAPS") else { return };
+    let files = fs::read_dir(folder).expect("a folder").map(|file| file.expect("a file").path());
+    let maps: BTreeSet<_> = files.filter(|path| path.extension().is_some_and(|end| end == "map")).collect();
+    for path in maps {
+        let name = path.display().to_string();
+        let layout = layout::load(&name, 0, None::<&Path>).expect("a map");
+        let part = largest_part(&layout);
+        if part.1 <= MOST_CELLS {
+            is_visited(&name, &layout, part);
+        } else {
+            println!("{name} is left out: {} cells", part.1);
+        }
+    }
+}
