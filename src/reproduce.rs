@@ -2,6 +2,7 @@
 
 pub mod atlas;
 pub mod interval;
+pub mod notice_fig5;
 pub mod optimum;
 pub mod repair_cost;
 
@@ -14,11 +15,13 @@ pub enum Reproduction {
     Optimum,
     /// What becomes of all runs in all layouts.
     Atlas,
+    /// Figure 5 of paper 003.
+    NoticeFig5,
 }
 
 impl Reproduction {
     /// All, in order.
-    pub const ALL: [Self; 3] = [Self::RepairCost, Self::Optimum, Self::Atlas];
+    pub const ALL: [Self; 4] = [Self::RepairCost, Self::Optimum, Self::Atlas, Self::NoticeFig5];
 
     /// Its name.
     pub const fn id(self) -> &'static str {
@@ -26,6 +29,7 @@ impl Reproduction {
             Self::RepairCost => "repair-cost",
             Self::Optimum => "optimum",
             Self::Atlas => "atlas",
+            Self::NoticeFig5 => "notice-fig5",
         }
     }
 
@@ -43,6 +47,10 @@ impl Reproduction {
             Self::Atlas => {
                 "all runs of the chain in all layouts with few walls, by rule and number of robots: how many there are, \
                  how long, and how many break which clause"
+            }
+            Self::NoticeFig5 => {
+                "k-FNF, flooding, counter, distance and scalable broadcasts in random networks: the share of all nodes and \
+                 of those connected to the source that each reaches, and how many nodes forward"
             }
         }
     }

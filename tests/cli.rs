@@ -338,10 +338,65 @@ fn the_distance_from_the_optimum_is_the_same_on_any_number_of_threads() {
 }
 
 #[test]
+fn the_reach_of_broadcasts_is_the_same_on_any_number_of_threads() {
+    let folder = folder();
+    let folder = folder.path();
+    let table = |threads| {
+        let arguments = ["reproduce", "notice-fig5", "--nodes", "300,700", "--topologies", "20"];
+        let output = tautline(folder, &[&arguments[..], &["--channel", "shared"]].concat())
+            .env("RAYON_NUM_THREADS", threads)
+            .output()
+            .expect("the program runs");
+        assert_eq!(output.status.code(), Some(0));
+        String::from_utf8(output.stdout).expect("text")
+    };
+    assert_eq!(table("1"), table("3"));
+    assert_snapshot!("reach_of_broadcasts", table("2"));
+    let asked = ["reproduce", "notice-fig5", "--nodes", "300", "--topologies", "3", "--svg-reach", "a.svg"];
+    let measured = json(folder, &[&asked[..], &["--svg-rebroadcasts", "b.svg"]].concat(), 0);
+    let first = &measured["densities"][0]["schemes"][0];
+    assert_eq!((&first["scheme"], &first["paper"]), (&"k-fnf k=1".into(), &1.0.into()));
+    assert_eq!(names(folder), ["a.svg", "b.svg"]);
+    for name in names(folder) {
+        let picture = fs::read_to_string(folder.join(name)).expect("a picture");
+        assert!(picture.starts_with("<svg ") && picture.ends_with("</svg>\n"));
+    }
+}
+
+#[test]
+fn what_is_wrong_with_a_network_is_said_with_a_remedy() {
+    let folder = folder();
+    let wrong: [&[&str]; 16] = [
+        &["--nodes", "0"],
+        &["--nodes", "1"],
+        &["--nodes", "300,1000001"],
+        &["--nodes", "many"],
+        &["--nodes", "20000", "--range", "300"],
+        &["--range", "0"],
+        &["--range", "-1"],
+        &["--range", "nan"],
+        &["--range", "4001"],
+        &["--side", "0"],
+        &["--side", "inf"],
+        &["--k", "0"],
+        &["--k", "9"],
+        &["--topologies", "0"],
+        &["--channel", "quiet"],
+        &["--nodes", "2", "--topologies", "1", "--svg-reach", "."],
+    ];
+    let said = wrong.map(|arguments| {
+        let arguments = [&["reproduce", "notice-fig5"], arguments].concat();
+        format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder.path(), &arguments))
+    });
+    assert_snapshot!("wrong_networks", said.join("\n"));
+    assert_eq!(names(folder.path()), [""; 0]);
+}
+
+#[test]
 fn the_tables_are_listed_and_have_help_with_examples() {
     let folder = folder();
     assert_snapshot!("tables", printed(folder.path(), &["reproduce"], 0));
-    for table in ["repair-cost", "optimum"] {
+    for table in ["repair-cost", "optimum", "notice-fig5"] {
         let help = printed(folder.path(), &["reproduce", table, "--help"], 0);
         assert!(help.contains("Example"), "{table}");
         assert_snapshot!(format!("help_reproduce_{table}"), help);

@@ -1,6 +1,7 @@
 //! `tautline reproduce`: tables again.
 
 mod atlas;
+mod notice_fig5;
 mod optimum;
 mod repair_cost;
 
@@ -34,6 +35,8 @@ enum Table {
     RepairCost(repair_cost::RepairCost),
     Optimum(optimum::Optimum),
     Atlas(atlas::Atlas),
+    #[command(name = "notice-fig5")]
+    NoticeFig5(notice_fig5::NoticeFig5),
 }
 
 #[derive(Serialize)]
@@ -54,6 +57,7 @@ impl Reproduce {
             Some(Table::RepairCost(table)) => table.run(out),
             Some(Table::Optimum(table)) => table.run(out),
             Some(Table::Atlas(table)) => table.run(out),
+            Some(Table::NoticeFig5(table)) => table.run(out),
         }
     }
 
