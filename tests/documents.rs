@@ -47,6 +47,14 @@ fn the_ledger_is_that_of_the_readme() {
 }
 
 #[test]
+fn the_chart_of_the_readme_is_that_of_the_clause() {
+    let printed = printed(&["prove", "MRC-1"], 0);
+    let (_, chart) = printed.split_once("events.\n\n").expect("a chart");
+    let (chart, _) = chart.split_once("\n\nAll").expect("a last line");
+    assert!(document("README.md").contains(chart.trim_end()), "the README shows another chart:\n{chart}");
+}
+
+#[test]
 fn the_atlas_is_that_of_the_readme() {
     let atlas = printed(&["reproduce", "atlas"], 0);
     assert_snapshot!("atlas", atlas);

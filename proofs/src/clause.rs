@@ -5,11 +5,13 @@
 use tautline_kernel::chain::{Condition, High, Rule};
 use tautline_kernel::choice::Source;
 use tautline_kernel::lattice::Circle;
+use tautline_kernel::rescue;
 
 use crate::engine::Outcome;
 use crate::invariant::Invariant;
+use crate::rescue::{Demand, Setting};
 
-/// What a check is about: the rule, and how the observer of a mutant is deceived.
+/// What a check is about: the rules, and how the observer of a mutant is deceived.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Subject {
     /// The rule that the team follows.
@@ -18,6 +20,8 @@ pub struct Subject {
     pub intended: Rule,
     /// What is done to it behind its back.
     pub sabotage: Sabotage,
+    /// The rule of a rescue.
+    pub rescue: rescue::Rule,
 }
 
 /// What no set of conditions can express, done to a mutant on the way from the rule to the check.
@@ -44,11 +48,20 @@ impl Sabotage {
 }
 
 impl Subject {
-    /// The chain as published.
-    pub const PUBLISHED: Self =
-        Self { rule: Rule::PUBLISHED, intended: Rule::PUBLISHED, sabotage: Sabotage::None };
-    /// The chain repaired.
-    pub const REPAIRED: Self = Self { rule: Rule::REPAIRED, intended: Rule::REPAIRED, ..Self::PUBLISHED };
+    /// Everything as published.
+    pub const PUBLISHED: Self = Self {
+        rule: Rule::PUBLISHED,
+        intended: Rule::PUBLISHED,
+        sabotage: Sabotage::None,
+        rescue: rescue::Rule::PUBLISHED,
+    };
+    /// Everything repaired.
+    pub const REPAIRED: Self = Self {
+        rule: Rule::REPAIRED,
+        intended: Rule::REPAIRED,
+        rescue: rescue::Rule::REPAIRED,
+        ..Self::PUBLISHED
+    };
 
     /// A team that claims to follow the repaired rule, but follows `rule`.
     pub const fn following(rule: Rule) -> Self {
@@ -58,6 +71,11 @@ impl Subject {
     /// The repaired chain without one condition.
     pub const fn without(condition: Condition) -> Self {
         Self::following(Rule::REPAIRED.without(condition))
+    }
+
+    /// Robots and WFRs that follow `rule`.
+    pub const fn rescuing(rule: rescue::Rule) -> Self {
+        Self { rescue: rule, ..Self::REPAIRED }
     }
 
     /// The repaired chain, sabotaged.
@@ -138,6 +156,13 @@ pub enum Method {
         /// What every team move is checked for.
         invariant: Invariant,
     },
+    /// Every state of a rescue.
+    States {
+        /// Robots, WFRs and faults; its rule is the subject's.
+        setting: Setting,
+        /// What every state, or every run, is checked for.
+        demand: Demand,
+    },
 }
 
 impl Method {
@@ -147,6 +172,7 @@ impl Method {
             Self::Exhaustive { .. } => "exhaustive",
             Self::Sampled { .. } => "sampled",
             Self::Search { .. } => "search",
+            Self::States { .. } => "states",
         }
     }
 }

@@ -6,9 +6,14 @@ use tautline_kernel::chain::Condition::{
 };
 use tautline_kernel::chain::{High, Rule};
 use tautline_kernel::lattice::Circle;
+use tautline_kernel::rescue;
+use tautline_kernel::rescue::Condition::{
+    AnswersAgain, ChoiceStands, Consent, Epochs, NearestRobot, Renewal, Repetition, Window,
+};
 
 use crate::clause::{Check, Clause, Method, Mutant, Sabotage, Subject, Verdict};
 use crate::invariant::Invariant;
+use crate::rescue::{Demand, Faults, Lossy, Setting};
 use crate::run::Breach;
 use crate::{crowd, optimum, pair, small, three, walk, whole};
 
@@ -149,7 +154,7 @@ const THREE: (usize, u32) = (4, 3);
 const THREE_BOUND: &str = "all layouts, N = 4, at most 3 walls";
 
 /// Every clause, in the order of `SPEC.md`.
-pub static CLAUSES: [Clause; 16] = [
+pub static CLAUSES: [Clause; 22] = [
     Clause {
         id: "LATTICE-1",
         sentence: "The environments derived from the radii MUST be the sets that the paper draws: E_N the cell and \
@@ -421,7 +426,147 @@ pub static CLAUSES: [Clause; 16] = [
             ),
         ],
     },
+    Clause {
+        id: "MRC-1",
+        sentence: "Two robots MUST never be on their way for the same call of a WFR.",
+        checks: &[
+            rescued(Subject::PUBLISHED, Demand::OneRobotForACall, TWO_AND_ONE, Verdict::Refuted, &[]),
+            rescued(
+                Subject::REPAIRED,
+                Demand::OneRobotForACall,
+                TWO,
+                Verdict::Holds,
+                &[mutant("redecide on a late MOVE", REDECIDE)],
+            ),
+            rescued(Subject::REPAIRED, Demand::OneRobotForACall, THREE_AND_TWO, Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-2",
+        sentence: "Two WFRs MUST never count on the same robot.",
+        checks: &[
+            rescued(Subject::PUBLISHED, Demand::OneCallForARobot, ONE_AND_TWO, Verdict::Refuted, &[]),
+            rescued(
+                Subject::REPAIRED,
+                Demand::OneCallForARobot,
+                TWO,
+                Verdict::Holds,
+                &[mutant("no consent", Subject::rescuing(rescue::Rule::REPAIRED.without(Consent)))],
+            ),
+            rescued(Subject::REPAIRED, Demand::OneCallForARobot, THREE_AND_TWO, Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-3",
+        sentence: "A WFR MUST choose the best of the MOVEs that it has received when its window closes.",
+        checks: &[
+            rescued(Subject::PUBLISHED, Demand::BestOfTheWindow, TWO_AND_ONE, Verdict::Refuted, &[]),
+            rescued(
+                Subject::REPAIRED,
+                Demand::BestOfTheWindow,
+                TWO,
+                Verdict::Holds,
+                &[
+                    mutant("no collection window", Subject::rescuing(rescue::Rule::REPAIRED.without(Window))),
+                    mutant("redecide on a late MOVE", REDECIDE),
+                    mutant(
+                        "the first MOVE heard",
+                        Subject::rescuing(rescue::Rule::REPAIRED.without(NearestRobot)),
+                    ),
+                    mutant("no epoch", NO_EPOCH),
+                ],
+            ),
+            rescued(Subject::REPAIRED, Demand::BestOfTheWindow, THREE_AND_TWO, Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-4",
+        sentence: "A WFR MUST count on a robot only if the robot has taken the lease of its call, and be rescued only \
+                   by one that has taken a lease of it.",
+        checks: &[
+            rescued(Subject::PUBLISHED, Demand::CountsOnConsent, TWO_AND_ONE, Verdict::Refuted, &[]),
+            rescued(
+                Subject::REPAIRED,
+                Demand::CountsOnConsent,
+                TWO,
+                Verdict::Holds,
+                &[mutant("no consent", Subject::rescuing(rescue::Rule::REPAIRED.without(Consent)))],
+            ),
+            rescued(Subject::REPAIRED, Demand::CountsOnConsent, THREE_AND_TWO, Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-5",
+        sentence: "A WFR that waits MUST be rescued in the end, as long as a robot lives.",
+        checks: &[
+            rescued(Subject::PUBLISHED, Demand::IsServed, TWO_AND_ONE, Verdict::Refuted, &[]),
+            rescued(
+                Subject::REPAIRED,
+                Demand::IsServed,
+                TWO,
+                Verdict::Holds,
+                &[
+                    mutant("no renewal", Subject::rescuing(rescue::Rule::REPAIRED.without(Renewal))),
+                    mutant(
+                        "late MOVEs unanswered",
+                        Subject::rescuing(rescue::Rule::REPAIRED.without(AnswersAgain).without(Repetition)),
+                    ),
+                    mutant("no epoch", NO_EPOCH),
+                ],
+            ),
+            rescued(Subject::REPAIRED, Demand::IsServed, THREE_AND_TWO, Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-6",
+        sentence: "A robot that hears a call under a new epoch MUST have its SBit clear.",
+        checks: &[
+            rescued(Subject::PUBLISHED, Demand::AsksAnew, TWO_AND_ONE, Verdict::Refuted, &[]),
+            rescued(
+                Subject::REPAIRED,
+                Demand::AsksAnew,
+                TWO,
+                Verdict::Holds,
+                &[mutant("no epoch", NO_EPOCH)],
+            ),
+            rescued(Subject::REPAIRED, Demand::AsksAnew, THREE_AND_TWO, Verdict::Holds, &[]),
+        ],
+    },
 ];
+
+const REDECIDE: Subject = Subject::rescuing(rescue::Rule::REPAIRED.without(ChoiceStands));
+const NO_EPOCH: Subject = Subject::rescuing(rescue::Rule::REPAIRED.without(Epochs));
+
+/// The settings of a rescue, and what they are in words.
+const TWO: (Setting, &str) = (
+    Setting {
+        rule: rescue::Rule::REPAIRED,
+        robots: 2,
+        wfrs: 2,
+        events: 3,
+        max_hops: 1,
+        faults: Faults::any(1),
+        lossy: Lossy::All,
+    },
+    "all states, 2 robots, 2 WFRs, 3 events, at most 1 fault",
+);
+const THREE_AND_TWO: (Setting, &str) =
+    (Setting { robots: 3, events: 2, ..TWO.0 }, "all states, 3 robots, 2 WFRs, 2 events, at most 1 fault");
+
+const TWO_AND_ONE: (Setting, &str) =
+    (Setting { wfrs: 1, events: 2, ..TWO.0 }, "all states, 2 robots, 1 WFR, 2 events, at most 1 fault");
+const ONE_AND_TWO: (Setting, &str) =
+    (Setting { robots: 1, ..TWO.0 }, "all states, 1 robot, 2 WFRs, 3 events, at most 1 fault");
+
+const fn rescued(
+    subject: Subject,
+    demand: Demand,
+    (setting, bound): (Setting, &'static str),
+    expected: Verdict,
+    mutants: &'static [Mutant],
+) -> Check {
+    Check { subject, method: Method::States { setting, demand }, bound, expected, mutants }
+}
 
 const fn runs(subject: Subject, mutants: &'static [Mutant]) -> Check {
     let method = Method::Exhaustive { body: whole::spiral, covers: &["an open area"] };
