@@ -298,9 +298,14 @@ fn clauses_are_decided_by_name() {
     let first = &ledger["clauses"][0];
     assert_eq!((&first["id"], &first["verdict"]), (&"CHAIN-10".into(), &"holds".into()));
     assert_eq!(first["mutants"], serde_json::json!({ "killed": 2, "of": 2, "survived": [] }));
+    let told = printed(folder.path(), &["prove", "NOTICE-5"], 0);
+    assert!(
+        told.contains("\n2 hears 1 and is silent.\nNothing more happens; 3 has not heard of the event.\n"),
+        "{told}"
+    );
     assert_snapshot!(refused(folder.path(), &["prove", "CHAIN-99"]), @r#"
     Error: there is no clause "CHAIN-99"
-     Help: the clauses are LATTICE-1, CHAIN-1, CHAIN-2, CHAIN-3, CHAIN-4, CHAIN-5, CHAIN-6, CHAIN-7, CHAIN-8, CHAIN-9, CHAIN-10, CHAIN-11, CHAIN-12, CHAIN-13, CHAIN-14, CHAIN-15, MRC-1, MRC-2, MRC-3, MRC-4, MRC-5, MRC-6
+     Help: the clauses are LATTICE-1, CHAIN-1, CHAIN-2, CHAIN-3, CHAIN-4, CHAIN-5, CHAIN-6, CHAIN-7, CHAIN-8, CHAIN-9, CHAIN-10, CHAIN-11, CHAIN-12, CHAIN-13, CHAIN-14, CHAIN-15, NOTICE-1, NOTICE-2, NOTICE-3, NOTICE-4, NOTICE-5, MRC-1, MRC-2, MRC-3, MRC-4, MRC-5, MRC-6
     "#);
 }
 

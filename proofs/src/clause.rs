@@ -2,6 +2,7 @@
 //! rule it is about, the engine, the bound, the expected verdict and the mutants that must be rejected. Of a step
 //! check one macro makes the exhaustive test, the property, the Kani harnesses and the line in the ledger.
 
+use tautline_kernel::broadcast::{self, Conditions};
 use tautline_kernel::chain::{Condition, High, Rule};
 use tautline_kernel::choice::Source;
 use tautline_kernel::lattice::Circle;
@@ -9,6 +10,7 @@ use tautline_kernel::rescue;
 
 use crate::engine::Outcome;
 use crate::invariant::Invariant;
+use crate::notice::Networks;
 use crate::rescue::{Demand, Setting};
 
 /// What a check is about: the rules, and how the observer of a mutant is deceived.
@@ -22,6 +24,8 @@ pub struct Subject {
     pub sabotage: Sabotage,
     /// The rule of a rescue.
     pub rescue: rescue::Rule,
+    /// The conditions that the nodes of a network follow.
+    pub notice: Conditions,
 }
 
 /// What no set of conditions can express, done to a mutant on the way from the rule to the check.
@@ -35,6 +39,8 @@ pub enum Sabotage {
     BaseFollows,
     /// The planner is the plain recursion.
     PlainRecursion,
+    /// k = ∞ is taken for k = 1.
+    FiniteForEndless,
 }
 
 impl Sabotage {
@@ -42,7 +48,7 @@ impl Sabotage {
     pub const fn carry(self, byte: u8) -> u8 {
         match self {
             Self::SwappedBits => byte & !0b1001 | (byte & 1) << 3 | byte >> 3 & 1,
-            Self::None | Self::BaseFollows | Self::PlainRecursion => byte,
+            Self::None | Self::BaseFollows | Self::PlainRecursion | Self::FiniteForEndless => byte,
         }
     }
 }
@@ -54,13 +60,15 @@ impl Subject {
         intended: Rule::PUBLISHED,
         sabotage: Sabotage::None,
         rescue: rescue::Rule::PUBLISHED,
+        notice: Conditions::PUBLISHED,
     };
     /// Everything repaired.
     pub const REPAIRED: Self = Self {
         rule: Rule::REPAIRED,
         intended: Rule::REPAIRED,
+        sabotage: Sabotage::None,
         rescue: rescue::Rule::REPAIRED,
-        ..Self::PUBLISHED
+        notice: Conditions::REPAIRED,
     };
 
     /// A team that claims to follow the repaired rule, but follows `rule`.
@@ -91,6 +99,11 @@ impl Subject {
     /// The repaired chain with another circle of E_C.
     pub const fn with_covered(covered: Circle) -> Self {
         Self::following(Rule { covered, ..Rule::REPAIRED })
+    }
+
+    /// Nodes that broadcast by the repaired rule without one condition.
+    pub const fn hearing_without(condition: broadcast::Condition) -> Self {
+        Self { notice: Conditions::REPAIRED.without(condition), ..Self::REPAIRED }
     }
 
     /// The repaired chain that reads P_high from present positions.
@@ -147,6 +160,13 @@ pub enum Method {
         /// The situations that must occur, sorted.
         covers: &'static [&'static str],
     },
+    /// Every state of an event on its way through small networks.
+    Spread {
+        /// The networks, and the demand on every state.
+        networks: Networks,
+        /// The situations that must occur, sorted.
+        covers: &'static [&'static str],
+    },
     /// Every layout within a bound.
     Search {
         /// Robots, base included.
@@ -172,7 +192,7 @@ impl Method {
             Self::Exhaustive { .. } => "exhaustive",
             Self::Sampled { .. } => "sampled",
             Self::Search { .. } => "search",
-            Self::States { .. } => "states",
+            Self::Spread { .. } | Self::States { .. } => "states",
         }
     }
 }

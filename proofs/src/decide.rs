@@ -83,6 +83,7 @@ impl Prover {
             Method::Sampled { body, runs, covers } => {
                 Ok(Decision::of_tally(engine::sample(runs, SEED, |source| body(subject, source)), covers))
             }
+            Method::Spread { networks, covers } => Ok(Decision::of_tally(networks.explore(subject), covers)),
             Method::Search { robots, max_walls, invariant } => {
                 let invariants = match until {
                     Until::Exhausted => invariant.family().to_vec(),

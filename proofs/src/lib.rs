@@ -9,6 +9,7 @@ pub mod engine;
 pub mod invariant;
 pub mod judge;
 pub mod links;
+pub mod notice;
 pub mod optimum;
 pub mod pair;
 pub mod plain;

@@ -1,5 +1,6 @@
 //! The list of all clauses, in the order of `SPEC.md`.
 
+use tautline_kernel::broadcast::Condition::{FrozenOnceForwarded, LeastHops, RememberEvent};
 use tautline_kernel::chain::Condition::{
     CoveredBehind, Distinct, EpochMustGain, FullForFollower, FullForLeader, RefusedIsVirtual, SafeAhead,
     Unfold, UnsureAhead,
@@ -11,11 +12,12 @@ use tautline_kernel::rescue::Condition::{
     AnswersAgain, ChoiceStands, Consent, Epochs, NearestRobot, Renewal, Repetition, Window,
 };
 
-use crate::clause::{Check, Clause, Method, Mutant, Sabotage, Subject, Verdict};
+use crate::clause::{Body, Check, Clause, Method, Mutant, Sabotage, Subject, Verdict};
 use crate::invariant::Invariant;
+use crate::notice::Networks;
 use crate::rescue::{Demand, Faults, Lossy, Setting};
 use crate::run::Breach;
-use crate::{crowd, optimum, pair, small, three, walk, whole};
+use crate::{crowd, notice, optimum, pair, small, three, walk, whole};
 
 /// A mutant.
 const fn mutant(name: &'static str, subject: Subject) -> Mutant {
@@ -137,7 +139,46 @@ exhaustive! {
             safe_too_narrow: "E_S narrowed to E_N" => Subject::with_safe(NARROWER),
             covered_too_narrow: "E_C with the radius of E_S" => Subject::with_covered(Circle::SAFE),
         };
+    second_event: notice::second_event, Subject::REPAIRED, "whatever became of the event before",
+        covers ["silent about the first", "through with the first", "unaware of the first", "waiting with the first"],
+        unwind 12, mutants {
+            published: "as published" => Subject::PUBLISHED,
+        };
 }
+
+/// A check of every state of every network of up to five nodes.
+const fn states(
+    networks: Networks,
+    bound: &'static str,
+    expected: Verdict,
+    mutants: &'static [Mutant],
+) -> Check {
+    let method = Method::Spread { networks, covers: &notice::EVENTS };
+    Check { subject: Subject::PUBLISHED, method, bound, expected, mutants }
+}
+
+/// The same of random runs in larger networks.
+const fn spreads(body: Body, covers: &'static [&'static str], mutants: &'static [Mutant]) -> Check {
+    Check {
+        subject: Subject::PUBLISHED,
+        method: Method::Sampled { body, runs: 500, covers },
+        bound: "500 random networks of 6 to 40 nodes",
+        expected: Verdict::Holds,
+        mutants,
+    }
+}
+
+const EVERY_K: &str = "all networks of up to 5 nodes, every k, every order";
+
+const UNFROZEN: [Mutant; 2] = [
+    mutant("a later NOTICE with HC ≤ own changes the parent", Subject::hearing_without(FrozenOnceForwarded)),
+    mutant("the parent is the last heard", Subject::hearing_without(LeastHops)),
+];
+
+const FORGETFUL: [Mutant; 1] =
+    [mutant("who has forwarded an event forgets it", Subject::hearing_without(RememberEvent))];
+
+const FINITE: [Mutant; 1] = [mutant("k = ∞ is taken for 1", Subject::sabotaged(Sabotage::FiniteForEndless))];
 
 /// The next larger circle: E_C with eight cells more.
 const WIDER: Circle = Circle::new(34);
@@ -154,7 +195,7 @@ const THREE: (usize, u32) = (4, 3);
 const THREE_BOUND: &str = "all layouts, N = 4, at most 3 walls";
 
 /// Every clause, in the order of `SPEC.md`.
-pub static CLAUSES: [Clause; 22] = [
+pub static CLAUSES: [Clause; 27] = [
     Clause {
         id: "LATTICE-1",
         sentence: "The environments derived from the radii MUST be the sets that the paper draws: E_N the cell and \
@@ -427,6 +468,70 @@ pub static CLAUSES: [Clause; 22] = [
         ],
     },
     Clause {
+        id: "NOTICE-1",
+        sentence: "At every moment the parent pointers MUST form a tree rooted at the source, each node one hop \
+                   farther from it than its parent.",
+        checks: &[
+            states(notice::TREE, EVERY_K, Verdict::Holds, &UNFROZEN),
+            spreads(notice::tree_at_random, &notice::SPREADS, &UNFROZEN),
+        ],
+    },
+    Clause {
+        id: "NOTICE-2",
+        sentence: "A node MUST forward an event at most once.",
+        checks: &[
+            states(notice::ONCE, EVERY_K, Verdict::Holds, &FORGETFUL),
+            spreads(notice::once_at_random, &notice::SPREADS, &FORGETFUL),
+        ],
+    },
+    Clause {
+        id: "NOTICE-3",
+        sentence: "With k = ∞ every node that links connect to the source MUST receive the event and forward it, as \
+                   under flooding.",
+        checks: &[
+            states(notice::FLOOD, "all networks of up to 5 nodes, every order", Verdict::Holds, &FINITE),
+            spreads(notice::flood_at_random, &["most nodes forward"], &FINITE),
+        ],
+    },
+    Clause {
+        id: "NOTICE-4",
+        sentence: "A node MUST take the first NOTICE of a newer event of a source as a first one, whatever it has \
+                   made of the events before.",
+        checks: &[
+            Check {
+                subject: Subject::PUBLISHED,
+                expected: Verdict::Refuted,
+                mutants: &[],
+                ..second_event::CHECK
+            },
+            second_event::CHECK,
+        ],
+    },
+    Clause {
+        id: "NOTICE-5",
+        sentence: "Every node that links connect to the source MUST receive the event.",
+        checks: &[
+            states(
+                notice::REACH_WITH_ONE,
+                "all networks of up to 5 nodes, k = 1, every order",
+                Verdict::Refuted,
+                &[],
+            ),
+            states(
+                notice::REACH_WITH_TWO,
+                "all networks of up to 5 nodes, k = 2, every order",
+                Verdict::Refuted,
+                &[],
+            ),
+            states(
+                notice::REACH_WITH_ALL,
+                "all networks of up to 5 nodes, k = ∞, every order",
+                Verdict::Holds,
+                &FINITE,
+            ),
+        ],
+    },
+    Clause {
         id: "MRC-1",
         sentence: "Two robots MUST never be on their way for the same call of a WFR.",
         checks: &[
@@ -613,7 +718,6 @@ mod tests {
     use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
     use super::*;
-    use crate::clause::Body;
     use crate::decide::Prover;
     use crate::engine::{Stop, Tape};
     use crate::search::unwatched;

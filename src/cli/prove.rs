@@ -205,11 +205,20 @@ impl Row {
         Ok(match &self.decision.counterexample {
             None => String::new(),
             Some(Evidence::Choices(choices, demand)) => {
-                format!(
-                    "\n{id} as {}: not so: {demand}. The choices that lead there: {}\n",
-                    rule(&self.check.subject),
-                    listed(choices)
-                )
+                let rule = rule(&self.check.subject);
+                match self.check.method {
+                    Method::Spread { networks, .. } => {
+                        let story = networks.story(&self.check.subject, choices);
+                        format!("\n{id} as {rule}: not so: {demand}.\n{story}")
+                    }
+                    Method::Exhaustive { .. }
+                    | Method::Sampled { .. }
+                    | Method::Search { .. }
+                    | Method::States { .. } => format!(
+                        "\n{id} as {rule}: not so: {demand}. The choices that lead there: {}\n",
+                        listed(choices)
+                    ),
+                }
             }
             Some(Evidence::Run(run)) => {
                 let walls = run.walls.len();
