@@ -11,6 +11,7 @@ pub mod broadcast;
 pub mod chain;
 pub mod choice;
 pub mod grid;
+pub mod homing;
 pub mod lattice;
 pub mod perception;
 pub mod rescue;
