@@ -3,6 +3,7 @@
 pub mod agents;
 pub mod atlas;
 pub mod interval;
+pub mod notice_fig5;
 pub mod optimum;
 pub mod repair_cost;
 
@@ -21,17 +22,20 @@ pub enum Reproduction {
     BricksFig12,
     /// How long agents take, with none missed.
     BricksIdeal,
+    /// Figure 5 of paper 003.
+    NoticeFig5,
 }
 
 impl Reproduction {
     /// All, in order.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::RepairCost,
         Self::Optimum,
         Self::Atlas,
         Self::BricksFig11,
         Self::BricksFig12,
         Self::BricksIdeal,
+        Self::NoticeFig5,
     ];
 
     /// Its name.
@@ -43,6 +47,7 @@ impl Reproduction {
             Self::BricksFig11 => "bricks-fig11",
             Self::BricksFig12 => "bricks-fig12",
             Self::BricksIdeal => "bricks-ideal",
+            Self::NoticeFig5 => "notice-fig5",
         }
     }
 
@@ -72,6 +77,10 @@ impl Reproduction {
             Self::BricksIdeal => {
                 "Brick&Mortar, Ants and both together in offices, no sensor missed: how long until everything is explored, \
                  and until all agents know it, by the number of agents"
+            }
+            Self::NoticeFig5 => {
+                "k-FNF, flooding, counter, distance and scalable broadcasts in random networks: the share of all nodes and \
+                 of those connected to the source that each reaches, and how many nodes forward"
             }
         }
     }

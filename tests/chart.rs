@@ -150,9 +150,11 @@ fn one_point_or_none_or_equal_ones_give_a_chart() {
         let svg = chart(vec![series("a", points(&given))]).svg();
         assert_eq!(marks(&svg), shown, "{given:?}");
     }
-    let [up, across] = labels(&chart(vec![]).svg());
-    assert_eq!((up.first(), up.last()), (Some(&(320.0, 0.0)), Some(&(0.0, 1.0))));
-    assert_eq!(across.len(), up.len());
+    for given in [vec![], points(&[(0.0, 0.0)])] {
+        let [up, across] = labels(&chart(vec![series("a", given)]).svg());
+        assert_eq!((up.first(), up.last()), (Some(&(320.0, 0.0)), Some(&(0.0, 1.0))));
+        assert_eq!(across.len(), up.len());
+    }
 }
 
 #[test]

@@ -298,9 +298,14 @@ fn clauses_are_decided_by_name() {
     let first = &ledger["clauses"][0];
     assert_eq!((&first["id"], &first["verdict"]), (&"CHAIN-10".into(), &"holds".into()));
     assert_eq!(first["mutants"], serde_json::json!({ "killed": 2, "of": 2, "survived": [] }));
+    let told = printed(folder.path(), &["prove", "NOTICE-5"], 0);
+    assert!(
+        told.contains("\n2 hears 1 and is silent.\nNothing more happens; 3 has not heard of the event.\n"),
+        "{told}"
+    );
     assert_snapshot!(refused(folder.path(), &["prove", "CHAIN-99"]), @r#"
     Error: there is no clause "CHAIN-99"
-     Help: the clauses are LATTICE-1, CHAIN-1, CHAIN-2, CHAIN-3, CHAIN-4, CHAIN-5, CHAIN-6, CHAIN-7, CHAIN-8, CHAIN-9, CHAIN-10, CHAIN-11, CHAIN-12, CHAIN-13, CHAIN-14, CHAIN-15
+     Help: the clauses are LATTICE-1, CHAIN-1, CHAIN-2, CHAIN-3, CHAIN-4, CHAIN-5, CHAIN-6, CHAIN-7, CHAIN-8, CHAIN-9, CHAIN-10, CHAIN-11, CHAIN-12, CHAIN-13, CHAIN-14, CHAIN-15, NOTICE-1, NOTICE-2, NOTICE-3, NOTICE-4, NOTICE-5, MRC-1, MRC-2, MRC-3, MRC-4, MRC-5, MRC-6
     "#);
 }
 
@@ -358,10 +363,65 @@ fn the_figures_of_agents_are_the_same_on_any_number_of_threads() {
 }
 
 #[test]
+fn the_reach_of_broadcasts_is_the_same_on_any_number_of_threads() {
+    let folder = folder();
+    let folder = folder.path();
+    let table = |threads| {
+        let arguments = ["reproduce", "notice-fig5", "--nodes", "300,700", "--topologies", "20"];
+        let output = tautline(folder, &[&arguments[..], &["--channel", "shared"]].concat())
+            .env("RAYON_NUM_THREADS", threads)
+            .output()
+            .expect("the program runs");
+        assert_eq!(output.status.code(), Some(0));
+        String::from_utf8(output.stdout).expect("text")
+    };
+    assert_eq!(table("1"), table("3"));
+    assert_snapshot!("reach_of_broadcasts", table("2"));
+    let asked = ["reproduce", "notice-fig5", "--nodes", "300", "--topologies", "3", "--svg-reach", "a.svg"];
+    let measured = json(folder, &[&asked[..], &["--svg-rebroadcasts", "b.svg"]].concat(), 0);
+    let first = &measured["densities"][0]["schemes"][0];
+    assert_eq!((&first["scheme"], &first["paper"]), (&"k-fnf k=1".into(), &1.0.into()));
+    assert_eq!(names(folder), ["a.svg", "b.svg"]);
+    for name in names(folder) {
+        let picture = fs::read_to_string(folder.join(name)).expect("a picture");
+        assert!(picture.starts_with("<svg ") && picture.ends_with("</svg>\n"));
+    }
+}
+
+#[test]
+fn what_is_wrong_with_a_network_is_said_with_a_remedy() {
+    let folder = folder();
+    let wrong: [&[&str]; 16] = [
+        &["--nodes", "0"],
+        &["--nodes", "1"],
+        &["--nodes", "300,1000001"],
+        &["--nodes", "many"],
+        &["--nodes", "20000", "--range", "300"],
+        &["--range", "0"],
+        &["--range", "-1"],
+        &["--range", "nan"],
+        &["--range", "4001"],
+        &["--side", "0"],
+        &["--side", "inf"],
+        &["--k", "0"],
+        &["--k", "9"],
+        &["--topologies", "0"],
+        &["--channel", "quiet"],
+        &["--nodes", "2", "--topologies", "1", "--svg-reach", "."],
+    ];
+    let said = wrong.map(|arguments| {
+        let arguments = [&["reproduce", "notice-fig5"], arguments].concat();
+        format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder.path(), &arguments))
+    });
+    assert_snapshot!("wrong_networks", said.join("\n"));
+    assert_eq!(names(folder.path()), [""; 0]);
+}
+
+#[test]
 fn the_tables_are_listed_and_have_help_with_examples() {
     let folder = folder();
     assert_snapshot!("tables", printed(folder.path(), &["reproduce"], 0));
-    for table in ["repair-cost", "optimum", "bricks-fig11"] {
+    for table in ["repair-cost", "optimum", "bricks-fig11", "notice-fig5"] {
         let help = printed(folder.path(), &["reproduce", table, "--help"], 0);
         assert!(help.contains("Example"), "{table}");
         assert_snapshot!(format!("help_reproduce_{table}"), help);

@@ -47,6 +47,14 @@ fn the_ledger_is_that_of_the_readme() {
 }
 
 #[test]
+fn the_chart_of_the_readme_is_that_of_the_clause() {
+    let printed = printed(&["prove", "MRC-1"], 0);
+    let (_, chart) = printed.split_once("events.\n\n").expect("a chart");
+    let (chart, _) = chart.split_once("\n\nAll").expect("a last line");
+    assert!(document("README.md").contains(chart.trim_end()), "the README shows another chart:\n{chart}");
+}
+
+#[test]
 fn the_atlas_is_that_of_the_readme() {
     let atlas = printed(&["reproduce", "atlas"], 0);
     assert_snapshot!("atlas", atlas);
@@ -61,6 +69,12 @@ fn the_distance_from_the_optimum_is_that_of_the_readme() {
 }
 
 #[test]
+fn the_reach_of_broadcasts_is_that_of_the_readme() {
+    let table = printed(&["reproduce", "notice-fig5"], 0);
+    assert!(document("README.md").contains(&table), "the README shows another table:\n{table}");
+}
+
+#[test]
 fn the_pictures_of_the_readme_are_drawn_by_the_commands_beside_them() {
     let readme = document("README.md");
     let folder = tempfile::tempdir().expect("a folder");
@@ -68,6 +82,8 @@ fn the_pictures_of_the_readme_are_drawn_by_the_commands_beside_them() {
         ("environments.svg", "show environments --svg", 0),
         ("move.svg", "replay docs/open-7x7.jsonl --moves 5..5 --svg", 0),
         ("spiral.svg", "explore open:15x15 --robots 8 --draw order --svg", 0),
+        ("notice-reach.svg", "reproduce notice-fig5 --svg-reach", 0),
+        ("notice-rebroadcasts.svg", "reproduce notice-fig5 --svg-rebroadcasts", 0),
         ("crowding.svg", "replay docs/chain-2-published-n4.jsonl --svg", 1),
     ] {
         assert!(readme.contains(&format!("tautline {arguments} docs/{picture}")), "{picture}");

@@ -14,6 +14,7 @@ pub mod chain;
 pub mod choice;
 pub mod floor;
 pub mod grid;
+pub mod homing;
 pub mod lattice;
 pub mod perception;
 pub mod rescue;

@@ -243,13 +243,12 @@ impl System for Team {
         }
         let body = &mut state.bodies[agent];
         let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors, placed: &mut state.placed };
-        let (act, is_due) = match body.pending.take() {
-            Some(act) => (act, true),
-            None => {
-                let mut world = Misses { world, count: &mut state.misses, most: self.max_misses };
-                let act = body.agent.decide(self.rule, &Scan::new(&floor, body.cell, &mut world));
-                (act, self.turns == Turns::Whole)
-            }
+        let (act, is_due) = if let Some(act) = body.pending.take() {
+            (act, true)
+        } else {
+            let mut world = Misses { world, count: &mut state.misses, most: self.max_misses };
+            let act = body.agent.decide(self.rule, &Scan::new(&floor, body.cell, &mut world));
+            (act, self.turns == Turns::Whole)
         };
         if is_due {
             body.cell = carry_out(&mut floor, body.cell, &act);

@@ -3,14 +3,18 @@
 //! check one macro makes the exhaustive test, the property, the Kani harnesses and the line in the ledger.
 
 use tautline_kernel::bricks;
+use tautline_kernel::broadcast::{self, Conditions};
 use tautline_kernel::chain::{Condition, High, Rule};
 use tautline_kernel::choice::Source;
 use tautline_kernel::lattice::Circle;
+use tautline_kernel::rescue;
 
 use crate::engine::{Outcome, Tally};
 use crate::invariant::Invariant;
+use crate::notice::Networks;
+use crate::rescue::{Demand, Setting};
 
-/// What a check is about: the rule, and how the observer of a mutant is deceived.
+/// What a check is about: the rules, and how the observer of a mutant is deceived.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Subject {
     /// The rule that the team follows.
@@ -23,6 +27,10 @@ pub struct Subject {
     pub bricks: bricks::Rule,
     /// That of Brick&Mortar made robust against missed sensors.
     pub bricks_ants: bricks::Rule,
+    /// The rule of a rescue.
+    pub rescue: rescue::Rule,
+    /// The conditions that the nodes of a network follow.
+    pub notice: Conditions,
 }
 
 /// What no set of conditions can express, done to a mutant on the way from the rule to the check.
@@ -40,6 +48,8 @@ pub enum Sabotage {
     ActsAtOnce,
     /// Sensors do not count crossings.
     CountsNothing,
+    /// k = ∞ is taken for k = 1.
+    FiniteForEndless,
 }
 
 impl Sabotage {
@@ -51,7 +61,8 @@ impl Sabotage {
             | Self::BaseFollows
             | Self::PlainRecursion
             | Self::ActsAtOnce
-            | Self::CountsNothing => byte,
+            | Self::CountsNothing
+            | Self::FiniteForEndless => byte,
         }
     }
 }
@@ -64,13 +75,18 @@ impl Subject {
         sabotage: Sabotage::None,
         bricks: bricks::Rule::PUBLISHED,
         bricks_ants: bricks::Rule::ROBUST,
+        rescue: rescue::Rule::PUBLISHED,
+        notice: Conditions::PUBLISHED,
     };
     /// Everything repaired.
     pub const REPAIRED: Self = Self {
         rule: Rule::REPAIRED,
         intended: Rule::REPAIRED,
+        sabotage: Sabotage::None,
         bricks: bricks::Rule::REPAIRED,
-        ..Self::PUBLISHED
+        bricks_ants: bricks::Rule::ROBUST,
+        rescue: rescue::Rule::REPAIRED,
+        notice: Conditions::REPAIRED,
     };
 
     /// Agents that follow `rule`.
@@ -93,6 +109,11 @@ impl Subject {
         Self::following(Rule::REPAIRED.without(condition))
     }
 
+    /// Robots and WFRs that follow `rule`.
+    pub const fn rescuing(rule: rescue::Rule) -> Self {
+        Self { rescue: rule, ..Self::REPAIRED }
+    }
+
     /// The repaired chain, sabotaged.
     pub const fn sabotaged(sabotage: Sabotage) -> Self {
         Self { sabotage, ..Self::REPAIRED }
@@ -106,6 +127,11 @@ impl Subject {
     /// The repaired chain with another circle of E_C.
     pub const fn with_covered(covered: Circle) -> Self {
         Self::following(Rule { covered, ..Rule::REPAIRED })
+    }
+
+    /// Nodes that broadcast by the repaired rule without one condition.
+    pub const fn hearing_without(condition: broadcast::Condition) -> Self {
+        Self { notice: Conditions::REPAIRED.without(condition), ..Self::REPAIRED }
     }
 
     /// The repaired chain that reads P_high from present positions.
@@ -162,10 +188,17 @@ pub enum Method {
         /// The situations that must occur, sorted.
         covers: &'static [&'static str],
     },
-    /// Every state that can be reached, equal ones merged.
-    States {
+    /// Every state of agents on small floors.
+    Floors {
         /// Goes through them.
         explore: fn(&Subject) -> Tally,
+        /// The situations that must occur, sorted.
+        covers: &'static [&'static str],
+    },
+    /// Every state of an event on its way through small networks.
+    Spread {
+        /// The networks, and the demand on every state.
+        networks: Networks,
         /// The situations that must occur, sorted.
         covers: &'static [&'static str],
     },
@@ -178,6 +211,13 @@ pub enum Method {
         /// What every team move is checked for.
         invariant: Invariant,
     },
+    /// Every state of a rescue.
+    States {
+        /// Robots, WFRs and faults; its rule is the subject's.
+        setting: Setting,
+        /// What every state, or every run, is checked for.
+        demand: Demand,
+    },
 }
 
 impl Method {
@@ -186,8 +226,8 @@ impl Method {
         match self {
             Self::Exhaustive { .. } => "exhaustive",
             Self::Sampled { .. } => "sampled",
-            Self::States { .. } => "states",
             Self::Search { .. } => "search",
+            Self::Floors { .. } | Self::Spread { .. } | Self::States { .. } => "states",
         }
     }
 }

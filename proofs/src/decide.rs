@@ -3,6 +3,7 @@
 
 use crate::clause::{Check, Method, Subject, Verdict};
 use crate::engine::{self, Tally};
+use crate::rescue::{Setting, space};
 use crate::search::{Bounds, Counterexample, Found, Unsearchable, Until, Watch, search};
 
 /// What came of a check.
@@ -10,7 +11,7 @@ use crate::search::{Bounds, Counterexample, Found, Unsearchable, Until, Watch, s
 pub struct Decision {
     /// What it found.
     pub verdict: Verdict,
-    /// Cases of a body that met its assumptions, or runs of a search.
+    /// Cases of a body that met its assumptions, runs of a search, or states.
     pub cases: u64,
     /// The counterexample, if it is refuted.
     pub counterexample: Option<Evidence>,
@@ -34,13 +35,19 @@ pub enum Evidence {
     Choices(Vec<u32>, &'static str),
     /// A run.
     Run(Box<Counterexample>),
+    /// A run of robots and WFRs.
+    Rescue(Box<(Setting, space::Broken)>),
 }
 
 /// Decides checks, and keeps what may be asked again.
 #[derive(Default, Debug)]
 pub struct Prover {
     searches: Vec<(Bounds, Found)>,
+    spaces: Vec<((Setting, space::Until), space::Found)>,
 }
+
+/// States at which a check is left open.
+const MOST_STATES: usize = 4_000_000;
 
 /// The seed of every sampled check.
 const SEED: u64 = 0;
@@ -76,7 +83,8 @@ impl Prover {
             Method::Sampled { body, runs, covers } => {
                 Ok(Decision::of_tally(engine::sample(runs, SEED, |source| body(subject, source)), covers))
             }
-            Method::States { explore, covers } => Ok(Decision::of_tally(explore(subject), covers)),
+            Method::Floors { explore, covers } => Ok(Decision::of_tally(explore(subject), covers)),
+            Method::Spread { networks, covers } => Ok(Decision::of_tally(networks.explore(subject), covers)),
             Method::Search { robots, max_walls, invariant } => {
                 let invariants = match until {
                     Until::Exhausted => invariant.family().to_vec(),
@@ -93,6 +101,22 @@ impl Prover {
                 let counterexample = counterexample.map(|run| Evidence::Run(Box::new(run.clone())));
                 Ok(Decision::new(verdict, found.runs, counterexample))
             }
+            Method::States { setting, demand } => {
+                let setting = Setting { rule: subject.rescue, ..setting };
+                let until = match until {
+                    Until::Exhausted => space::Until::Exhausted,
+                    Until::Violation => space::Until::Broken(demand),
+                };
+                let found = self.states(setting, until);
+                let broken = found.broken(demand).cloned();
+                let verdict = match broken {
+                    Some(_) => Verdict::Refuted,
+                    None if found.complete => Verdict::Holds,
+                    None => Verdict::Open,
+                };
+                let evidence = broken.map(|broken| Evidence::Rescue(Box::new((setting, broken))));
+                Ok(Decision::new(verdict, found.states as u64, evidence))
+            }
         }
     }
 
@@ -104,6 +128,15 @@ impl Prover {
             self.searches.push((bounds, found));
         }
         Ok(&self.searches[place].1)
+    }
+
+    fn states(&mut self, setting: Setting, until: space::Until) -> &space::Found {
+        let known = self.spaces.iter().position(|(known, _)| *known == (setting, until));
+        let place = known.unwrap_or(self.spaces.len());
+        if known.is_none() {
+            self.spaces.push(((setting, until), space::search(&setting, until, MOST_STATES)));
+        }
+        &self.spaces[place].1
     }
 }
 

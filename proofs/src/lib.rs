@@ -12,6 +12,7 @@ pub mod invariant;
 pub mod judge;
 pub mod links;
 mod marking;
+pub mod notice;
 pub mod optimum;
 pub mod pair;
 pub mod plain;

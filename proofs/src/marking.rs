@@ -41,7 +41,7 @@ impl Around {
     }
 
     fn is_neighbour(&self, place: usize) -> bool {
-        place % 2 == 0 && self.accessible[place] && self.spokes[place]
+        place.is_multiple_of(2) && self.accessible[place] && self.spokes[place]
     }
 
     /// Whether all accessible side neighbours can be reached from the first one along the ring.
@@ -92,7 +92,7 @@ pub(crate) fn walled(subject: &Subject, source: &mut dyn Source) -> Outcome {
     let explored = Ring((0..8).fold(0, |ring, place| ring | u8::from(accessible[place]) << place));
     let rims =
         core::array::from_fn(|place| accessible[place] && accessible[(place + 1) % 8] && source.flip());
-    let spokes = core::array::from_fn(|place| place % 2 == 0 && accessible[place] && source.flip());
+    let spokes = core::array::from_fn(|place| place.is_multiple_of(2) && accessible[place] && source.flip());
     decide(subject.bricks, &Around { accessible, unexplored: Ring::default(), explored, rims, spokes })
 }
 

@@ -2,19 +2,26 @@
 
 use tautline_kernel::bricks::Condition::{Alone, Corners, SeenOnly};
 use tautline_kernel::bricks::{self, Precedence};
+use tautline_kernel::broadcast::Condition::{FrozenOnceForwarded, LeastHops, RememberEvent};
 use tautline_kernel::chain::Condition::{
     CoveredBehind, Distinct, EpochMustGain, FullForFollower, FullForLeader, RefusedIsVirtual, SafeAhead,
     Unfold, UnsureAhead,
 };
 use tautline_kernel::chain::{High, Rule};
 use tautline_kernel::lattice::Circle;
+use tautline_kernel::rescue;
+use tautline_kernel::rescue::Condition::{
+    AnswersAgain, ChoiceStands, Consent, Epochs, NearestRobot, Renewal, Repetition, Window,
+};
 
-use crate::bricks as floors;
-use crate::clause::{Check, Clause, Method, Mutant, Sabotage, Subject, Verdict};
+use crate::bricks as small_floors;
+use crate::clause::{Body, Check, Clause, Method, Mutant, Sabotage, Subject, Verdict};
 use crate::engine::Tally;
 use crate::invariant::Invariant;
+use crate::notice::Networks;
+use crate::rescue::{Demand, Faults, Lossy, Setting};
 use crate::run::Breach;
-use crate::{ants, crowd, marking, optimum, pair, small, three, walk, whole};
+use crate::{ants, crowd, marking, notice, optimum, pair, small, three, walk, whole};
 
 /// A mutant.
 const fn mutant(name: &'static str, subject: Subject) -> Mutant {
@@ -148,6 +155,11 @@ exhaustive! {
         covers ["explored", "visited"], unwind 17, mutants {
             without_seen_only: "ways through what reads as unexplored" => Subject::marking_twice_without(SeenOnly),
         };
+    second_event: notice::second_event, Subject::REPAIRED, "whatever became of the event before",
+        covers ["silent about the first", "through with the first", "unaware of the first", "waiting with the first"],
+        unwind 12, mutants {
+            published: "as published" => Subject::PUBLISHED,
+        };
 }
 
 /// Agents that do not look at corners.
@@ -162,15 +174,49 @@ const fn laps(precedence: Precedence) -> Subject {
 }
 
 /// A check of every state of agents on small floors.
-const fn states(
+const fn floors(
     subject: Subject,
     explore: fn(&Subject) -> Tally,
     bound: &'static str,
     expected: Verdict,
     mutants: &'static [Mutant],
 ) -> Check {
-    Check { subject, method: Method::States { explore, covers: &["an end"] }, bound, expected, mutants }
+    Check { subject, method: Method::Floors { explore, covers: &["an end"] }, bound, expected, mutants }
 }
+
+/// A check of every state of every network of up to five nodes.
+const fn states(
+    networks: Networks,
+    bound: &'static str,
+    expected: Verdict,
+    mutants: &'static [Mutant],
+) -> Check {
+    let method = Method::Spread { networks, covers: &notice::EVENTS };
+    Check { subject: Subject::PUBLISHED, method, bound, expected, mutants }
+}
+
+/// The same of random runs in larger networks.
+const fn spreads(body: Body, covers: &'static [&'static str], mutants: &'static [Mutant]) -> Check {
+    Check {
+        subject: Subject::PUBLISHED,
+        method: Method::Sampled { body, runs: 500, covers },
+        bound: "500 random networks of 6 to 40 nodes",
+        expected: Verdict::Holds,
+        mutants,
+    }
+}
+
+const EVERY_K: &str = "all networks of up to 5 nodes, every k, every order";
+
+const UNFROZEN: [Mutant; 2] = [
+    mutant("a later NOTICE with HC ≤ own changes the parent", Subject::hearing_without(FrozenOnceForwarded)),
+    mutant("the parent is the last heard", Subject::hearing_without(LeastHops)),
+];
+
+const FORGETFUL: [Mutant; 1] =
+    [mutant("who has forwarded an event forgets it", Subject::hearing_without(RememberEvent))];
+
+const FINITE: [Mutant; 1] = [mutant("k = ∞ is taken for 1", Subject::sabotaged(Sabotage::FiniteForEndless))];
 
 /// The next larger circle: E_C with eight cells more.
 const WIDER: Circle = Circle::new(34);
@@ -187,7 +233,7 @@ const THREE: (usize, u32) = (4, 3);
 const THREE_BOUND: &str = "all layouts, N = 4, at most 3 walls";
 
 /// Every clause, in the order of `SPEC.md`.
-pub static CLAUSES: [Clause; 23] = [
+pub static CLAUSES: [Clause; 34] = [
     Clause {
         id: "LATTICE-1",
         sentence: "The environments derived from the radii MUST be the sets that the paper draws: E_N the cell and \
@@ -463,7 +509,7 @@ pub static CLAUSES: [Clause; 23] = [
         id: "ANTS-1",
         sentence: "Ants MUST explore every cell that is connected with their start, whatever sensors are missed a \
                    finite number of times.",
-        checks: &[states(
+        checks: &[floors(
             Subject::PUBLISHED,
             ants::explores,
             ants::EXPLORES,
@@ -481,27 +527,27 @@ pub static CLAUSES: [Clause; 23] = [
         id: "BRICKS-2",
         sentence: "The accessible cells MUST stay connected.",
         checks: &[
-            states(
+            floors(
                 Subject::PUBLISHED,
-                floors::connected_alone,
-                floors::ALONE,
+                small_floors::connected_alone,
+                small_floors::ALONE,
                 Verdict::Holds,
                 &[mutant("without corners", NO_CORNERS)],
             ),
-            states(
+            floors(
                 Subject::REPAIRED,
-                floors::connected,
-                floors::TOGETHER,
+                small_floors::connected,
+                small_floors::TOGETHER,
                 Verdict::Holds,
                 &[
                     mutant("without corners", NO_CORNERS),
                     mutant("no lap gives way to another", laps(Precedence::Nobody)),
                 ],
             ),
-            states(
+            floors(
                 Subject::REPAIRED,
-                floors::connected_half_blind,
-                floors::HALF_BLIND,
+                small_floors::connected_half_blind,
+                small_floors::HALF_BLIND,
                 Verdict::Holds,
                 &[mutant("ways through what reads as unexplored", Subject::marking_twice_without(SeenOnly))],
             ),
@@ -510,10 +556,10 @@ pub static CLAUSES: [Clause; 23] = [
     Clause {
         id: "BRICKS-3",
         sentence: "It MUST be enough for BRICKS-2 that two agents take turns whose scans overlap.",
-        checks: &[states(
+        checks: &[floors(
             Subject::REPAIRED,
-            floors::connected_in_turns,
-            floors::IN_TURNS,
+            small_floors::connected_in_turns,
+            small_floors::IN_TURNS,
             Verdict::Holds,
             &[mutant("agents beside each other act at once", Subject::sabotaged(Sabotage::ActsAtOnce))],
         )],
@@ -522,19 +568,25 @@ pub static CLAUSES: [Clause; 23] = [
         id: "BRICKS-4",
         sentence: "An agent MUST be done only when every cell is explored and no other cell is left to go through.",
         checks: &[
-            states(Subject::PUBLISHED, floors::knowing, floors::TOGETHER, Verdict::Refuted, &[]),
-            states(
+            floors(Subject::PUBLISHED, small_floors::knowing, small_floors::TOGETHER, Verdict::Refuted, &[]),
+            floors(
                 Subject::REPAIRED,
-                floors::knowing,
-                floors::TOGETHER,
+                small_floors::knowing,
+                small_floors::TOGETHER,
                 Verdict::Holds,
                 &[mutant("marks cells in which others are", NOT_ALONE)],
             ),
-            states(Subject::PUBLISHED, floors::knowing_half_blind, floors::HALF_BLIND, Verdict::Refuted, &[]),
-            states(
+            floors(
+                Subject::PUBLISHED,
+                small_floors::knowing_half_blind,
+                small_floors::HALF_BLIND,
+                Verdict::Refuted,
+                &[],
+            ),
+            floors(
                 Subject::REPAIRED,
-                floors::robust_knowing_half_blind,
-                floors::HALF_BLIND,
+                small_floors::robust_knowing_half_blind,
+                small_floors::HALF_BLIND,
                 Verdict::Holds,
                 &[mutant("ways through what reads as unexplored", Subject::marking_twice_without(SeenOnly))],
             ),
@@ -544,17 +596,17 @@ pub static CLAUSES: [Clause; 23] = [
         id: "BRICKS-5",
         sentence: "Every cell MUST be explored, whatever sensors are missed a finite number of times.",
         checks: &[
-            states(
+            floors(
                 Subject::PUBLISHED,
-                floors::explores_half_blind,
-                floors::HALF_BLIND,
+                small_floors::explores_half_blind,
+                small_floors::HALF_BLIND,
                 Verdict::Refuted,
                 &[],
             ),
-            states(
+            floors(
                 Subject::REPAIRED,
-                floors::robust_explores_half_blind,
-                floors::HALF_BLIND,
+                small_floors::robust_explores_half_blind,
+                small_floors::HALF_BLIND,
                 Verdict::Holds,
                 &[mutant("ways through what reads as unexplored", Subject::marking_twice_without(SeenOnly))],
             ),
@@ -565,21 +617,225 @@ pub static CLAUSES: [Clause; 23] = [
         sentence: "If no sensor is missed and every agent acts again and again, every run MUST end with every cell \
                    visited.",
         checks: &[
-            states(Subject::PUBLISHED, floors::ends_alone, floors::ALONE, Verdict::Refuted, &[]),
-            states(
+            floors(Subject::PUBLISHED, small_floors::ends_alone, small_floors::ALONE, Verdict::Refuted, &[]),
+            floors(
                 Subject::REPAIRED,
-                floors::ends,
-                floors::TOGETHER,
+                small_floors::ends,
+                small_floors::TOGETHER,
                 Verdict::Holds,
                 &[
                     mutant("both laps give way", laps(Precedence::Everybody)),
                     mutant("marks cells in which others are", NOT_ALONE),
                 ],
             ),
-            states(Subject::REPAIRED, floors::robust_ends, floors::TWICE, Verdict::Holds, &[]),
+            floors(Subject::REPAIRED, small_floors::robust_ends, small_floors::TWICE, Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "NOTICE-1",
+        sentence: "At every moment the parent pointers MUST form a tree rooted at the source, each node one hop \
+                   farther from it than its parent.",
+        checks: &[
+            states(notice::TREE, EVERY_K, Verdict::Holds, &UNFROZEN),
+            spreads(notice::tree_at_random, &notice::SPREADS, &UNFROZEN),
+        ],
+    },
+    Clause {
+        id: "NOTICE-2",
+        sentence: "A node MUST forward an event at most once.",
+        checks: &[
+            states(notice::ONCE, EVERY_K, Verdict::Holds, &FORGETFUL),
+            spreads(notice::once_at_random, &notice::SPREADS, &FORGETFUL),
+        ],
+    },
+    Clause {
+        id: "NOTICE-3",
+        sentence: "With k = ∞ every node that links connect to the source MUST receive the event and forward it, as \
+                   under flooding.",
+        checks: &[
+            states(notice::FLOOD, "all networks of up to 5 nodes, every order", Verdict::Holds, &FINITE),
+            spreads(notice::flood_at_random, &["most nodes forward"], &FINITE),
+        ],
+    },
+    Clause {
+        id: "NOTICE-4",
+        sentence: "A node MUST take the first NOTICE of a newer event of a source as a first one, whatever it has \
+                   made of the events before.",
+        checks: &[
+            Check {
+                subject: Subject::PUBLISHED,
+                expected: Verdict::Refuted,
+                mutants: &[],
+                ..second_event::CHECK
+            },
+            second_event::CHECK,
+        ],
+    },
+    Clause {
+        id: "NOTICE-5",
+        sentence: "Every node that links connect to the source MUST receive the event.",
+        checks: &[
+            states(
+                notice::REACH_WITH_ONE,
+                "all networks of up to 5 nodes, k = 1, every order",
+                Verdict::Refuted,
+                &[],
+            ),
+            states(
+                notice::REACH_WITH_TWO,
+                "all networks of up to 5 nodes, k = 2, every order",
+                Verdict::Refuted,
+                &[],
+            ),
+            states(
+                notice::REACH_WITH_ALL,
+                "all networks of up to 5 nodes, k = ∞, every order",
+                Verdict::Holds,
+                &FINITE,
+            ),
+        ],
+    },
+    Clause {
+        id: "MRC-1",
+        sentence: "Two robots MUST never be on their way for the same call of a WFR.",
+        checks: &[
+            rescued(Subject::PUBLISHED, Demand::OneRobotForACall, TWO_AND_ONE, Verdict::Refuted, &[]),
+            rescued(
+                Subject::REPAIRED,
+                Demand::OneRobotForACall,
+                TWO,
+                Verdict::Holds,
+                &[mutant("redecide on a late MOVE", REDECIDE)],
+            ),
+            rescued(Subject::REPAIRED, Demand::OneRobotForACall, THREE_AND_TWO, Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-2",
+        sentence: "Two WFRs MUST never count on the same robot.",
+        checks: &[
+            rescued(Subject::PUBLISHED, Demand::OneCallForARobot, ONE_AND_TWO, Verdict::Refuted, &[]),
+            rescued(
+                Subject::REPAIRED,
+                Demand::OneCallForARobot,
+                TWO,
+                Verdict::Holds,
+                &[mutant("no consent", Subject::rescuing(rescue::Rule::REPAIRED.without(Consent)))],
+            ),
+            rescued(Subject::REPAIRED, Demand::OneCallForARobot, THREE_AND_TWO, Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-3",
+        sentence: "A WFR MUST choose the best of the MOVEs that it has received when its window closes.",
+        checks: &[
+            rescued(Subject::PUBLISHED, Demand::BestOfTheWindow, TWO_AND_ONE, Verdict::Refuted, &[]),
+            rescued(
+                Subject::REPAIRED,
+                Demand::BestOfTheWindow,
+                TWO,
+                Verdict::Holds,
+                &[
+                    mutant("no collection window", Subject::rescuing(rescue::Rule::REPAIRED.without(Window))),
+                    mutant("redecide on a late MOVE", REDECIDE),
+                    mutant(
+                        "the first MOVE heard",
+                        Subject::rescuing(rescue::Rule::REPAIRED.without(NearestRobot)),
+                    ),
+                    mutant("no epoch", NO_EPOCH),
+                ],
+            ),
+            rescued(Subject::REPAIRED, Demand::BestOfTheWindow, THREE_AND_TWO, Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-4",
+        sentence: "A WFR MUST count on a robot only if the robot has taken the lease of its call, and be rescued only \
+                   by one that has taken a lease of it.",
+        checks: &[
+            rescued(Subject::PUBLISHED, Demand::CountsOnConsent, TWO_AND_ONE, Verdict::Refuted, &[]),
+            rescued(
+                Subject::REPAIRED,
+                Demand::CountsOnConsent,
+                TWO,
+                Verdict::Holds,
+                &[mutant("no consent", Subject::rescuing(rescue::Rule::REPAIRED.without(Consent)))],
+            ),
+            rescued(Subject::REPAIRED, Demand::CountsOnConsent, THREE_AND_TWO, Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-5",
+        sentence: "A WFR that waits MUST be rescued in the end, as long as a robot lives.",
+        checks: &[
+            rescued(Subject::PUBLISHED, Demand::IsServed, TWO_AND_ONE, Verdict::Refuted, &[]),
+            rescued(
+                Subject::REPAIRED,
+                Demand::IsServed,
+                TWO,
+                Verdict::Holds,
+                &[
+                    mutant("no renewal", Subject::rescuing(rescue::Rule::REPAIRED.without(Renewal))),
+                    mutant(
+                        "late MOVEs unanswered",
+                        Subject::rescuing(rescue::Rule::REPAIRED.without(AnswersAgain).without(Repetition)),
+                    ),
+                    mutant("no epoch", NO_EPOCH),
+                ],
+            ),
+            rescued(Subject::REPAIRED, Demand::IsServed, THREE_AND_TWO, Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-6",
+        sentence: "A robot that hears a call under a new epoch MUST have its SBit clear.",
+        checks: &[
+            rescued(Subject::PUBLISHED, Demand::AsksAnew, TWO_AND_ONE, Verdict::Refuted, &[]),
+            rescued(
+                Subject::REPAIRED,
+                Demand::AsksAnew,
+                TWO,
+                Verdict::Holds,
+                &[mutant("no epoch", NO_EPOCH)],
+            ),
+            rescued(Subject::REPAIRED, Demand::AsksAnew, THREE_AND_TWO, Verdict::Holds, &[]),
         ],
     },
 ];
+
+const REDECIDE: Subject = Subject::rescuing(rescue::Rule::REPAIRED.without(ChoiceStands));
+const NO_EPOCH: Subject = Subject::rescuing(rescue::Rule::REPAIRED.without(Epochs));
+
+/// The settings of a rescue, and what they are in words.
+const TWO: (Setting, &str) = (
+    Setting {
+        rule: rescue::Rule::REPAIRED,
+        robots: 2,
+        wfrs: 2,
+        events: 3,
+        max_hops: 1,
+        faults: Faults::any(1),
+        lossy: Lossy::All,
+    },
+    "all states, 2 robots, 2 WFRs, 3 events, at most 1 fault",
+);
+const THREE_AND_TWO: (Setting, &str) =
+    (Setting { robots: 3, events: 2, ..TWO.0 }, "all states, 3 robots, 2 WFRs, 2 events, at most 1 fault");
+
+const TWO_AND_ONE: (Setting, &str) =
+    (Setting { wfrs: 1, events: 2, ..TWO.0 }, "all states, 2 robots, 1 WFR, 2 events, at most 1 fault");
+const ONE_AND_TWO: (Setting, &str) =
+    (Setting { robots: 1, ..TWO.0 }, "all states, 1 robot, 2 WFRs, 3 events, at most 1 fault");
+
+const fn rescued(
+    subject: Subject,
+    demand: Demand,
+    (setting, bound): (Setting, &'static str),
+    expected: Verdict,
+    mutants: &'static [Mutant],
+) -> Check {
+    Check { subject, method: Method::States { setting, demand }, bound, expected, mutants }
+}
 
 const fn runs(subject: Subject, mutants: &'static [Mutant]) -> Check {
     let method = Method::Exhaustive { body: whole::spiral, covers: &["an open area"] };
@@ -626,7 +882,6 @@ mod tests {
     use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
     use super::*;
-    use crate::clause::Body;
     use crate::decide::Prover;
     use crate::engine::{Stop, Tape};
     use crate::search::unwatched;

@@ -11,9 +11,10 @@ pub mod space;
 
 use std::hash::{Hash, Hasher};
 
+use tautline_kernel::broadcast::NodeId;
 use tautline_kernel::rescue::{
-    Bid, Call, Condition, Downward, Epoch, NodeId, Notice, Phase, Resb, Robot, RobotId, Rule, Sent, Served,
-    Task, Upward, Wfr, WfrTimer, Word,
+    Bid, Call, Condition, Downward, Epoch, Notice, Phase, Resb, Robot, RobotId, Rule, Sent, Served, Task,
+    Upward, Wfr, WfrTimer, Word,
 };
 
 /// Most robots of a setting.
@@ -206,7 +207,7 @@ pub struct State {
 }
 
 const fn node(wfr: usize) -> NodeId {
-    NodeId(wfr as u16)
+    NodeId(wfr as u32)
 }
 
 const fn place(id: NodeId) -> usize {

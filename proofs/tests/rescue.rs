@@ -82,3 +82,9 @@ fn the_repaired_rule_holds_with_two_faults() {
     holds(&setting((2, 1), 2, 2, Faults::any(2)), 283_256, 1_045_312);
     holds(&setting((2, 2), 2, 1, Faults::any(2)), 644_372, 2_064_427);
 }
+
+#[test]
+#[ignore = "deeper, some minutes and 2 GiB: cargo test -p tautline-proofs --test rescue -- --ignored"]
+fn the_repaired_rule_holds_for_two_robots_with_three_faults() {
+    holds(&setting((2, 1), 2, 2, Faults::any(3)), 5_572_708, 26_865_616);
+}

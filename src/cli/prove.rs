@@ -9,6 +9,7 @@ use tautline_kernel::lattice::Edge;
 use tautline_proofs::clause::{Check, Clause, Method, Subject};
 use tautline_proofs::decide::{Decision, Evidence, Prover};
 use tautline_proofs::registry::CLAUSES;
+use tautline_proofs::rescue::chart::chart;
 use tautline_proofs::search::{Bounds, Counterexample};
 
 use super::output::Output;
@@ -67,6 +68,7 @@ struct Line {
 enum Shown {
     Choices { demand: &'static str, choices: Vec<u32> },
     Run { demand: &'static str, walls: usize, steps: usize, layout: String },
+    Chart { demand: &'static str, events: usize, chart: String },
 }
 
 #[derive(Serialize)]
@@ -162,6 +164,14 @@ impl Row {
                     layout,
                 })
             }
+            Some(Evidence::Rescue(run)) => {
+                let (setting, broken) = &**run;
+                Some(Shown::Chart {
+                    demand: broken.demand.broken(),
+                    events: broken.actions.len(),
+                    chart: chart(setting, broken),
+                })
+            }
         };
         Ok(Line {
             id: self.clause.id,
@@ -195,11 +205,21 @@ impl Row {
         Ok(match &self.decision.counterexample {
             None => String::new(),
             Some(Evidence::Choices(choices, demand)) => {
-                format!(
-                    "\n{id} as {}: not so: {demand}. The choices that lead there: {}\n",
-                    rule(&self.check.subject),
-                    listed(choices)
-                )
+                let rule = rule(&self.check.subject);
+                match self.check.method {
+                    Method::Spread { networks, .. } => {
+                        let story = networks.story(&self.check.subject, choices);
+                        format!("\n{id} as {rule}: not so: {demand}.\n{story}")
+                    }
+                    Method::Exhaustive { .. }
+                    | Method::Floors { .. }
+                    | Method::Sampled { .. }
+                    | Method::Search { .. }
+                    | Method::States { .. } => format!(
+                        "\n{id} as {rule}: not so: {demand}. The choices that lead there: {}\n",
+                        listed(choices)
+                    ),
+                }
             }
             Some(Evidence::Run(run)) => {
                 let walls = run.walls.len();
@@ -213,6 +233,15 @@ impl Row {
                     Some(setup) => head + &view::story::last_move(&setup)?,
                     None => head,
                 }
+            }
+            Some(Evidence::Rescue(run)) => {
+                let (setting, broken) = &**run;
+                format!(
+                    "\n{id} as {}: the shortest run that breaks it has {} events.\n\n{}",
+                    rule(&self.check.subject),
+                    broken.actions.len(),
+                    chart(setting, broken)
+                )
             }
         })
     }

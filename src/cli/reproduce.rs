@@ -2,6 +2,7 @@
 
 mod agents;
 mod atlas;
+mod notice_fig5;
 mod optimum;
 mod repair_cost;
 
@@ -44,6 +45,8 @@ enum Table {
     BricksFig12(agents::Agents),
     /// How long agents take, with none missed.
     BricksIdeal(agents::Agents),
+    #[command(name = "notice-fig5")]
+    NoticeFig5(notice_fig5::NoticeFig5),
 }
 
 #[derive(Serialize)]
@@ -67,6 +70,7 @@ impl Reproduce {
             Some(Table::BricksFig11(table)) => table.run(Reproduction::BricksFig11, Figure::Agents, out),
             Some(Table::BricksFig12(table)) => table.run(Reproduction::BricksFig12, Figure::Area, out),
             Some(Table::BricksIdeal(table)) => table.run(Reproduction::BricksIdeal, Figure::Ideal, out),
+            Some(Table::NoticeFig5(table)) => table.run(out),
         }
     }
 

@@ -82,7 +82,8 @@ impl Scan {
                 Mark::Unexplored => scan.unexplored.0 |= bit,
                 Mark::Explored => scan.explored.0 |= bit,
                 Mark::Closing => {
-                    (scan.explored.0, scan.closing.0) = (scan.explored.0 | bit, scan.closing.0 | bit)
+                    scan.explored.0 |= bit;
+                    scan.closing.0 |= bit;
                 }
                 Mark::Visited => scan.visited.0 |= bit,
                 Mark::Sealed => {}

@@ -1,21 +1,20 @@
 //! What MRC sends (paper 003, 3.2 and 3.3): NOTICE⟨RID, ID, HC⟩, MOVE⟨SN, MID, MHC, PID⟩ and RESB⟨RSN, MID⟩. To each the
 //! repair adds the epoch, and to the robot's words that it accepts or declines.
 
-/// The identity of a sensor node: RID, SN and RSN of a WFR, ID of a sender, PID of a parent.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub struct NodeId(pub u16);
+use crate::broadcast::{self, NodeId};
 
 /// The identity of a robot: MID.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct RobotId(pub u16);
 
-/// How often a WFR has called before. A call under a new epoch spreads through the network anew.
+/// The number of a WFR's call: from 1 on, each larger than the one before. A call under a new epoch is a new event to the
+/// nodes, and spreads through the network anew.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Epoch(pub u32);
 
 impl Epoch {
     /// The epoch of a WFR's first call.
-    pub const FIRST: Self = Self(0);
+    pub const FIRST: Self = Self(1);
 
     /// The epoch after this one. The last is its own successor, which is four thousand million calls away.
     pub const fn next(self) -> Self {
@@ -50,6 +49,13 @@ pub struct Notice {
     pub hops: u16,
     /// ID: who sent it on.
     pub sender: NodeId,
+}
+
+impl From<broadcast::Notice> for Notice {
+    fn from(notice: broadcast::Notice) -> Self {
+        let broadcast::Notice { source, event, sender, hops } = notice;
+        Self { call: Call { wfr: source, epoch: Epoch(event) }, hops, sender }
+    }
 }
 
 /// RESB⟨RSN, MID⟩, on its way to one of the robots that sent MOVE.

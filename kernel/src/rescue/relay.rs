@@ -1,7 +1,8 @@
 //! A path node's part in MRC (paper 003, 3.3, step 3): what a robot sends goes from parent to parent, and a RESB the
 //! same way back. The paper names no way back: a path node remembers, by SN and MID, who gave it the robot's message.
 
-use super::message::{Call, NodeId, Resb, RobotId, Upward};
+use super::message::{Call, Resb, RobotId, Upward};
+use crate::broadcast::NodeId;
 
 /// Who is one hop away.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -66,7 +67,7 @@ mod tests {
     use super::super::message::{Epoch, Word};
     use super::*;
 
-    const fn message(robot: u16, epoch: u32, parent: u16) -> Upward {
+    const fn message(robot: u16, epoch: u32, parent: u32) -> Upward {
         let call = Call { wfr: NodeId(0), epoch: Epoch(epoch) };
         Upward { call, robot: RobotId(robot), word: Word::Move { hops: 3 }, parent: NodeId(parent) }
     }

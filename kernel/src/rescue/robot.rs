@@ -1,7 +1,8 @@
 //! A robot's part in MRC (paper 003, 3.3, steps 1, 2 and 5): the request table T_REQ, what it asks for, and where it goes.
 
-use super::message::{Call, Downward, NodeId, Notice, Resb, RobotId, Upward, Word};
+use super::message::{Call, Downward, Notice, Resb, RobotId, Upward, Word};
 use super::rule::{Condition, Rule};
+use crate::broadcast::NodeId;
 
 /// SBit: whether a robot still has to do with a call.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -240,11 +241,11 @@ mod tests {
     const ME: RobotId = RobotId(1);
     const OTHER: RobotId = RobotId(2);
 
-    const fn call(wfr: u16, epoch: u32) -> Call {
+    const fn call(wfr: u32, epoch: u32) -> Call {
         Call { wfr: NodeId(wfr), epoch: Epoch(epoch) }
     }
 
-    const fn notice(call: Call, hops: u16, sender: u16) -> Downward {
+    const fn notice(call: Call, hops: u16, sender: u32) -> Downward {
         Downward::Notice(Notice { call, hops, sender: NodeId(sender) })
     }
 
@@ -256,7 +257,7 @@ mod tests {
         messages.iter().fold((Robot::new(rule, ME), None), |(robot, _), &message| robot.receive(message))
     }
 
-    fn word(sent: Option<Upward>) -> Option<(u16, u32, Word)> {
+    fn word(sent: Option<Upward>) -> Option<(u32, u32, Word)> {
         sent.map(|sent| (sent.call.wfr.0, sent.call.epoch.0, sent.word))
     }
 

@@ -1,8 +1,9 @@
 //! A WFR's part in MRC (paper 003, 3.3, step 4): it calls, hears MOVEs, chooses a robot, tells all that have asked, and
 //! waits until the one chosen is there.
 
-use super::message::{Bid, Call, Epoch, NodeId, Notice, Resb, RobotId, Upward, Word};
+use super::message::{Bid, Call, Epoch, Notice, Resb, RobotId, Upward, Word};
 use super::rule::{Condition, Rule};
+use crate::broadcast::NodeId;
 
 /// How far a rescue has come.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -256,7 +257,7 @@ mod tests {
     }
 
     const fn bid(robot: u16, hops: u16) -> Upward {
-        word(robot, 0, Word::Move { hops })
+        word(robot, 1, Word::Move { hops })
     }
 
     fn after(rule: Rule, messages: &[Upward]) -> (Wfr<2>, Sent<2>) {
@@ -291,7 +292,7 @@ mod tests {
     #[test]
     fn a_window_without_a_move_makes_a_new_call() {
         let (wfr, sent) = closed(after(Rule::REPAIRED, &[]).0);
-        let call = Call { wfr: ME, epoch: Epoch(1) };
+        let call = Call { wfr: ME, epoch: Epoch(2) };
         assert_eq!(sent, Sent::Notice(Notice { call, hops: 0, sender: ME }));
         assert_eq!((wfr.call(), wfr.phase()), (call, Phase::Collecting { best: None }));
     }
@@ -319,11 +320,11 @@ mod tests {
     fn what_names_another_wfr_or_epoch_changes_nothing() {
         let (wfr, _) = after(Rule::REPAIRED, &[bid(1, 4)]);
         let elsewhere = Call { wfr: NodeId(8), epoch: Epoch::FIRST };
-        for stray in [word(2, 1, Word::Move { hops: 1 }), Upward { call: elsewhere, ..bid(2, 1) }] {
+        for stray in [word(2, 2, Word::Move { hops: 1 }), Upward { call: elsewhere, ..bid(2, 1) }] {
             assert_eq!(wfr.receive(stray), (wfr, Sent::Nothing));
         }
         let (wfr, _) = closed(wfr);
-        for stray in [word(1, 1, Word::Accept), word(2, 0, Word::Accept), word(2, 0, Word::Decline)] {
+        for stray in [word(1, 2, Word::Accept), word(2, 1, Word::Accept), word(2, 1, Word::Decline)] {
             assert_eq!(wfr.receive(stray), (wfr, Sent::Nothing));
         }
         let idle = Wfr::<2>::new(Rule::REPAIRED, ME);
@@ -336,13 +337,13 @@ mod tests {
         let (again, sent) = wfr.expire(wfr.timer().expect("a timer runs"));
         assert_eq!(sent, Sent::One(resb(1, 1)));
         let (called, sent) = again.expire(again.timer().expect("a timer runs"));
-        assert!(matches!(sent, Sent::Notice(_)) && called.call().epoch == Epoch(1));
-        let (leased, _) = again.receive(word(1, 0, Word::Accept));
+        assert!(matches!(sent, Sent::Notice(_)) && called.call().epoch == Epoch(2));
+        let (leased, _) = again.receive(word(1, 1, Word::Accept));
         assert_eq!(leased.timer(), Some(WfrTimer::Lease(Epoch::FIRST)));
         let (called, _) = leased.expire(WfrTimer::Lease(Epoch::FIRST));
-        assert_eq!(called.call().epoch, Epoch(1));
-        let (called, _) = wfr.receive(word(1, 0, Word::Decline));
-        assert_eq!(called.call().epoch, Epoch(1));
+        assert_eq!(called.call().epoch, Epoch(2));
+        let (called, _) = wfr.receive(word(1, 1, Word::Decline));
+        assert_eq!(called.call().epoch, Epoch(2));
     }
 
     #[test]

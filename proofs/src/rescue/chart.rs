@@ -55,11 +55,13 @@ pub fn chart(setting: &Setting, broken: &Broken) -> String {
 
 /// How far each robot is from each WFR.
 fn hops(setting: &Setting, state: &State) -> String {
+    let to: Vec<String> = (0..setting.wfrs).map(|wfr| name(Actor::Wfr(wfr))).collect();
     let of = |robot: usize| {
         let far: Vec<String> = state.hops[robot][..setting.wfrs].iter().map(u16::to_string).collect();
-        format!("{} {}", name(Actor::Robot(robot)), far.join(" and "))
+        format!("{}: {}", name(Actor::Robot(robot)), far.join(", "))
     };
-    format!("hops to the WFR: {}", (0..setting.robots).map(of).collect::<Vec<_>>().join(", "))
+    let robots: Vec<String> = (0..setting.robots).map(of).collect();
+    format!("hops to {}: {}", to.join(", "), robots.join("; "))
 }
 
 fn name(actor: Actor) -> String {

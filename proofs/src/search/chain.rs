@@ -83,7 +83,11 @@ where
         let (mut forged_steps, mut forged_messages) = ([Step::Stay; ROBOTS], [0; ROBOTS]);
         let (mut steps, mut messages) = (plan.steps(), sent);
         match subject.sabotage {
-            Sabotage::None | Sabotage::PlainRecursion | Sabotage::ActsAtOnce | Sabotage::CountsNothing => {}
+            Sabotage::None
+            | Sabotage::PlainRecursion
+            | Sabotage::ActsAtOnce
+            | Sabotage::CountsNothing
+            | Sabotage::FiniteForEndless => {}
             Sabotage::BaseFollows => {
                 let forged = &mut forged_steps[..steps.len()];
                 forged.copy_from_slice(steps);

@@ -1,0 +1,367 @@
+//! TAN (paper 003, 3.4): the robot asks its parent for a signal, turns its antenna once round, walks towards the
+//! strongest direction, and asks the next parent when it is there, with a hop count one less each time, until it is 0.
+//!
+//! What the paper leaves open: a robot that hears nothing asks again, and gives up after so many times; one that
+//! walks past the node, since a direction is off by up to 7.5°, scans again.
+
+use super::Strength;
+use super::heading::{Heading, Scan};
+use crate::broadcast::NodeId;
+use crate::rescue::RobotId;
+
+/// REQNAV⟨SN, MID, PID⟩.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct ReqNav {
+    /// SN: where the robot goes.
+    pub wfr: NodeId,
+    /// MID: who asks.
+    pub robot: RobotId,
+    /// PID: the node that is to send the signal.
+    pub node: NodeId,
+}
+
+/// NAV: a path node's signal, with its parent in it, as the paper suggests.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Nav {
+    /// SN: the root of the tree.
+    pub wfr: NodeId,
+    /// Who sends.
+    pub node: NodeId,
+    /// HC: its hops from the WFR.
+    pub hops: u16,
+    /// Its parent; its own identity at the WFR.
+    pub parent: NodeId,
+}
+
+/// What a node does for a time of length T_x.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Conduct {
+    /// It has nothing to do with a robot.
+    Idle,
+    /// It sends NAV.
+    Signals(Nav),
+    /// It keeps silent, so as not to disturb another's signal.
+    Silent,
+}
+
+/// A path node's part in TAN.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Guide {
+    /// What it does until T_x has passed.
+    pub conduct: Conduct,
+}
+
+impl Guide {
+    /// A node that nobody has asked.
+    pub const IDLE: Self = Self { conduct: Conduct::Idle };
+
+    /// A REQNAV has arrived; `own` is the node's place in the tree of that WFR, if it is a path node. The one that is asked
+    /// signals, the others keep silent, each for T_x from now. One that keeps silent for another robot's sake does not
+    /// signal: the robot asks again.
+    #[must_use]
+    pub fn request(self, request: ReqNav, id: NodeId, own: Option<Nav>) -> Self {
+        let own = own.filter(|own| request.node == id && own.node == id && own.wfr == request.wfr);
+        match (self.conduct, own) {
+            (Conduct::Idle | Conduct::Signals(_), Some(own)) => Self { conduct: Conduct::Signals(own) },
+            (Conduct::Silent, Some(_)) | (Conduct::Signals(_), None) => self,
+            (Conduct::Idle | Conduct::Silent, None) => Self { conduct: Conduct::Silent },
+        }
+    }
+
+    /// Another node's NAV has been heard: silence for T_x from now, unless it sends itself.
+    #[must_use]
+    pub const fn overhear(self) -> Self {
+        match self.conduct {
+            Conduct::Signals(_) => self,
+            Conduct::Idle | Conduct::Silent => Self { conduct: Conduct::Silent },
+        }
+    }
+
+    /// T_x has passed.
+    #[must_use]
+    pub const fn expire(self) -> Self {
+        Self::IDLE
+    }
+}
+
+/// How far a robot has come.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Stage {
+    /// It has asked a node for its signal.
+    Asking {
+        /// Which.
+        node: NodeId,
+    },
+    /// It hears the signal and turns its antenna.
+    Scanning {
+        /// Whose signal.
+        nav: Nav,
+        /// How far round it is.
+        scan: Scan,
+    },
+    /// It walks towards the node.
+    Walking {
+        /// Whose signal.
+        nav: Nav,
+        /// The direction.
+        heading: Heading,
+        /// The strongest signal on this walk.
+        strongest: Strength,
+    },
+    /// It is at the WFR.
+    Arrived,
+    /// A node did not answer: the robot no longer knows its way.
+    Lost,
+}
+
+/// What the robot is to do next.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Order {
+    /// Send this and wait for the signal.
+    Ask(ReqNav),
+    /// Point the antenna there and measure.
+    Point(Heading),
+    /// Walk a little that way and measure.
+    Walk(Heading),
+    /// Nothing: it is where it wanted to be, or lost.
+    Stop,
+}
+
+/// A robot on its way through the tree of a WFR.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Homing {
+    wfr: NodeId,
+    robot: RobotId,
+    hops: u16,
+    tries: u8,
+    tries_left: u8,
+    near: Strength,
+    stage: Stage,
+}
+
+impl Homing {
+    /// A robot that sets out, `hops` from the WFR, by its parent in the tree. It is at a node when the node's signal is at
+    /// least `near`, and asks each node at least once and at most `tries` times in vain.
+    pub const fn new(
+        wfr: NodeId,
+        robot: RobotId,
+        parent: NodeId,
+        hops: u16,
+        near: Strength,
+        tries: u8,
+    ) -> Self {
+        let tries_left = tries.saturating_sub(1);
+        Self { wfr, robot, hops, tries, tries_left, near, stage: Stage::Asking { node: parent } }
+    }
+
+    /// How far it has come.
+    pub const fn stage(&self) -> Stage {
+        self.stage
+    }
+
+    /// Its hops from the WFR: one more than those of the node to which it goes.
+    pub const fn hops(&self) -> u16 {
+        self.hops
+    }
+
+    /// What it is to do now.
+    pub const fn order(&self) -> Order {
+        match self.stage {
+            Stage::Asking { node } => Order::Ask(ReqNav { wfr: self.wfr, robot: self.robot, node }),
+            Stage::Scanning { scan, .. } => match scan.heading() {
+                Some(heading) => Order::Point(heading),
+                None => Order::Stop,
+            },
+            Stage::Walking { heading, .. } => Order::Walk(heading),
+            Stage::Arrived | Stage::Lost => Order::Stop,
+        }
+    }
+
+    /// A NAV has arrived. Only the node that was asked counts, in the tree of this WFR, one hop nearer than the robot.
+    #[must_use]
+    pub fn hear(mut self, nav: Nav) -> Self {
+        let is_nearer = nav.hops.checked_add(1) == Some(self.hops);
+        match self.stage {
+            Stage::Asking { node } if nav.node == node && nav.wfr == self.wfr && is_nearer => {
+                self.stage = Stage::Scanning { nav, scan: Scan::START };
+            }
+            Stage::Asking { .. }
+            | Stage::Scanning { .. }
+            | Stage::Walking { .. }
+            | Stage::Arrived
+            | Stage::Lost => {}
+        }
+        self
+    }
+
+    /// The strength of the signal after what [`Self::order`] says, pointing or walking; `None` if nothing is heard.
+    #[must_use]
+    pub fn measure(mut self, heard: Option<Strength>) -> Self {
+        match self.stage {
+            Stage::Scanning { nav, scan } => {
+                let scan = scan.measure(heard);
+                match (scan.heading(), scan.best()) {
+                    (Some(_), _) => self.stage = Stage::Scanning { nav, scan },
+                    (None, Some((strength, _))) if strength >= self.near => self.reach(nav),
+                    (None, Some((strongest, heading))) => {
+                        self.stage = Stage::Walking { nav, heading, strongest };
+                    }
+                    (None, None) => self.ask_again(nav.node),
+                }
+            }
+            Stage::Walking { nav, heading, strongest } => match heard {
+                Some(strength) if strength >= self.near => self.reach(nav),
+                Some(strength) if strength >= strongest => {
+                    self.stage = Stage::Walking { nav, heading, strongest: strength };
+                }
+                Some(_) => self.stage = Stage::Scanning { nav, scan: Scan::START },
+                None => self.ask_again(nav.node),
+            },
+            Stage::Asking { .. } | Stage::Arrived | Stage::Lost => {}
+        }
+        self
+    }
+
+    /// It has waited in vain for the signal of the node that it has asked.
+    #[must_use]
+    pub const fn expire(mut self) -> Self {
+        match self.stage {
+            Stage::Asking { node } => self.ask_again(node),
+            Stage::Scanning { .. } | Stage::Walking { .. } | Stage::Arrived | Stage::Lost => {}
+        }
+        self
+    }
+
+    /// It is at the node: the next is the node's parent, one hop nearer.
+    const fn reach(&mut self, nav: Nav) {
+        self.hops = nav.hops;
+        self.tries_left = self.tries.saturating_sub(1);
+        self.stage = if nav.hops == 0 { Stage::Arrived } else { Stage::Asking { node: nav.parent } };
+    }
+
+    const fn ask_again(&mut self, node: NodeId) {
+        self.stage = match self.tries_left.checked_sub(1) {
+            Some(tries_left) => {
+                self.tries_left = tries_left;
+                Stage::Asking { node }
+            }
+            None => Stage::Lost,
+        };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WFR: NodeId = NodeId(0);
+
+    /// Node `hops` of a line of nodes 20 m apart.
+    const fn nav(hops: u16) -> Nav {
+        let parent = NodeId(hops.saturating_sub(1) as u32);
+        Nav { wfr: WFR, node: NodeId(hops as u32), hops, parent }
+    }
+
+    const fn start(hops: u16) -> Homing {
+        Homing::new(WFR, RobotId(1), NodeId(hops as u32 - 1), hops, Strength(-1_000), 3)
+    }
+
+    /// Minus the distance in millimetres, less one part in eight for each direction that the antenna is off.
+    fn heard(antenna: Heading, (x_mm, y_mm): (i32, i32)) -> Strength {
+        let off = Heading::all().filter(|heading| {
+            let turned = |steps: u8| Heading::towards(x_mm, y_mm).turned(steps) == antenna;
+            let steps = heading.degrees() / 15;
+            steps <= 12 && (turned(steps as u8) || turned(24 - steps as u8))
+        });
+        let off = off.map(|heading| i32::from(heading.degrees() / 15)).min().unwrap_or(12);
+        let distance =
+            i32::try_from((i64::from(x_mm).pow(2) + i64::from(y_mm).pow(2)).isqrt()).unwrap_or(i32::MAX);
+        Strength(-(distance + distance / 8 * off))
+    }
+
+    #[test]
+    fn a_robot_reaches_the_wfr_node_after_node_with_a_hop_count_one_less_each_time() {
+        let nodes: [(i32, i32); 5] =
+            [(0, 0), (14_000, 14_000), (33_000, 9_000), (47_000, -4_000), (60_000, 11_000)];
+        let (mut x, mut y) = (71_000, 26_000);
+        let mut robot = start(5);
+        let mut hops_seen = 5;
+        for _ in 0..20_000 {
+            match robot.order() {
+                Order::Ask(request) => robot = robot.hear(nav(request.node.0 as u16)),
+                Order::Point(antenna) | Order::Walk(antenna) => {
+                    let (node, is_walk) = match robot.stage() {
+                        Stage::Walking { nav, .. } => (nav.node, true),
+                        Stage::Scanning { nav, .. } => (nav.node, false),
+                        Stage::Asking { .. } | Stage::Arrived | Stage::Lost => unreachable!(),
+                    };
+                    if is_walk {
+                        // A quarter of a metre.
+                        let (cosine, sine) = antenna.vector();
+                        (x, y) = (x + cosine / 4_000, y + sine / 4_000);
+                    }
+                    let (node_x, node_y) = nodes[node.0 as usize];
+                    robot = robot.measure(Some(heard(antenna, (node_x - x, node_y - y))));
+                }
+                Order::Stop => break,
+            }
+            assert!(robot.hops() == hops_seen || robot.hops() + 1 == hops_seen, "one hop at a time");
+            hops_seen = robot.hops();
+        }
+        assert_eq!((robot.stage(), robot.hops()), (Stage::Arrived, 0));
+        assert!(x.abs() <= 1_000 && y.abs() <= 1_000, "({x}, {y})");
+    }
+
+    #[test]
+    fn only_the_node_that_was_asked_is_heard_and_only_if_it_is_one_hop_nearer() {
+        let robot = start(3);
+        for stray in [
+            nav(1),
+            nav(3),
+            Nav { wfr: NodeId(9), ..nav(2) },
+            Nav { hops: 3, ..nav(2) },
+            Nav { hops: u16::MAX, ..nav(2) },
+        ] {
+            assert_eq!(robot.hear(stray), robot, "{stray:?}");
+        }
+        assert_eq!(robot.hear(nav(2)).order(), Order::Point(Heading::FIRST));
+    }
+
+    #[test]
+    fn a_node_that_does_not_answer_is_asked_again_and_then_the_robot_is_lost() {
+        let mut robot = start(2);
+        for _ in 0..3 {
+            assert!(matches!(robot.order(), Order::Ask(_)));
+            robot = robot.expire();
+        }
+        assert_eq!((robot.stage(), robot.order()), (Stage::Lost, Order::Stop));
+    }
+
+    #[test]
+    fn a_robot_that_walks_past_the_node_scans_again_and_one_that_hears_nothing_asks_again() {
+        let scanned = (0..24).fold(start(2).hear(nav(1)), |robot, _| robot.measure(Some(Strength(-9_000))));
+        assert_eq!(scanned.order(), Order::Walk(Heading::FIRST));
+        let nearer = scanned.measure(Some(Strength(-8_000)));
+        assert_eq!(nearer.order(), Order::Walk(Heading::FIRST));
+        assert_eq!(nearer.measure(Some(Strength(-8_500))).order(), Order::Point(Heading::FIRST));
+        assert!(matches!(nearer.measure(None).order(), Order::Ask(_)));
+        let deaf = |robot: Homing| (0..24).fold(robot.hear(nav(1)), |robot, _| robot.measure(None));
+        assert!(matches!(deaf(start(2)).order(), Order::Ask(_)));
+        assert_eq!(deaf(deaf(deaf(start(2)))).stage(), Stage::Lost);
+    }
+
+    #[test]
+    fn the_node_that_is_asked_signals_and_the_others_keep_silent_until_the_time_has_passed() {
+        let request = ReqNav { wfr: WFR, robot: RobotId(1), node: NodeId(2) };
+        let asked = Guide::IDLE.request(request, NodeId(2), Some(nav(2)));
+        assert_eq!(asked.conduct, Conduct::Signals(nav(2)));
+        assert_eq!(asked.overhear(), asked);
+        for (id, own) in [(3, Some(nav(3))), (7, None), (2, None)] {
+            let other = Guide::IDLE.request(request, NodeId(id), own);
+            assert_eq!(other.conduct, Conduct::Silent, "{id}");
+            assert_eq!(other.expire(), Guide::IDLE);
+        }
+        let silent = Guide::IDLE.overhear();
+        assert_eq!(silent.request(request, NodeId(2), Some(nav(2))), silent);
+    }
+}

@@ -1,0 +1,539 @@
+//! How an event spreads, under every order in which NOTICEs arrive and waits end (NOTICE-1 to NOTICE-5). Time is left
+//! out: whatever is under way may arrive next, once or again, whoever waits may be next to forward, and what never
+//! arrives is lost. So node numbers play no part either, and one network of each shape is enough.
+
+use core::num::NonZeroU32;
+
+use tautline_kernel::broadcast::{
+    Count, Node, NodeId, Notice, Reaction, Reception, Rule, Scheme, Stage, Surroundings,
+};
+use tautline_kernel::choice::Source;
+
+use crate::clause::{Sabotage, Subject};
+use crate::engine::{Next, Outcome, Stop, Tally, reachable, require};
+
+/// A network: for each node a bit for each neighbour. The source is node 0.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+struct Links<const NODES: usize>([u64; NODES]);
+
+impl<const NODES: usize> Links<NODES> {
+    const NONE: Self = Self([0; NODES]);
+
+    fn add(&mut self, one: usize, other: usize) {
+        self.0[one] |= 1 << other;
+        self.0[other] |= 1 << one;
+    }
+
+    /// The nodes that links connect to the source, a bit for each.
+    fn component(&self) -> u64 {
+        let mut found = 1;
+        loop {
+            let further = ones(found).fold(found, |found, node| found | self.0[node]);
+            if further == found {
+                return found;
+            }
+            found = further;
+        }
+    }
+}
+
+/// The places of the ones, ascending.
+fn ones(bits: u64) -> impl Iterator<Item = usize> {
+    (0..64).filter(move |place| bits >> place & 1 == 1)
+}
+
+/// What can happen next.
+#[derive(Clone, Copy)]
+enum Event {
+    /// A NOTICE arrives.
+    Arrives { from: usize, to: usize },
+    /// A NOTICE arrives, and another copy of it is still under way.
+    ArrivesAgain { from: usize, to: usize },
+    /// A wait ends.
+    Expires { at: usize },
+}
+
+/// An event on its way through a network.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+struct Spread<const NODES: usize> {
+    nodes: [Node; NODES],
+    /// The hop count of each node's last NOTICE.
+    sent: [u16; NODES],
+    /// For each node a bit for each to whom its NOTICE is under way.
+    under_way: [u64; NODES],
+    /// How often each node has forwarded; more than twice is twice.
+    forwards: [u8; NODES],
+}
+
+/// A source that is never asked for more than a wait, which plays no part.
+struct AtOnce;
+
+impl Source for AtOnce {
+    fn pick(&mut self, _: u32) -> u32 {
+        0
+    }
+}
+
+/// Any distance will do.
+const RANGE: NonZeroU32 = NonZeroU32::MIN;
+
+/// A NOTICE of the first event.
+const fn notice(sender: usize) -> Notice {
+    Notice { source: NodeId(0), event: 1, sender: NodeId(sender as u32), hops: 0 }
+}
+
+/// All waits are over as soon as they begin.
+fn hear(node: &mut Node, rule: &Rule, notice: Notice) -> Reaction {
+    let reception = Reception { notice, distance_um: RANGE.get(), now_ns: 0 };
+    node.receive(rule, reception, Surroundings::none(), &mut AtOnce)
+}
+
+impl<const NODES: usize> Spread<NODES> {
+    /// The source has sent.
+    fn start(links: &Links<NODES>) -> Self {
+        let mut spread = Self {
+            nodes: core::array::from_fn(|id| Node::new(NodeId(id as u32), NodeId(0))),
+            sent: [0; NODES],
+            under_way: [0; NODES],
+            forwards: [0; NODES],
+        };
+        spread.nodes[0].originate();
+        spread.under_way[0] = links.0[0];
+        spread
+    }
+
+    fn events(&self) -> Vec<Event> {
+        let mut events = Vec::new();
+        for from in 0..NODES {
+            for to in ones(self.under_way[from]) {
+                events.extend([Event::Arrives { from, to }, Event::ArrivesAgain { from, to }]);
+            }
+        }
+        let waits = |&at: &usize| matches!(self.nodes[at].stage(), Stage::Waiting { .. });
+        events.extend((0..NODES).filter(waits).map(|at| Event::Expires { at }));
+        events
+    }
+
+    fn hears(&self, rule: &Rule, from: usize, to: usize) -> Node {
+        let mut node = self.nodes[to];
+        hear(&mut node, rule, Notice { hops: self.sent[from], ..notice(from) });
+        node
+    }
+
+    fn after(mut self, rule: &Rule, links: &Links<NODES>, event: Event) -> Self {
+        match event {
+            Event::Arrives { from, to } => {
+                self.nodes[to] = self.hears(rule, from, to);
+                self.under_way[from] &= !(1 << to);
+            }
+            Event::ArrivesAgain { from, to } => self.nodes[to] = self.hears(rule, from, to),
+            Event::Expires { at } => {
+                let forwarded = self.nodes[at].expire(0);
+                self.sent[at] = forwarded.map_or(0, |notice| notice.hops);
+                self.under_way[at] = links.0[at];
+                self.forwards[at] = 2.min(self.forwards[at] + 1);
+            }
+        }
+        self.drop_idle(rule);
+        self
+    }
+
+    /// Leaves out what is under way to a node that is done and does not change by it, which then never will.
+    fn drop_idle(&mut self, rule: &Rule) {
+        for from in 0..NODES {
+            for to in ones(self.under_way[from]) {
+                let is_done = matches!(self.nodes[to].stage(), Stage::Silent | Stage::Forwarded);
+                if is_done && self.hears(rule, from, to) == self.nodes[to] {
+                    self.under_way[from] &= !(1 << to);
+                }
+            }
+        }
+    }
+
+    /// Parent by parent every node that knows of the event comes to the source, each one hop farther than the next.
+    fn is_tree(&self) -> Result<(), Stop> {
+        for node in self.nodes.iter().filter(|node| node.event().is_some()) {
+            let mut ancestor = node;
+            for _ in 0..NODES {
+                if let Some(parent) = ancestor.parent().and_then(|parent| self.nodes.get(parent.0 as usize)) {
+                    ancestor = parent;
+                }
+            }
+            require(ancestor == &self.nodes[0], "parent by parent every node comes to the source")?;
+            if let Some(parent) = node.parent().and_then(|parent| self.nodes.get(parent.0 as usize)) {
+                let farther = parent.hops().map(|hops| hops + 1);
+                require(node.hops() == farther, "a node is one hop farther from the source than its parent")?;
+                require(
+                    parent.stage() == Stage::Forwarded,
+                    "a parent is the source or a node that has forwarded",
+                )?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The largest network of which every state is looked at.
+const SMALL: usize = 5;
+
+/// A network, and the rule of its nodes.
+struct Case {
+    links: Links<SMALL>,
+    rule: Rule,
+}
+
+const fn rule(subject: &Subject, scheme: Scheme) -> Rule {
+    Rule { conditions: subject.notice, ..Rule::new(scheme, RANGE, 0) }
+}
+
+/// k-FNF, with k = ∞ taken for 1 where it is sabotaged.
+fn farthest(subject: &Subject, k: Option<Count>) -> Rule {
+    let is_finite = k.is_none() && subject.sabotage == Sabotage::FiniteForEndless;
+    let k = if is_finite { Some(Count::ONE) } else { k };
+    rule(subject, Scheme::Farthest { k })
+}
+
+/// Among five nodes nobody hears more than three senders besides the first: all k there are.
+fn every_k() -> [Option<Count>; 4] {
+    [Some(Count::ONE), Count::new(2), Count::new(3), None]
+}
+
+/// Every connected network of at most [`SMALL`] nodes, one of each shape as seen from the source, the smallest first.
+fn shapes() -> Vec<Links<SMALL>> {
+    let mut shapes = Vec::new();
+    for nodes in 1..=SMALL {
+        let pairs: Vec<(usize, usize)> =
+            (0..nodes).flat_map(|one| (one + 1..nodes).map(move |other| (one, other))).collect();
+        let orders = orders(nodes);
+        let drawn = |set: u32, order: &[usize]| {
+            let mut links = Links::NONE;
+            for (_, &(one, other)) in pairs.iter().enumerate().filter(|(place, _)| set >> place & 1 == 1) {
+                links.add(order[one], order[other]);
+            }
+            links
+        };
+        let mut sets: Vec<u32> = (0..1 << pairs.len()).collect();
+        sets.sort_by_key(|set| set.count_ones());
+        let all = (1 << nodes) - 1;
+        let shape = |set: u32| {
+            let links = drawn(set, &orders[0]);
+            let is_first = || orders.iter().all(|order| links <= drawn(set, order));
+            (links.component() == all && is_first()).then_some(links)
+        };
+        shapes.extend(sets.into_iter().filter_map(shape));
+    }
+    shapes
+}
+
+/// Every order of `nodes` that leaves the source in its place.
+fn orders(nodes: usize) -> Vec<Vec<usize>> {
+    let mut orders = vec![vec![0]];
+    for node in 1..nodes {
+        let longer = |order: Vec<usize>| {
+            (1..=node).map(move |place| {
+                let mut longer = order.clone();
+                longer.insert(place, node);
+                longer
+            })
+        };
+        orders = orders.into_iter().flat_map(longer).collect();
+    }
+    orders
+}
+
+/// Where in a run a state is looked at.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Point {
+    OnTheWay,
+    /// Nothing is under way and nobody waits.
+    End,
+}
+
+/// What is demanded of every state.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Demand {
+    /// NOTICE-1
+    Tree,
+    /// NOTICE-2
+    Once,
+    /// NOTICE-3
+    Floods,
+    /// NOTICE-5
+    Reaches,
+}
+
+/// The rules under which it is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Rules {
+    /// Every k that makes a difference.
+    EveryK,
+    /// k = ∞, and flooding.
+    Endless,
+    /// One k; 0 is ∞.
+    Only(u8),
+}
+
+/// Every small network, and every state that it can come to. The choices of a violation are the network with its rule,
+/// then event by event.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Networks {
+    demand: Demand,
+    rules: Rules,
+}
+
+/// NOTICE-1
+pub const TREE: Networks = Networks { demand: Demand::Tree, rules: Rules::EveryK };
+/// NOTICE-2
+pub const ONCE: Networks = Networks { demand: Demand::Once, rules: Rules::EveryK };
+/// NOTICE-3
+pub const FLOOD: Networks = Networks { demand: Demand::Floods, rules: Rules::Endless };
+/// NOTICE-5, k = 1
+pub const REACH_WITH_ONE: Networks = Networks { demand: Demand::Reaches, rules: Rules::Only(1) };
+/// NOTICE-5, k = 2
+pub const REACH_WITH_TWO: Networks = Networks { demand: Demand::Reaches, rules: Rules::Only(2) };
+/// NOTICE-5, k = ∞
+pub const REACH_WITH_ALL: Networks = Networks { demand: Demand::Reaches, rules: Rules::Only(0) };
+
+/// What is covered by going through every state.
+pub const EVENTS: [&str; 4] = ["a NOTICE arrives", "a copy arrives", "a node forwards", "an end"];
+
+impl Demand {
+    fn check<const NODES: usize>(
+        self,
+        links: &Links<NODES>,
+        spread: &Spread<NODES>,
+        point: Point,
+    ) -> Result<(), Stop> {
+        let connected = || ones(links.component());
+        match (self, point) {
+            (Self::Tree, _) => spread.is_tree(),
+            (Self::Once, _) => {
+                let is_once = spread.forwards.iter().all(|&forwards| forwards <= 1);
+                require(is_once, "a node forwards an event at most once")
+            }
+            (Self::Floods | Self::Reaches, Point::OnTheWay) => Ok(()),
+            (Self::Floods, Point::End) => require(
+                connected().all(|node| node == 0 || spread.forwards[node] == 1),
+                "everybody connected to the source receives and forwards",
+            ),
+            (Self::Reaches, Point::End) => require(
+                connected().all(|node| spread.nodes[node].event().is_some()),
+                "everybody connected to the source receives the event",
+            ),
+        }
+    }
+}
+
+impl Networks {
+    fn cases(self, subject: &Subject) -> impl Iterator<Item = Case> {
+        let rules = match self.rules {
+            Rules::EveryK => every_k().map(|k| farthest(subject, k)).to_vec(),
+            Rules::Endless => vec![farthest(subject, None), rule(subject, Scheme::Flooding)],
+            Rules::Only(k) => vec![farthest(subject, Count::new(k))],
+        };
+        shapes().into_iter().flat_map(move |links| {
+            let rules = rules.clone();
+            rules.into_iter().map(move |rule| Case { links, rule })
+        })
+    }
+}
+
+impl Networks {
+    /// Goes through all states, until the first violation. A case is a state.
+    pub fn explore(self, subject: &Subject) -> Tally {
+        let starts = self.cases(subject).map(|case| (Spread::start(&case.links), case));
+        reachable(starts, |spread, Case { links, rule }, source| {
+            let events = spread.events();
+            if events.is_empty() {
+                self.demand.check(links, spread, Point::End)?;
+                return Ok((Next::End, "an end"));
+            }
+            let event = events[source.pick(events.len() as u32) as usize];
+            let next = spread.after(rule, links, event);
+            self.demand.check(links, &next, Point::OnTheWay)?;
+            let situation = match event {
+                Event::Arrives { .. } => "a NOTICE arrives",
+                Event::ArrivesAgain { .. } => "a copy arrives",
+                Event::Expires { .. } => "a node forwards",
+            };
+            Ok((Next::State(next), situation))
+        })
+    }
+
+    /// What happens when these choices are made, in lines.
+    pub fn story(self, subject: &Subject, choices: &[u32]) -> String {
+        let (&place, choices) = choices.split_first().unwrap_or((&0, &[]));
+        let Some(Case { links, rule }) = self.cases(subject).nth(place as usize) else {
+            return String::new();
+        };
+        let pairs =
+            (0..SMALL).flat_map(|one| ones(links.0[one] >> one).map(move |beyond| (one, one + beyond)));
+        let pairs: Vec<String> = pairs.map(|(one, other)| format!("{one}-{other}")).collect();
+        let mut lines = vec![format!("The source is 0, the links are {}.", pairs.join(" "))];
+        let mut spread = Spread::start(&links);
+        for &choice in choices {
+            let Some(&event) = spread.events().get(choice as usize) else { break };
+            spread = spread.after(&rule, &links, event);
+            let became = |node: usize| match spread.nodes[node].stage() {
+                Stage::Unaware => "knows nothing",
+                Stage::Waiting { .. } => "waits",
+                Stage::Silent => "is silent",
+                Stage::Forwarded => "has forwarded",
+            };
+            lines.push(match event {
+                Event::Arrives { from, to } => format!("{to} hears {from} and {}.", became(to)),
+                Event::ArrivesAgain { from, to } => {
+                    format!("{to} hears {from}, not for the last time, and {}.", became(to))
+                }
+                Event::Expires { at } => format!("{at} forwards."),
+            });
+        }
+        let unaware = ones(links.component()).filter(|&node| spread.nodes[node].event().is_none());
+        let unaware: Vec<String> = unaware.map(|node| node.to_string()).collect();
+        if spread.events().is_empty() && !unaware.is_empty() {
+            lines.push(format!("Nothing more happens; {} has not heard of the event.", unaware.join(" ")));
+        }
+        lines.join("\n") + "\n"
+    }
+}
+
+/// The largest of the random networks.
+const LARGE: usize = 40;
+
+/// Events after which nothing more is left to chance, so that copies do not go on arriving for ever.
+const MOST_EVENTS: usize = 4_000;
+
+/// A random network, a random order and some k, the demand checked after every event.
+fn spread_at_random(subject: &Subject, source: &mut dyn Source, demand: Demand) -> Outcome {
+    // k = ∞ is one of them, and for flooding the only one.
+    let k = if demand == Demand::Floods { 0 } else { source.pick(u32::from(Count::MOST) + 1) };
+    let rule = farthest(subject, Count::new(k as u8));
+    let nodes = LARGE - source.pick(LARGE as u32 - SMALL as u32) as usize;
+    let links_percent = 5 + source.pick(40);
+    let mut links = Links::<LARGE>::NONE;
+    for one in 0..nodes {
+        for other in one + 1..nodes {
+            if source.pick(100) < links_percent {
+                links.add(one, other);
+            }
+        }
+    }
+    let mut spread = Spread::start(&links);
+    for happened in 0.. {
+        let events = spread.events();
+        let choice = if happened < MOST_EVENTS { source.pick(events.len().max(1) as u32) } else { 0 };
+        let Some(&event) = events.get(choice as usize) else { break };
+        spread = spread.after(&rule, &links, event);
+        demand.check(&links, &spread, Point::OnTheWay)?;
+    }
+    demand.check(&links, &spread, Point::End)?;
+    let forwarded = spread.forwards.iter().filter(|&&forwards| forwards > 0).count();
+    Ok(if forwarded * 2 > nodes { "most nodes forward" } else { "few nodes forward" })
+}
+
+/// What the random runs cover.
+pub const SPREADS: [&str; 2] = ["few nodes forward", "most nodes forward"];
+
+/// NOTICE-1: larger networks, at random.
+///
+/// # Errors
+/// [`Stop`] if the clause is broken.
+pub fn tree_at_random(subject: &Subject, source: &mut dyn Source) -> Outcome {
+    spread_at_random(subject, source, Demand::Tree)
+}
+
+/// NOTICE-2: the same.
+///
+/// # Errors
+/// [`Stop`] if the clause is broken.
+pub fn once_at_random(subject: &Subject, source: &mut dyn Source) -> Outcome {
+    spread_at_random(subject, source, Demand::Once)
+}
+
+/// NOTICE-3: the same with k = ∞.
+///
+/// # Errors
+/// [`Stop`] if the clause is broken.
+pub fn flood_at_random(subject: &Subject, source: &mut dyn Source) -> Outcome {
+    spread_at_random(subject, source, Demand::Floods)
+}
+
+/// NOTICE-4: whatever a node has made of one event, the next one is new to it.
+///
+/// # Errors
+/// [`Stop`] if the clause is broken.
+pub fn second_event(subject: &Subject, source: &mut dyn Source) -> Outcome {
+    let rule = farthest(subject, Some(Count::ONE));
+    let mut node = Node::new(NodeId(1), NodeId(0));
+    let situation = match source.pick(4) {
+        0 => "unaware of the first",
+        1 => {
+            hear(&mut node, &rule, notice(2));
+            "waiting with the first"
+        }
+        2 => {
+            hear(&mut node, &rule, notice(2));
+            hear(&mut node, &rule, notice(3));
+            "silent about the first"
+        }
+        _ => {
+            hear(&mut node, &rule, notice(2));
+            node.expire(0);
+            "through with the first"
+        }
+    };
+    let (event, sender, hops) = (2 + source.pick(2), 2 + source.pick(3), source.pick(3) as u16);
+    let reaction = hear(&mut node, &rule, Notice { event, hops, ..notice(sender as usize) });
+    require(reaction == Reaction::Armed { at_ns: 0 }, "the first NOTICE of a newer event begins a wait")?;
+    require(node.parent() == Some(NodeId(sender)), "its sender is the parent")?;
+    require(node.hops() == Some(hops + 1), "the node is one hop farther than its sender")?;
+    Ok(situation)
+}
+
+#[cfg(test)]
+mod tests {
+    use tautline_kernel::broadcast::Condition;
+
+    use super::*;
+
+    #[test]
+    fn there_is_one_network_of_each_shape() {
+        let shapes = shapes();
+        let of_size =
+            |nodes: u32| shapes.iter().filter(|links| links.component().count_ones() == nodes).count();
+        assert_eq!([1, 2, 3, 4, 5].map(of_size), [1, 1, 3, 11, 58]);
+    }
+
+    /// The demand that a subject breaks first, and how.
+    fn broken(networks: Networks, subject: Subject) -> (&'static str, String) {
+        let (choices, demand) = networks.explore(&subject).violation.expect("it is broken");
+        (demand, networks.story(&subject, &choices))
+    }
+
+    #[test]
+    fn a_parent_that_changes_after_forwarding_closes_a_circle() {
+        let (demand, _) = broken(TREE, Subject::hearing_without(Condition::FrozenOnceForwarded));
+        assert_eq!(demand, "parent by parent every node comes to the source");
+    }
+
+    #[test]
+    fn a_parent_that_is_the_last_heard_is_not_one_hop_nearer() {
+        let (demand, _) = broken(TREE, Subject::hearing_without(Condition::LeastHops));
+        assert_eq!(demand, "a node is one hop farther from the source than its parent");
+    }
+
+    #[test]
+    fn who_is_silenced_may_be_the_only_one_on_the_way() {
+        let (_, story) = broken(REACH_WITH_ONE, Subject::PUBLISHED);
+        let lines: Vec<&str> = story.lines().collect();
+        let expected = [
+            "The source is 0, the links are 0-1 0-2 1-2 2-3.",
+            "1 hears 0 and waits.",
+            "2 hears 0 and waits.",
+            "1 forwards.",
+            "2 hears 1 and is silent.",
+            "Nothing more happens; 3 has not heard of the event.",
+        ];
+        assert_eq!(lines, expected);
+    }
+}

@@ -1,0 +1,193 @@
+//! `tautline reproduce notice-fig5`: how far broadcasts reach, and how many nodes forward them.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+use tautline_kernel::broadcast::Count;
+
+use crate::aside::Aside;
+use crate::cli::output::Output;
+use crate::cli::{Exit, Format, FormatArgs, interrupt, number, progress};
+use crate::fault::{Fault, Halt};
+use crate::radio::{Channel, Shared};
+use crate::reproduce::Reproduction;
+use crate::reproduce::interval::Estimate;
+use crate::reproduce::notice_fig5::{self, Density, NODES, Part, RANGE_M, SIDE_M, Setting};
+
+const EXAMPLES: &str = "\
+Examples:
+  tautline reproduce notice-fig5
+  tautline reproduce notice-fig5 --svg-reach reach.svg --svg-rebroadcasts rebroadcasts.svg
+  tautline reproduce notice-fig5 --nodes 300 --k 1,2,4,8 --topologies 1000 --format json
+  tautline reproduce notice-fig5 --channel shared";
+
+/// How many nodes a broadcast reaches, and how many forward it, by scheme and density.
+///
+/// Nodes at random places in a square, from a random source: of all nodes, and of those that links connect to the
+/// source.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct NoticeFig5 {
+    /// Numbers of nodes.
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_values_t = NODES, value_parser = number::<usize>)]
+    nodes: Vec<usize>,
+    /// The side of the square, in metres.
+    #[arg(long, value_name = "METRES", allow_negative_numbers = true, default_value_t = SIDE_M)]
+    side: f64,
+    /// The radio range, in metres.
+    #[arg(long, value_name = "METRES", allow_negative_numbers = true, default_value_t = RANGE_M)]
+    range: f64,
+    /// The k of k-FNF: how many senders, the first not counted, make a node silent.
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "1,2,3", value_parser = count)]
+    k: Vec<Count>,
+    /// Topologies for each number of nodes.
+    #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    topologies: u32,
+    /// The seed of all topologies.
+    #[arg(long, default_value = "0", value_parser = number::<u64>)]
+    seed: u64,
+    /// What lies between the nodes.
+    #[arg(long, value_enum, default_value = "ideal")]
+    channel: ChannelName,
+    /// Store the reach as a picture.
+    #[arg(long, value_name = "FILE")]
+    svg_reach: Option<PathBuf>,
+    /// Store the rebroadcasts as a picture.
+    #[arg(long, value_name = "FILE")]
+    svg_rebroadcasts: Option<PathBuf>,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum, Serialize)]
+#[serde(rename_all = "kebab-case")]
+enum ChannelName {
+    /// Whoever is in range hears at once.
+    Ideal,
+    /// Messages take time and collide; nodes listen before they send.
+    Shared,
+}
+
+impl ChannelName {
+    const fn channel(self) -> Channel {
+        match self {
+            Self::Ideal => Channel::Ideal,
+            Self::Shared => Channel::Shared(Shared::SENSOR),
+        }
+    }
+
+    const fn word(self) -> &'static str {
+        match self {
+            Self::Ideal => "ideal",
+            Self::Shared => "shared",
+        }
+    }
+}
+
+fn count(text: &str) -> Result<Count, String> {
+    let count = text.parse().ok().and_then(Count::new);
+    count.ok_or_else(|| format!("write whole numbers from 1 to {}", Count::MOST))
+}
+
+#[derive(Serialize)]
+struct Measured<'a> {
+    id: &'static str,
+    side_m: f64,
+    range_m: f64,
+    topologies: u32,
+    seed: u64,
+    channel: ChannelName,
+    densities: &'a [Density],
+}
+
+impl NoticeFig5 {
+    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        let setting = Setting {
+            nodes: self.nodes.clone(),
+            side_m: self.side,
+            range_m: self.range,
+            ks: self.k.clone(),
+            topologies: self.topologies,
+            seed: self.seed,
+            channel: self.channel.channel(),
+        };
+        let bar = progress::bar("broadcasting", u64::from(self.topologies) * self.nodes.len() as u64);
+        let densities = setting.measure(&|| {
+            bar.inc(1);
+            interrupt::check()
+        })?;
+        bar.finish_and_clear();
+        store(self.svg_reach.as_deref(), Part::Reach, &densities)?;
+        store(self.svg_rebroadcasts.as_deref(), Part::Rebroadcasts, &densities)?;
+        match self.format.format {
+            Format::Json => out.json(&Measured {
+                id: Reproduction::NoticeFig5.id(),
+                side_m: self.side,
+                range_m: self.range,
+                topologies: self.topologies,
+                seed: self.seed,
+                channel: self.channel,
+                densities: &densities,
+            })?,
+            Format::Text => out.text(self.table(&densities))?,
+        }
+        Ok(Exit::Expected)
+    }
+
+    fn table(&self, densities: &[Density]) -> String {
+        let mut text = format!(
+            "{side}×{side} m, range {} m, {} topologies for each number of nodes, seed {}, {} channel\n",
+            self.range,
+            self.topologies,
+            self.seed,
+            self.channel.word(),
+            side = self.side,
+        );
+        let percent = |estimate: Estimate| with_margin(estimate.times(100.0), 2);
+        let mut row = |name: &str, cell: &dyn Fn(&Density) -> String| {
+            let _ = write!(text, "\n{name:<14}");
+            for density in densities {
+                // Writing to a string cannot fail.
+                let _ = write!(text, "  {:>14}", cell(density));
+            }
+        };
+        row("nodes", &|density| density.nodes.to_string());
+        row("connected", &|density| format!("{:.2}", 100.0 * density.connected.mean));
+        row("component", &|density| percent(density.component));
+        let schemes = densities.first().map_or(&[][..], |density| &density.schemes);
+        row("\nReach, % of all nodes", &|_| String::new());
+        for (place, line) in schemes.iter().enumerate() {
+            row(&line.scheme, &|density| percent(density.schemes[place].reach));
+            if densities.iter().any(|density| density.schemes[place].paper.is_some()) {
+                let said =
+                    |part: Option<f64>| part.map_or("-".to_owned(), |part| format!("{:.2}", 100.0 * part));
+                row("  paper", &|density| said(density.schemes[place].paper));
+                row("  difference", &|density| said(density.schemes[place].difference));
+            }
+        }
+        row("\nReach, % of the nodes connected to the source", &|_| String::new());
+        for (place, line) in schemes.iter().enumerate() {
+            row(&line.scheme, &|density| percent(density.schemes[place].reach_component));
+        }
+        row("\nRebroadcasts", &|_| String::new());
+        for (place, line) in schemes.iter().enumerate() {
+            row(&line.scheme, &|density| with_margin(density.schemes[place].rebroadcasts, 2));
+        }
+        let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
+        lines.join("\n")
+            + "\n\nconnected: % of the networks in which links connect all nodes · component: % of the nodes that they \
+               connect to the\nsource · ±: half the width of the 95 % interval · paper: “near 100 %” at every density; all \
+               else it draws only\n"
+    }
+}
+
+fn with_margin(estimate: Estimate, decimals: usize) -> String {
+    let margin = estimate.margin().map_or(String::new(), |margin| format!(" ± {margin:.decimals$}"));
+    format!("{:.decimals$}{margin}", estimate.mean)
+}
+
+fn store(path: Option<&Path>, part: Part, densities: &[Density]) -> Result<(), Fault> {
+    path.map_or(Ok(()), |path| Aside::write(path, notice_fig5::chart(part, densities).svg()))
+}
