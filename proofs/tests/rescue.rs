@@ -1,9 +1,11 @@
 //! MRC's states, counted twice: by the search of `prove`, which keeps whole states and looks for cycles, and by
 //! stateright, which keeps fingerprints and knows no cycles. Both must find the same states, and break a demand in as
-//! few steps.
+//! few steps. Then longer runs with more faults than can be searched, at random.
 
 use stateright::{Checker, Model, Property};
-use tautline_kernel::rescue::Rule;
+use tautline_kernel::choice::Source;
+use tautline_kernel::rescue::{Condition, Rule};
+use tautline_proofs::engine::{Outcome, require, sample};
 use tautline_proofs::rescue::space::{Found, Until, search};
 use tautline_proofs::rescue::{Action, Demand, Faults, Lossy, Setting, State};
 
@@ -84,7 +86,56 @@ fn the_repaired_rule_holds_with_two_faults() {
 }
 
 #[test]
-#[ignore = "deeper, some minutes and 2 GiB: cargo test -p tautline-proofs --test rescue -- --ignored"]
+#[ignore = "deeper, two minutes and 2 GiB: cargo test -p tautline-proofs --test rescue -- --ignored"]
 fn the_repaired_rule_holds_for_two_robots_with_three_faults() {
     holds(&setting((2, 1), 2, 2, Faults::any(3)), 5_572_708, 26_865_616);
+}
+
+#[test]
+#[ignore = "deeper, some minutes and 6 GiB: cargo test -p tautline-proofs --test rescue -- --ignored"]
+fn the_repaired_rule_holds_for_three_robots_with_two_faults() {
+    holds(&setting((3, 2), 2, 1, Faults::any(2)), 18_056_968, 91_093_149);
+}
+
+/// A run at random, as long as there are events and faults left, and then without another fault until nobody waits.
+fn long_run(setting: &Setting, source: &mut dyn Source) -> Outcome {
+    let mut starts = setting.starts();
+    let mut state = starts.swap_remove(source.pick(starts.len() as u32) as usize);
+    let is_owed = |state: &State| (0..setting.wfrs).any(|wfr| state.is_owed_service(setting, wfr));
+    for step in 0..10_000 {
+        let mut actions = state.actions(setting);
+        if step >= 300 {
+            actions.retain(|&action| state.is_bound_to_happen(setting, action));
+        }
+        if actions.is_empty() || step >= 300 && !is_owed(&state) {
+            break;
+        }
+        state = state.after(setting, actions.swap_remove(source.pick(actions.len() as u32) as usize));
+        for demand in Demand::ALL {
+            require(!state.breaks(demand), demand.broken())?;
+        }
+    }
+    require(!is_owed(&state), Demand::IsServed.broken())?;
+    Ok("nobody waits")
+}
+
+#[test]
+fn the_repaired_rule_holds_in_long_runs_with_many_faults_and_the_mutants_do_not() {
+    let faults = Faults { robots: 2, ..Faults::any(20) };
+    let setting = setting((3, 2), 8, 2, faults);
+    let violation = |rule: Rule| {
+        let setting = Setting { rule, ..setting };
+        sample(20_000, 0, |source| long_run(&setting, source)).violation.map(|(_, demand)| demand)
+    };
+    assert_eq!(violation(Rule::REPAIRED), None);
+    for rule in [
+        Rule::PUBLISHED,
+        Rule::REPAIRED.without(Condition::Window),
+        Rule::REPAIRED.without(Condition::ChoiceStands),
+        Rule::REPAIRED.without(Condition::Epochs),
+        Rule::REPAIRED.without(Condition::Consent),
+        Rule::REPAIRED.without(Condition::Renewal),
+    ] {
+        assert!(violation(rule).is_some(), "{rule:?}");
+    }
 }
