@@ -224,11 +224,6 @@ impl Faults {
         Self { in_all, losses: in_all, duplicates: in_all, delays: in_all, robots: in_all, nodes: in_all }
     }
 
-    /// At most one fault of each kind, and `in_all` together.
-    pub const fn one_of_each(in_all: u8) -> Self {
-        Self { in_all, losses: 1, duplicates: 1, delays: 1, robots: 1, nodes: 1 }
-    }
-
     /// What is left of one kind.
     fn left(self, kind: impl Fn(&Self) -> u8) -> u8 {
         kind(&self).min(self.in_all)
