@@ -20,7 +20,7 @@ use tautline_kernel::rescue::{
 /// Most robots of a setting.
 pub const ROBOTS: usize = 3;
 /// Most WFRs of a setting.
-pub const WFRS: usize = 2;
+pub const WFRS: usize = 3;
 
 /// How much may still go wrong in a run.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
@@ -224,11 +224,6 @@ impl Faults {
         Self { in_all, losses: in_all, duplicates: in_all, delays: in_all, robots: in_all, nodes: in_all }
     }
 
-    /// At most one fault of each kind, and `in_all` together.
-    pub const fn one_of_each(in_all: u8) -> Self {
-        Self { in_all, losses: 1, duplicates: 1, delays: 1, robots: 1, nodes: 1 }
-    }
-
     /// What is left of one kind.
     fn left(self, kind: impl Fn(&Self) -> u8) -> u8 {
         kind(&self).min(self.in_all)
@@ -249,7 +244,8 @@ impl Setting {
         (0..all).map(|number| self.start(number)).collect()
     }
 
-    fn start(&self, mut number: u32) -> State {
+    /// Which of [`Self::starts`], one after the other, without the others.
+    pub fn start(&self, mut number: u32) -> State {
         let mut hops = [[1; WFRS]; ROBOTS];
         for row in &mut hops[..self.robots] {
             for hops in &mut row[..self.wfrs] {
@@ -272,6 +268,21 @@ impl Setting {
 }
 
 impl State {
+    /// A robot.
+    pub const fn robot(&self, robot: usize) -> &Robot<WFRS> {
+        &self.robots[robot]
+    }
+
+    /// A WFR.
+    pub const fn wfr(&self, wfr: usize) -> &Wfr<ROBOTS> {
+        &self.wfrs[wfr]
+    }
+
+    /// Hops from a robot to a WFR.
+    pub const fn hops(&self, robot: usize, wfr: usize) -> u16 {
+        self.hops[robot][wfr]
+    }
+
     /// The messages on their way.
     pub fn network(&self) -> &[Message] {
         &self.network
