@@ -49,6 +49,8 @@ pub trait Scheme {
     fn broken_at_end(&self, setup: &Setup, chart: &Chart, end: End) -> Vec<Breach>;
     /// The marks of cells that the last team move has changed, in order.
     fn marked(&self) -> &[(Cell, Mark)];
+    /// The cells of the sensors that agents missed in the last team move, agent by agent.
+    fn unseen(&self) -> &[Cell];
     /// The parts of a sensor floor in which agents started; none for schemes without one.
     fn components(&self) -> &[Component];
     /// How long the run has taken its slowest robot, where that is known.
@@ -167,6 +169,8 @@ pub struct Setup {
     pub starts: Option<Vec<Cell>>,
     /// How likely it is that an agent misses a sensor that it could see.
     pub miss: Probability,
+    /// Which sensors are missed besides: their numbers among all that agents ask about, counted from 1, in order.
+    pub missed: Vec<u32>,
     /// When the run is stopped.
     pub limits: Limits,
 }
@@ -175,7 +179,8 @@ impl Setup {
     /// A run of `scheme` in `layout` with a base, all robots starting there, nothing missed, and no limits.
     pub fn new(scheme: SchemeName, rule: RuleName, robots: u16, layout: Layout, base: Cell) -> Self {
         let (limits, miss) = (Limits::default(), Probability::NEVER);
-        Self { scheme, rule, robots, seed: 0, layout, base, starts: None, miss, limits }
+        let missed = Vec::new();
+        Self { scheme, rule, robots, seed: 0, layout, base, starts: None, miss, missed, limits }
     }
 
     /// Who explores.
@@ -364,6 +369,8 @@ pub struct TeamMove<'a> {
     pub before: &'a [Cell],
     /// What they did.
     pub frame: &'a Frame,
+    /// The cells of the sensors that agents missed before they did it.
+    pub unseen: &'a [Cell],
     /// What was broken.
     pub breaches: &'a [Breach],
 }
@@ -561,7 +568,8 @@ pub fn explore(
         let breaches = scheme.broken_in_move(&before, &frame);
         let step = report.steps;
         report.violations.extend(breaches.iter().map(|&breach| Violation { breach, step }));
-        watch(&TeamMove { step, before: &before, frame: &frame, breaches: &breaches })?;
+        let unseen = scheme.unseen();
+        watch(&TeamMove { step, before: &before, frame: &frame, unseen, breaches: &breaches })?;
         before = frame.cells;
     }
 }
@@ -576,7 +584,7 @@ pub fn missed(setup: &Setup, chart: &Chart) -> Vec<Cell> {
             due.into_iter().filter(|&cell| chart.step(cell).is_none()).collect()
         }
         Crew::Agents(way) => {
-            let team = agents::Team::new(way, &setup.layout, &setup.starts(), setup.miss, setup.seed);
+            let team = agents::Team::of(setup, way);
             let due = chart.area().cells().filter(|&cell| team.floor().component(cell).is_some());
             due.filter(|&cell| !floor::is_visited(chart.mark(cell, u32::MAX))).collect()
         }

@@ -2,6 +2,7 @@
 //! in a layout that has the walls met and no others.
 
 mod saved;
+pub mod trap;
 
 use std::path::{Path, PathBuf};
 

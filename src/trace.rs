@@ -57,6 +57,9 @@ struct Header {
     /// How likely it is that a sensor is missed, if that happens at all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     miss: Option<Probability>,
+    /// Which sensors are missed besides.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    missed: Vec<u32>,
     limits: Limits,
     /// The clause that the last move breaks, in a counterexample.
     clause: Option<String>,
@@ -174,6 +177,7 @@ impl Writer {
             base: setup.base,
             starts: setup.starts.clone(),
             miss: Some(setup.miss).filter(|miss| !miss.is_never()),
+            missed: setup.missed.clone(),
             limits: setup.limits,
             clause: clause.map(|breach| breach.clause().to_owned()),
             layout: setup.layout.to_string(),
@@ -338,7 +342,7 @@ impl Lines {
 
     /// The setup of a header.
     fn check(self, text: &str, header: Header) -> Result<Trace, Fault> {
-        let Header { scheme, rule, robots, seed, base, starts, limits, clause, layout, .. } = header;
+        let Header { scheme, rule, robots, seed, base, starts, missed, limits, clause, layout, .. } = header;
         let layout: Layout =
             layout.parse().map_err(|problem| self.fault(text, "\"layout\"", problem, AGAIN))?;
         if layout.base() != Some(base) {
@@ -350,7 +354,7 @@ impl Lines {
         });
         let clause = clause.transpose()?;
         let miss = header.miss.unwrap_or_default();
-        let setup = Setup { scheme, rule, robots, seed, layout, base, starts, miss, limits };
+        let setup = Setup { scheme, rule, robots, seed, layout, base, starts, miss, missed, limits };
         setup.check().map_err(|misfit| {
             self.fault(text, &format!("\"{}\"", misfit.field()), &misfit, misfit.remedy())
         })?;

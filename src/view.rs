@@ -30,7 +30,7 @@ pub const fn legend(crew: Crew) -> &'static str {
         }
         Crew::Agents(_) => {
             "1, 2, … are the agents, K× stands for K of them in one cell; · is explored, : explored and entered by \
-             nobody any more, ░░░ visited, ▒▒▒ sealed, ## blocked."
+             nobody any more, ░░░ visited, ▒▒▒ sealed, ## blocked; ? is a sensor that an agent missed."
         }
     }
 }
@@ -154,10 +154,14 @@ pub fn team_move(setup: &Setup, chart: &Chart, made: &TeamMove<'_>, pose: Pose) 
         Pose::Before => (made.before, made.step - 1),
         Pose::After => (made.frame.cells.as_slice(), made.step),
     };
-    let labels =
-        Labels { crew: setup.crew(), cells, steps: (pose == Pose::Before).then_some(&made.frame.steps) };
+    let labels = Labels {
+        crew: setup.crew(),
+        cells,
+        steps: (pose == Pose::Before).then_some(&made.frame.steps),
+        unseen: made.unseen,
+    };
     let bumps: Vec<Edge> = made.frame.bumps().collect();
-    let lines = if is_bare(setup, chart.area()) && pose == Pose::After {
+    let lines = if is_bare(setup, chart.area()) && made.unseen.is_empty() && pose == Pose::After {
         bare(setup.crew(), chart.area(), cells, |cell| chart.mark(cell, step))
     } else {
         let label = |cell| labels.label(cell, chart.mark(cell, step));
@@ -190,6 +194,8 @@ struct Labels<'a> {
     cells: &'a [Cell],
     /// What each robot tries, if arrows are to be drawn.
     steps: Option<&'a Vec<Step>>,
+    /// Cells of sensors that were missed.
+    unseen: &'a [Cell],
 }
 
 impl Labels<'_> {
@@ -206,6 +212,12 @@ impl Labels<'_> {
             };
         }
         match (self.crew, here.as_slice()) {
+            (_, []) if self.unseen.contains(&cell) => match mark {
+                Mark::Unexplored | Mark::Explored => "·?".to_owned(),
+                Mark::Closing => ":?".to_owned(),
+                Mark::Visited => "░?░".to_owned(),
+                Mark::Sealed => "▒?▒".to_owned(),
+            },
             (_, []) => match mark {
                 Mark::Unexplored => String::new(),
                 Mark::Explored => "·".to_owned(),
@@ -213,9 +225,15 @@ impl Labels<'_> {
                 Mark::Visited => "░░░".to_owned(),
                 Mark::Sealed => "▒▒▒".to_owned(),
             },
-            (Crew::Agents(_), here @ [_, _, _, ..]) => format!("{}×", here.len()),
-            (Crew::Chain | Crew::Agents(_), here) => self.names(here),
+            (Crew::Agents(_), here) if self.unseen.contains(&cell) => format!("{}?", self.team(here)),
+            (Crew::Agents(_), here) => self.team(here),
+            (Crew::Chain, here) => self.names(here),
         }
+    }
+
+    /// Agents in one cell.
+    fn team(&self, agents: &[usize]) -> String {
+        if agents.len() > 2 { format!("{}×", agents.len()) } else { self.names(agents) }
     }
 
     fn names(&self, robots: &[usize]) -> String {
@@ -296,7 +314,7 @@ pub fn order(setup: &Setup, chart: &Chart) -> String {
 
 /// What was explored, and where the team is in the end.
 pub fn outcome(setup: &Setup, chart: &Chart, team: &[Cell]) -> String {
-    let labels = Labels { crew: setup.crew(), cells: team, steps: None };
+    let labels = Labels { crew: setup.crew(), cells: team, steps: None, unseen: &[] };
     let label = |cell| labels.label(cell, chart.mark(cell, u32::MAX));
     grid(&setup.layout, chart.area(), labels.width(), label, |_| false).join("\n") + "\n"
 }

@@ -117,6 +117,57 @@ fn the_repaired_rule_breaks_in_no_layout_with_four_walls() {
 }
 
 #[test]
+fn brick_and_mortar_is_trapped_by_one_missed_sensor() {
+    let folder = folder();
+    let folder = folder.path();
+    let hunt = ["hunt", "--scheme", "bricks", "--max-misses", "2"];
+    assert_snapshot!("trap", printed(folder, &hunt, 1));
+    let found = json(folder, &hunt, 1);
+    assert_snapshot!(found["counterexamples"], @r#"[{"clause":"BRICKS-4","columns":3,"file":"bricks-4-repaired-n1.jsonl","misses":1,"rows":3,"steps":5}]"#);
+    let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/bricks-4-repaired-n1.jsonl");
+    let stored = fs::read_to_string(folder.join("bricks-4-repaired-n1.jsonl")).expect("a run");
+    assert_eq!(stored, fs::read_to_string(kept).expect("a run"), "the README draws another one");
+    assert_snapshot!("trap_replayed", printed(folder, &["replay", "bricks-4-repaired-n1.jsonl"], 1));
+    let cases = [
+        ("nothing missed", stored.replacen("\"missed\":[2],", "", 1)),
+        ("twice the same", stored.replacen("\"missed\":[2]", "\"missed\":[2,2]", 1)),
+        ("sensor 0", stored.replacen("\"missed\":[2]", "\"missed\":[0]", 1)),
+        ("less than none", stored.replacen("\"missed\":[2]", "\"missed\":[-2]", 1)),
+        (
+            "a chain",
+            stored.replacen("\"scheme\":\"bricks\"", "\"scheme\":\"chain\"", 1).replacen(
+                "\"robots\":1",
+                "\"robots\":2",
+                1,
+            ),
+        ),
+    ];
+    let said = cases.map(|(what, text)| {
+        assert_ne!(text, stored, "{what}");
+        fs::write(folder.join("run.jsonl"), text).expect("a file");
+        format!("{what}\n{}\n", refused(folder, &["replay", "run.jsonl"]))
+    });
+    assert_snapshot!("wrong_traps", said.join("\n"));
+}
+
+#[test]
+fn ants_and_the_robust_rule_are_not_trapped() {
+    let folder = folder();
+    let folder = folder.path();
+    assert_snapshot!(printed(folder, &["hunt", "--scheme", "bricks-ants", "--max-misses", "2", "--size", "3x3"], 0), @r#"
+    bricks-ants (repaired), 1 agent, at most 2 missed, layouts up to 3x3: 990 layouts, 158763 states, 187670 team moves
+    No agent is trapped in any layout within this bound.
+    "#);
+    assert_snapshot!(printed(folder, &["hunt", "--scheme", "ants", "--max-misses", "2", "--size", "3x3"], 0), @r#"
+    ants (repaired), 1 agent, at most 2 missed, layouts up to 3x3: 990 layouts, 169972 states, 228871 team moves
+    No agent is trapped in any layout within this bound.
+    "#);
+    let short = json(folder, &["hunt", "--scheme", "bricks", "--budget", "1000"], 3);
+    assert_eq!((&short["verdict"], &short["complete"]), (&"open".into(), &false.into()));
+    assert_eq!(names(folder), [""; 0]);
+}
+
+#[test]
 fn a_hunt_that_ends_before_its_bound_claims_nothing() {
     let folder = folder();
     let found = json(folder.path(), &["hunt", "--rule", "repaired", "--budget", "1000"], 3);
@@ -461,7 +512,7 @@ fn pictures_and_pages_are_whole_and_need_nothing_from_elsewhere() {
 fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
     let folder = folder();
     fs::write(folder.path().join("file"), "").expect("a file");
-    let wrong: [&[&str]; 33] = [
+    let wrong: [&[&str]; 41] = [
         &["explore", "open:9x9", "--robots", "0"],
         &["explore", "open:9x9", "--robots", "1"],
         &["explore", "open:9x9", "--robots", "257"],
@@ -481,7 +532,15 @@ fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
         &["explore", "open:9x9", "--scheme", "bricks", "--start", "9,0"],
         &["explore", "open:9x9", "--scheme", "bricks", "--start", "1,1", "--start", "2,2", "--robots", "3"],
         &["explore", "open:9x9", "--scheme", "bricks", "--start", "1,1", "--base", "2,2"],
-        &["hunt", "--scheme", "ants"],
+        &["hunt", "--max-misses", "2"],
+        &["hunt", "--scheme", "bricks", "--max-walls", "2"],
+        &["hunt", "--scheme", "bricks", "--max-misses", "256"],
+        &["hunt", "--scheme", "bricks", "--robots", "0"],
+        &["hunt", "--scheme", "bricks", "--robots", "3"],
+        &["hunt", "--scheme", "bricks", "--size", "5x4"],
+        &["hunt", "--scheme", "bricks", "--resume", "hunt.json"],
+        &["hunt", "--scheme", "bricks", "--out", "nowhere"],
+        &["hunt", "--scheme", "bricks-ants", "--rule", "published"],
         &["explore", "nowhere.map"],
         &["explore", "open:9x9", "--trace", "nowhere/run.jsonl"],
         &["explore", "open:9x9", "--svg", "."],

@@ -140,10 +140,8 @@ impl Team {
         }
     }
 
-    /// The free cells with such marks.
-    pub(crate) fn marked(&self, state: &State, is: impl Fn(Mark) -> bool) -> u16 {
-        let cells = (0..CELLS).filter(|place| self.plan.free >> place & 1 == 1);
-        cells.filter(|&place| is(state.sensors[place].mark)).fold(0, |set, place| set | 1 << place)
+    fn marked(&self, state: &State, is: impl Fn(Mark) -> bool) -> u16 {
+        marked(&self.plan, &state.sensors, is)
     }
 
     /// The cells that are left to go through: all but visited ones, or where there is a second pass, but sealed ones.
@@ -160,19 +158,12 @@ impl Team {
         self.marked(state, |mark| mark == Mark::Unexplored) == 0
     }
 
-    fn is_shut(&self, state: &State, edge: Edge) -> bool {
-        let (one, side) = (edge.cell(), edge.side());
-        let says =
-            |cell: Cell, side| self.plan.place(cell).is_some_and(|place| state.sensors[place].shut.has(side));
-        says(one, side) && says(one.beyond(side), side.opposite())
-    }
-
     /// What is broken in `state`, in which the agent in the cell `ended` has just been done.
     fn broken(&self, state: &State, ended: Option<Cell>) -> Option<&'static str> {
         match self.demand {
             Demand::Connected => {
                 let left = self.left(state);
-                let is_one = self.plan.spread(left, |edge| self.is_shut(state, edge)) == left;
+                let is_one = self.plan.spread(left, |edge| is_shut(&self.plan, &state.sensors, edge)) == left;
                 (!is_one).then_some("the accessible cells stay connected")
             }
             Demand::Knowing => {
@@ -185,6 +176,19 @@ impl Team {
             Demand::Explores | Demand::Ends => None,
         }
     }
+}
+
+/// The free cells with such marks.
+pub(crate) fn marked(plan: &Plan, sensors: &[Sensor; CELLS], is: impl Fn(Mark) -> bool) -> u16 {
+    let cells = (0..CELLS).filter(|place| plan.free >> place & 1 == 1);
+    cells.filter(|&place| is(sensors[place].mark)).fold(0, |set, place| set | 1 << place)
+}
+
+/// Whether the sensors on both sides of `edge` say that it is shut.
+pub(crate) fn is_shut(plan: &Plan, sensors: &[Sensor; CELLS], edge: Edge) -> bool {
+    let (one, side) = (edge.cell(), edge.side());
+    let says = |cell: Cell, side| plan.place(cell).is_some_and(|place| sensors[place].shut.has(side));
+    says(one, side) && says(one.beyond(side), side.opposite())
 }
 
 /// Misses sensors a bounded number of times.

@@ -27,5 +27,6 @@ mod states;
 #[cfg(kani)]
 mod symbolic;
 pub mod three;
+pub mod trap;
 pub mod walk;
 pub mod whole;

@@ -145,7 +145,8 @@ impl Explore {
             (Crew::Chain | Crew::Agents(_), _) => Some(starts),
         };
         let (scheme, rule, seed, miss) = (self.scheme, self.rule, self.layout.seed, self.miss);
-        let setup = Setup { scheme, rule, robots, seed, layout, base, starts, miss, limits };
+        let missed = Vec::new();
+        let setup = Setup { scheme, rule, robots, seed, layout, base, starts, miss, missed, limits };
         setup.check().map_err(|misfit| Fault::usage(&misfit, misfit.remedy()))?;
         Ok(setup)
     }

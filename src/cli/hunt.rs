@@ -1,5 +1,7 @@
 //! `tautline hunt`: all layouts within a bound, until something breaks.
 
+mod trap;
+
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -11,7 +13,7 @@ use tautline_proofs::search::{Bounds, Found};
 
 use super::output::Output;
 use super::{Exit, Format, FormatArgs, SizeArg, number, progress};
-use crate::explore::{RuleName, SchemeName, Setup};
+use crate::explore::{Crew, RuleName, SchemeName, Setup};
 use crate::fault::{Fault, Halt};
 use crate::hunt::Saved;
 use crate::{hunt, view};
@@ -19,13 +21,24 @@ use crate::{hunt, view};
 /// How often a hunt is kept in its file.
 const KEEP_EVERY: Duration = Duration::from_secs(5);
 
+/// Robots of a chain when nobody says how many.
+const DEFAULT_ROBOTS: u64 = 4;
+
+/// Walls when nobody says how many.
+const DEFAULT_WALLS: u32 = 4;
+
 const EXAMPLES: &str = "\
 Examples:
   tautline hunt --rule published --robots 4 --max-walls 4 --out counterexamples
   tautline hunt --rule repaired --robots 4 --max-walls 4 --format json
-  tautline hunt --robots 5 --max-walls 8 --budget 100000000 --resume hunt.json";
+  tautline hunt --robots 5 --max-walls 8 --budget 100000000 --resume hunt.json
+  tautline hunt --scheme bricks --max-misses 2
+  tautline hunt --scheme bricks-ants --max-misses 2 --size 3x3";
 
 /// Search all layouts with few walls for runs that break a clause, and store the smallest.
+///
+/// Of agents on a sensor floor, search all layouts with few cells for the fewest missed sensors that trap them: one of
+/// them is done, or all go round for ever, before every cell is explored.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Hunt {
@@ -35,13 +48,17 @@ pub(super) struct Hunt {
     /// The scheme as published, or repaired.
     #[arg(long, value_enum, default_value = "repaired")]
     rule: RuleName,
-    /// Robots, the base counted.
-    #[arg(long, value_name = "N", default_value = "4", value_parser = number::<u64>)]
-    robots: u64,
-    /// Most walls that are met in one run; the border is not counted.
-    #[arg(long, value_name = "K", default_value = "4", value_parser = number::<u32>)]
-    max_walls: u32,
-    /// Columns and rows of the layouts, the base in the middle; without it the (2N−1)x(2N−1) cells in reach.
+    /// Robots: 4 in a chain, the base counted, or 1 agent, unless this says otherwise.
+    #[arg(long, value_name = "N", value_parser = number::<u64>)]
+    robots: Option<u64>,
+    /// Most walls that a chain meets in one run, 4 unless this says otherwise; the border is not counted.
+    #[arg(long, value_name = "K", value_parser = number::<u32>)]
+    max_walls: Option<u32>,
+    /// Most sensors that agents miss in one run, 1 unless this says otherwise.
+    #[arg(long, value_name = "K", value_parser = number::<u8>)]
+    max_misses: Option<u8>,
+    /// Columns and rows of a chain's layouts, the base in the middle; without it the (2N−1)x(2N−1) cells in reach. Of
+    /// agents' layouts the most columns and rows, 4x4 without it; at most 16 cells.
     #[arg(long, value_name = "WxH")]
     size: Option<SizeArg>,
     /// End after so many team moves.
@@ -90,16 +107,23 @@ struct Stored {
 
 impl Hunt {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        match self.scheme {
-            SchemeName::Chain => {}
-            SchemeName::Ants | SchemeName::Bricks | SchemeName::BricksAnts => {
-                let what = format!("{} is not hunted", self.scheme.word());
-                return Err(Fault::usage(what, "give --scheme chain").into());
-            }
+        match self.scheme.crew(self.rule) {
+            Crew::Chain => self.run_chain(out),
+            Crew::Agents(way) => trap::run(self, way, out),
+        }
+    }
+
+    fn run_chain(&self, out: &mut Output) -> Result<Exit, Halt> {
+        if self.max_misses.is_some() {
+            let what = "the robots of a chain have no floor sensors to miss";
+            return Err(
+                Fault::usage(what, "give --max-walls, or --scheme ants, bricks or bricks-ants").into()
+            );
         }
         check_folder(&self.out)?;
-        let mut bounds =
-            hunt::bounds(self.rule, self.robots, self.max_walls, self.size.map(|SizeArg(size)| size))?;
+        let (robots, walls) =
+            (self.robots.unwrap_or(DEFAULT_ROBOTS), self.max_walls.unwrap_or(DEFAULT_WALLS));
+        let mut bounds = hunt::bounds(self.rule, robots, walls, self.size.map(|SizeArg(size)| size))?;
         bounds.budget_moves = self.budget;
         let found = self.search(&bounds)?;
         let hunted = self.store(&bounds, &found)?;
@@ -167,11 +191,11 @@ impl Hunt {
         Ok(Hunted {
             scheme: self.scheme,
             rule: self.rule,
-            robots: self.robots,
+            robots: bounds.robots as u64,
             runs: found.runs,
             moves: found.moves,
             longest: found.longest,
-            max_walls: self.max_walls,
+            max_walls: bounds.max_walls,
             complete: found.complete,
             walls_done: (found.levels.len() as u32).checked_sub(1),
             verdict: verdict.word(),

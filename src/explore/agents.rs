@@ -3,39 +3,47 @@
 //!
 //! Missed sensors are drawn from `ChaCha8`, seeded with the seed of the run as layouts are, with the tag `miss`: one
 //! draw for each sensor that is asked about, agent by agent, clockwise from the northern neighbour. Where the
-//! probability is 0 nothing is drawn.
+//! probability is 0 nothing is drawn. A counterexample has the sensors that are missed written down: by their numbers
+//! among all that are asked about.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 use tautline_kernel::ants::least_crossed;
-use tautline_kernel::bricks::{self, Agent, Condition, Next, Rule};
+use tautline_kernel::bricks::{self, Agent, Condition, Next};
 use tautline_kernel::chain::Kind;
 use tautline_kernel::choice::Source;
-use tautline_kernel::floor::{Claim, Entry, Mark, Scan, enter, leave};
+use tautline_kernel::floor::{Claim, Entry, Mark, Scan, around, enter, leave};
 use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Edge, Step};
 use tautline_kernel::perception::time;
 use tautline_proofs::run::{Breach, Frame};
+pub use tautline_proofs::trap::Way;
 
 use super::floor::{Component, SensorFloor};
 use super::{Chart, End, Scheme, Setup};
 use crate::layout::Layout;
 use crate::layout::generate::{self, Probability};
 
-/// How agents decide.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Way {
-    /// By the crossings of the cells around.
-    Ants,
-    /// By marking cells.
-    Bricks(Rule),
-}
-
-/// The seeded world: which sensors are missed.
+/// The world: which sensors are missed, by chance or as it is written down.
 #[derive(Clone)]
 struct Misses {
     chance: Probability,
     generator: ChaCha8Rng,
+    /// The numbers of the questions, counted from 1, that are answered yes; in order.
+    written: Vec<u32>,
+    asked: u32,
+}
+
+impl Misses {
+    /// Whether any sensor is ever missed.
+    fn is_never(&self) -> bool {
+        self.chance.is_never() && self.written.is_empty()
+    }
+
+    /// Whether no sensor is missed from now on.
+    fn is_over(&self) -> bool {
+        self.chance.is_never() && self.written.last().is_none_or(|&last| last <= self.asked)
+    }
 }
 
 impl Source for Misses {
@@ -44,7 +52,9 @@ impl Source for Misses {
     }
 
     fn mishap(&mut self) -> bool {
-        !self.chance.is_never() && self.chance.happens(&mut self.generator)
+        self.asked = self.asked.saturating_add(1);
+        let is_missed = !self.chance.is_never() && self.chance.happens(&mut self.generator);
+        is_missed || self.written.binary_search(&self.asked).is_ok()
     }
 }
 
@@ -77,6 +87,8 @@ pub struct Team {
     /// How long each agent has scanned and gone.
     milliseconds: Vec<u64>,
     misses: Misses,
+    /// The cells of the sensors that were missed in the last team move.
+    unseen: Vec<Cell>,
 }
 
 impl Team {
@@ -100,8 +112,20 @@ impl Team {
             steps: vec![Step::Stay; starts.len()],
             is_premature: false,
             milliseconds: vec![0; starts.len()],
-            misses: Misses { chance, generator: generate::source(seed, *b"miss    ") },
+            misses: Misses {
+                chance,
+                generator: generate::source(seed, *b"miss    "),
+                written: Vec::new(),
+                asked: 0,
+            },
+            unseen: Vec::new(),
         }
+    }
+
+    /// The team of `setup` at its start, which explores by `way`.
+    pub(super) fn of(setup: &Setup, way: Way) -> Self {
+        let team = Self::new(way, &setup.layout, &setup.starts(), setup.miss, setup.seed);
+        Self { misses: Misses { written: setup.missed.clone(), ..team.misses }, ..team }
     }
 
     /// Where the agents are.
@@ -127,6 +151,7 @@ impl Team {
     /// Makes one team move.
     pub fn advance(&mut self) {
         self.floor.clear_marked();
+        self.unseen.clear();
         self.is_premature = false;
         for number in 0..self.bodies.len() {
             self.steps[number] = if self.bodies[number].is_done { Step::Stay } else { self.act(number) };
@@ -137,6 +162,12 @@ impl Team {
     fn act(&mut self, number: usize) -> Step {
         let (body, cell) = (&mut self.bodies[number], &mut self.cells[number]);
         let scan = Scan::new(&self.floor, *cell, &mut self.misses);
+        if !self.misses.is_never() {
+            let floor = &self.floor;
+            let cells = (0..).zip(around(*cell)).filter(|(place, _)| scan.unexplored.0 >> place & 1 == 1);
+            let cells = cells.map(|(_, cell)| cell).filter(|&cell| floor.mark(cell) != Mark::Unexplored);
+            self.unseen.extend(cells);
+        }
         let step = match self.way {
             Way::Ants => least_crossed(&scan, scan.beside).map_or(Step::Stay, |side| {
                 leave(&mut self.floor, *cell);
@@ -219,7 +250,7 @@ struct Agents {
 
 /// The agents of `setup`, each at its start.
 pub(super) fn start(setup: &Setup, way: Way) -> Box<dyn Scheme> {
-    let team = Team::new(way, &setup.layout, &setup.starts(), setup.miss, setup.seed);
+    let team = Team::of(setup, way);
     let watch = team.repeats().then(|| Watch::new(&team));
     Box::new(Agents { team, area: setup.layout.size().area(), watch })
 }
@@ -255,10 +286,10 @@ impl Scheme for Agents {
     }
 
     /// That every cell is visited is promised where no sensor is missed, and by those who mark cells.
-    fn broken_at_end(&self, setup: &Setup, _: &Chart, _: End) -> Vec<Breach> {
+    fn broken_at_end(&self, _: &Setup, _: &Chart, _: End) -> Vec<Breach> {
         let is_promised = match self.team.way {
             Way::Ants => false,
-            Way::Bricks(_) => setup.miss.is_never(),
+            Way::Bricks(_) => self.team.misses.is_never(),
         };
         let is_broken = is_promised && self.team.visited() < self.team.due();
         if is_broken { vec![Breach::Unvisited] } else { Vec::new() }
@@ -266,6 +297,10 @@ impl Scheme for Agents {
 
     fn marked(&self) -> &[(Cell, Mark)] {
         self.team.floor.marked()
+    }
+
+    fn unseen(&self) -> &[Cell] {
+        &self.team.unseen
     }
 
     fn components(&self) -> &[Component] {
@@ -303,7 +338,7 @@ impl Watch {
 
     /// Whether the team, which has made a team move since the last call, is where it was.
     fn has_come_round(&mut self, team: &Team) -> bool {
-        if self.gains != team.floor.gains() {
+        if self.gains != team.floor.gains() || !team.misses.is_over() {
             *self = Self { moves: 1, ..Self::new(team) };
             return false;
         }

@@ -87,6 +87,10 @@ impl<G: Grid, const ROBOTS: usize> Scheme for ChainScheme<G, ROBOTS> {
         &[]
     }
 
+    fn unseen(&self) -> &[Cell] {
+        &[]
+    }
+
     fn components(&self) -> &[Component] {
         &[]
     }

@@ -24,6 +24,10 @@ pub enum Misfit {
     Rule(SchemeName),
     /// The scheme has no sensors to miss.
     Miss,
+    /// The same, one by one.
+    MissedByChain,
+    /// The numbers of the sensors that are missed do not grow from 1 on.
+    Missed,
     /// The scheme starts at the base.
     StartsOfChain,
     /// There are starts for another number of agents.
@@ -44,6 +48,7 @@ impl Misfit {
             Self::Robots { .. } => "robots",
             Self::Rule(_) => "rule",
             Self::Miss => "miss",
+            Self::MissedByChain | Self::Missed => "missed",
             Self::StartsOfChain | Self::Starts { .. } | Self::Start(_) => "starts",
         }
     }
@@ -61,6 +66,8 @@ impl Misfit {
             }
             Self::Rule(scheme) => format!("take the rule repaired, or another scheme than {}", scheme.word()),
             Self::Miss => "take ants, bricks or bricks-ants, or leave out how likely that is".to_owned(),
+            Self::MissedByChain => "take ants, bricks or bricks-ants, or leave out what is missed".to_owned(),
+            Self::Missed => "number them from 1 on, in order, each once".to_owned(),
             Self::StartsOfChain => "give the base another place".to_owned(),
             Self::Starts { robots, .. } => format!("give one start for all, or {robots}, one for each agent"),
             Self::Start(problem) => problem.remedy(),
@@ -85,7 +92,10 @@ impl fmt::Display for Misfit {
                 robots,
             } => write!(f, "{robots} agents cannot be the team"),
             Self::Rule(scheme) => write!(f, "{} is ours: nobody has published it", scheme.word()),
-            Self::Miss => f.write_str("the robots of a chain have no floor sensors to miss"),
+            Self::Miss | Self::MissedByChain => {
+                f.write_str("the robots of a chain have no floor sensors to miss")
+            }
+            Self::Missed => f.write_str("the numbers of the sensors that are missed are not in order"),
             Self::StartsOfChain => f.write_str("the robots of a chain start at the base"),
             Self::Starts { starts, robots } => write!(f, "{starts} starts are not those of {robots} agents"),
             Self::Start(problem) => problem.fmt(f),
@@ -120,6 +130,12 @@ impl Setup {
         }
         match (self.crew(), &self.starts) {
             (Crew::Chain, _) if !self.miss.is_never() => Err(Misfit::Miss),
+            (Crew::Chain, _) if !self.missed.is_empty() => Err(Misfit::MissedByChain),
+            (Crew::Agents(_), _)
+                if self.missed.first() == Some(&0) || !self.missed.is_sorted_by(|a, b| a < b) =>
+            {
+                Err(Misfit::Missed)
+            }
             (Crew::Chain, Some(_)) => Err(Misfit::StartsOfChain),
             (Crew::Agents(_), Some(starts)) if starts.len() != usize::from(self.robots) => {
                 Err(Misfit::Starts { starts: starts.len(), robots: self.robots })

@@ -48,7 +48,7 @@ impl<'a> Page<'a> {
                 cells: made.before.to_vec(),
             };
             let step = made.step - 1;
-            let start = TeamMove { step, before: made.before, frame: &start, breaches: &[] };
+            let start = TeamMove { step, before: made.before, frame: &start, unseen: &[], breaches: &[] };
             let words = if step == 0 { "The start".to_owned() } else { format!("After team move {step}") };
             self.push(frame, &start, &words);
         }

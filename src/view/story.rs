@@ -7,7 +7,7 @@ use tautline_kernel::lattice::{Cell, Side, Step};
 use tautline_proofs::registry::CLAUSES;
 use tautline_proofs::run::Breach;
 
-use super::{Block, Pose, beside, first_drawn, outcome, team_move};
+use super::{Block, Pose, beside, first_drawn, legend, outcome, team_move};
 use crate::explore::{Chart, Crew, Report, Setup, TeamMove, Violation, explore, missed};
 use crate::fault::Halt;
 
@@ -101,7 +101,8 @@ fn result(breach: Breach, setup: &Setup, chart: &Chart, made: &TeamMove<'_>) -> 
         Breach::Premature => {
             let is_left = |cell: &Cell| chart.mark(*cell, made.step) == Mark::Unexplored;
             let left = missed(setup, chart).into_iter().filter(is_left).count();
-            vec![format!("So an agent is done, and {left} cells are unexplored.")]
+            let cells = if left == 1 { "cell is" } else { "cells are" };
+            vec![format!("So an agent is done, and {left} {cells} unexplored.")]
         }
         Breach::Completeness | Breach::Unvisited => Vec::new(),
     }
@@ -144,6 +145,36 @@ pub fn of_end(setup: &Setup, report: &Report) -> String {
 fn unexplored(setup: &Setup, report: &Report, head: &str, what: &str, cells: &[Cell]) -> String {
     let cells: Vec<String> = cells.iter().map(|cell| format!("({cell})")).collect();
     format!("{head}\n\n  {what}: {}.\n\n{}", cells.join(" "), outcome(setup, &report.chart, &report.team))
+}
+
+/// How agents come into the trap of the run of `setup`: every team move before it is made, with what each agent tries
+/// and the sensors that it misses, and the end.
+///
+/// # Errors
+/// [`Halt`] if the setup does not fit its scheme.
+pub fn of_trap(setup: &Setup) -> Result<String, Halt> {
+    let report = explore(setup, &mut |_| Ok(()))?;
+    let (mut blocks, mut words) = (Vec::new(), String::new());
+    explore(setup, &mut |made| {
+        let before = team_move(setup, &report.chart, made, Pose::Before);
+        blocks.push(Block { title: format!("before move {}", made.step), ..before });
+        for cell in made.unseen {
+            // Writing to a string cannot fail.
+            let _ = writeln!(words, "  In team move {} the sensor of {cell} is missed.", made.step);
+        }
+        if !made.breaches.is_empty() {
+            let after = outcome(setup, &report.chart, &report.team);
+            blocks.push(Block {
+                title: "the end".to_owned(),
+                lines: after.lines().map(str::to_owned).collect(),
+            });
+        }
+        for line in made.breaches.iter().flat_map(|&breach| result(breach, setup, &report.chart, made)) {
+            let _ = writeln!(words, "  {line}");
+        }
+        Ok(())
+    })?;
+    Ok(format!("{}\n\n{words}\n{}", legend(setup.crew()), beside(&blocks)))
 }
 
 /// How the last team move of the run of `setup`, or its end, breaks its clauses.

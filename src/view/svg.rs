@@ -34,7 +34,7 @@ text{fill:var(--ink);text-anchor:middle;dominant-baseline:central}.caption{text-
 .order{fill:var(--robot)}.small{font-size:10px}.robot{fill:var(--robot)}.leader{fill:var(--leader)}.base{fill:var(--base)}\
 .name{fill:var(--ground);font-size:10px;font-weight:600}.link{stroke:var(--robot);stroke-width:2;stroke-opacity:.5}\
 .way{stroke:var(--ink);stroke-width:1.5}.tip{fill:var(--ink)}.bump{stroke:var(--bad);stroke-width:3}\
-.broken{stroke:var(--bad);stroke-width:3;stroke-dasharray:5 3}.crowded{fill:var(--bad)}";
+.unseen{stroke:var(--bad);stroke-width:2;stroke-dasharray:3 2;fill:none}.broken{stroke:var(--bad);stroke-width:3;stroke-dasharray:5 3}.crowded{fill:var(--bad)}";
 
 /// A part of a picture with its size, its corner at 0,0.
 #[derive(Clone, Debug)]
@@ -252,6 +252,13 @@ pub(super) fn marked_cell(frame: Frame, cell: Cell, mark: Mark) -> String {
     format!("<rect class=\"{class}\" x=\"{x}.5\" y=\"{y}.5\" width=\"{inner}\" height=\"{inner}\"/>")
 }
 
+/// A frame inside the cell of a sensor that was missed.
+fn unseen(frame: Frame, cell: Cell) -> String {
+    let (x, y) = frame.corner(cell);
+    let inner = CELL - 6;
+    format!("<rect class=\"unseen\" x=\"{}\" y=\"{}\" width=\"{inner}\" height=\"{inner}\"/>", x + 3, y + 3)
+}
+
 fn base_mark(frame: Frame, base: Cell) -> String {
     let (x, y) = frame.corner(base);
     format!("<rect class=\"base\" x=\"{}\" y=\"{}\" width=\"16\" height=\"16\" rx=\"3\"/>", x + 4, y + 4)
@@ -265,7 +272,8 @@ fn name((x, y): (i32, i32), text: &str) -> String {
 /// The links and the base of a chain, the ways of the robots and the robots.
 pub(super) fn team(crew: Crew, frame: Frame, made: &TeamMove<'_>) -> String {
     let (before, after) = (made.before, made.frame.cells.as_slice());
-    let mut body = match crew {
+    let mut body: String = made.unseen.iter().map(|&cell| unseen(frame, cell)).collect();
+    body += &match crew {
         Crew::Chain => links(frame, before, after) + &base_mark(frame, after[0]),
         Crew::Agents(_) => String::new(),
     };

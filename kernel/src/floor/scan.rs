@@ -46,6 +46,15 @@ const AROUND: [(i16, i16, Side); 8] = [
     (-1, -1, Side::East),
 ];
 
+const fn moved(cell: Cell, columns: i16, rows: i16) -> Cell {
+    Cell::new(cell.x.saturating_add(columns), cell.y.saturating_add(rows))
+}
+
+/// The cells around `cell`, clockwise from the northern one: those of a [`Ring`], in the order of its bits.
+pub fn around(cell: Cell) -> [Cell; 8] {
+    AROUND.map(|(columns, rows, _)| moved(cell, columns, rows))
+}
+
 impl Scan {
     /// Scans from `cell`, which has a sensor. Whether a sensor is missed is asked of `world`, once for each that an
     /// agent has been at.
@@ -65,7 +74,7 @@ impl Scan {
             serials: [0; 8],
         };
         let around = AROUND.map(|(columns, rows, onward)| {
-            let there = Cell::new(cell.x.saturating_add(columns), cell.y.saturating_add(rows));
+            let there = moved(cell, columns, rows);
             let sensor = floor.sensor(there).map(|sensor| match sensor.mark {
                 Mark::Unexplored => Sensor::default(),
                 Mark::Explored | Mark::Closing | Mark::Visited | Mark::Sealed if world.mishap() => {

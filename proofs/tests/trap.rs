@@ -1,0 +1,224 @@
+//! The smallest trap, checked by plain runs on a floor of this test's own: every layout, every start, every sensor
+//! missed in turn.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+use tautline_kernel::bricks::{Agent, Next, Rule, act};
+use tautline_kernel::choice::Source;
+use tautline_kernel::floor::{Entry, Floor, Mark, Sensor, enter};
+use tautline_kernel::lattice::{Cell, Edge, Side};
+use tautline_proofs::trap::{Bounds, End, Found, Trap, Way, hunt};
+
+const fn bounds(way: Way, agents: u32, max_misses: u8, max_side: i16) -> Bounds {
+    Bounds { way, agents, max_misses, max_width: max_side, max_height: max_side, budget_steps: None }
+}
+
+fn found(bounds: &Bounds) -> Found {
+    hunt(bounds, &mut |_| ControlFlow::Continue(()))
+}
+
+fn smallest() -> Trap {
+    Trap {
+        width: 3,
+        height: 3,
+        blocked: vec![Cell::new(1, 2)],
+        starts: vec![Cell::new(1, 1)],
+        missed: vec![2],
+        moves: 5,
+        end: End::Done,
+    }
+}
+
+#[derive(Clone, Default)]
+struct Plain {
+    sensors: BTreeMap<Cell, Sensor>,
+    placed: u16,
+}
+
+impl Floor for Plain {
+    fn sensor(&self, cell: Cell) -> Option<Sensor> {
+        self.sensors.get(&cell).copied()
+    }
+
+    fn put(&mut self, cell: Cell, sensor: Sensor) {
+        if let Some(there) = self.sensors.get_mut(&cell) {
+            *there = sensor;
+        }
+    }
+
+    fn unpack(&mut self, _: Cell) -> u16 {
+        self.placed += 1;
+        self.placed
+    }
+
+    fn is_open(&self, edge: Edge) -> bool {
+        self.sensors.contains_key(&edge.cell()) && self.sensors.contains_key(&edge.cell().beyond(edge.side()))
+    }
+}
+
+/// Misses the sensors with these numbers.
+struct Script<'a> {
+    missed: &'a [u32],
+    asked: u32,
+}
+
+impl Source for Script<'_> {
+    fn pick(&mut self, _: u32) -> u32 {
+        0
+    }
+
+    fn mishap(&mut self) -> bool {
+        self.asked += 1;
+        self.missed.contains(&self.asked)
+    }
+}
+
+/// What became of one agent.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Fate {
+    /// Every cell is explored.
+    Explored,
+    /// It is done too early, after so many moves.
+    Trapped(u32),
+}
+
+/// Runs one agent on the free cells; its fate, and how many sensors it asked about.
+fn run(rule: Rule, free: &[Cell], start: Cell, missed: &[u32]) -> (Fate, u32) {
+    let mut floor =
+        Plain { sensors: free.iter().map(|&cell| (cell, Sensor::default())).collect(), placed: 0 };
+    enter(&mut floor, start, Entry::New);
+    let (mut agent, mut cell, mut script) = (Agent::new(0), start, Script { missed, asked: 0 });
+    for moves in 1..10_000 {
+        let action;
+        (action, cell) = act(rule, &mut floor, &mut agent, cell, &mut script);
+        if floor.sensors.values().all(|sensor| sensor.mark != Mark::Unexplored) {
+            return (Fate::Explored, script.asked);
+        }
+        if action.next == Next::Done {
+            return (Fate::Trapped(moves), script.asked);
+        }
+    }
+    panic!("no end on {free:?} from {start:?}, {missed:?} missed");
+}
+
+/// The free cells of every connected layout, by number.
+fn layouts(width: i16, height: i16) -> impl Iterator<Item = Vec<Cell>> {
+    let cells: Vec<Cell> = (0..height).flat_map(|y| (0..width).map(move |x| Cell::new(x, y))).collect();
+    (0..1_u32 << cells.len())
+        .map(move |blocked| {
+            (0..).zip(&cells).filter(|(bit, _)| blocked >> bit & 1 == 0).map(|(_, &cell)| cell).collect()
+        })
+        .filter(|free: &Vec<Cell>| {
+            let mut reached: Vec<Cell> = free.first().copied().into_iter().collect();
+            let mut next = 0;
+            while let Some(&cell) = reached.get(next) {
+                next += 1;
+                let beside = Side::ALL.map(|side| cell.beyond(side));
+                let new: Vec<Cell> = beside
+                    .into_iter()
+                    .filter(|cell| free.contains(cell) && !reached.contains(cell))
+                    .collect();
+                reached.extend(new);
+            }
+            !free.is_empty() && reached.len() == free.len()
+        })
+}
+
+/// The free cells of the smallest trap.
+fn notched() -> Vec<Cell> {
+    let cells = (0..3).flat_map(|y| (0..3).map(move |x| Cell::new(x, y)));
+    cells.filter(|cell| !smallest().blocked.contains(cell)).collect()
+}
+
+#[test]
+fn the_smallest_trap_has_nine_cells_and_one_missed_sensor() {
+    for rule in [Rule::REPAIRED, Rule::PUBLISHED] {
+        let found = found(&bounds(Way::Bricks(rule), 1, 2, 4));
+        assert_eq!((found.trap, found.is_complete, found.levels), (Some(smallest()), true, 1));
+        assert_eq!(found.layouts, 14_890);
+    }
+}
+
+#[test]
+fn two_agents_are_trapped_in_six_cells() {
+    let found = found(&bounds(Way::Bricks(Rule::REPAIRED), 2, 1, 3));
+    let trap = found.trap.expect("a trap");
+    assert_eq!((trap.width, trap.height, trap.missed.len(), trap.moves), (2, 3, 1, 2));
+}
+
+/// In areas of fewer cells no sensor that is missed alone traps an agent, nor does any run without misses; of those
+/// in 3×3 cells none is trapped sooner.
+#[test]
+fn no_smaller_layout_traps_an_agent_in_plain_runs() {
+    let areas = (1..=4).flat_map(|width| (1..=4).map(move |height| (width, height)));
+    let mut soonest = None;
+    for (width, height) in areas.filter(|(width, height)| width * height < 9 || (*width, *height) == (3, 3)) {
+        for (layout, free) in layouts(width, height).enumerate() {
+            for &start in &free {
+                let (fate, asked) = run(Rule::REPAIRED, &free, start, &[]);
+                assert_eq!(fate, Fate::Explored);
+                for missed in 1..=asked {
+                    let (fate, _) = run(Rule::REPAIRED, &free, start, &[missed]);
+                    if let Fate::Trapped(moves) = fate {
+                        assert_eq!((width, height), (3, 3), "{free:?} from {start:?}, {missed} missed");
+                        let trap = (moves, layout, start, missed);
+                        soonest = Some(soonest.map_or(trap, |soonest| trap.min(soonest)));
+                    }
+                }
+            }
+        }
+    }
+    let Trap { starts, missed, moves, .. } = smallest();
+    let place = layouts(3, 3).position(|free| free == notched()).expect("it is connected");
+    let (soonest_moves, layout, ..) = soonest.expect("a trap");
+    assert_eq!((soonest_moves, layout), (moves, place));
+    assert_eq!(run(Rule::REPAIRED, &notched(), starts[0], &missed).0, Fate::Trapped(moves));
+}
+
+/// From every start, whatever sensor is missed and whatever other.
+#[test]
+fn the_robust_rule_survives_that_layout_with_one_miss_more() {
+    let free = notched();
+    for &start in &free {
+        let (_, asked) = run(Rule::ROBUST, &free, start, &[]);
+        for first in 1..=asked {
+            let (fate, asked) = run(Rule::ROBUST, &free, start, &[first]);
+            assert_eq!(fate, Fate::Explored);
+            for second in first + 1..=asked {
+                let (fate, _) = run(Rule::ROBUST, &free, start, &[first, second]);
+                assert_eq!(fate, Fate::Explored, "from {start:?}, {first} and {second} missed");
+            }
+        }
+    }
+}
+
+#[test]
+fn nothing_traps_ants_or_the_robust_rule_in_nine_cells() {
+    for (way, states) in [(Way::Ants, 169_972), (Way::Bricks(Rule::ROBUST), 158_763)] {
+        let found = found(&bounds(way, 1, 2, 3));
+        assert_eq!((found.trap, found.is_complete, found.levels, found.layouts), (None, true, 3, 990));
+        assert_eq!(found.states, states);
+    }
+}
+
+#[test]
+fn a_hunt_comes_out_the_same_on_any_number_of_threads() {
+    let bounds = bounds(Way::Bricks(Rule::REPAIRED), 1, 1, 3);
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| found(&bounds))
+    };
+    let one = on(1);
+    assert_eq!((one.layouts, one.states, one.steps), (660, 35_193, 37_798));
+    for threads in [2, 3, 7] {
+        assert_eq!(on(threads), one, "{threads} threads");
+    }
+}
+
+#[test]
+fn a_budget_ends_a_hunt_without_a_claim() {
+    let short = Bounds { budget_steps: Some(1000), ..bounds(Way::Bricks(Rule::REPAIRED), 1, 1, 3) };
+    let found = found(&short);
+    assert_eq!((found.is_complete, found.trap, found.levels), (false, None, 0));
+}

@@ -1,0 +1,182 @@
+//! `tautline hunt` for agents on a sensor floor: the fewest missed sensors and the smallest layout that trap them.
+
+use std::fmt::Write;
+use std::ops::ControlFlow;
+
+use serde::Serialize;
+use tautline_proofs::clause::Verdict;
+use tautline_proofs::run::Breach;
+use tautline_proofs::trap::{self, Bounds, End, Found, Trap, Way};
+
+use super::{Hunt, check_folder, shown};
+use crate::cli::output::Output;
+use crate::cli::{Exit, Format, SizeArg, interrupt, progress, usage};
+use crate::explore::{Misfit, RuleName, SchemeName, Setup};
+use crate::fault::{Fault, Halt};
+use crate::hunt::store;
+use crate::hunt::trap::{DEFAULT_SIDE, bounds, setup};
+use crate::layout::Size;
+use crate::view;
+
+/// Agents when nobody says how many.
+const DEFAULT_AGENTS: u64 = 1;
+
+/// Sensors that are missed at most when nobody says how many.
+const DEFAULT_MISSES: u8 = 1;
+
+#[derive(Serialize)]
+struct Hunted {
+    scheme: SchemeName,
+    rule: RuleName,
+    robots: u32,
+    /// Columns and rows of the largest layouts.
+    size: String,
+    /// Layouts, anew for each number of misses; states of agents and floors; team moves between them.
+    layouts: u64,
+    states: u64,
+    steps: u64,
+    max_misses: u8,
+    /// Whether the search came to its end: the smallest trap, or all layouts within the bound.
+    complete: bool,
+    /// The most misses up to which every layout was covered.
+    misses_done: Option<u8>,
+    verdict: &'static str,
+    counterexamples: Vec<Stored>,
+}
+
+#[derive(Serialize)]
+struct Stored {
+    clause: &'static str,
+    misses: usize,
+    columns: i16,
+    rows: i16,
+    steps: u32,
+    /// Where it is stored; a run without end is not.
+    file: Option<String>,
+    #[serde(skip)]
+    setup: Setup,
+}
+
+/// Hunts for traps of agents that decide by `way`.
+pub(super) fn run(hunt: &Hunt, way: Way, out: &mut Output) -> Result<Exit, Halt> {
+    refuse(hunt)?;
+    check_folder(&hunt.out)?;
+    let size = match hunt.size {
+        Some(SizeArg(size)) => size,
+        None => Size::new(DEFAULT_SIDE, DEFAULT_SIDE).map_err(|problem| usage(&problem))?,
+    };
+    let (agents, misses) = (hunt.robots.unwrap_or(DEFAULT_AGENTS), hunt.max_misses.unwrap_or(DEFAULT_MISSES));
+    let bounds = Bounds { budget_steps: hunt.budget, ..bounds(way, agents, misses, size)? };
+    let found = search(&bounds);
+    let hunted = Hunted {
+        scheme: hunt.scheme,
+        rule: hunt.rule,
+        robots: bounds.agents,
+        size: size.to_string(),
+        layouts: found.layouts,
+        states: found.states,
+        steps: found.steps,
+        max_misses: bounds.max_misses,
+        complete: found.is_complete,
+        misses_done: found.levels.checked_sub(1),
+        verdict: verdict(&found).word(),
+        counterexamples: found.trap.iter().map(|trap| stored(hunt, trap)).collect::<Result<_, _>>()?,
+    };
+    match hunt.format.format {
+        Format::Json => out.json(&hunted)?,
+        Format::Text => out.text(tell(&hunted)?)?,
+    }
+    Ok(match verdict(&found) {
+        Verdict::Refuted => Exit::Violation,
+        Verdict::Holds => Exit::Expected,
+        Verdict::Open => Exit::Unfinished,
+    })
+}
+
+/// Refuses what is not asked of agents.
+fn refuse(hunt: &Hunt) -> Result<(), Fault> {
+    if (hunt.scheme, hunt.rule) == (SchemeName::BricksAnts, RuleName::Published) {
+        let misfit = Misfit::Rule(hunt.scheme);
+        return Err(Fault::usage(&misfit, misfit.remedy()));
+    }
+    if hunt.max_walls.is_some() {
+        let what = "agents know every wall: no number of walls bounds their search";
+        return Err(Fault::usage(what, "give --max-misses for the sensors, and --size for the layouts"));
+    }
+    if hunt.resume.is_some() {
+        let what = "a hunt for traps is not kept in a file";
+        return Err(Fault::usage(what, "leave --resume out; a smaller --size or --budget makes it shorter"));
+    }
+    Ok(())
+}
+
+fn search(bounds: &Bounds) -> Found {
+    let spinner = progress::spinner("hunting");
+    let found = trap::hunt(bounds, &mut |found| {
+        let Found { layouts, states, levels, .. } = found;
+        spinner.set_message(format!(
+            "misses {levels} of {}, {layouts} layouts, {states} states",
+            bounds.max_misses
+        ));
+        if interrupt::is_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    spinner.finish_and_clear();
+    found
+}
+
+const fn verdict(found: &Found) -> Verdict {
+    match (&found.trap, found.is_complete) {
+        (Some(_), _) => Verdict::Refuted,
+        (None, true) => Verdict::Holds,
+        (None, false) => Verdict::Open,
+    }
+}
+
+fn stored(hunt: &Hunt, trap: &Trap) -> Result<Stored, Halt> {
+    let setup = setup(hunt.scheme, hunt.rule, trap).map_err(|problem| usage(&problem))?;
+    let (clause, file) = match trap.end {
+        End::Done => {
+            let (path, _) = store(&hunt.out, &setup, Breach::Premature)?;
+            (Breach::Premature.clause(), Some(shown(&path)))
+        }
+        End::Endless => (ENDLESS, None),
+    };
+    let (columns, rows) = (trap.width, trap.height);
+    Ok(Stored { clause, misses: trap.missed.len(), columns, rows, steps: trap.moves, file, setup })
+}
+
+/// The clause that a run without end breaks.
+const ENDLESS: &str = "BRICKS-5";
+
+fn tell(hunted: &Hunted) -> Result<String, Halt> {
+    let Hunted { scheme, rule, robots, size, layouts, states, steps, max_misses, misses_done, .. } = hunted;
+    let mut text = format!(
+        "{} ({rule}), {robots} {}, at most {max_misses} missed, layouts up to {size}: {layouts} layouts, {states} states, \
+         {steps} team moves\n",
+        scheme.word(),
+        if *robots == 1 { "agent" } else { "agents" },
+    );
+    let bound = match misses_done {
+        Some(misses) if misses == max_misses => "in any layout within this bound".to_owned(),
+        Some(misses) => format!("with at most {misses} missed; the hunt was ended before its bound"),
+        None => "so far; the hunt was ended before it had covered all layouts".to_owned(),
+    };
+    // Writing to a string cannot fail.
+    let _ = match hunted.counterexamples[..] {
+        [] => writeln!(text, "No agent is trapped {bound}."),
+        _ => {
+            writeln!(text, "The fewest missed sensors and the smallest layout with which agents are trapped:")
+        }
+    };
+    for Stored { clause, misses, columns, rows, steps, file, setup } in &hunted.counterexamples {
+        let _ = writeln!(text, "\n{clause}, {misses} missed, {columns}x{rows} cells, {steps} team moves");
+        let _ = match file {
+            Some(file) => {
+                let story = view::story::of_trap(setup)?;
+                writeln!(text, "\n{story}\nreplay it with: tautline replay {file}")
+            }
+            None => writeln!(text, "\nA run without end in this layout:\n\n{}", setup.layout),
+        };
+    }
+    Ok(text)
+}
