@@ -85,6 +85,7 @@ fn the_pictures_of_the_readme_are_drawn_by_the_commands_beside_them() {
         ("notice-reach.svg", "reproduce notice-fig5 --svg-reach", 0),
         ("notice-rebroadcasts.svg", "reproduce notice-fig5 --svg-rebroadcasts", 0),
         ("crowding.svg", "replay docs/chain-2-published-n4.jsonl --svg", 1),
+        ("trap.svg", "replay docs/bricks-4-repaired-n1.jsonl --moves 1..5 --svg", 1),
     ] {
         assert!(readme.contains(&format!("tautline {arguments} docs/{picture}")), "{picture}");
         let drawn = folder.path().join(picture);
