@@ -97,6 +97,7 @@ proptest! {
     fn robust_agents_explore_everything_although_sensors_are_missed(setup in setups(), miss in 0.0..0.1_f64) {
         let miss = Probability::new(miss).expect("a probability");
         let report = run(&Setup { scheme: SchemeName::BricksAnts, miss, ..setup });
+        prop_assert_eq!(&report.violations, &[]);
         prop_assert_eq!((report.stopped, report.explored), (Stopped::Explored, report.cells));
     }
 }

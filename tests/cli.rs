@@ -356,7 +356,7 @@ fn clauses_are_decided_by_name() {
     );
     assert_snapshot!(refused(folder.path(), &["prove", "CHAIN-99"]), @r#"
     Error: there is no clause "CHAIN-99"
-     Help: the clauses are LATTICE-1, CHAIN-1, CHAIN-2, CHAIN-3, CHAIN-4, CHAIN-5, CHAIN-6, CHAIN-7, CHAIN-8, CHAIN-9, CHAIN-10, CHAIN-11, CHAIN-12, CHAIN-13, CHAIN-14, CHAIN-15, NOTICE-1, NOTICE-2, NOTICE-3, NOTICE-4, NOTICE-5, MRC-1, MRC-2, MRC-3, MRC-4, MRC-5, MRC-6
+     Help: the clauses are LATTICE-1, CHAIN-1, CHAIN-2, CHAIN-3, CHAIN-4, CHAIN-5, CHAIN-6, CHAIN-7, CHAIN-8, CHAIN-9, CHAIN-10, CHAIN-11, CHAIN-12, CHAIN-13, CHAIN-14, CHAIN-15, ANTS-1, BRICKS-1, BRICKS-2, BRICKS-3, BRICKS-4, BRICKS-5, BRICKS-6, NOTICE-1, NOTICE-2, NOTICE-3, NOTICE-4, NOTICE-5, MRC-1, MRC-2, MRC-3, MRC-4, MRC-5, MRC-6
     "#);
 }
 

@@ -12,7 +12,7 @@ use tautline_kernel::ants::least_crossed;
 use tautline_kernel::bricks::{self, Agent, Condition, Next};
 use tautline_kernel::chain::Kind;
 use tautline_kernel::choice::Source;
-use tautline_kernel::floor::{Claim, Entry, Mark, Scan, around, enter, leave};
+use tautline_kernel::floor::{Claim, Mark, Scan, around, enter, leave, settle};
 use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Edge, Step};
 use tautline_kernel::perception::time;
@@ -96,13 +96,7 @@ impl Team {
     /// from `seed`.
     pub fn new(way: Way, layout: &Layout, starts: &[Cell], chance: Probability, seed: u64) -> Self {
         let mut floor = SensorFloor::new(layout, starts);
-        for &start in starts {
-            let entry = match floor.mark(start) {
-                Mark::Unexplored => Entry::New,
-                Mark::Explored | Mark::Closing | Mark::Visited | Mark::Sealed => Entry::Known,
-            };
-            enter(&mut floor, start, entry);
-        }
+        settle(&mut floor, starts);
         let bodies = (0..=u8::MAX).zip(starts).map(|(id, _)| Body { agent: Agent::new(id), is_done: false });
         Self {
             way,
