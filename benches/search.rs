@@ -29,7 +29,7 @@ struct Searched {
 }
 
 impl Work for Searched {
-    fn team_moves(&self) -> u32 {
+    fn parts(&self) -> u32 {
         u32::try_from(self.moves).expect("not so many moves")
     }
 }

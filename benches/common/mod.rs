@@ -1,4 +1,4 @@
-//! What the benchmarks share: how a group of them is sampled, and what one team move costs.
+//! What the benchmarks share: how a group of them is sampled, and what one part of the work costs, such as a team move.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -17,10 +17,11 @@ pub(crate) fn group<'a>(criterion: &'a mut Criterion, name: &str) -> Group<'a> {
 
 /// What was done.
 pub(crate) trait Work {
-    fn team_moves(&self) -> u32;
+    /// Of how many parts it was: team moves, receptions.
+    fn parts(&self) -> u32;
 }
 
-/// What one team move took.
+/// What one part took.
 pub(crate) struct Cost<W> {
     pub(crate) work: W,
     /// By the fastest sample; infinite if nothing was measured.
@@ -29,7 +30,7 @@ pub(crate) struct Cost<W> {
 
 impl<W: Work> Cost<W> {
     pub(crate) fn new(work: W, seconds: f64) -> Self {
-        let micros = 1e6 * seconds / f64::from(work.team_moves());
+        let micros = 1e6 * seconds / f64::from(work.parts());
         Self { work, micros }
     }
 }
@@ -37,7 +38,7 @@ impl<W: Work> Cost<W> {
 pub(crate) fn measure<W: Work>(group: &mut Group<'_>, id: BenchmarkId, run: impl Fn() -> W) -> Cost<W> {
     let work = run();
     let mut fastest_seconds = f64::INFINITY;
-    group.throughput(Throughput::Elements(work.team_moves().into()));
+    group.throughput(Throughput::Elements(work.parts().into()));
     group.bench_function(id, |bencher| {
         bencher.iter_custom(|times| {
             let start = Instant::now();

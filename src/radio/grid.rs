@@ -1,5 +1,5 @@
-//! Neighbour search: a grid of cells at least as wide as signals reach, so that whoever can be heard is in the same cell
-//! or one beside it. The nodes are kept cell by cell, row by row: three cells side by side are one stretch.
+//! Neighbour search: a grid of cells at least half as wide as signals reach, so that whoever can be heard is at most two
+//! cells off. The nodes are kept cell by cell, row by row: cells side by side are one stretch.
 
 use std::ops::Range;
 
@@ -22,14 +22,18 @@ pub(super) struct Place {
     pub(super) point: Point,
 }
 
-/// Cells are a little wider than signals reach, so that rounding puts nobody two cells off.
+/// How many cells off one can be heard.
+const CELLS_OFF: usize = 2;
+
+/// Cells are a little wider than signals reach, so that rounding puts nobody farther off.
 const ROOM: f64 = 1.000_001;
 
 impl Grid {
     pub(super) fn new(area: Area, points: &[Point], reach_m: f64) -> Self {
         // More cells than nodes would only be empty.
         let most = f64::from(points.len() as u32).sqrt().ceil();
-        let cells = |side_m: f64| (side_m / (reach_m * ROOM)).floor().clamp(1.0, most);
+        let cells =
+            |side_m: f64| (f64::from(CELLS_OFF as u32) * side_m / (reach_m * ROOM)).floor().clamp(1.0, most);
         let (columns, rows) = (cells(area.width_m()), cells(area.height_m()));
         let mut grid = Self {
             columns: columns as usize,
@@ -73,8 +77,8 @@ impl Grid {
     }
 
     fn beside(&self, column: usize, row: usize) -> impl Iterator<Item = Range<usize>> + use<'_> {
-        let (west, east) = (column.saturating_sub(1), (column + 1).min(self.columns - 1));
-        (row.saturating_sub(1)..=(row + 1).min(self.rows - 1)).map(move |row| {
+        let (west, east) = (column.saturating_sub(CELLS_OFF), (column + CELLS_OFF).min(self.columns - 1));
+        (row.saturating_sub(CELLS_OFF)..=(row + CELLS_OFF).min(self.rows - 1)).map(move |row| {
             let cells = row * self.columns;
             self.first[cells + west] as usize..self.first[cells + east + 1] as usize
         })

@@ -10,7 +10,7 @@ use tautline_kernel::choice::Source;
 
 use super::chance::{MOST_DEVIATIONS, checked_deviation, deviation_db};
 use super::grid::Grid;
-use super::{Chance, Field, Point, Problem};
+use super::{Chance, Field, Obstacle, Point, Problem};
 
 /// The longest range: distances have to fit into 32 bits of micrometres.
 pub const MAX_RANGE_M: f64 = 4_000.0;
@@ -109,7 +109,7 @@ pub struct Network {
 }
 
 impl Network {
-    /// The links of `field` under `radio`. Shadows are drawn pair by pair.
+    /// The links of `field` under `radio`. Shadows are drawn pair by pair, in the order of the nodes.
     ///
     /// # Errors
     /// [`Problem::TooDense`] if the links might not fit into memory; nothing of them is allocated then.
@@ -122,9 +122,13 @@ impl Network {
             return Err(Problem::TooDense { pairs, most: MAX_PAIRS });
         }
         let mut upper = Upper::default();
-        let mut near = Vec::new();
+        let mut buffer = vec![(0, 0.0); points.len()];
         for (node, &point) in (0..).zip(points) {
-            within(&grid, node, point, reach_m, &mut near);
+            let near = within(&grid, node, point, reach_m, &mut buffer);
+            if radio.model != Model::Disc {
+                // What is drawn depends on the numbers of the nodes, not on the grid.
+                near.sort_unstable_by_key(|&(other, _)| other);
+            }
             let links = near.iter().filter_map(|&(other, squared_m2)| {
                 let apart_m = squared_m2.sqrt();
                 let seems_m = match radio.model {
@@ -133,11 +137,8 @@ impl Network {
                         apart_m * gain(exponent, -deviation_db(standard_db, source))
                     }
                 };
-                let is_heard = seems_m <= radio.range_m
-                    && !field
-                        .obstacles()
-                        .iter()
-                        .any(|obstacle| obstacle.stops(point, points[other as usize]));
+                let stops = |obstacle: &Obstacle| obstacle.stops(point, points[other as usize]);
+                let is_heard = seems_m <= radio.range_m && !field.obstacles().iter().any(stops);
                 is_heard.then(|| Link { to: NodeId(other), distance_um: micrometres(seems_m) })
             });
             upper.add(links);
@@ -218,22 +219,26 @@ impl Network {
     }
 }
 
-/// The nodes with larger numbers than `node` within reach of it, ascending, with the squares of their distances. What is
-/// out of reach is written, too, and then written over: that is quicker than to ask first.
-fn within(grid: &Grid, node: u32, point: Point, reach_m: f64, near: &mut Vec<(u32, f64)>) {
-    let most = grid.near(point).map(|places| places.len()).sum();
-    if near.len() < most {
-        near.resize(most, (0, 0.0));
-    }
+/// The nodes with larger numbers than `node` within reach of it, with the squares of their distances. The buffer has room
+/// for all nodes. What is out of reach is written, too, and then written over: that is quicker than to ask first.
+fn within<'a>(
+    grid: &Grid,
+    node: u32,
+    point: Point,
+    reach_m: f64,
+    buffer: &'a mut [(u32, f64)],
+) -> &'a mut [(u32, f64)] {
+    let reach_m2 = reach_m * reach_m;
     let mut found = 0;
-    for place in grid.near(point).flat_map(|places| &grid.places[places]) {
-        let (along_x, along_y) = (place.point.x_m - point.x_m, place.point.y_m - point.y_m);
-        let squared_m2 = along_x * along_x + along_y * along_y;
-        near[found] = (place.node, squared_m2);
-        found += usize::from(squared_m2 <= reach_m * reach_m) & usize::from(place.node > node);
+    for places in grid.near(point) {
+        for place in &grid.places[places] {
+            let (along_x, along_y) = (place.point.x_m - point.x_m, place.point.y_m - point.y_m);
+            let squared_m2 = along_x * along_x + along_y * along_y;
+            buffer[found] = (place.node, squared_m2);
+            found += usize::from(squared_m2 <= reach_m2) & usize::from(place.node > node);
+        }
     }
-    near.truncate(found);
-    near.sort_unstable_by_key(|&(other, _)| other);
+    &mut buffer[..found]
 }
 
 /// Links to larger numbers, node by node: half of a network.
@@ -244,42 +249,46 @@ struct Upper {
 }
 
 impl Upper {
-    /// The links of the next node to larger numbers, ascending.
+    /// The links of the next node to larger numbers, in any order.
     fn add(&mut self, links: impl Iterator<Item = Link>) {
         self.links.extend(links);
         self.ends.push(self.links.len() as u32);
     }
 
-    /// The network of these links, both ways. Node by node each list fills up ascending.
+    /// The network of these links, both ways. Node by node the smaller ends are put into the lists of the larger ones, and
+    /// from these lists, node by node, the larger into those of the smaller: so each list ascends, without sorting.
     fn both_ways(self) -> Network {
         let nodes = self.ends.len();
-        let runs = || {
-            let starts = std::iter::once(0).chain(self.ends.iter().copied());
-            starts.zip(&self.ends).map(|(start, &end)| &self.links[start as usize..end as usize])
-        };
         let mut first = vec![0; nodes + 1];
-        for (node, run) in runs().enumerate() {
-            first[node + 1] += run.len() as u32;
-            for link in run {
-                first[link.to.0 as usize + 1] += 1;
-            }
+        let mut smaller = vec![0; nodes];
+        for link in &self.links {
+            smaller[link.to.0 as usize] += 1;
         }
-        for node in 1..=nodes {
-            first[node] += first[node - 1];
+        let mut start = 0;
+        for (node, &end) in self.ends.iter().enumerate() {
+            first[node + 1] = first[node] + smaller[node] + (end - start);
+            start = end;
         }
+        let links = 2 * self.links.len();
+        let (mut to, mut distances_um) = (vec![NodeId(0); links], vec![0; links]);
         let mut next = first.clone();
-        let mut to = vec![NodeId(0); 2 * self.links.len()];
-        let mut distances_um = vec![0; to.len()];
-        let mut put = |from: usize, end: u32, distance_um: u32| {
-            let place = next[from] as usize;
-            next[from] += 1;
-            to[place] = NodeId(end);
-            distances_um[place] = distance_um;
-        };
-        for (node, run) in (0..).zip(runs()) {
-            for link in run {
-                put(node as usize, link.to.0, link.distance_um);
-                put(link.to.0 as usize, node, link.distance_um);
+        let mut start = 0;
+        for (node, &end) in (0..).zip(&self.ends) {
+            for link in &self.links[start as usize..end as usize] {
+                let place = &mut next[link.to.0 as usize];
+                to[*place as usize] = NodeId(node);
+                distances_um[*place as usize] = link.distance_um;
+                *place += 1;
+            }
+            start = end;
+        }
+        for (node, &smaller) in (0..).zip(&smaller) {
+            let start = first[node as usize];
+            for from in start as usize..(start + smaller) as usize {
+                let place = &mut next[to[from].0 as usize];
+                to[*place as usize] = NodeId(node);
+                distances_um[*place as usize] = distances_um[from];
+                *place += 1;
             }
         }
         Network { first, to, distances_um }
@@ -292,7 +301,7 @@ mod tests {
     use tautline_proofs::engine::{Seeded, Tape};
 
     use super::*;
-    use crate::radio::{Area, Obstacle};
+    use crate::radio::Area;
 
     fn disc(range_m: f64) -> Radio {
         Radio::new(range_m, Model::Disc).expect("a radio")
