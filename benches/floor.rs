@@ -20,7 +20,7 @@ struct Work {
 }
 
 impl common::Work for Work {
-    fn team_moves(&self) -> u32 {
+    fn parts(&self) -> u32 {
         self.team_moves
     }
 }
