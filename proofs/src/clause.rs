@@ -48,6 +48,8 @@ pub enum Sabotage {
     ActsAtOnce,
     /// Sensors do not count crossings.
     CountsNothing,
+    /// Sensors are localised with errors of more than half a cell.
+    LocalisesBadly,
     /// k = ∞ is taken for k = 1.
     FiniteForEndless,
 }
@@ -62,6 +64,7 @@ impl Sabotage {
             | Self::PlainRecursion
             | Self::ActsAtOnce
             | Self::CountsNothing
+            | Self::LocalisesBadly
             | Self::FiniteForEndless => byte,
         }
     }

@@ -2,10 +2,10 @@
 //! connected with each other. The eight cells are gone round one by one here; of the kernel only the rule is asked.
 
 use tautline_kernel::bricks::{Rule, blocks};
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::{Source, one_of};
 use tautline_kernel::floor::{Ring, Scan, Sensor};
 
-use crate::clause::Subject;
+use crate::clause::{Sabotage, Subject};
 use crate::engine::{Outcome, require};
 
 /// What is around a cell, and what is seen of it.
@@ -115,4 +115,23 @@ pub(crate) fn half_seen(subject: &Subject, source: &mut dyn Source) -> Outcome {
         spokes: core::array::from_fn(|place| place % 2 == 0),
     };
     decide(subject.bricks_ants, &around)
+}
+
+/// The side of a cell in millimetres (paper 004, V.A).
+const SIDE: u16 = 480;
+
+/// Every sensor around, localised with errors to just under half a side.
+pub(crate) fn localised(subject: &Subject, source: &mut dyn Source) -> Outcome {
+    const AROUND: [(i32, i32); 8] = [(0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1)];
+    let most = match subject.sabotage {
+        Sabotage::LocalisesBadly => i32::from(SIDE) * 3 / 5,
+        _ => i32::from(SIDE) / 2 - 1,
+    };
+    let place = source.pick(8);
+    let (columns, rows) = AROUND[place as usize];
+    let error = |source: &mut dyn Source| one_of(source, &[0, -most, -most / 2, most / 2, most]);
+    let east = columns * i32::from(SIDE) + error(source);
+    let south = rows * i32::from(SIDE) + error(source);
+    require(Ring::locate(east, south, SIDE) == Some(place), "the sensor is taken for the one of its cell")?;
+    Ok("a sensor")
 }

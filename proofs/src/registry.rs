@@ -151,6 +151,10 @@ exhaustive! {
         covers ["explored", "visited"], unwind 17, mutants {
             without_corners: "without corners" => NO_CORNERS,
         };
+    localised: marking::localised, Subject::PUBLISHED, "8 sensors, 25 errors each, a cell of 48 cm",
+        covers ["a sensor"], unwind 9, mutants {
+            badly: "errors of more than half a cell" => Subject::sabotaged(Sabotage::LocalisesBadly),
+        };
     half_seen: marking::half_seen, Subject::REPAIRED, "all neighbourhoods, any sensors missed",
         covers ["explored", "visited"], unwind 17, mutants {
             without_seen_only: "ways through what reads as unexplored" => Subject::marking_twice_without(SeenOnly),
@@ -233,7 +237,7 @@ const THREE: (usize, u32) = (4, 3);
 const THREE_BOUND: &str = "all layouts, N = 4, at most 3 walls";
 
 /// Every clause, in the order of `SPEC.md`.
-pub static CLAUSES: [Clause; 34] = [
+pub static CLAUSES: [Clause; 35] = [
     Clause {
         id: "LATTICE-1",
         sentence: "The environments derived from the radii MUST be the sets that the paper draws: E_N the cell and \
@@ -630,6 +634,12 @@ pub static CLAUSES: [Clause; 34] = [
             ),
             floors(Subject::REPAIRED, small_floors::robust_ends, small_floors::TWICE, Verdict::Holds, &[]),
         ],
+    },
+    Clause {
+        id: "BRICKS-7",
+        sentence: "A sensor that is localised with an error of less than half a cell MUST be taken for the one of its \
+                   cell.",
+        checks: &[localised::CHECK],
     },
     Clause {
         id: "NOTICE-1",

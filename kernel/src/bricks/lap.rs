@@ -1,7 +1,7 @@
 //! A lap: loop detection (ours; the paper leaves loop closure out). An agent leaves a cell through a thin side and
 //! walks with its left hand along the material until it is about to leave through the same side again. If it has not
 //! come back through that side before, the material on its left is not the material on its right, so the side can be
-//! shut and what is left stays connected (BRICKS-4).
+//! shut and what is left stays connected (BRICKS-2).
 
 use crate::lattice::{Cell, Side};
 

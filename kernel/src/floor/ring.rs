@@ -19,6 +19,27 @@ impl Ring {
         }
     }
 
+    /// The place of the cell in which a sensor lies that is localised `east` and `south` of the centre of the agent's
+    /// cell, in the unit of the `side` of a cell; `None` if it is the agent's own, or none of the eight. Where in its cell
+    /// the sensor lies does not matter to any rule.
+    pub const fn locate(east: i32, south: i32, side: u16) -> Option<u32> {
+        let side = side as i32;
+        if side == 0 || east.unsigned_abs() >= 1 << 20 || south.unsigned_abs() >= 1 << 20 {
+            return None;
+        }
+        match ((east + side / 2).div_euclid(side), (south + side / 2).div_euclid(side)) {
+            (0, -1) => Some(0),
+            (1, -1) => Some(1),
+            (1, 0) => Some(2),
+            (1, 1) => Some(3),
+            (0, 1) => Some(4),
+            (-1, 1) => Some(5),
+            (-1, 0) => Some(6),
+            (-1, -1) => Some(7),
+            _ => None,
+        }
+    }
+
     /// The neighbour beyond `side`.
     #[inline]
     pub const fn of(side: Side) -> Self {

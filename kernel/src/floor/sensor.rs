@@ -36,7 +36,7 @@ impl Sides {
     }
 }
 
-/// An agent's hold on the cell where its lap began (clause BRICKS-5).
+/// An agent's hold on the cell where its lap began (clause BRICKS-2).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Claim {
     /// The agent.

@@ -87,6 +87,7 @@ where
             | Sabotage::PlainRecursion
             | Sabotage::ActsAtOnce
             | Sabotage::CountsNothing
+            | Sabotage::LocalisesBadly
             | Sabotage::FiniteForEndless => {}
             Sabotage::BaseFollows => {
                 let forged = &mut forged_steps[..steps.len()];
