@@ -18,7 +18,7 @@ pub struct Agent {
     heading: Side,
     pass: Pass,
     lap: Option<Lap>,
-    /// Whether its last lap did not come home, so that its claim may still stand somewhere.
+    /// Whether its last lap did not come home, and nothing was gained since: its claim may still stand somewhere.
     is_lost: bool,
     /// Moves since it marked a cell, found a new one or shut a side, under [`Condition::LeastCrossed`].
     idle: u16,
@@ -116,7 +116,7 @@ impl Agent {
     /// Counts a move that gains something, or another idle one.
     fn rest(&mut self, rule: Rule, gains: bool) {
         if gains {
-            self.idle = 0;
+            (self.idle, self.is_lost) = (0, false);
         } else if rule.has(Condition::LeastCrossed) {
             self.idle = (self.idle + 1).min(rule.hope());
         }
@@ -126,7 +126,8 @@ impl Agent {
     fn meet(&mut self, rule: Rule, claim: &mut Option<Claim>) {
         let Some(owner) = claim.map(|claim| claim.owner) else { return };
         if owner == self.id {
-            if self.is_lost {
+            // A claim of a lap that did not come home is taken back wherever it is found.
+            if !self.lap.is_some_and(|lap| lap.is_home()) {
                 (*claim, self.is_lost) = (None, false);
             }
             return;
