@@ -450,3 +450,19 @@ pub(crate) fn robust_ends(subject: &Subject) -> Tally {
 
 /// What [`robust_ends`] covers.
 pub(crate) const TWICE: &str = "1 agent to 4×3, 2 to 4×2 cells, every order";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// About two minutes, and 4 GB of memory.
+    #[test]
+    #[ignore = "takes minutes: cargo test -p tautline-proofs -- --ignored two_agents"]
+    fn two_agents_keep_all_layouts_of_four_by_three_cells_connected_and_end_with_every_cell_visited() {
+        for demand in [Demand::Connected, Demand::Ends] {
+            let mut tally = Tally::default();
+            Series::new(blocked(4, 3), 2).look(&mut tally, Rule::REPAIRED, demand);
+            assert_eq!((tally.violation, tally.cases), (None, 32_566_853), "{demand:?}");
+        }
+    }
+}
