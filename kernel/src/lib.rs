@@ -12,6 +12,7 @@ pub mod bricks;
 pub mod broadcast;
 pub mod chain;
 pub mod choice;
+mod conditions;
 pub mod floor;
 pub mod grid;
 pub mod homing;

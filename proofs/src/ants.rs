@@ -27,16 +27,13 @@ struct State {
 
 impl Colony {
     fn starts(&self, ants: u32) -> Vec<State> {
-        let cells: Vec<Cell> = self.plan.cells().collect();
-        let start = |start: usize| {
-            let place = |ant| start / cells.len().pow(ant) % cells.len();
-            let ants: Vec<Cell> = (0..ants).map(|ant| cells[place(ant)]).collect();
+        let start = |ants| {
             let mut state = State { sensors: [Sensor::default(); CELLS], ants, misses: 0 };
             let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors, placed: &mut [0; CELLS] };
             settle(&mut floor, &state.ants);
             state
         };
-        (0..cells.len().pow(ants)).map(start).collect()
+        self.plan.starts(ants).map(start).collect()
     }
 
     fn is_explored(&self, state: &State) -> bool {

@@ -120,11 +120,7 @@ impl Team {
 
     /// The starts of `agents`, each in any free cell.
     pub(crate) fn starts(&self, agents: u32) -> impl Iterator<Item = State> {
-        let cells: Vec<Cell> = self.plan.cells().collect();
-        (0..cells.len().pow(agents)).map(move |start| {
-            let place = |agent| start / cells.len().pow(agent) % cells.len();
-            self.start(&(0..agents).map(|agent| cells[place(agent)]).collect::<Vec<_>>())
-        })
+        self.plan.starts(agents).map(|cells| self.start(&cells))
     }
 
     /// What no agent ever reads is left out of the state: crossings if it goes round at once and is never lost,

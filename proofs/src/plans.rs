@@ -45,6 +45,14 @@ impl Plan {
         (0..CELLS).filter(move |place| plan.free >> place & 1 == 1).map(move |place| plan.cell(place))
     }
 
+    /// Every way to put so many agents into free cells.
+    pub(crate) fn starts(&self, agents: u32) -> impl Iterator<Item = Vec<Cell>> + use<> {
+        let cells: Vec<Cell> = self.cells().collect();
+        (0..cells.len().pow(agents)).map(move |start| {
+            (0..agents).map(|agent| cells[start / cells.len().pow(agent) % cells.len()]).collect()
+        })
+    }
+
     /// Those of `cells` that can be reached from its first one through `cells` and edges that are not `shut`.
     pub(crate) fn spread(&self, cells: u16, is_shut: impl Fn(Edge) -> bool) -> u16 {
         let mut reached = cells & cells.wrapping_neg();

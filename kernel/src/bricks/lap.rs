@@ -38,8 +38,8 @@ impl Lap {
         self.at == Cell::new(0, 0)
     }
 
-    /// The lap after a move through `side`; `None` if it goes round without coming home. That cannot be unless a sensor
-    /// was missed.
+    /// The lap after a move through `side`; `None` if it goes round without coming home: the claim was taken away and the
+    /// start marked, or a sensor was missed.
     pub(super) fn moved(self, side: Side) -> Option<Self> {
         let (at, moved) = (self.at.beyond(side), self.moved + 1);
         if moved >= self.due {

@@ -1,5 +1,7 @@
 //! The rule of Brick&Mortar as a set of named conditions.
 
+use crate::conditions::conditions;
+
 /// One condition of the rule, by the sentence it stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Condition {
@@ -19,28 +21,7 @@ pub enum Condition {
     SeenOnly,
 }
 
-/// A set of conditions.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Conditions(u8);
-
-impl Conditions {
-    /// The set of these conditions.
-    pub const fn of(conditions: &[Condition]) -> Self {
-        let mut bits = 0;
-        let mut i = 0;
-        while i < conditions.len() {
-            bits |= 1 << conditions[i] as u8;
-            i += 1;
-        }
-        Self(bits)
-    }
-
-    /// Whether `condition` is in the set.
-    #[inline]
-    pub const fn has(self, condition: Condition) -> bool {
-        self.0 & 1 << condition as u8 != 0
-    }
-}
+conditions!(Condition);
 
 /// Whose lap is void when an agent on a lap comes to the cell where another's began.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -60,7 +41,7 @@ pub struct Rule {
     pub conditions: Conditions,
     /// How laps that meet are told apart.
     pub precedence: Precedence,
-    /// Moves without any gain, laps not counted, before a lap, under [`Condition::LeastCrossed`].
+    /// Moves without any gain before an agent goes round, under [`Condition::LeastCrossed`].
     pub patience: u8,
 }
 
@@ -98,7 +79,7 @@ impl Rule {
 
     /// The rule without `condition`.
     pub const fn without(self, condition: Condition) -> Self {
-        Self { conditions: Conditions(self.conditions.0 & !(1 << condition as u8)), ..self }
+        Self { conditions: self.conditions.without(condition), ..self }
     }
 
     /// Moves without any gain before the second pass.

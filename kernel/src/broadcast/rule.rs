@@ -4,6 +4,8 @@
 
 use core::num::NonZeroU32;
 
+use crate::conditions::conditions;
+
 /// One condition of the rule, by the sentence it stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Condition {
@@ -25,28 +27,14 @@ impl Condition {
         [Self::FrozenOnceForwarded, Self::LeastHops, Self::RememberEvent, Self::NumberedEvents];
 }
 
-/// A set of conditions.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Conditions(u8);
+conditions!(Condition);
 
 impl Conditions {
     /// The conditions of the paper.
     pub const PUBLISHED: Self = Self::REPAIRED.without(Condition::NumberedEvents);
 
     /// All conditions.
-    pub const REPAIRED: Self = Self((1 << Condition::ALL.len()) - 1);
-
-    /// This set without `condition`.
-    #[must_use]
-    pub const fn without(self, condition: Condition) -> Self {
-        Self(self.0 & !(1 << condition as u8))
-    }
-
-    /// Whether `condition` is in the set.
-    #[inline]
-    pub const fn has(self, condition: Condition) -> bool {
-        self.0 & (1 << condition as u8) != 0
-    }
+    pub const REPAIRED: Self = Self::of(&Condition::ALL);
 }
 
 /// How many NOTICEs are counted, from 1 to [`Count::MOST`]. Each is that of another sender, so that a node has to

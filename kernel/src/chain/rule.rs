@@ -2,6 +2,7 @@
 //! conditions allow, in whatever order one prefers them. The proofs of CHAIN-1, CHAIN-2 and CHAIN-3 speak of
 //! these functions alone; the planner asks them and nothing else.
 
+use crate::conditions::conditions;
 use crate::lattice::{Cell, Circle, Step, neighbours};
 
 /// One condition of the rule, by the sentence it stands for.
@@ -44,28 +45,7 @@ impl Condition {
     ];
 }
 
-/// A set of conditions.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Conditions(u16);
-
-impl Conditions {
-    /// The set of these conditions.
-    pub const fn of(conditions: &[Condition]) -> Self {
-        let mut bits = 0;
-        let mut i = 0;
-        while i < conditions.len() {
-            bits |= 1 << conditions[i] as u8;
-            i += 1;
-        }
-        Self(bits)
-    }
-
-    /// Whether `condition` is in the set.
-    #[inline]
-    pub const fn has(self, condition: Condition) -> bool {
-        self.0 & (1 << condition as u8) != 0
-    }
-}
+conditions!(Condition);
 
 /// Which position of the robot ahead P_high is read from. The planned one is the paper's meaning: the other
 /// gives 458 moves, or no end, where this one gives 62.
@@ -154,7 +134,7 @@ impl Rule {
     /// This rule with one condition taken out.
     #[must_use]
     pub const fn without(self, condition: Condition) -> Self {
-        Self { conditions: Conditions(self.conditions.0 & !(1 << condition as u8)), ..self }
+        Self { conditions: self.conditions.without(condition), ..self }
     }
 
     /// Whether the rule has `condition`.

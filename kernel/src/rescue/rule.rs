@@ -1,6 +1,8 @@
 //! MRC's rule as a set of named conditions. What the paper says is the first two; the others repair what it leaves
 //! open: when a WFR chooses, what becomes of later MOVEs, and of messages, nodes and robots that fail.
 
+use crate::conditions::conditions;
+
 /// One condition of the rule, by the sentence it stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Condition {
@@ -43,27 +45,7 @@ impl Condition {
     ];
 }
 
-/// A set of conditions.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Conditions(u16);
-
-impl Conditions {
-    /// The set of these conditions.
-    pub const fn of(conditions: &[Condition]) -> Self {
-        let mut bits = 0;
-        let mut i = 0;
-        while i < conditions.len() {
-            bits |= 1 << conditions[i] as u8;
-            i += 1;
-        }
-        Self(bits)
-    }
-
-    /// Whether `condition` is in the set.
-    pub const fn has(self, condition: Condition) -> bool {
-        self.0 & (1 << condition as u8) != 0
-    }
-}
+conditions!(Condition);
 
 /// The rule of a rescue.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -86,13 +68,13 @@ impl Rule {
     /// This rule with one condition taken out.
     #[must_use]
     pub const fn without(self, condition: Condition) -> Self {
-        Self { conditions: Conditions(self.conditions.0 & !(1 << condition as u8)), ..self }
+        Self { conditions: self.conditions.without(condition), ..self }
     }
 
     /// This rule with one condition put in.
     #[must_use]
     pub const fn with(self, condition: Condition) -> Self {
-        Self { conditions: Conditions(self.conditions.0 | 1 << condition as u8), ..self }
+        Self { conditions: self.conditions.with(condition), ..self }
     }
 
     /// Whether the rule has `condition`.

@@ -1,0 +1,43 @@
+//! Sets of named conditions: every rule is one.
+
+/// Makes the type of the sets of a `Condition`, of which there are at most 16.
+macro_rules! conditions {
+    ($condition:ident) => {
+        /// A set of conditions.
+        #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+        pub struct Conditions(u16);
+
+        impl Conditions {
+            /// The set of these conditions.
+            pub const fn of(conditions: &[$condition]) -> Self {
+                let mut set = Self(0);
+                let mut i = 0;
+                while i < conditions.len() {
+                    set = set.with(conditions[i]);
+                    i += 1;
+                }
+                set
+            }
+
+            /// This set with `condition`.
+            #[must_use]
+            pub const fn with(self, condition: $condition) -> Self {
+                Self(self.0 | 1 << condition as u16)
+            }
+
+            /// This set without `condition`.
+            #[must_use]
+            pub const fn without(self, condition: $condition) -> Self {
+                Self(self.0 & !(1 << condition as u16))
+            }
+
+            /// Whether `condition` is in the set.
+            #[inline]
+            pub const fn has(self, condition: $condition) -> bool {
+                self.0 & (1 << condition as u16) != 0
+            }
+        }
+    };
+}
+
+pub(crate) use conditions;
