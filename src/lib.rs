@@ -5,6 +5,7 @@ pub mod cli;
 pub mod exhibit;
 pub mod explore;
 pub mod fault;
+pub mod homing;
 pub mod hunt;
 pub mod layout;
 pub mod minimise;

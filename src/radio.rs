@@ -17,6 +17,7 @@ mod queue;
 pub use air::{Air, Channel, Faults, Heard, Protocol, Shared, run};
 pub use broadcast::{Broadcast, Report, broadcast};
 pub use chance::Chance;
+pub(crate) use chance::{checked_deviation, deviation_db};
 pub use field::{Area, Field, MAX_NODES, Obstacle, Point};
 pub use network::{Link, MAX_RANGE_M, Model, Network, Radio};
 pub use problem::Problem;

@@ -14,7 +14,7 @@ mod tan;
 pub use heading::{Heading, Scan};
 pub use rival::{Gradient, Position, Station, reich, verma};
 pub use sheu::{BackAndForth, Walk};
-pub use tan::{Conduct, Guide, Homing, Nav, Order, ReqNav, Stage};
+pub use tan::{Conduct, Guide, Homing, Nav, Nearness, Order, ReqNav, Stage};
 
 /// How strong a signal is: a larger number is a stronger signal.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]

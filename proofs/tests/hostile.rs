@@ -3,8 +3,8 @@
 
 use tautline_kernel::broadcast::NodeId;
 use tautline_kernel::choice::{Source, one_of};
-use tautline_kernel::homing::{Guide, Heading, Homing, Nav, ReqNav, Stage, Strength, verma};
-use tautline_kernel::homing::{Position, Station};
+use tautline_kernel::homing::{Guide, Heading, Homing, Nav, Nearness, Position, ReqNav, Stage, Station};
+use tautline_kernel::homing::{Strength, verma};
 use tautline_kernel::rescue::{
     Call, Downward, Epoch, Hop, Notice, Relay, Resb, Robot, RobotId, RobotTimer, Rule, Upward, Wfr, WfrTimer,
     Word,
@@ -127,18 +127,24 @@ fn relay(source: &mut dyn Source) -> Outcome {
 
 fn homing(source: &mut dyn Source) -> Outcome {
     let strength = |source: &mut dyn Source| Strength(one_of(source, &[0, -1, i32::MIN, i32::MAX]));
-    let near = strength(source);
+    let nearness = Nearness {
+        near: strength(source),
+        closer: one_of(source, &[0, 600, u16::MAX]),
+        times: one_of(source, &[1, 0, u8::MAX]),
+    };
     let tries = one_of(source, &[1, 0, 3, u8::MAX]);
-    let mut robot = Homing::new(node(source), RobotId(ME as u16), node(source), hops(source), near, tries);
+    let first_hops = hops(source);
+    let mut robot = Homing::new(node(source), RobotId(ME as u16), node(source), first_hops, nearness, tries);
     let mut guide = Guide::IDLE;
     for _ in 0..60 {
         let nav = Nav { wfr: node(source), node: node(source), hops: hops(source), parent: node(source) };
         let next = match source.pick(8) {
             0 => robot.expire(),
             1 | 2 => robot.hear(nav),
+            3 => robot.bump(),
             _ => robot.measure(source.flip().then(|| strength(source))),
         };
-        require(next.hops() <= robot.hops(), "a robot never goes farther by the tree")?;
+        require(next.hops() <= first_hops, "a robot is never farther by the tree than where it set out")?;
         require(
             next.hops() == 0 || next.stage() != Stage::Arrived,
             "a robot has arrived when no hop is left",

@@ -83,6 +83,11 @@ impl<'a> Broadcast<'a> {
         };
         Self { network, rule, nodes: ids.map(|id| Node::new(id, source)).collect(), source, hellos }
     }
+
+    /// The nodes' states.
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
 }
 
 impl Protocol for Broadcast<'_> {

@@ -38,7 +38,7 @@ impl Chance {
 
 /// A deviation in dB around 0, near to a normal one but at most three times the standard deviation: the sum of twelve
 /// uniform numbers.
-pub(super) fn deviation_db(standard_db: f64, source: &mut dyn Source) -> f64 {
+pub(crate) fn deviation_db(standard_db: f64, source: &mut dyn Source) -> f64 {
     // Whole numbers, to the last step. The plain case, twelve zeros, is to be no deviation: each number is turned by half.
     let steps: i32 = (0..12).map(|_| (source.pick(1 << 16) ^ (1 << 15)) as i32 - (1 << 15)).sum();
     let standard = (f64::from(steps) / 65_536.0).clamp(-MOST_DEVIATIONS, MOST_DEVIATIONS);
@@ -49,7 +49,7 @@ pub(super) fn deviation_db(standard_db: f64, source: &mut dyn Source) -> f64 {
 pub(super) const MOST_DEVIATIONS: f64 = 3.0;
 
 /// `deviation_db`, if it can be a standard deviation.
-pub(super) fn checked_deviation(deviation_db: f64) -> Result<f64, Problem> {
+pub(crate) fn checked_deviation(deviation_db: f64) -> Result<f64, Problem> {
     let fits = (0.0..=MAX_DEVIATION_DB).contains(&deviation_db);
     if fits { Ok(deviation_db) } else { Err(Problem::Deviation { deviation_db }) }
 }

@@ -141,18 +141,34 @@ impl Field {
         source: &mut dyn Source,
     ) -> Result<Self, Problem> {
         check(&obstacles, count)?;
-        let mut coordinate = |side: f64| side * (f64::from(source.pick(u32::MAX)) / f64::from(u32::MAX - 1));
-        let mut nodes = Vec::with_capacity(count);
-        for _ in 0..count {
-            let place = (0..TRIES)
-                .map(|_| Point { x_m: coordinate(area.width_m), y_m: coordinate(area.height_m) })
-                .find(|&point| !obstacles.iter().any(|obstacle| obstacle.contains(point)));
-            nodes.push(place.ok_or(Problem::NoRoom)?);
-        }
+        let places = (0..count).map(|_| random_place(area, &obstacles, source));
+        let mut nodes = places.collect::<Result<Vec<Point>, Problem>>()?;
         let strip_m = STRIP_NODES * (area.width_m * area.height_m / f64::from(count as u32)).sqrt();
         let strip = |point: &Point| (point.y_m / strip_m) as u64;
         nodes.sort_by(|one, other| strip(one).cmp(&strip(other)).then(one.x_m.total_cmp(&other.x_m)));
         Ok(Self { area, obstacles, nodes })
+    }
+
+    /// The same field with more nodes after its own.
+    ///
+    /// # Errors
+    /// As [`Field::new`].
+    pub fn with(&self, more: &[Point]) -> Result<Self, Problem> {
+        Self::new(self.area, self.obstacles.clone(), [&self.nodes, more].concat())
+    }
+
+    /// A random place outside the obstacles.
+    ///
+    /// # Errors
+    /// [`Problem::NoRoom`] if the obstacles leave none.
+    pub fn place(&self, source: &mut dyn Source) -> Result<Point, Problem> {
+        random_place(self.area, &self.obstacles, source)
+    }
+
+    /// Whether the straight way between two points meets no obstacle.
+    #[inline]
+    pub fn has_way(&self, one: Point, other: Point) -> bool {
+        !self.obstacles.iter().any(|obstacle| obstacle.stops(one, other))
     }
 
     /// The area.
@@ -169,6 +185,14 @@ impl Field {
     pub fn nodes(&self) -> &[Point] {
         &self.nodes
     }
+}
+
+fn random_place(area: Area, obstacles: &[Obstacle], source: &mut dyn Source) -> Result<Point, Problem> {
+    let mut coordinate = |side: f64| side * (f64::from(source.pick(u32::MAX)) / f64::from(u32::MAX - 1));
+    (0..TRIES)
+        .map(|_| Point { x_m: coordinate(area.width_m), y_m: coordinate(area.height_m) })
+        .find(|&point| !obstacles.iter().any(|obstacle| obstacle.contains(point)))
+        .ok_or(Problem::NoRoom)
 }
 
 /// Nodes across a strip, about.

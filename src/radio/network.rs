@@ -10,7 +10,7 @@ use tautline_kernel::choice::Source;
 
 use super::chance::{MOST_DEVIATIONS, checked_deviation, deviation_db};
 use super::grid::Grid;
-use super::{Chance, Field, Obstacle, Point, Problem};
+use super::{Chance, Field, Point, Problem};
 
 /// The longest range: distances have to fit into 32 bits of micrometres.
 pub const MAX_RANGE_M: f64 = 4_000.0;
@@ -56,6 +56,19 @@ impl Radio {
             checked_deviation(deviation_db)?;
         }
         Ok(Self { range_m, model })
+    }
+
+    /// The range in metres.
+    pub const fn range_m(self) -> f64 {
+        self.range_m
+    }
+
+    /// α: power falls with the distance to the power of it. Where the model is a disc, that of free space.
+    pub const fn exponent(self) -> f64 {
+        match self.model {
+            Model::Disc => 2.0,
+            Model::Shadowed { exponent, .. } => exponent,
+        }
     }
 
     /// The range in micrometres, rounded to the nearest.
@@ -137,8 +150,7 @@ impl Network {
                         apart_m * gain(exponent, -deviation_db(standard_db, source))
                     }
                 };
-                let stops = |obstacle: &Obstacle| obstacle.stops(point, points[other as usize]);
-                let is_heard = seems_m <= radio.range_m && !field.obstacles().iter().any(stops);
+                let is_heard = seems_m <= radio.range_m && field.has_way(point, points[other as usize]);
                 is_heard.then(|| Link { to: NodeId(other), distance_um: micrometres(seems_m) })
             });
             upper.add(links);
@@ -301,7 +313,7 @@ mod tests {
     use tautline_proofs::engine::{Seeded, Tape};
 
     use super::*;
-    use crate::radio::Area;
+    use crate::radio::{Area, Obstacle};
 
     fn disc(range_m: f64) -> Radio {
         Radio::new(range_m, Model::Disc).expect("a radio")

@@ -1,8 +1,10 @@
 //! TAN (paper 003, 3.4): the robot asks its parent for a signal, turns its antenna once round, walks towards the
 //! strongest direction, and asks the next parent when it is there, with a hop count one less each time, until it is 0.
 //!
-//! What the paper leaves open: a robot that hears nothing asks again, and gives up after so many times; one that
-//! walks past the node, since a direction is off by up to 7.5°, scans again.
+//! What the paper leaves open: a robot that hears nothing asks again; one that walks past the node, since a direction is
+//! off by up to 7.5°, or meets an obstacle, scans again. A parent may be at the very end of what its child hears, or
+//! just behind a corner, so that the robot beside the child hears nothing of it: then the robot goes nearer to the
+//! child, and asks from there. It gives up after so many times.
 
 use super::Strength;
 use super::heading::{Heading, Scan};
@@ -84,6 +86,17 @@ impl Guide {
     }
 }
 
+/// When a robot is at a node.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Nearness {
+    /// The node's signal is at least as strong.
+    pub near: Strength,
+    /// How much stronger it is to be each time that the next node is not heard from there.
+    pub closer: u16,
+    /// How many times at most.
+    pub times: u8,
+}
+
 /// How far a robot has come.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Stage {
@@ -135,23 +148,27 @@ pub struct Homing {
     hops: u16,
     tries: u8,
     tries_left: u8,
-    near: Strength,
+    nearness: Nearness,
+    times_left: u8,
+    /// The node where it is, if it has come to one, and its hops.
+    last: Option<(NodeId, u16)>,
     stage: Stage,
 }
 
 impl Homing {
-    /// A robot that sets out, `hops` from the WFR, by its parent in the tree. It is at a node when the node's signal is at
-    /// least `near`, and asks each node at least once and at most `tries` times in vain.
+    /// A robot that sets out, `hops` from the WFR, by its parent in the tree. It asks each node at least once and at most
+    /// `tries` times in vain.
     pub const fn new(
         wfr: NodeId,
         robot: RobotId,
         parent: NodeId,
         hops: u16,
-        near: Strength,
+        nearness: Nearness,
         tries: u8,
     ) -> Self {
-        let tries_left = tries.saturating_sub(1);
-        Self { wfr, robot, hops, tries, tries_left, near, stage: Stage::Asking { node: parent } }
+        let (tries_left, times_left) = (tries.saturating_sub(1), nearness.times);
+        let stage = Stage::Asking { node: parent };
+        Self { wfr, robot, hops, tries, tries_left, nearness, times_left, last: None, stage }
     }
 
     /// How far it has come.
@@ -202,7 +219,7 @@ impl Homing {
                 let scan = scan.measure(heard);
                 match (scan.heading(), scan.best()) {
                     (Some(_), _) => self.stage = Stage::Scanning { nav, scan },
-                    (None, Some((strength, _))) if strength >= self.near => self.reach(nav),
+                    (None, Some((strength, _))) if self.is_near(nav.node, strength) => self.reach(nav),
                     (None, Some((strongest, heading))) => {
                         self.stage = Stage::Walking { nav, heading, strongest };
                     }
@@ -210,7 +227,7 @@ impl Homing {
                 }
             }
             Stage::Walking { nav, heading, strongest } => match heard {
-                Some(strength) if strength >= self.near => self.reach(nav),
+                Some(strength) if self.is_near(nav.node, strength) => self.reach(nav),
                 Some(strength) if strength >= strongest => {
                     self.stage = Stage::Walking { nav, heading, strongest: strength };
                 }
@@ -222,9 +239,19 @@ impl Homing {
         self
     }
 
+    /// The way in the direction of its walk is barred: it scans again from where it is.
+    #[must_use]
+    pub const fn bump(mut self) -> Self {
+        match self.stage {
+            Stage::Walking { nav, .. } => self.stage = Stage::Scanning { nav, scan: Scan::START },
+            Stage::Asking { .. } | Stage::Scanning { .. } | Stage::Arrived | Stage::Lost => {}
+        }
+        self
+    }
+
     /// It has waited in vain for the signal of the node that it has asked.
     #[must_use]
-    pub const fn expire(mut self) -> Self {
+    pub fn expire(mut self) -> Self {
         match self.stage {
             Stage::Asking { node } => self.ask_again(node),
             Stage::Scanning { .. } | Stage::Walking { .. } | Stage::Arrived | Stage::Lost => {}
@@ -232,20 +259,43 @@ impl Homing {
         self
     }
 
+    /// Whether it is at the node that it hears as `strength`. At a node where it has been it is to be nearer than then.
+    fn is_near(&self, node: NodeId, strength: Strength) -> bool {
+        let times = if self.is_last(node) { self.nearness.times.saturating_sub(self.times_left) } else { 0 };
+        let closer = i32::from(times) * i32::from(self.nearness.closer);
+        strength.0 >= self.nearness.near.0.saturating_add(closer)
+    }
+
+    fn is_last(&self, node: NodeId) -> bool {
+        self.last.is_some_and(|(last, _)| last == node)
+    }
+
     /// It is at the node: the next is the node's parent, one hop nearer.
-    const fn reach(&mut self, nav: Nav) {
+    fn reach(&mut self, nav: Nav) {
+        if !self.is_last(nav.node) {
+            self.times_left = self.nearness.times;
+        }
+        self.last = Some((nav.node, nav.hops));
         self.hops = nav.hops;
         self.tries_left = self.tries.saturating_sub(1);
         self.stage = if nav.hops == 0 { Stage::Arrived } else { Stage::Asking { node: nav.parent } };
     }
 
-    const fn ask_again(&mut self, node: NodeId) {
-        self.stage = match self.tries_left.checked_sub(1) {
-            Some(tries_left) => {
-                self.tries_left = tries_left;
-                Stage::Asking { node }
+    fn ask_again(&mut self, node: NodeId) {
+        if let Some(tries_left) = self.tries_left.checked_sub(1) {
+            self.tries_left = tries_left;
+            self.stage = Stage::Asking { node };
+            return;
+        }
+        let last = self.last.filter(|&(last, _)| last != node);
+        self.stage = match (last, self.times_left.checked_sub(1)) {
+            (Some((last, hops)), Some(times_left)) => {
+                self.times_left = times_left;
+                self.tries_left = self.tries.saturating_sub(1);
+                self.hops = hops.saturating_add(1);
+                Stage::Asking { node: last }
             }
-            None => Stage::Lost,
+            (None, _) | (_, None) => Stage::Lost,
         };
     }
 }
@@ -263,8 +313,10 @@ mod tests {
     }
 
     const fn start(hops: u16) -> Homing {
-        Homing::new(WFR, RobotId(1), NodeId(hops as u32 - 1), hops, Strength(-1_000), 3)
+        Homing::new(WFR, RobotId(1), NodeId(hops as u32 - 1), hops, NEARNESS, 3)
     }
+
+    const NEARNESS: Nearness = Nearness { near: Strength(-1_000), closer: 300, times: 2 };
 
     /// Minus the distance in millimetres, less one part in eight for each direction that the antenna is off.
     fn heard(antenna: Heading, (x_mm, y_mm): (i32, i32)) -> Strength {
@@ -335,6 +387,40 @@ mod tests {
             robot = robot.expire();
         }
         assert_eq!((robot.stage(), robot.order()), (Stage::Lost, Order::Stop));
+    }
+
+    #[test]
+    fn a_robot_that_does_not_hear_the_next_node_goes_nearer_to_the_last_and_then_is_lost() {
+        let silent = |robot: Homing| (0..3).fold(robot, |robot, _| robot.expire());
+        let at = |robot: Homing, hops, strength| {
+            (0..24).fold(robot.hear(nav(hops)), |robot, _| robot.measure(Some(Strength(strength))))
+        };
+        let asks = |robot: Homing| match robot.order() {
+            Order::Ask(request) => Some(request.node.0),
+            Order::Point(_) | Order::Walk(_) | Order::Stop => None,
+        };
+        let beside = at(start(3), 2, -900);
+        assert_eq!((asks(beside), beside.hops()), (Some(1), 2));
+        let back = silent(beside);
+        assert_eq!((asks(back), back.hops()), (Some(2), 3));
+        assert_eq!(at(back, 2, -701).order(), Order::Walk(Heading::FIRST), "not near enough any more");
+        let nearer = at(back, 2, -700);
+        assert_eq!((asks(nearer), nearer.hops()), (Some(1), 2));
+        assert_eq!(silent(back).stage(), Stage::Lost, "neither answers");
+        let nearest = at(silent(nearer), 2, -400);
+        assert_eq!(asks(nearest), Some(1));
+        assert_eq!(silent(nearest).stage(), Stage::Lost);
+        let next = at(nearest, 1, -1_000);
+        assert_eq!(asks(next), Some(0), "at another node it need not be nearer");
+    }
+
+    #[test]
+    fn a_robot_whose_way_is_barred_scans_again() {
+        let scanned = (0..24).fold(start(2).hear(nav(1)), |robot, _| robot.measure(Some(Strength(-9_000))));
+        assert_eq!(scanned.bump().order(), Order::Point(Heading::FIRST));
+        for robot in [start(2), start(2).hear(nav(1))] {
+            assert_eq!(robot.bump(), robot);
+        }
     }
 
     #[test]

@@ -1,0 +1,108 @@
+//! What a broadcast leaves behind for navigation: the tree of the nodes that have forwarded it, and what the robot has
+//! heard of it; and the hops of all nodes from a goal, which the rivals have of their floods.
+
+use std::collections::VecDeque;
+
+use tautline_kernel::broadcast::{NodeId, Notice, Rule, Stage};
+use tautline_kernel::choice::Source;
+use tautline_kernel::homing::Nav;
+
+use crate::radio::{Broadcast, Channel, Faults, Heard, Network, Problem, Protocol, run};
+
+/// The navigation tree of one call.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Tree {
+    navs: Vec<Option<Nav>>,
+    entry: Option<(NodeId, u16)>,
+}
+
+impl Tree {
+    /// Broadcasts a call from `wfr`. Node `robot` of the network is a robot: it hears, and sends nothing.
+    ///
+    /// # Errors
+    /// [`Problem::NoNode`] if there is no such WFR.
+    pub fn grow(
+        network: &Network,
+        rule: Rule,
+        channel: Channel,
+        faults: &Faults,
+        (wfr, robot): (NodeId, NodeId),
+        chance: &mut dyn Source,
+    ) -> Result<Self, Problem> {
+        let broadcast = Broadcast::new(network, rule, wfr);
+        let mut listening = Listening { broadcast, robot, least: None };
+        run(network, channel, faults, &mut listening, &[(wfr, 0)], chance)?;
+        let nodes = (0..).map(NodeId).zip(listening.broadcast.nodes());
+        let nav = |(id, node): (NodeId, &tautline_kernel::broadcast::Node)| {
+            let hops = node.hops().filter(|_| node.stage() == Stage::Forwarded)?;
+            Some(Nav { wfr, node: id, hops, parent: node.parent().unwrap_or(id) })
+        };
+        let entry = listening.least.map(|(hops, sender)| (sender, hops));
+        Ok(Self { navs: nodes.map(nav).collect(), entry })
+    }
+
+    /// What a node has to say to a robot, if it is one of the tree.
+    pub fn nav(&self, node: NodeId) -> Option<Nav> {
+        self.navs.get(node.0 as usize).copied().flatten()
+    }
+
+    /// The robot's parent, and its own hops from the WFR; `None` if it has not heard of the call.
+    pub const fn entry(&self) -> Option<(NodeId, u16)> {
+        self.entry
+    }
+
+    /// Each path node with its parent.
+    pub fn links(&self) -> impl Iterator<Item = (NodeId, NodeId)> {
+        self.navs.iter().flatten().filter(|nav| nav.node != nav.parent).map(|nav| (nav.node, nav.parent))
+    }
+}
+
+/// A broadcast with a robot that listens: of all that it hears, the least hop count counts, and the first of equals.
+struct Listening<'a> {
+    broadcast: Broadcast<'a>,
+    robot: NodeId,
+    /// The robot's hops, and whom it has them from.
+    least: Option<(u16, NodeId)>,
+}
+
+impl Protocol for Listening<'_> {
+    type Message = Notice;
+
+    fn receive(&mut self, at: NodeId, heard: Heard<Notice>, chance: &mut dyn Source) -> Option<u64> {
+        if at != self.robot {
+            return self.broadcast.receive(at, heard, chance);
+        }
+        let hops = heard.message.hops.saturating_add(1);
+        if self.least.is_none_or(|(least, _)| hops < least) {
+            self.least = Some((hops, heard.message.sender));
+        }
+        None
+    }
+
+    fn expire(&mut self, at: NodeId, now_ns: u64) -> Option<Notice> {
+        self.broadcast.expire(at, now_ns)
+    }
+}
+
+/// The hops of each node from `goal` as after a flood; none where it does not come. Node `robot` is a robot, and sends
+/// nothing on.
+pub fn hops(network: &Network, goal: NodeId, robot: NodeId) -> Vec<Option<u16>> {
+    let mut hops = vec![None; network.nodes()];
+    let mut queue = VecDeque::new();
+    if let Some(of_goal) = hops.get_mut(goal.0 as usize) {
+        *of_goal = Some(0);
+        queue.push_back((goal, 0_u16));
+    }
+    while let Some((node, so_far)) = queue.pop_front() {
+        let next = so_far.saturating_add(1);
+        for &neighbour in network.neighbours(node) {
+            if let Some(unknown @ None) = hops.get_mut(neighbour.0 as usize) {
+                *unknown = Some(next);
+                if neighbour != robot {
+                    queue.push_back((neighbour, next));
+                }
+            }
+        }
+    }
+    hops
+}

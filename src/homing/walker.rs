@@ -1,0 +1,310 @@
+//! One robot on its way by TAN: what the kernel orders, carried out in the field, step by step.
+//!
+//! A robot walks into no obstacle and does not leave the area: a direction in which it feels the rim within a step is
+//! barred, and it scans again without it, so that it goes along the rim. A step that takes it out of hearing, behind a
+//! corner, it takes back, and bars that direction, too. Once it has gone another way no direction is barred any more.
+
+use tautline_kernel::broadcast::NodeId;
+use tautline_kernel::choice::Source;
+use tautline_kernel::homing::{Heading, Homing, Nav, Nearness, Order, Stage, Strength};
+use tautline_kernel::rescue::RobotId;
+
+use super::{Antenna, Ear, Signal};
+use crate::radio::{Field, Point, Problem, Radio};
+
+/// How fast a robot is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Gait {
+    /// Its speed, in millimetres a second.
+    pub speed_mm_s: u32,
+    /// The time of a turn by 15°, in nanoseconds.
+    pub turn_ns: u64,
+    /// The time of a measurement: one packet of the signal, in nanoseconds.
+    pub measure_ns: u64,
+    /// How long it waits for the answer to a REQNAV, in nanoseconds.
+    pub answer_ns: u64,
+    /// How far it walks between two measurements, in millimetres.
+    pub step_mm: u32,
+}
+
+impl Gait {
+    /// A man's walking pace, 1.4 m/s, and a turn once round in 2.4 s. A packet of a sensor's radio takes 992 µs. An answer
+    /// takes two of them and, on a shared channel, some waiting for it. Half a metre is a fiftieth of the paper's range.
+    pub const WALKING: Self = Self {
+        speed_mm_s: 1_400,
+        turn_ns: 100_000_000,
+        measure_ns: 992_000,
+        answer_ns: 20_000_000,
+        step_mm: 500,
+    };
+
+    fn walk_ns(self, length_m: f64) -> u64 {
+        (length_m * 1e12 / f64::from(self.speed_mm_s.max(1))) as u64
+    }
+
+    pub(super) fn step_m(self) -> f64 {
+        f64::from(self.step_mm) / 1_000.0
+    }
+}
+
+/// What a robot has to find its way with.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Equipment {
+    /// Its receiver.
+    pub ear: Ear,
+    /// Its directional antenna.
+    pub antenna: Antenna,
+    /// How fast it is.
+    pub gait: Gait,
+    /// When it is at a node, in metres.
+    pub near_m: f64,
+    /// When it is at a node, by the strength of its signal.
+    pub nearness: Nearness,
+}
+
+/// How often a robot asks one node in vain.
+const TRIES: u8 = 3;
+
+/// How often a robot halves its distance from the last node to hear the next: from a hundredth of the range on.
+const HALVINGS: u8 = 7;
+
+impl Equipment {
+    /// That of a robot among nodes with `radio`, whose measurements are off by a standard deviation of `noise_db`. It is at
+    /// a node when it is a hundredth of the range off, as far as it hears farther than a node.
+    ///
+    /// # Errors
+    /// [`Problem::Deviation`] if that is not from 0 to 20 dB.
+    pub fn new(radio: Radio, noise_db: f64) -> Result<Self, Problem> {
+        let (ear, antenna) = (Ear::new(radio, noise_db)?, Antenna::DIRECTIONAL);
+        let near_m = (super::ROBOT_REACH - 1.0) * radio.range_m();
+        let [near, half] = [near_m, near_m / 2.0].map(|distance_m| ear.expected(&antenna, distance_m));
+        let closer = half.0.abs_diff(near.0).try_into().unwrap_or(u16::MAX);
+        let nearness = Nearness { near, closer, times: HALVINGS };
+        Ok(Self { ear, antenna, gait: Gait::WALKING, near_m, nearness })
+    }
+
+    /// How far to walk towards a node that is heard so strong on the axis of `antenna`: a step, or half the way.
+    pub(super) fn stride_m(&self, antenna: &Antenna, strength: Strength) -> f64 {
+        self.gait.step_m().min(self.ear.distance_m(antenna, strength) / 2.0)
+    }
+}
+
+/// Directions in which a robot does not go from where it is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Barred(u32);
+
+impl Barred {
+    const NONE: Self = Self(0);
+
+    fn bar(&mut self, heading: Heading) {
+        self.0 |= Self::bit(heading);
+    }
+
+    fn has(self, heading: Heading) -> bool {
+        self.0 & Self::bit(heading) != 0
+    }
+
+    fn bit(heading: Heading) -> u32 {
+        1 << fifteens(heading)
+    }
+}
+
+/// Steps of 15° from the first heading.
+fn fifteens(heading: Heading) -> u16 {
+    heading.degrees() / 15
+}
+
+/// The place `length_m` from another.
+pub(super) fn ahead(from: Point, heading: Heading, length_m: f64) -> Point {
+    let (cosine, sine) = heading.vector();
+    let along = |part: i32| length_m * (f64::from(part) / 1e6);
+    Point { x_m: from.x_m + along(cosine), y_m: from.y_m + along(sine) }
+}
+
+/// Whether a robot can go straight from one place to another: inside the area, and through no obstacle.
+pub(super) fn is_open(field: &Field, from: Point, to: Point) -> bool {
+    field.area().contains(to) && field.has_way(from, to)
+}
+
+/// A robot on its way.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Walker {
+    equipment: Equipment,
+    homing: Homing,
+    facing: Heading,
+    barred: Barred,
+    trail: Trail,
+}
+
+impl Walker {
+    /// A robot at `start`, facing +x, that sets out to `wfr`, `hops` away, by its parent in the tree.
+    pub fn new(
+        equipment: Equipment,
+        start: Point,
+        robot: RobotId,
+        wfr: NodeId,
+        (parent, hops): (NodeId, u16),
+    ) -> Self {
+        let homing = Homing::new(wfr, robot, parent, hops, equipment.nearness, TRIES);
+        Self { equipment, homing, facing: Heading::FIRST, barred: Barred::NONE, trail: Trail::new(start) }
+    }
+
+    /// What it is to do. [`Order::Ask`] is for the caller, who sends the REQNAV and comes back with [`Self::hear`] or
+    /// [`Self::expire`]; [`Order::Point`] and [`Order::Walk`] are for [`Self::act`].
+    pub const fn order(&self) -> Order {
+        self.homing.order()
+    }
+
+    /// How far it has come.
+    pub const fn stage(&self) -> Stage {
+        self.homing.stage()
+    }
+
+    /// Its hops from the WFR.
+    pub const fn hops(&self) -> u16 {
+        self.homing.hops()
+    }
+
+    /// Whose signal it follows, while it does.
+    pub const fn guide(&self) -> Option<NodeId> {
+        match self.homing.stage() {
+            Stage::Scanning { nav, .. } | Stage::Walking { nav, .. } => Some(nav.node),
+            Stage::Asking { .. } | Stage::Arrived | Stage::Lost => None,
+        }
+    }
+
+    /// Where it is.
+    pub fn at(&self) -> Point {
+        self.trail.end()
+    }
+
+    /// Where it has been: its start, each place where it has turned, and where it is.
+    pub fn trail(&self) -> &[Point] {
+        &self.trail.points
+    }
+
+    /// How far it has walked, in metres.
+    pub const fn walked_m(&self) -> f64 {
+        self.trail.length_m
+    }
+
+    /// A NAV has arrived.
+    pub fn hear(&mut self, nav: Nav) {
+        self.homing = self.homing.hear(nav);
+        self.barred = Barred::NONE;
+    }
+
+    /// It has waited in vain for a NAV, [`Gait::answer_ns`] long.
+    pub fn expire(&mut self) {
+        self.homing = self.homing.expire();
+    }
+
+    /// Points the antenna or walks a step, whichever is the order, and measures the signal of its guide, `None` if that
+    /// sends none. Returns how long that takes, in nanoseconds, in which the robot goes straight from where it was to where
+    /// it is then.
+    pub fn act(&mut self, field: &Field, signal: Option<Signal>, chance: &mut dyn Source) -> u64 {
+        let gait = self.equipment.gait;
+        match (self.homing.stage(), self.homing.order()) {
+            (_, Order::Point(heading)) => {
+                let turn_ns = self.face(heading);
+                let heard = self.measure(field, signal, chance).filter(|&heard| {
+                    let stride_m = self.equipment.stride_m(&self.equipment.antenna, heard);
+                    !self.barred.has(heading)
+                        && is_open(field, self.at(), ahead(self.at(), heading, stride_m))
+                });
+                self.homing = self.homing.measure(heard);
+                turn_ns + gait.measure_ns
+            }
+            (Stage::Walking { strongest, .. }, Order::Walk(heading)) => {
+                self.face(heading) + self.walk(field, signal, strongest, chance)
+            }
+            (_, Order::Ask(_) | Order::Walk(_) | Order::Stop) => 0,
+        }
+    }
+
+    fn walk(
+        &mut self,
+        field: &Field,
+        signal: Option<Signal>,
+        strongest: Strength,
+        chance: &mut dyn Source,
+    ) -> u64 {
+        let gait = self.equipment.gait;
+        let from = self.at();
+        let stride_m = self.equipment.stride_m(&self.equipment.antenna, strongest);
+        let to = ahead(from, self.facing, stride_m);
+        if signal.is_none() {
+            self.homing = self.homing.measure(None);
+            return gait.measure_ns;
+        }
+        if !is_open(field, from, to) {
+            self.bump();
+            return 0;
+        }
+        self.trail.go(to, self.facing, stride_m);
+        let once_ns = gait.walk_ns(stride_m) + gait.measure_ns;
+        if let Some(heard) = self.measure(field, signal, chance) {
+            self.barred = Barred::NONE;
+            self.homing = self.homing.measure(Some(heard));
+            return once_ns;
+        }
+        self.trail.go(from, self.facing.opposite(), stride_m);
+        match self.measure(field, signal, chance) {
+            Some(_) => self.bump(),
+            None => self.homing = self.homing.measure(None),
+        }
+        2 * once_ns
+    }
+
+    fn bump(&mut self) {
+        self.barred.bar(self.facing);
+        self.homing = self.homing.bump();
+    }
+
+    /// Turns the shorter way, and says how long that takes.
+    fn face(&mut self, heading: Heading) -> u64 {
+        let steps = fifteens(self.facing).abs_diff(fifteens(heading));
+        self.facing = heading;
+        u64::from(steps.min(u16::from(Heading::COUNT) - steps)) * self.equipment.gait.turn_ns
+    }
+
+    fn measure(&self, field: &Field, signal: Option<Signal>, chance: &mut dyn Source) -> Option<Strength> {
+        let axis = (&self.equipment.antenna, self.facing);
+        self.equipment.ear.strength(field, signal?, self.at(), axis, chance)
+    }
+}
+
+/// Where a robot has been.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Trail {
+    pub(super) points: Vec<Point>,
+    heading: Option<Heading>,
+    pub(super) length_m: f64,
+}
+
+impl Trail {
+    pub(super) fn new(start: Point) -> Self {
+        Self { points: vec![start], heading: None, length_m: 0.0 }
+    }
+
+    pub(super) fn end(&self) -> Point {
+        // There is a start at least.
+        self.points.last().copied().unwrap_or(Point { x_m: 0.0, y_m: 0.0 })
+    }
+
+    /// Goes to a place `length_m` off in this direction.
+    pub(super) fn go(&mut self, to: Point, heading: Heading, length_m: f64) {
+        if self.heading.replace(heading) == Some(heading) {
+            self.points.pop();
+        }
+        self.points.push(to);
+        self.length_m += length_m;
+    }
+
+    /// Goes straight to a place.
+    pub(super) fn go_straight(&mut self, to: Point) {
+        self.length_m += super::ear::apart_m(self.end(), to);
+        self.heading = None;
+        self.points.push(to);
+    }
+}
