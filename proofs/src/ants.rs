@@ -8,9 +8,9 @@ use tautline_kernel::lattice::Cell;
 
 use crate::bricks::{Misses, Small, look};
 use crate::clause::{Sabotage, Subject};
-use crate::engine::Tally;
+use crate::engine::{Tally, outcomes};
 use crate::plans::{CELLS, Plan, blocked};
-use crate::states::{Step, System};
+use crate::states::{Bits, Step, System};
 
 struct Colony {
     plan: Plan,
@@ -43,10 +43,9 @@ impl Colony {
     }
 }
 
-impl System for Colony {
-    type State = State;
-
-    fn step(&self, state: &State, world: &mut dyn Source) -> Option<Step<State>> {
+impl Colony {
+    /// One step from `state`; none once the run is over.
+    fn step(&self, state: &State, world: &mut dyn Source) -> Option<Step<State, &'static str>> {
         if self.is_explored(state) {
             return None;
         }
@@ -67,7 +66,21 @@ impl System for Colony {
                 sensor.crossings = sensor.crossings.min(1);
             }
         }
-        Some(Step { agent: ant, state, breaks: None })
+        Some(Step { state, situation: "a step", acting: 1 << ant, is_bound: true, breaks: Vec::new() })
+    }
+}
+
+impl System for Colony {
+    type State = State;
+    type Key = State;
+    type Demand = &'static str;
+
+    fn key(&self, state: &State) -> State {
+        state.clone()
+    }
+
+    fn steps(&self, state: &State) -> impl Iterator<Item = Step<State, &'static str>> {
+        outcomes(|world| self.step(state, world)).flatten()
     }
 
     fn broken_at_end(&self, _: &State) -> Option<&'static str> {
@@ -78,7 +91,7 @@ impl System for Colony {
         Some("every cell is explored: no run goes on for ever before")
     }
 
-    fn awake(&self, state: &State) -> u32 {
+    fn awake(&self, state: &State) -> Bits {
         (1 << state.ants.len()) - 1
     }
 }

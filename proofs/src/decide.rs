@@ -46,8 +46,8 @@ pub struct Prover {
     spaces: Vec<((Setting, space::Until), space::Found)>,
 }
 
-/// States at which a check is left open.
-const MOST_STATES: usize = 4_000_000;
+/// Steps between states at which a check is left open.
+const MOST_STEPS: u32 = 20_000_000;
 
 /// The seed of every sampled check.
 const SEED: u64 = 0;
@@ -115,7 +115,7 @@ impl Prover {
                     None => Verdict::Open,
                 };
                 let evidence = broken.map(|broken| Evidence::Rescue(Box::new((setting, broken))));
-                Ok(Decision::new(verdict, found.states as u64, evidence))
+                Ok(Decision::new(verdict, found.states, evidence))
             }
         }
     }
@@ -134,7 +134,7 @@ impl Prover {
         let known = self.spaces.iter().position(|(known, _)| *known == (setting, until));
         let place = known.unwrap_or(self.spaces.len());
         if known.is_none() {
-            self.spaces.push(((setting, until), space::search(&setting, until, MOST_STATES)));
+            self.spaces.push(((setting, until), space::search(&setting, until, MOST_STEPS)));
         }
         &self.spaces[place].1
     }

@@ -2,8 +2,7 @@
 //! under a [`Tape`] that proptest or a fuzzer wrote, a random test under [`Seeded`], a regression under
 //! [`Replay`], and a Kani harness under `cargo kani`.
 
-use std::collections::HashSet;
-use std::hash::Hash;
+use std::iter;
 
 use rayon::prelude::*;
 use tautline_kernel::choice::Source;
@@ -53,16 +52,17 @@ impl Tally {
         match outcome {
             Err(Stop::Assumed) => return false,
             Err(Stop::Violated(demand)) => self.violation = Some((choices.to_vec(), demand)),
-            Ok(situation) => self.cover(situation),
+            Ok(situation) => cover(&mut self.covered, situation),
         }
         self.cases += 1;
         self.violation.is_some()
     }
+}
 
-    pub(crate) fn cover(&mut self, situation: &'static str) {
-        if let Err(place) = self.covered.binary_search(&situation) {
-            self.covered.insert(place, situation);
-        }
+/// Adds a situation to those that occurred, sorted.
+pub(crate) fn cover(covered: &mut Vec<&'static str>, situation: &'static str) {
+    if let Err(place) = covered.binary_search(&situation) {
+        covered.insert(place, situation);
     }
 }
 
@@ -106,84 +106,22 @@ pub fn sample(runs: u64, seed: u64, body: impl Fn(&mut dyn Source) -> Outcome + 
     tally
 }
 
-/// What a step leads to.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Next<S> {
-    /// Another state.
-    State(S),
-    /// Nothing more happens.
-    End,
-}
-
-/// Goes through every state that `step` leads to from the starts, under every combination of answers, until the first
-/// violation: one start after the other, each state once and the nearest first. A case is a state; the choices of a
-/// violation are the place of the start and the answers to all steps from there.
-pub fn reachable<C, S: Clone + Eq + Hash>(
-    starts: impl IntoIterator<Item = (S, C)>,
-    step: impl Fn(&S, &C, &mut dyn Source) -> Result<(Next<S>, &'static str), Stop>,
-) -> Tally {
-    let mut tally = Tally::default();
-    let mut known = HashSet::new();
-    let mut found = Vec::new();
-    for (place, (start, case)) in (0..).zip(starts) {
-        known.clear();
-        known.insert(start.clone());
-        found.clear();
-        found.push(Found { state: start, before: 0, answers: vec![place] });
-        let mut looked_at = 0;
-        while let Some(Found { state, .. }) = found.get(looked_at) {
-            let state = state.clone();
-            tally.cases += 1;
-            let mut odometer = Odometer::default();
-            loop {
-                let stepped = step(&state, &case, &mut odometer);
-                let answers = odometer.answers();
-                match stepped {
-                    Err(Stop::Assumed) => {}
-                    Err(Stop::Violated(demand)) => {
-                        tally.violation = Some((way(&found, looked_at, &answers), demand));
-                        return tally;
-                    }
-                    Ok((next, situation)) => {
-                        tally.cover(situation);
-                        if let Next::State(next) = next
-                            && known.insert(next.clone())
-                        {
-                            found.push(Found { state: next, before: looked_at, answers });
-                        }
-                    }
-                }
-                if !odometer.advance() {
-                    break;
-                }
-            }
-            looked_at += 1;
+/// What `body` comes to under every combination of answers, in the order of [`exhaust`].
+pub(crate) fn outcomes<T>(mut body: impl FnMut(&mut dyn Source) -> T) -> impl Iterator<Item = T> {
+    let mut odometer = Some(Odometer::default());
+    iter::from_fn(move || {
+        let world = odometer.as_mut()?;
+        let outcome = body(world);
+        if !world.advance() {
+            odometer = None;
         }
-    }
-    tally
-}
-
-/// A state that was found, the place of the one before it, and the answers that led from there.
-struct Found<S> {
-    state: S,
-    before: usize,
-    answers: Vec<u32>,
-}
-
-/// The answers that lead to the state at `place`, and then `last`.
-fn way<S>(found: &[Found<S>], mut place: usize, last: &[u32]) -> Vec<u32> {
-    let mut parts = vec![last];
-    while place > 0 {
-        parts.push(&found[place].answers);
-        place = found[place].before;
-    }
-    parts.push(&found[0].answers);
-    parts.into_iter().rev().flatten().copied().collect()
+        Some(outcome)
+    })
 }
 
 /// Every alternative in turn: a counter whose digits have each the base that the body asked for.
 #[derive(Default)]
-pub(crate) struct Odometer {
+struct Odometer {
     digits: Vec<Digit>,
     position: usize,
 }
@@ -195,12 +133,12 @@ struct Digit {
 
 impl Odometer {
     /// The combination that was last asked for.
-    pub(crate) fn answers(&self) -> Vec<u32> {
+    fn answers(&self) -> Vec<u32> {
         self.digits[..self.position].iter().map(|digit| digit.value).collect()
     }
 
     /// Goes to the next combination; false after the last.
-    pub(crate) fn advance(&mut self) -> bool {
+    fn advance(&mut self) -> bool {
         self.digits.truncate(self.position);
         self.position = 0;
         while let Some(digit) = self.digits.last_mut() {
@@ -337,22 +275,6 @@ mod tests {
         });
         assert_eq!(seen, [(0, 0), (2, 0), (2, 1), (2, 2)]);
         assert_eq!(tally, Tally { cases: 4, covered: vec!["none", "some"], violation: None });
-    }
-
-    #[test]
-    fn every_state_comes_once_and_the_nearest_violation_first() {
-        // From 1 or 2 a step adds one or doubles, up to 20.
-        let step = |limit: u32| {
-            move |&state: &u32, (): &(), source: &mut dyn Source| {
-                let next = if source.flip() { 2 * state } else { state + 1 };
-                require(next != limit, "not the limit")?;
-                Ok(if next > 20 { (Next::End, "an end") } else { (Next::State(next), "a state") })
-            }
-        };
-        let all = reachable([(1, ()), (19, ())], step(0));
-        assert_eq!(all, Tally { cases: 22, covered: vec!["a state", "an end"], violation: None });
-        let found = reachable([(19, ()), (1, ())], step(11)).violation;
-        assert_eq!(found, Some((vec![1, 0, 1, 0, 1, 0], "not the limit")));
     }
 
     #[test]

@@ -10,7 +10,8 @@ use tautline_kernel::broadcast::{
 use tautline_kernel::choice::Source;
 
 use crate::clause::{Sabotage, Subject};
-use crate::engine::{Next, Outcome, Stop, Tally, reachable, require};
+use crate::engine::{Outcome, Stop, Tally, cover, require};
+use crate::states::{Run, Step, System, search};
 
 /// A network: for each node a bit for each neighbour. The source is node 0.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -176,10 +177,11 @@ impl<const NODES: usize> Spread<NODES> {
 /// The largest network of which every state is looked at.
 const SMALL: usize = 5;
 
-/// A network, and the rule of its nodes.
+/// A network, the rule of its nodes, and what is demanded of them.
 struct Case {
     links: Links<SMALL>,
     rule: Rule,
+    demand: Demand,
 }
 
 const fn rule(subject: &Subject, scheme: Scheme) -> Rule {
@@ -324,6 +326,44 @@ impl Demand {
     }
 }
 
+impl Case {
+    /// What is broken at some point of a run.
+    fn broken(&self, spread: &Spread<SMALL>, point: Point) -> Option<&'static str> {
+        match self.demand.check(&self.links, spread, point) {
+            Err(Stop::Violated(demand)) => Some(demand),
+            Ok(()) | Err(Stop::Assumed) => None,
+        }
+    }
+}
+
+impl System for Case {
+    type State = Spread<SMALL>;
+    type Key = Spread<SMALL>;
+    type Demand = &'static str;
+
+    fn key(&self, spread: &Spread<SMALL>) -> Spread<SMALL> {
+        *spread
+    }
+
+    fn steps(&self, spread: &Spread<SMALL>) -> impl Iterator<Item = Step<Spread<SMALL>, &'static str>> {
+        let step = |event| {
+            let state = spread.after(&self.rule, &self.links, event);
+            let situation = match event {
+                Event::Arrives { .. } => "a NOTICE arrives",
+                Event::ArrivesAgain { .. } => "a copy arrives",
+                Event::Expires { .. } => "a node forwards",
+            };
+            let breaks = self.broken(&state, Point::OnTheWay).into_iter().collect();
+            Step { state, situation, acting: 0, is_bound: true, breaks }
+        };
+        spread.events().into_iter().map(step)
+    }
+
+    fn broken_at_end(&self, spread: &Spread<SMALL>) -> Option<&'static str> {
+        self.broken(spread, Point::End)
+    }
+}
+
 impl Networks {
     fn cases(self, subject: &Subject) -> impl Iterator<Item = Case> {
         let rules = match self.rules {
@@ -333,7 +373,7 @@ impl Networks {
         };
         shapes().into_iter().flat_map(move |links| {
             let rules = rules.clone();
-            rules.into_iter().map(move |rule| Case { links, rule })
+            rules.into_iter().map(move |rule| Case { links, rule, demand: self.demand })
         })
     }
 }
@@ -341,29 +381,25 @@ impl Networks {
 impl Networks {
     /// Goes through all states, until the first violation. A case is a state.
     pub fn explore(self, subject: &Subject) -> Tally {
-        let starts = self.cases(subject).map(|case| (Spread::start(&case.links), case));
-        reachable(starts, |spread, Case { links, rule }, source| {
-            let events = spread.events();
-            if events.is_empty() {
-                self.demand.check(links, spread, Point::End)?;
-                return Ok((Next::End, "an end"));
+        let mut tally = Tally::default();
+        for (place, case) in (0..).zip(self.cases(subject)) {
+            let found = search(&case, [Spread::start(&case.links)], u32::MAX);
+            tally.cases += found.looked_at;
+            for situation in found.covered {
+                cover(&mut tally.covered, situation);
             }
-            let event = events[source.pick(events.len() as u32) as usize];
-            let next = spread.after(rule, links, event);
-            self.demand.check(links, &next, Point::OnTheWay)?;
-            let situation = match event {
-                Event::Arrives { .. } => "a NOTICE arrives",
-                Event::ArrivesAgain { .. } => "a copy arrives",
-                Event::Expires { .. } => "a node forwards",
-            };
-            Ok((Next::State(next), situation))
-        })
+            if let Some(Run { steps, demand, .. }) = found.broken.into_iter().next() {
+                tally.violation = Some(([&[place], &steps[..]].concat(), demand));
+                break;
+            }
+        }
+        tally
     }
 
     /// What happens when these choices are made, in lines.
     pub fn story(self, subject: &Subject, choices: &[u32]) -> String {
         let (&place, choices) = choices.split_first().unwrap_or((&0, &[]));
-        let Some(Case { links, rule }) = self.cases(subject).nth(place as usize) else {
+        let Some(Case { links, rule, .. }) = self.cases(subject).nth(place as usize) else {
             return String::new();
         };
         let pairs =

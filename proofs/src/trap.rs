@@ -8,7 +8,6 @@
 //! as a binary number with the north-western one last. Layouts are looked at in waves of a fixed number, so that all
 //! comes out the same on any number of threads.
 
-use std::cell::Cell as Counter;
 use std::ops::ControlFlow;
 
 use rayon::prelude::*;
@@ -19,9 +18,9 @@ use tautline_kernel::floor::{Entry, Mark, Scan, Sensor, enter, leave};
 use tautline_kernel::lattice::Cell;
 
 use crate::bricks::{Misses, Small, is_shut, marked};
-use crate::engine::Tape;
+use crate::engine::outcomes;
 use crate::plans::{CELLS, Plan, blocked};
-use crate::states::{Run, Step, System, search};
+use crate::states::{Bits, Run, Step, System, search};
 
 /// How agents decide.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -56,7 +55,7 @@ pub const MAX_CELLS: usize = CELLS;
 pub const MAX_AGENTS: u32 = 2;
 
 /// Steps that are made in one layout before it is given up: its states then take about a gigabyte.
-const MAX_STEPS: u64 = 1 << 20;
+const MAX_STEPS: u32 = 1 << 20;
 
 /// Layouts that are looked at together.
 const WAVE: usize = 64;
@@ -150,14 +149,15 @@ impl Found {
     ) -> ControlFlow<()> {
         let mut plans = blocked(width, height).peekable();
         while plans.peek().is_some() {
-            let left = bounds.budget_steps.map_or(MAX_STEPS, |budget| budget.saturating_sub(self.steps));
+            let left = bounds.budget_steps.map_or(u64::MAX, |budget| budget.saturating_sub(self.steps));
+            let most_steps = left.min(MAX_STEPS.into()) as u32;
             if left == 0 {
                 return ControlFlow::Break(());
             }
             let wave: Vec<Plan> = plans.by_ref().take(WAVE).collect();
             let looks: Vec<Look> = wave
                 .into_par_iter()
-                .map(|plan| Floors::new(bounds.way, plan, misses, left.min(MAX_STEPS)).look(bounds.agents))
+                .map(|plan| Floors { way: bounds.way, plan, misses }.look(bounds.agents, most_steps))
                 .collect();
             let mut is_whole = true;
             for look in looks {
@@ -208,22 +208,15 @@ struct Floors {
     way: Way,
     plan: Plan,
     misses: u8,
-    /// Steps that may still be made.
-    left: Counter<u64>,
 }
 
 impl Floors {
-    const fn new(way: Way, plan: Plan, misses: u8, steps: u64) -> Self {
-        Self { way, plan, misses, left: Counter::new(steps) }
-    }
-
     /// Looks at every start.
-    fn look(&self, agents: u32) -> Look {
+    fn look(&self, agents: u32, most_steps: u32) -> Look {
         let starts = self.starts(agents);
-        let found = search(self, starts.iter().map(|cells| self.start(cells)));
-        let is_whole = self.left.get() > 0;
-        let trap = found.broken.filter(|_| is_whole).map(|run| self.trap(&starts, &run));
-        Look { states: found.states, steps: found.steps, is_whole, trap }
+        let found = search(self, starts.iter().map(|cells| self.start(cells)), most_steps);
+        let trap = found.broken.first().map(|run| self.trap(&starts, run));
+        Look { states: found.states, steps: found.steps, is_whole: found.is_whole, trap }
     }
 
     /// Every place that the agents can start from.
@@ -348,15 +341,34 @@ impl Floors {
         is_early
     }
 
+    /// Every team move from `state`; none once the run is over.
+    fn moves(&self, state: &State) -> impl Iterator<Item = Moved> {
+        outcomes(|world| {
+            if self.awake(state) == 0 || self.is_explored(state) {
+                return None;
+            }
+            let (mut next, mut misses) = (state.clone(), state.misses);
+            let eyes = Misses { world, count: &mut misses, most: self.misses };
+            let mut questions = Questions { eyes, asked: 0, missed: Vec::new() };
+            let is_early = self.advance(&mut next, &mut questions);
+            let Questions { asked, missed, .. } = questions;
+            next.misses = misses;
+            self.forget(&mut next);
+            Some(Moved { state: next, is_early, asked, missed })
+        })
+        .flatten()
+    }
+
     /// The trap that `run` is, from one of `starts`.
-    fn trap(&self, starts: &[Vec<Cell>], run: &Run) -> Trap {
+    fn trap(&self, starts: &[Vec<Cell>], run: &Run<&str>) -> Trap {
         let starts = starts[run.start].clone();
         let mut state = self.start(&starts);
-        let (mut misses, mut asked, mut missed) = (0, 0, Vec::new());
-        for answers in &run.answers {
-            let mut tape = Tape(answers);
-            let eyes = Misses { world: &mut tape, count: &mut misses, most: self.misses };
-            self.advance(&mut state, &mut Questions { eyes, asked: &mut asked, missed: &mut missed });
+        let (mut asked, mut missed) = (0, Vec::new());
+        for &number in &run.steps {
+            let Some(moved) = self.moves(&state).nth(number as usize) else { break };
+            missed.extend(moved.missed.iter().map(|question| asked + question));
+            asked += moved.asked;
+            state = moved.state;
         }
         let area = (0..self.plan.width * self.plan.height).map(|place| self.plan.cell(place as usize));
         Trap {
@@ -365,17 +377,28 @@ impl Floors {
             blocked: area.filter(|&cell| self.plan.place(cell).is_none()).collect(),
             starts,
             missed,
-            moves: run.answers.len() as u32,
+            moves: run.steps.len() as u32,
             end: if run.demand == ENDLESS { End::Endless } else { End::Done },
         }
     }
 }
 
+/// What a team move leads to.
+struct Moved {
+    state: State,
+    /// Whether an agent is done in it while a cell is unexplored.
+    is_early: bool,
+    /// Questions that were asked in it.
+    asked: u32,
+    /// The numbers of those that were answered yes, counted from 1.
+    missed: Vec<u32>,
+}
+
 /// Counts the questions, and notes which are answered yes.
 struct Questions<'a> {
     eyes: Misses<'a>,
-    asked: &'a mut u32,
-    missed: &'a mut Vec<u32>,
+    asked: u32,
+    missed: Vec<u32>,
 }
 
 impl Source for Questions<'_> {
@@ -384,28 +407,28 @@ impl Source for Questions<'_> {
     }
 
     fn mishap(&mut self) -> bool {
-        *self.asked += 1;
+        self.asked += 1;
         let is_missed = self.eyes.mishap();
-        self.missed.extend(is_missed.then_some(*self.asked));
+        self.missed.extend(is_missed.then_some(self.asked));
         is_missed
     }
 }
 
 impl System for Floors {
     type State = State;
+    type Key = State;
+    type Demand = &'static str;
 
-    fn step(&self, state: &State, world: &mut dyn Source) -> Option<Step<State>> {
-        if self.awake(state) == 0 || self.is_explored(state) || self.left.get() == 0 {
-            return None;
-        }
-        self.left.set(self.left.get() - 1);
-        let mut next = state.clone();
-        let mut misses = state.misses;
-        let mut eyes = Misses { world, count: &mut misses, most: self.misses };
-        let is_early = self.advance(&mut next, &mut eyes);
-        next.misses = misses;
-        self.forget(&mut next);
-        Some(Step { agent: 0, state: next, breaks: is_early.then_some(DONE) })
+    fn key(&self, state: &State) -> State {
+        state.clone()
+    }
+
+    fn steps(&self, state: &State) -> impl Iterator<Item = Step<State, &'static str>> {
+        let step = |Moved { state, is_early, .. }: Moved| {
+            let breaks = if is_early { vec![DONE] } else { Vec::new() };
+            Step { state, situation: "a team move", acting: 1, is_bound: true, breaks }
+        };
+        self.moves(state).map(step)
     }
 
     fn broken_at_end(&self, _: &State) -> Option<&'static str> {
@@ -417,7 +440,7 @@ impl System for Floors {
     }
 
     /// The team as a whole: all that are not done act in every step.
-    fn awake(&self, state: &State) -> u32 {
-        u32::from(state.bodies.iter().any(|body| !body.is_done))
+    fn awake(&self, state: &State) -> Bits {
+        state.bodies.iter().any(|body| !body.is_done).into()
     }
 }

@@ -22,7 +22,7 @@ const LEAST: Setting = Setting {
 
 /// The chart of the shortest run that breaks `demand`, which no run of the repaired rule does.
 fn flaw(setting: Setting, demand: Demand) -> String {
-    let enough = 2_000_000;
+    let enough = 10_000_000;
     let repaired = search(&Setting { rule: Rule::REPAIRED, ..setting }, Until::Exhausted, enough);
     assert!(repaired.complete);
     assert_eq!(repaired.broken, []);

@@ -39,14 +39,14 @@ const fn setting((robots, wfrs): (usize, usize), events: u8, max_hops: u16, faul
     Setting { rule: Rule::REPAIRED, robots, wfrs, events, max_hops, faults, lossy: Lossy::All }
 }
 
-const ENOUGH: usize = 40_000_000;
+const ENOUGH: u32 = 200_000_000;
 
 fn found(setting: &Setting) -> Found {
     search(setting, Until::Exhausted, ENOUGH)
 }
 
 /// The repaired rule breaks nothing, in so many states and steps.
-fn holds(setting: &Setting, states: usize, steps: usize) {
+fn holds(setting: &Setting, states: u64, steps: u64) {
     let found = found(setting);
     assert!(found.complete);
     assert_eq!(found.broken, [], "{setting:?}");
@@ -62,7 +62,7 @@ fn stateright_finds_the_same_states_of_the_repaired_rule_and_none_that_breaks_a_
     ] {
         let checker = Rescue(setting, Demand::ALL.to_vec()).checker().threads(1).spawn_bfs().join();
         checker.assert_properties();
-        let counted = (checker.unique_state_count(), found(&setting).states);
+        let counted = (checker.unique_state_count() as u64, found(&setting).states);
         assert_eq!(counted, (states, states), "{setting:?}");
     }
 }
