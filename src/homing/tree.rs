@@ -79,8 +79,8 @@ impl Protocol for Listening<'_> {
         None
     }
 
-    fn expire(&mut self, at: NodeId, now_ns: u64) -> Option<Notice> {
-        self.broadcast.expire(at, now_ns)
+    fn expire(&mut self, at: NodeId, now_ns: u64, chance: &mut dyn Source) -> Option<Notice> {
+        self.broadcast.expire(at, now_ns, chance)
     }
 }
 

@@ -14,7 +14,8 @@ use super::network::{Link, checked_exponent, gain};
 use super::queue::Queue;
 use super::{Network, Problem};
 
-/// What the nodes do with what they hear.
+/// What the nodes do with what they hear. Beside the nodes of the network there may be rovers: stations that move, so that
+/// their links are the protocol's to tell. Their numbers follow those of the nodes.
 pub trait Protocol {
     /// What they send.
     type Message: Copy;
@@ -23,7 +24,24 @@ pub trait Protocol {
     fn receive(&mut self, at: NodeId, heard: Heard<Self::Message>, chance: &mut dyn Source) -> Option<u64>;
 
     /// The timer of node `at` goes off: what it sends, if anything.
-    fn expire(&mut self, at: NodeId, now_ns: u64) -> Option<Self::Message>;
+    fn expire(&mut self, at: NodeId, now_ns: u64, chance: &mut dyn Source) -> Option<Self::Message>;
+
+    /// The timer of node `at` has gone off. If it is to go off again: when, in nanoseconds.
+    #[inline]
+    fn again(&mut self, _at: NodeId, _now_ns: u64) -> Option<u64> {
+        None
+    }
+
+    /// How many rovers there are.
+    #[inline]
+    fn rovers(&self) -> usize {
+        0
+    }
+
+    /// Adds the links on which what `at` sends now is heard, beside those of the network: a node's to the rovers, a rover's
+    /// to all that hear it.
+    #[inline]
+    fn roving(&self, _at: NodeId, _links: &mut Vec<Link>) {}
 }
 
 /// A message as it is heard.
@@ -122,7 +140,7 @@ pub struct Air {
     pub end_ns: u64,
 }
 
-/// Runs `protocol` until nothing more happens. It begins with the timers in `begin`, each of a node at a time in
+/// Runs `protocol` until nothing more happens. It begins with the timers in `begin`, each of a node or rover at a time in
 /// nanoseconds. What happens at once, happens in the order of the nodes.
 ///
 /// # Errors
@@ -135,13 +153,14 @@ pub fn run<P: Protocol>(
     begin: &[(NodeId, u64)],
     chance: &mut dyn Source,
 ) -> Result<Air, Problem> {
-    for (node, _) in begin {
-        network.node(node.0)?;
+    let stations = network.nodes() + protocol.rovers();
+    if let Some((node, _)) = begin.iter().find(|(node, _)| node.0 as usize >= stations) {
+        return Err(Problem::NoNode { node: node.0, nodes: stations });
     }
     let mut world = World { faults, protocol, chance, air: Air::default() };
     match channel {
         Channel::Ideal => world.run_ideal(network, begin),
-        Channel::Shared(shared) => Crowd::new(network, shared).run(&mut world, begin),
+        Channel::Shared(shared) => Crowd::new(network, stations, shared).run(&mut world, begin),
     }
     Ok(world.air)
 }
@@ -174,15 +193,25 @@ impl<P: Protocol> World<'_, P> {
         for &(node, at_ns) in begin {
             queue.put(at_ns, node);
         }
+        let mut roving = Vec::new();
         while let Some((now_ns, node)) = queue.take() {
-            if let Some(message) = self.protocol.expire(node, now_ns) {
+            if let Some(message) = self.protocol.expire(node, now_ns, self.chance) {
                 self.air.sent += 1;
                 self.air.end_ns = now_ns;
+                self.protocol.roving(node, &mut roving);
                 for link in network.links(node) {
                     if let Some(at_ns) = self.deliver(message, link, now_ns) {
                         queue.put(at_ns.max(now_ns), link.to);
                     }
                 }
+                for link in roving.drain(..) {
+                    if let Some(at_ns) = self.deliver(message, link, now_ns) {
+                        queue.put(at_ns.max(now_ns), link.to);
+                    }
+                }
+            }
+            if let Some(at_ns) = self.protocol.again(node, now_ns) {
+                queue.put(at_ns.max(now_ns), node);
             }
         }
     }
@@ -216,17 +245,20 @@ struct Crowd<'a, M> {
     antennas: Vec<Antenna>,
     /// What each node has yet to send, the one on the air first.
     waiting: Vec<VecDeque<M>>,
+    /// The links to and from rovers on which what each node has on the air is heard: those of its beginning.
+    roving: Vec<Vec<Link>>,
 }
 
 impl<'a, M: Copy> Crowd<'a, M> {
-    fn new(network: &'a Network, shared: Shared) -> Self {
+    fn new(network: &'a Network, stations: usize, shared: Shared) -> Self {
         let idle = Antenna { signals: 0, hears: None, is_sending: false };
         Self {
             network,
             shared,
             queue: Queue::new(),
-            antennas: vec![idle; network.nodes()],
-            waiting: (0..network.nodes()).map(|_| VecDeque::new()).collect(),
+            antennas: vec![idle; stations],
+            waiting: (0..stations).map(|_| VecDeque::new()).collect(),
+            roving: vec![Vec::new(); stations],
         }
     }
 
@@ -237,16 +269,19 @@ impl<'a, M: Copy> Crowd<'a, M> {
         while let Some((now_ns, event)) = self.queue.take() {
             match event {
                 Event::Timer(node) => {
-                    if let Some(message) = world.protocol.expire(node, now_ns) {
+                    if let Some(message) = world.protocol.expire(node, now_ns, world.chance) {
                         let waiting = &mut self.waiting[node.0 as usize];
                         waiting.push_back(message);
                         if waiting.len() == 1 {
                             self.queue.put(now_ns, Event::Listen(node));
                         }
                     }
+                    if let Some(at_ns) = world.protocol.again(node, now_ns) {
+                        self.queue.put(at_ns.max(now_ns), Event::Timer(node));
+                    }
                 }
                 Event::Listen(node) => self.listen(node, now_ns, world),
-                Event::Begin(node) => self.begin(node, now_ns),
+                Event::Begin(node) => self.begin(node, now_ns, world.protocol),
                 Event::End(node) => self.end(node, now_ns, world),
             }
         }
@@ -264,11 +299,14 @@ impl<'a, M: Copy> Crowd<'a, M> {
         }
     }
 
-    fn begin(&mut self, node: NodeId, now_ns: u64) {
+    fn begin<P: Protocol<Message = M>>(&mut self, node: NodeId, now_ns: u64, protocol: &P) {
         let antenna = &mut self.antennas[node.0 as usize];
         antenna.is_sending = true;
         antenna.hears = None;
-        for to in self.network.neighbours(node) {
+        let roving = &mut self.roving[node.0 as usize];
+        protocol.roving(node, roving);
+        let rovers = roving.iter().map(|link| &link.to);
+        for to in self.network.neighbours(node).iter().chain(rovers) {
             let antenna = &mut self.antennas[to.0 as usize];
             antenna.signals += 1;
             antenna.hears = (antenna.signals == 1 && !antenna.is_sending).then_some(node);
@@ -285,7 +323,8 @@ impl<'a, M: Copy> Crowd<'a, M> {
         }
         world.air.sent += 1;
         world.air.end_ns = now_ns;
-        for link in self.network.links(node) {
+        let mut roving = std::mem::take(&mut self.roving[node.0 as usize]);
+        for link in self.network.links(node).chain(roving.drain(..)) {
             let antenna = &mut self.antennas[link.to.0 as usize];
             antenna.signals -= 1;
             if antenna.hears == Some(node) {
@@ -320,7 +359,7 @@ mod tests {
             None
         }
 
-        fn expire(&mut self, at: NodeId, _: u64) -> Option<u32> {
+        fn expire(&mut self, at: NodeId, _: u64, _: &mut dyn Source) -> Option<u32> {
             Some(at.0)
         }
     }
@@ -379,6 +418,77 @@ mod tests {
         let (air, heard) = talk(Channel::Shared(SHARED), &Faults::NONE, &[(1, 0), (1, 1), (1, 2)]);
         assert_eq!(heard.iter().map(|&(_, _, at)| at).collect::<Vec<_>>(), [110, 110, 220, 220, 330, 330]);
         assert_eq!(air.sent, 3);
+    }
+
+    /// Three nodes in a row and a rover that goes one node on each time that it says something, thrice.
+    struct Stroll {
+        at: u32,
+        heard: Vec<(u32, u32, u64)>,
+    }
+
+    const ROVER: NodeId = NodeId(3);
+
+    impl Protocol for Stroll {
+        type Message = u32;
+
+        fn receive(&mut self, at: NodeId, heard: Heard<u32>, _: &mut dyn Source) -> Option<u64> {
+            self.heard.push((at.0, heard.message, heard.now_ns));
+            None
+        }
+
+        fn expire(&mut self, at: NodeId, _: u64, _: &mut dyn Source) -> Option<u32> {
+            if at == ROVER {
+                self.at += 1;
+            }
+            Some(at.0)
+        }
+
+        fn again(&mut self, at: NodeId, now_ns: u64) -> Option<u64> {
+            (at == ROVER && self.at < 3).then_some(now_ns + 500)
+        }
+
+        fn rovers(&self) -> usize {
+            1
+        }
+
+        fn roving(&self, at: NodeId, links: &mut Vec<Link>) {
+            let near = NodeId(self.at.min(2));
+            if at == ROVER {
+                links.push(Link { to: near, distance_um: 1 });
+            } else if at == near {
+                links.push(Link { to: ROVER, distance_um: 1 });
+            }
+        }
+    }
+
+    /// What was on the air, and who heard whom when.
+    type Strolled = (Result<Air, Problem>, Vec<(u32, u32, u64)>);
+
+    fn stroll(channel: Channel, begin: &[(NodeId, u64)]) -> Strolled {
+        let mut stroll = Stroll { at: 0, heard: Vec::new() };
+        let air = run(&row(3), channel, &Faults::NONE, &mut stroll, begin, &mut Tape(&[]));
+        (air, stroll.heard)
+    }
+
+    #[test]
+    fn a_rover_is_heard_where_it_is_and_hears_who_is_near() {
+        let begin = [(ROVER, 5), (NodeId(1), 600)];
+        let (air, heard) = stroll(Channel::Ideal, &begin);
+        assert_eq!(heard, [(1, 3, 5), (2, 3, 505), (0, 1, 600), (2, 1, 600), (2, 3, 1005)]);
+        assert_eq!(air.map(|air| (air.sent, air.heard)), Ok((4, 5)));
+        let (_, heard) = stroll(Channel::Ideal, &[(ROVER, 5), (NodeId(2), 600)]);
+        assert_eq!(heard, [(1, 3, 5), (2, 3, 505), (1, 2, 600), (3, 2, 600), (2, 3, 1005)]);
+        let (_, heard) = stroll(Channel::Shared(SHARED), &[(ROVER, 5)]);
+        assert_eq!(heard, [(1, 3, 115), (2, 3, 615), (2, 3, 1115)]);
+        assert_eq!(stroll(Channel::Ideal, &[(NodeId(4), 0)]).0, Err(Problem::NoNode { node: 4, nodes: 4 }));
+    }
+
+    #[test]
+    fn a_rover_collides_with_nodes() {
+        // Node 2 does not hear the rover at node 1, which hears both.
+        let (air, heard) = stroll(Channel::Shared(SHARED), &[(ROVER, 5), (NodeId(2), 50)]);
+        assert_eq!(heard.iter().filter(|&&(_, _, at_ns)| at_ns < 200).count(), 0);
+        assert_eq!(air.map(|air| air.collided), Ok(2));
     }
 
     #[test]

@@ -84,6 +84,11 @@ impl<'a> Broadcast<'a> {
         Self { network, rule, nodes: ids.map(|id| Node::new(id, source)).collect(), source, hellos }
     }
 
+    /// The source begins its next event: what it sends. `None` if it has no number left.
+    pub fn originate(&mut self) -> Option<Notice> {
+        self.nodes.get_mut(self.source.0 as usize)?.originate()
+    }
+
     /// The nodes' states.
     pub fn nodes(&self) -> &[Node] {
         &self.nodes
@@ -114,7 +119,7 @@ impl Protocol for Broadcast<'_> {
         }
     }
 
-    fn expire(&mut self, at: NodeId, now_ns: u64) -> Option<Notice> {
+    fn expire(&mut self, at: NodeId, now_ns: u64, _: &mut dyn Source) -> Option<Notice> {
         let node = &mut self.nodes[at.0 as usize];
         if at == self.source { node.originate() } else { node.expire(now_ns) }
     }

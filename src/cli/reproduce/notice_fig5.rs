@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde::Serialize;
 use tautline_kernel::broadcast::Count;
 
@@ -11,7 +11,7 @@ use crate::aside::Aside;
 use crate::cli::output::Output;
 use crate::cli::{Exit, Format, FormatArgs, interrupt, number, progress};
 use crate::fault::{Fault, Halt};
-use crate::radio::{Channel, Shared};
+use crate::radio::ChannelName;
 use crate::reproduce::Reproduction;
 use crate::reproduce::interval::Estimate;
 use crate::reproduce::notice_fig5::{self, Density, NODES, Part, RANGE_M, SIDE_M, Setting};
@@ -59,31 +59,6 @@ pub(super) struct NoticeFig5 {
     svg_rebroadcasts: Option<PathBuf>,
     #[command(flatten)]
     format: FormatArgs,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum, Serialize)]
-#[serde(rename_all = "kebab-case")]
-enum ChannelName {
-    /// Whoever is in range hears at once.
-    Ideal,
-    /// Messages take time and collide; nodes listen before they send.
-    Shared,
-}
-
-impl ChannelName {
-    const fn channel(self) -> Channel {
-        match self {
-            Self::Ideal => Channel::Ideal,
-            Self::Shared => Channel::Shared(Shared::SENSOR),
-        }
-    }
-
-    const fn word(self) -> &'static str {
-        match self {
-            Self::Ideal => "ideal",
-            Self::Shared => "shared",
-        }
-    }
 }
 
 fn count(text: &str) -> Result<Count, String> {
