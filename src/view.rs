@@ -3,6 +3,7 @@
 //! counterexample in [`story`].
 
 pub mod chart;
+pub mod field;
 pub mod page;
 pub mod story;
 pub mod svg;

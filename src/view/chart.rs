@@ -4,7 +4,7 @@
 
 use std::fmt::Write;
 
-use super::svg::{MARGIN, document, text_width};
+use super::svg::{MARGIN, SERIES, SERIES_STYLE, document, escaped, text_width};
 
 /// The size of the area of the points.
 const WIDTH: i32 = 560;
@@ -19,10 +19,8 @@ const SAMPLE: i32 = 36;
 const MOST_STEPS: f64 = 8.0;
 /// Numbers of this size or more are not drawn, so that nothing overflows.
 const TOO_LARGE: f64 = 1e100;
-/// Series of different colours; marks go round after another number, so that more series differ too.
-const COLOURS: usize = 6;
 
-/// The marks, round 0,0.
+/// The marks, round 0,0. They go round after another number than colours, so that more series differ too.
 const MARKS: [&str; 5] = [
     "m-4 0a4 4 0 1 0 8 0a4 4 0 1 0-8 0z",
     "m-4-4h8v8h-8z",
@@ -32,9 +30,6 @@ const MARKS: [&str; 5] = [
 ];
 
 const STYLE: &str = "\
-svg{--series-0:#1d5fa8;--series-1:#b9480e;--series-2:#0b7a53;--series-3:#5b3a8c;--series-4:#856500;--series-5:#b02a73}\
-@media(prefers-color-scheme:dark){svg{--series-0:#6aa9ee;--series-1:#ff9d6b;--series-2:#4cc79a;--series-3:#b795e6;\
---series-4:#d9b93b;--series-5:#f08ac0}}\
 .title{text-anchor:start;font-size:15px;font-weight:600}.start{text-anchor:start}.end{text-anchor:end}\
 .axes{stroke:var(--ink);fill:none}.line{fill:none;stroke-width:2;stroke-linejoin:round}\
 .interval{fill:none;stroke-width:1.5;stroke-opacity:.7}.marks{stroke-width:2}\
@@ -162,7 +157,12 @@ impl LineChart {
             MARGIN + text_width(&title) * 5 / 4,
         ];
         let width = names.chain(texts).max().unwrap_or(0) + MARGIN;
-        document(&title, STYLE, (width, top + below + LINE * self.series.len() as i32), &body)
+        document(
+            &title,
+            &format!("{SERIES_STYLE}{STYLE}"),
+            (width, top + below + LINE * self.series.len() as i32),
+            &body,
+        )
     }
 
     /// The points that can be drawn, with the places of their series. An interval that cannot be drawn is left out.
@@ -324,25 +324,9 @@ fn group(look: usize, stroke: Stroke, line: &str, intervals: &str, marks: &str) 
     };
     format!(
         "<g class=\"series-{}{dashed}\">{}{}{}</g>",
-        look % COLOURS,
+        look % SERIES,
         path("interval", intervals),
         path("line", line),
         path("marks", marks)
     )
-}
-
-/// Text as XML has it. Characters that XML has no place for become U+FFFD.
-fn escaped(text: &str) -> String {
-    text.chars().fold(String::new(), |mut escaped, symbol| {
-        match symbol {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
-            control if control.is_control() => escaped.push('\u{fffd}'),
-            plain => escaped.push(plain),
-        }
-        escaped
-    })
 }

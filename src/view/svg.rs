@@ -36,6 +36,15 @@ text{fill:var(--ink);text-anchor:middle;dominant-baseline:central}.caption{text-
 .way{stroke:var(--ink);stroke-width:1.5}.tip{fill:var(--ink)}.bump{stroke:var(--bad);stroke-width:3}\
 .unseen{stroke:var(--bad);stroke-width:2;stroke-dasharray:3 2;fill:none}.broken{stroke:var(--bad);stroke-width:3;stroke-dasharray:5 3}.crowded{fill:var(--bad)}";
 
+/// How many colours there are for what is to be told apart.
+pub(super) const SERIES: usize = 6;
+
+/// These colours.
+pub(super) const SERIES_STYLE: &str = "\
+svg{--series-0:#1d5fa8;--series-1:#b9480e;--series-2:#0b7a53;--series-3:#5b3a8c;--series-4:#856500;--series-5:#b02a73}\
+@media(prefers-color-scheme:dark){svg{--series-0:#6aa9ee;--series-1:#ff9d6b;--series-2:#4cc79a;--series-3:#b795e6;\
+--series-4:#d9b93b;--series-5:#f08ac0}}";
+
 /// A part of a picture with its size, its corner at 0,0.
 #[derive(Clone, Debug)]
 pub struct Panel {
@@ -71,6 +80,22 @@ pub fn picture(title: &str, panels: &[Panel]) -> String {
 /// About how wide a line of text is.
 pub(super) fn text_width(text: &str) -> i32 {
     text.chars().count() as i32 * 7
+}
+
+/// Text as XML has it. Characters that XML has no place for become U+FFFD.
+pub(super) fn escaped(text: &str) -> String {
+    text.chars().fold(String::new(), |mut escaped, symbol| {
+        match symbol {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
+            control if control.is_control() => escaped.push('\u{fffd}'),
+            plain => escaped.push(plain),
+        }
+        escaped
+    })
 }
 
 /// A picture of `body` alone, which wants `style` beside that of all pictures. The title is escaped.
