@@ -11,6 +11,7 @@ pub mod layout;
 pub mod minimise;
 pub mod radio;
 pub mod reproduce;
+pub mod rescue;
 pub mod trace;
 pub mod view;
 pub mod wide;

@@ -162,6 +162,18 @@ impl Demand {
         Self::AsksAnew,
     ];
 
+    /// The id of its clause.
+    pub const fn clause(self) -> &'static str {
+        match self {
+            Self::OneRobotForACall => "MRC-1",
+            Self::OneCallForARobot => "MRC-2",
+            Self::BestOfTheWindow => "MRC-3",
+            Self::CountsOnConsent => "MRC-4",
+            Self::IsServed => "MRC-5",
+            Self::AsksAnew => "MRC-6",
+        }
+    }
+
     /// What is not so when it is broken.
     pub const fn broken(self) -> &'static str {
         match self {

@@ -131,6 +131,16 @@ impl<const CALLS: usize> Robot<CALLS> {
         self.ask_if_free()
     }
 
+    /// The lease of `call` has lapsed before it came: it is free again. It must hold the lease no shorter than the WFR, which
+    /// else counts on a robot that may be another's.
+    pub fn lapse(mut self, call: Call) -> (Self, Option<Upward>) {
+        if self.task != (Task::Leased { call }) {
+            return (self, None);
+        }
+        self.task = Task::Free;
+        self.ask_if_free()
+    }
+
     /// Step 1: a record for the call, and the least hop count for it; of equal ones the first heard.
     fn note(mut self, notice: Notice) -> Self {
         let Notice { call, hops, sender } = notice;
@@ -344,6 +354,16 @@ mod tests {
         assert_eq!(robot.expire(timer), (robot, None), "that timer runs no longer");
         let (robot, sent) = robot.expire(robot.timer().expect("a timer runs"));
         assert_eq!((robot.task(), sent, robot.timer()), (Task::Free, None, None));
+    }
+
+    #[test]
+    fn a_lease_that_has_lapsed_frees_the_robot_and_another_one_does_not() {
+        let heard = [notice(call(0, 1), 4, 10), notice(call(1, 1), 6, 10), resb(call(0, 1), ME, ME)];
+        let (robot, _) = after(Rule::REPAIRED, &heard);
+        assert_eq!(robot.lapse(call(0, 2)), (robot, None));
+        let (free, sent) = robot.lapse(call(0, 1));
+        assert_eq!(word(sent), Some((1, 1, Word::Move { hops: 7 })));
+        assert_eq!(free.lapse(call(0, 1)), (free, None));
     }
 
     #[test]

@@ -1,0 +1,135 @@
+//! What the clauses MRC-1 to MRC-6 demand, looked at after every turn of a run. Each clause is told once.
+
+use tautline_kernel::rescue::{Bid, Call, Epoch, Phase, Robot, RobotId, Served, Task, Wfr};
+use tautline_proofs::rescue::Demand;
+
+use super::{MAX_ROBOTS, MAX_WFRS};
+
+/// A clause that was broken.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Violation {
+    /// What was demanded.
+    pub demand: Demand,
+    /// When it was not so, in nanoseconds.
+    pub at_ns: u64,
+    /// Of which WFR.
+    pub wfr: usize,
+}
+
+/// What is noted down beside the machines' own states.
+pub(super) struct Judge {
+    /// The best MOVE of each WFR's latest call that arrived while its window was open.
+    best: Vec<Option<Bid>>,
+    is_open: Vec<bool>,
+    /// The latest epoch of each WFR whose lease each robot has taken, robot by robot.
+    taken: Vec<Vec<Option<Epoch>>>,
+    pub(super) violations: Vec<Violation>,
+}
+
+/// A robot as the judge sees it.
+pub(super) struct Seen<'a> {
+    pub(super) machine: &'a Robot<MAX_WFRS>,
+    pub(super) has_failed: bool,
+}
+
+impl Seen<'_> {
+    /// The call of which the robot, if it lives, has the lease.
+    const fn lease(&self) -> Option<Call> {
+        match self.machine.task() {
+            Task::Leased { call } if !self.has_failed => Some(call),
+            Task::Free | Task::Asking { .. } | Task::Leased { .. } => None,
+        }
+    }
+}
+
+impl Judge {
+    pub(super) fn new(robots: usize, wfrs: usize) -> Self {
+        Self {
+            best: vec![None; wfrs],
+            is_open: vec![false; wfrs],
+            taken: vec![vec![None; wfrs]; robots],
+            violations: Vec::new(),
+        }
+    }
+
+    /// `demand` is not met.
+    pub(super) fn tell(&mut self, demand: Demand, wfr: usize, at_ns: u64) {
+        if !self.violations.iter().any(|known| known.demand == demand) {
+            self.violations.push(Violation { demand, at_ns, wfr });
+        }
+    }
+
+    /// A WFR calls.
+    pub(super) fn calls(&mut self, wfr: usize) {
+        (self.best[wfr], self.is_open[wfr]) = (None, true);
+    }
+
+    /// A MOVE of the present call arrives.
+    pub(super) fn bids(&mut self, wfr: usize, bid: Bid) {
+        if self.is_open[wfr] {
+            self.best[wfr] = Some(self.best[wfr].map_or(bid, |best| best.min(bid)));
+        }
+    }
+
+    /// The window of a WFR closes.
+    pub(super) fn closes(&mut self, wfr: usize) {
+        self.is_open[wfr] = false;
+    }
+
+    /// A robot has heard a call that is new to it.
+    pub(super) fn hears(&mut self, wfr: usize, served: Served, at_ns: u64) {
+        match served {
+            Served::No => {}
+            Served::Yes => self.tell(Demand::AsksAnew, wfr, at_ns),
+        }
+    }
+
+    /// A robot takes a lease.
+    pub(super) fn takes(&mut self, robot: usize, wfr: usize, epoch: Epoch) {
+        self.taken[robot][wfr] = Some(epoch);
+    }
+
+    /// Looks at all robots and WFRs.
+    pub(super) fn look(&mut self, robots: &[Seen<'_>], wfrs: &[Wfr<MAX_ROBOTS>], at_ns: u64) {
+        let place = |call: Call| wfrs.iter().position(|wfr| wfr.call().wfr == call.wfr);
+        for (robot, seen) in robots.iter().enumerate() {
+            let Some(call) = seen.lease() else { continue };
+            if robots[..robot].iter().any(|other| other.lease() == Some(call))
+                && let Some(wfr) = place(call)
+            {
+                self.tell(Demand::OneRobotForACall, wfr, at_ns);
+            }
+        }
+        let counts_on = |wfr: &Wfr<MAX_ROBOTS>| match wfr.phase() {
+            Phase::Leased { choice } => Some(choice.robot),
+            Phase::Idle | Phase::Collecting { .. } | Phase::Offered { .. } | Phase::Rescued { .. } => None,
+        };
+        let lives = |robot: RobotId| robots.get(usize::from(robot.0)).is_some_and(|seen| !seen.has_failed);
+        for (wfr, machine) in wfrs.iter().enumerate() {
+            if let Some(robot) = counts_on(machine).filter(|&robot| lives(robot))
+                && wfrs[..wfr].iter().any(|other| counts_on(other) == Some(robot))
+            {
+                self.tell(Demand::OneCallForARobot, wfr, at_ns);
+            }
+            let taken = |robot: RobotId| self.taken[usize::from(robot.0)][wfr];
+            let (has_best, has_consent) = match machine.phase() {
+                Phase::Offered { choice, .. } => (self.is_best(wfr, choice), true),
+                Phase::Leased { choice } => {
+                    (self.is_best(wfr, choice), taken(choice.robot) == Some(machine.call().epoch))
+                }
+                Phase::Rescued { by } => (true, taken(by).is_some()),
+                Phase::Idle | Phase::Collecting { .. } => (true, true),
+            };
+            if !has_best {
+                self.tell(Demand::BestOfTheWindow, wfr, at_ns);
+            }
+            if !has_consent {
+                self.tell(Demand::CountsOnConsent, wfr, at_ns);
+            }
+        }
+    }
+
+    fn is_best(&self, wfr: usize, choice: Bid) -> bool {
+        self.best[wfr].is_none_or(|best| best.robot == choice.robot)
+    }
+}

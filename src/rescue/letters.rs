@@ -1,0 +1,114 @@
+//! What is for one station alone, MOVE, RESB and the answers to it, goes from hop to hop as a sensor's radio sends such
+//! frames (IEEE 802.15.4): the hop acknowledges it by the number of the frame, the sender repeats it until then, at most
+//! three times, and a frame that comes once more is acknowledged and otherwise ignored. A call is for all, and is not
+//! acknowledged. The paper is silent about this; without it hardly a message would come through fifteen hops that lose
+//! one in ten.
+
+use tautline_kernel::rescue::{Hop, Resb, Upward};
+
+/// A sender waits so long for an acknowledgement: over the shared channel both are on the air for 1 ms, and wait while
+/// others send.
+pub(super) const ANSWER_WAIT_NS: u64 = 25_000_000;
+
+/// A letter is sent at most so often.
+pub(super) const TRIES: u8 = 4;
+
+/// What a letter says.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Content {
+    /// Towards a WFR.
+    Up(Upward),
+    /// Towards a robot.
+    Down(Resb),
+}
+
+/// What is for one station alone.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Letter {
+    pub(super) from: Hop,
+    pub(super) to: Hop,
+    /// Its number among those of its sender.
+    pub(super) frame: u32,
+    pub(super) content: Content,
+}
+
+/// The letters of a station.
+#[derive(Debug, Default)]
+pub(super) struct Letters {
+    written: u32,
+    /// Those that are not acknowledged, and how often each will still be repeated.
+    open: Vec<(Letter, u8)>,
+    /// The latest from each sender.
+    heard: Vec<(Hop, u32)>,
+}
+
+impl Letters {
+    /// A new letter.
+    pub(super) fn write(&mut self, from: Hop, to: Hop, content: Content) -> Letter {
+        self.written += 1;
+        let letter = Letter { from, to, frame: self.written, content };
+        self.open.push((letter, TRIES - 1));
+        letter
+    }
+
+    /// A letter has been acknowledged.
+    pub(super) fn close(&mut self, frame: u32) {
+        self.open.retain(|(letter, _)| letter.frame != frame);
+    }
+
+    /// A letter to be repeated, unless it has been acknowledged or repeated often enough.
+    pub(super) fn repeat(&mut self, frame: u32) -> Option<Letter> {
+        let place = self.open.iter().position(|(letter, _)| letter.frame == frame)?;
+        let (letter, repeats_left) = &mut self.open[place];
+        if let Some(left) = repeats_left.checked_sub(1) {
+            *repeats_left = left;
+            return Some(*letter);
+        }
+        self.open.remove(place);
+        None
+    }
+
+    /// Whether a letter that arrives has not arrived before.
+    pub(super) fn is_news(&mut self, letter: &Letter) -> bool {
+        match self.heard.iter_mut().find(|(from, _)| *from == letter.from) {
+            None => self.heard.push((letter.from, letter.frame)),
+            Some((_, frame)) if *frame < letter.frame => *frame = letter.frame,
+            Some(_) => return false,
+        }
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tautline_kernel::broadcast::NodeId;
+    use tautline_kernel::rescue::{Call, Epoch, RobotId};
+
+    use super::*;
+
+    fn letter(letters: &mut Letters) -> Letter {
+        let call = Call { wfr: NodeId(1), epoch: Epoch::FIRST };
+        let resb = Resb { call, robot: RobotId(0), chosen: None };
+        letters.write(Hop::Node(NodeId(1)), Hop::Robot(RobotId(0)), Content::Down(resb))
+    }
+
+    #[test]
+    fn a_letter_is_repeated_three_times_unless_it_is_acknowledged() {
+        let mut letters = Letters::default();
+        let (one, other) = (letter(&mut letters), letter(&mut letters));
+        letters.close(one.frame);
+        assert_eq!(letters.repeat(one.frame), None);
+        let repeats = [(); 4].map(|()| letters.repeat(other.frame));
+        assert_eq!(repeats, [Some(other), Some(other), Some(other), None]);
+    }
+
+    #[test]
+    fn a_letter_that_comes_again_is_no_news() {
+        let mut letters = Letters::default();
+        let (one, other) = (letter(&mut letters), letter(&mut letters));
+        let mut reader = Letters::default();
+        assert_eq!([one, one, other, one].map(|letter| reader.is_news(&letter)), [true, false, true, false]);
+        let elsewhere = Letter { from: Hop::Node(NodeId(2)), ..one };
+        assert!(reader.is_news(&elsewhere));
+    }
+}

@@ -1,0 +1,256 @@
+//! A rescue laid out: the field with its links, who calls when, where the robots are, and what will fail.
+
+use std::collections::VecDeque;
+use std::num::NonZeroU32;
+
+use tautline_kernel::broadcast::{self, Count, NodeId, Scheme};
+use tautline_kernel::choice::Source;
+use tautline_kernel::rescue::Rule;
+
+use super::problem::MAX_STATES;
+use super::{MAX_ROBOTS, MAX_WFRS, Problem, SchemeName, Setting};
+use crate::explore::RuleName;
+use crate::homing::{Equipment, Signal};
+use crate::radio::{self, Area, Chance, Channel, Faults, Field, Model, Network, Obstacle, Point, Radio};
+use crate::rescue::setting::CallTimes;
+
+/// B of equation (2), which the paper leaves open: a tenth of a second.
+pub(super) const LONGEST_WAIT_NS: u32 = 100_000_000;
+
+/// α, for the distance that a noisy signal seems to come from.
+const EXPONENT: f64 = 3.0;
+
+/// The threshold of the distance-based scheme, in tenths of the range: the larger of the paper's two.
+const THRESHOLD_TENTHS: u64 = 8;
+
+/// Whatever happens at a random time happens within so many milliseconds: ten minutes.
+const EARLY_MS: u32 = 600_000;
+
+const MILLISECOND_NS: u64 = 1_000_000;
+
+/// A rescue laid out.
+pub(super) struct Plan {
+    pub(super) rule: Rule,
+    pub(super) broadcast: broadcast::Rule,
+    pub(super) range_m: f64,
+    pub(super) equipment: Equipment,
+    pub(super) field: Field,
+    pub(super) network: Network,
+    pub(super) channel: Channel,
+    pub(super) faults: Faults,
+    pub(super) wfrs: Vec<Caller>,
+    pub(super) robots: Vec<Place>,
+    /// The nodes that fail, and when.
+    pub(super) failing: Vec<(NodeId, u64)>,
+}
+
+/// A node that calls.
+pub(super) struct Caller {
+    pub(super) node: NodeId,
+    pub(super) at_ns: u64,
+    /// Hops from it to the node farthest off that links connect with it.
+    pub(super) depth: u16,
+}
+
+impl Caller {
+    pub(super) fn new(network: &Network, node: NodeId, at_ns: u64) -> Self {
+        let depth = hops_from(network, node, |_| true).into_iter().flatten().max();
+        Self { node, at_ns, depth: depth.unwrap_or(0) }
+    }
+}
+
+/// Where a robot begins, and when it fails, if it does.
+pub(super) struct Place {
+    pub(super) at: Point,
+    pub(super) fails_ns: Option<u64>,
+}
+
+impl Setting {
+    /// Lays the rescue out. What is not given is drawn.
+    pub(super) fn plan(&self, chance: &mut dyn Source) -> Result<Plan, Problem> {
+        self.check()?;
+        let [width_m, height_m] = self.area_m;
+        let obstacle =
+            |&[west_m, north_m, east_m, south_m]: &[f64; 4]| Obstacle { west_m, north_m, east_m, south_m };
+        let obstacles = self.obstacles_m.iter().map(obstacle).collect();
+        let radio = Radio::new(self.range_m, Model::Disc)?;
+        let range_um = NonZeroU32::new(radio.range_um()).unwrap_or(NonZeroU32::MIN);
+        let (rule, conditions) = match self.rule {
+            RuleName::Published => (Rule::PUBLISHED, broadcast::Conditions::PUBLISHED),
+            RuleName::Repaired => (Rule::REPAIRED, broadcast::Conditions::REPAIRED),
+        };
+        let scheme = self.scheme(range_um)?;
+        let faults = Faults::NONE.with_loss(Chance::new(self.loss)?);
+        let faults =
+            if self.noise_db == 0.0 { faults } else { faults.with_noise(self.noise_db, EXPONENT)? };
+        let field = Field::random(Area::new(width_m, height_m)?, obstacles, self.nodes, chance)?;
+        let network = Network::new(&field, radio, chance)?;
+        let wfrs = self.wfrs(&network, chance)?;
+        let robots = self.robots(&field, chance)?;
+        let others = (0..self.nodes as u32)
+            .map(NodeId)
+            .filter(|node| wfrs.iter().all(|wfr| wfr.node != *node))
+            .collect();
+        let failing = drawn(self.failing_nodes, others, chance)
+            .into_iter()
+            .map(|node| (node, early_ns(chance)))
+            .collect();
+        Ok(Plan {
+            rule,
+            broadcast: broadcast::Rule {
+                conditions,
+                ..broadcast::Rule::new(scheme, range_um, LONGEST_WAIT_NS)
+            },
+            range_m: self.range_m,
+            equipment: Equipment::new(radio, self.noise_db)?,
+            field,
+            network,
+            channel: self.channel.channel(),
+            faults,
+            wfrs,
+            robots,
+            failing,
+        })
+    }
+
+    /// What is wrong by the numbers alone.
+    fn check(&self) -> Result<(), Problem> {
+        let Self { nodes, wfrs, robots, failing, failing_nodes, .. } = *self;
+        if !(1..=MAX_ROBOTS).contains(&robots) {
+            return Err(Problem::Robots { robots });
+        }
+        if self.robots_at_m.len() > robots {
+            return Err(Problem::RobotPlaces { places: self.robots_at_m.len(), robots });
+        }
+        if failing > robots {
+            return Err(Problem::Failing { failing, robots });
+        }
+        if !(2..=radio::MAX_NODES).contains(&nodes) {
+            return Err(Problem::Field(radio::Problem::Nodes { nodes }));
+        }
+        if wfrs > nodes {
+            return Err(Problem::WfrsOfNodes { wfrs, nodes });
+        }
+        if !(1..=MAX_WFRS).contains(&wfrs) {
+            return Err(Problem::Wfrs { wfrs });
+        }
+        if self.wfrs_at.len() > wfrs {
+            return Err(Problem::WfrPlaces { places: self.wfrs_at.len(), wfrs });
+        }
+        if failing_nodes > nodes - wfrs {
+            return Err(Problem::FailingNodes { failing: failing_nodes, others: nodes - wfrs });
+        }
+        if nodes * wfrs > MAX_STATES {
+            return Err(Problem::TooLarge { nodes, wfrs });
+        }
+        Ok(())
+    }
+
+    fn scheme(&self, range_um: NonZeroU32) -> Result<Scheme, Problem> {
+        let Self { k, scheme, .. } = *self;
+        let too_many = |most: u8| Problem::K { k, scheme, most };
+        match scheme {
+            SchemeName::KFnf => {
+                let k = Count::new(k).ok_or(too_many(Count::MOST))?;
+                Ok(Scheme::Farthest { k: Some(k) })
+            }
+            SchemeName::Flooding => Ok(Scheme::Flooding),
+            SchemeName::Counter => {
+                // The first is counted here.
+                let below = k.checked_add(1).filter(|_| k > 0).and_then(Count::new);
+                Ok(Scheme::Counter { below: below.ok_or(too_many(Count::MOST - 1))? })
+            }
+            SchemeName::Distance => {
+                let least_um = u64::from(range_um.get()) * THRESHOLD_TENTHS / 10;
+                Ok(Scheme::Distance { least_um: least_um as u32 })
+            }
+            SchemeName::Sba => Ok(Scheme::Scalable),
+        }
+    }
+
+    fn wfrs(&self, network: &Network, chance: &mut dyn Source) -> Result<Vec<Caller>, Problem> {
+        let mut nodes: Vec<NodeId> = Vec::with_capacity(self.wfrs);
+        for &number in &self.wfrs_at {
+            let node = network.node(number)?;
+            if nodes.contains(&node) {
+                return Err(Problem::WfrTwice { node: number });
+            }
+            nodes.push(node);
+        }
+        let others = (0..self.nodes as u32).map(NodeId).filter(|node| !nodes.contains(node)).collect();
+        nodes.extend(drawn(self.wfrs - nodes.len(), others, chance));
+        let caller = |node| {
+            let at_ns = match self.calls {
+                CallTimes::Together => 0,
+                CallTimes::Spread => early_ns(chance),
+            };
+            Caller::new(network, node, at_ns)
+        };
+        Ok(nodes.into_iter().map(caller).collect())
+    }
+
+    fn robots(&self, field: &Field, chance: &mut dyn Source) -> Result<Vec<Place>, Problem> {
+        let mut places = Vec::with_capacity(self.robots);
+        for (robot, &[x_m, y_m]) in (1..).zip(&self.robots_at_m) {
+            let at = Point { x_m, y_m };
+            if !field.area().contains(at) {
+                return Err(Problem::RobotOutside { robot, x_m, y_m });
+            }
+            if field.obstacles().iter().any(|obstacle| obstacle.contains(at)) {
+                return Err(Problem::RobotBlocked { robot });
+            }
+            places.push(Place { at, fails_ns: None });
+        }
+        while places.len() < self.robots {
+            places.push(Place { at: field.place(chance)?, fails_ns: None });
+        }
+        for robot in drawn(self.failing, (0..self.robots).collect(), chance) {
+            places[robot].fails_ns = Some(early_ns(chance));
+        }
+        Ok(places)
+    }
+}
+
+/// `count` of `from`, each as likely as any other.
+fn drawn<T>(count: usize, mut from: Vec<T>, chance: &mut dyn Source) -> Vec<T> {
+    (0..count.min(from.len())).map(|_| from.swap_remove(chance.pick(from.len() as u32) as usize)).collect()
+}
+
+fn early_ns(chance: &mut dyn Source) -> u64 {
+    u64::from(chance.pick(EARLY_MS)) * MILLISECOND_NS
+}
+
+/// Hops from `start` to each node over nodes that live; `None` where no links lead.
+pub(super) fn hops_from(
+    network: &Network,
+    start: NodeId,
+    is_alive: impl Fn(NodeId) -> bool,
+) -> Vec<Option<u16>> {
+    let mut hops: Vec<Option<u16>> = vec![None; network.nodes()];
+    let mut next = VecDeque::from([(start, 0_u16)]);
+    hops[start.0 as usize] = Some(0);
+    while let Some((node, so_far)) = next.pop_front() {
+        for &other in network.neighbours(node) {
+            let place = &mut hops[other.0 as usize];
+            if place.is_none() && is_alive(other) {
+                *place = Some(so_far.saturating_add(1));
+                next.push_back((other, so_far.saturating_add(1)));
+            }
+        }
+    }
+    hops
+}
+
+impl Plan {
+    /// Which of the WFRs a node is.
+    pub(super) fn wfr(&self, node: NodeId) -> Option<usize> {
+        self.wfrs.iter().position(|wfr| wfr.node == node)
+    }
+
+    /// How far off a node or a robot seems to be to a robot, in micrometres; `None` if they do not hear each other.
+    pub(super) fn heard_um(&self, sender: Point, robot: Point) -> Option<u32> {
+        let is_heard = self.equipment.ear.hears(&self.field, Signal::plain(sender), robot);
+        let (along_x, along_y) = (sender.x_m - robot.x_m, sender.y_m - robot.y_m);
+        is_heard.then(|| ((along_x * along_x + along_y * along_y).sqrt() * 1e6 + 0.5) as u32)
+    }
+}

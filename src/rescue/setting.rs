@@ -1,0 +1,92 @@
+//! What a rescue is made of, as the user gives it: plain numbers, which are checked when the field is laid out.
+
+use clap::ValueEnum;
+use serde::{Deserialize, Serialize};
+
+use crate::explore::RuleName;
+use crate::radio::ChannelName;
+
+/// The most robots: what a WFR and a path node remember is sized by it.
+pub const MAX_ROBOTS: usize = 16;
+
+/// The most WFRs: what a robot and a path node remember is sized by it.
+pub const MAX_WFRS: usize = 16;
+
+/// How calls are broadcast.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SchemeName {
+    /// k-farthest-node forwarding.
+    KFnf,
+    /// Everybody forwards.
+    Flooding,
+    /// Who has heard more than k senders, the first counted, is silent.
+    Counter,
+    /// Who has heard a sender nearer than 0.8 of the range is silent.
+    Distance,
+    /// Who has no neighbour left to reach is silent.
+    Sba,
+}
+
+impl SchemeName {
+    /// Its name on the command line.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::KFnf => "k-fnf",
+            Self::Flooding => "flooding",
+            Self::Counter => "counter",
+            Self::Distance => "distance",
+            Self::Sba => "sba",
+        }
+    }
+}
+
+/// When something happens at the WFRs.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CallTimes {
+    /// At all in the beginning.
+    Together,
+    /// At each at a random time of the first ten minutes.
+    Spread,
+}
+
+/// A rescue, but for its seed.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Setting {
+    /// MRC as published, or repaired.
+    pub rule: RuleName,
+    /// How calls are broadcast.
+    pub scheme: SchemeName,
+    /// How many senders, the first not counted, make a node silent under k-FNF and the counter-based scheme.
+    pub k: u8,
+    /// Sensor nodes.
+    pub nodes: usize,
+    /// Width and height, in metres.
+    pub area_m: [f64; 2],
+    /// The radio range of nodes and robots, in metres.
+    pub range_m: f64,
+    /// West, north, east and south of each obstacle, in metres.
+    pub obstacles_m: Vec<[f64; 4]>,
+    /// How many nodes call.
+    pub wfrs: usize,
+    /// Which nodes call, as far as they are not to be random ones.
+    pub wfrs_at: Vec<u32>,
+    /// How many robots there are.
+    pub robots: usize,
+    /// Where robots begin, x and y in metres, as far as they are not to be at random places.
+    pub robots_at_m: Vec<[f64; 2]>,
+    /// When something happens at the WFRs.
+    pub calls: CallTimes,
+    /// What lies between a sender and those who hear it.
+    pub channel: ChannelName,
+    /// How likely it is that a message is lost, on each link anew.
+    pub loss: f64,
+    /// The standard deviation of the strength of a signal, each time anew, in dB.
+    pub noise_db: f64,
+    /// How many robots fail, each at a random time of the first ten minutes.
+    pub failing: usize,
+    /// How many nodes fail, likewise. No WFR does.
+    pub failing_nodes: usize,
+}
