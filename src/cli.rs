@@ -11,6 +11,7 @@ mod progress;
 mod prove;
 mod replay;
 mod reproduce;
+mod rescue;
 mod show;
 
 use std::io::{self, IsTerminal, Write};
@@ -75,6 +76,7 @@ enum Command {
     Explore(explore::Explore),
     Hunt(hunt::Hunt),
     Minimise(minimise::Minimise),
+    Rescue(rescue::Rescue),
     Replay(replay::Replay),
     Show(show::Show),
     Reproduce(reproduce::Reproduce),
@@ -229,6 +231,7 @@ impl Command {
             Self::Explore(explore) => explore.run(out),
             Self::Hunt(hunt) => hunt.run(out),
             Self::Minimise(minimise) => minimise.run(out),
+            Self::Rescue(rescue) => rescue.run(out),
             Self::Replay(replay) => replay.run(out),
             Self::Show(show) => show.run(out),
             Self::Reproduce(reproduce) => reproduce.run(out),

@@ -14,6 +14,7 @@ mod pace;
 mod plan;
 mod problem;
 mod setting;
+mod summary;
 mod timers;
 mod world;
 
@@ -21,6 +22,8 @@ pub use event::{Event, Logged, Millimetres};
 pub use judge::Violation;
 pub use problem::Problem;
 pub use setting::{CallTimes, MAX_ROBOTS, MAX_WFRS, SchemeName, Setting};
+pub(crate) use summary::seconds;
+pub use summary::{Assignments, Broken, Summary};
 pub use world::{Fate, Journey, Report, Spread, rescue};
 
 #[cfg(test)]
@@ -203,7 +206,7 @@ mod tests {
             _ => None,
         };
         let passed: Vec<(usize, u32)> = events(&report).into_iter().filter_map(who).collect();
-        assert_eq!(passed, [(1, 2), (1, 1)]);
+        assert_eq!(passed, [(2, 2), (2, 1)]);
         let [journey] = &report.journeys[..] else { panic!("one journey") };
         assert!((journey.moved_m - 50.0).abs() < 1.0, "{journey:?}");
         assert_eq!(journey.shortest_m.map(f64::round), Some(50.0));

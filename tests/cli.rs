@@ -783,12 +783,122 @@ fn ctrl_c_ends_minimising_with_nothing_stored() {
     assert_eq!(names(folder.path()), ["run.jsonl"]);
 }
 
+/// Three robots, three WFRs, one message in ten lost on each link, one robot failing.
+const RESCUE: [&str; 9] = ["rescue", "--wfr", "3", "--robots", "3", "--loss", "0.1", "--failing", "1"];
+
+#[test]
+fn a_rescue_is_told_event_by_event() {
+    let folder = folder();
+    let folder = folder.path();
+    assert_snapshot!("rescue_of_one_wfr", printed(folder, &["rescue", "--seeds", "0"], 0));
+    let published = [&RESCUE[..], &["--rule", "published", "--seeds", "8"]].concat();
+    assert_snapshot!("rescue_published", printed(folder, &published, 1));
+    let lake = ["--obstacle", "100,100,200,200", "--robot", "20,150", "--robot", "90.5,1", "--wfr-at", "350"];
+    let told = json(folder, &[&["rescue", "--seeds", "7"], &lake[..]].concat(), 0);
+    assert_eq!((&told["robots"], &told["wfrs"]), (&2.into(), &1.into()));
+    assert_eq!(told["events"][0]["calls"]["node"], 350);
+    let ends: Vec<&Value> = told["events"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter(|event| !event["arrives"].is_null())
+        .collect();
+    assert_eq!(ends.len(), 1, "one robot comes");
+}
+
+#[test]
+fn rescues_are_counted_and_judged() {
+    let folder = folder();
+    let folder = folder.path();
+    assert_snapshot!("rescues", printed(folder, &[&RESCUE[..], &["--seeds", "0..19"]].concat(), 0));
+    let published = [&RESCUE[..], &["--seeds", "0..19", "--rule", "published"]].concat();
+    assert_snapshot!("rescues_published", printed(folder, &published, 1));
+    let counted = json(folder, &published, 1);
+    assert_snapshot!(counted["assignments"], @r#"{"cut_off":0,"never":13,"served_more_often":0,"served_once":47,"unheard":0,"wfrs":60}"#);
+    assert_snapshot!(counted["violations"], @r#"[{"at_s":0.094795064,"clause":"MRC-1","rescues":1,"seed":8,"wfr":3},{"at_s":0.01635954,"clause":"MRC-4","rescues":20,"seed":0,"wfr":3},{"at_s":125.692057474,"clause":"MRC-5","rescues":12,"seed":0,"wfr":2}]"#);
+    assert_eq!(counted.get("events"), None);
+    let schemes = ["flooding", "counter", "distance", "sba"].map(|scheme| {
+        let arguments =
+            [&RESCUE[..], &["--seeds", "0..4", "--channel", "shared", "--scheme", scheme]].concat();
+        let counted = json(folder, &arguments, 0);
+        format!("{scheme} {} {}", counted["assignments"]["served_once"], counted["rebroadcasts"]["mean"])
+    });
+    assert_snapshot!(schemes.join("\n"), @r"
+    flooding 15 698.4
+    counter 15 198.0
+    distance 15 115.33
+    sba 15 295.0
+    ");
+}
+
+#[test]
+fn what_makes_no_rescue_is_refused_with_what_would_be_right() {
+    let folder = folder();
+    let cases: [&[&str]; 25] = [
+        &["--nodes", "0"],
+        &["--nodes", "1"],
+        &["--nodes", "2000000"],
+        &["--nodes", "900000"],
+        &["--nodes", "900000", "--wfr", "16"],
+        &["--range", "0"],
+        &["--range", "NaN"],
+        &["--area", "0x5"],
+        &["--area", "5"],
+        &["--k", "0"],
+        &["--k", "8", "--scheme", "counter"],
+        &["--wfr", "0"],
+        &["--wfr", "3", "--nodes", "2"],
+        &["--wfr-at", "700"],
+        &["--wfr-at", "7", "--wfr-at", "7"],
+        &["--robots", "17"],
+        &["--robot", "301,1"],
+        &["--robot", "NaN,1"],
+        &["--robot", "150,150", "--obstacle", "100,100,200,200"],
+        &["--obstacle", "5,5,1,1"],
+        &["--obstacle", "1,2,3"],
+        &["--loss", "1.5"],
+        &["--noise-db", "-1"],
+        &["--failing", "2"],
+        &["--failing-nodes", "700"],
+    ];
+    let said = cases.map(|arguments| {
+        format!("{}\n{}\n", arguments.join(" "), refused(folder.path(), &[&["rescue"], arguments].concat()))
+    });
+    assert_snapshot!("wrong_rescues", said.join("\n"));
+    let seeds = ["", "5..4", "..4", "1..", "a", "0..1000000"]
+        .map(|seeds| format!("{seeds:?}\n{}\n", refused(folder.path(), &["rescue", "--seeds", seeds])));
+    assert_snapshot!("wrong_seeds", seeds.join("\n"));
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_rescues_and_nothing_is_claimed() {
+    let folder = folder();
+    let mut rescue = tautline(folder.path(), &["rescue", "--seeds", "0..999999"])
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the program runs");
+    std::thread::sleep(Duration::from_millis(500));
+    let sent = Command::new("kill").args(["-INT", &rescue.id().to_string()]).status().expect("kill runs");
+    assert!(sent.success());
+    assert_eq!(rescue.wait().expect("it ends").code(), Some(3));
+}
+
 #[test]
 fn every_command_has_help_with_examples() {
     let folder = folder();
-    for command in
-        ["prove", "explore", "hunt", "minimise", "replay", "show", "reproduce", "completions", "man"]
-    {
+    for command in [
+        "prove",
+        "explore",
+        "hunt",
+        "minimise",
+        "rescue",
+        "replay",
+        "show",
+        "reproduce",
+        "completions",
+        "man",
+    ] {
         let help = printed(folder.path(), &[command, "--help"], 0);
         assert!(help.contains("Example"), "{command}");
         assert_snapshot!(format!("help_{command}"), help);

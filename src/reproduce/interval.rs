@@ -20,12 +20,27 @@ pub struct Estimate {
 }
 
 impl Estimate {
+    /// Of nothing at all.
+    pub const NOTHING: Self = Self { count: 0, mean: 0.0, interval: None };
+
     /// The mean of real values, with Student's t; `None` if there are none.
     pub fn of_values(values: &[f64]) -> Option<Self> {
         let count = u32::try_from(values.len()).ok().filter(|&count| count > 0)?;
         let mean = values.iter().sum::<f64>() / f64::from(count);
         let squares = values.iter().map(|value| (value - mean) * (value - mean)).sum();
         Some(Self::of_mean(count, mean, squares))
+    }
+
+    /// The ratio of two sums over pairs of values, the second above 0: how many times the sum of the second values the sum
+    /// of the first is, by the distances of the first from so many times the second. `None` if there are none.
+    pub fn of_ratio(pairs: &[(f64, f64)]) -> Option<Self> {
+        let count = u32::try_from(pairs.len()).ok().filter(|&count| count > 0)?;
+        let (over, under) =
+            pairs.iter().fold((0.0, 0.0), |(over, under), pair| (over + pair.0, under + pair.1));
+        let (ratio, mean_under) = (over / under, under / f64::from(count));
+        let off = |&(over, under): &(f64, f64)| (over - ratio * under) / mean_under;
+        let squares = pairs.iter().map(|pair| off(pair) * off(pair)).sum();
+        (under > 0.0).then(|| Self::of_mean(count, ratio, squares))
     }
 
     /// How many of `count` are hits, with Wilson's interval, which stays between 0 and 1 and has a width even where all
@@ -58,6 +73,12 @@ impl Estimate {
     /// Half the width of the interval.
     pub fn margin(self) -> Option<f64> {
         self.interval.map(|[low, high]| (high - low) / 2.0)
+    }
+
+    /// For people: the mean and, if there is one, half the width of the interval, with so many decimals.
+    pub fn text(self, decimals: usize) -> String {
+        let margin = self.margin().map_or(String::new(), |margin| format!(" ± {margin:.decimals$}"));
+        format!("{:.decimals$}{margin}", self.mean)
     }
 
     /// The same in a unit of which `factor`, above 0, make one of the present: 100 for a share in percent.
@@ -127,7 +148,18 @@ fn student(degrees_of_freedom: u32) -> f64 {
 
 /// Rounded to two decimals.
 pub(super) fn hundredths(number: f64) -> f64 {
-    (number * 100.0).round() / 100.0
+    decimals(number, 100.0)
+}
+
+/// Rounded to a whole number of `parts` of 1.
+pub(super) fn decimals(number: f64, parts: f64) -> f64 {
+    (number * parts).round() / parts
+}
+
+/// Mean and interval so rounded.
+pub(crate) fn rounded(estimate: Estimate, parts: f64) -> Estimate {
+    let interval = estimate.interval.map(|ends| ends.map(|end| decimals(end, parts)));
+    Estimate { mean: decimals(estimate.mean, parts), interval, ..estimate }
 }
 
 #[cfg(test)]
@@ -172,6 +204,16 @@ mod tests {
         assert_eq!((Estimate::share(0, 0), Estimate::share(2, 1)), (None, None));
         let one = Estimate { count: 1, mean: 7.0, interval: None };
         assert_eq!((Estimate::of_values(&[7.0]), Moments::of(7).estimate()), (Some(one), Some(one)));
+    }
+
+    #[test]
+    fn a_ratio_of_sums() {
+        // 12 of 8: 1.5 times, off by −1, 1 and 0, against 8/3: squares 2·(3/8)², variance half of that, 4.3·√(9/64/3).
+        let ratio = Estimate::of_ratio(&[(2.0, 2.0), (4.0, 2.0), (6.0, 4.0)]).expect("pairs");
+        assert_eq!((ratio.count, rounded(ratio.mean), ratio.margin().map(rounded)), (3, 15_000, Some(9_310)));
+        let same = [(3.0, 1.0), (9.0, 3.0), (1.5, 0.5)];
+        assert_eq!(Estimate::of_ratio(&same).and_then(Estimate::margin).map(rounded), Some(0));
+        assert_eq!((Estimate::of_ratio(&[]), Estimate::of_ratio(&[(1.0, 0.0)])), (None, None));
     }
 
     #[test]

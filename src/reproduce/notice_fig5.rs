@@ -9,7 +9,7 @@ use tautline_kernel::broadcast::{Count, NodeId, Rule, Scheme};
 use tautline_kernel::choice::Source;
 use tautline_proofs::engine::Seeded;
 
-use super::interval::Estimate;
+use super::interval::{Estimate, decimals, rounded};
 use crate::fault::{Fault, Halt};
 use crate::radio::{Area, Channel, Faults, Field, Model, Network, Problem, Radio, broadcast};
 use crate::view::chart::{Axis, LineChart, Series, Stroke};
@@ -25,7 +25,7 @@ pub const RANGE_M: f64 = 25.0;
 
 /// B, which the paper leaves open: a tenth of a second. Over the ideal channel the farthest-node schemes do the same for
 /// any other.
-const LONGEST_WAIT_NS: u32 = 100_000_000;
+pub(super) const LONGEST_WAIT_NS: u32 = 100_000_000;
 
 /// The k of the paper's figure, and what it has k-FNF reach there: “near 100 %”, at every density. All else it draws
 /// only.
@@ -152,7 +152,7 @@ impl Setting {
     fn density(&self, nodes: usize, samples: &[Sample], schemes: &[(String, Scheme)]) -> Density {
         let all = f64::from(nodes as u32);
         let mean = |value: &dyn Fn(&Sample) -> f64| {
-            Estimate::of_values(&samples.iter().map(value).collect::<Vec<_>>()).unwrap_or(NOTHING)
+            Estimate::of_values(&samples.iter().map(value).collect::<Vec<_>>()).unwrap_or(Estimate::NOTHING)
         };
         let connected = samples.iter().filter(|sample| sample.component as usize == nodes).count() as u32;
         let is_papers = self.side_m == SIDE_M && self.range_m == RANGE_M && NODES.contains(&nodes);
@@ -175,27 +175,15 @@ impl Setting {
         };
         Density {
             nodes,
-            connected: rounded(Estimate::share(connected, self.topologies).unwrap_or(NOTHING), 1e4),
+            connected: rounded(Estimate::share(connected, self.topologies).unwrap_or(Estimate::NOTHING), 1e4),
             component: rounded(mean(&|sample| f64::from(sample.component) / all), 1e4),
             schemes: schemes.iter().enumerate().map(line).collect(),
         }
     }
 }
 
-/// Of no topology at all.
-const NOTHING: Estimate = Estimate { count: 0, mean: 0.0, interval: None };
-
-fn usage(problem: Problem) -> Halt {
+pub(super) fn usage(problem: Problem) -> Halt {
     Fault::usage(problem, problem.remedy()).into()
-}
-
-fn decimals(number: f64, parts: f64) -> f64 {
-    (number * parts).round() / parts
-}
-
-fn rounded(estimate: Estimate, parts: f64) -> Estimate {
-    let interval = estimate.interval.map(|ends| ends.map(|end| decimals(end, parts)));
-    Estimate { mean: decimals(estimate.mean, parts), interval, ..estimate }
 }
 
 /// The two parts of the figure.

@@ -1,5 +1,7 @@
 //! What happens in a rescue, as it is told and stored.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use crate::radio::Point;
@@ -12,7 +14,7 @@ pub(super) fn millimetres(at: Point) -> Millimetres {
     [at.x_m, at.y_m].map(|metres| (metres * 1e3 + 0.5) as u32)
 }
 
-/// Something that happens. Robots and WFRs are numbered from 0, nodes as in the field.
+/// Something that happens. Robots and WFRs are numbered from 1, nodes from 0, as in the field.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 #[expect(missing_docs, reason = "the fields are the numbers of who takes part")]
@@ -43,6 +45,56 @@ pub enum Event {
     RobotFails { robot: usize, at: Millimetres },
     /// A node fails.
     NodeFails { node: u32 },
+}
+
+/// A place in metres.
+struct Metres(Millimetres);
+
+impl fmt::Display for Metres {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self([x, y]) = self;
+        let tenth = |millimetres: u32| (millimetres + 50) / 100;
+        let (x, y) = (tenth(*x), tenth(*y));
+        write!(f, "{}.{}, {}.{} m", x / 10, x % 10, y / 10, y % 10)
+    }
+}
+
+impl fmt::Display for Event {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Calls { wfr, node, epoch } => write!(f, "WFR {wfr}, node {node}, calls, epoch {epoch}"),
+            Self::Hears { robot, wfr, epoch, hops } => {
+                write!(f, "robot {robot} hears of WFR {wfr}, epoch {epoch}: hops {hops}")
+            }
+            Self::Asks { robot, wfr, epoch, hops } => {
+                write!(f, "robot {robot} asks WFR {wfr}, epoch {epoch}: hops {hops}")
+            }
+            Self::Chooses { wfr, epoch, robot } => {
+                write!(f, "WFR {wfr} chooses robot {robot}, epoch {epoch}")
+            }
+            Self::CountsOn { wfr, epoch, robot } => {
+                write!(f, "WFR {wfr} counts on robot {robot}, epoch {epoch}")
+            }
+            Self::Declines { robot, wfr, epoch } => {
+                write!(f, "robot {robot} declines WFR {wfr}, epoch {epoch}")
+            }
+            Self::SetsOut { robot, wfr, epoch, at } => {
+                write!(f, "robot {robot} sets out for WFR {wfr}, epoch {epoch}, from {}", Metres(at))
+            }
+            Self::Passes { robot, node, at } => write!(f, "robot {robot} is at node {node}, {}", Metres(at)),
+            Self::LosesItsWay { robot, at } => {
+                write!(f, "robot {robot} gets no signal any more at {}", Metres(at))
+            }
+            Self::LetsGo { robot, wfr, epoch, at } => {
+                write!(f, "robot {robot} gives up the lease of WFR {wfr}, epoch {epoch}, at {}", Metres(at))
+            }
+            Self::Arrives { robot, wfr, at } => {
+                write!(f, "robot {robot} reaches WFR {wfr} at {}", Metres(at))
+            }
+            Self::RobotFails { robot, at } => write!(f, "robot {robot} fails at {}", Metres(at)),
+            Self::NodeFails { node } => write!(f, "node {node} fails"),
+        }
+    }
 }
 
 /// When something happened.

@@ -53,7 +53,7 @@ impl Problem {
             Self::Field(problem) => problem.remedy(),
             Self::K { most, .. } => format!("give a k from 1 to {most}"),
             Self::Wfrs { .. } => format!("let 1 to {MAX_WFRS} nodes call"),
-            Self::WfrsOfNodes { nodes, .. } => format!("let at most {nodes} nodes call, or take more nodes"),
+            Self::WfrsOfNodes { nodes, .. } => format!("let 1 to {nodes} nodes call, or take more nodes"),
             Self::WfrTwice { .. } => "name each node once".to_owned(),
             Self::WfrPlaces { places, .. } => format!("let {places} nodes call, or name fewer of them"),
             Self::Robots { .. } => format!("take 1 to {MAX_ROBOTS} robots"),
@@ -62,8 +62,8 @@ impl Problem {
                 "put every robot inside the area, by two finite numbers of metres".to_owned()
             }
             Self::RobotBlocked { .. } => "put every robot outside all obstacles".to_owned(),
-            Self::Failing { robots, .. } => format!("let at most {robots} robots fail"),
-            Self::FailingNodes { others, .. } => format!("let at most {others} nodes fail"),
+            Self::Failing { robots, .. } => format!("let 0 to {robots} fail"),
+            Self::FailingNodes { others, .. } => format!("let 0 to {others} fail"),
             Self::TooLarge { wfrs, .. } => {
                 format!("take at most {} nodes, or let fewer of them call", MAX_STATES / wfrs.max(1))
             }

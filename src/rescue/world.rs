@@ -69,6 +69,8 @@ pub struct Journey {
     pub wfr: usize,
     /// When, in nanoseconds.
     pub at_ns: u64,
+    /// How long that was after the WFR's first call, in nanoseconds.
+    pub waited_ns: u64,
     /// All that the robot went since it was last at a WFR, or since the beginning, in metres.
     pub moved_m: f64,
     /// The shortest way from where it was then round the obstacles, in metres; none if there is no way.
@@ -458,7 +460,7 @@ impl<'a> World<'a> {
                 if before.is_none_or(|epoch| epoch < notice.call.epoch) {
                     let Epoch(epoch) = notice.call.epoch;
                     self.judge.hears(wfr, after.served, now_ns);
-                    let event = Event::Hears { robot, wfr, epoch, hops: after.hops };
+                    let event = Event::Hears { robot: robot + 1, wfr: wfr + 1, epoch, hops: after.hops };
                     // Before what it makes the robot do.
                     self.log.insert(place, Logged { at_ns: now_ns, event });
                 }
@@ -507,12 +509,15 @@ impl<'a> World<'a> {
         if choice(after.phase()) != choice(before.phase())
             && let Some(choice) = choice(after.phase())
         {
-            self.tell(now_ns, Event::Chooses { wfr, epoch, robot: choice.robot.0.into() });
+            self.tell(now_ns, Event::Chooses { wfr: wfr + 1, epoch, robot: 1 + usize::from(choice.robot.0) });
         }
         if let Phase::Leased { choice } = after.phase()
             && after.phase() != before.phase()
         {
-            self.tell(now_ns, Event::CountsOn { wfr, epoch, robot: choice.robot.0.into() });
+            self.tell(
+                now_ns,
+                Event::CountsOn { wfr: wfr + 1, epoch, robot: 1 + usize::from(choice.robot.0) },
+            );
         }
         if after.timer() != before.timer()
             && let Some(timer) = after.timer()
@@ -530,7 +535,7 @@ impl<'a> World<'a> {
             self.measure_spread(wfr);
         }
         self.judge.calls(wfr);
-        self.tell(now_ns, Event::Calls { wfr, node: node.0, epoch });
+        self.tell(now_ns, Event::Calls { wfr: wfr + 1, node: node.0, epoch });
         if let Some(notice) = self.broadcasts[wfr].originate() {
             self.send(node, Message::Notice(notice));
         }
@@ -594,9 +599,9 @@ impl<'a> World<'a> {
                 let most =
                     bid.filter(|&(call, _)| call == message.call).map_or(hops, |(_, most)| most.max(hops));
                 *bid = Some((message.call, most));
-                self.tell(now_ns, Event::Asks { robot, wfr, epoch, hops });
+                self.tell(now_ns, Event::Asks { robot: robot + 1, wfr: wfr + 1, epoch, hops });
             }
-            Word::Decline => self.tell(now_ns, Event::Declines { robot, wfr, epoch }),
+            Word::Decline => self.tell(now_ns, Event::Declines { robot: robot + 1, wfr: wfr + 1, epoch }),
             Word::Accept => {
                 let rover = &mut self.rovers[robot];
                 rover.leases += 1;
@@ -615,7 +620,10 @@ impl<'a> World<'a> {
         let walker = Walker::new(self.plan.equipment, start, id, call.wfr, (parent, hops));
         self.rovers[robot].way = Some(Way { call, wfr, walker, leg: 0, passed: None });
         self.judge.takes(robot, wfr, call.epoch);
-        self.tell(now_ns, Event::SetsOut { robot, wfr, epoch: call.epoch.0, at: millimetres(start) });
+        self.tell(
+            now_ns,
+            Event::SetsOut { robot: robot + 1, wfr: wfr + 1, epoch: call.epoch.0, at: millimetres(start) },
+        );
         self.begin_leg(robot, now_ns);
     }
 
@@ -627,7 +635,7 @@ impl<'a> World<'a> {
         if walker.stage() != Leg::Arrived {
             rover.moved_m += walker.walked_m();
             let at = millimetres(rover.at);
-            self.tell(now_ns, Event::LetsGo { robot, wfr, epoch: call.epoch.0, at });
+            self.tell(now_ns, Event::LetsGo { robot: robot + 1, wfr: wfr + 1, epoch: call.epoch.0, at });
         }
     }
 
@@ -647,7 +655,7 @@ impl<'a> World<'a> {
             }
             Leg::Scanning { .. } | Leg::Walking { .. } => {}
             Leg::Arrived => self.arrive(robot, now_ns),
-            Leg::Lost => self.tell(now_ns, Event::LosesItsWay { robot, at }),
+            Leg::Lost => self.tell(now_ns, Event::LosesItsWay { robot: robot + 1, at }),
         }
     }
 
@@ -695,7 +703,7 @@ impl<'a> World<'a> {
             && way.passed.replace(node) != Some(node)
         {
             let at = millimetres(rover.at);
-            self.tell(now_ns, Event::Passes { robot, node: node.0, at });
+            self.tell(now_ns, Event::Passes { robot: robot + 1, node: node.0, at });
         }
         self.put(station, done_ns, Duty::GoOn(leg));
     }
@@ -710,11 +718,13 @@ impl<'a> World<'a> {
         if self.wfrs[wfr].is_waiting() {
             let shortest_m = shortest_m(&self.plan.field, rover.since, goal);
             let moved_m = rover.moved_m + way.walker.walked_m();
-            self.journeys.push(Journey { robot, wfr, at_ns: now_ns, moved_m, shortest_m });
+            let waited_ns = now_ns - self.plan.wfrs[wfr].at_ns;
+            let journey = Journey { robot, wfr, at_ns: now_ns, waited_ns, moved_m, shortest_m };
+            self.journeys.push(journey);
         }
         (rover.since, rover.moved_m) = (at, 0.0);
         self.wfrs[wfr] = self.wfrs[wfr].reach(id);
-        self.tell(now_ns, Event::Arrives { robot, wfr, at: millimetres(at) });
+        self.tell(now_ns, Event::Arrives { robot: robot + 1, wfr: wfr + 1, at: millimetres(at) });
         self.put(station, now_ns + SERVICE_NS, Duty::Served);
         self.look(now_ns);
     }
@@ -731,7 +741,7 @@ impl<'a> World<'a> {
                 rover.has_failed = true;
                 let at_mm = millimetres(rover.at);
                 self.agendas[at.0 as usize].clear();
-                self.tell(now_ns, Event::RobotFails { robot, at: at_mm });
+                self.tell(now_ns, Event::RobotFails { robot: robot + 1, at: at_mm });
             }
             (Duty::Raise(wfr), _) => self.turn_wfr(wfr, now_ns, Wfr::raise),
             (Duty::Forward(wfr), _) => {

@@ -1,0 +1,329 @@
+//! `tautline rescue`: rescues over a radio field.
+
+use std::fmt::Write;
+use std::ops::RangeInclusive;
+use std::str::FromStr;
+
+use clap::Args;
+use serde::Serialize;
+
+use super::output::Output;
+use super::{Exit, Format, FormatArgs, interrupt, number, progress};
+use crate::explore::RuleName;
+use crate::fault::{Fault, Halt};
+use crate::radio::ChannelName;
+use crate::reproduce::interval::Estimate;
+use crate::rescue::{
+    Assignments, CallTimes, Logged, Problem, Report, SchemeName, Setting, Summary, rescue, seconds,
+};
+
+const EXAMPLES: &str = "\
+Examples:
+  tautline rescue --seeds 0
+  tautline rescue --wfr 3 --robots 3 --loss 0.1 --failing 1 --seeds 0..999
+  tautline rescue --wfr 3 --robots 3 --loss 0.1 --failing 1 --seeds 0..999 --rule published --format json
+  tautline rescue --obstacle 100,100,200,200 --robot 20,150 --wfr-at 350 --seeds 7
+  tautline rescue --nodes 300 --scheme flooding --channel shared --noise-db 2
+
+What the JSON says: reach, reach_component and rebroadcasts are means over the seeds of what becomes of the WFRs' first \
+calls; assignments counts all WFRs of all seeds: served_once, served_more_often, never (a robot that lives is connected \
+with it and has heard of it), unheard (connected, but the broadcast has not reached it), cut_off (not connected); \
+distance_ratio is the sum of the distances moved over the sum of the shortest; wait_s the time from the first call to \
+the robot; violations the clauses broken, in how many rescues, and where first. Each mean has its 95 % interval.
+
+The exit code is 1 if a clause is broken.";
+
+/// Let nodes call for help and robots come, over a radio field at random, and judge what they do.
+///
+/// Calls spread by a broadcast scheme, robots are chosen by MRC and find their way by TAN.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Rescue {
+    /// Sensor nodes, at random places.
+    #[arg(long, value_name = "N", default_value = "700", value_parser = number::<usize>)]
+    nodes: usize,
+    /// Width and height of the area, in metres.
+    #[arg(long, value_name = "WxH", default_value = "300x300", allow_hyphen_values = true)]
+    area: AreaArg,
+    /// The radio range, in metres.
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true, default_value_t = 25.0)]
+    range: f64,
+    /// West, north, east and south of an obstacle, in metres: no signal and no robot passes it. May be given repeatedly.
+    #[arg(long, value_name = "W,N,E,S", allow_hyphen_values = true)]
+    obstacle: Vec<Metres<4>>,
+    /// How calls are broadcast.
+    #[arg(long, value_enum, default_value = "k-fnf")]
+    scheme: SchemeName,
+    /// How many senders, the first not counted, make a node silent; for k-fnf and counter.
+    #[arg(long, default_value = "1", value_parser = number::<u8>)]
+    k: u8,
+    /// How many nodes call for help. Without it as many as --wfr-at names, or one.
+    #[arg(long, value_name = "N", value_parser = number::<usize>)]
+    wfr: Option<usize>,
+    /// A node that calls. May be given repeatedly; the others are random ones.
+    #[arg(long, value_name = "NODE", value_parser = number::<u32>)]
+    wfr_at: Vec<u32>,
+    /// Robots. Without it as many as --robot places, or one.
+    #[arg(long, value_name = "N", value_parser = number::<usize>)]
+    robots: Option<usize>,
+    /// Where a robot begins, in metres. May be given repeatedly; the others are at random places.
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    robot: Vec<Metres<2>>,
+    /// When nodes call.
+    #[arg(long, value_enum, default_value = "together")]
+    calls: CallTimes,
+    /// MRC as published, or repaired.
+    #[arg(long, value_enum, default_value = "repaired")]
+    rule: RuleName,
+    /// The first and the last seed, or only one. Each is a rescue.
+    #[arg(long, value_name = "A..B", default_value = "0..99")]
+    seeds: Seeds,
+    /// What lies between a sender and those who hear it.
+    #[arg(long, value_enum, default_value = "ideal")]
+    channel: ChannelName,
+    /// How likely it is that a message is lost, on each link anew, from 0 to 1.
+    #[arg(long, value_name = "PROBABILITY", allow_hyphen_values = true, default_value_t = 0.0)]
+    loss: f64,
+    /// The standard deviation of the strength of signals, in dB.
+    #[arg(long, value_name = "DB", allow_hyphen_values = true, default_value_t = 0.0)]
+    noise_db: f64,
+    /// How many robots fail, each at a random time of the first ten minutes.
+    #[arg(long, value_name = "N", default_value = "0", value_parser = number::<usize>)]
+    failing: usize,
+    /// How many nodes fail, likewise; none that calls.
+    #[arg(long, value_name = "N", default_value = "0", value_parser = number::<usize>)]
+    failing_nodes: usize,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+/// Metres, with commas between them.
+#[derive(Clone, Copy, Debug)]
+struct Metres<const COUNT: usize>([f64; COUNT]);
+
+impl<const COUNT: usize> FromStr for Metres<COUNT> {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+        let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
+        numbers.map(Self).ok_or_else(|| {
+            let example: Vec<String> = (1..=COUNT).map(|place| (place * 50).to_string()).collect();
+            format!("write {COUNT} numbers of metres, for example {}", example.join(","))
+        })
+    }
+}
+
+/// Metres as `WxH`.
+#[derive(Clone, Copy, Debug)]
+struct AreaArg([f64; 2]);
+
+impl FromStr for AreaArg {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let sides = text
+            .split_once('x')
+            .and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
+        sides.map(Self).ok_or("write width and height in metres as WIDTHxHEIGHT, for example 300x300")
+    }
+}
+
+/// Seeds from the first to the last.
+#[derive(Clone, Debug)]
+struct Seeds(RangeInclusive<u64>);
+
+/// More rescues do not fit into memory.
+const MAX_RESCUES: u64 = 1_000_000;
+
+impl FromStr for Seeds {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let (first, last) = text.split_once("..").unwrap_or((text, text));
+        let (Ok(first), Ok(last)) = (first.parse::<u64>(), last.parse::<u64>()) else {
+            return Err(
+                "write the first and the last seed as A..B, for example 0..99, or one seed".to_owned()
+            );
+        };
+        match last.checked_sub(first) {
+            None => Err(format!("the first seed comes after the last; write {last}..{first}")),
+            Some(others) if others >= MAX_RESCUES => Err(format!("give up to {MAX_RESCUES} seeds")),
+            Some(_) => Ok(Self(first..=last)),
+        }
+    }
+}
+
+impl Seeds {
+    /// The seed, if it is the only one.
+    fn one(&self) -> Option<u64> {
+        (self.0.start() == self.0.end()).then_some(*self.0.start())
+    }
+}
+
+/// The JSON of rescues.
+#[derive(Serialize)]
+struct Rescued<'a> {
+    #[serde(flatten)]
+    setting: &'a Setting,
+    /// The first and the last.
+    seeds: [u64; 2],
+    #[serde(flatten)]
+    summary: &'a Summary,
+    /// What happened, of one rescue alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    events: Option<&'a [Logged]>,
+}
+
+fn refused(problem: Problem) -> Fault {
+    Fault::usage(problem, problem.remedy())
+}
+
+impl Rescue {
+    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        let setting = self.setting();
+        let seeds = &self.seeds.0;
+        if let Some(seed) = self.seeds.one() {
+            let report = rescue(&setting, seed).map_err(refused)?;
+            let summary = Summary::of(&setting, seed, &report);
+            return print(out, self.format.format, &setting, seeds, (&summary, Some(&report)));
+        }
+        let bar = progress::bar("rescuing", 1 + seeds.end() - seeds.start());
+        let summary = Summary::measure(&setting, seeds.clone(), &|| {
+            bar.inc(1);
+            interrupt::check()
+        })?;
+        bar.finish_and_clear();
+        print(out, self.format.format, &setting, seeds, (&summary, None))
+    }
+
+    fn setting(&self) -> Setting {
+        Setting {
+            rule: self.rule,
+            scheme: self.scheme,
+            k: self.k,
+            nodes: self.nodes,
+            area_m: self.area.0,
+            range_m: self.range,
+            obstacles_m: self.obstacle.iter().map(|&Metres(sides)| sides).collect(),
+            wfrs: self.wfr.unwrap_or(self.wfr_at.len().max(1)),
+            wfrs_at: self.wfr_at.clone(),
+            robots: self.robots.unwrap_or(self.robot.len().max(1)),
+            robots_at_m: self.robot.iter().map(|&Metres(place)| place).collect(),
+            calls: self.calls,
+            channel: self.channel,
+            loss: self.loss,
+            noise_db: self.noise_db,
+            failing: self.failing,
+            failing_nodes: self.failing_nodes,
+        }
+    }
+}
+
+/// Prints what came of rescues, and what happened in the only one.
+pub(super) fn print(
+    out: &mut Output,
+    format: Format,
+    setting: &Setting,
+    seeds: &RangeInclusive<u64>,
+    (summary, report): (&Summary, Option<&Report>),
+) -> Result<Exit, Halt> {
+    match format {
+        Format::Json => out.json(&Rescued {
+            setting,
+            seeds: [*seeds.start(), *seeds.end()],
+            summary,
+            events: report.map(|report| &report.log[..]),
+        })?,
+        Format::Text => {
+            out.text(heading(setting, seeds) + &table(summary))?;
+            if let Some(report) = report {
+                out.text(story(report))?;
+            }
+        }
+    }
+    Ok(if summary.violations.is_empty() { Exit::Expected } else { Exit::Violation })
+}
+
+fn counted(count: usize, one: &str) -> String {
+    if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") }
+}
+
+fn heading(setting: &Setting, seeds: &RangeInclusive<u64>) -> String {
+    let Setting { rule, scheme, k, nodes, area_m: [width_m, height_m], range_m, channel, .. } = setting;
+    let k = match scheme {
+        SchemeName::KFnf | SchemeName::Counter => format!(", k = {k}"),
+        SchemeName::Flooding | SchemeName::Distance | SchemeName::Sba => String::new(),
+    };
+    let times = match setting.calls {
+        CallTimes::Together => "at once",
+        CallTimes::Spread => "within ten minutes",
+    };
+    let seeds = match (seeds.start(), seeds.end()) {
+        (first, last) if first == last => format!("seed {first}"),
+        (first, last) => format!("{} rescues, seeds {first}..{last}", 1 + last - first),
+    };
+    let Setting { loss, noise_db, failing, failing_nodes, .. } = setting;
+    format!(
+        "{} for {}, calling {times}: MRC ({rule}), {}{k}\n\
+         {nodes} nodes in {width_m}×{height_m} m, range {range_m} m, {}, {} channel\n\
+         loss {loss}, noise {noise_db} dB, {} and {} fail; {seeds}\n\n",
+        counted(setting.robots, "robot"),
+        counted(setting.wfrs, "WFR"),
+        scheme.word(),
+        counted(setting.obstacles_m.len(), "obstacle"),
+        channel.word(),
+        counted(*failing, "robot"),
+        counted(*failing_nodes, "node"),
+    )
+}
+
+fn table(summary: &Summary) -> String {
+    let percent = |share: Estimate| share.times(100.0).text(2);
+    let or_none = |estimate: Option<Estimate>, decimals| {
+        estimate.map_or("-".to_owned(), |estimate| estimate.text(decimals))
+    };
+    let Assignments { wfrs, served_once, served_more_often, never, unheard, cut_off } = summary.assignments;
+    let of_wfrs = |count: u32| format!("{count} of {wfrs}");
+    let rows = [
+        ("reach, % of all nodes", percent(summary.reach)),
+        ("reach, % of the nodes connected with the WFR", percent(summary.reach_component)),
+        ("rebroadcasts of a first call", summary.rebroadcasts.text(2)),
+        ("messages in a rescue", summary.messages.text(0)),
+        ("WFRs served once", of_wfrs(served_once)),
+        ("WFRs served more often", of_wfrs(served_more_often)),
+        ("WFRs never served", of_wfrs(never)),
+        ("WFRs that no robot has heard", of_wfrs(unheard)),
+        ("WFRs with no robot connected", of_wfrs(cut_off)),
+        ("distance moved / shortest distance", or_none(summary.distance_ratio, 3)),
+        ("seconds from the first call to the robot", or_none(summary.wait_s, 1)),
+    ];
+    let width = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    for (name, value) in rows {
+        let _ = writeln!(text, "{name:<width$}  {value}");
+    }
+    text.push('\n');
+    for broken in &summary.violations {
+        let rescues = counted(broken.rescues as usize, "rescue");
+        let _ = writeln!(
+            text,
+            "{} is broken in {rescues}, first with seed {} after {:.3} s, WFR {}: {}",
+            broken.clause, broken.seed, broken.at_s, broken.wfr, broken.broken
+        );
+    }
+    if summary.violations.is_empty() {
+        text.push_str("no clause is broken\n");
+    }
+    text
+}
+
+/// What happened, event by event.
+fn story(report: &Report) -> String {
+    let mut text = "\nseconds\n".to_owned();
+    for Logged { at_ns, event } in &report.log {
+        let _ = writeln!(text, "{:>10.3}  {event}", seconds(*at_ns));
+    }
+    text
+}

@@ -1,0 +1,231 @@
+//! Many rescues of one setting, seed by seed: means with their intervals, what became of the WFRs, and which clauses were
+//! broken.
+
+use std::ops::RangeInclusive;
+
+use rayon::prelude::*;
+use serde::Serialize;
+use tautline_proofs::engine::Seeded;
+use tautline_proofs::rescue::Demand;
+
+use super::{Fate, Problem, Report, Setting, Violation, rescue};
+use crate::fault::{Fault, Halt};
+use crate::reproduce::interval::{Estimate, rounded};
+
+/// What came of many rescues.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Summary {
+    /// The share of all nodes that the first calls reach, the WFRs included.
+    pub reach: Estimate,
+    /// The share of the nodes that links connect with the WFRs.
+    pub reach_component: Estimate,
+    /// Nodes that forward a first call, the WFR not included.
+    pub rebroadcasts: Estimate,
+    /// What became of the WFRs, counted over all rescues.
+    pub assignments: Assignments,
+    /// RD: the sum of the distances that robots moved to WFRs over the sum of the shortest. None if nobody came.
+    pub distance_ratio: Option<Estimate>,
+    /// Seconds from the first call to the first robot, of those that were served. None if nobody came.
+    pub wait_s: Option<Estimate>,
+    /// Messages sent in a rescue.
+    pub messages: Estimate,
+    /// The clauses that were broken, in their order.
+    pub violations: Vec<Broken>,
+}
+
+/// What became of the WFRs.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
+pub struct Assignments {
+    /// WFRs in all.
+    pub wfrs: u32,
+    /// To which one robot came.
+    pub served_once: u32,
+    /// To which several robots came, or one several times.
+    pub served_more_often: u32,
+    /// Of which robots had heard, and to which none ever came, although one that lives is connected with it.
+    pub never: u32,
+    /// Of which no robot that lives and is connected has heard: what the broadcast has not reached.
+    pub unheard: u32,
+    /// With which links connect no robot that lives.
+    pub cut_off: u32,
+}
+
+/// A clause that was broken.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Broken {
+    /// Its id.
+    pub clause: &'static str,
+    /// What is not so, in words.
+    #[serde(skip)]
+    pub broken: &'static str,
+    /// In how many rescues.
+    pub rescues: u32,
+    /// The first of their seeds.
+    pub seed: u64,
+    /// When it was broken there, in seconds from the beginning.
+    pub at_s: f64,
+    /// Of which WFR, counted from 1.
+    pub wfr: usize,
+}
+
+/// What is kept of a rescue.
+struct Kept {
+    seed: u64,
+    reach: f64,
+    reach_component: f64,
+    rebroadcasts: f64,
+    fates: Vec<Fate>,
+    moved_m: f64,
+    shortest_m: f64,
+    waits_s: Vec<f64>,
+    messages: f64,
+    violations: Vec<Violation>,
+}
+
+/// Of nanoseconds.
+#[expect(clippy::cast_precision_loss, reason = "no rescue takes 2⁵³ nanoseconds, a hundred days")]
+pub(crate) fn seconds(nanoseconds: u64) -> f64 {
+    nanoseconds as f64 / 1e9
+}
+
+impl Kept {
+    fn of(seed: u64, nodes: usize, report: &Report) -> Self {
+        let mean = |part: &dyn Fn(&super::Spread) -> f64| {
+            report.spreads.iter().map(part).sum::<f64>() / f64::from(report.spreads.len() as u32)
+        };
+        // Where there is no way round the obstacles nobody comes.
+        let ways = report.journeys.iter().filter_map(|journey| Some((journey.moved_m, journey.shortest_m?)));
+        let (moved_m, shortest_m) = ways.fold((0.0, 0.0), |sums, way| (sums.0 + way.0, sums.1 + way.1));
+        Self {
+            seed,
+            reach: mean(&|spread| f64::from(spread.reached) / f64::from(nodes as u32)),
+            reach_component: mean(&|spread| f64::from(spread.reached) / f64::from(spread.component)),
+            rebroadcasts: mean(&|spread| f64::from(spread.rebroadcasts)),
+            fates: report.fates.clone(),
+            moved_m,
+            shortest_m,
+            waits_s: report.journeys.iter().map(|journey| seconds(journey.waited_ns)).collect(),
+            messages: f64::from(u32::try_from(report.air.sent).unwrap_or(u32::MAX)),
+            violations: report.violations.clone(),
+        }
+    }
+}
+
+impl Summary {
+    /// The rescues of `setting` with these seeds. `watch` is called after each, from any thread, and may stop the work.
+    /// The result is the same on any number of threads.
+    ///
+    /// # Errors
+    /// [`Halt`], as `watch` returned it, or if the setting makes no rescue.
+    pub fn measure(
+        setting: &Setting,
+        seeds: RangeInclusive<u64>,
+        watch: &(dyn Fn() -> Result<(), Halt> + Sync),
+    ) -> Result<Self, Halt> {
+        let one = |seed: u64| {
+            let report = rescue(setting, seed).map_err(|problem| Fault::usage(problem, problem.remedy()))?;
+            watch()?;
+            Ok(Kept::of(seed, setting.nodes, &report))
+        };
+        let kept: Vec<Kept> = seeds.into_par_iter().map(one).collect::<Result<_, Halt>>()?;
+        Ok(Self::over(&kept))
+    }
+
+    /// That of one rescue alone.
+    pub fn of(setting: &Setting, seed: u64, report: &Report) -> Self {
+        Self::over(&[Kept::of(seed, setting.nodes, report)])
+    }
+
+    fn over(kept: &[Kept]) -> Self {
+        let mean = |part: &dyn Fn(&Kept) -> f64| {
+            Estimate::of_values(&kept.iter().map(part).collect::<Vec<_>>()).unwrap_or(Estimate::NOTHING)
+        };
+        let is_way = |&(_, shortest_m): &(f64, f64)| shortest_m > 0.0;
+        let ways: Vec<(f64, f64)> =
+            kept.iter().map(|one| (one.moved_m, one.shortest_m)).filter(is_way).collect();
+        let waits: Vec<f64> = kept.iter().flat_map(|one| &one.waits_s).copied().collect();
+        let broken = |demand: Demand| {
+            let found = |one: &Kept| {
+                let violation = one.violations.iter().find(|violation| violation.demand == demand)?;
+                Some((one.seed, *violation))
+            };
+            let mut all = kept.iter().filter_map(found);
+            let (seed, Violation { at_ns, wfr, .. }) = all.next()?;
+            let rescues = 1 + all.count() as u32;
+            let (clause, broken) = (demand.clause(), demand.broken());
+            Some(Broken { clause, broken, rescues, seed, at_s: seconds(at_ns), wfr: wfr + 1 })
+        };
+        Self {
+            reach: rounded(mean(&|one| one.reach), 1e4),
+            reach_component: rounded(mean(&|one| one.reach_component), 1e4),
+            rebroadcasts: rounded(mean(&|one| one.rebroadcasts), 1e2),
+            assignments: kept
+                .iter()
+                .flat_map(|one| &one.fates)
+                .fold(Assignments::default(), Assignments::and),
+            distance_ratio: Estimate::of_ratio(&ways).map(|ratio| rounded(ratio, 1e4)),
+            wait_s: Estimate::of_values(&waits).map(|wait| rounded(wait, 1e2)),
+            messages: rounded(mean(&|one| one.messages), 1e2),
+            violations: Demand::ALL.into_iter().filter_map(broken).collect(),
+        }
+    }
+}
+
+impl Assignments {
+    const fn and(mut self, fate: &Fate) -> Self {
+        self.wfrs += 1;
+        match fate {
+            Fate::Served { visits: 0 | 1, .. } => self.served_once += 1,
+            Fate::Served { .. } => self.served_more_often += 1,
+            Fate::Abandoned => self.never += 1,
+            Fate::Unheard => self.unheard += 1,
+            Fate::CutOff => self.cut_off += 1,
+        }
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn kept(seed: u64, fates: &[Fate], (moved_m, shortest_m): (f64, f64)) -> Kept {
+        let violation = Violation { demand: Demand::IsServed, at_ns: 1_500_000_000 * seed, wfr: 1 };
+        Kept {
+            seed,
+            reach: 0.5,
+            reach_component: 1.0,
+            rebroadcasts: 10.0,
+            fates: fates.to_vec(),
+            moved_m,
+            shortest_m,
+            waits_s: vec![],
+            messages: 7.0,
+            violations: if seed > 1 { vec![violation] } else { vec![] },
+        }
+    }
+
+    #[test]
+    fn fates_are_counted_and_ratios_are_those_of_sums() {
+        let once = Fate::Served { by: 0, visits: 1 };
+        let twice = Fate::Served { by: 0, visits: 2 };
+        let all = [
+            kept(1, &[once, twice], (110.0, 100.0)),
+            kept(2, &[once, Fate::Abandoned], (60.0, 50.0)),
+            kept(3, &[Fate::CutOff, Fate::Unheard], (0.0, 0.0)),
+            kept(4, &[once, once], (13.0, 10.0)),
+        ];
+        let summary = Summary::over(&all);
+        let assignments =
+            Assignments { wfrs: 8, served_once: 4, served_more_often: 1, never: 1, unheard: 1, cut_off: 1 };
+        assert_eq!(summary.assignments, assignments);
+        let ratio = summary.distance_ratio.expect("a ratio");
+        assert_eq!((ratio.count, ratio.mean), (3, 1.1438), "183 m over 160 m");
+        assert!(ratio.interval.is_some_and(|[low, high]| low < 1.1438 && 1.1438 < high));
+        let words = Demand::IsServed.broken();
+        let broken = Broken { clause: "MRC-5", broken: words, rescues: 2, seed: 2, at_s: 3.0, wfr: 2 };
+        assert_eq!(summary.violations, [Broken { rescues: 3, ..broken }]);
+        assert_eq!((summary.reach.mean, summary.wait_s), (0.5, None));
+        assert_eq!(Summary::over(&all[2..3]).distance_ratio, None);
+    }
+}
