@@ -122,8 +122,11 @@ impl Summary {
         seeds: RangeInclusive<u64>,
         watch: &(dyn Fn() -> Result<(), Halt> + Sync),
     ) -> Result<Self, Halt> {
+        let refused = |problem: Problem| Fault::usage(problem, problem.remedy());
+        // What is wrong with all is to be the same fault each time, not that of whichever thread is first.
+        setting.plan(&mut Seeded::new(*seeds.start(), 0)).map_err(refused)?;
         let one = |seed: u64| {
-            let report = rescue(setting, seed).map_err(|problem| Fault::usage(problem, problem.remedy()))?;
+            let report = rescue(setting, seed).map_err(refused)?;
             watch()?;
             Ok(Kept::of(seed, setting.nodes, &report))
         };
