@@ -23,6 +23,7 @@ use std::str::FromStr;
 
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+use tautline_kernel::broadcast::Count;
 use tautline_kernel::lattice::Cell;
 use tautline_proofs::run::{Breach, NoBreach};
 
@@ -171,6 +172,12 @@ fn number<T: FromStr>(text: &str) -> Result<T, String> {
 /// A number from 0 to 1.
 fn probability(text: &str) -> Result<Probability, String> {
     text.parse().map_err(|problem: Problem| format!("{problem}; {}", problem.remedy()))
+}
+
+/// How often something is counted until a node is silent.
+fn count(text: &str) -> Result<Count, String> {
+    let count = text.parse().ok().and_then(Count::new);
+    count.ok_or_else(|| format!("write whole numbers from 1 to {}", Count::MOST))
 }
 
 /// A whole number above 0.

@@ -19,7 +19,7 @@ mod tree;
 mod walker;
 
 pub use antenna::Antenna;
-pub use ear::{Ear, ROBOT_REACH, Signal};
+pub use ear::{Ear, NEAREST_M, ROBOT_REACH, Signal};
 pub use journey::{End, Journey, Site};
 pub use shortest::shortest_m;
 pub use tree::{Tree, hops};

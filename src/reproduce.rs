@@ -1,8 +1,10 @@
 //! What the papers and SPEC.md report as tables, measured again.
 
 pub mod agents;
+pub mod antenna_fig4;
 pub mod atlas;
 pub mod interval;
+pub mod journeys;
 pub mod notice_fig5;
 pub mod optimum;
 pub mod repair_cost;
@@ -22,20 +24,35 @@ pub enum Reproduction {
     BricksFig12,
     /// How long agents take, with none missed.
     BricksIdeal,
+    /// Figure 4 of paper 003.
+    AntennaFig4,
     /// Figure 5 of paper 003.
     NoticeFig5,
+    /// Figure 6 of paper 003.
+    RescueFig6,
+    /// Figure 7 of paper 003.
+    RescueFig7,
+    /// Figure 9 of paper 003.
+    RescueFig9,
+    /// Figure 10 of paper 003.
+    RescueFig10,
 }
 
 impl Reproduction {
     /// All, in order.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 12] = [
         Self::RepairCost,
         Self::Optimum,
         Self::Atlas,
         Self::BricksFig11,
         Self::BricksFig12,
         Self::BricksIdeal,
+        Self::AntennaFig4,
         Self::NoticeFig5,
+        Self::RescueFig6,
+        Self::RescueFig7,
+        Self::RescueFig9,
+        Self::RescueFig10,
     ];
 
     /// Its name.
@@ -47,7 +64,12 @@ impl Reproduction {
             Self::BricksFig11 => "bricks-fig11",
             Self::BricksFig12 => "bricks-fig12",
             Self::BricksIdeal => "bricks-ideal",
+            Self::AntennaFig4 => "antenna-fig4",
             Self::NoticeFig5 => "notice-fig5",
+            Self::RescueFig6 => "rescue-fig6",
+            Self::RescueFig7 => "rescue-fig7",
+            Self::RescueFig9 => "rescue-fig9",
+            Self::RescueFig10 => "rescue-fig10",
         }
     }
 
@@ -78,9 +100,26 @@ impl Reproduction {
                 "Brick&Mortar, Ants and both together in offices, no sensor missed: how long until everything is explored, \
                  and until all agents know it, by the number of agents"
             }
+            Self::AntennaFig4 => {
+                "what a robot hears of a node all round with its directional antenna, and how far off the strongest \
+                 direction is from the node's, by the noise"
+            }
             Self::NoticeFig5 => {
                 "k-FNF, flooding, counter, distance and scalable broadcasts in random networks: the share of all nodes and \
                  of those connected to the source that each reaches, and how many nodes forward"
+            }
+            Self::RescueFig6 => {
+                "the ways of a robot to the node that waits for rescue by Reich's scheme, TAN and Verma's, as a picture"
+            }
+            Self::RescueFig7 => {
+                "how many metres a robot walks for each metre of the shortest way by TAN, Verma's, Reich's and Sheu's \
+                 schemes, by the number of nodes, and what becomes of the paper's words about it"
+            }
+            Self::RescueFig9 => {
+                "the ways of a robot round a large obstacle: how many arrive, and how far they walk"
+            }
+            Self::RescueFig10 => {
+                "the ways of a robot round four large obstacles: how many arrive, and how far they walk"
             }
         }
     }

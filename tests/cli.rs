@@ -469,10 +469,87 @@ fn what_is_wrong_with_a_network_is_said_with_a_remedy() {
 }
 
 #[test]
+fn the_ways_of_robots_are_the_same_on_any_number_of_threads() {
+    let folder = folder();
+    let folder = folder.path();
+    let table = |threads| {
+        let arguments =
+            ["reproduce", "rescue-fig7", "--nodes", "300,700", "--topologies", "12", "--svg", "7.svg"];
+        let output = tautline(folder, &arguments).env("RAYON_NUM_THREADS", threads).output();
+        let output = output.expect("the program runs");
+        assert_eq!(output.status.code(), Some(0));
+        let drawn = fs::read_to_string(folder.join("7.svg")).expect("text");
+        (String::from_utf8(output.stdout).expect("text"), drawn)
+    };
+    assert_eq!(table("1"), table("3"));
+    assert_snapshot!("ways_of_robots", table("2").0);
+    for (figure, obstacles, trails) in [("rescue-fig6", 0, 3), ("rescue-fig9", 1, 1), ("rescue-fig10", 4, 1)]
+    {
+        let measured = json(folder, &["reproduce", figure, "--topologies", "3", "--svg", "ways.svg"], 0);
+        assert_eq!((&measured["id"], &measured["topologies"]), (&figure.into(), &3.into()));
+        assert_eq!(measured["obstacles"].as_array().map(Vec::len), Some(obstacles));
+        let tan = &measured["densities"][0]["ways"][0];
+        assert_eq!((&tan["way"], &tan["arrivals"]["mean"]), (&"tan".into(), &1.0.into()));
+        assert!(tan["ratio"]["mean"].as_f64().is_some_and(|ratio| ratio >= 1.0), "{tan}");
+        let drawn = fs::read_to_string(folder.join("ways.svg")).expect("a picture");
+        assert_eq!(drawn.matches("class=\"trail\"").count(), trails, "{figure}");
+        assert!(drawn.starts_with("<svg ") && drawn.ends_with("</svg>\n"));
+    }
+    let scarce = ["reproduce", "rescue-fig6", "--nodes", "2", "--topologies", "1", "--svg", "none.svg"];
+    assert!(refused(folder, &scarce).contains("take more topologies or nodes"));
+    assert_eq!(names(folder), ["7.svg", "ways.svg"]);
+}
+
+#[test]
+fn a_directional_antenna_and_what_noise_does_to_a_scan() {
+    let folder = folder();
+    let asked = ["reproduce", "antenna-fig4", "--scans", "200", "--svg", "antenna.svg"];
+    assert_snapshot!("antenna", printed(folder.path(), &asked, 0));
+    let drawn = fs::read_to_string(folder.path().join("antenna.svg")).expect("a picture");
+    assert!(drawn.starts_with("<svg ") && drawn.ends_with("</svg>\n"));
+    let near = json(folder.path(), &["reproduce", "antenna-fig4", "--distance", "1", "--scans", "10"], 0);
+    let levels = near["pattern"].as_array().expect("angles");
+    assert_eq!((levels.len(), &levels[12]["degrees"]), (25, &0.into()));
+    let level = |place: usize| levels[place]["level_db"].as_f64().expect("heard so near");
+    assert!((0..12).all(
+        |place| level(place) <= level(place + 1) && level(place).to_bits() == level(24 - place).to_bits()
+    ));
+}
+
+#[test]
+fn what_is_wrong_with_a_journey_is_said_with_a_remedy() {
+    let folder = folder();
+    let wrong: [&[&str]; 16] = [
+        &["rescue-fig7", "--nodes", "1"],
+        &["rescue-fig7", "--nodes", "300,"],
+        &["rescue-fig7", "--range", "0"],
+        &["rescue-fig7", "--side", "nan"],
+        &["rescue-fig7", "--k", "0"],
+        &["rescue-fig7", "--noise-db", "-1"],
+        &["rescue-fig7", "--noise-db", "nan"],
+        &["rescue-fig7", "--topologies", "0"],
+        &["rescue-fig9", "--obstacle", "1,2,3"],
+        &["rescue-fig9", "--obstacle", "a,b,c,d"],
+        &["rescue-fig9", "--obstacle", "200,90,100,210"],
+        &["rescue-fig9", "--obstacle", "0,0,inf,300"],
+        &["rescue-fig9", "--obstacle", "0,0,300,300"],
+        &["rescue-fig10", "--topologies", "1", "--svg", "."],
+        &["antenna-fig4", "--distance", "0"],
+        &["antenna-fig4", "--noise-db", "0,21"],
+    ];
+    let said = wrong.map(|arguments| {
+        let arguments = [&["reproduce"], arguments].concat();
+        format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder.path(), &arguments))
+    });
+    assert_snapshot!("wrong_journeys", said.join("\n"));
+    assert_eq!(names(folder.path()), [""; 0]);
+}
+
+#[test]
 fn the_tables_are_listed_and_have_help_with_examples() {
     let folder = folder();
     assert_snapshot!("tables", printed(folder.path(), &["reproduce"], 0));
-    for table in ["repair-cost", "optimum", "bricks-fig11", "notice-fig5"] {
+    for table in ["repair-cost", "optimum", "bricks-fig11", "notice-fig5", "antenna-fig4", "rescue-fig7"] {
         let help = printed(folder.path(), &["reproduce", table, "--help"], 0);
         assert!(help.contains("Example"), "{table}");
         assert_snapshot!(format!("help_reproduce_{table}"), help);

@@ -1,7 +1,9 @@
 //! `tautline reproduce`: tables again.
 
 mod agents;
+mod antenna_fig4;
 mod atlas;
+mod journeys;
 mod notice_fig5;
 mod optimum;
 mod repair_cost;
@@ -14,6 +16,7 @@ use super::{Exit, Format, FormatArgs};
 use crate::fault::Halt;
 use crate::reproduce::Reproduction;
 use crate::reproduce::agents::Figure;
+use crate::reproduce::journeys::Figure as Journey;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -45,8 +48,22 @@ enum Table {
     BricksFig12(agents::Agents),
     /// How long agents take, with none missed.
     BricksIdeal(agents::Agents),
+    #[command(name = "antenna-fig4")]
+    AntennaFig4(antenna_fig4::AntennaFig4),
     #[command(name = "notice-fig5")]
     NoticeFig5(notice_fig5::NoticeFig5),
+    /// The ways of a robot by Reich's scheme, TAN and Verma's, as a picture.
+    #[command(name = "rescue-fig6")]
+    RescueFig6(journeys::Journeys),
+    /// How far a robot walks by TAN and its rivals, by the number of nodes.
+    #[command(name = "rescue-fig7")]
+    RescueFig7(journeys::Journeys),
+    /// How far a robot walks round a large obstacle.
+    #[command(name = "rescue-fig9")]
+    RescueFig9(journeys::Journeys),
+    /// How far a robot walks round four large obstacles.
+    #[command(name = "rescue-fig10")]
+    RescueFig10(journeys::Journeys),
 }
 
 #[derive(Serialize)]
@@ -70,7 +87,14 @@ impl Reproduce {
             Some(Table::BricksFig11(table)) => table.run(Reproduction::BricksFig11, Figure::Agents, out),
             Some(Table::BricksFig12(table)) => table.run(Reproduction::BricksFig12, Figure::Area, out),
             Some(Table::BricksIdeal(table)) => table.run(Reproduction::BricksIdeal, Figure::Ideal, out),
+            Some(Table::AntennaFig4(table)) => table.run(out),
             Some(Table::NoticeFig5(table)) => table.run(out),
+            Some(Table::RescueFig6(table)) => table.run(Reproduction::RescueFig6, Journey::Trajectories, out),
+            Some(Table::RescueFig7(table)) => table.run(Reproduction::RescueFig7, Journey::Ratios, out),
+            Some(Table::RescueFig9(table)) => table.run(Reproduction::RescueFig9, Journey::OneObstacle, out),
+            Some(Table::RescueFig10(table)) => {
+                table.run(Reproduction::RescueFig10, Journey::FourObstacles, out)
+            }
         }
     }
 

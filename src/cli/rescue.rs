@@ -99,7 +99,7 @@ pub(super) struct Rescue {
 
 /// Metres, with commas between them.
 #[derive(Clone, Copy, Debug)]
-struct Metres<const COUNT: usize>([f64; COUNT]);
+pub(super) struct Metres<const COUNT: usize>(pub(super) [f64; COUNT]);
 
 impl<const COUNT: usize> FromStr for Metres<COUNT> {
     type Err = String;

@@ -15,7 +15,7 @@ use crate::radio::{Field, Point, Problem, Radio, checked_deviation, deviation_db
 pub const ROBOT_REACH: f64 = 1.01;
 
 /// Nothing is nearer to an antenna, in metres.
-const NEAREST_M: f64 = 0.001;
+pub const NEAREST_M: f64 = 0.001;
 
 /// A node that sends.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -9,7 +9,7 @@ use super::ear::apart_m;
 use super::{Equipment, Signal, Tree, Walker};
 use crate::radio::{Field, Network, Point};
 
-/// The most that a robot does on a journey before it is taken to go in circles.
+/// The most that a robot does on its way to one node before it is taken to go in circles.
 pub(super) const MOST_ACTS: u32 = 1_000_000;
 
 /// How a journey ended.
@@ -99,10 +99,12 @@ impl Site<'_> {
             signals.push((node, self.signal(node, last)));
             self.signal(node, last)
         };
-        let mut time_ns = 0;
-        for _ in 0..MOST_ACTS {
+        let (mut time_ns, mut acts) = (0, 0);
+        while acts < MOST_ACTS {
+            acts += 1;
             match walker.order() {
                 Order::Ask(request) => {
+                    acts = 0;
                     time_ns += self.equipment.gait.answer_ns;
                     let signal = signal(request.node, &mut signals);
                     let is_heard = self.equipment.ear.hears(self.field, signal, walker.at());

@@ -152,10 +152,9 @@ impl Site<'_> {
         };
         let mut trail = Trail::new(self.start());
         let mut place = self.robot();
-        let mut acts = 0;
         let end = loop {
             let Some((hops, guide)) = least(place) else { break End::Unaware };
-            match self.back_and_forth(self.signal(guide, place), &mut trail, &mut acts, chance) {
+            match self.back_and_forth(self.signal(guide, place), &mut trail, chance) {
                 End::Arrived if hops == 0 => break End::Arrived,
                 End::Arrived => place = guide,
                 end @ (End::Lost | End::Astray | End::Unaware) => break end,
@@ -165,13 +164,7 @@ impl Site<'_> {
     }
 
     /// Walks to one guide node.
-    fn back_and_forth(
-        &self,
-        signal: Signal,
-        trail: &mut Trail,
-        acts: &mut u32,
-        chance: &mut dyn Source,
-    ) -> End {
+    fn back_and_forth(&self, signal: Signal, trail: &mut Trail, chance: &mut dyn Source) -> End {
         let ear = &self.equipment.ear;
         let antenna = &Antenna::ALL_ROUND;
         let listen = |at: Point, heading: Heading, chance: &mut dyn Source| {
@@ -180,9 +173,10 @@ impl Site<'_> {
         let first = Heading::FIRST.turned(chance.pick(u32::from(Heading::COUNT)) as u8);
         let Some(mut last) = listen(trail.end(), first, chance) else { return End::Lost };
         let mut robot = BackAndForth::new(first, last, ear.expected(antenna, self.equipment.near_m));
+        let mut acts = 0;
         while let Walk::Step(heading) = robot.order() {
-            *acts += 1;
-            if *acts > MOST_ACTS {
+            acts += 1;
+            if acts > MOST_ACTS {
                 return End::Astray;
             }
             let stride_m = self.equipment.stride_m(antenna, last);

@@ -9,7 +9,7 @@ use tautline_kernel::broadcast::Count;
 
 use crate::aside::Aside;
 use crate::cli::output::Output;
-use crate::cli::{Exit, Format, FormatArgs, interrupt, number, progress};
+use crate::cli::{Exit, Format, FormatArgs, count, interrupt, number, progress};
 use crate::fault::{Fault, Halt};
 use crate::radio::ChannelName;
 use crate::reproduce::Reproduction;
@@ -59,11 +59,6 @@ pub(super) struct NoticeFig5 {
     svg_rebroadcasts: Option<PathBuf>,
     #[command(flatten)]
     format: FormatArgs,
-}
-
-fn count(text: &str) -> Result<Count, String> {
-    let count = text.parse().ok().and_then(Count::new);
-    count.ok_or_else(|| format!("write whole numbers from 1 to {}", Count::MOST))
 }
 
 #[derive(Serialize)]

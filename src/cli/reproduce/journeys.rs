@@ -1,0 +1,212 @@
+//! `tautline reproduce rescue-fig6`, `rescue-fig7`, `rescue-fig9` and `rescue-fig10`: how far a robot walks.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use serde::Serialize;
+use tautline_kernel::broadcast::Count;
+
+use crate::aside::Aside;
+use crate::cli::output::Output;
+use crate::cli::rescue::Metres;
+use crate::cli::{Exit, Format, FormatArgs, count, interrupt, number, progress};
+use crate::fault::{Fault, Halt};
+use crate::radio::Obstacle;
+use crate::reproduce::Reproduction;
+use crate::reproduce::interval::Estimate;
+use crate::reproduce::journeys::{self, CLOSE, Claim, Density, Figure, Setting, Way};
+use crate::reproduce::notice_fig5::{RANGE_M, SIDE_M};
+
+const EXAMPLES: &str = "\
+Examples:
+  tautline reproduce rescue-fig7 --svg ratios.svg
+  tautline reproduce rescue-fig7 --nodes 700 --k 8 --format json
+  tautline reproduce rescue-fig6 --svg ways.svg
+  tautline reproduce rescue-fig10 --noise-db 2 --obstacle 40,50,130,120 --obstacle 170,30,240,130";
+
+/// How far a robot walks to the node that waits for rescue (WFR), by TAN and by its rivals.
+///
+/// Nodes, a robot and a WFR at random in a square. RD is what the robots walk in all topologies, divided by the shortest
+/// ways there.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Journeys {
+    /// Numbers of nodes [default: 300,500,700,900,1100 for figure 7, else 700]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = number::<usize>)]
+    nodes: Vec<usize>,
+    /// The side of the square, in metres.
+    #[arg(long, value_name = "METRES", allow_negative_numbers = true, default_value_t = SIDE_M)]
+    side: f64,
+    /// The radio range, in metres.
+    #[arg(long, value_name = "METRES", allow_negative_numbers = true, default_value_t = RANGE_M)]
+    range: f64,
+    /// An obstacle by its sides; may be given again [default: those of the figure]
+    #[arg(long, value_name = "W,N,E,S", allow_negative_numbers = true)]
+    obstacle: Vec<Metres<4>>,
+    /// The k of k-FNF, whose tree TAN uses.
+    #[arg(long, default_value = "1", value_parser = count)]
+    k: Count,
+    /// The standard deviation of the strengths that robots measure, in dB.
+    #[arg(long, value_name = "DB", allow_negative_numbers = true, default_value_t = 0.0)]
+    noise_db: f64,
+    /// Topologies for each number of nodes.
+    #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    topologies: u32,
+    /// The seed of all topologies.
+    #[arg(long, default_value = "0", value_parser = number::<u64>)]
+    seed: u64,
+    /// Store a picture: of figure 7 a chart, else the ways in the topology in which the shortest is the longest.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+#[derive(Serialize)]
+struct Measured<'a> {
+    id: &'static str,
+    side_m: f64,
+    range_m: f64,
+    /// West, north, east and south of each, in metres.
+    obstacles: Vec<[f64; 4]>,
+    k: u8,
+    noise_db: f64,
+    topologies: u32,
+    seed: u64,
+    densities: &'a [Density],
+}
+
+impl Journeys {
+    pub(super) fn run(
+        &self,
+        reproduction: Reproduction,
+        figure: Figure,
+        out: &mut Output,
+    ) -> Result<Exit, Halt> {
+        let given = |own: &[usize]| if own.is_empty() { figure.nodes() } else { own.to_vec() };
+        let own: Vec<Obstacle> = self.obstacle.iter().map(|&Metres(sides)| obstacle(sides)).collect();
+        let obstacles = if own.is_empty() { figure.obstacles() } else { own };
+        let setting = Setting {
+            nodes: given(&self.nodes),
+            side_m: self.side,
+            range_m: self.range,
+            obstacles,
+            k: self.k,
+            noise_db: self.noise_db,
+            topologies: self.topologies,
+            seed: self.seed,
+        };
+        let bar = progress::bar("walking", u64::from(self.topologies) * setting.nodes.len() as u64);
+        let densities = setting.measure(&|| {
+            bar.inc(1);
+            interrupt::check()
+        })?;
+        bar.finish_and_clear();
+        if let Some(path) = &self.svg {
+            Aside::write(path, picture(figure, &setting, &densities)?)?;
+        }
+        match self.format.format {
+            Format::Json => out.json(&Measured {
+                id: reproduction.id(),
+                side_m: self.side,
+                range_m: self.range,
+                obstacles: setting.obstacles.iter().map(sides).collect(),
+                k: self.k.get(),
+                noise_db: self.noise_db,
+                topologies: self.topologies,
+                seed: self.seed,
+                densities: &densities,
+            })?,
+            Format::Text => out.text(text(&setting, &densities))?,
+        }
+        Ok(Exit::Expected)
+    }
+}
+
+const fn obstacle([west_m, north_m, east_m, south_m]: [f64; 4]) -> Obstacle {
+    Obstacle { west_m, north_m, east_m, south_m }
+}
+
+fn sides(obstacle: &Obstacle) -> [f64; 4] {
+    let Obstacle { west_m, north_m, east_m, south_m } = *obstacle;
+    [west_m, north_m, east_m, south_m]
+}
+
+fn picture(figure: Figure, setting: &Setting, densities: &[Density]) -> Result<String, Halt> {
+    match figure {
+        Figure::Ratios => Ok(journeys::chart(densities).svg()),
+        Figure::Trajectories | Figure::OneObstacle | Figure::FourObstacles => {
+            let drawn = densities.iter().find_map(|density| Some((density.nodes, density.longest?)));
+            let (nodes, topology) = drawn.ok_or_else(|| {
+                Fault::usage(
+                    "there is no topology to draw in which all arrive",
+                    "take more topologies or nodes",
+                )
+            })?;
+            setting.picture(figure, nodes, topology)
+        }
+    }
+}
+
+fn text(setting: &Setting, densities: &[Density]) -> String {
+    let obstacles = match setting.obstacles.len() {
+        0 => "no obstacle".to_owned(),
+        1 => "1 obstacle".to_owned(),
+        more => format!("{more} obstacles"),
+    };
+    let mut text = format!(
+        "{side}×{side} m, range {} m, {obstacles}, k = {}, noise {} dB, {} topologies for each number of nodes, seed {}\n",
+        setting.range_m,
+        setting.k.get(),
+        setting.noise_db,
+        setting.topologies,
+        setting.seed,
+        side = setting.side_m,
+    );
+    let mut row = |name: &str, cell: &dyn Fn(&Density) -> String| {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "\n{name:<20}");
+        for density in densities {
+            let _ = write!(text, "  {:>14}", cell(density));
+        }
+    };
+    let percent = |share: Option<Estimate>| with_margin(share.map(|share| share.times(100.0)));
+    row("nodes", &|density| density.nodes.to_string());
+    row("linked", &|density| percent(Some(density.linked)));
+    row("\nArrivals, % of those linked", &|_| String::new());
+    for (place, way) in Way::ALL.into_iter().enumerate() {
+        row(way.word(), &|density| percent(density.ways[place].arrivals));
+    }
+    row("\nRD where all arrive", &|_| String::new());
+    row("topologies", &|density| density.ways[0].ratio.map_or(0, |ratio| ratio.count).to_string());
+    for (place, way) in Way::ALL.into_iter().enumerate() {
+        row(way.word(), &|density| with_margin(density.ways[place].ratio));
+    }
+    row("\nTAN's hops", &|density| with_margin(density.hops));
+    row("TAN shorter, %", &|density| percent(density.shorter_than_reich));
+    row("\nRD of TAN, in the paper's words, and the difference", &|_| String::new());
+    let mut rival = None;
+    for (place, claim) in Claim::ALL.into_iter().enumerate() {
+        if rival.replace(claim.rival()) != Some(claim.rival()) {
+            row(&format!("TAN less {}", claim.rival().word()), &|density| {
+                with_margin(density.claims[place].difference)
+            });
+        }
+        row(&format!("  {}", claim.words()), &|density| density.claims[place].verdict.word().to_owned());
+    }
+    let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
+    lines.join("\n")
+        + &format!(
+            "\n\nlinked: % of the topologies in which links lead from the robot to the WFR · RD: metres walked for each metre of \
+             the\nshortest way · TAN's hops: for each hop of the shortest chain of links · TAN shorter: % of the topologies in which \
+             TAN's\nway is shorter than Reich's · holds, fails: the whole 95 % interval says so, close being up to {CLOSE} · ±: \
+             half its width\n"
+        )
+}
+
+fn with_margin(estimate: Option<Estimate>) -> String {
+    let Some(estimate) = estimate else { return "-".to_owned() };
+    let margin = estimate.margin().map_or(String::new(), |margin| format!(" ± {margin:.2}"));
+    format!("{:.2}{margin}", estimate.mean)
+}
