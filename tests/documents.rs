@@ -75,6 +75,12 @@ fn the_reach_of_broadcasts_is_that_of_the_readme() {
 }
 
 #[test]
+fn the_ways_of_robots_are_those_of_the_readme() {
+    let table = printed(&["reproduce", "rescue-fig7"], 0);
+    assert!(document("README.md").contains(&table), "the README shows another table:\n{table}");
+}
+
+#[test]
 fn the_pictures_of_the_readme_are_drawn_by_the_commands_beside_them() {
     let readme = document("README.md");
     let folder = tempfile::tempdir().expect("a folder");
@@ -84,6 +90,9 @@ fn the_pictures_of_the_readme_are_drawn_by_the_commands_beside_them() {
         ("spiral.svg", "explore open:15x15 --robots 8 --draw order --svg", 0),
         ("notice-reach.svg", "reproduce notice-fig5 --svg-reach", 0),
         ("notice-rebroadcasts.svg", "reproduce notice-fig5 --svg-rebroadcasts", 0),
+        ("walked.svg", "reproduce rescue-fig7 --svg", 0),
+        ("ways.svg", "reproduce rescue-fig6 --svg", 0),
+        ("lakes.svg", "reproduce rescue-fig10 --svg", 0),
         ("crowding.svg", "replay docs/chain-2-published-n4.jsonl --svg", 1),
         ("trap.svg", "replay docs/bricks-4-repaired-n1.jsonl --moves 1..5 --svg", 1),
     ] {

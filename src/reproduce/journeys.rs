@@ -130,6 +130,8 @@ pub struct Density {
     pub nodes: usize,
     /// The share of the topologies in which links lead from the robot to the WFR: no journey succeeds in the others.
     pub linked: Estimate,
+    /// The share of those in which the robot hears the call by k-FNF: without it no journey by TAN begins.
+    pub told: Option<Estimate>,
     /// Way by way.
     pub ways: Vec<Line>,
     /// How many hops the robots have by TAN's trees for each hop that the shortest chain of links has, where TAN arrives.
@@ -312,6 +314,8 @@ impl Setting {
     /// [`Halt`], as `watch` returned it, or if the setting makes no network.
     pub fn measure(&self, watch: &(dyn Fn() -> Result<(), Halt> + Sync)) -> Result<Vec<Density>, Halt> {
         let density = |&nodes: &usize| {
+            // What is wrong with all is to be the same fault each time, not that of whichever thread is first.
+            self.world(nodes, 0).map_err(usage)?;
             let samples = (0..self.topologies).into_par_iter().map(|topology| {
                 let sample = self.sample(nodes, topology).map_err(usage)?;
                 watch()?;
@@ -395,6 +399,7 @@ impl Setting {
 
 fn density(nodes: usize, samples: &[Sample]) -> Density {
     let linked = samples.iter().filter(|sample| sample.fewest_hops.is_some()).count() as u32;
+    let told = samples.iter().filter(|sample| sample.tree_hops.is_some()).count() as u32;
     let all: Vec<(f64, [f64; 4])> = samples.iter().filter_map(Sample::all).collect();
     let ratio = |walked_m: &dyn Fn(&[f64; 4]) -> f64| {
         let pairs: Vec<(f64, f64)> =
@@ -427,6 +432,7 @@ fn density(nodes: usize, samples: &[Sample]) -> Density {
     Density {
         nodes,
         linked: rounded(Estimate::share(linked, samples.len() as u32).unwrap_or(Estimate::NOTHING), 1e4),
+        told: Estimate::share(told, linked).map(|share| rounded(share, 1e4)),
         ways: Way::ALL.iter().enumerate().map(line).collect(),
         hops: Estimate::of_ratio(&hops.collect::<Vec<_>>()).map(|ratio| rounded(ratio, 1e4)),
         claims: Claim::ALL.map(decision).into(),

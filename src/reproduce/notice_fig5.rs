@@ -113,6 +113,8 @@ impl Setting {
             .ok_or_else(|| usage(Problem::Range { range_m: self.range_m }))?;
         let schemes = self.schemes(range_um.get());
         let density = |&nodes: &usize| {
+            // What is wrong with all is to be the same fault each time, not that of whichever thread is first.
+            self.sample(area, radio, range_um, nodes, 0, &[]).map_err(usage)?;
             let topologies = (0..u64::from(self.topologies)).into_par_iter();
             let samples = topologies.map(|topology| {
                 let sample = self.sample(area, radio, range_um, nodes, topology, &schemes).map_err(usage)?;

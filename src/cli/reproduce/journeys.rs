@@ -174,6 +174,7 @@ fn text(setting: &Setting, densities: &[Density]) -> String {
     let percent = |share: Option<Estimate>| with_margin(share.map(|share| share.times(100.0)));
     row("nodes", &|density| density.nodes.to_string());
     row("linked", &|density| percent(Some(density.linked)));
+    row("told", &|density| percent(density.told));
     row("\nArrivals, % of those linked", &|_| String::new());
     for (place, way) in Way::ALL.into_iter().enumerate() {
         row(way.word(), &|density| percent(density.ways[place].arrivals));
@@ -198,10 +199,11 @@ fn text(setting: &Setting, densities: &[Density]) -> String {
     let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
     lines.join("\n")
         + &format!(
-            "\n\nlinked: % of the topologies in which links lead from the robot to the WFR · RD: metres walked for each metre of \
-             the\nshortest way · TAN's hops: for each hop of the shortest chain of links · TAN shorter: % of the topologies in which \
-             TAN's\nway is shorter than Reich's · holds, fails: the whole 95 % interval says so, close being up to {CLOSE} · ±: \
-             half its width\n"
+            "\n\nlinked: % of the topologies in which links lead from the robot to the WFR · told: % of those in which the \
+             robot\nhears the call by k-FNF, which TAN needs · RD: metres walked for each metre of the shortest way · TAN's \
+             hops: for each\nhop of the shortest chain of links · TAN shorter: % of the topologies in which TAN's way is \
+             shorter than Reich's · holds,\nfails: the whole 95 % interval says so, close being up to {CLOSE} · ±: half \
+             its width\n"
         )
 }
 
