@@ -67,8 +67,7 @@ fn flood_naively(field: &Field) -> Flooded {
             if apart_m <= RANGE_M && to != sender {
                 flooded.receptions += 1;
                 let reception = Reception { notice, distance_um: (apart_m * 1e6) as u32, now_ns };
-                if let Reaction::Armed { at_ns } =
-                    node.receive(&rule, reception, Surroundings::none(), chance)
+                if let Reaction::Armed { at_ns } = node.receive(&rule, reception, Surroundings::none, chance)
                 {
                     flooded.reached += 1;
                     queue.push(Reverse((at_ns, to)));

@@ -86,7 +86,7 @@ const fn notice(sender: usize) -> Notice {
 /// All waits are over as soon as they begin.
 fn hear(node: &mut Node, rule: &Rule, notice: Notice) -> Reaction {
     let reception = Reception { notice, distance_um: RANGE.get(), now_ns: 0 };
-    node.receive(rule, reception, Surroundings::none(), &mut AtOnce)
+    node.receive(rule, reception, Surroundings::none, &mut AtOnce)
 }
 
 impl<const NODES: usize> Spread<NODES> {

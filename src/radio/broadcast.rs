@@ -62,6 +62,16 @@ struct Hellos {
     unreached: Vec<u64>,
 }
 
+impl Hellos {
+    /// What `at` knows when it hears `sender`.
+    fn around<'a>(&'a mut self, network: &'a Network, at: NodeId, sender: NodeId) -> Surroundings<'a> {
+        let Some(&first) = self.first.get(at.0 as usize) else { return Surroundings::none() };
+        let neighbours = network.neighbours(at);
+        let unreached = &mut self.unreached[first..first + words(neighbours.len())];
+        Surroundings { neighbours, of_sender: network.neighbours(sender), unreached }
+    }
+}
+
 impl<'a> Broadcast<'a> {
     /// No event has happened yet. The first time that the timer of `source` goes off, one does.
     pub fn new(network: &'a Network, rule: Rule, source: NodeId) -> Self {
@@ -101,19 +111,10 @@ impl Protocol for Broadcast<'_> {
     #[inline]
     fn receive(&mut self, at: NodeId, heard: Heard<Notice>, chance: &mut dyn Source) -> Option<u64> {
         let Heard { message: notice, distance_um, now_ns } = heard;
+        let (network, hellos) = (self.network, &mut self.hellos);
+        let reception = Reception { notice, distance_um, now_ns };
         let node = &mut self.nodes[at.0 as usize];
-        let around = match self.hellos.first.get(at.0 as usize) {
-            None => Surroundings::none(),
-            Some(&first) => {
-                let neighbours = self.network.neighbours(at);
-                Surroundings {
-                    neighbours,
-                    of_sender: self.network.neighbours(notice.sender),
-                    unreached: &mut self.hellos.unreached[first..first + words(neighbours.len())],
-                }
-            }
-        };
-        match node.receive(&self.rule, Reception { notice, distance_um, now_ns }, around, chance) {
+        match node.receive(&self.rule, reception, || hellos.around(network, at, notice.sender), chance) {
             Reaction::Armed { at_ns } => Some(at_ns),
             Reaction::Ignored | Reaction::Noted | Reaction::Silenced => None,
         }

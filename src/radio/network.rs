@@ -134,7 +134,7 @@ impl Network {
         if pairs > MAX_PAIRS {
             return Err(Problem::TooDense { pairs, most: MAX_PAIRS });
         }
-        let mut upper = Upper::default();
+        let mut upper = Upper::with_room(points.len(), pairs as usize / 2);
         let mut buffer = vec![(0, 0.0); points.len()];
         for (node, &point) in (0..).zip(points) {
             let near = within(&grid, node, point, reach_m, &mut buffer);
@@ -142,7 +142,7 @@ impl Network {
                 // What is drawn depends on the numbers of the nodes, not on the grid.
                 near.sort_unstable_by_key(|&(other, _)| other);
             }
-            let links = near.iter().filter_map(|&(other, squared_m2)| {
+            for &mut (other, squared_m2) in near {
                 let apart_m = squared_m2.sqrt();
                 let seems_m = match radio.model {
                     Model::Disc => apart_m,
@@ -150,10 +150,11 @@ impl Network {
                         apart_m * gain(exponent, -deviation_db(standard_db, source))
                     }
                 };
-                let is_heard = seems_m <= radio.range_m && field.has_way(point, points[other as usize]);
-                is_heard.then(|| Link { to: NodeId(other), distance_um: micrometres(seems_m) })
-            });
-            upper.add(links);
+                if seems_m <= radio.range_m && field.has_way(point, points[other as usize]) {
+                    upper.add(Link { to: NodeId(other), distance_um: micrometres(seems_m) });
+                }
+            }
+            upper.end_node();
         }
         Ok(upper.both_ways())
     }
@@ -223,9 +224,11 @@ impl Network {
         let has_failed: Vec<bool> =
             nodes.clone().map(|node| !spared.contains(&node) && chance.happens(source)).collect();
         let is_alive = |node: NodeId| !has_failed[node.0 as usize];
-        let mut upper = Upper::default();
+        let mut upper = Upper::with_room(self.nodes(), self.to.len() / 2);
         for node in nodes {
-            upper.add(self.links(node).filter(|link| link.to > node && is_alive(node) && is_alive(link.to)));
+            let links = self.links(node).filter(|link| link.to > node);
+            links.filter(|link| is_alive(node) && is_alive(link.to)).for_each(|link| upper.add(link));
+            upper.end_node();
         }
         upper.both_ways()
     }
@@ -254,16 +257,23 @@ fn within<'a>(
 }
 
 /// Links to larger numbers, node by node: half of a network.
-#[derive(Default)]
 struct Upper {
     ends: Vec<u32>,
     links: Vec<Link>,
 }
 
 impl Upper {
-    /// The links of the next node to larger numbers, in any order.
-    fn add(&mut self, links: impl Iterator<Item = Link>) {
-        self.links.extend(links);
+    fn with_room(nodes: usize, links: usize) -> Self {
+        Self { ends: Vec::with_capacity(nodes), links: Vec::with_capacity(links) }
+    }
+
+    /// A link of the next node to a larger number; they come in any order.
+    fn add(&mut self, link: Link) {
+        self.links.push(link);
+    }
+
+    /// There are no more links of the next node.
+    fn end_node(&mut self) {
         self.ends.push(self.links.len() as u32);
     }
 

@@ -184,36 +184,35 @@ impl Node {
         Some(self.notice())
     }
 
-    /// Hears a NOTICE. `around` matters to [`Scheme::Scalable`] alone; `chance` is asked for the wait of the schemes that
-    /// wait at random.
+    /// Hears a NOTICE. What is `around` is asked for if the NOTICE can matter, and matters to [`Scheme::Scalable`] alone;
+    /// `chance` is asked for the wait of the schemes that wait at random.
     #[inline]
-    pub fn receive(
+    pub fn receive<'a>(
         &mut self,
         rule: &Rule,
         reception: Reception,
-        around: Surroundings<'_>,
+        around: impl FnOnce() -> Surroundings<'a>,
         chance: &mut dyn Source,
     ) -> Reaction {
-        // Most of what is heard in a dense network comes too late to matter.
-        if reception.notice.event == self.event
-            && reception.notice.source == self.source
-            && self.is_through(rule)
-        {
+        if self.is_late(rule, reception.notice) {
             return Reaction::Ignored;
         }
-        self.consider(rule, reception, around, chance)
+        self.consider(rule, reception, around(), chance)
     }
 
-    /// Whether nothing about its event changes the node any more.
+    /// Whether a NOTICE comes too late to change anything, as most do that are heard in a dense network.
     #[inline]
-    const fn is_through(&self, rule: &Rule) -> bool {
-        match self.phase {
-            Phase::Unaware | Phase::Waiting => false,
-            Phase::Silent => true,
-            Phase::Forwarded => {
-                rule.has(Condition::RememberEvent) && rule.has(Condition::FrozenOnceForwarded)
-            }
-        }
+    #[expect(
+        clippy::needless_bitwise_bool,
+        reason = "nothing foretells the phase of the next node that hears: a branch on it costs a fifth of a flood"
+    )]
+    fn is_late(&self, rule: &Rule, notice: Notice) -> bool {
+        let is_frozen = rule.has(Condition::RememberEvent) && rule.has(Condition::FrozenOnceForwarded);
+        let is_idle = !can_settle(rule.scheme) && rule.has(Condition::LeastHops);
+        let is_through = (self.phase == Phase::Silent) | (self.phase == Phase::Forwarded) & is_frozen;
+        let is_no_nearer = notice.hops.saturating_add(1) >= self.hops;
+        let waits_on = (self.phase == Phase::Waiting) & is_idle & is_no_nearer;
+        notice.event == self.event && notice.source == self.source && (is_through | waits_on)
     }
 
     fn consider(
@@ -352,6 +351,15 @@ impl Node {
     }
 }
 
+/// Whether a node that waits may hear enough not to forward.
+const fn can_settle(scheme: Scheme) -> bool {
+    match scheme {
+        Scheme::Farthest { k } => k.is_some(),
+        Scheme::Counter { .. } | Scheme::Distance { .. } | Scheme::Scalable => true,
+        Scheme::Flooding => false,
+    }
+}
+
 /// Whether a scheme has to remember whom it has heard. Where it need not, hearing a sender again changes nothing.
 const fn is_counted(scheme: Scheme) -> bool {
     match scheme {
@@ -392,7 +400,7 @@ mod tests {
     }
 
     fn hear(node: &mut Node, rule: &Rule, notice: Notice, distance_um: u32) -> Reaction {
-        node.receive(rule, Reception { notice, distance_um, now_ns: 100 }, Surroundings::none(), &mut Seven)
+        node.receive(rule, Reception { notice, distance_um, now_ns: 100 }, Surroundings::none, &mut Seven)
     }
 
     fn fresh() -> Node {
@@ -502,7 +510,7 @@ mod tests {
         let mut hear = |sender, of_sender: &[NodeId]| {
             let around = Surroundings { neighbours: &own, of_sender, unreached: &mut unreached };
             let reception = Reception { notice: notice(sender, 0), distance_um: 0, now_ns: 0 };
-            node.receive(&rule, reception, around, &mut Seven)
+            node.receive(&rule, reception, || around, &mut Seven)
         };
         assert_eq!(hear(1, &[NodeId(2), NodeId(9)]), Reaction::Armed { at_ns: 7 });
         assert_eq!(hear(2, &[NodeId(1), NodeId(9)]), Reaction::Noted);
