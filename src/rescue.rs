@@ -16,6 +16,7 @@ mod problem;
 mod setting;
 mod summary;
 mod timers;
+pub mod trace;
 mod world;
 
 pub use event::{Event, Logged, Millimetres};
@@ -24,7 +25,7 @@ pub use problem::Problem;
 pub use setting::{CallTimes, MAX_ROBOTS, MAX_WFRS, SchemeName, Setting};
 pub(crate) use summary::seconds;
 pub use summary::{Assignments, Broken, Summary};
-pub use world::{Fate, Journey, Report, Spread, rescue};
+pub use world::{Fate, Fix, Journey, Report, Spread, rescue};
 
 #[cfg(test)]
 mod tests {

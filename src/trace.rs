@@ -9,10 +9,9 @@
 //! {"end":{"stopped":"explored","steps":8,"explored":9,"cells":9,"violations":[]}}
 //! ```
 
-use std::fs::File;
-use std::io::{BufRead, BufReader, Read};
-use std::ops::Range;
-use std::path::{Path, PathBuf};
+pub(crate) mod lines;
+
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use tautline_kernel::chain::Kind;
@@ -24,21 +23,12 @@ use crate::explore::{Limits, Report, RuleName, SchemeName, Setup, Stopped, TeamM
 use crate::fault::{Fault, Halt};
 use crate::layout::generate::Probability;
 use crate::layout::{Layout, MAX_FILE_BYTES};
+use lines::{Lines, line_of};
 
 const FORMAT: &str = "tautline run";
 const VERSION: u32 = 1;
 
-/// Longer lines than those of the longest chain are refused; the header with its drawing may be longer.
-const MAX_LINE_BYTES: u64 = 1 << 16;
-
 const AGAIN: &str = "store the run again with `tautline explore --trace` or `tautline hunt`";
-
-/// What every version of the header begins with.
-#[derive(Deserialize)]
-struct Magic {
-    format: String,
-    version: u32,
-}
 
 /// The first line.
 #[derive(Serialize, Deserialize)]
@@ -151,11 +141,6 @@ impl From<&Report> for StoredEnd {
     }
 }
 
-fn line_of(value: &impl Serialize) -> String {
-    // Strings, numbers and lists of them can always be written.
-    serde_json::to_string(value).unwrap_or_default() + "\n"
-}
-
 /// A trace in the making.
 #[derive(Debug)]
 pub struct Writer(Aside);
@@ -219,22 +204,31 @@ impl Trace {
     /// # Errors
     /// A [`Fault`] that names the line and column.
     pub fn open(path: &Path) -> Result<Self, Fault> {
-        let mut lines = Lines::open(path)?;
-        let text = lines.next(MAX_FILE_BYTES)?.ok_or_else(|| {
-            Fault::in_file(path, "the file is empty", format_args!("a trace begins with its header; {AGAIN}"))
-        })?;
-        let magic: Magic =
-            lines.parse(&text, "a trace begins with its header; name a file that --trace wrote")?;
-        if magic.format != FORMAT {
-            let what = format!("the format is {:?}", magic.format);
-            return Err(lines.fault(&text, "\"format\"", what, format_args!("name a {FORMAT:?}")));
-        }
-        if magic.version != VERSION {
-            let what = format!("this is version {}, this program reads version {VERSION}", magic.version);
-            return Err(lines.fault(&text, "\"version\"", what, AGAIN));
-        }
+        let mut lines = Lines::open(path, AGAIN)?;
+        let text = lines.header(FORMAT, VERSION, MAX_FILE_BYTES)?;
         let header: Header = lines.parse(&text, AGAIN)?;
-        lines.check(&text, header)
+        Self::check(lines, &text, header)
+    }
+
+    /// The setup of a header.
+    fn check(lines: Lines, text: &str, header: Header) -> Result<Self, Fault> {
+        let Header { scheme, rule, robots, seed, base, starts, missed, limits, clause, layout, .. } = header;
+        let layout: Layout =
+            layout.parse().map_err(|problem| lines.fault(text, "\"layout\"", problem, AGAIN))?;
+        if layout.base() != Some(base) {
+            let what = format!("the base {base} is not where the layout draws it");
+            return Err(lines.fault(text, "\"base\"", what, AGAIN));
+        }
+        let clause = clause.map(|id| {
+            id.parse::<Breach>().map_err(|none| lines.fault(text, "\"clause\"", &none, none.remedy()))
+        });
+        let clause = clause.transpose()?;
+        let miss = header.miss.unwrap_or_default();
+        let setup = Setup { scheme, rule, robots, seed, layout, base, starts, miss, missed, limits };
+        setup.check().map_err(|misfit| {
+            lines.fault(text, &format!("\"{}\"", misfit.field()), &misfit, misfit.remedy())
+        })?;
+        Ok(Self { setup, clause, lines })
     }
 
     /// Makes the run again and compares every line. `watch` sees the team moves that are as stored.
@@ -255,135 +249,9 @@ impl Trace {
             && !report.violations.iter().any(|violation| violation.breach == clause)
         {
             let what = format!("the header promises that {} is broken, but it is not", clause.clause());
-            return Err(Fault::in_file(&lines.path, what, AGAIN).into());
+            return Err(Fault::in_file(lines.path(), what, AGAIN).into());
         }
-        match lines.next(MAX_LINE_BYTES)? {
-            Some(text) if text.trim().is_empty() => Ok(report),
-            Some(text) => Err(lines.whole(&text, "a line after the end", "leave it out").into()),
-            None => Ok(report),
-        }
-    }
-}
-
-/// The lines of a file, one at a time.
-#[derive(Debug)]
-struct Lines {
-    path: PathBuf,
-    input: BufReader<File>,
-    /// How many were read.
-    count: usize,
-}
-
-impl Lines {
-    fn open(path: &Path) -> Result<Self, Fault> {
-        let unreadable =
-            |what: String| Fault::in_file(path, what, "name a file that --trace or `tautline hunt` wrote");
-        if path.is_dir() {
-            return Err(unreadable("this is a folder".to_owned()));
-        }
-        let file = File::open(path).map_err(|error| match error.kind() {
-            std::io::ErrorKind::NotFound => unreadable("there is no such file".to_owned()),
-            _ => unreadable(format!("the file cannot be read: {error}")),
-        })?;
-        Ok(Self { path: path.to_owned(), input: BufReader::new(file), count: 0 })
-    }
-
-    /// The next line without its end, at most `most` bytes; `None` after the last.
-    fn next(&mut self, most: u64) -> Result<Option<String>, Fault> {
-        let mut bytes = Vec::new();
-        let read = self.input.by_ref().take(most + 1).read_until(b'\n', &mut bytes);
-        let read = read.map_err(|error| {
-            Fault::in_file(&self.path, format_args!("the file cannot be read: {error}"), "make it readable")
-        })?;
-        if read == 0 {
-            return Ok(None);
-        }
-        self.count += 1;
-        let is_long = bytes.len() as u64 > most;
-        let not_text = |bytes: &[u8]| {
-            let line = String::from_utf8_lossy(bytes);
-            let at = line.find(char::REPLACEMENT_CHARACTER).unwrap_or_default();
-            Fault::in_line(&self.path, self.count, &line, at..at + 1, "this is not UTF-8 text", AGAIN)
-        };
-        let mut text = String::from_utf8(bytes).map_err(|error| not_text(error.as_bytes()))?;
-        if is_long {
-            return Err(self.whole(&text, format_args!("this line has more than {most} bytes"), AGAIN));
-        }
-        text.truncate(text.trim_end_matches(['\n', '\r']).len());
-        Ok(Some(text))
-    }
-
-    /// Checks that the next line is `expected`.
-    fn expect(&mut self, expected: &Line) -> Result<(), Fault> {
-        let wanted = line_of(expected);
-        let Some(text) = self.next(MAX_LINE_BYTES)? else {
-            let what =
-                format!("the trace ends after line {}; here the run has {}", self.count, wanted.trim_end());
-            return Err(Fault::in_file(&self.path, what, AGAIN));
-        };
-        let found: Line = self.parse(&text, AGAIN)?;
-        if found == *expected {
-            return Ok(());
-        }
-        let same = text.bytes().zip(wanted.bytes()).take_while(|(one, other)| one == other).count();
-        let what = format!("the rule does not make this run; here it has {}", wanted.trim_end());
-        Err(self.at(&text, same..same + 1, what, AGAIN))
-    }
-
-    fn parse<'a, T: Deserialize<'a>>(&self, text: &'a str, remedy: &str) -> Result<T, Fault> {
-        serde_json::from_str(text).map_err(|error| {
-            let message = error.to_string();
-            let message = message.split(" at line ").next().unwrap_or_default();
-            let message = format!("this is no line of a stored run: {message}");
-            let column = error.column().saturating_sub(1);
-            self.at(text, column..column + 1, message, remedy)
-        })
-    }
-
-    /// The setup of a header.
-    fn check(self, text: &str, header: Header) -> Result<Trace, Fault> {
-        let Header { scheme, rule, robots, seed, base, starts, missed, limits, clause, layout, .. } = header;
-        let layout: Layout =
-            layout.parse().map_err(|problem| self.fault(text, "\"layout\"", problem, AGAIN))?;
-        if layout.base() != Some(base) {
-            let what = format!("the base {base} is not where the layout draws it");
-            return Err(self.fault(text, "\"base\"", what, AGAIN));
-        }
-        let clause = clause.map(|id| {
-            id.parse::<Breach>().map_err(|none| self.fault(text, "\"clause\"", &none, none.remedy()))
-        });
-        let clause = clause.transpose()?;
-        let miss = header.miss.unwrap_or_default();
-        let setup = Setup { scheme, rule, robots, seed, layout, base, starts, miss, missed, limits };
-        setup.check().map_err(|misfit| {
-            self.fault(text, &format!("\"{}\"", misfit.field()), &misfit, misfit.remedy())
-        })?;
-        Ok(Trace { setup, clause, lines: self })
-    }
-
-    /// A fault where `key` stands in the line.
-    fn fault(
-        &self,
-        text: &str,
-        key: &str,
-        what: impl std::fmt::Display,
-        remedy: impl std::fmt::Display,
-    ) -> Fault {
-        let start = text.find(key).unwrap_or_default();
-        self.at(text, start..start + key.len(), what, remedy)
-    }
-
-    fn whole(&self, text: &str, what: impl std::fmt::Display, remedy: impl std::fmt::Display) -> Fault {
-        self.at(text, 0..text.len(), what, remedy)
-    }
-
-    fn at(
-        &self,
-        text: &str,
-        range: Range<usize>,
-        what: impl std::fmt::Display,
-        remedy: impl std::fmt::Display,
-    ) -> Fault {
-        Fault::in_line(&self.path, self.count, text, range, what, remedy)
+        lines.end()?;
+        Ok(report)
     }
 }

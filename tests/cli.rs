@@ -909,6 +909,53 @@ fn rescues_are_counted_and_judged() {
 }
 
 #[test]
+fn a_rescue_is_stored_played_and_drawn() {
+    let folder = folder();
+    let folder = folder.path();
+    let published = [&RESCUE[..], &["--rule", "published", "--seeds", "8", "--channel", "shared"]].concat();
+    let files = ["--trace", "r.jsonl", "--replay", "r.html", "--svg", "r.svg"];
+    let told = printed(folder, &[&published[..], &files].concat(), 1);
+    assert_eq!(
+        printed(folder, &["replay", "r.jsonl", "--html", "again.html", "--svg", "again.svg"], 1),
+        told
+    );
+    let read = |name: &str| fs::read_to_string(folder.join(name)).expect("text");
+    assert_eq!((read("r.html"), read("r.svg")), (read("again.html"), read("again.svg")));
+    let (page, run) = (read("r.html"), read("r.jsonl"));
+    let events = run.lines().count() - 2;
+    assert_eq!(page.matches("<g class=\"move\"").count(), 1 + events);
+    assert_eq!(read("r.svg").matches("class=\"wfr\"").count(), 4, "three, and the legend");
+    let several = [&RESCUE[..], &["--seeds", "0..1", "--trace", "several.jsonl"]].concat();
+    let cases = [
+        ("no seed", run.replacen("\"seed\":8,", "", 1)),
+        ("another seed", run.replacen("\"seed\":8,", "\"seed\":9,", 1)),
+        ("another rule", run.replacen("published", "repaired", 1)),
+        ("another version", run.replacen("\"version\":1", "\"version\":2", 1)),
+        ("no field", run.replacen("\"range_m\":25.0", "\"range_m\":0.0", 1)),
+        ("an unknown field", run.replacen("\"k\":1", "\"k\":1,\"mood\":1", 1)),
+        ("another hop", run.replacen("\"hops\":4", "\"hops\":5", 1)),
+        ("cut", run.split_inclusive('\n').take(3).collect()),
+        ("a line after the end", run.clone() + "{}\n"),
+    ];
+    let said = cases.map(|(what, text)| {
+        assert_ne!(text, run, "{what}");
+        fs::write(folder.join("wrong.jsonl"), text).expect("a file");
+        format!("{what}\n{}\n", refused(folder, &["replay", "wrong.jsonl"]))
+    });
+    assert_snapshot!("wrong_stored_rescues", said.join("\n"));
+    assert_snapshot!(refused(folder, &several), @r"
+    Error: several rescues do not fit into one file
+     Help: give one seed, for example --seeds 0
+    ");
+    assert_snapshot!(refused(folder, &["replay", "r.jsonl", "--moves", "1..2"]), @r"
+    Error: a rescue has no team moves
+     Help: leave out --moves, or name a run of a team
+    ");
+    assert!(refused(folder, &["minimise", "r.jsonl"]).contains("name a \"tautline run\""));
+    assert_eq!(names(folder), ["again.html", "again.svg", "r.html", "r.jsonl", "r.svg", "wrong.jsonl"]);
+}
+
+#[test]
 fn what_makes_no_rescue_is_refused_with_what_would_be_right() {
     let folder = folder();
     let cases: [&[&str]; 25] = [

@@ -11,24 +11,26 @@ use tautline_proofs::run::Breach;
 
 use super::explore::{Summary, panels, store_page, summary};
 use super::output::{Output, store};
+use super::rescue::{Files, tell};
 use super::{Exit, Format, FormatArgs, interrupt};
 use crate::exhibit::exhibit;
 use crate::explore::{Crew, Report, Setup, explore};
 use crate::fault::{Fault, Halt};
-use crate::trace::{StoredMove, Trace};
-use crate::view;
+use crate::trace::{StoredMove, Trace, lines};
+use crate::{rescue, view};
 
 const EXAMPLES: &str = "\
 Examples:
   tautline replay chain-1-published-n4.jsonl
   tautline replay run.jsonl --moves 10..20
-  tautline replay run.jsonl --html run.html";
+  tautline replay run.jsonl --html run.html
+  tautline replay rescue.jsonl --svg map.svg";
 
-/// Play a stored run or counterexample, and check that it is what its rule makes.
+/// Play a stored run, counterexample or rescue, and check that it is what its rule makes.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Replay {
-    /// A file that `explore --trace`, `hunt` or `minimise` wrote.
+    /// A file that `explore --trace`, `rescue --trace`, `hunt` or `minimise` wrote.
     file: PathBuf,
     /// The team moves to show, the first and the last. Without it all are shown, or the last 100.
     #[arg(long, value_name = "A..B")]
@@ -36,7 +38,7 @@ pub(super) struct Replay {
     /// Store the run as a page that plays it.
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// Store the team moves as a picture, by default the last one.
+    /// Store the team moves as a picture, by default the last one; of a rescue the map.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     #[command(flatten)]
@@ -72,6 +74,9 @@ struct Replayed<'a> {
 
 impl Replay {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        if lines::format(&self.file).as_deref() == Some(rescue::trace::FORMAT) {
+            return self.run_rescue(out);
+        }
         let trace = Trace::open(&self.file)?;
         let (setup, clause) = (trace.setup.clone(), trace.clause);
         let judged = match setup.crew() {
@@ -124,6 +129,16 @@ impl Replay {
             }
         }
         Ok(if report.violations.is_empty() { Exit::Expected } else { Exit::Violation })
+    }
+
+    fn run_rescue(&self, out: &mut Output) -> Result<Exit, Halt> {
+        if self.moves.is_some() {
+            let what = "a rescue has no team moves";
+            return Err(Fault::usage(what, "leave out --moves, or name a run of a team").into());
+        }
+        let (setting, seed, report) = rescue::trace::replay(&self.file)?;
+        let files = Files { page: self.html.as_deref(), map: self.svg.as_deref() };
+        tell(out, self.format.format, (&setting, seed, &report), &files)
     }
 
     fn moves(&self, report: &Report) -> RangeInclusive<u32> {

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::Args;
@@ -9,13 +10,16 @@ use serde::Serialize;
 
 use super::output::Output;
 use super::{Exit, Format, FormatArgs, interrupt, number, progress};
+use crate::aside::Aside;
 use crate::explore::RuleName;
 use crate::fault::{Fault, Halt};
 use crate::radio::ChannelName;
 use crate::reproduce::interval::Estimate;
 use crate::rescue::{
-    Assignments, CallTimes, Logged, Problem, Report, SchemeName, Setting, Summary, rescue, seconds,
+    Assignments, CallTimes, Logged, Problem, Report, SchemeName, Setting, Summary, rescue, seconds, trace,
 };
+use crate::view;
+use crate::view::field::picture;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -24,6 +28,7 @@ Examples:
   tautline rescue --wfr 3 --robots 3 --loss 0.1 --failing 1 --seeds 0..999 --rule published --format json
   tautline rescue --obstacle 100,100,200,200 --robot 20,150 --wfr-at 350 --seeds 7
   tautline rescue --nodes 300 --scheme flooding --channel shared --noise-db 2
+  tautline rescue --wfr 3 --robots 3 --seeds 8 --rule published --trace rescue.jsonl --replay rescue.html
 
 What the JSON says: reach, reach_component and rebroadcasts are means over the seeds of what becomes of the WFRs' first \
 calls; assignments counts all WFRs of all seeds: served_once, served_more_often, never (a robot that lives is connected \
@@ -93,6 +98,15 @@ pub(super) struct Rescue {
     /// How many nodes fail, likewise; none that calls.
     #[arg(long, value_name = "N", default_value = "0", value_parser = number::<usize>)]
     failing_nodes: usize,
+    /// Store the rescue as JSON lines; one seed only.
+    #[arg(long, value_name = "FILE")]
+    trace: Option<PathBuf>,
+    /// Store the rescue as a page that plays it; one seed only.
+    #[arg(long, value_name = "FILE")]
+    replay: Option<PathBuf>,
+    /// Store a map of the field with the ways of the robots as a picture; one seed only.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
     #[command(flatten)]
     format: FormatArgs,
 }
@@ -185,8 +199,15 @@ impl Rescue {
         let seeds = &self.seeds.0;
         if let Some(seed) = self.seeds.one() {
             let report = rescue(&setting, seed).map_err(refused)?;
-            let summary = Summary::of(&setting, seed, &report);
-            return print(out, self.format.format, &setting, seeds, (&summary, Some(&report)));
+            if let Some(path) = &self.trace {
+                trace::store(path, &setting, seed, &report)?;
+            }
+            return tell(out, self.format.format, (&setting, seed, &report), &self.files());
+        }
+        if self.trace.is_some() || self.replay.is_some() || self.svg.is_some() {
+            let first = seeds.start();
+            let remedy = format!("give one seed, for example --seeds {first}");
+            return Err(Fault::usage("several rescues do not fit into one file", remedy).into());
         }
         let bar = progress::bar("rescuing", 1 + seeds.end() - seeds.start());
         let summary = Summary::measure(&setting, seeds.clone(), &|| {
@@ -195,6 +216,10 @@ impl Rescue {
         })?;
         bar.finish_and_clear();
         print(out, self.format.format, &setting, seeds, (&summary, None))
+    }
+
+    fn files(&self) -> Files<'_> {
+        Files { page: self.replay.as_deref(), map: self.svg.as_deref() }
     }
 
     fn setting(&self) -> Setting {
@@ -220,8 +245,47 @@ impl Rescue {
     }
 }
 
+/// Where drawings of a rescue are stored.
+pub(super) struct Files<'a> {
+    /// The page that plays it.
+    pub(super) page: Option<&'a Path>,
+    /// The map.
+    pub(super) map: Option<&'a Path>,
+}
+
+/// Prints what came of one rescue, and stores the drawings of it.
+pub(super) fn tell(
+    out: &mut Output,
+    format: Format,
+    (setting, seed, report): (&Setting, u64, &Report),
+    files: &Files<'_>,
+) -> Result<Exit, Halt> {
+    let summary = Summary::of(setting, seed, report);
+    let title = format!("{}, seed {seed}", title(setting));
+    if let Some(path) = files.page {
+        let served = summary.assignments.served_once + summary.assignments.served_more_often;
+        let broken: Vec<&str> = summary.violations.iter().map(|broken| broken.clause).collect();
+        let broken = if broken.is_empty() {
+            "no clause is broken".to_owned()
+        } else {
+            format!("{} broken", broken.join(", "))
+        };
+        let outcome = format!("{served} of {} WFRs served; {broken}.", summary.assignments.wfrs);
+        Aside::write(path, view::rescue::page(&title, &outcome, report)?)?;
+    }
+    if let Some(path) = files.map {
+        Aside::write(path, picture(&title, &[view::rescue::map(String::new(), report)]))?;
+    }
+    print(out, format, setting, &(seed..=seed), (&summary, Some(report)))
+}
+
+fn title(setting: &Setting) -> String {
+    let (robots, wfrs) = (counted(setting.robots, "robot"), counted(setting.wfrs, "WFR"));
+    format!("{robots} for {wfrs}, MRC ({})", setting.rule)
+}
+
 /// Prints what came of rescues, and what happened in the only one.
-pub(super) fn print(
+fn print(
     out: &mut Output,
     format: Format,
     setting: &Setting,

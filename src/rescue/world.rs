@@ -20,7 +20,7 @@ use super::plan::{Plan, hops_from};
 use super::timers::Timers;
 use super::{Event, Logged, MAX_ROBOTS, MAX_WFRS, Problem, Setting, Violation};
 use crate::homing::{Signal, Walker, shortest_m};
-use crate::radio::{Air, Broadcast, Heard, Link, Point, Protocol, run};
+use crate::radio::{Air, Broadcast, Field, Heard, Link, Point, Protocol, run};
 
 /// Nothing that would happen later happens: six hours, longer than any rescue takes that comes to an end.
 const HORIZON_NS: u64 = 6 * 3_600 * 1_000_000_000;
@@ -77,6 +77,15 @@ pub struct Journey {
     pub shortest_m: Option<f64>,
 }
 
+/// Where a robot was.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Fix {
+    /// When, in nanoseconds.
+    pub at_ns: u64,
+    /// The place.
+    pub at: Point,
+}
+
 /// What came of a rescue.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Report {
@@ -90,8 +99,12 @@ pub struct Report {
     pub violations: Vec<Violation>,
     /// What happened, in order.
     pub log: Vec<Logged>,
-    /// Where each robot was, turn by turn.
-    pub paths: Vec<Vec<Point>>,
+    /// Where each robot was, robot by robot: between two of these it went straight.
+    pub paths: Vec<Vec<Fix>>,
+    /// The field.
+    pub field: Field,
+    /// The places of the WFRs.
+    pub wfrs: Vec<Point>,
     /// What was on the air.
     pub air: Air,
 }
@@ -173,7 +186,7 @@ struct Rover {
     machine: Robot<MAX_WFRS>,
     has_failed: bool,
     at: Point,
-    path: Vec<Point>,
+    path: Vec<Fix>,
     way: Option<Way>,
     /// Where it was when it was last at a WFR, and how far it has gone since on journeys that came to nothing.
     since: Point,
@@ -187,12 +200,25 @@ struct Rover {
 }
 
 impl Rover {
-    /// Where it has been.
-    fn path(mut self) -> Vec<Point> {
-        let last = self.way.as_ref().map_or(&[][..], |way| way.walker.trail());
-        self.path.extend(last.iter().skip(1));
-        self.path
+    /// It goes to a place, from now on until then. If it goes on straight, the place takes the place of the last.
+    fn go(&mut self, to: Point, now_ns: u64, then_ns: u64, onward: Onward) {
+        self.at = to;
+        match (onward, self.path.last_mut()) {
+            (Onward::Straight, Some(last)) => *last = Fix { at_ns: then_ns, at: to },
+            (Onward::Straight | Onward::Turned, last) => {
+                let rest = last.map(|last| Fix { at_ns: now_ns, ..*last });
+                self.path.extend(rest.filter(|rest| self.path.last() != Some(rest)));
+                self.path.push(Fix { at_ns: then_ns, at: to });
+            }
+        }
     }
+}
+
+/// How a robot goes on.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Onward {
+    Straight,
+    Turned,
 }
 
 /// A robot on its way, or at its goal.
@@ -232,7 +258,7 @@ impl<'a> World<'a> {
             machine: Robot::new(plan.rule, RobotId(robot)),
             has_failed: false,
             at: place.at,
-            path: vec![place.at],
+            path: vec![Fix { at_ns: 0, at: place.at }],
             way: None,
             since: place.at,
             moved_m: 0.0,
@@ -631,7 +657,6 @@ impl<'a> World<'a> {
     fn stop(&mut self, robot: usize, now_ns: u64) {
         let rover = &mut self.rovers[robot];
         let Some(Way { call, wfr, walker, .. }) = rover.way.take() else { return };
-        rover.path.extend(walker.trail().iter().skip(1));
         if walker.stage() != Leg::Arrived {
             rover.moved_m += walker.walked_m();
             let at = millimetres(rover.at);
@@ -693,16 +718,18 @@ impl<'a> World<'a> {
         };
         let guide = way.walker.guide();
         let signal = guide.filter(sends).map(|node| Signal::plain(points[node.0 as usize]));
-        let hops = way.walker.hops();
+        let (hops, places) = (way.walker.hops(), way.walker.trail().len());
         let takes_ns = way.walker.act(&self.plan.field, signal, chance);
-        rover.at = way.walker.at();
-        let done_ns = now_ns + takes_ns;
-        let leg = way.leg;
+        let (to, done_ns, leg) = (way.walker.at(), now_ns + takes_ns, way.leg);
+        let onward = if way.walker.trail().len() > places { Onward::Turned } else { Onward::Straight };
         let is_at_node = 0 < way.walker.hops() && way.walker.hops() < hops;
-        if let Some(node) = guide.filter(|_| is_at_node)
-            && way.passed.replace(node) != Some(node)
-        {
-            let at = millimetres(rover.at);
+        let is_news = |node: &NodeId| is_at_node && way.passed.replace(*node) != Some(*node);
+        let passed = guide.filter(is_news);
+        if rover.at != to {
+            rover.go(to, now_ns, done_ns, onward);
+        }
+        if let Some(node) = passed {
+            let at = millimetres(to);
             self.tell(now_ns, Event::Passes { robot: robot + 1, node: node.0, at });
         }
         self.put(station, done_ns, Duty::GoOn(leg));
@@ -833,7 +860,9 @@ impl<'a> World<'a> {
             journeys: self.journeys,
             violations: self.judge.violations,
             log: self.log,
-            paths: self.rovers.into_iter().map(Rover::path).collect(),
+            paths: self.rovers.into_iter().map(|rover| rover.path).collect(),
+            field: self.plan.field.clone(),
+            wfrs: self.plan.wfrs.iter().map(|wfr| self.plan.field.nodes()[wfr.node.0 as usize]).collect(),
             air,
         }
     }

@@ -8,7 +8,7 @@ use super::svg::{MARGIN, SERIES, SERIES_STYLE, document, escaped, text_width};
 use crate::radio::{Field, Point};
 
 /// The longest side of a map that stands alone, and of one among others.
-const ALONE: i32 = 600;
+pub(super) const ALONE: i32 = 600;
 const AMONG: i32 = 290;
 /// Maps in a row.
 const ROW: usize = 3;
@@ -18,13 +18,13 @@ const LINE: i32 = 20;
 const SAMPLE: i32 = 36;
 
 /// A robot, round 0,0: a disc.
-const ROBOT: &str = "m-6 0a6 6 0 1 0 12 0a6 6 0 1 0-12 0z";
+pub(super) const ROBOT: &str = "m-6 0a6 6 0 1 0 12 0a6 6 0 1 0-12 0z";
 /// A WFR: a star of four points.
-const WFR: &str = "m0-9l2.5 6.5l6.5 2.5l-6.5 2.5l-2.5 6.5l-2.5-6.5l-6.5-2.5l6.5-2.5z";
+pub(super) const WFR: &str = "m0-9l2.5 6.5l6.5 2.5l-6.5 2.5l-2.5 6.5l-2.5-6.5l-6.5-2.5l6.5-2.5z";
 /// Where a robot has given up: a cross.
 const CROSS: &str = "m-5-5l10 10m0-10l-10 10";
 
-const STYLE: &str = "\
+pub(super) const STYLE: &str = "\
 .rim{fill:none;stroke:var(--ink)}.obstacle{fill:var(--blocked);stroke:var(--blocked);stroke-width:2;stroke-linejoin:round}.start{text-anchor:start}.title{text-anchor:start;font-size:15px;font-weight:600}\
 .tree{stroke:var(--blocked);stroke-opacity:.6;fill:none}\
 .nodes{stroke:var(--ink);stroke-opacity:.45;stroke-width:2.5;stroke-linecap:round;fill:none}\
@@ -110,10 +110,7 @@ struct Drawn {
 
 impl Drawn {
     fn of(map: &Map<'_>, side: i32) -> Self {
-        let area = map.field.area();
-        let scale = Scale(f64::from(side) / area.width_m().max(area.height_m()));
-        let size = |side_m: f64| (side_m * scale.0).ceil() as i32;
-        let (width, height) = (size(area.width_m()), size(area.height_m()));
+        let (scale, (width, height)) = Scale::of(map, side);
         let caption = escaped(&map.caption);
         let top = if caption.is_empty() { 0 } else { LINE };
         let mut body = String::new();
@@ -156,17 +153,25 @@ impl Drawn {
 
 /// From metres to places in the picture.
 #[derive(Clone, Copy)]
-struct Scale(f64);
+pub(super) struct Scale(f64);
 
 impl Scale {
+    /// That at which a map has its longest side, and its size.
+    pub(super) fn of(map: &Map<'_>, side: i32) -> (Self, (i32, i32)) {
+        let area = map.field.area();
+        let scale = f64::from(side) / area.width_m().max(area.height_m());
+        let size = |side_m: f64| (side_m * scale).ceil() as i32;
+        (Self(scale), (size(area.width_m()), size(area.height_m())))
+    }
+
     /// In tenths.
-    fn place(self, point: Point) -> String {
+    pub(super) fn place(self, point: Point) -> String {
         format!("{:.1} {:.1}", point.x_m * self.0, point.y_m * self.0)
     }
 }
 
 /// The area with obstacles, links and nodes.
-fn ground(map: &Map<'_>, scale: Scale) -> String {
+pub(super) fn ground(map: &Map<'_>, scale: Scale) -> String {
     let (mut obstacles, mut links, mut nodes) = (String::new(), String::new(), String::new());
     for obstacle in map.field.obstacles() {
         let corner = |x_m, y_m| scale.place(Point { x_m, y_m });

@@ -90,12 +90,21 @@ impl<'a> Page<'a> {
             report.cells,
             broken(report)
         );
-        TEMPLATE
-            .replace("{{style}}", svg::STYLE)
-            .replace("{{title}}", &title)
-            .replace("{{outcome}}", &outcome)
-            .replace("{{picture}}", &picture)
+        filled(svg::STYLE, ["team move", "Team moves"], &title, &outcome, &picture)
     }
+}
+
+/// A page of a picture with a group of the class `move` for each step, of which it shows one at a time, and groups of the
+/// class `cell`, which it shows from their step on. `steps` are the words for one step, and for many.
+pub(super) fn filled(style: &str, steps: [&str; 2], title: &str, outcome: &str, picture: &str) -> String {
+    let [step, steps] = steps;
+    TEMPLATE
+        .replace("{{style}}", style)
+        .replace("{{step}}", step)
+        .replace("{{steps}}", steps)
+        .replace("{{title}}", title)
+        .replace("{{outcome}}", outcome)
+        .replace("{{picture}}", picture)
 }
 
 /// The cells as they are from a team move on, each mark over the one before it.
