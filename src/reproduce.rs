@@ -8,6 +8,7 @@ pub mod journeys;
 pub mod notice_fig5;
 pub mod optimum;
 pub mod repair_cost;
+pub mod rescue_fig8;
 
 /// Every reproduction.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -32,6 +33,8 @@ pub enum Reproduction {
     RescueFig6,
     /// Figure 7 of paper 003.
     RescueFig7,
+    /// Figure 8 of paper 003.
+    RescueFig8,
     /// Figure 9 of paper 003.
     RescueFig9,
     /// Figure 10 of paper 003.
@@ -40,7 +43,7 @@ pub enum Reproduction {
 
 impl Reproduction {
     /// All, in order.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::RepairCost,
         Self::Optimum,
         Self::Atlas,
@@ -51,6 +54,7 @@ impl Reproduction {
         Self::NoticeFig5,
         Self::RescueFig6,
         Self::RescueFig7,
+        Self::RescueFig8,
         Self::RescueFig9,
         Self::RescueFig10,
     ];
@@ -68,6 +72,7 @@ impl Reproduction {
             Self::NoticeFig5 => "notice-fig5",
             Self::RescueFig6 => "rescue-fig6",
             Self::RescueFig7 => "rescue-fig7",
+            Self::RescueFig8 => "rescue-fig8",
             Self::RescueFig9 => "rescue-fig9",
             Self::RescueFig10 => "rescue-fig10",
         }
@@ -114,6 +119,10 @@ impl Reproduction {
             Self::RescueFig7 => {
                 "how many metres a robot walks for each metre of the shortest way by TAN, Verma's, Reich's and Sheu's \
                  schemes, by the number of nodes, and what becomes of the paper's words about it"
+            }
+            Self::RescueFig8 => {
+                "three robots for three that wait for rescue, MRC as published and repaired: how often each gets a robot, \
+                 and one of its own, how far they go, and how far from the best assignment that is"
             }
             Self::RescueFig9 => {
                 "the ways of a robot round a large obstacle: how many arrive, and how far they walk"

@@ -501,6 +501,34 @@ fn the_ways_of_robots_are_the_same_on_any_number_of_threads() {
 }
 
 #[test]
+fn three_robots_for_three_wfrs_are_the_same_on_any_number_of_threads() {
+    let folder = folder();
+    let folder = folder.path();
+    let table = |threads| {
+        let arguments = ["reproduce", "rescue-fig8", "--topologies", "20", "--svg", "ways.svg"];
+        let output = tautline(folder, &arguments).env("RAYON_NUM_THREADS", threads).output();
+        let output = output.expect("the program runs");
+        assert_eq!(output.status.code(), Some(0));
+        String::from_utf8(output.stdout).expect("text")
+    };
+    assert_eq!(table("1"), table("3"));
+    assert_snapshot!("three_robots_for_three_wfrs", table("2"));
+    let drawn = fs::read_to_string(folder.join("ways.svg")).expect("a picture");
+    assert_eq!(drawn.matches("class=\"trail\" d=\"M").count(), 6, "three, and the legend");
+    let few = ["reproduce", "rescue-fig8", "--robots", "1", "--wfr", "2", "--topologies", "3"];
+    let few = json(folder, &few, 0);
+    assert_eq!((&few["id"], &few["rules"][1]["own"]["ours"]["mean"]), (&"rescue-fig8".into(), &0.0.into()));
+    assert_eq!((&few["rules"][1]["over_best"], &few["rules"][1]["best"]), (&Value::Null, &Value::Null));
+    let cases: [&[&str]; 4] =
+        [&["--nodes", "1"], &["--robots", "7"], &["--wfr", "0"], &["--nodes", "2", "--wfr", "3"]];
+    let said = cases.map(|arguments| {
+        let asked = [&["reproduce", "rescue-fig8"], arguments].concat();
+        format!("{}\n{}\n", arguments.join(" "), refused(folder, &asked))
+    });
+    assert_snapshot!("wrong_figure_8", said.join("\n"));
+}
+
+#[test]
 fn a_directional_antenna_and_what_noise_does_to_a_scan() {
     let folder = folder();
     let asked = ["reproduce", "antenna-fig4", "--scans", "200", "--svg", "antenna.svg"];
@@ -549,7 +577,15 @@ fn what_is_wrong_with_a_journey_is_said_with_a_remedy() {
 fn the_tables_are_listed_and_have_help_with_examples() {
     let folder = folder();
     assert_snapshot!("tables", printed(folder.path(), &["reproduce"], 0));
-    for table in ["repair-cost", "optimum", "bricks-fig11", "notice-fig5", "antenna-fig4", "rescue-fig7"] {
+    for table in [
+        "repair-cost",
+        "optimum",
+        "bricks-fig11",
+        "notice-fig5",
+        "antenna-fig4",
+        "rescue-fig7",
+        "rescue-fig8",
+    ] {
         let help = printed(folder.path(), &["reproduce", table, "--help"], 0);
         assert!(help.contains("Example"), "{table}");
         assert_snapshot!(format!("help_reproduce_{table}"), help);

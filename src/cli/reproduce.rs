@@ -7,6 +7,7 @@ mod journeys;
 mod notice_fig5;
 mod optimum;
 mod repair_cost;
+mod rescue_fig8;
 
 use clap::{Args, Subcommand};
 use serde::Serialize;
@@ -58,6 +59,8 @@ enum Table {
     /// How far a robot walks by TAN and its rivals, by the number of nodes.
     #[command(name = "rescue-fig7")]
     RescueFig7(journeys::Journeys),
+    #[command(name = "rescue-fig8")]
+    RescueFig8(rescue_fig8::RescueFig8),
     /// How far a robot walks round a large obstacle.
     #[command(name = "rescue-fig9")]
     RescueFig9(journeys::Journeys),
@@ -91,6 +94,7 @@ impl Reproduce {
             Some(Table::NoticeFig5(table)) => table.run(out),
             Some(Table::RescueFig6(table)) => table.run(Reproduction::RescueFig6, Journey::Trajectories, out),
             Some(Table::RescueFig7(table)) => table.run(Reproduction::RescueFig7, Journey::Ratios, out),
+            Some(Table::RescueFig8(table)) => table.run(out),
             Some(Table::RescueFig9(table)) => table.run(Reproduction::RescueFig9, Journey::OneObstacle, out),
             Some(Table::RescueFig10(table)) => {
                 table.run(Reproduction::RescueFig10, Journey::FourObstacles, out)
