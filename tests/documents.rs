@@ -81,6 +81,14 @@ fn the_ways_of_robots_are_those_of_the_readme() {
 }
 
 #[test]
+fn a_thousand_rescues_are_those_of_the_readme() {
+    let rescues =
+        ["rescue", "--wfr", "3", "--robots", "3", "--loss", "0.1", "--failing", "1", "--seeds", "0..999"];
+    let table = printed(&rescues, 0);
+    assert!(document("README.md").contains(&table), "the README shows another table:\n{table}");
+}
+
+#[test]
 fn the_pictures_of_the_readme_are_drawn_by_the_commands_beside_them() {
     let readme = document("README.md");
     let folder = tempfile::tempdir().expect("a folder");
@@ -93,6 +101,7 @@ fn the_pictures_of_the_readme_are_drawn_by_the_commands_beside_them() {
         ("walked.svg", "reproduce rescue-fig7 --svg", 0),
         ("ways.svg", "reproduce rescue-fig6 --svg", 0),
         ("lakes.svg", "reproduce rescue-fig10 --svg", 0),
+        ("rescue.svg", "reproduce rescue-fig8 --svg", 0),
         ("crowding.svg", "replay docs/chain-2-published-n4.jsonl --svg", 1),
         ("trap.svg", "replay docs/bricks-4-repaired-n1.jsonl --moves 1..5 --svg", 1),
     ] {
