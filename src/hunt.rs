@@ -35,10 +35,13 @@ pub fn setup(rule: RuleName, bounds: &Bounds, found: &Counterexample) -> Result<
     Ok(Setup { limits, ..Setup::new(SchemeName::Chain, rule, bounds.robots as u16, layout, base) })
 }
 
-/// The place in `folder` of a run of `setup` that breaks `breach`.
+/// The place in `folder` of a run of `setup` that breaks `breach`. The scheme is in its name unless the clause tells it.
 pub fn path(folder: &Path, setup: &Setup, breach: Breach) -> PathBuf {
     let clause = breach.clause().to_lowercase();
-    folder.join(format!("{clause}-{}-n{}.jsonl", setup.rule, setup.robots))
+    let Setup { scheme, rule, robots, .. } = setup;
+    let is_told = clause.rsplit_once('-').is_some_and(|(family, _)| family == scheme.word());
+    let scheme = if is_told { String::new() } else { format!("-{}", scheme.word()) };
+    folder.join(format!("{clause}{scheme}-{rule}-n{robots}.jsonl"))
 }
 
 /// Stores the run of `setup`, which breaks `breach`, in `folder` under a name that says so.
@@ -103,5 +106,25 @@ pub fn remedy(refused: Unsearchable) -> String {
             format!("give --max-walls {walls} or more, or another --resume file")
         }
         Unsearchable::Foreign => AGAIN.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_of_two_schemes_have_two_names() {
+        let name = |scheme, breach| {
+            let layout = Layout::open(3, 3).expect("a layout");
+            let setup = Setup::new(scheme, RuleName::Repaired, 2, layout, Cell::new(1, 1));
+            path(Path::new("a"), &setup, breach).display().to_string()
+        };
+        assert_eq!(name(SchemeName::Chain, Breach::Completeness), "a/chain-13-repaired-n2.jsonl");
+        assert_eq!(name(SchemeName::Bricks, Breach::Premature), "a/bricks-4-repaired-n2.jsonl");
+        assert_eq!(
+            name(SchemeName::BricksAnts, Breach::Premature),
+            "a/bricks-4-bricks-ants-repaired-n2.jsonl"
+        );
     }
 }
