@@ -15,6 +15,7 @@ use tautline_kernel::chain::Kind;
 use tautline_kernel::floor::Mark;
 use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Circle, Edge, Side, Step, neighbours};
+use tautline_proofs::course::{Scene, Turn};
 
 use crate::explore::agents::Way;
 use crate::explore::{Chart, Crew, Setup, TeamMove};
@@ -170,6 +171,20 @@ pub fn team_move(setup: &Setup, chart: &Chart, made: &TeamMove<'_>, pose: Pose) 
         grid(&setup.layout, chart.area(), labels.width(), label, |edge| bumps.contains(&edge))
     };
     Block { title: title(made), lines }
+}
+
+/// Agents on a floor with such marks, one of them with the arrow of what it tries if that is given, with the sensors that
+/// it misses.
+fn agents(crew: Crew, layout: &Layout, scene: &Scene, tries: Option<&Turn>) -> Vec<String> {
+    let steps = tries.map(|turn| {
+        let step = |agent| if agent == turn.agent { turn.step } else { Step::Stay };
+        (0..scene.cells.len()).map(step).collect()
+    });
+    let unseen = tries.map_or(&[][..], |turn| &turn.unseen);
+    let labels = Labels { crew, cells: &scene.cells, steps: steps.as_ref(), unseen };
+    let mark =
+        |cell| scene.marks.iter().find(|(at, _)| *at == cell).map_or(Mark::Unexplored, |&(_, mark)| mark);
+    grid(layout, layout.size().area(), labels.width(), |cell| labels.label(cell, mark(cell)), |_| false)
 }
 
 fn title(made: &TeamMove<'_>) -> String {

@@ -5,13 +5,17 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::{env, fs};
 
+use insta::assert_snapshot;
 use proptest::prelude::*;
 use tautline::explore::agents::{Team, Way};
-use tautline::explore::{Report, RuleName, SchemeName, Setup, Stopped, explore};
+use tautline::explore::{Crew, Report, RuleName, SchemeName, Setup, Stopped, explore};
 use tautline::layout::generate::Probability;
 use tautline::layout::{self, Generator, Layout};
+use tautline::view::story;
 use tautline_kernel::bricks::Rule;
-use tautline_kernel::lattice::{Cell, Edge, Side};
+use tautline_kernel::floor::Mark;
+use tautline_kernel::lattice::{Cell, Edge, Side, Step};
+use tautline_proofs::course::{Course, Scene, Turn};
 
 /// More team moves than any run here has.
 const MANY: u32 = 300_000;
@@ -168,4 +172,45 @@ fn published_maps_are_visited_if_they_are_there() {
             println!("{name} is left out: {} cells", part.1);
         }
     }
+}
+
+#[test]
+fn of_turns_that_can_go_on_for_ever_only_those_are_drawn() {
+    let cells = [(0, 0), (1, 0), (2, 0), (0, 1)].map(|(x, y)| Cell::new(x, y));
+    let scene = |agents: [usize; 2]| Scene {
+        cells: agents.map(|agent| cells[agent]).to_vec(),
+        marks: cells
+            .into_iter()
+            .zip([Mark::Explored, Mark::Explored, Mark::Unexplored, Mark::Visited])
+            .collect(),
+    };
+    let turn =
+        |agents, agent, side| Turn { before: scene(agents), agent, step: Step::Cross(side), unseen: vec![] };
+    let course = Course {
+        width: 3,
+        height: 2,
+        blocked: vec![Cell::new(1, 1), Cell::new(2, 1)],
+        walls: vec![Edge::new(cells[1], Side::East)],
+        turns: vec![
+            turn([3, 0], 0, Side::North),
+            Turn { unseen: vec![cells[3]], ..turn([0, 0], 1, Side::East) },
+            turn([0, 1], 1, Side::West),
+        ],
+        round: 2,
+        end: scene([0, 0]),
+    };
+    let drawn = story::of_course(Crew::Agents(Way::Bricks(Rule::PUBLISHED)), &course).expect("a layout");
+    assert_snapshot!(drawn, @"
+    1, 2, … are the agents, K× stands for K of them in one cell; · is explored, : explored and entered by nobody any more, ░░░ visited, ▒▒▒ sealed, ## blocked; ? is a sensor that an agent missed.
+
+      In turn 2 agent 2 misses the sensor of 0,1.
+      The last 2 of 3 turns can go on for ever.
+
+    before turn 2      before turn 3      the end
+    +----+----+----+   +---+---+---+      +---+---+---+
+    |1·2→  ·  |    |   |1·  2← |   |      |12   · |   |
+    +    +    +    +   +   +   +   +      +   +   +   +
+    |░?░  #### ####|   |░░░ ### ###|      |░░░ ### ###|
+    +----+----+----+   +---+---+---+      +---+---+---+
+    ");
 }

@@ -361,6 +361,15 @@ fn clauses_are_decided_by_name() {
 }
 
 #[test]
+fn the_counterexample_of_a_clause_of_agents_is_drawn() {
+    let folder = folder();
+    assert_snapshot!("missed_sensors_in_turns", printed(folder.path(), &["prove", "BRICKS-5"], 0));
+    let shown = json(folder.path(), &["prove", "BRICKS-5"], 0)["clauses"][0]["counterexample"].take();
+    assert_eq!((&shown["demand"], &shown["turns"]), (&"every cell is explored".into(), &4.into()));
+    assert!(shown["drawing"].as_str().is_some_and(|drawing| drawing.contains("before turn 4")), "{shown}");
+}
+
+#[test]
 fn the_cost_of_the_repairs_is_the_same_on_any_number_of_threads() {
     let folder = folder();
     let table = |threads| {

@@ -8,6 +8,7 @@ use tautline_kernel::lattice::Cell;
 
 use crate::bricks::{Misses, Small, look};
 use crate::clause::{Sabotage, Subject};
+use crate::course::Explored;
 use crate::engine::{Tally, outcomes};
 use crate::plans::{CELLS, Plan, blocked};
 use crate::states::{Bits, Step, System};
@@ -97,13 +98,16 @@ impl System for Colony {
 }
 
 /// ANTS-1 on every small floor.
-pub(crate) fn explores(subject: &Subject) -> Tally {
+pub(crate) fn explores(subject: &Subject) -> Explored {
     let mut tally = Tally::default();
-    let colony = |max_misses| move |plan| Colony { plan, max_misses, sabotage: subject.sabotage };
-    look(&mut tally, blocked(4, 4).map(colony(0)), |colony| colony.starts(1));
-    look(&mut tally, blocked(3, 3).map(colony(2)), |colony| colony.starts(1));
-    look(&mut tally, blocked(3, 2).map(colony(0)), |colony| colony.starts(2));
-    tally
+    let colonies = |width, height, max_misses| -> Vec<Colony> {
+        let colony = |plan| Colony { plan, max_misses, sabotage: subject.sabotage };
+        blocked(width, height).map(colony).collect()
+    };
+    look(&mut tally, &colonies(4, 4, 0), |colony| colony.starts(1));
+    look(&mut tally, &colonies(3, 3, 2), |colony| colony.starts(1));
+    look(&mut tally, &colonies(3, 2, 0), |colony| colony.starts(2));
+    Explored { tally, course: None }
 }
 
 /// What [`explores`] covers.

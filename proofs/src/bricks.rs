@@ -5,13 +5,14 @@
 use rayon::prelude::*;
 use tautline_kernel::bricks::{Act, Agent, Condition, Next, Rule, carry_out};
 use tautline_kernel::choice::Source;
-use tautline_kernel::floor::{Floor, Mark, Scan, Sensor, settle};
-use tautline_kernel::lattice::{Cell, Edge};
+use tautline_kernel::floor::{Floor, Mark, Scan, Sensor, around, settle};
+use tautline_kernel::lattice::{Cell, Edge, Side, Step};
 
 use crate::clause::{Sabotage, Subject};
+use crate::course::{Course, Explored, Scene, Turn};
 use crate::engine::{Tally, cover, outcomes};
 use crate::plans::{CELLS, Plan, blocked, walled};
-use crate::states::{Bits, Found, Run, Step, System, search};
+use crate::states::{self, Bits, Ending, Found, Run, System, search};
 
 /// The sensors of a plan.
 pub(crate) struct Small<'a> {
@@ -207,8 +208,12 @@ impl Source for Misses<'_> {
 }
 
 impl Team {
-    /// One step from `state`; none once the run is over.
-    fn step(&self, state: &State, world: &mut dyn Source) -> Option<Step<State, &'static str>> {
+    /// Every turn from `state`; none once the run is over.
+    fn turns(&self, state: &State) -> impl Iterator<Item = Turned> {
+        outcomes(|world| self.turn(state, world)).flatten()
+    }
+
+    fn turn(&self, state: &State, world: &mut dyn Source) -> Option<Turned> {
         let awake = self.awake(state);
         let is_over = match self.demand {
             Demand::Connected | Demand::Ends => false,
@@ -242,24 +247,90 @@ impl Team {
         }
         let body = &mut state.bodies[agent];
         let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors, placed: &mut state.placed };
+        let mut unseen = Vec::new();
         let (act, is_due) = if let Some(act) = body.pending.take() {
             (act, true)
         } else {
+            let missed = state.misses;
             let mut world = Misses { world, count: &mut state.misses, most: self.max_misses };
-            let act = body.agent.decide(self.rule, &Scan::new(&floor, body.cell, &mut world));
-            (act, self.turns == Turns::Whole)
+            let scan = Scan::new(&floor, body.cell, &mut world);
+            if state.misses > missed {
+                unseen = misread(&floor, body.cell, &scan);
+            }
+            (body.agent.decide(self.rule, &scan), self.turns == Turns::Whole)
         };
+        let mut step = Step::Stay;
         if is_due {
             body.cell = carry_out(&mut floor, body.cell, &act);
             body.is_done = act.next == Next::Done;
+            if let Next::Goes(side, ..) = act.next {
+                step = Step::Cross(side);
+            }
         } else {
             body.pending = Some(act);
         }
         let ended = Some(body.cell).filter(|_| body.is_done);
         self.forget(&mut state);
-        let breaks = self.broken(&state, ended).into_iter().collect();
-        Some(Step { state, situation: "a step", acting: 1 << agent, is_bound: true, breaks })
+        let breaks = self.broken(&state, ended);
+        Some(Turned { state, agent, step, unseen, breaks })
     }
+
+    fn scene(&self, state: &State) -> Scene {
+        let mark = |cell| Some((cell, state.sensors[self.plan.place(cell)?].mark));
+        Scene {
+            cells: state.bodies.iter().map(|body| body.cell).collect(),
+            marks: self.plan.cells().filter_map(mark).collect(),
+        }
+    }
+
+    /// What happens in `run`, which begins in `start`.
+    fn course(&self, start: State, run: &Run<&str>) -> Course {
+        let mut state = start;
+        let round: &[u32] = match &run.ending {
+            Ending::There | Ending::Still => &[],
+            Ending::Round(round) => round,
+        };
+        let mut turns = Vec::new();
+        for &number in run.steps.iter().chain(round) {
+            let Some(turned) = self.turns(&state).nth(number as usize) else { break };
+            let Turned { agent, step, unseen, .. } = turned;
+            turns.push(Turn { before: self.scene(&state), agent, step, unseen });
+            state = turned.state;
+        }
+        let Plan { width, height, .. } = self.plan;
+        let area = (0..width * height).map(|place| self.plan.cell(place as usize));
+        let sides = |cell| [Side::East, Side::South].map(|side| Edge::new(cell, side));
+        let is_wall = |edge: &Edge| {
+            self.plan.place(edge.cell().beyond(edge.side())).is_some() && !self.plan.is_open(*edge)
+        };
+        Course {
+            width,
+            height,
+            blocked: area.filter(|&cell| self.plan.place(cell).is_none()).collect(),
+            walls: self.plan.cells().flat_map(sides).filter(is_wall).collect(),
+            turns,
+            round: round.len(),
+            end: self.scene(&state),
+        }
+    }
+}
+
+/// What a turn leads to.
+struct Turned {
+    state: State,
+    /// Whose turn it is, and where it goes.
+    agent: usize,
+    step: Step,
+    /// The cells of the sensors that it misses.
+    unseen: Vec<Cell>,
+    breaks: Option<&'static str>,
+}
+
+/// The cells around `cell` that read as unexplored in `scan` and are not.
+fn misread(floor: &impl Floor, cell: Cell, scan: &Scan) -> Vec<Cell> {
+    let reads = (0..).zip(around(cell)).filter(|(place, _)| scan.unexplored.0 >> place & 1 == 1);
+    let is_known = |&cell: &Cell| floor.sensor(cell).is_some_and(|sensor| sensor.mark != Mark::Unexplored);
+    reads.map(|(_, cell)| cell).filter(is_known).collect()
 }
 
 impl System for Team {
@@ -271,8 +342,14 @@ impl System for Team {
         state.clone()
     }
 
-    fn steps(&self, state: &State) -> impl Iterator<Item = Step<State, &'static str>> {
-        outcomes(|world| self.step(state, world)).flatten()
+    fn steps(&self, state: &State) -> impl Iterator<Item = states::Step<State, &'static str>> {
+        self.turns(state).map(|Turned { state, agent, breaks, .. }| states::Step {
+            state,
+            situation: "a step",
+            acting: 1 << agent,
+            is_bound: true,
+            breaks: breaks.into_iter().collect(),
+        })
     }
 
     fn broken_at_end(&self, state: &State) -> Option<&'static str> {
@@ -322,143 +399,149 @@ impl<P: Iterator<Item = Plan>> Series<P> {
 
     /// Looks at all of them. Agents are not patient: whatever they gain before they go round, it is then that they
     /// have to gain something.
-    fn look(self, tally: &mut Tally, rule: Rule, demand: Demand) {
+    fn look(self, explored: &mut Explored, rule: Rule, demand: Demand) {
         let rule = Rule { patience: 0, ..rule };
         let Self { plans, agents, max_misses, max_streak, turns } = self;
-        let teams = plans.map(|plan| Team { plan, rule, turns, max_misses, max_streak, demand });
-        look(tally, teams, |team| team.starts(agents).collect());
+        let teams: Vec<Team> =
+            plans.map(|plan| Team { plan, rule, turns, max_misses, max_streak, demand }).collect();
+        let broken = look(&mut explored.tally, &teams, |team| team.starts(agents).collect());
+        let shown =
+            broken.and_then(|(team, run)| Some(team.course(team.starts(agents).nth(run.start)?, &run)));
+        explored.course = shown.or(explored.course.take());
     }
 }
 
 /// Plans that are looked at between two looks for a violation.
 const WAVE: usize = 64;
 
-/// Searches all states of `systems` from their starts, until something is broken. The choices of a violation are the
-/// numbers of the system, the start, and the steps; the tally is the same on any number of threads.
-pub(crate) fn look<S: System<Demand = &'static str> + Sync>(
+/// Searches all states of `systems` from their starts, until something is broken: by which system, and how. The choices
+/// of a violation are the numbers of the system, the start, and the steps; the tally is the same on any number of threads.
+pub(crate) fn look<'a, S: System<Demand = &'static str> + Sync>(
     tally: &mut Tally,
-    systems: impl Iterator<Item = S>,
+    systems: &'a [S],
     starts: impl Fn(&S) -> Vec<S::State> + Sync,
-) {
-    let systems: Vec<S> = systems.collect();
+) -> Option<(&'a S, Run<&'static str>)> {
     for (wave, first) in systems.chunks(WAVE).zip((0..).step_by(WAVE)) {
         if tally.violation.is_some() {
-            return;
+            return None;
         }
         let found: Vec<Found<_>> =
             wave.par_iter().map(|system| search(system, starts(system), u32::MAX)).collect();
-        for (place, Found { states, covered, broken, .. }) in (first..).zip(found) {
+        let mut shown = None;
+        for ((place, system), Found { states, covered, broken, .. }) in (first..).zip(wave).zip(found) {
             tally.cases += states;
             for situation in covered {
                 cover(&mut tally.covered, situation);
             }
-            if let (Some(Run { start, steps, demand, .. }), None) =
-                (broken.into_iter().next(), &tally.violation)
-            {
-                tally.violation = Some(([&[place, start as u32], &steps[..]].concat(), demand));
-            }
+            shown = shown.or(broken.into_iter().next().map(|run| (place, system, run)));
+        }
+        if let Some((place, system, run)) = shown {
+            let choices = [&[place, run.start as u32], &run.steps[..]].concat();
+            tally.violation = Some((choices, run.demand));
+            return Some((system, run));
         }
     }
+    None
 }
 
 /// Nothing missed: one agent alone, two and three in every order.
-fn together(rule: Rule, demand: Demand) -> Tally {
-    let mut tally = Tally::default();
-    Series::new(blocked(4, 4), 1).look(&mut tally, rule, demand);
-    Series::new(walled(3, 3), 1).look(&mut tally, rule, demand);
-    Series::new(blocked(3, 3), 2).look(&mut tally, rule, demand);
-    Series::new(walled(3, 2), 2).look(&mut tally, rule, demand);
-    Series::new(blocked(3, 2), 3).look(&mut tally, rule, demand);
-    tally
+fn together(rule: Rule, demand: Demand) -> Explored {
+    let mut explored = Explored::default();
+    Series::new(blocked(4, 4), 1).look(&mut explored, rule, demand);
+    Series::new(walled(3, 3), 1).look(&mut explored, rule, demand);
+    Series::new(blocked(3, 3), 2).look(&mut explored, rule, demand);
+    Series::new(walled(3, 2), 2).look(&mut explored, rule, demand);
+    Series::new(blocked(3, 2), 3).look(&mut explored, rule, demand);
+    explored
 }
 
 /// What [`together`] covers.
 pub(crate) const TOGETHER: &str = "1 agent to 4×4, 2 to 3×3, 3 to 3×2 cells, every order";
 
 /// One agent alone, nothing missed.
-fn alone(rule: Rule, demand: Demand) -> Tally {
-    let mut tally = Tally::default();
-    Series::new(blocked(4, 4), 1).look(&mut tally, rule, demand);
-    tally
+fn alone(rule: Rule, demand: Demand) -> Explored {
+    let mut explored = Explored::default();
+    Series::new(blocked(4, 4), 1).look(&mut explored, rule, demand);
+    explored
 }
 
 /// What [`alone`] covers.
 pub(crate) const ALONE: &str = "all layouts to 4×4 cells, 1 agent, every start";
 
 /// Sensors missed.
-fn half_blind(rule: Rule, demand: Demand) -> Tally {
-    let mut tally = Tally::default();
-    Series::missing(blocked(3, 3), 1, 2).look(&mut tally, rule, demand);
-    Series::missing(walled(3, 2), 1, 2).look(&mut tally, rule, demand);
-    Series::missing(blocked(3, 2), 1, 4).look(&mut tally, rule, demand);
-    Series::missing(blocked(3, 2), 2, 1).look(&mut tally, rule, demand);
-    tally
+fn half_blind(rule: Rule, demand: Demand) -> Explored {
+    let mut explored = Explored::default();
+    Series::missing(blocked(3, 3), 1, 2).look(&mut explored, rule, demand);
+    Series::missing(walled(3, 2), 1, 2).look(&mut explored, rule, demand);
+    Series::missing(blocked(3, 2), 1, 4).look(&mut explored, rule, demand);
+    Series::missing(blocked(3, 2), 2, 1).look(&mut explored, rule, demand);
+    explored
 }
 
 /// What [`half_blind`] covers.
 pub(crate) const HALF_BLIND: &str = "1 agent to 3×3, 2 misses, to 3×2, 4 misses; 2 to 3×2, 1 miss";
 
-pub(crate) fn connected_alone(subject: &Subject) -> Tally {
+pub(crate) fn connected_alone(subject: &Subject) -> Explored {
     alone(subject.bricks, Demand::Connected)
 }
 
-pub(crate) fn connected(subject: &Subject) -> Tally {
+pub(crate) fn connected(subject: &Subject) -> Explored {
     together(subject.bricks, Demand::Connected)
 }
 
-pub(crate) fn connected_half_blind(subject: &Subject) -> Tally {
+pub(crate) fn connected_half_blind(subject: &Subject) -> Explored {
     half_blind(subject.bricks_ants, Demand::Connected)
 }
 
 /// Scanning and writing are two steps.
-pub(crate) fn connected_in_turns(subject: &Subject) -> Tally {
+pub(crate) fn connected_in_turns(subject: &Subject) -> Explored {
     let turns = match subject.sabotage {
         Sabotage::ActsAtOnce => Turns::Free,
         _ => Turns::Overlapping,
     };
-    let mut tally = Tally::default();
+    let mut explored = Explored::default();
     let series = Series { turns, ..Series::new(blocked(5, 2), 2) };
-    series.look(&mut tally, subject.bricks, Demand::Connected);
-    tally
+    series.look(&mut explored, subject.bricks, Demand::Connected);
+    explored
 }
 
 /// What [`connected_in_turns`] covers.
 pub(crate) const IN_TURNS: &str = "all layouts to 5×2 cells, 2 agents, every order of scans and writes";
 
-pub(crate) fn knowing(subject: &Subject) -> Tally {
+pub(crate) fn knowing(subject: &Subject) -> Explored {
     together(subject.bricks, Demand::Knowing)
 }
 
-pub(crate) fn knowing_half_blind(subject: &Subject) -> Tally {
+pub(crate) fn knowing_half_blind(subject: &Subject) -> Explored {
     half_blind(subject.bricks, Demand::Knowing)
 }
 
-pub(crate) fn robust_knowing_half_blind(subject: &Subject) -> Tally {
+pub(crate) fn robust_knowing_half_blind(subject: &Subject) -> Explored {
     half_blind(subject.bricks_ants, Demand::Knowing)
 }
 
-pub(crate) fn explores_half_blind(subject: &Subject) -> Tally {
+pub(crate) fn explores_half_blind(subject: &Subject) -> Explored {
     half_blind(subject.bricks, Demand::Explores)
 }
 
-pub(crate) fn robust_explores_half_blind(subject: &Subject) -> Tally {
+pub(crate) fn robust_explores_half_blind(subject: &Subject) -> Explored {
     half_blind(subject.bricks_ants, Demand::Explores)
 }
 
-pub(crate) fn ends_alone(subject: &Subject) -> Tally {
+pub(crate) fn ends_alone(subject: &Subject) -> Explored {
     alone(subject.bricks, Demand::Ends)
 }
 
-pub(crate) fn ends(subject: &Subject) -> Tally {
+pub(crate) fn ends(subject: &Subject) -> Explored {
     together(subject.bricks, Demand::Ends)
 }
 
-pub(crate) fn robust_ends(subject: &Subject) -> Tally {
-    let mut tally = Tally::default();
-    Series::new(blocked(4, 3), 1).look(&mut tally, subject.bricks_ants, Demand::Ends);
-    Series::new(walled(3, 3), 1).look(&mut tally, subject.bricks_ants, Demand::Ends);
-    Series::new(blocked(4, 2), 2).look(&mut tally, subject.bricks_ants, Demand::Ends);
-    tally
+pub(crate) fn robust_ends(subject: &Subject) -> Explored {
+    let mut explored = Explored::default();
+    Series::new(blocked(4, 3), 1).look(&mut explored, subject.bricks_ants, Demand::Ends);
+    Series::new(walled(3, 3), 1).look(&mut explored, subject.bricks_ants, Demand::Ends);
+    Series::new(blocked(4, 2), 2).look(&mut explored, subject.bricks_ants, Demand::Ends);
+    explored
 }
 
 /// What [`robust_ends`] covers.
@@ -473,9 +556,10 @@ mod tests {
     #[ignore = "takes minutes: cargo test -p tautline-proofs -- --ignored two_agents"]
     fn two_agents_keep_all_layouts_of_four_by_three_cells_connected_and_end_with_every_cell_visited() {
         for demand in [Demand::Connected, Demand::Ends] {
-            let mut tally = Tally::default();
-            Series::new(blocked(4, 3), 2).look(&mut tally, Rule::REPAIRED, demand);
-            assert_eq!((tally.violation, tally.cases), (None, 32_566_853), "{demand:?}");
+            let mut explored = Explored::default();
+            Series::new(blocked(4, 3), 2).look(&mut explored, Rule::REPAIRED, demand);
+            let Explored { tally, course } = explored;
+            assert_eq!((tally.violation, course, tally.cases), (None, None, 32_566_853), "{demand:?}");
         }
     }
 }

@@ -9,7 +9,8 @@ use tautline_kernel::choice::Source;
 use tautline_kernel::lattice::Circle;
 use tautline_kernel::rescue;
 
-use crate::engine::{Outcome, Tally};
+use crate::course::Explored;
+use crate::engine::Outcome;
 use crate::invariant::Invariant;
 use crate::notice::Networks;
 use crate::rescue::{Demand, Setting};
@@ -194,7 +195,7 @@ pub enum Method {
     /// Every state of agents on small floors.
     Floors {
         /// Goes through them.
-        explore: fn(&Subject) -> Tally,
+        explore: fn(&Subject) -> Explored,
         /// The situations that must occur, sorted.
         covers: &'static [&'static str],
     },

@@ -2,6 +2,7 @@
 //! one search looks for several invariants at once.
 
 use crate::clause::{Check, Method, Subject, Verdict};
+use crate::course::{Course, Explored};
 use crate::engine::{self, Tally};
 use crate::rescue::{Setting, space};
 use crate::search::{Bounds, Counterexample, Found, Unsearchable, Until, Watch, search};
@@ -33,8 +34,10 @@ impl Decision {
 pub enum Evidence {
     /// The choices that lead a body to it, and the demand that is not met.
     Choices(Vec<u32>, &'static str),
-    /// A run.
+    /// A run of a chain.
     Run(Box<Counterexample>),
+    /// A run of agents on a floor, and the demand that is not met.
+    Course(Box<Course>, &'static str),
     /// A run of robots and WFRs.
     Rescue(Box<(Setting, space::Broken)>),
 }
@@ -83,7 +86,14 @@ impl Prover {
             Method::Sampled { body, runs, covers } => {
                 Ok(Decision::of_tally(engine::sample(runs, SEED, |source| body(subject, source)), covers))
             }
-            Method::Floors { explore, covers } => Ok(Decision::of_tally(explore(subject), covers)),
+            Method::Floors { explore, covers } => {
+                let Explored { tally, course } = explore(subject);
+                let broken = tally.violation.as_ref().map(|&(_, demand)| demand);
+                let decision = Decision::of_tally(tally, covers);
+                let drawn =
+                    broken.zip(course).map(|(demand, course)| Evidence::Course(Box::new(course), demand));
+                Ok(Decision { counterexample: drawn.or(decision.counterexample), ..decision })
+            }
             Method::Spread { networks, covers } => Ok(Decision::of_tally(networks.explore(subject), covers)),
             Method::Search { robots, max_walls, invariant } => {
                 let invariants = match until {

@@ -5,6 +5,7 @@
 mod ants;
 mod bricks;
 pub mod clause;
+pub mod course;
 pub mod crowd;
 pub mod decide;
 pub mod engine;

@@ -16,7 +16,7 @@ use tautline_kernel::rescue::Condition::{
 
 use crate::bricks as small_floors;
 use crate::clause::{Body, Check, Clause, Method, Mutant, Sabotage, Subject, Verdict};
-use crate::engine::Tally;
+use crate::course::Explored;
 use crate::invariant::Invariant;
 use crate::notice::Networks;
 use crate::rescue::{Demand, Faults, Lossy, Setting};
@@ -180,7 +180,7 @@ const fn laps(precedence: Precedence) -> Subject {
 /// A check of every state of agents on small floors.
 const fn floors(
     subject: Subject,
-    explore: fn(&Subject) -> Tally,
+    explore: fn(&Subject) -> Explored,
     bound: &'static str,
     expected: Verdict,
     mutants: &'static [Mutant],

@@ -7,6 +7,7 @@ use clap::Args;
 use serde::Serialize;
 use tautline_kernel::lattice::Edge;
 use tautline_proofs::clause::{Check, Clause, Method, Subject};
+use tautline_proofs::course::Course;
 use tautline_proofs::decide::{Decision, Evidence, Prover};
 use tautline_proofs::registry::CLAUSES;
 use tautline_proofs::rescue::chart::chart;
@@ -14,7 +15,8 @@ use tautline_proofs::search::{Bounds, Counterexample};
 
 use super::output::Output;
 use super::{Exit, Format, FormatArgs, interrupt, progress, usage};
-use crate::explore::{RuleName, Setup};
+use crate::explore::agents::Way;
+use crate::explore::{Crew, RuleName, Setup};
 use crate::fault::{Fault, Halt};
 use crate::{hunt, view};
 
@@ -68,6 +70,7 @@ struct Line {
 enum Shown {
     Choices { demand: &'static str, choices: Vec<u32> },
     Run { demand: &'static str, walls: usize, steps: usize, layout: String },
+    Course { demand: &'static str, turns: usize, drawing: String },
     Chart { demand: &'static str, events: usize, chart: String },
 }
 
@@ -164,6 +167,9 @@ impl Row {
                     layout,
                 })
             }
+            Some(Evidence::Course(course, demand)) => {
+                Some(Shown::Course { demand, turns: course.turns.len(), drawing: self.drawn(course)? })
+            }
             Some(Evidence::Rescue(run)) => {
                 let (setting, broken) = &**run;
                 Some(Shown::Chart {
@@ -197,6 +203,12 @@ impl Row {
         };
         let bounds = Bounds::new(*subject, robots, max_walls);
         Ok(Some(hunt::setup(rule, &bounds, run).map_err(|problem| usage(&problem))?))
+    }
+
+    /// The run of a counterexample of agents.
+    fn drawn(&self, course: &Course) -> Result<String, Halt> {
+        let crew = Crew::Agents(Way::Bricks(self.check.subject.bricks));
+        Ok(view::story::of_course(crew, course).map_err(|problem| usage(&problem))?)
     }
 
     /// What one sees in a counterexample.
@@ -233,6 +245,10 @@ impl Row {
                     Some(setup) => head + &view::story::last_move(&setup)?,
                     None => head,
                 }
+            }
+            Some(Evidence::Course(course, demand)) => {
+                let rule = rule(&self.check.subject);
+                format!("\n{id} as {rule}: not so: {demand}.\n\n{}", self.drawn(course)?)
             }
             Some(Evidence::Rescue(run)) => {
                 let (setting, broken) = &**run;

@@ -4,12 +4,14 @@ use std::fmt::Write;
 
 use tautline_kernel::floor::Mark;
 use tautline_kernel::lattice::{Cell, Side, Step};
+use tautline_proofs::course::Course;
 use tautline_proofs::registry::CLAUSES;
 use tautline_proofs::run::Breach;
 
-use super::{Block, Pose, beside, first_drawn, legend, outcome, team_move};
+use super::{Block, Pose, agents, beside, first_drawn, legend, outcome, team_move};
 use crate::explore::{Chart, Crew, Report, Setup, TeamMove, Violation, explore, missed};
 use crate::fault::Halt;
+use crate::layout::{Layout, Problem};
 
 /// The sentence of the clause `id`.
 pub fn sentence(id: &str) -> &'static str {
@@ -175,6 +177,46 @@ pub fn of_trap(setup: &Setup) -> Result<String, Halt> {
         Ok(())
     })?;
     Ok(format!("{}\n\n{words}\n{}", legend(setup.crew()), beside(&blocks)))
+}
+
+/// What agents do in `course`, turn by turn: every turn before it is made, with what the agent tries and the sensors that
+/// it misses, and the end. Of turns that can go on for ever only those are shown.
+///
+/// # Errors
+/// [`Problem`] if it does not fit into a layout.
+pub fn of_course(crew: Crew, course: &Course) -> Result<String, Problem> {
+    let Course { width, height, blocked, walls, turns, round, end } = course;
+    let mut layout = Layout::open(*width as u64, *height as u64)?;
+    for &cell in blocked {
+        layout.block(cell);
+    }
+    for &wall in walls {
+        layout.build_wall(wall);
+    }
+    let shown = if *round == 0 { 0 } else { turns.len() - round };
+    let (mut blocks, mut words) = (Vec::new(), String::new());
+    for (number, turn) in (1..).zip(turns).skip(shown) {
+        let lines = agents(crew, &layout, &turn.before, Some(turn));
+        blocks.push(Block { title: format!("before turn {number}"), lines });
+        for cell in &turn.unseen {
+            // Writing to a string cannot fail.
+            let _ =
+                writeln!(words, "  In turn {number} agent {} misses the sensor of {cell}.", turn.agent + 1);
+        }
+    }
+    let is_unexplored = |(_, mark): &&(Cell, Mark)| *mark == Mark::Unexplored;
+    match (round, end.marks.iter().filter(is_unexplored).count()) {
+        (0, 0) => {}
+        (0, 1) => words.push_str("  In the end 1 cell is unexplored.\n"),
+        (0, left) => {
+            let _ = writeln!(words, "  In the end {left} cells are unexplored.");
+        }
+        (round, _) => {
+            let _ = writeln!(words, "  The last {round} of {} turns can go on for ever.", turns.len());
+        }
+    }
+    blocks.push(Block { title: "the end".to_owned(), lines: agents(crew, &layout, end, None) });
+    Ok(format!("{}\n\n{words}\n{}", legend(crew), beside(&blocks)))
 }
 
 /// How the last team move of the run of `setup`, or its end, breaks its clauses.

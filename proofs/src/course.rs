@@ -1,0 +1,56 @@
+//! A run of agents on a small floor, turn by turn, as a person looks at it: the counterexample of a check of floors.
+
+use tautline_kernel::floor::Mark;
+use tautline_kernel::lattice::{Cell, Edge, Step};
+
+use crate::engine::Tally;
+
+/// What the states of small floors have shown.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Explored {
+    /// A case is a state. The choices of a violation are the numbers of the floor, the start, and the steps.
+    pub tally: Tally,
+    /// The run of the violation, where there is more to see in it than choices.
+    pub course: Option<Course>,
+}
+
+/// A run of agents on a small floor.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Course {
+    /// Columns.
+    pub width: i16,
+    /// Rows.
+    pub height: i16,
+    /// Cells that are blocked, row by row.
+    pub blocked: Vec<Cell>,
+    /// Walls between free cells.
+    pub walls: Vec<Edge>,
+    /// What happens, in order.
+    pub turns: Vec<Turn>,
+    /// The last of the turns that can go on for ever; 0 if the run ends.
+    pub round: usize,
+    /// What it comes to.
+    pub end: Scene,
+}
+
+/// A turn of one agent.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Turn {
+    /// Before it.
+    pub before: Scene,
+    /// The place of the agent.
+    pub agent: usize,
+    /// Where it goes.
+    pub step: Step,
+    /// The cells of the sensors that it misses.
+    pub unseen: Vec<Cell>,
+}
+
+/// Agents on a floor.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Scene {
+    /// Where each agent is.
+    pub cells: Vec<Cell>,
+    /// The free cells with their marks, row by row.
+    pub marks: Vec<(Cell, Mark)>,
+}
