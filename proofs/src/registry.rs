@@ -19,7 +19,7 @@ use crate::clause::{Body, Check, Clause, Method, Mutant, Sabotage, Subject, Verd
 use crate::course::Explored;
 use crate::invariant::Invariant;
 use crate::notice::Networks;
-use crate::rescue::{Demand, Faults, Lossy, Setting};
+use crate::rescue::{Demand, Faults, Leases, Lossy, Setting};
 use crate::run::Breach;
 use crate::{ants, crowd, marking, notice, optimum, pair, small, three, walk, whole};
 
@@ -826,6 +826,7 @@ const TWO: (Setting, &str) = (
         max_hops: 1,
         faults: Faults::any(1),
         lossy: Lossy::All,
+        leases: Leases::UntilCalled,
     },
     "all states, 2 robots, 2 WFRs, 3 events, at most 1 fault",
 );

@@ -49,6 +49,17 @@ pub enum Lossy {
     Resb,
 }
 
+/// How long a robot holds a lease if it does not come.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Leases {
+    /// Until it hears the WFR's next call.
+    UntilCalled,
+    /// Or until the WFR no longer counts on it under that call: longer than the WFR.
+    UntilOver,
+    /// Or for any time: it may let go earlier than the WFR.
+    Any,
+}
+
 /// What is searched.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Setting {
@@ -66,6 +77,8 @@ pub struct Setting {
     pub faults: Faults,
     /// Which messages may be lost.
     pub lossy: Lossy,
+    /// How long robots hold leases.
+    pub leases: Leases,
 }
 
 /// A message on its way.
@@ -119,6 +132,8 @@ pub enum Action {
     Expire(Actor),
     /// A robot reaches the WFR to which it is on its way.
     Arrive(usize),
+    /// A robot's lease lapses before it comes.
+    Lapse(usize),
     /// The message at this place is lost.
     Lose(usize),
     /// The message at this place will arrive once more.
@@ -335,6 +350,9 @@ impl State {
             if self.can_arrive(robot) {
                 actions.push(Action::Arrive(robot));
             }
+            if self.can_lapse(setting, robot) {
+                actions.push(Action::Lapse(robot));
+            }
             if can_expire(Actor::Robot(robot)) {
                 actions.push(Action::Expire(Actor::Robot(robot)));
             }
@@ -354,7 +372,7 @@ impl State {
     /// Whether `action` is bound to happen sooner or later if nothing else does: no fault, and no event.
     pub fn is_bound_to_happen(&self, setting: &Setting, action: Action) -> bool {
         match action {
-            Action::Deliver(_) | Action::Arrive(_) => true,
+            Action::Deliver(_) | Action::Arrive(_) | Action::Lapse(_) => true,
             Action::Expire(actor) => self.is_due(setting, actor),
             Action::Raise(_)
             | Action::Lose(_)
@@ -395,6 +413,16 @@ impl State {
         }
     }
 
+    fn can_lapse(&self, setting: &Setting, robot: usize) -> bool {
+        let Task::Leased { call } = self.robots[robot].task() else { return false };
+        let wfr = &self.wfrs[place(call.wfr)];
+        match setting.leases {
+            Leases::UntilCalled => false,
+            Leases::UntilOver => wfr.call() != call || !wfr.is_waiting(),
+            Leases::Any => true,
+        }
+    }
+
     /// The state after `action`, which must be one of [`Self::actions`].
     #[must_use]
     pub fn after(&self, setting: &Setting, action: Action) -> Self {
@@ -419,6 +447,11 @@ impl State {
                     let wfr = place(call.wfr);
                     next.wfrs[wfr] = self.wfrs[wfr].reach(robot_id(robot));
                     next.turn_robot(robot, Robot::arrive);
+                }
+            }
+            Action::Lapse(robot) => {
+                if let Task::Leased { call } = self.robots[robot].task() {
+                    next.turn_robot(robot, |robot| robot.lapse(call));
                 }
             }
             Action::Lose(at) => {

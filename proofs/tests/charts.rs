@@ -5,7 +5,7 @@ use insta::assert_snapshot;
 use tautline_kernel::rescue::{Condition, Rule};
 use tautline_proofs::rescue::chart::chart;
 use tautline_proofs::rescue::space::{Until, search};
-use tautline_proofs::rescue::{Demand, Faults, Lossy, Setting};
+use tautline_proofs::rescue::{Demand, Faults, Leases, Lossy, Setting};
 
 const NO_FAULT: Faults = Faults::any(0);
 
@@ -18,6 +18,7 @@ const LEAST: Setting = Setting {
     max_hops: 1,
     faults: NO_FAULT,
     lossy: Lossy::All,
+    leases: Leases::UntilCalled,
 };
 
 /// The chart of the shortest run that breaks `demand`, which no run of the repaired rule does.

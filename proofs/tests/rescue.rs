@@ -7,7 +7,7 @@ use tautline_kernel::choice::Source;
 use tautline_kernel::rescue::{Condition, Rule, Task};
 use tautline_proofs::engine::{Outcome, require, sample};
 use tautline_proofs::rescue::space::{Found, Until, search};
-use tautline_proofs::rescue::{Action, Demand, Faults, Lossy, Setting, State};
+use tautline_proofs::rescue::{Action, Demand, Faults, Leases, Lossy, Setting, State};
 
 /// A setting, and the demands that no state may break.
 struct Rescue(Setting, Vec<Demand>);
@@ -36,7 +36,16 @@ impl Model for Rescue {
 }
 
 const fn setting((robots, wfrs): (usize, usize), events: u8, max_hops: u16, faults: Faults) -> Setting {
-    Setting { rule: Rule::REPAIRED, robots, wfrs, events, max_hops, faults, lossy: Lossy::All }
+    Setting {
+        rule: Rule::REPAIRED,
+        robots,
+        wfrs,
+        events,
+        max_hops,
+        faults,
+        lossy: Lossy::All,
+        leases: Leases::UntilCalled,
+    }
 }
 
 const ENOUGH: u32 = 200_000_000;
@@ -86,6 +95,17 @@ fn the_repaired_rule_holds_with_two_faults() {
 }
 
 #[test]
+fn the_repaired_rule_holds_where_a_robot_lets_a_lease_go_that_is_over_and_not_where_it_does_so_earlier() {
+    let lapsing = |setting: Setting| Setting { leases: Leases::UntilOver, ..setting };
+    holds(&lapsing(setting((2, 1), 2, 2, Faults::any(1))), 11_424, 31_356);
+    holds(&lapsing(setting((2, 2), 2, 1, Faults::any(1))), 24_370, 62_868);
+    holds(&lapsing(setting((2, 1), 2, 2, Faults::any(2))), 284_964, 1_052_992);
+    let early = Setting { leases: Leases::Any, ..setting((1, 2), 2, 1, Faults::any(0)) };
+    let broken: Vec<Demand> = found(&early).broken.iter().map(|broken| broken.demand).collect();
+    assert_eq!(broken, [Demand::OneCallForARobot, Demand::IsServed]);
+}
+
+#[test]
 #[ignore = "deeper, two minutes and 2 GiB: cargo test -p tautline-proofs --test rescue -- --ignored"]
 fn the_repaired_rule_holds_for_two_robots_with_three_faults() {
     holds(&setting((2, 1), 2, 2, Faults::any(3)), 5_572_708, 26_865_616);
@@ -128,6 +148,8 @@ fn the_repaired_rule_holds_in_long_runs_with_many_faults_and_the_mutants_do_not(
         sample(20_000, 0, |source| long_run(&setting, source)).violation.map(|(_, demand)| demand)
     };
     assert_eq!(violation(Rule::REPAIRED), None);
+    let lapsing = Setting { leases: Leases::UntilOver, ..setting };
+    assert_eq!(sample(20_000, 0, |source| long_run(&lapsing, source)).violation, None);
     for rule in [
         Rule::PUBLISHED,
         Rule::REPAIRED.without(Condition::Window),
@@ -161,6 +183,7 @@ fn rescue(rule: Rule, source: &mut dyn Source) -> Outcome {
             Action::Deliver(_)
             | Action::Expire(_)
             | Action::Arrive(_)
+            | Action::Lapse(_)
             | Action::Lose(_)
             | Action::Duplicate(_)
             | Action::FailRobot(_)

@@ -124,6 +124,7 @@ fn line(setting: &Setting, actors: &[Actor], before: &State, action: Action, aft
                 arrow(&mut row, (column(Actor::Robot(robot)), column(to)), Reach::Arrives, "comes");
             }
         }
+        Action::Lapse(robot) => mark(&mut row, column(Actor::Robot(robot)), '*', "lease lapses"),
         Action::FailRobot(robot) => mark(&mut row, column(Actor::Robot(robot)), '✗', "fails"),
         Action::FailNode { robot, wfr } => {
             let between = (column(Actor::Wfr(wfr)), column(Actor::Robot(robot)));
