@@ -106,3 +106,62 @@ pub fn hops(network: &Network, goal: NodeId, robot: NodeId) -> Vec<Option<u16>> 
     }
     hops
 }
+
+#[cfg(test)]
+mod tests {
+    use std::num::NonZeroU32;
+
+    use tautline_kernel::broadcast::{Count, Scheme};
+    use tautline_proofs::engine::Tape;
+
+    use super::*;
+    use crate::radio::{Area, Field, Model, Point, Radio};
+
+    /// A broadcast by k-FNF from node 0; the last node is the robot.
+    fn grown(k: u8, places: &[(f64, f64)]) -> (Tree, Network) {
+        let area = Area::new(100.0, 100.0).expect("an area");
+        let nodes = places.iter().map(|&(x_m, y_m)| Point { x_m, y_m }).collect();
+        let field = Field::new(area, vec![], nodes).expect("a field");
+        let radio = Radio::new(25.0, Model::Disc).expect("a radio");
+        let network = Network::new(&field, radio, &mut Tape(&[])).expect("a network");
+        let range_um = NonZeroU32::new(radio.range_um()).expect("a range");
+        let rule = Rule::new(Scheme::Farthest { k: Count::new(k) }, range_um, 100_000_000);
+        let ends = (NodeId(0), NodeId(places.len() as u32 - 1));
+        let tree =
+            Tree::grow(&network, rule, Channel::Ideal, &Faults::NONE, ends, &mut Tape(&[])).expect("a tree");
+        (tree, network)
+    }
+
+    #[test]
+    fn of_equal_hop_counts_the_robot_takes_the_first_heard() {
+        // The farther node is the first to forward.
+        for places in [[(0.0, 0.0), (18.0, 5.0), (20.0, 0.0)], [(0.0, 0.0), (20.0, 0.0), (18.0, 5.0)]] {
+            let farther = if places[1] == (20.0, 0.0) { 1 } else { 2 };
+            let (tree, _) = grown(8, &[&places[..], &[(40.0, 0.0)]].concat());
+            assert_eq!(tree.entry(), Some((NodeId(farther), 2)));
+        }
+    }
+
+    /// The WFR, a node near it, one far from it and one beyond that; the robot hears the near one and the last.
+    const ROUND: [(f64, f64); 5] = [(0.0, 0.0), (3.0, 4.0), (0.0, 24.5), (20.0, 27.0), (24.0, 10.0)];
+
+    #[test]
+    fn the_robot_takes_the_least_hop_count_also_if_it_comes_later() {
+        let (tree, _) = grown(8, &ROUND);
+        assert_eq!(tree.entry(), Some((NodeId(1), 2)));
+        assert_eq!(tree.nav(NodeId(4)), None, "a robot is no path node");
+    }
+
+    #[test]
+    fn who_has_not_forwarded_is_no_path_node() {
+        let (tree, network) = grown(1, &ROUND);
+        assert_eq!(tree.nav(NodeId(1)), None);
+        assert_eq!(tree.entry(), Some((NodeId(3), 3)));
+        let nav = |node, hops, parent| {
+            Some(Nav { wfr: NodeId(0), node: NodeId(node), hops, parent: NodeId(parent) })
+        };
+        assert_eq!([0, 2, 3].map(|node| tree.nav(NodeId(node))), [nav(0, 0, 0), nav(2, 1, 0), nav(3, 2, 2)]);
+        assert_eq!(tree.links().collect::<Vec<_>>(), [(NodeId(2), NodeId(0)), (NodeId(3), NodeId(2))]);
+        assert_eq!(hops(&network, NodeId(0), NodeId(4)), [0, 1, 1, 2, 2].map(Some));
+    }
+}
