@@ -153,6 +153,8 @@ pub struct Line {
     pub arrivals: Option<Estimate>,
     /// RD: the metres walked for each metre of the shortest ways, over the topologies in which all arrive.
     pub ratio: Option<Estimate>,
+    /// The seconds taken for each metre of them, where the way has a clock.
+    pub seconds: Option<Estimate>,
 }
 
 /// What the paper says of RD.
@@ -266,8 +268,23 @@ struct Sample {
     tree_hops: Option<u16>,
     /// In metres, if there is a way at all.
     shortest_m: Option<f64>,
-    /// Of those who arrive, what they walked, in metres, in the order of [`Way::ALL`].
-    walked_m: [Option<f64>; 4],
+    /// Those who arrive, in the order of [`Way::ALL`].
+    walked: [Option<Walked>; 4],
+}
+
+/// What a robot has walked until it was there.
+#[derive(Clone, Copy)]
+struct Walked {
+    length_m: f64,
+    time_s: Option<f64>,
+}
+
+impl Walked {
+    #[expect(clippy::cast_precision_loss, reason = "2^53 ns are three months")]
+    fn of(journey: &Journey) -> Option<Self> {
+        let time_s = journey.time_ns.map(|time_ns| time_ns as f64 / 1e9);
+        (journey.end == End::Arrived).then_some(Self { length_m: journey.length_m, time_s })
+    }
 }
 
 impl World {
@@ -299,9 +316,9 @@ impl World {
 }
 
 impl Sample {
-    /// The metres of the shortest way and those walked, if all arrive.
-    fn all(&self) -> Option<(f64, [f64; 4])> {
-        let [tan, verma, reich, sheu] = self.walked_m;
+    /// The metres of the shortest way, and what was walked, if all arrive.
+    fn all(&self) -> Option<(f64, [Walked; 4])> {
+        let [tan, verma, reich, sheu] = self.walked;
         Some((self.shortest_m?, [tan?, verma?, reich?, sheu?]))
     }
 }
@@ -353,13 +370,10 @@ impl Setting {
     fn sample(&self, nodes: usize, topology: u32) -> Result<Sample, Problem> {
         let world = self.world(nodes, topology)?;
         let tree = world.tree(&mut self.chance(topology))?;
-        let walked_m = Way::ALL.map(|way| {
-            let journey = world.journey(&tree, way, &mut self.chance(topology));
-            (journey.end == End::Arrived).then_some(journey.length_m)
-        });
+        let walked = Way::ALL.map(|way| Walked::of(&world.journey(&tree, way, &mut self.chance(topology))));
         let fewest_hops = hops(&world.network, world.wfr, world.robot).last().copied().flatten();
         let tree_hops = tree.entry().map(|(_, hops)| hops);
-        Ok(Sample { fewest_hops, tree_hops, shortest_m: world.shortest_m(), walked_m })
+        Ok(Sample { fewest_hops, tree_hops, shortest_m: world.shortest_m(), walked })
     }
 
     /// The picture of a figure: journeys in a topology with so many nodes.
@@ -400,34 +414,41 @@ impl Setting {
 fn density(nodes: usize, samples: &[Sample]) -> Density {
     let linked = samples.iter().filter(|sample| sample.fewest_hops.is_some()).count() as u32;
     let told = samples.iter().filter(|sample| sample.tree_hops.is_some()).count() as u32;
-    let all: Vec<(f64, [f64; 4])> = samples.iter().filter_map(Sample::all).collect();
-    let ratio = |walked_m: &dyn Fn(&[f64; 4]) -> f64| {
-        let pairs: Vec<(f64, f64)> =
-            all.iter().map(|(shortest_m, walked)| (walked_m(walked), *shortest_m)).collect();
-        Estimate::of_ratio(&pairs).map(|ratio| rounded(ratio, 1e4))
+    let all: Vec<(f64, [Walked; 4])> = samples.iter().filter_map(Sample::all).collect();
+    let ratio = |value: &dyn Fn(&[Walked; 4]) -> Option<f64>| {
+        let pairs = all.iter().map(|(shortest_m, walked)| Some((value(walked)?, *shortest_m)));
+        let ratio = Estimate::of_ratio(&pairs.collect::<Option<Vec<_>>>()?)?;
+        Some(rounded(ratio, 1e4))
+    };
+    let longer = |rival: Way| {
+        ratio(&|[tan, verma, reich, sheu]| {
+            let rival = match rival {
+                Way::Tan => tan,
+                Way::Verma => verma,
+                Way::Reich => reich,
+                Way::Sheu => sheu,
+            };
+            Some(tan.length_m - rival.length_m)
+        })
     };
     let line = |(place, &way): (usize, &Way)| {
-        let arrived = samples.iter().filter(|sample| sample.walked_m[place].is_some()).count() as u32;
+        let arrived = samples.iter().filter(|sample| sample.walked[place].is_some()).count() as u32;
         Line {
             way,
             arrivals: Estimate::share(arrived, linked).map(|share| rounded(share, 1e4)),
-            ratio: ratio(&|walked_m| walked_m[place]),
+            ratio: ratio(&|walked| Some(walked[place].length_m)),
+            seconds: ratio(&|walked| walked[place].time_s),
         }
     };
     let decision = |paper: Claim| {
-        let difference = match paper.rival() {
-            Way::Tan => ratio(&|_| 0.0),
-            Way::Verma => ratio(&|[tan, verma, ..]| tan - verma),
-            Way::Reich => ratio(&|[tan, _, reich, _]| tan - reich),
-            Way::Sheu => ratio(&|[tan, .., sheu]| tan - sheu),
-        };
+        let difference = longer(paper.rival());
         Decision { paper, difference, verdict: paper.verdict(difference) }
     };
     let hops = samples
         .iter()
-        .filter(|sample| sample.walked_m[0].is_some())
+        .filter(|sample| sample.walked[0].is_some())
         .filter_map(|sample| Some((f64::from(sample.tree_hops?), f64::from(sample.fewest_hops?))));
-    let shorter = all.iter().filter(|(_, [tan, _, reich, _])| tan < reich).count() as u32;
+    let shorter = all.iter().filter(|(_, [tan, _, reich, _])| tan.length_m < reich.length_m).count() as u32;
     let longest = (0..).zip(samples).filter_map(|(topology, sample)| Some((sample.all()?.0, topology)));
     Density {
         nodes,

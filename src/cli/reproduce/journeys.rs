@@ -166,7 +166,7 @@ fn text(setting: &Setting, densities: &[Density]) -> String {
     );
     let mut row = |name: &str, cell: &dyn Fn(&Density) -> String| {
         // Writing to a string cannot fail.
-        let _ = write!(text, "\n{name:<20}");
+        let _ = write!(text, "\n{name:<21}");
         for density in densities {
             let _ = write!(text, "  {:>14}", cell(density));
         }
@@ -184,8 +184,15 @@ fn text(setting: &Setting, densities: &[Density]) -> String {
     for (place, way) in Way::ALL.into_iter().enumerate() {
         row(way.word(), &|density| with_margin(density.ways[place].ratio));
     }
-    row("\nTAN's hops", &|density| with_margin(density.hops));
-    row("TAN shorter, %", &|density| percent(density.shorter_than_reich));
+    row("\nSeconds for each metre of the shortest way", &|_| String::new());
+    for (place, way) in Way::ALL.into_iter().enumerate() {
+        if densities.iter().any(|density| density.ways[place].seconds.is_some()) {
+            row(way.word(), &|density| with_margin(density.ways[place].seconds));
+        }
+    }
+    row("\nTAN", &|_| String::new());
+    row("hops", &|density| with_margin(density.hops));
+    row("shorter, %", &|density| percent(density.shorter_than_reich));
     row("\nRD of TAN, in the paper's words, and the difference", &|_| String::new());
     let mut rival = None;
     for (place, claim) in Claim::ALL.into_iter().enumerate() {
@@ -200,10 +207,9 @@ fn text(setting: &Setting, densities: &[Density]) -> String {
     lines.join("\n")
         + &format!(
             "\n\nlinked: % of the topologies in which links lead from the robot to the WFR · told: % of those in which the \
-             robot\nhears the call by k-FNF, which TAN needs · RD: metres walked for each metre of the shortest way · TAN's \
-             hops: for each\nhop of the shortest chain of links · TAN shorter: % of the topologies in which TAN's way is \
-             shorter than Reich's · holds,\nfails: the whole 95 % interval says so, close being up to {CLOSE} · ±: half \
-             its width\n"
+             robot\nhears the call by k-FNF, which TAN needs · RD: metres walked for each metre of the shortest way · hops: for \
+             each hop\nof the shortest chain of links · shorter: % of the topologies in which TAN's way is shorter than Reich's · \
+             holds, fails:\nthe whole 95 % interval says so, close being up to {CLOSE} · ±: half its width\n"
         )
 }
 
