@@ -169,7 +169,7 @@ enum Duty {
     /// A robot has turned its antenna or gone a little, in this leg of its journey.
     GoOn(u32),
     /// A robot has served.
-    Served,
+    Served(Call),
 }
 
 /// What a node remembers beside the broadcasts.
@@ -230,6 +230,8 @@ struct Way {
     leg: u32,
     /// The latest node that it has reached.
     passed: Option<NodeId>,
+    /// Whether it is at its goal.
+    has_come: bool,
 }
 
 struct World<'a> {
@@ -644,7 +646,7 @@ impl<'a> World<'a> {
         let Some(&Request { parent, hops, .. }) = rover.machine.request(call.wfr) else { return };
         let (start, id) = (rover.at, rover.machine.id());
         let walker = Walker::new(self.plan.equipment, start, id, call.wfr, (parent, hops));
-        self.rovers[robot].way = Some(Way { call, wfr, walker, leg: 0, passed: None });
+        self.rovers[robot].way = Some(Way { call, wfr, walker, leg: 0, passed: None, has_come: false });
         self.judge.takes(robot, wfr, call.epoch);
         self.tell(
             now_ns,
@@ -656,8 +658,8 @@ impl<'a> World<'a> {
     /// A robot has no longer the lease that it had.
     fn stop(&mut self, robot: usize, now_ns: u64) {
         let rover = &mut self.rovers[robot];
-        let Some(Way { call, wfr, walker, .. }) = rover.way.take() else { return };
-        if walker.stage() != Leg::Arrived {
+        let Some(Way { call, wfr, walker, has_come, .. }) = rover.way.take() else { return };
+        if !has_come {
             rover.moved_m += walker.walked_m();
             let at = millimetres(rover.at);
             self.tell(now_ns, Event::LetsGo { robot: robot + 1, wfr: wfr + 1, epoch: call.epoch.0, at });
@@ -738,8 +740,9 @@ impl<'a> World<'a> {
     fn arrive(&mut self, robot: usize, now_ns: u64) {
         let station = self.station(robot);
         let rover = &mut self.rovers[robot];
-        let Some(way) = &rover.way else { return };
-        let (wfr, id, at) = (way.wfr, rover.machine.id(), rover.at);
+        let Some(way) = &mut rover.way else { return };
+        way.has_come = true;
+        let (wfr, call, id, at) = (way.wfr, way.call, rover.machine.id(), rover.at);
         let goal = self.plan.field.nodes()[self.plan.wfrs[wfr].node.0 as usize];
         self.visits[wfr] += 1;
         if self.wfrs[wfr].is_waiting() {
@@ -752,7 +755,7 @@ impl<'a> World<'a> {
         (rover.since, rover.moved_m) = (at, 0.0);
         self.wfrs[wfr] = self.wfrs[wfr].reach(id);
         self.tell(now_ns, Event::Arrives { robot: robot + 1, wfr: wfr + 1, at: millimetres(at) });
-        self.put(station, now_ns + SERVICE_NS, Duty::Served);
+        self.put(station, now_ns + SERVICE_NS, Duty::Served(call));
         self.look(now_ns);
     }
 
@@ -803,7 +806,7 @@ impl<'a> World<'a> {
             }
             (Duty::Lease(call, lease), Some(robot)) => {
                 let rover = &self.rovers[robot];
-                let is_there = rover.way.as_ref().is_some_and(|way| way.walker.stage() == Leg::Arrived);
+                let is_there = rover.way.as_ref().is_some_and(|way| way.has_come);
                 if rover.leases == lease && !is_there {
                     self.turn_robot(robot, now_ns, |machine| machine.lapse(call));
                 }
@@ -826,14 +829,18 @@ impl<'a> World<'a> {
                     self.go_on(robot, now_ns, chance);
                 }
             }
-            (Duty::Served, Some(robot)) => self.turn_robot(robot, now_ns, Robot::arrive),
+            (Duty::Served(call), Some(robot)) => {
+                if self.rovers[robot].machine.task() == (Task::Leased { call }) {
+                    self.turn_robot(robot, now_ns, Robot::arrive);
+                }
+            }
             (
                 Duty::Robot(_)
                 | Duty::Lease(..)
                 | Duty::NoSignal(_)
                 | Duty::AskOn(_)
                 | Duty::GoOn(_)
-                | Duty::Served,
+                | Duty::Served(_),
                 None,
             ) => {}
         }
