@@ -13,6 +13,8 @@ mod letters;
 mod pace;
 mod plan;
 mod problem;
+mod report;
+mod rover;
 mod setting;
 mod summary;
 mod timers;
@@ -22,10 +24,11 @@ mod world;
 pub use event::{Event, Logged, Millimetres};
 pub use judge::Violation;
 pub use problem::Problem;
+pub use report::{Fate, Fix, Journey, Report, Spread};
 pub use setting::{CallTimes, MAX_ROBOTS, MAX_WFRS, SchemeName, Setting};
 pub(crate) use summary::seconds;
 pub use summary::{Assignments, Broken, Summary};
-pub use world::{Fate, Fix, Journey, Report, Spread, rescue};
+pub use world::rescue;
 
 #[cfg(test)]
 mod tests {

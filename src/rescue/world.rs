@@ -17,10 +17,11 @@ use super::judge::{Judge, Seen};
 use super::letters::{ANSWER_WAIT_NS, Content, Letter, Letters};
 use super::pace::{self, ASK_NS, SIGNAL_NS, TRY_NS};
 use super::plan::{Plan, hops_from};
+use super::rover::{Onward, Rover, Way};
 use super::timers::Timers;
-use super::{Event, Logged, MAX_ROBOTS, MAX_WFRS, Problem, Setting, Violation};
+use super::{Event, Fate, Journey, Logged, MAX_ROBOTS, MAX_WFRS, Problem, Report, Setting, Spread};
 use crate::homing::{Signal, Walker, shortest_m};
-use crate::radio::{Air, Broadcast, Field, Heard, Link, Point, Protocol, run};
+use crate::radio::{Air, Broadcast, Heard, Link, Point, Protocol, run};
 
 /// Nothing that would happen later happens: six hours, longer than any rescue takes that comes to an end.
 const HORIZON_NS: u64 = 6 * 3_600 * 1_000_000_000;
@@ -30,84 +31,6 @@ const SERVICE_NS: u64 = 10_000_000_000;
 
 /// Ways back that a path node remembers.
 const ROUTES: usize = MAX_ROBOTS * MAX_WFRS;
-
-/// What became of the first call of a WFR on its way through the network.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Spread {
-    /// Nodes that know of it, the WFR included.
-    pub reached: u32,
-    /// Nodes that links connect with the WFR, itself included.
-    pub component: u32,
-    /// Nodes that forwarded it, the WFR not included.
-    pub rebroadcasts: u32,
-}
-
-/// What became of a WFR.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Fate {
-    /// Robots came: how many, the first included.
-    Served {
-        /// Which came first.
-        by: usize,
-        /// How many came.
-        visits: u32,
-    },
-    /// No robot that lives is connected with it by links, over nodes that live.
-    CutOff,
-    /// Some are, but none has heard of any of its calls: the broadcast has not reached them.
-    Unheard,
-    /// One that lives and is connected has heard of it, and none ever came.
-    Abandoned,
-}
-
-/// How a robot came to a WFR that waited.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Journey {
-    /// Who came.
-    pub robot: usize,
-    /// To whom.
-    pub wfr: usize,
-    /// When, in nanoseconds.
-    pub at_ns: u64,
-    /// How long that was after the WFR's first call, in nanoseconds.
-    pub waited_ns: u64,
-    /// All that the robot went since it was last at a WFR, or since the beginning, in metres.
-    pub moved_m: f64,
-    /// The shortest way from where it was then round the obstacles, in metres; none if there is no way.
-    pub shortest_m: Option<f64>,
-}
-
-/// Where a robot was.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Fix {
-    /// When, in nanoseconds.
-    pub at_ns: u64,
-    /// The place.
-    pub at: Point,
-}
-
-/// What came of a rescue.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Report {
-    /// WFR by WFR.
-    pub spreads: Vec<Spread>,
-    /// WFR by WFR.
-    pub fates: Vec<Fate>,
-    /// The first to each WFR that was served, in the order of their arrival.
-    pub journeys: Vec<Journey>,
-    /// The clauses that were broken, each where it first was.
-    pub violations: Vec<Violation>,
-    /// What happened, in order.
-    pub log: Vec<Logged>,
-    /// Where each robot was, robot by robot: between two of these it went straight.
-    pub paths: Vec<Vec<Fix>>,
-    /// The field.
-    pub field: Field,
-    /// The places of the WFRs.
-    pub wfrs: Vec<Point>,
-    /// What was on the air.
-    pub air: Air,
-}
 
 /// The rescue of `setting` and `seed`.
 ///
@@ -182,58 +105,6 @@ struct Sensor {
     relay: Option<Box<Relay<ROUTES>>>,
 }
 
-struct Rover {
-    machine: Robot<MAX_WFRS>,
-    has_failed: bool,
-    at: Point,
-    path: Vec<Fix>,
-    way: Option<Way>,
-    /// Where it was when it was last at a WFR, and how far it has gone since on journeys that came to nothing.
-    since: Point,
-    moved_m: f64,
-    /// Its latest bid, the largest for the call if there were several: the WFR's lease is by one of them.
-    bid: Option<(Call, u16)>,
-    /// Timers of its leases so far.
-    leases: u32,
-    /// Legs of its journeys so far.
-    legs: u32,
-}
-
-impl Rover {
-    /// It goes to a place, from now on until then. If it goes on straight, the place takes the place of the last.
-    fn go(&mut self, to: Point, now_ns: u64, then_ns: u64, onward: Onward) {
-        self.at = to;
-        match (onward, self.path.last_mut()) {
-            (Onward::Straight, Some(last)) => *last = Fix { at_ns: then_ns, at: to },
-            (Onward::Straight | Onward::Turned, last) => {
-                let rest = last.map(|last| Fix { at_ns: now_ns, ..*last });
-                self.path.extend(rest.filter(|rest| self.path.last() != Some(rest)));
-                self.path.push(Fix { at_ns: then_ns, at: to });
-            }
-        }
-    }
-}
-
-/// How a robot goes on.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Onward {
-    Straight,
-    Turned,
-}
-
-/// A robot on its way, or at its goal.
-struct Way {
-    call: Call,
-    wfr: usize,
-    walker: Walker,
-    /// A leg begins whenever it begins to ask a node: what was due in another one no longer is.
-    leg: u32,
-    /// The latest node that it has reached.
-    passed: Option<NodeId>,
-    /// Whether it is at its goal.
-    has_come: bool,
-}
-
 struct World<'a> {
     plan: &'a Plan,
     timers: Vec<Timers>,
@@ -256,18 +127,6 @@ impl<'a> World<'a> {
     fn new(plan: &'a Plan) -> Self {
         let stations = plan.network.nodes() + plan.robots.len();
         let leg_ns = pace::leg_ns(&plan.equipment, plan.range_m);
-        let rover = |(robot, place): (u16, &super::plan::Place)| Rover {
-            machine: Robot::new(plan.rule, RobotId(robot)),
-            has_failed: false,
-            at: place.at,
-            path: vec![Fix { at_ns: 0, at: place.at }],
-            way: None,
-            since: place.at,
-            moved_m: 0.0,
-            bid: None,
-            leases: 0,
-            legs: 0,
-        };
         let sensor = || Sensor { has_failed: false, guide: Guide::IDLE, until_ns: 0, relay: None };
         let wfrs = plan.wfrs.len();
         Self {
@@ -276,7 +135,10 @@ impl<'a> World<'a> {
             agendas: (0..stations).map(|_| Agenda::new()).collect(),
             letters: (0..stations).map(|_| Letters::default()).collect(),
             sensors: (0..plan.network.nodes()).map(|_| sensor()).collect(),
-            rovers: (0..).zip(&plan.robots).map(rover).collect(),
+            rovers: (0..)
+                .zip(&plan.robots)
+                .map(|(robot, place)| Rover::new(plan.rule, RobotId(robot), place.at))
+                .collect(),
             wfrs: plan.wfrs.iter().map(|wfr| Wfr::new(plan.rule, wfr.node)).collect(),
             broadcasts: plan
                 .wfrs

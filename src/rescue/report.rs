@@ -1,0 +1,82 @@
+//! What comes of a rescue.
+
+use super::{Logged, Violation};
+use crate::radio::{Air, Field, Point};
+
+/// What became of the first call of a WFR on its way through the network.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Spread {
+    /// Nodes that know of it, the WFR included.
+    pub reached: u32,
+    /// Nodes that links connect with the WFR, itself included.
+    pub component: u32,
+    /// Nodes that forwarded it, the WFR not included.
+    pub rebroadcasts: u32,
+}
+
+/// What became of a WFR.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Fate {
+    /// Robots came: how many, the first included.
+    Served {
+        /// Which came first.
+        by: usize,
+        /// How many came.
+        visits: u32,
+    },
+    /// No robot that lives is connected with it by links, over nodes that live.
+    CutOff,
+    /// Some are, but none has heard of any of its calls: the broadcast has not reached them.
+    Unheard,
+    /// One that lives and is connected has heard of it, and none ever came.
+    Abandoned,
+}
+
+/// How a robot came to a WFR that waited.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Journey {
+    /// Who came.
+    pub robot: usize,
+    /// To whom.
+    pub wfr: usize,
+    /// When, in nanoseconds.
+    pub at_ns: u64,
+    /// How long that was after the WFR's first call, in nanoseconds.
+    pub waited_ns: u64,
+    /// All that the robot went since it was last at a WFR, or since the beginning, in metres.
+    pub moved_m: f64,
+    /// The shortest way from where it was then round the obstacles, in metres; none if there is no way.
+    pub shortest_m: Option<f64>,
+}
+
+/// Where a robot was.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Fix {
+    /// When, in nanoseconds.
+    pub at_ns: u64,
+    /// The place.
+    pub at: Point,
+}
+
+/// What came of a rescue.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Report {
+    /// WFR by WFR.
+    pub spreads: Vec<Spread>,
+    /// WFR by WFR.
+    pub fates: Vec<Fate>,
+    /// The first to each WFR that was served, in the order of their arrival.
+    pub journeys: Vec<Journey>,
+    /// The clauses that were broken, each where it first was.
+    pub violations: Vec<Violation>,
+    /// What happened, in order.
+    pub log: Vec<Logged>,
+    /// Where each robot was, robot by robot: between two of these it went straight.
+    pub paths: Vec<Vec<Fix>>,
+    /// The field.
+    pub field: Field,
+    /// The places of the WFRs.
+    pub wfrs: Vec<Point>,
+    /// What was on the air.
+    pub air: Air,
+}
