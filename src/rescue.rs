@@ -179,6 +179,7 @@ mod tests {
             rule,
             broadcast: broadcast::Rule::new(Scheme::Flooding, range_um, 100_000_000),
             range_m: 25.0,
+            noise_db: 0.0,
             equipment: Equipment::new(radio, 0.0).expect("an equipment"),
             wfrs: vec![Caller::new(&network, NodeId(0), 0)],
             robots: robots

@@ -33,6 +33,7 @@ pub(super) struct Plan {
     pub(super) rule: Rule,
     pub(super) broadcast: broadcast::Rule,
     pub(super) range_m: f64,
+    pub(super) noise_db: f64,
     pub(super) equipment: Equipment,
     pub(super) field: Field,
     pub(super) network: Network,
@@ -102,6 +103,7 @@ impl Setting {
                 ..broadcast::Rule::new(scheme, range_um, LONGEST_WAIT_NS)
             },
             range_m: self.range_m,
+            noise_db: self.noise_db,
             equipment: Equipment::new(radio, self.noise_db)?,
             field,
             network,

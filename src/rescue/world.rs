@@ -126,7 +126,7 @@ struct World<'a> {
 impl<'a> World<'a> {
     fn new(plan: &'a Plan) -> Self {
         let stations = plan.network.nodes() + plan.robots.len();
-        let leg_ns = pace::leg_ns(&plan.equipment, plan.range_m);
+        let leg_ns = pace::leg_ns(&plan.equipment, plan.range_m, plan.noise_db);
         let sensor = || Sensor { has_failed: false, guide: Guide::IDLE, until_ns: 0, relay: None };
         let wfrs = plan.wfrs.len();
         Self {
