@@ -344,9 +344,6 @@ fn heading(setting: &Setting, seeds: &RangeInclusive<u64>) -> String {
 
 fn table(summary: &Summary) -> String {
     let percent = |share: Estimate| share.times(100.0).text(2);
-    let or_none = |estimate: Option<Estimate>, decimals| {
-        estimate.map_or("-".to_owned(), |estimate| estimate.text(decimals))
-    };
     let Assignments { wfrs, served_once, served_more_often, never, unheard, cut_off } = summary.assignments;
     let of_wfrs = |count: u32| format!("{count} of {wfrs}");
     let rows = [
@@ -359,8 +356,8 @@ fn table(summary: &Summary) -> String {
         ("WFRs never served", of_wfrs(never)),
         ("WFRs that no robot has heard", of_wfrs(unheard)),
         ("WFRs with no robot connected", of_wfrs(cut_off)),
-        ("distance moved / shortest distance", or_none(summary.distance_ratio, 3)),
-        ("seconds from the first call to the robot", or_none(summary.wait_s, 1)),
+        ("distance moved / shortest distance", Estimate::text_or_dash(summary.distance_ratio, 3)),
+        ("seconds from the first call to the robot", Estimate::text_or_dash(summary.wait_s, 1)),
     ];
     let width = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
     let mut text = String::new();

@@ -117,13 +117,13 @@ impl Agents {
         );
         for line in lines {
             let area = format!("{0}x{0}", line.side);
-            let visited = line.visited.map_or_else(|| "-".to_owned(), |visited| with_margin(visited, 1));
+            let visited = line.visited.map_or_else(|| "-".to_owned(), |visited| visited.text(1));
             let _ = writeln!(
                 text,
                 "{area:7} {:>6}  {:11} {:>15} {visited:>15} {:>26} {:>26} {:>5}",
                 line.agents,
                 line.scheme.word(),
-                with_margin(line.explored, 1),
+                line.explored.text(1),
                 self.moves(line.exploration),
                 self.moves(line.termination),
                 line.ended
@@ -154,7 +154,7 @@ impl Agents {
 
     fn of_runs(&self, estimate: Estimate) -> String {
         let of = if estimate.count < self.layouts { format!(" ({})", estimate.count) } else { String::new() };
-        with_margin(estimate, 0) + &of
+        estimate.text(0) + &of
     }
 
     fn seconds(&self, lines: &[Line]) -> String {
@@ -169,7 +169,7 @@ impl Agents {
                 } else {
                     String::new()
                 };
-                with_margin(seconds.times(1.0 / 3600.0), 1) + &of
+                seconds.times(1.0 / 3600.0).text(1) + &of
             };
             duration.map_or_else(|| "never".to_owned(), hours)
         };
@@ -179,11 +179,6 @@ impl Agents {
         }
         text
     }
-}
-
-fn with_margin(estimate: Estimate, decimals: usize) -> String {
-    let mean = format!("{:.decimals$}", estimate.mean);
-    estimate.margin().map_or(mean.clone(), |margin| format!("{mean} ± {margin:.decimals$}"))
 }
 
 /// What the paper says of Fig. 11 in numbers.

@@ -95,7 +95,7 @@ impl AntennaFig4 {
             "\n\n{} scans of nodes in random directions for each noise, seed {}\n\n{:>9}  {:>15}  {:>15}  {:>14}",
             self.scans, self.seed, "noise, dB", "right, %", "one beside, %", "off, degrees"
         );
-        let percent = |estimate: Estimate| with_margin(estimate.times(100.0));
+        let percent = |estimate: Estimate| estimate.times(100.0).text(2);
         for noise in &measured.noises {
             let _ = write!(
                 text,
@@ -103,16 +103,11 @@ impl AntennaFig4 {
                 noise.noise_db,
                 percent(noise.right),
                 percent(noise.beside),
-                with_margin(noise.degrees_off)
+                noise.degrees_off.text(2)
             );
         }
         text + "\n\nright: the strongest direction is the nearest of the 24 to the node's · one beside: that, or one of the two \
                 beside it ·\noff: between the strongest direction and the node's · ±: half the width of the 95 % \
                 interval\n"
     }
-}
-
-fn with_margin(estimate: Estimate) -> String {
-    let margin = estimate.margin().map_or(String::new(), |margin| format!(" ± {margin:.2}"));
-    format!("{:.2}{margin}", estimate.mean)
 }

@@ -171,7 +171,8 @@ fn text(setting: &Setting, densities: &[Density]) -> String {
             let _ = write!(text, "  {:>14}", cell(density));
         }
     };
-    let percent = |share: Option<Estimate>| with_margin(share.map(|share| share.times(100.0)));
+    let or_dash = |estimate: Option<Estimate>| Estimate::text_or_dash(estimate, 2);
+    let percent = |share: Option<Estimate>| or_dash(share.map(|share| share.times(100.0)));
     row("nodes", &|density| density.nodes.to_string());
     row("linked", &|density| percent(Some(density.linked)));
     row("told", &|density| percent(density.told));
@@ -182,23 +183,23 @@ fn text(setting: &Setting, densities: &[Density]) -> String {
     row("\nRD where all arrive", &|_| String::new());
     row("topologies", &|density| density.ways[0].ratio.map_or(0, |ratio| ratio.count).to_string());
     for (place, way) in Way::ALL.into_iter().enumerate() {
-        row(way.word(), &|density| with_margin(density.ways[place].ratio));
+        row(way.word(), &|density| or_dash(density.ways[place].ratio));
     }
     row("\nSeconds for each metre of the shortest way", &|_| String::new());
     for (place, way) in Way::ALL.into_iter().enumerate() {
         if densities.iter().any(|density| density.ways[place].seconds.is_some()) {
-            row(way.word(), &|density| with_margin(density.ways[place].seconds));
+            row(way.word(), &|density| or_dash(density.ways[place].seconds));
         }
     }
     row("\nTAN", &|_| String::new());
-    row("hops", &|density| with_margin(density.hops));
+    row("hops", &|density| or_dash(density.hops));
     row("shorter, %", &|density| percent(density.shorter_than_reich));
     row("\nRD of TAN, in the paper's words, and the difference", &|_| String::new());
     let mut rival = None;
     for (place, claim) in Claim::ALL.into_iter().enumerate() {
         if rival.replace(claim.rival()) != Some(claim.rival()) {
             row(&format!("TAN less {}", claim.rival().word()), &|density| {
-                with_margin(density.claims[place].difference)
+                or_dash(density.claims[place].difference)
             });
         }
         row(&format!("  {}", claim.words()), &|density| density.claims[place].verdict.word().to_owned());
@@ -211,10 +212,4 @@ fn text(setting: &Setting, densities: &[Density]) -> String {
              each hop\nof the shortest chain of links · shorter: % of the topologies in which TAN's way is shorter than Reich's · \
              holds, fails:\nthe whole 95 % interval says so, close being up to {CLOSE} · ±: half its width\n"
         )
-}
-
-fn with_margin(estimate: Option<Estimate>) -> String {
-    let Some(estimate) = estimate else { return "-".to_owned() };
-    let margin = estimate.margin().map_or(String::new(), |margin| format!(" ± {margin:.2}"));
-    format!("{:.2}{margin}", estimate.mean)
 }

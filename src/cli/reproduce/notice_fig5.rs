@@ -115,7 +115,7 @@ impl NoticeFig5 {
             self.channel.word(),
             side = self.side,
         );
-        let percent = |estimate: Estimate| with_margin(estimate.times(100.0), 2);
+        let percent = |estimate: Estimate| estimate.times(100.0).text(2);
         let mut row = |name: &str, cell: &dyn Fn(&Density) -> String| {
             let _ = write!(text, "\n{name:<14}");
             for density in densities {
@@ -143,7 +143,7 @@ impl NoticeFig5 {
         }
         row("\nRebroadcasts", &|_| String::new());
         for (place, line) in schemes.iter().enumerate() {
-            row(&line.scheme, &|density| with_margin(density.schemes[place].rebroadcasts, 2));
+            row(&line.scheme, &|density| density.schemes[place].rebroadcasts.text(2));
         }
         let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
         lines.join("\n")
@@ -151,11 +151,6 @@ impl NoticeFig5 {
                connect to the\nsource · ±: half the width of the 95 % interval · paper: “near 100 %” at every density; all \
                else it draws only\n"
     }
-}
-
-fn with_margin(estimate: Estimate, decimals: usize) -> String {
-    let margin = estimate.margin().map_or(String::new(), |margin| format!(" ± {margin:.decimals$}"));
-    format!("{:.decimals$}{margin}", estimate.mean)
 }
 
 fn store(path: Option<&Path>, part: Part, densities: &[Density]) -> Result<(), Fault> {

@@ -103,9 +103,6 @@ fn table(setting: &Setting, lines: &[Line]) -> String {
         }
     };
     let percent = |share: f64| format!("{:.2}", 100.0 * share);
-    let or_none = |estimate: Option<Estimate>, decimals| {
-        estimate.map_or("-".to_owned(), |estimate| estimate.text(decimals))
-    };
     row("MRC", &|line| line.rule.to_string());
     row("served, %", &|line| line.served.ours.times(100.0).text(2));
     row("  paper", &|line| percent(line.served.paper));
@@ -113,10 +110,12 @@ fn table(setting: &Setting, lines: &[Line]) -> String {
     row("a robot each, %", &|line| line.own.ours.times(100.0).text(2));
     row("  paper", &|line| percent(line.own.paper));
     row("  difference", &|line| percent(line.own.difference));
-    row("RD", &|line| or_none(line.distance_ratio, 3));
-    row("over the best assignment", &|line| or_none(line.over_best, 3));
-    row("the best assignment, %", &|line| or_none(line.best.map(|share| share.times(100.0)), 2));
-    row("seconds to the last", &|line| or_none(line.last_s, 1));
+    row("RD", &|line| Estimate::text_or_dash(line.distance_ratio, 3));
+    row("over the best assignment", &|line| Estimate::text_or_dash(line.over_best, 3));
+    row("the best assignment, %", &|line| {
+        Estimate::text_or_dash(line.best.map(|share| share.times(100.0)), 2)
+    });
+    row("seconds to the last", &|line| Estimate::text_or_dash(line.last_s, 1));
     let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
     lines.join("\n")
         + "\n\nserved: % of the topologies in which one robot comes to each WFR, and one only · a robot each: a different one to \
