@@ -106,13 +106,17 @@ mod tests {
     }
 
     #[test]
-    fn the_judge_sees_what_each_repair_is_for() {
+    fn the_judge_sees_what_conditions_are_for() {
         let setting = Setting { calls: CallTimes::Spread, ..setting(RuleName::Repaired) };
         let found =
             |rule: Rule, demand: Demand| (0..60).any(|seed| breaks(&under(rule, &setting, seed), demand));
-        for (condition, demand) in
-            [(Condition::Consent, Demand::CountsOnConsent), (Condition::Renewal, Demand::IsServed)]
-        {
+        for (condition, demand) in [
+            (Condition::NearestRobot, Demand::BestOfTheWindow),
+            (Condition::ChoiceStands, Demand::OneRobotForACall),
+            (Condition::Epochs, Demand::AsksAnew),
+            (Condition::Consent, Demand::CountsOnConsent),
+            (Condition::Renewal, Demand::IsServed),
+        ] {
             assert!(found(Rule::REPAIRED.without(condition), demand), "{condition:?}");
             assert!(!found(Rule::REPAIRED, demand), "{condition:?}");
         }

@@ -130,6 +130,6 @@ impl Judge {
     }
 
     fn is_best(&self, wfr: usize, choice: Bid) -> bool {
-        self.best[wfr].is_none_or(|best| best.robot == choice.robot)
+        self.best[wfr].is_some_and(|best| best.robot == choice.robot)
     }
 }
