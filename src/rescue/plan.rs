@@ -17,9 +17,6 @@ use crate::rescue::setting::CallTimes;
 /// B of equation (2), which the paper leaves open: a tenth of a second.
 pub(super) const LONGEST_WAIT_NS: u32 = 100_000_000;
 
-/// α, for the distance that a noisy signal seems to come from.
-const EXPONENT: f64 = 3.0;
-
 /// The threshold of the distance-based scheme, in tenths of the range: the larger of the paper's two.
 const THRESHOLD_TENTHS: u64 = 8;
 
@@ -83,7 +80,7 @@ impl Setting {
         let scheme = self.scheme(range_um)?;
         let faults = Faults::NONE.with_loss(Chance::new(self.loss)?);
         let faults =
-            if self.noise_db == 0.0 { faults } else { faults.with_noise(self.noise_db, EXPONENT)? };
+            if self.noise_db == 0.0 { faults } else { faults.with_noise(self.noise_db, radio.exponent())? };
         let field = Field::random(Area::new(width_m, height_m)?, obstacles, self.nodes, chance)?;
         let network = Network::new(&field, radio, chance)?;
         let wfrs = self.wfrs(&network, chance)?;
