@@ -16,7 +16,7 @@ use crate::fault::{Fault, Halt};
 use crate::radio::ChannelName;
 use crate::reproduce::interval::Estimate;
 use crate::rescue::{
-    Assignments, CallTimes, Logged, Problem, Report, SchemeName, Setting, Summary, rescue, seconds, trace,
+    Assignments, CallTimes, Logged, Report, SchemeName, Setting, Summary, rescue, seconds, trace,
 };
 use crate::view;
 use crate::view::field::picture;
@@ -189,8 +189,9 @@ struct Rescued<'a> {
     events: Option<&'a [Logged]>,
 }
 
-fn refused(problem: Problem) -> Fault {
-    Fault::usage(problem, problem.remedy())
+/// How many seeds: [`Seeds`] has at most [`MAX_RESCUES`].
+fn count(seeds: &RangeInclusive<u64>) -> u64 {
+    1 + (seeds.end() - seeds.start())
 }
 
 impl Rescue {
@@ -198,7 +199,7 @@ impl Rescue {
         let setting = self.setting();
         let seeds = &self.seeds.0;
         if let Some(seed) = self.seeds.one() {
-            let report = rescue(&setting, seed).map_err(refused)?;
+            let report = rescue(&setting, seed).map_err(Fault::from)?;
             if let Some(path) = &self.trace {
                 trace::store(path, &setting, seed, &report)?;
             }
@@ -209,7 +210,7 @@ impl Rescue {
             let remedy = format!("give one seed, for example --seeds {first}");
             return Err(Fault::usage("several rescues do not fit into one file", remedy).into());
         }
-        let bar = progress::bar("rescuing", 1 + seeds.end() - seeds.start());
+        let bar = progress::bar("rescuing", count(seeds));
         let summary = Summary::measure(&setting, seeds.clone(), &|| {
             bar.inc(1);
             interrupt::check()
@@ -325,7 +326,7 @@ fn heading(setting: &Setting, seeds: &RangeInclusive<u64>) -> String {
     };
     let seeds = match (seeds.start(), seeds.end()) {
         (first, last) if first == last => format!("seed {first}"),
-        (first, last) => format!("{} rescues, seeds {first}..{last}", 1 + last - first),
+        (first, last) => format!("{} rescues, seeds {first}..{last}", count(seeds)),
     };
     let Setting { loss, noise_db, failing, failing_nodes, .. } = setting;
     format!(

@@ -20,6 +20,7 @@ use super::notice_fig5::{LONGEST_WAIT_NS, NODES, usage};
 use crate::fault::Halt;
 use crate::homing::{End, Equipment, Journey, Site, Tree, hops, shortest_m};
 use crate::radio::{Area, Channel, Faults, Field, Model, Network, Obstacle, Point, Problem, Radio};
+use crate::rescue::seconds;
 use crate::view::chart::{Axis, LineChart, Series, Stroke};
 use crate::view::field::{self, Map, Terminus, Trail};
 
@@ -280,9 +281,8 @@ struct Walked {
 }
 
 impl Walked {
-    #[expect(clippy::cast_precision_loss, reason = "2^53 ns are three months")]
     fn of(journey: &Journey) -> Option<Self> {
-        let time_s = journey.time_ns.map(|time_ns| time_ns as f64 / 1e9);
+        let time_s = journey.time_ns.map(seconds);
         (journey.end == End::Arrived).then_some(Self { length_m: journey.length_m, time_s })
     }
 }

@@ -127,11 +127,11 @@ impl Setting {
     /// # Errors
     /// [`Halt`], as `watch` returned it, or if the setting makes no rescue.
     pub fn measure(&self, watch: &(dyn Fn() -> Result<(), Halt> + Sync)) -> Result<Vec<Line>, Halt> {
-        self.rescue(RuleName::Published, self.seed).map_err(usage)?;
+        self.rescue(RuleName::Published, self.seed).map_err(Fault::from)?;
         let line = |rule: RuleName| {
             let topologies = (0..u64::from(self.topologies)).into_par_iter();
             let samples = topologies.map(|topology| {
-                let report = self.rescue(rule, self.seed.wrapping_add(topology)).map_err(usage)?;
+                let report = self.rescue(rule, self.seed.wrapping_add(topology)).map_err(Fault::from)?;
                 watch()?;
                 Ok(Sample::of(&report))
             });
@@ -150,7 +150,7 @@ impl Setting {
         let seeds = (0..u64::from(self.topologies)).map(|topology| self.seed.wrapping_add(topology));
         let mut drawn = None;
         for seed in seeds {
-            let report = self.rescue(RuleName::Repaired, seed).map_err(usage)?;
+            let report = self.rescue(RuleName::Repaired, seed).map_err(Fault::from)?;
             let is_fit = Sample::of(&report).assigned_m.is_some();
             if is_fit || drawn.is_none() {
                 drawn = Some((seed, report));
@@ -163,10 +163,6 @@ impl Setting {
         let title = format!("{} robots for {} WFRs, seed {seed}", self.robots, self.wfrs);
         Ok(picture(&title, &[map(String::new(), &report)]))
     }
-}
-
-fn usage(problem: Problem) -> Halt {
-    Fault::usage(problem, problem.remedy()).into()
 }
 
 impl Sample {

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::{MAX_ROBOTS, MAX_WFRS, SchemeName};
+use crate::fault::Fault;
 use crate::radio;
 
 /// The most nodes, each counted once for each WFR: what they know of the calls fits into half a gibibyte.
@@ -104,3 +105,9 @@ impl fmt::Display for Problem {
 }
 
 impl std::error::Error for Problem {}
+
+impl From<Problem> for Fault {
+    fn from(problem: Problem) -> Self {
+        Self::usage(problem, problem.remedy())
+    }
+}

@@ -8,7 +8,7 @@ use serde::Serialize;
 use tautline_proofs::engine::Seeded;
 use tautline_proofs::rescue::Demand;
 
-use super::{Fate, Problem, Report, Setting, Violation, rescue};
+use super::{Fate, Report, Setting, Violation, rescue};
 use crate::fault::{Fault, Halt};
 use crate::reproduce::interval::{Estimate, rounded};
 
@@ -122,11 +122,10 @@ impl Summary {
         seeds: RangeInclusive<u64>,
         watch: &(dyn Fn() -> Result<(), Halt> + Sync),
     ) -> Result<Self, Halt> {
-        let refused = |problem: Problem| Fault::usage(problem, problem.remedy());
         // What is wrong with all is to be the same fault each time, not that of whichever thread is first.
-        setting.plan(&mut Seeded::new(*seeds.start(), 0)).map_err(refused)?;
+        setting.plan(&mut Seeded::new(*seeds.start(), 0)).map_err(Fault::from)?;
         let one = |seed: u64| {
-            let report = rescue(setting, seed).map_err(refused)?;
+            let report = rescue(setting, seed).map_err(Fault::from)?;
             watch()?;
             Ok(Kept::of(seed, setting.nodes, &report))
         };
