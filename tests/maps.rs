@@ -27,18 +27,21 @@ fn map(field: &Field, trails: Vec<Trail>) -> Map<'_> {
 #[test]
 fn a_map_of_two_robots() {
     let field = field();
-    let trails = vec![trail("Robot 1", Terminus::There), trail("Robot \"2\"", Terminus::Elsewhere)];
+    let trails = vec![trail("Robot 1", Terminus::There), trail("Robot \"2\"", Terminus::GaveUp)];
     assert_snapshot!(picture("Two robots & a lake", &[map(&field, trails)]));
 }
 
 #[test]
-fn one_robot_needs_no_name_and_only_who_gives_up_is_crossed_out() {
+fn one_robot_needs_no_name_and_its_end_is_marked_if_it_gave_up_or_failed() {
     let field = field();
     let drawn = |end| picture("A robot", &[map(&field, vec![trail("Robot 1", end)])]);
-    let crosses = |end| drawn(end).matches("class=\"cross\"").count();
+    let ends = [Terminus::There, Terminus::GaveUp, Terminus::Failed].map(drawn);
     // One is in the key.
-    assert_eq!((crosses(Terminus::There), crosses(Terminus::Elsewhere)), (1, 2));
-    assert!(!drawn(Terminus::There).contains("Robot 1"));
+    let marks = |drawn: &String| drawn.matches("class=\"terminus\"").count();
+    assert_eq!(ends.each_ref().map(marks), [0, 2, 2]);
+    let words = |drawn: &String| ["gave up", "failed"].map(|word| drawn.contains(&format!(">{word}<")));
+    assert_eq!(ends.each_ref().map(words), [[false, false], [true, false], [false, true]]);
+    assert!(!ends[0].contains("Robot 1"));
 }
 
 #[test]

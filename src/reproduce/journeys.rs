@@ -395,7 +395,7 @@ impl Setting {
             };
             let end = match journey.end {
                 End::Arrived => Terminus::There,
-                End::Unaware | End::Lost | End::Astray => Terminus::Elsewhere,
+                End::Unaware | End::Lost | End::Astray => Terminus::GaveUp,
             };
             Map {
                 caption: format!("{}: {:.0} m{times}", way.word(), journey.length_m),

@@ -23,16 +23,18 @@ pub(super) const ROBOT: &str = "m-6 0a6 6 0 1 0 12 0a6 6 0 1 0-12 0z";
 pub(super) const WFR: &str = "m0-9l2.5 6.5l6.5 2.5l-6.5 2.5l-2.5 6.5l-2.5-6.5l-6.5-2.5l6.5-2.5z";
 /// Where a robot has given up: a cross.
 const CROSS: &str = "m-5-5l10 10m0-10l-10 10";
+/// Where a robot has failed: a square.
+const SQUARE: &str = "m-5-5h10v10h-10z";
 
 pub(super) const STYLE: &str = "\
 .rim{fill:none;stroke:var(--ink)}.obstacle{fill:var(--blocked);stroke:var(--blocked);stroke-width:2;stroke-linejoin:round}.start{text-anchor:start}.title{text-anchor:start;font-size:15px;font-weight:600}\
 .tree{stroke:var(--blocked);stroke-opacity:.6;fill:none}\
 .nodes{stroke:var(--ink);stroke-opacity:.45;stroke-width:2.5;stroke-linecap:round;fill:none}\
-.trail{fill:none;stroke-width:2.5;stroke-linejoin:round}.cross{fill:none;stroke-width:3}\
+.trail{fill:none;stroke-width:2.5;stroke-linejoin:round}.terminus{fill:none;stroke-width:3}\
 .wfr{fill:var(--bad);stroke:var(--ground)}.mark{stroke:var(--ground)}\
 .trail-0{color:var(--series-0)}.trail-1{color:var(--series-1)}.trail-2{color:var(--series-2)}\
 .trail-3{color:var(--series-3)}.trail-4{color:var(--series-4)}.trail-5{color:var(--series-5)}\
-.trail,.cross{stroke:currentColor}.mark{fill:currentColor}";
+.trail,.terminus{stroke:currentColor}.mark{fill:currentColor}";
 
 /// A field, and what has happened in it.
 #[derive(Clone, PartialEq, Debug)]
@@ -67,8 +69,21 @@ pub struct Trail {
 pub enum Terminus {
     /// Where it wanted to be.
     There,
-    /// Elsewhere: a cross marks the place.
-    Elsewhere,
+    /// Where it gave up, which is marked.
+    GaveUp,
+    /// Where it failed, which is marked.
+    Failed,
+}
+
+impl Terminus {
+    /// The mark, round 0,0.
+    const fn mark(self) -> Option<&'static str> {
+        match self {
+            Self::There => None,
+            Self::GaveUp => Some(CROSS),
+            Self::Failed => Some(SQUARE),
+        }
+    }
 }
 
 /// A picture of maps beside each other.
@@ -91,7 +106,7 @@ pub fn picture(title: &str, maps: &[Map<'_>]) -> String {
         row_height = row_height.max(drawn.height);
     }
     y += row_height + LINE;
-    let key = key();
+    let key = key(maps);
     let _ = writeln!(body, "<g transform=\"translate({MARGIN},{y})\">{}</g>", key.body);
     document(
         &title,
@@ -202,38 +217,54 @@ pub(super) fn ground(map: &Map<'_>, scale: Scale) -> String {
         + &format!("<path class=\"rim\" d=\"M0 0H{width}V{height}H0z\"/>")
 }
 
-/// The way of a robot, its start, and where it has given up.
+/// The way of a robot, its start, and its end if that is marked.
 fn way(look: usize, trail: &Trail, scale: Scale) -> String {
     let Some((&start, others)) = trail.places.split_first() else { return String::new() };
     let mut line = format!("M{}", scale.place(start));
     for &place in others {
         let _ = write!(line, "L{}", scale.place(place));
     }
-    let cross = match (trail.end, trail.places.last()) {
-        (Terminus::Elsewhere, Some(&end)) => {
-            format!("<path class=\"cross\" d=\"M{}{CROSS}\"/>", scale.place(end))
-        }
-        (Terminus::There, _) | (Terminus::Elsewhere, None) => String::new(),
-    };
+    let end = others.last().copied().unwrap_or(start);
+    let end = trail.end.mark().map_or(String::new(), |mark| {
+        format!("<path class=\"terminus\" d=\"M{}{mark}\"/>", scale.place(end))
+    });
     format!(
-        "<g class=\"trail-{}\"><path class=\"trail\" d=\"{line}\"/><path class=\"mark\" d=\"M{}{ROBOT}\"/>{cross}</g>\n",
+        "<g class=\"trail-{}\"><path class=\"trail\" d=\"{line}\"/><path class=\"mark\" d=\"M{}{ROBOT}\"/>{end}</g>\n",
         look % SERIES,
         scale.place(start)
     )
 }
 
-/// What the marks mean, in one line.
-fn key() -> Drawn {
+/// What the marks that there are mean, in one line.
+fn key(maps: &[Map<'_>]) -> Drawn {
+    let has = |is_drawn: &dyn Fn(&Map<'_>) -> bool| maps.iter().any(is_drawn);
+    let has_end = |end: Terminus| {
+        has(&|map| map.trails.iter().any(|trail| trail.end == end && !trail.places.is_empty()))
+    };
+    let end = |mark: &str| format!("<g class=\"trail-0\"><path class=\"terminus\" d=\"M6 0{mark}\"/></g>");
     let mut key = Drawn { width: 0, height: LINE, body: String::new() };
     let marks = [
-        ("<path class=\"nodes\" d=\"M6 0h0\"/>".to_owned(), "node"),
-        (format!("<g class=\"trail-0\"><path class=\"mark\" d=\"M6 0{ROBOT}\"/></g>"), "robot at its start"),
-        (format!("<path class=\"wfr\" d=\"M6 0{WFR}\"/>"), "WFR"),
-        ("<path class=\"tree\" d=\"M-4 0h20\"/>".to_owned(), "to the parent"),
-        ("<path class=\"obstacle\" d=\"M-2-6h16v12h-16z\"/>".to_owned(), "obstacle"),
-        (format!("<g class=\"trail-0\"><path class=\"cross\" d=\"M6 0{CROSS}\"/></g>"), "gave up"),
+        (has(&|map| map.nodes > 0), "<path class=\"nodes\" d=\"M6 0h0\"/>".to_owned(), "node"),
+        (
+            has(&|map| map.trails.iter().any(|trail| !trail.places.is_empty())),
+            format!("<g class=\"trail-0\"><path class=\"mark\" d=\"M6 0{ROBOT}\"/></g>"),
+            "robot at its start",
+        ),
+        (has(&|map| !map.wfrs.is_empty()), format!("<path class=\"wfr\" d=\"M6 0{WFR}\"/>"), "WFR"),
+        (
+            has(&|map| !map.links.is_empty()),
+            "<path class=\"tree\" d=\"M-4 0h20\"/>".to_owned(),
+            "to the parent",
+        ),
+        (
+            has(&|map| !map.field.obstacles().is_empty()),
+            "<path class=\"obstacle\" d=\"M-2-6h16v12h-16z\"/>".to_owned(),
+            "obstacle",
+        ),
+        (has_end(Terminus::GaveUp), end(CROSS), "gave up"),
+        (has_end(Terminus::Failed), end(SQUARE), "failed"),
     ];
-    for (mark, meaning) in marks {
+    for (_, mark, meaning) in marks.into_iter().filter(|(is_drawn, ..)| *is_drawn) {
         let _ = write!(
             key.body,
             "<g transform=\"translate({},0)\">{mark}<text class=\"start\" x=\"22\" y=\"0\">{meaning}</text></g>",

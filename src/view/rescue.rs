@@ -12,12 +12,12 @@ use crate::rescue::{Event, Fix, Logged, Report, seconds};
 /// Robots that a page can draw, over all its events.
 const MAX_DRAWN: usize = 100_000;
 
-/// The map of a rescue: the nodes, the WFRs, and where each robot went. One that failed has a cross at its end.
+/// The map of a rescue: the nodes, the WFRs, and where each robot went. The place where one failed is marked.
 pub fn map(caption: String, report: &Report) -> Map<'_> {
     let trail = |(number, path): (usize, &Vec<Fix>)| {
         let fails =
             |logged: &Logged| matches!(logged.event, Event::RobotFails { robot, .. } if robot == number);
-        let end = if report.log.iter().any(fails) { Terminus::Elsewhere } else { Terminus::There };
+        let end = if report.log.iter().any(fails) { Terminus::Failed } else { Terminus::There };
         let places = path.iter().map(|fix| fix.at).collect();
         Trail { name: format!("robot {number}"), places, end }
     };
