@@ -25,7 +25,8 @@ pub struct Summary {
     pub assignments: Assignments,
     /// RD: the sum of the distances that robots moved to WFRs over the sum of the shortest. None if nobody came.
     pub distance_ratio: Option<Estimate>,
-    /// Seconds from the first call to the first robot, of those that were served. None if nobody came.
+    /// Seconds from the first call to the first robot, of the WFRs that were served: those of one rescue depend on each
+    /// other, so that the interval is that of a ratio of sums over rescues. None if nobody came.
     pub wait_s: Option<Estimate>,
     /// Messages sent in a rescue.
     pub messages: Estimate,
@@ -77,7 +78,8 @@ struct Kept {
     fates: Vec<Fate>,
     moved_m: f64,
     shortest_m: f64,
-    waits_s: Vec<f64>,
+    /// The sum of the waits of those that were served, and how many they are.
+    waits_s: (f64, f64),
     messages: f64,
     violations: Vec<Violation>,
 }
@@ -96,6 +98,7 @@ impl Kept {
         // Where there is no way round the obstacles nobody comes.
         let ways = report.journeys.iter().filter_map(|journey| Some((journey.moved_m, journey.shortest_m?)));
         let (moved_m, shortest_m) = ways.fold((0.0, 0.0), |sums, way| (sums.0 + way.0, sums.1 + way.1));
+        let waits = report.journeys.iter().map(|journey| seconds(journey.waited_ns));
         Self {
             seed,
             reach: mean(&|spread| f64::from(spread.reached) / f64::from(nodes as u32)),
@@ -104,7 +107,7 @@ impl Kept {
             fates: report.fates.clone(),
             moved_m,
             shortest_m,
-            waits_s: report.journeys.iter().map(|journey| seconds(journey.waited_ns)).collect(),
+            waits_s: (waits.sum(), f64::from(report.journeys.len() as u32)),
             messages: f64::from(u32::try_from(report.air.sent).unwrap_or(u32::MAX)),
             violations: report.violations.clone(),
         }
@@ -142,10 +145,10 @@ impl Summary {
         let mean = |part: &dyn Fn(&Kept) -> f64| {
             Estimate::of_values(&kept.iter().map(part).collect::<Vec<_>>()).unwrap_or(Estimate::NOTHING)
         };
-        let is_way = |&(_, shortest_m): &(f64, f64)| shortest_m > 0.0;
-        let ways: Vec<(f64, f64)> =
-            kept.iter().map(|one| (one.moved_m, one.shortest_m)).filter(is_way).collect();
-        let waits: Vec<f64> = kept.iter().flat_map(|one| &one.waits_s).copied().collect();
+        let ratio = |pair: &dyn Fn(&Kept) -> (f64, f64)| {
+            let pairs: Vec<(f64, f64)> = kept.iter().map(pair).filter(|&(_, under)| under > 0.0).collect();
+            Estimate::of_ratio(&pairs)
+        };
         let broken = |demand: Demand| {
             let found = |one: &Kept| {
                 let violation = one.violations.iter().find(|violation| violation.demand == demand)?;
@@ -165,8 +168,8 @@ impl Summary {
                 .iter()
                 .flat_map(|one| &one.fates)
                 .fold(Assignments::default(), Assignments::and),
-            distance_ratio: Estimate::of_ratio(&ways).map(|ratio| rounded(ratio, 1e4)),
-            wait_s: Estimate::of_values(&waits).map(|wait| rounded(wait, 1e2)),
+            distance_ratio: ratio(&|one| (one.moved_m, one.shortest_m)).map(|ratio| rounded(ratio, 1e4)),
+            wait_s: ratio(&|one| one.waits_s).map(|wait| rounded(wait, 1e2)),
             messages: rounded(mean(&|one| one.messages), 1e2),
             violations: Demand::ALL.into_iter().filter_map(broken).collect(),
         }
@@ -201,7 +204,7 @@ mod tests {
             fates: fates.to_vec(),
             moved_m,
             shortest_m,
-            waits_s: vec![],
+            waits_s: (0.0, 0.0),
             messages: 7.0,
             violations: if seed > 1 { vec![violation] } else { vec![] },
         }
