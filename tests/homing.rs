@@ -59,7 +59,7 @@ impl World {
 
     fn is_connected(&self) -> bool {
         let robot = NodeId(self.field.nodes().len() as u32 - 1);
-        hops(&self.network, self.wfr, robot)[robot.0 as usize].is_some()
+        hops(&self.network, self.wfr, |node| node != robot)[robot.0 as usize].is_some()
     }
 }
 

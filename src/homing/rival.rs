@@ -41,6 +41,11 @@ fn sorted(neighbours: impl Iterator<Item = Neighbour>) -> Vec<Neighbour> {
 }
 
 impl Site<'_> {
+    /// The hops of each node from `goal` as after a flood, of which the robot sends nothing on.
+    fn hops(&self, goal: NodeId) -> Vec<Option<u16>> {
+        hops(self.network, goal, |node| node != self.robot())
+    }
+
     /// The nodes that are linked to a node and know their hops, the least of them first.
     fn linked(&self, node: NodeId, hops: &[Option<u16>]) -> Vec<Neighbour> {
         let neighbours = self.network.neighbours(node).iter().filter(|&&node| node != self.robot());
@@ -59,7 +64,7 @@ impl Site<'_> {
 
     /// The journey by Verma's credit field.
     pub fn verma(&self, goal: NodeId) -> Journey {
-        let hops = hops(self.network, goal, self.robot());
+        let hops = self.hops(goal);
         let mut trail = Trail::new(self.start());
         let mut neighbours = self.linked(self.robot(), &hops);
         if neighbours.is_empty() {
@@ -100,7 +105,7 @@ impl Site<'_> {
 
     /// The journey by Reich's gradient.
     pub fn reich(&self, goal: NodeId, chance: &mut dyn Source) -> Journey {
-        let hops = hops(self.network, goal, self.robot());
+        let hops = self.hops(goal);
         let start = self.start();
         let mut visited = vec![false; self.field.nodes().len()];
         let mut place = self.robot();
@@ -145,7 +150,7 @@ impl Site<'_> {
 
     /// The journey by Sheu's back-and-forth.
     pub fn sheu(&self, goal: NodeId, chance: &mut dyn Source) -> Journey {
-        let hops = hops(self.network, goal, self.robot());
+        let hops = self.hops(goal);
         let least = |node: NodeId| {
             let neighbours = self.network.neighbours(node).iter().filter(|&&next| next != self.robot());
             neighbours.filter_map(|&next| Some((hops[next.0 as usize]?, next))).min()

@@ -84,9 +84,9 @@ impl Protocol for Listening<'_> {
     }
 }
 
-/// The hops of each node from `goal` as after a flood; none where it does not come. Node `robot` is a robot, and sends
-/// nothing on.
-pub fn hops(network: &Network, goal: NodeId, robot: NodeId) -> Vec<Option<u16>> {
+/// The hops of each node from `goal` as after a flood that `goal` and the nodes that forward send on; none where it does
+/// not come.
+pub fn hops(network: &Network, goal: NodeId, forwards: impl Fn(NodeId) -> bool) -> Vec<Option<u16>> {
     let mut hops = vec![None; network.nodes()];
     let mut queue = VecDeque::new();
     if let Some(of_goal) = hops.get_mut(goal.0 as usize) {
@@ -98,7 +98,7 @@ pub fn hops(network: &Network, goal: NodeId, robot: NodeId) -> Vec<Option<u16>> 
         for &neighbour in network.neighbours(node) {
             if let Some(unknown @ None) = hops.get_mut(neighbour.0 as usize) {
                 *unknown = Some(next);
-                if neighbour != robot {
+                if forwards(neighbour) {
                     queue.push_back((neighbour, next));
                 }
             }
@@ -162,6 +162,6 @@ mod tests {
         };
         assert_eq!([0, 2, 3].map(|node| tree.nav(NodeId(node))), [nav(0, 0, 0), nav(2, 1, 0), nav(3, 2, 2)]);
         assert_eq!(tree.links().collect::<Vec<_>>(), [(NodeId(2), NodeId(0)), (NodeId(3), NodeId(2))]);
-        assert_eq!(hops(&network, NodeId(0), NodeId(4)), [0, 1, 1, 2, 2].map(Some));
+        assert_eq!(hops(&network, NodeId(0), |node| node != NodeId(4)), [0, 1, 1, 2, 2].map(Some));
     }
 }

@@ -371,7 +371,8 @@ impl Setting {
         let world = self.world(nodes, topology)?;
         let tree = world.tree(&mut self.chance(topology))?;
         let walked = Way::ALL.map(|way| Walked::of(&world.journey(&tree, way, &mut self.chance(topology))));
-        let fewest_hops = hops(&world.network, world.wfr, world.robot).last().copied().flatten();
+        let hops = hops(&world.network, world.wfr, |node| node != world.robot);
+        let fewest_hops = hops.last().copied().flatten();
         let tree_hops = tree.entry().map(|(_, hops)| hops);
         Ok(Sample { fewest_hops, tree_hops, shortest_m: world.shortest_m(), walked })
     }

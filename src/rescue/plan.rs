@@ -1,6 +1,5 @@
 //! A rescue laid out: the field with its links, who calls when, where the robots are, and what will fail.
 
-use std::collections::VecDeque;
 use std::num::NonZeroU32;
 
 use tautline_kernel::broadcast::{self, Count, NodeId, Scheme};
@@ -10,7 +9,7 @@ use tautline_kernel::rescue::Rule;
 use super::problem::MAX_STATES;
 use super::{MAX_ROBOTS, MAX_WFRS, Problem, SchemeName, Setting};
 use crate::explore::RuleName;
-use crate::homing::{Equipment, Signal};
+use crate::homing::{Equipment, Signal, apart_m, hops};
 use crate::radio::{self, Area, Chance, Channel, Faults, Field, Model, Network, Obstacle, Point, Radio};
 use crate::rescue::setting::CallTimes;
 
@@ -52,7 +51,7 @@ pub(super) struct Caller {
 
 impl Caller {
     pub(super) fn new(network: &Network, node: NodeId, at_ns: u64) -> Self {
-        let depth = hops_from(network, node, |_| true).into_iter().flatten().max();
+        let depth = hops(network, node, |_| true).into_iter().flatten().max();
         Self { node, at_ns, depth: depth.unwrap_or(0) }
     }
 }
@@ -219,27 +218,6 @@ fn early_ns(chance: &mut dyn Source) -> u64 {
     u64::from(chance.pick(EARLY_MS)) * MILLISECOND_NS
 }
 
-/// Hops from `start` to each node over nodes that live; `None` where no links lead.
-pub(super) fn hops_from(
-    network: &Network,
-    start: NodeId,
-    is_alive: impl Fn(NodeId) -> bool,
-) -> Vec<Option<u16>> {
-    let mut hops: Vec<Option<u16>> = vec![None; network.nodes()];
-    let mut next = VecDeque::from([(start, 0_u16)]);
-    hops[start.0 as usize] = Some(0);
-    while let Some((node, so_far)) = next.pop_front() {
-        for &other in network.neighbours(node) {
-            let place = &mut hops[other.0 as usize];
-            if place.is_none() && is_alive(other) {
-                *place = Some(so_far.saturating_add(1));
-                next.push_back((other, so_far.saturating_add(1)));
-            }
-        }
-    }
-    hops
-}
-
 impl Plan {
     /// Which of the WFRs a node is.
     pub(super) fn wfr(&self, node: NodeId) -> Option<usize> {
@@ -249,7 +227,6 @@ impl Plan {
     /// How far off a node or a robot seems to be to a robot, in micrometres; `None` if they do not hear each other.
     pub(super) fn heard_um(&self, sender: Point, robot: Point) -> Option<u32> {
         let is_heard = self.equipment.ear.hears(&self.field, Signal::plain(sender), robot);
-        let (along_x, along_y) = (sender.x_m - robot.x_m, sender.y_m - robot.y_m);
-        is_heard.then(|| ((along_x * along_x + along_y * along_y).sqrt() * 1e6 + 0.5) as u32)
+        is_heard.then(|| (apart_m(sender, robot) * 1e6 + 0.5) as u32)
     }
 }

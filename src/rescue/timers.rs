@@ -42,7 +42,7 @@ impl Timers {
 
     /// The window of a call.
     pub(super) fn window_ns(self, epoch: Epoch) -> u64 {
-        self.first_window_ns << (epoch.0 - Epoch::FIRST.0.min(epoch.0)).min(MOST_DOUBLINGS)
+        self.first_window_ns << (epoch.0.saturating_sub(Epoch::FIRST.0)).min(MOST_DOUBLINGS)
     }
 
     /// A robot's wait for RESB: the way of its MOVE, the whole window, and the way back.

@@ -16,11 +16,11 @@ use super::event::millimetres;
 use super::judge::{Judge, Seen};
 use super::letters::{ANSWER_WAIT_NS, Content, Letter, Letters};
 use super::pace::{self, ASK_NS, SIGNAL_NS, TRY_NS};
-use super::plan::{Plan, hops_from};
+use super::plan::Plan;
 use super::rover::{Onward, Rover, Way};
 use super::timers::Timers;
 use super::{Event, Fate, Journey, Logged, MAX_ROBOTS, MAX_WFRS, Problem, Report, Setting, Spread};
-use crate::homing::{Signal, Walker, shortest_m};
+use crate::homing::{Signal, Walker, hops, shortest_m};
 use crate::radio::{Air, Broadcast, Heard, Link, Point, Protocol, run};
 
 /// Nothing that would happen later happens: six hours, longer than any rescue takes that comes to an end.
@@ -743,13 +743,12 @@ impl<'a> World<'a> {
         }
         let node = self.plan.wfrs[wfr].node;
         let lives = |node: NodeId| !self.sensors[node.0 as usize].has_failed;
-        let hops = hops_from(&self.plan.network, node, lives);
-        let points = self.plan.field.nodes();
+        let hops = hops(&self.plan.network, node, lives);
+        let linked = (0..).map(NodeId).zip(hops).filter(|&(node, hops)| hops.is_some() && lives(node));
+        let points: Vec<Point> = linked.map(|(node, _)| self.plan.field.nodes()[node.0 as usize]).collect();
         let is_linked = |rover: &&Rover| {
-            let hears = |(hops, &point): (&Option<u16>, &Point)| {
-                hops.is_some() && self.plan.heard_um(point, rover.at).is_some()
-            };
-            !rover.has_failed && hops.iter().zip(points).any(hears)
+            let hears = |&point: &Point| self.plan.heard_um(point, rover.at).is_some();
+            !rover.has_failed && points.iter().any(hears)
         };
         let mut linked = self.rovers.iter().filter(is_linked).peekable();
         if linked.peek().is_none() {
