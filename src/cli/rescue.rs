@@ -36,6 +36,8 @@ with it and has heard of it), unheard (connected, but the broadcast has not reac
 distance_ratio is the sum of the distances moved over the sum of the shortest; wait_s the time from the first call to \
 the robot; violations the clauses broken, in how many rescues, and where first. Each mean has its 95 % interval.
 
+A rescue ends when nothing more happens, or after six hours: who then still waits for a robot counts as never served.
+
 The exit code is 1 if a clause is broken.";
 
 /// Let nodes call for help and robots come, over a radio field at random, and judge what they do.

@@ -23,7 +23,7 @@ use super::{Event, Fate, Journey, Logged, MAX_ROBOTS, MAX_WFRS, Problem, Report,
 use crate::homing::{Signal, Walker, hops, shortest_m};
 use crate::radio::{Air, Broadcast, Heard, Link, Point, Protocol, run};
 
-/// Nothing that would happen later happens: six hours, longer than any rescue takes that comes to an end.
+/// Nothing that would happen later happens: six hours. A WFR to which nobody can come calls until then.
 const HORIZON_NS: u64 = 6 * 3_600 * 1_000_000_000;
 
 /// How long a robot serves at a WFR before it is free again, which the paper leaves open: ten seconds.
