@@ -210,9 +210,8 @@ mod tests {
             .rescue(&mut Seeded::new(0, 0))
             .expect("a rescue");
         assert_eq!(report.fates, [Fate::Served { by: 1, visits: 1 }]);
-        let who = |event: Event| match event {
-            Event::Passes { robot, node, .. } => Some((robot, node)),
-            _ => None,
+        let who = |event: Event| {
+            if let Event::Passes { robot, node, .. } = event { Some((robot, node)) } else { None }
         };
         let passed: Vec<(usize, u32)> = events(&report).into_iter().filter_map(who).collect();
         assert_eq!(passed, [(2, 2), (2, 1)]);

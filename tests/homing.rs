@@ -1,7 +1,5 @@
 //! Journeys of robots over random radio fields: who arrives, by how long a way, and what they never do.
 
-use std::num::NonZeroU32;
-
 use proptest::prelude::*;
 use tautline::homing::{End, Equipment, Journey, Site, Tree, hops, shortest_m};
 use tautline::radio::{Area, Channel, Faults, Field, Model, Network, Obstacle, Point, Radio};
@@ -37,8 +35,7 @@ impl World {
     }
 
     fn tree(&mut self) -> Tree {
-        let range_um = NonZeroU32::new(self.radio.range_um()).expect("a range");
-        let rule = Rule::new(Scheme::Farthest { k: Some(Count::ONE) }, range_um, 100_000_000);
+        let rule = Rule::new(Scheme::Farthest { k: Some(Count::ONE) }, self.radio.range_um(), 100_000_000);
         let robot = NodeId(self.field.nodes().len() as u32 - 1);
         Tree::grow(&self.network, rule, Channel::Ideal, &Faults::NONE, (self.wfr, robot), &mut self.chance)
             .expect("a tree")

@@ -109,8 +109,6 @@ pub fn hops(network: &Network, goal: NodeId, forwards: impl Fn(NodeId) -> bool) 
 
 #[cfg(test)]
 mod tests {
-    use std::num::NonZeroU32;
-
     use tautline_kernel::broadcast::{Count, Scheme};
     use tautline_proofs::engine::Tape;
 
@@ -124,8 +122,7 @@ mod tests {
         let field = Field::new(area, vec![], nodes).expect("a field");
         let radio = Radio::new(25.0, Model::Disc).expect("a radio");
         let network = Network::new(&field, radio, &mut Tape(&[])).expect("a network");
-        let range_um = NonZeroU32::new(radio.range_um()).expect("a range");
-        let rule = Rule::new(Scheme::Farthest { k: Count::new(k) }, range_um, 100_000_000);
+        let rule = Rule::new(Scheme::Farthest { k: Count::new(k) }, radio.range_um(), 100_000_000);
         let ends = (NodeId(0), NodeId(places.len() as u32 - 1));
         let tree =
             Tree::grow(&network, rule, Channel::Ideal, &Faults::NONE, ends, &mut Tape(&[])).expect("a tree");

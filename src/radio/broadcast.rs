@@ -8,6 +8,10 @@ use tautline_kernel::choice::Source;
 use super::air::Heard;
 use super::{Air, Channel, Faults, Network, Problem, Protocol, run};
 
+/// B of equation (2), which the paper leaves open: a tenth of a second. Over the ideal channel the farthest-node schemes do
+/// the same for any other.
+pub const LONGEST_WAIT_NS: u32 = 100_000_000;
+
 /// What became of a broadcast.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Report {

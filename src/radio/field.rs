@@ -68,6 +68,21 @@ pub struct Obstacle {
     pub south_m: f64,
 }
 
+impl From<[f64; 4]> for Obstacle {
+    /// West, north, east and south.
+    fn from([west_m, north_m, east_m, south_m]: [f64; 4]) -> Self {
+        Self { west_m, north_m, east_m, south_m }
+    }
+}
+
+impl From<Obstacle> for [f64; 4] {
+    /// West, north, east and south.
+    fn from(obstacle: Obstacle) -> Self {
+        let Obstacle { west_m, north_m, east_m, south_m } = obstacle;
+        [west_m, north_m, east_m, south_m]
+    }
+}
+
 impl Obstacle {
     fn is_rectangle(&self) -> bool {
         let Self { west_m, north_m, east_m, south_m } = *self;

@@ -5,6 +5,8 @@
 //! product is also the distance that the receiver makes of it by equation (1) of paper 003: with or without shadows, who
 //! seems to be within the range is heard. A shadow is that of a pair of places, the same both ways and for ever.
 
+use std::num::NonZeroU32;
+
 use tautline_kernel::broadcast::NodeId;
 use tautline_kernel::choice::Source;
 
@@ -72,8 +74,9 @@ impl Radio {
     }
 
     /// The range in micrometres, rounded to the nearest.
-    pub const fn range_um(self) -> u32 {
-        micrometres(self.range_m)
+    pub fn range_um(self) -> NonZeroU32 {
+        // It is never less than a millimetre.
+        NonZeroU32::new(micrometres(self.range_m)).unwrap_or(NonZeroU32::MIN)
     }
 
     /// No signal is heard from farther.

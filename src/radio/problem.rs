@@ -16,7 +16,7 @@ pub enum Problem {
     Outside { node: usize, x_m: f64, y_m: f64 },
     /// A node in an obstacle.
     Blocked { node: usize },
-    /// An obstacle whose sides are no numbers, or that ends before it begins.
+    /// An obstacle, counted from 0, whose sides are no numbers, or that ends before it begins.
     Obstacle { obstacle: usize },
     /// The obstacles leave hardly any room for nodes.
     NoRoom,
@@ -75,7 +75,7 @@ impl fmt::Display for Problem {
                 write!(f, "node {node} at {x_m}, {y_m} m is not inside the area")
             }
             Self::Blocked { node } => write!(f, "node {node} is in an obstacle"),
-            Self::Obstacle { obstacle } => write!(f, "obstacle {obstacle} is no rectangle"),
+            Self::Obstacle { obstacle } => write!(f, "obstacle {} is no rectangle", obstacle + 1),
             Self::NoRoom => write!(f, "the obstacles leave no room for nodes"),
             Self::Range { range_m } => write!(f, "the radio range cannot be {range_m} m"),
             Self::Exponent { exponent } => write!(f, "power cannot fall with exponent {exponent}"),

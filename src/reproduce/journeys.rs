@@ -7,8 +7,6 @@
 //! and of its Table 2 that TAN's way is shorter than Verma's and about as long as Reich's (4.4). Each of the four is
 //! decided by the 95 % interval of the difference in the same topologies.
 
-use std::num::NonZeroU32;
-
 use rayon::prelude::*;
 use serde::Serialize;
 use tautline_kernel::broadcast::{Count, NodeId, Rule, Scheme};
@@ -16,10 +14,12 @@ use tautline_kernel::choice::Source;
 use tautline_proofs::engine::Seeded;
 
 use super::interval::{Estimate, rounded};
-use super::notice_fig5::{LONGEST_WAIT_NS, NODES, usage};
+use super::notice_fig5::{NODES, usage};
 use crate::fault::Halt;
 use crate::homing::{End, Equipment, Journey, Site, Tree, hops, shortest_m};
-use crate::radio::{Area, Channel, Faults, Field, Model, Network, Obstacle, Point, Problem, Radio};
+use crate::radio::{
+    Area, Channel, Faults, Field, LONGEST_WAIT_NS, Model, Network, Obstacle, Point, Problem, Radio,
+};
 use crate::rescue::seconds;
 use crate::view::chart::{Axis, LineChart, Series, Stroke};
 use crate::view::field::{self, Map, Terminus, Trail};
@@ -347,14 +347,13 @@ impl Setting {
     fn world(&self, nodes: usize, topology: u32) -> Result<World, Problem> {
         let area = Area::new(self.side_m, self.side_m)?;
         let radio = Radio::new(self.range_m, Model::Disc)?;
-        let range_um = NonZeroU32::new(radio.range_um()).ok_or(Problem::Range { range_m: self.range_m })?;
         let chance = &mut Seeded::new(self.seed, 2 * u64::from(topology));
         let field = Field::random(area, self.obstacles.clone(), nodes, chance)?;
         let field = field.with(&[field.place(chance)?])?;
         let network = Network::new(&field, radio, chance)?;
         Ok(World {
             equipment: Equipment::new(radio, self.noise_db)?,
-            rule: Rule::new(Scheme::Farthest { k: Some(self.k) }, range_um, LONGEST_WAIT_NS),
+            rule: Rule::new(Scheme::Farthest { k: Some(self.k) }, radio.range_um(), LONGEST_WAIT_NS),
             robot: NodeId(nodes as u32),
             wfr: NodeId(chance.pick(nodes as u32)),
             field,

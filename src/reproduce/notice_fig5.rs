@@ -11,7 +11,9 @@ use tautline_proofs::engine::Seeded;
 
 use super::interval::{Estimate, decimals, rounded};
 use crate::fault::{Fault, Halt};
-use crate::radio::{Area, Channel, Faults, Field, Model, Network, Problem, Radio, broadcast};
+use crate::radio::{
+    Area, Channel, Faults, Field, LONGEST_WAIT_NS, Model, Network, Problem, Radio, broadcast,
+};
 use crate::view::chart::{Axis, LineChart, Series, Stroke};
 
 /// The numbers of nodes of the paper.
@@ -22,10 +24,6 @@ pub const SIDE_M: f64 = 300.0;
 
 /// The paper's radio range, in metres.
 pub const RANGE_M: f64 = 25.0;
-
-/// B, which the paper leaves open: a tenth of a second. Over the ideal channel the farthest-node schemes do the same for
-/// any other.
-pub(super) const LONGEST_WAIT_NS: u32 = 100_000_000;
 
 /// The k of the paper's figure, and what it has k-FNF reach there: “near 100 %”, at every density. All else it draws
 /// only.
@@ -109,8 +107,7 @@ impl Setting {
     pub fn measure(&self, watch: &(dyn Fn() -> Result<(), Halt> + Sync)) -> Result<Vec<Density>, Halt> {
         let area = Area::new(self.side_m, self.side_m).map_err(usage)?;
         let radio = Radio::new(self.range_m, Model::Disc).map_err(usage)?;
-        let range_um = NonZeroU32::new(radio.range_um())
-            .ok_or_else(|| usage(Problem::Range { range_m: self.range_m }))?;
+        let range_um = radio.range_um();
         let schemes = self.schemes(range_um.get());
         let density = |&nodes: &usize| {
             // What is wrong with all is to be the same fault each time, not that of whichever thread is first.

@@ -10,11 +10,10 @@ use super::problem::MAX_STATES;
 use super::{MAX_ROBOTS, MAX_WFRS, Problem, SchemeName, Setting};
 use crate::explore::RuleName;
 use crate::homing::{Equipment, Signal, apart_m, hops};
-use crate::radio::{self, Area, Chance, Channel, Faults, Field, Model, Network, Obstacle, Point, Radio};
+use crate::radio::{
+    self, Area, Chance, Channel, Faults, Field, LONGEST_WAIT_NS, Model, Network, Obstacle, Point, Radio,
+};
 use crate::rescue::setting::CallTimes;
-
-/// B of equation (2), which the paper leaves open: a tenth of a second.
-pub(super) const LONGEST_WAIT_NS: u32 = 100_000_000;
 
 /// The threshold of the distance-based scheme, in tenths of the range: the larger of the paper's two.
 const THRESHOLD_TENTHS: u64 = 8;
@@ -67,11 +66,9 @@ impl Setting {
     pub(super) fn plan(&self, chance: &mut dyn Source) -> Result<Plan, Problem> {
         self.check()?;
         let [width_m, height_m] = self.area_m;
-        let obstacle =
-            |&[west_m, north_m, east_m, south_m]: &[f64; 4]| Obstacle { west_m, north_m, east_m, south_m };
-        let obstacles = self.obstacles_m.iter().map(obstacle).collect();
+        let obstacles = self.obstacles_m.iter().copied().map(Obstacle::from).collect();
         let radio = Radio::new(self.range_m, Model::Disc)?;
-        let range_um = NonZeroU32::new(radio.range_um()).unwrap_or(NonZeroU32::MIN);
+        let range_um = radio.range_um();
         let (rule, conditions) = match self.rule {
             RuleName::Published => (Rule::PUBLISHED, broadcast::Conditions::PUBLISHED),
             RuleName::Repaired => (Rule::REPAIRED, broadcast::Conditions::REPAIRED),

@@ -10,7 +10,7 @@
 use tautline_kernel::rescue::{Epoch, WfrTimer};
 
 use super::letters::{ANSWER_WAIT_NS, TRIES};
-use super::plan::LONGEST_WAIT_NS;
+use crate::radio::LONGEST_WAIT_NS;
 
 /// A message takes at most so long for a hop: a letter and all its repetitions. Over the shared channel nothing bounds how
 /// long others send, but hardly ever does it take longer.

@@ -85,7 +85,7 @@ impl Journeys {
         out: &mut Output,
     ) -> Result<Exit, Halt> {
         let given = |own: &[usize]| if own.is_empty() { figure.nodes() } else { own.to_vec() };
-        let own: Vec<Obstacle> = self.obstacle.iter().map(|&Metres(sides)| obstacle(sides)).collect();
+        let own: Vec<Obstacle> = self.obstacle.iter().map(|&Metres(sides)| sides.into()).collect();
         let obstacles = if own.is_empty() { figure.obstacles() } else { own };
         let setting = Setting {
             nodes: given(&self.nodes),
@@ -111,7 +111,7 @@ impl Journeys {
                 id: reproduction.id(),
                 side_m: self.side,
                 range_m: self.range,
-                obstacles: setting.obstacles.iter().map(sides).collect(),
+                obstacles: setting.obstacles.iter().copied().map(Into::into).collect(),
                 k: self.k.get(),
                 noise_db: self.noise_db,
                 topologies: self.topologies,
@@ -122,15 +122,6 @@ impl Journeys {
         }
         Ok(Exit::Expected)
     }
-}
-
-const fn obstacle([west_m, north_m, east_m, south_m]: [f64; 4]) -> Obstacle {
-    Obstacle { west_m, north_m, east_m, south_m }
-}
-
-fn sides(obstacle: &Obstacle) -> [f64; 4] {
-    let Obstacle { west_m, north_m, east_m, south_m } = *obstacle;
-    [west_m, north_m, east_m, south_m]
 }
 
 fn picture(figure: Figure, setting: &Setting, densities: &[Density]) -> Result<String, Halt> {
