@@ -67,7 +67,9 @@ impl Judge {
     /// A MOVE of the present call arrives.
     pub(super) fn bids(&mut self, wfr: usize, bid: Bid) {
         if self.is_open[wfr] {
-            self.best[wfr] = Some(self.best[wfr].map_or(bid, |best| best.min(bid)));
+            // The least (MHC, MID), said here anew: WFRs choose by the order that the kernel gives bids.
+            let bids = self.best[wfr].into_iter().chain([bid]);
+            self.best[wfr] = bids.min_by_key(|&Bid { hops, robot: RobotId(id) }| (hops, id));
         }
     }
 
