@@ -169,6 +169,11 @@ fn number<T: FromStr>(text: &str) -> Result<T, String> {
     text.parse().map_err(|_| format!("write a whole number up to {largest}"))
 }
 
+/// A number that need not be whole.
+fn real(text: &str) -> Result<f64, &'static str> {
+    text.parse().map_err(|_| "write a number, for example 0.5")
+}
+
 /// A number from 0 to 1.
 fn probability(text: &str) -> Result<Probability, String> {
     text.parse().map_err(|problem: Problem| format!("{problem}; {}", problem.remedy()))

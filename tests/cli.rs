@@ -1003,7 +1003,7 @@ fn a_rescue_is_stored_played_and_drawn() {
 #[test]
 fn what_makes_no_rescue_is_refused_with_what_would_be_right() {
     let folder = folder();
-    let cases: [&[&str]; 25] = [
+    let cases: [&[&str]; 26] = [
         &["--nodes", "0"],
         &["--nodes", "1"],
         &["--nodes", "2000000"],
@@ -1026,6 +1026,7 @@ fn what_makes_no_rescue_is_refused_with_what_would_be_right() {
         &["--obstacle", "5,5,1,1"],
         &["--obstacle", "1,2,3"],
         &["--loss", "1.5"],
+        &["--loss", "a tenth"],
         &["--noise-db", "-1"],
         &["--failing", "2"],
         &["--failing-nodes", "700"],

@@ -9,7 +9,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::output::Output;
-use super::{Exit, Format, FormatArgs, interrupt, number, progress};
+use super::{Exit, Format, FormatArgs, interrupt, number, progress, real};
 use crate::aside::Aside;
 use crate::explore::RuleName;
 use crate::fault::{Fault, Halt};
@@ -53,7 +53,7 @@ pub(super) struct Rescue {
     #[arg(long, value_name = "WxH", default_value = "300x300", allow_hyphen_values = true)]
     area: AreaArg,
     /// The radio range, in metres.
-    #[arg(long, value_name = "METRES", allow_hyphen_values = true, default_value_t = 25.0)]
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true, default_value_t = 25.0, value_parser = real)]
     range: f64,
     /// West, north, east and south of an obstacle, in metres: no signal and no robot passes it. May be given repeatedly.
     #[arg(long, value_name = "W,N,E,S", allow_hyphen_values = true)]
@@ -89,10 +89,10 @@ pub(super) struct Rescue {
     #[arg(long, value_enum, default_value = "ideal")]
     channel: ChannelName,
     /// How likely it is that a message is lost, on each link anew, from 0 to 1.
-    #[arg(long, value_name = "PROBABILITY", allow_hyphen_values = true, default_value_t = 0.0)]
+    #[arg(long, value_name = "PROBABILITY", allow_hyphen_values = true, default_value_t = 0.0, value_parser = real)]
     loss: f64,
     /// The standard deviation of the strength of signals, in dB.
-    #[arg(long, value_name = "DB", allow_hyphen_values = true, default_value_t = 0.0)]
+    #[arg(long, value_name = "DB", allow_hyphen_values = true, default_value_t = 0.0, value_parser = real)]
     noise_db: f64,
     /// How many robots fail, each at a random time of the first ten minutes.
     #[arg(long, value_name = "N", default_value = "0", value_parser = number::<usize>)]

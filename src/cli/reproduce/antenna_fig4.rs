@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::aside::Aside;
 use crate::cli::output::Output;
-use crate::cli::{Exit, Format, FormatArgs, number};
+use crate::cli::{Exit, Format, FormatArgs, number, real};
 use crate::fault::Halt;
 use crate::homing::NEAREST_M;
 use crate::radio::MAX_RANGE_M;
@@ -31,7 +31,7 @@ pub(super) struct AntennaFig4 {
     #[arg(long, value_name = "METRES", allow_negative_numbers = true, default_value_t = DISTANCE_M, value_parser = distance)]
     distance: f64,
     /// Standard deviations of the strengths measured, in dB.
-    #[arg(long, value_name = "LIST", value_delimiter = ',', allow_negative_numbers = true, default_values_t = NOISES_DB)]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', allow_negative_numbers = true, default_values_t = NOISES_DB, value_parser = real)]
     noise_db: Vec<f64>,
     /// Scans with each, of nodes in random directions.
     #[arg(long, value_name = "COUNT", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]

@@ -10,7 +10,7 @@ use tautline_kernel::broadcast::Count;
 use crate::aside::Aside;
 use crate::cli::output::Output;
 use crate::cli::rescue::Metres;
-use crate::cli::{Exit, Format, FormatArgs, count, interrupt, number, progress};
+use crate::cli::{Exit, Format, FormatArgs, count, interrupt, number, progress, real};
 use crate::fault::{Fault, Halt};
 use crate::radio::Obstacle;
 use crate::reproduce::Reproduction;
@@ -36,10 +36,10 @@ pub(super) struct Journeys {
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = number::<usize>)]
     nodes: Vec<usize>,
     /// The side of the square, in metres.
-    #[arg(long, value_name = "METRES", allow_negative_numbers = true, default_value_t = SIDE_M)]
+    #[arg(long, value_name = "METRES", allow_negative_numbers = true, default_value_t = SIDE_M, value_parser = real)]
     side: f64,
     /// The radio range, in metres.
-    #[arg(long, value_name = "METRES", allow_negative_numbers = true, default_value_t = RANGE_M)]
+    #[arg(long, value_name = "METRES", allow_negative_numbers = true, default_value_t = RANGE_M, value_parser = real)]
     range: f64,
     /// An obstacle by its sides; may be given again [default: those of the figure]
     #[arg(long, value_name = "W,N,E,S", allow_negative_numbers = true)]
@@ -48,7 +48,7 @@ pub(super) struct Journeys {
     #[arg(long, default_value = "1", value_parser = count)]
     k: Count,
     /// The standard deviation of the strengths that robots measure, in dB.
-    #[arg(long, value_name = "DB", allow_negative_numbers = true, default_value_t = 0.0)]
+    #[arg(long, value_name = "DB", allow_negative_numbers = true, default_value_t = 0.0, value_parser = real)]
     noise_db: f64,
     /// Topologies for each number of nodes.
     #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]

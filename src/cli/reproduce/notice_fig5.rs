@@ -9,7 +9,7 @@ use tautline_kernel::broadcast::Count;
 
 use crate::aside::Aside;
 use crate::cli::output::Output;
-use crate::cli::{Exit, Format, FormatArgs, count, interrupt, number, progress};
+use crate::cli::{Exit, Format, FormatArgs, count, interrupt, number, progress, real};
 use crate::fault::{Fault, Halt};
 use crate::radio::ChannelName;
 use crate::reproduce::Reproduction;
@@ -34,10 +34,10 @@ pub(super) struct NoticeFig5 {
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_values_t = NODES, value_parser = number::<usize>)]
     nodes: Vec<usize>,
     /// The side of the square, in metres.
-    #[arg(long, value_name = "METRES", allow_negative_numbers = true, default_value_t = SIDE_M)]
+    #[arg(long, value_name = "METRES", allow_negative_numbers = true, default_value_t = SIDE_M, value_parser = real)]
     side: f64,
     /// The radio range, in metres.
-    #[arg(long, value_name = "METRES", allow_negative_numbers = true, default_value_t = RANGE_M)]
+    #[arg(long, value_name = "METRES", allow_negative_numbers = true, default_value_t = RANGE_M, value_parser = real)]
     range: f64,
     /// The k of k-FNF: how many senders, the first not counted, make a node silent.
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "1,2,3", value_parser = count)]
