@@ -34,7 +34,10 @@ pub enum Entry {
     /// The sensor that it has seen there.
     Known,
     /// None: it has seen no sensor, takes the cell for unexplored and places a new one.
-    New,
+    New {
+        /// What the new one counts before the agent enters.
+        crossings: u32,
+    },
 }
 
 /// Enters `cell`: its sensor counts an agent more. Where the agent is to find none it places a new one, and whatever an
@@ -43,7 +46,9 @@ pub fn enter(floor: &mut impl Floor, cell: Cell, entry: Entry) {
     let there = floor.sensor(cell).unwrap_or_default();
     let known = match entry {
         Entry::Known => there,
-        Entry::New => Sensor { serial: floor.unpack(cell), agents: there.agents, ..Sensor::default() },
+        Entry::New { crossings } => {
+            Sensor { serial: floor.unpack(cell), agents: there.agents, crossings, ..Sensor::default() }
+        }
     };
     floor.put(cell, known.entered());
 }
@@ -52,7 +57,7 @@ pub fn enter(floor: &mut impl Floor, cell: Cell, entry: Entry) {
 pub fn settle(floor: &mut impl Floor, starts: &[Cell]) {
     for &start in starts {
         let entry = match floor.sensor(start).unwrap_or_default().mark {
-            Mark::Unexplored => Entry::New,
+            Mark::Unexplored => Entry::New { crossings: 0 },
             Mark::Explored | Mark::Closing | Mark::Visited | Mark::Sealed => Entry::Known,
         };
         enter(floor, start, entry);

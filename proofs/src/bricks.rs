@@ -398,9 +398,9 @@ impl<P: Iterator<Item = Plan>> Series<P> {
     }
 
     /// Looks at all of them. Agents are not patient: whatever they gain before they go round, it is then that they
-    /// have to gain something.
+    /// have to gain something. Their laps are cut short early, so that some are and some are not.
     fn look(self, explored: &mut Explored, rule: Rule, demand: Demand) {
-        let rule = Rule { patience: 0, ..rule };
+        let rule = Rule { patience: 0, reach: 4, ..rule };
         let Self { plans, agents, max_misses, max_streak, turns } = self;
         let teams: Vec<Team> =
             plans.map(|plan| Team { plan, rule, turns, max_misses, max_streak, demand }).collect();

@@ -236,7 +236,8 @@ impl Floors {
         let (mut sensors, mut placed) = ([Sensor::default(); CELLS], [0; CELLS]);
         let mut floor = Small { plan: &self.plan, sensors: &mut sensors, placed: &mut placed };
         for (number, &cell) in cells.iter().enumerate() {
-            let entry = if cells[..number].contains(&cell) { Entry::Known } else { Entry::New };
+            let entry =
+                if cells[..number].contains(&cell) { Entry::Known } else { Entry::New { crossings: 0 } };
             enter(&mut floor, cell, entry);
         }
         let bodies = (0..).zip(cells).map(|(id, &cell)| Body { agent: Agent::new(id), cell, is_done: false });

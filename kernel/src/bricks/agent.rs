@@ -1,7 +1,7 @@
 //! One action of an agent: it scans, marks its cell, and goes on. Reading, writing and the registration in the next
 //! cell are one step: two agents whose scans overlap take turns (BRICKS-3).
 
-use super::lap::Lap;
+use super::lap::{Hand, Lap};
 use super::marking::{blocks, is_thin};
 use super::rule::{Condition, Precedence, Rule};
 use crate::ants::least_crossed;
@@ -20,8 +20,11 @@ pub struct Agent {
     lap: Option<Lap>,
     /// Whether its last lap did not come home, and nothing was gained since: its claim may still stand somewhere.
     is_lost: bool,
-    /// Moves since it marked a cell, found a new one or shut a side, under [`Condition::LeastCrossed`].
+    /// Counts moves in which it neither marked a cell nor found a new one nor shut a side, under
+    /// [`Condition::LeastCrossed`].
     idle: u16,
+    /// Laps that were cut short since one came round or came back.
+    cut_short: u8,
 }
 
 /// Whether visited cells count as walls (see [`Condition::SecondPass`]).
@@ -58,7 +61,7 @@ pub enum Next {
 impl Agent {
     /// An agent before its first action.
     pub const fn new(id: u8) -> Self {
-        Self { id, heading: Side::North, pass: Pass::First, lap: None, is_lost: false, idle: 0 }
+        Self { id, heading: Side::North, pass: Pass::First, lap: None, is_lost: false, idle: 0, cut_short: 0 }
     }
 
     /// The lap that it is on.
@@ -94,14 +97,14 @@ impl Agent {
             (_, Pass::First | Pass::Second) => Mark::Explored,
         };
         if let Next::Goes(side, entry, _) = next {
-            self.rest(rule, shuts.is_some() || scan.here.mark != was || entry == Entry::New);
+            self.rest(rule, shuts.is_some() || scan.here.mark != was || entry != Entry::Known);
             self.heading = side;
         }
         Act { here: scan.here, shuts, next }
     }
 
     /// The first pass while something unexplored is beside it. The second when it has nowhere to go in the first, or
-    /// has gained nothing for long.
+    /// has gained little for long.
     fn choose_pass(&mut self, rule: Rule, scan: &Scan) {
         if scan.reachable().and(scan.unexplored) != Ring::default() && self.lap.is_none() {
             self.pass = Pass::First;
@@ -116,7 +119,14 @@ impl Agent {
     /// Counts a move that gains something, or another idle one.
     fn rest(&mut self, rule: Rule, gains: bool) {
         if gains {
-            (self.idle, self.is_lost) = (0, false);
+            self.is_lost = false;
+            self.idle = match self.pass {
+                // It may be a missed sensor that was replaced, again and again.
+                Pass::First if rule.has(Condition::SecondPass) => {
+                    self.idle.saturating_sub(u16::from(rule.patience) / 16)
+                }
+                Pass::First | Pass::Second => 0,
+            };
         } else if rule.has(Condition::LeastCrossed) {
             self.idle = (self.idle + 1).min(rule.hope());
         }
@@ -151,12 +161,17 @@ impl Agent {
         }
         let is_there = scan.reachable().has(first);
         let came_back = self.heading == first.opposite();
-        let comes_round = self.left_hand(scan, scan.reachable()) == Some(first);
-        if is_there && !came_back && !comes_round {
+        let comes_round = self.along(lap.hand, scan, scan.reachable()) == Some(first);
+        if is_there && !came_back && !comes_round && !lap.is_cut_short() {
             return None;
         }
         self.lap = None;
         scan.here.claim = None;
+        if lap.is_cut_short() && !lap.is_void {
+            self.cut_short = self.cut_short.saturating_add(1);
+            return Some(Ended::CutShort);
+        }
+        self.cut_short = 0;
         let is_shown = is_there && !came_back && !lap.is_void;
         let is_unchanged = !rule.has(Condition::SeenOnly) || scan.serials == lap.around;
         let can_shut = is_shown && is_unchanged && is_thin(scan, first) && scan.explored.has(first);
@@ -168,10 +183,10 @@ impl Agent {
         let reachable = scan.reachable();
         let free = reachable.and(scan.closing.not());
         let side = if let Some(lap) = self.lap {
-            let along = self.left_hand(scan, reachable);
+            let (lap, along) = self.go_on(rule, scan, lap);
             let along = along.filter(|&side| free.has(side));
             if let Some(side) = along {
-                self.lap = lap.moved(side);
+                self.lap = lap.through(side);
                 self.is_lost = self.lap.is_none();
             }
             along
@@ -186,10 +201,23 @@ impl Agent {
             Some(side) => {
                 let mut claim = scan.claim(side);
                 self.meet(rule, &mut claim);
-                Next::Goes(side, scan.entry(side), claim)
+                Next::Goes(side, entry(rule, scan, side), claim)
             }
             None if reachable == Ring::default() => Next::Done,
             None => Next::Waits,
+        }
+    }
+
+    /// The way on on a lap, which is cut short where it goes too far.
+    fn go_on(&mut self, rule: Rule, scan: &Scan, lap: Lap) -> (Lap, Option<Side>) {
+        let reach = u32::from(rule.reach).saturating_mul(1 << (self.cut_short / 2).min(31));
+        match self.along(lap.hand, scan, scan.reachable()) {
+            Some(onward) if !lap.is_cut_short() && lap.moved() >= reach => {
+                let lap = lap.cut_short(onward);
+                self.heading = onward.opposite();
+                (lap, self.along(lap.hand, scan, scan.reachable()))
+            }
+            along => (lap, along),
         }
     }
 
@@ -198,7 +226,9 @@ impl Agent {
         let along = match end {
             // The next lap begins one move farther along the same material.
             Some(Ended::InVain(first)) if free.has(first) => first,
-            Some(_) | None => self.left_hand(scan, free)?,
+            Some(Ended::InVain(_) | Ended::CutShort | Ended::Shut(_)) | None => {
+                self.along(Hand::Left, scan, free)?
+            }
         };
         // It goes to the least crossed neighbour for a while, and then round the material until something comes of it.
         let is_calm = self.idle < u16::from(rule.patience) || self.is_lost;
@@ -206,9 +236,13 @@ impl Agent {
         if rule.has(Condition::LeastCrossed) && (is_calm || is_early) {
             return least_crossed(scan, free);
         }
-        if end.is_none() && scan.here.claim.is_none() && blocks(rule, scan) && is_thin(scan, along) {
+        let may_begin = match end {
+            None | Some(Ended::CutShort) => true,
+            Some(Ended::InVain(_) | Ended::Shut(_)) => false,
+        };
+        if may_begin && scan.here.claim.is_none() && blocks(rule, scan) && is_thin(scan, along) {
             scan.here.claim = Some(Claim { owner: self.id });
-            self.lap = Lap::new(along, scan.serials).moved(along);
+            self.lap = Lap::new(along, scan.serials).through(along);
         }
         Some(along)
     }
@@ -220,32 +254,50 @@ impl Agent {
         onward.or_else(|| reachable.has(back).then_some(back))
     }
 
-    /// The way on with the left hand on material: the first side of left, ahead, right and back that is in `among` and
-    /// has material on its left; if none has, the first of them.
-    fn left_hand(&self, scan: &Scan, among: Ring) -> Option<Side> {
-        let (left, ahead) = (self.heading.turned_left(), self.heading);
-        let order = [left, ahead, ahead.turned_right(), ahead.opposite()];
+    /// The way on with a hand on material: the first side of that hand's, ahead, the other hand's and back that is in
+    /// `among` and has material on that hand's side; if none has, the first of them.
+    fn along(&self, hand: Hand, scan: &Scan, among: Ring) -> Option<Side> {
+        let (left, ahead, right) = (self.heading.turned_left(), self.heading, self.heading.turned_right());
+        let back = ahead.opposite();
+        let (order, is_filled): (_, fn(&Scan, Side) -> bool) = match hand {
+            Hand::Left => ([left, ahead, right, back], Scan::is_filled_left),
+            Hand::Right => ([right, ahead, left, back], Scan::is_filled_right),
+        };
         let mut sides = order.into_iter().filter(|&side| among.has(side));
-        let along = sides.clone().find(|&side| !scan.is_filled_left(side));
+        let along = sides.clone().find(|&side| !is_filled(scan, side));
         along.or_else(|| sides.next())
     }
 }
 
-/// What comes of a lap that is over, and which side it began with.
+/// What comes of a lap that is over, and which side it began with where that matters.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Ended {
     /// The side is shut.
     Shut(Side),
     /// Nothing.
     InVain(Side),
+    /// Nothing yet: it was cut short.
+    CutShort,
 }
 
 impl Ended {
     const fn shuts(self) -> Option<Side> {
         match self {
             Self::Shut(side) => Some(side),
-            Self::InVain(_) => None,
+            Self::InVain(_) | Self::CutShort => None,
         }
+    }
+}
+
+/// What the neighbour beyond `side` is entered as. A sensor that is placed in the place of one that was missed forgets how
+/// often the cell was entered, and agents would be drawn back to it again and again: under [`Condition::SecondPass`] it
+/// begins with what the cell that the agent comes from counts.
+fn entry(rule: Rule, scan: &Scan, side: Side) -> Entry {
+    match scan.entry(side) {
+        Entry::New { .. } if rule.has(Condition::SecondPass) => {
+            Entry::New { crossings: scan.here.crossings.saturating_sub(1) }
+        }
+        entry => entry,
     }
 }
 

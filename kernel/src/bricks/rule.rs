@@ -43,6 +43,8 @@ pub struct Rule {
     pub precedence: Precedence,
     /// Moves without any gain before an agent goes round, under [`Condition::LeastCrossed`].
     pub patience: u8,
+    /// Moves after which the first lap is cut short, under [`Condition::Laps`].
+    pub reach: u8,
 }
 
 impl Rule {
@@ -51,6 +53,7 @@ impl Rule {
         conditions: Conditions::of(&[Condition::Corners]),
         precedence: Precedence::Higher,
         patience: 32,
+        reach: 255,
     };
 
     /// With loop closure.
@@ -82,7 +85,7 @@ impl Rule {
         Self { conditions: self.conditions.without(condition), ..self }
     }
 
-    /// Moves without any gain before the second pass.
+    /// Moves without gain before the second pass: each counts one up, and a gain in the first pass a little down.
     #[inline]
     pub(super) const fn hope(self) -> u16 {
         4 * self.patience as u16

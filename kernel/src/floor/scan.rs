@@ -147,7 +147,7 @@ impl Scan {
     /// What the neighbour beyond `side`, which has a sensor, is entered as.
     #[inline]
     pub const fn entry(&self, side: Side) -> Entry {
-        if self.unexplored.has(side) { Entry::New } else { Entry::Known }
+        if self.unexplored.has(side) { Entry::New { crossings: 0 } } else { Entry::Known }
     }
 
     /// Whether the square to the left of the way through `side`, which is reachable, is free all round: the neighbours
