@@ -87,7 +87,7 @@ enum Fate {
 fn run(rule: Rule, free: &[Cell], start: Cell, missed: &[u32]) -> (Fate, u32) {
     let mut floor =
         Plain { sensors: free.iter().map(|&cell| (cell, Sensor::default())).collect(), placed: 0 };
-    enter(&mut floor, start, Entry::New);
+    enter(&mut floor, start, Entry::New { crossings: 0 });
     let (mut agent, mut cell, mut script) = (Agent::new(0), start, Script { missed, asked: 0 });
     for moves in 1..10_000 {
         let action;
