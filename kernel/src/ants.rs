@@ -2,8 +2,8 @@
 //! and an agent goes to the side neighbour that was entered least. It explores whatever is connected and never knows
 //! that it is done. Clause: ANTS-1.
 
-use crate::floor::{COMPASS, Ring, Scan};
-use crate::lattice::Side;
+use crate::floor::{COMPASS, Floor, Ring, Scan, enter, leave};
+use crate::lattice::{Cell, Side};
 
 /// Where an agent goes: the side neighbour of `among` with the fewest crossings, ties in the order of the compass.
 /// `None` if there is none.
@@ -14,4 +14,12 @@ pub fn least_crossed(scan: &Scan, among: Ring) -> Option<Side> {
         .filter(|&(_, side)| among.has(side))
         .min_by_key(|&(place, _): &(usize, Side)| scan.crossings[place])
         .map(|(_, side)| side)
+}
+
+/// One action of an ant in `cell`, which has seen `scan`: the side that it has gone through, if there was one.
+pub fn act(floor: &mut impl Floor, cell: Cell, scan: &Scan) -> Option<Side> {
+    let side = least_crossed(scan, scan.beside)?;
+    leave(floor, cell);
+    enter(floor, cell.beyond(side), scan.entry(side));
+    Some(side)
 }

@@ -1,9 +1,9 @@
 //! Ants on small floors, as systems whose states are all looked at (ANTS-1): which agent acts next and which sensors
 //! it misses are choices. A run is over when every cell is explored, since crossings go on to grow for ever.
 
-use tautline_kernel::ants::least_crossed;
+use tautline_kernel::ants::act;
 use tautline_kernel::choice::Source;
-use tautline_kernel::floor::{Mark, Scan, Sensor, enter, leave, settle};
+use tautline_kernel::floor::{Mark, Scan, Sensor, settle};
 use tautline_kernel::lattice::Cell;
 
 use crate::bricks::{Misses, Small, look};
@@ -56,9 +56,7 @@ impl Colony {
         let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors, placed: &mut [0; CELLS] };
         let mut world = Misses { world, count: &mut state.misses, most: self.max_misses };
         let scan = Scan::new(&floor, cell, &mut world);
-        if let Some(side) = least_crossed(&scan, scan.beside) {
-            leave(&mut floor, cell);
-            enter(&mut floor, cell.beyond(side), scan.entry(side));
+        if let Some(side) = act(&mut floor, cell, &scan) {
             state.ants[ant as usize] = cell.beyond(side);
         }
         for sensor in &mut state.sensors {
@@ -82,10 +80,6 @@ impl System for Colony {
 
     fn steps(&self, state: &State) -> impl Iterator<Item = Step<State, &'static str>> {
         outcomes(|world| self.step(state, world)).flatten()
-    }
-
-    fn broken_at_end(&self, _: &State) -> Option<&'static str> {
-        None
     }
 
     fn broken_by_endless_runs(&self) -> Option<&'static str> {

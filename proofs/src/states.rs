@@ -34,7 +34,9 @@ pub(crate) trait System {
     fn steps(&self, state: &Self::State) -> impl Iterator<Item = Step<Self::State, Self::Demand>>;
 
     /// What is broken by staying in `state`, from which no step is bound to be made.
-    fn broken_at_end(&self, state: &Self::State) -> Option<Self::Demand>;
+    fn broken_at_end(&self, _: &Self::State) -> Option<Self::Demand> {
+        None
+    }
 
     /// What is broken by a run that never ends and owes the same thing throughout, everybody acting who is awake
     /// throughout; `None` if that is not looked for.

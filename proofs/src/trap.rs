@@ -11,10 +11,10 @@
 use std::ops::ControlFlow;
 
 use rayon::prelude::*;
-use tautline_kernel::ants::least_crossed;
+use tautline_kernel::ants;
 use tautline_kernel::bricks::{Agent, Condition, Next, Rule, act};
 use tautline_kernel::choice::Source;
-use tautline_kernel::floor::{Entry, Mark, Scan, Sensor, enter, leave};
+use tautline_kernel::floor::{Mark, Scan, Sensor, settle};
 use tautline_kernel::lattice::Cell;
 
 use crate::bricks::{Misses, Small, is_shut, marked};
@@ -213,33 +213,16 @@ struct Floors {
 impl Floors {
     /// Looks at every start.
     fn look(&self, agents: u32, most_steps: u32) -> Look {
-        let starts = self.starts(agents);
+        let starts: Vec<Vec<Cell>> = self.plan.starts(agents).collect();
         let found = search(self, starts.iter().map(|cells| self.start(cells)), most_steps);
         let trap = found.broken.first().map(|run| self.trap(&starts, run));
         Look { states: found.states, steps: found.steps, is_whole: found.is_whole, trap }
     }
 
-    /// Every place that the agents can start from.
-    fn starts(&self, agents: u32) -> Vec<Vec<Cell>> {
-        let mut starts = vec![Vec::new()];
-        for _ in 0..agents {
-            let longer = |start: &Vec<Cell>| {
-                let start = start.clone();
-                self.plan.cells().map(move |cell| [&start[..], &[cell]].concat())
-            };
-            starts = starts.iter().flat_map(longer).collect();
-        }
-        starts
-    }
-
     fn start(&self, cells: &[Cell]) -> State {
         let (mut sensors, mut placed) = ([Sensor::default(); CELLS], [0; CELLS]);
         let mut floor = Small { plan: &self.plan, sensors: &mut sensors, placed: &mut placed };
-        for (number, &cell) in cells.iter().enumerate() {
-            let entry =
-                if cells[..number].contains(&cell) { Entry::Known } else { Entry::New { crossings: 0 } };
-            enter(&mut floor, cell, entry);
-        }
+        settle(&mut floor, cells);
         let bodies = (0..).zip(cells).map(|(id, &cell)| Body { agent: Agent::new(id), cell, is_done: false });
         let mut state = State { sensors, placed, bodies: bodies.collect(), misses: 0 };
         self.forget(&mut state);
@@ -326,10 +309,8 @@ impl Floors {
             match self.way {
                 Way::Ants => {
                     let scan = Scan::new(&floor, body.cell, world);
-                    if let Some(side) = least_crossed(&scan, scan.beside) {
-                        leave(&mut floor, body.cell);
+                    if let Some(side) = ants::act(&mut floor, body.cell, &scan) {
                         body.cell = body.cell.beyond(side);
-                        enter(&mut floor, body.cell, scan.entry(side));
                     }
                 }
                 Way::Bricks(rule) => {
@@ -430,10 +411,6 @@ impl System for Floors {
             Step { state, situation: "a team move", acting: 1, is_bound: true, breaks }
         };
         self.moves(state).map(step)
-    }
-
-    fn broken_at_end(&self, _: &State) -> Option<&'static str> {
-        None
     }
 
     fn broken_by_endless_runs(&self) -> Option<&'static str> {

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 
 use tautline_kernel::bricks::{Agent, Next, Rule, act};
 use tautline_kernel::choice::Source;
-use tautline_kernel::floor::{Entry, Floor, Mark, Sensor, enter};
+use tautline_kernel::floor::{Floor, Mark, Sensor, settle};
 use tautline_kernel::lattice::{Cell, Edge, Side};
 use tautline_proofs::trap::{Bounds, End, Found, Trap, Way, hunt};
 
@@ -87,7 +87,7 @@ enum Fate {
 fn run(rule: Rule, free: &[Cell], start: Cell, missed: &[u32]) -> (Fate, u32) {
     let mut floor =
         Plain { sensors: free.iter().map(|&cell| (cell, Sensor::default())).collect(), placed: 0 };
-    enter(&mut floor, start, Entry::New { crossings: 0 });
+    settle(&mut floor, &[start]);
     let (mut agent, mut cell, mut script) = (Agent::new(0), start, Script { missed, asked: 0 });
     for moves in 1..10_000 {
         let action;

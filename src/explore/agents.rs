@@ -8,11 +8,11 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
-use tautline_kernel::ants::least_crossed;
+use tautline_kernel::ants;
 use tautline_kernel::bricks::{self, Agent, Condition, Next};
 use tautline_kernel::chain::Kind;
 use tautline_kernel::choice::Source;
-use tautline_kernel::floor::{Claim, Mark, Scan, around, enter, leave, settle};
+use tautline_kernel::floor::{Claim, Mark, Scan, around, settle};
 use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Edge, Step};
 use tautline_kernel::perception::time;
@@ -163,10 +163,8 @@ impl Team {
             self.unseen.extend(cells);
         }
         let step = match self.way {
-            Way::Ants => least_crossed(&scan, scan.beside).map_or(Step::Stay, |side| {
-                leave(&mut self.floor, *cell);
+            Way::Ants => ants::act(&mut self.floor, *cell, &scan).map_or(Step::Stay, |side| {
                 *cell = cell.beyond(side);
-                enter(&mut self.floor, *cell, scan.entry(side));
                 Step::Cross(side)
             }),
             Way::Bricks(rule) => {
