@@ -57,6 +57,9 @@ impl From<Fault> for Halt {
     }
 }
 
+/// Is called after each part of a work, from any thread, and may stop the work.
+pub type Watch<'a> = dyn Fn() -> Result<(), Halt> + Sync + 'a;
+
 /// Whether [`Fault::render`] may use terminal colours.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Colour {

@@ -7,6 +7,7 @@ use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressDrawTarget, Prog
 use tautline_proofs::search::Progress;
 
 use super::interrupt;
+use crate::fault::{Halt, Watch};
 
 const STYLE: &str = "{prefix} {wide_bar} {percent} % {msg}";
 
@@ -15,6 +16,21 @@ pub(super) fn bar(prefix: impl Into<String>, of: u64) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(of), ProgressDrawTarget::stderr());
     bar.set_style(ProgressStyle::with_template(STYLE).unwrap_or_else(|_| ProgressStyle::default_bar()));
     bar.with_prefix(prefix.into())
+}
+
+/// Does work of `of` parts under a bar, unless the user ends it.
+pub(super) fn during<T>(
+    prefix: impl Into<String>,
+    of: u64,
+    work: impl FnOnce(&Watch<'_>) -> Result<T, Halt>,
+) -> Result<T, Halt> {
+    let bar = bar(prefix, of);
+    let done = work(&|| {
+        bar.inc(1);
+        interrupt::check()
+    });
+    bar.finish_and_clear();
+    done
 }
 
 /// Shows how far a search is, and ends it when the user wants that. What is left is estimated.

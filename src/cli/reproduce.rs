@@ -8,6 +8,7 @@ mod notice_fig5;
 mod optimum;
 mod repair_cost;
 mod rescue_fig8;
+mod table;
 
 use clap::{Args, Subcommand};
 use serde::Serialize;

@@ -9,10 +9,10 @@ use clap::Args;
 use serde::Serialize;
 
 use super::output::Output;
-use super::{Exit, Format, FormatArgs, interrupt, number, progress, real};
+use super::{Exit, Format, FormatArgs, number, progress, real};
 use crate::aside::Aside;
 use crate::explore::RuleName;
-use crate::fault::{Fault, Halt};
+use crate::fault::{Fault, Halt, Watch};
 use crate::radio::ChannelName;
 use crate::reproduce::interval::Estimate;
 use crate::rescue::{
@@ -212,12 +212,8 @@ impl Rescue {
             let remedy = format!("give one seed, for example --seeds {first}");
             return Err(Fault::usage("several rescues do not fit into one file", remedy).into());
         }
-        let bar = progress::bar("rescuing", count(seeds));
-        let summary = Summary::measure(&setting, seeds.clone(), &|| {
-            bar.inc(1);
-            interrupt::check()
-        })?;
-        bar.finish_and_clear();
+        let measure = |watch: &Watch<'_>| Summary::measure(&setting, seeds.clone(), watch);
+        let summary = progress::during("rescuing", count(seeds), measure)?;
         print(out, self.format.format, &setting, seeds, (&summary, None))
     }
 

@@ -12,7 +12,7 @@ use tautline_kernel::lattice::Cell;
 use super::interval::Estimate;
 use crate::explore::agents::{Team, Way};
 use crate::explore::{Crew, RuleName, SchemeName};
-use crate::fault::{Fault, Halt};
+use crate::fault::{Fault, Halt, Watch};
 use crate::layout::generate::Probability;
 use crate::layout::{Generator, Layout, Problem};
 
@@ -118,15 +118,11 @@ struct Outcome {
     is_ended: bool,
 }
 
-/// Measures every point of `figure`. `watch` is called after each run, from any thread, and may stop the work.
+/// Measures every point of `figure`. `watch` is called after each run.
 ///
 /// # Errors
 /// [`Halt`], as `watch` returned it.
-pub fn measure(
-    figure: Figure,
-    extent: Extent,
-    watch: &(dyn Fn() -> Result<(), Halt> + Sync),
-) -> Result<Vec<Line>, Halt> {
+pub fn measure(figure: Figure, extent: Extent, watch: &Watch<'_>) -> Result<Vec<Line>, Halt> {
     let miss = figure.miss().map_err(|problem| fault(&problem))?;
     let mut lines = Vec::new();
     for (side, agents) in figure.points() {

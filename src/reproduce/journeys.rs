@@ -15,7 +15,7 @@ use tautline_proofs::engine::Seeded;
 
 use super::interval::{Estimate, rounded};
 use super::notice_fig5::{NODES, usage};
-use crate::fault::Halt;
+use crate::fault::{Halt, Watch};
 use crate::homing::{End, Equipment, Journey, Site, Tree, hops, shortest_m};
 use crate::radio::{
     Area, Channel, Faults, Field, LONGEST_WAIT_NS, Model, Network, Obstacle, Point, Problem, Radio,
@@ -324,12 +324,12 @@ impl Sample {
 }
 
 impl Setting {
-    /// Measures everything. `watch` is called after each topology, from any thread, and may stop the work. The result is
-    /// the same on any number of threads.
+    /// Measures everything. `watch` is called after each topology. The result is the same on any number of
+    /// threads.
     ///
     /// # Errors
     /// [`Halt`], as `watch` returned it, or if the setting makes no network.
-    pub fn measure(&self, watch: &(dyn Fn() -> Result<(), Halt> + Sync)) -> Result<Vec<Density>, Halt> {
+    pub fn measure(&self, watch: &Watch<'_>) -> Result<Vec<Density>, Halt> {
         let density = |&nodes: &usize| {
             // What is wrong with all is to be the same fault each time, not that of whichever thread is first.
             self.world(nodes, 0).map_err(usage)?;

@@ -10,7 +10,7 @@ use tautline_kernel::choice::Source;
 use tautline_proofs::engine::Seeded;
 
 use super::interval::{Estimate, decimals, rounded};
-use crate::fault::{Fault, Halt};
+use crate::fault::{Fault, Halt, Watch};
 use crate::radio::{
     Area, Channel, Faults, Field, LONGEST_WAIT_NS, Model, Network, Problem, Radio, broadcast,
 };
@@ -99,12 +99,12 @@ impl Setting {
         self.ks.iter().map(farthest).chain(rivals).chain(plain).collect()
     }
 
-    /// Measures everything. `watch` is called after each topology, from any thread, and may stop the work. The result is
-    /// the same on any number of threads.
+    /// Measures everything. `watch` is called after each topology. The result is the same on any number of
+    /// threads.
     ///
     /// # Errors
     /// [`Halt`], as `watch` returned it, or if the setting makes no network.
-    pub fn measure(&self, watch: &(dyn Fn() -> Result<(), Halt> + Sync)) -> Result<Vec<Density>, Halt> {
+    pub fn measure(&self, watch: &Watch<'_>) -> Result<Vec<Density>, Halt> {
         let area = Area::new(self.side_m, self.side_m).map_err(usage)?;
         let radio = Radio::new(self.range_m, Model::Disc).map_err(usage)?;
         let range_um = radio.range_um();

@@ -16,7 +16,7 @@ use tautline_proofs::reach::{CellSet, Ground};
 
 use super::interval::hundredths;
 use crate::explore::{Chart, RuleName, SchemeName, Setup, explore};
-use crate::fault::{Fault, Halt};
+use crate::fault::{Fault, Halt, Watch};
 use crate::layout::{Layout, Problem, Size};
 
 /// A team, and the layouts of its area that it is measured in: (2N−1)² cells, the base in the middle.
@@ -92,18 +92,17 @@ fn as_drawing<S: Serializer>(layout: &Layout, serializer: S) -> Result<S::Ok, S:
     serializer.collect_str(layout)
 }
 
-/// Measures both rules in `field`. `watch` hears after some layouts how many they were, from any thread, and may stop
-/// the work.
+/// Measures both rules in `field`. `watch` hears of each layout.
 ///
 /// # Errors
 /// [`Halt`], as `watch` returned it, or if an optimum takes too many states.
-pub fn measure(field: Field, watch: &(dyn Fn(u64) -> Result<(), Halt> + Sync)) -> Result<[Line; 2], Halt> {
+pub fn measure(field: Field, watch: &Watch<'_>) -> Result<[Line; 2], Halt> {
     let area = Area::new(field.robots)?;
     let orbits: Vec<Vec<WallSet>> =
         (field.walls[0]..=field.walls[1]).flat_map(|walls| area.orbits(walls)).collect();
     let sums = orbits.par_iter().map(|orbit| {
         let sums = area.compare(orbit)?;
-        watch(orbit.len() as u64)?;
+        orbit.iter().try_for_each(|_| watch())?;
         Ok::<_, Halt>(sums)
     });
     let [published, repaired] = sums.try_reduce(Default::default, |one, other| Ok(both(one, other)))?;

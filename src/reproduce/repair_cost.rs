@@ -9,7 +9,7 @@ use tautline_proofs::run::Breach;
 
 use super::interval::{Estimate, Moments, hundredths};
 use crate::explore::{Milestone, Report, RuleName, SchemeName, Setup, explore};
-use crate::fault::{Fault, Halt};
+use crate::fault::{Fault, Halt, Watch};
 use crate::layout::Generator;
 
 /// The team of the paper.
@@ -93,15 +93,11 @@ struct Paired {
 }
 
 /// Compares the rules at every density in the layouts of `layouts` seeds from `seed` on. `watch` is called after each
-/// layout, from any thread, and may stop the work.
+/// layout.
 ///
 /// # Errors
 /// [`Halt`], as `watch` returned it.
-pub fn compare(
-    layouts: u32,
-    seed: u64,
-    watch: &(dyn Fn() -> Result<(), Halt> + Sync),
-) -> Result<Vec<Line>, Halt> {
+pub fn compare(layouts: u32, seed: u64, watch: &Watch<'_>) -> Result<Vec<Line>, Halt> {
     let compare_at = |density: &'static str| {
         let description = format!("walls:15x15:{density}");
         let generator: Generator = description

@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::interval::{Estimate, decimals, rounded};
 use super::notice_fig5::{RANGE_M, SIDE_M};
 use crate::explore::RuleName;
-use crate::fault::{Fault, Halt};
+use crate::fault::{Fault, Halt, Watch};
 use crate::homing::shortest_m;
 use crate::radio::{ChannelName, Point};
 use crate::rescue::{CallTimes, Fate, Problem, Report, SchemeName, rescue};
@@ -121,12 +121,12 @@ impl Setting {
         rescue(&setting, seed)
     }
 
-    /// Measures both rules. `watch` is called after each topology of each rule, from any thread, and may stop the work. The
-    /// result is the same on any number of threads.
+    /// Measures both rules. `watch` is called after each topology of each rule. The result is the same on any
+    /// number of threads.
     ///
     /// # Errors
     /// [`Halt`], as `watch` returned it, or if the setting makes no rescue.
-    pub fn measure(&self, watch: &(dyn Fn() -> Result<(), Halt> + Sync)) -> Result<Vec<Line>, Halt> {
+    pub fn measure(&self, watch: &Watch<'_>) -> Result<Vec<Line>, Halt> {
         self.rescue(RuleName::Published, self.seed).map_err(Fault::from)?;
         let line = |rule: RuleName| {
             let topologies = (0..u64::from(self.topologies)).into_par_iter();

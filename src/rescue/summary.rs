@@ -9,7 +9,7 @@ use tautline_proofs::engine::Seeded;
 use tautline_proofs::rescue::Demand;
 
 use super::{Fate, Report, Setting, Violation, rescue};
-use crate::fault::{Fault, Halt};
+use crate::fault::{Fault, Halt, Watch};
 use crate::reproduce::interval::{Estimate, rounded};
 
 /// What came of many rescues.
@@ -115,16 +115,11 @@ impl Kept {
 }
 
 impl Summary {
-    /// The rescues of `setting` with these seeds. `watch` is called after each, from any thread, and may stop the work.
-    /// The result is the same on any number of threads.
+    /// The rescues of `setting` with these seeds. `watch` is called after each. The result is the same on any number of threads.
     ///
     /// # Errors
     /// [`Halt`], as `watch` returned it, or if the setting makes no rescue.
-    pub fn measure(
-        setting: &Setting,
-        seeds: RangeInclusive<u64>,
-        watch: &(dyn Fn() -> Result<(), Halt> + Sync),
-    ) -> Result<Self, Halt> {
+    pub fn measure(setting: &Setting, seeds: RangeInclusive<u64>, watch: &Watch<'_>) -> Result<Self, Halt> {
         // What is wrong with all is to be the same fault each time, not that of whichever thread is first.
         setting.plan(&mut Seeded::new(*seeds.start(), 0)).map_err(Fault::from)?;
         let one = |seed: u64| {

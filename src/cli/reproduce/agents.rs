@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::aside::Aside;
 use crate::cli::output::Output;
-use crate::cli::{Exit, Format, FormatArgs, interrupt, number, progress};
+use crate::cli::{Exit, Format, FormatArgs, number, progress};
 use crate::explore::SchemeName;
 use crate::fault::Halt;
 use crate::reproduce::Reproduction;
@@ -67,13 +67,8 @@ impl Agents {
         out: &mut Output,
     ) -> Result<Exit, Halt> {
         let runs = u64::from(self.layouts) * (figure.points().len() * SCHEMES.len()) as u64;
-        let bar = progress::bar("exploring", runs);
         let extent = Extent { layouts: self.layouts, seed: self.seed, max_steps: self.max_steps };
-        let lines = agents::measure(figure, extent, &|| {
-            bar.inc(1);
-            interrupt::check()
-        })?;
-        bar.finish_and_clear();
+        let lines = progress::during("exploring", runs, |watch| agents::measure(figure, extent, watch))?;
         let printed = printed(figure, &lines);
         if let Some(path) = &self.svg {
             Aside::write(path, chart(figure, &lines).svg())?;

@@ -1,16 +1,16 @@
 //! `tautline reproduce rescue-fig6`, `rescue-fig7`, `rescue-fig9` and `rescue-fig10`: how far a robot walks.
 
-use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
 use tautline_kernel::broadcast::Count;
 
+use super::table::Table;
 use crate::aside::Aside;
 use crate::cli::output::Output;
 use crate::cli::rescue::Metres;
-use crate::cli::{Exit, Format, FormatArgs, count, interrupt, number, progress, real};
+use crate::cli::{Exit, Format, FormatArgs, count, number, progress, real};
 use crate::fault::{Fault, Halt};
 use crate::radio::Obstacle;
 use crate::reproduce::Reproduction;
@@ -97,12 +97,8 @@ impl Journeys {
             topologies: self.topologies,
             seed: self.seed,
         };
-        let bar = progress::bar("walking", u64::from(self.topologies) * setting.nodes.len() as u64);
-        let densities = setting.measure(&|| {
-            bar.inc(1);
-            interrupt::check()
-        })?;
-        bar.finish_and_clear();
+        let topologies = u64::from(self.topologies) * setting.nodes.len() as u64;
+        let densities = progress::during("walking", topologies, |watch| setting.measure(watch))?;
         if let Some(path) = &self.svg {
             Aside::write(path, picture(figure, &setting, &densities)?)?;
         }
@@ -146,8 +142,8 @@ fn text(setting: &Setting, densities: &[Density]) -> String {
         1 => "1 obstacle".to_owned(),
         more => format!("{more} obstacles"),
     };
-    let mut text = format!(
-        "{side}×{side} m, range {} m, {obstacles}, k = {}, noise {} dB, {} topologies for each number of nodes, seed {}\n",
+    let heading = format!(
+        "{side}×{side} m, range {} m, {obstacles}, k = {}, noise {} dB, {} topologies for each number of nodes, seed {}",
         setting.range_m,
         setting.k.get(),
         setting.noise_db,
@@ -155,52 +151,44 @@ fn text(setting: &Setting, densities: &[Density]) -> String {
         setting.seed,
         side = setting.side_m,
     );
-    let mut row = |name: &str, cell: &dyn Fn(&Density) -> String| {
-        // Writing to a string cannot fail.
-        let _ = write!(text, "\n{name:<21}");
-        for density in densities {
-            let _ = write!(text, "  {:>14}", cell(density));
-        }
-    };
+    let mut table = Table::new(heading, 21, densities);
     let or_dash = |estimate: Option<Estimate>| Estimate::text_or_dash(estimate, 2);
     let percent = |share: Option<Estimate>| or_dash(share.map(|share| share.times(100.0)));
-    row("nodes", &|density| density.nodes.to_string());
-    row("linked", &|density| percent(Some(density.linked)));
-    row("told", &|density| percent(density.told));
-    row("\nArrivals, % of those linked", &|_| String::new());
+    table.row("nodes", |density| density.nodes.to_string());
+    table.row("linked", |density| percent(Some(density.linked)));
+    table.row("told", |density| percent(density.told));
+    table.title("Arrivals, % of those linked");
     for (place, way) in Way::ALL.into_iter().enumerate() {
-        row(way.word(), &|density| percent(density.ways[place].arrivals));
+        table.row(way.word(), |density| percent(density.ways[place].arrivals));
     }
-    row("\nRD where all arrive", &|_| String::new());
-    row("topologies", &|density| density.ways[0].ratio.map_or(0, |ratio| ratio.count).to_string());
+    table.title("RD where all arrive");
+    table.row("topologies", |density| density.ways[0].ratio.map_or(0, |ratio| ratio.count).to_string());
     for (place, way) in Way::ALL.into_iter().enumerate() {
-        row(way.word(), &|density| or_dash(density.ways[place].ratio));
+        table.row(way.word(), |density| or_dash(density.ways[place].ratio));
     }
-    row("\nSeconds for each metre of the shortest way", &|_| String::new());
+    table.title("Seconds for each metre of the shortest way");
     for (place, way) in Way::ALL.into_iter().enumerate() {
         if densities.iter().any(|density| density.ways[place].seconds.is_some()) {
-            row(way.word(), &|density| or_dash(density.ways[place].seconds));
+            table.row(way.word(), |density| or_dash(density.ways[place].seconds));
         }
     }
-    row("\nTAN", &|_| String::new());
-    row("hops", &|density| or_dash(density.hops));
-    row("shorter, %", &|density| percent(density.shorter_than_reich));
-    row("\nRD of TAN, in the paper's words, and the difference", &|_| String::new());
+    table.title("TAN");
+    table.row("hops", |density| or_dash(density.hops));
+    table.row("shorter, %", |density| percent(density.shorter_than_reich));
+    table.title("RD of TAN, in the paper's words, and the difference");
     let mut rival = None;
     for (place, claim) in Claim::ALL.into_iter().enumerate() {
         if rival.replace(claim.rival()) != Some(claim.rival()) {
-            row(&format!("TAN less {}", claim.rival().word()), &|density| {
+            table.row(&format!("TAN less {}", claim.rival().word()), |density| {
                 or_dash(density.claims[place].difference)
             });
         }
-        row(&format!("  {}", claim.words()), &|density| density.claims[place].verdict.word().to_owned());
+        table.row(&format!("  {}", claim.words()), |density| density.claims[place].verdict.word().to_owned());
     }
-    let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
-    lines.join("\n")
-        + &format!(
-            "\n\nlinked: % of the topologies in which links lead from the robot to the WFR · told: % of those in which the \
-             robot\nhears the call by k-FNF, which TAN needs · RD: metres walked for each metre of the shortest way · hops: for \
-             each hop\nof the shortest chain of links · shorter: % of the topologies in which TAN's way is shorter than Reich's · \
-             holds, fails:\nthe whole 95 % interval says so, close being up to {CLOSE} · ±: half its width\n"
-        )
+    table.with_notes(&format!(
+        "linked: % of the topologies in which links lead from the robot to the WFR · told: % of those in which the \
+         robot\nhears the call by k-FNF, which TAN needs · RD: metres walked for each metre of the shortest way · hops: for \
+         each hop\nof the shortest chain of links · shorter: % of the topologies in which TAN's way is shorter than Reich's · \
+         holds, fails:\nthe whole 95 % interval says so, close being up to {CLOSE} · ±: half its width"
+    ))
 }

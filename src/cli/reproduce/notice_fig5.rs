@@ -1,15 +1,15 @@
 //! `tautline reproduce notice-fig5`: how far broadcasts reach, and how many nodes forward them.
 
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde::Serialize;
 use tautline_kernel::broadcast::Count;
 
+use super::table::Table;
 use crate::aside::Aside;
 use crate::cli::output::Output;
-use crate::cli::{Exit, Format, FormatArgs, count, interrupt, number, progress, real};
+use crate::cli::{Exit, Format, FormatArgs, count, number, progress, real};
 use crate::fault::{Fault, Halt};
 use crate::radio::ChannelName;
 use crate::reproduce::Reproduction;
@@ -83,12 +83,8 @@ impl NoticeFig5 {
             seed: self.seed,
             channel: self.channel.channel(),
         };
-        let bar = progress::bar("broadcasting", u64::from(self.topologies) * self.nodes.len() as u64);
-        let densities = setting.measure(&|| {
-            bar.inc(1);
-            interrupt::check()
-        })?;
-        bar.finish_and_clear();
+        let topologies = u64::from(self.topologies) * self.nodes.len() as u64;
+        let densities = progress::during("broadcasting", topologies, |watch| setting.measure(watch))?;
         store(self.svg_reach.as_deref(), Part::Reach, &densities)?;
         store(self.svg_rebroadcasts.as_deref(), Part::Rebroadcasts, &densities)?;
         match self.format.format {
@@ -107,8 +103,8 @@ impl NoticeFig5 {
     }
 
     fn table(&self, densities: &[Density]) -> String {
-        let mut text = format!(
-            "{side}×{side} m, range {} m, {} topologies for each number of nodes, seed {}, {} channel\n",
+        let heading = format!(
+            "{side}×{side} m, range {} m, {} topologies for each number of nodes, seed {}, {} channel",
             self.range,
             self.topologies,
             self.seed,
@@ -116,40 +112,34 @@ impl NoticeFig5 {
             side = self.side,
         );
         let percent = |estimate: Estimate| estimate.times(100.0).text(2);
-        let mut row = |name: &str, cell: &dyn Fn(&Density) -> String| {
-            let _ = write!(text, "\n{name:<14}");
-            for density in densities {
-                // Writing to a string cannot fail.
-                let _ = write!(text, "  {:>14}", cell(density));
-            }
-        };
-        row("nodes", &|density| density.nodes.to_string());
-        row("connected", &|density| format!("{:.2}", 100.0 * density.connected.mean));
-        row("component", &|density| percent(density.component));
+        let mut table = Table::new(heading, 14, densities);
+        table.row("nodes", |density| density.nodes.to_string());
+        table.row("connected", |density| format!("{:.2}", 100.0 * density.connected.mean));
+        table.row("component", |density| percent(density.component));
         let schemes = densities.first().map_or(&[][..], |density| &density.schemes);
-        row("\nReach, % of all nodes", &|_| String::new());
+        table.title("Reach, % of all nodes");
         for (place, line) in schemes.iter().enumerate() {
-            row(&line.scheme, &|density| percent(density.schemes[place].reach));
+            table.row(&line.scheme, |density| percent(density.schemes[place].reach));
             if densities.iter().any(|density| density.schemes[place].paper.is_some()) {
                 let said =
                     |part: Option<f64>| part.map_or("-".to_owned(), |part| format!("{:.2}", 100.0 * part));
-                row("  paper", &|density| said(density.schemes[place].paper));
-                row("  difference", &|density| said(density.schemes[place].difference));
+                table.row("  paper", |density| said(density.schemes[place].paper));
+                table.row("  difference", |density| said(density.schemes[place].difference));
             }
         }
-        row("\nReach, % of the nodes connected to the source", &|_| String::new());
+        table.title("Reach, % of the nodes connected to the source");
         for (place, line) in schemes.iter().enumerate() {
-            row(&line.scheme, &|density| percent(density.schemes[place].reach_component));
+            table.row(&line.scheme, |density| percent(density.schemes[place].reach_component));
         }
-        row("\nRebroadcasts", &|_| String::new());
+        table.title("Rebroadcasts");
         for (place, line) in schemes.iter().enumerate() {
-            row(&line.scheme, &|density| density.schemes[place].rebroadcasts.text(2));
+            table.row(&line.scheme, |density| density.schemes[place].rebroadcasts.text(2));
         }
-        let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
-        lines.join("\n")
-            + "\n\nconnected: % of the networks in which links connect all nodes · component: % of the nodes that they \
+        table.with_notes(
+            "connected: % of the networks in which links connect all nodes · component: % of the nodes that they \
                connect to the\nsource · ±: half the width of the 95 % interval · paper: “near 100 %” at every density; all \
-               else it draws only\n"
+               else it draws only",
+        )
     }
 }
 

@@ -6,9 +6,9 @@ use clap::Args;
 use serde::Serialize;
 
 use crate::cli::output::Output;
-use crate::cli::{Exit, Format, FormatArgs, interrupt, progress};
+use crate::cli::{Exit, Format, FormatArgs, progress};
 use crate::explore::RuleName;
-use crate::fault::Halt;
+use crate::fault::{Halt, Watch};
 use crate::reproduce::Reproduction;
 use crate::reproduce::optimum::{self, Field, Line, Worst};
 use crate::view::{self, Block};
@@ -41,15 +41,11 @@ impl Optimum {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let three_robots = (0..=self.max_walls).map(Field::three_robots);
         let fields: Vec<Field> = std::iter::once(Field::TWO_ROBOTS).chain(three_robots).collect();
-        let bar = progress::bar("solving", fields.iter().map(|field| field.layouts()).sum());
-        let mut lines = Vec::new();
-        for field in fields {
-            lines.extend(optimum::measure(field, &|layouts| {
-                bar.inc(layouts);
-                interrupt::check()
-            })?);
-        }
-        bar.finish_and_clear();
+        let layouts = fields.iter().map(|field| field.layouts()).sum();
+        let measure = |watch: &Watch<'_>| -> Result<Vec<[Line; 2]>, Halt> {
+            fields.iter().map(|&field| optimum::measure(field, watch)).collect()
+        };
+        let lines = progress::during("solving", layouts, measure)?.concat();
         let is_below = lines.iter().any(|line| line.below > 0);
         match self.format.format {
             Format::Json => out.json(&Measured { id: Reproduction::Optimum.id(), lines })?,

@@ -6,8 +6,8 @@ use clap::Args;
 use serde::Serialize;
 
 use crate::cli::output::Output;
-use crate::cli::{Exit, Format, FormatArgs, interrupt, number, progress};
-use crate::fault::Halt;
+use crate::cli::{Exit, Format, FormatArgs, number, progress};
+use crate::fault::{Halt, Watch};
 use crate::reproduce::Reproduction;
 use crate::reproduce::repair_cost::{self, Comparison, DENSITIES, Line, ROBOTS};
 
@@ -40,12 +40,9 @@ struct Measured {
 
 impl RepairCost {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        let bar = progress::bar("comparing", u64::from(self.layouts) * DENSITIES.len() as u64);
-        let lines = repair_cost::compare(self.layouts, self.seed, &|| {
-            bar.inc(1);
-            interrupt::check()
-        })?;
-        bar.finish_and_clear();
+        let layouts = u64::from(self.layouts) * DENSITIES.len() as u64;
+        let compare = |watch: &Watch<'_>| repair_cost::compare(self.layouts, self.seed, watch);
+        let lines = progress::during("comparing", layouts, compare)?;
         match self.format.format {
             Format::Json => out.json(&Measured {
                 id: Reproduction::RepairCost.id(),

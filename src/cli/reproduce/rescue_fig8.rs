@@ -1,15 +1,15 @@
 //! `tautline reproduce rescue-fig8`: three robots for three WFRs.
 
-use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
 use tautline_kernel::broadcast::Count;
 
+use super::table::Table;
 use crate::aside::Aside;
 use crate::cli::output::Output;
-use crate::cli::{Exit, Format, FormatArgs, count, interrupt, number, progress};
+use crate::cli::{Exit, Format, FormatArgs, count, number, progress};
 use crate::fault::Halt;
 use crate::reproduce::Reproduction;
 use crate::reproduce::interval::Estimate;
@@ -70,12 +70,8 @@ impl RescueFig8 {
         let Self { nodes, topologies, seed, .. } = *self;
         let (robots, wfrs, k) = (self.robots as usize, self.wfr as usize, self.k.get());
         let setting = Setting { nodes, robots, wfrs, k, topologies, seed };
-        let bar = progress::bar("rescuing", 2 * u64::from(topologies));
-        let lines = setting.measure(&|| {
-            bar.inc(1);
-            interrupt::check()
-        })?;
-        bar.finish_and_clear();
+        let rescues = 2 * u64::from(topologies);
+        let lines = progress::during("rescuing", rescues, |watch| setting.measure(watch))?;
         if let Some(path) = &self.svg {
             Aside::write(path, setting.picture()?)?;
         }
@@ -92,35 +88,29 @@ impl RescueFig8 {
 
 fn table(setting: &Setting, lines: &[Line]) -> String {
     let Setting { nodes, robots, wfrs, k, topologies, seed } = setting;
-    let mut text = format!(
-        "{robots} robots, {wfrs} WFRs, {nodes} nodes in 300×300 m, range 25 m, k = {k}, {topologies} topologies, seed {seed}\n"
+    let heading = format!(
+        "{robots} robots, {wfrs} WFRs, {nodes} nodes in 300×300 m, range 25 m, k = {k}, {topologies} topologies, seed {seed}"
     );
-    let mut row = |name: &str, cell: &dyn Fn(&Line) -> String| {
-        // Writing to a string cannot fail.
-        let _ = write!(text, "\n{name:<26}");
-        for line in lines {
-            let _ = write!(text, "  {:>14}", cell(line));
-        }
-    };
+    let mut table = Table::new(heading, 26, lines);
     let percent = |share: f64| format!("{:.2}", 100.0 * share);
-    row("MRC", &|line| line.rule.to_string());
-    row("served, %", &|line| line.served.ours.times(100.0).text(2));
-    row("  paper", &|line| percent(line.served.paper));
-    row("  difference", &|line| percent(line.served.difference));
-    row("a robot each, %", &|line| line.own.ours.times(100.0).text(2));
-    row("  paper", &|line| percent(line.own.paper));
-    row("  difference", &|line| percent(line.own.difference));
-    row("RD", &|line| Estimate::text_or_dash(line.distance_ratio, 3));
-    row("over the best assignment", &|line| Estimate::text_or_dash(line.over_best, 3));
-    row("the best assignment, %", &|line| {
+    table.row("MRC", |line| line.rule.to_string());
+    table.row("served, %", |line| line.served.ours.times(100.0).text(2));
+    table.row("  paper", |line| percent(line.served.paper));
+    table.row("  difference", |line| percent(line.served.difference));
+    table.row("a robot each, %", |line| line.own.ours.times(100.0).text(2));
+    table.row("  paper", |line| percent(line.own.paper));
+    table.row("  difference", |line| percent(line.own.difference));
+    table.row("RD", |line| Estimate::text_or_dash(line.distance_ratio, 3));
+    table.row("over the best assignment", |line| Estimate::text_or_dash(line.over_best, 3));
+    table.row("the best assignment, %", |line| {
         Estimate::text_or_dash(line.best.map(|share| share.times(100.0)), 2)
     });
-    row("seconds to the last", &|line| Estimate::text_or_dash(line.last_s, 1));
-    let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
-    lines.join("\n")
-        + "\n\nserved: % of the topologies in which one robot comes to each WFR, and one only · a robot each: a different one to \
+    table.row("seconds to the last", |line| Estimate::text_or_dash(line.last_s, 1));
+    table.with_notes(
+        "served: % of the topologies in which one robot comes to each WFR, and one only · a robot each: a different one to \
            each ·\npaper: a picture of one topology in which it is so, and “for all simulated scenarios” · RD: metres walked for \
            each metre\nof the shortest ways · over the best assignment: how many times as far the robots are off the WFRs \
            that they come to as\nunder the best of all assignments, where each WFR has a robot of its own · the best assignment: % \
-           of these in which it is\nthat one · ±: half the width of the 95 % interval\n"
+           of these in which it is\nthat one · ±: half the width of the 95 % interval",
+    )
 }
