@@ -497,10 +497,8 @@ pub(crate) fn connected_half_blind(subject: &Subject) -> Explored {
 
 /// Scanning and writing are two steps.
 pub(crate) fn connected_in_turns(subject: &Subject) -> Explored {
-    let turns = match subject.sabotage {
-        Sabotage::ActsAtOnce => Turns::Free,
-        _ => Turns::Overlapping,
-    };
+    let is_atomic = subject.sabotage != Sabotage::ActsAtOnce;
+    let turns = if is_atomic { Turns::Overlapping } else { Turns::Free };
     let mut explored = Explored::default();
     let series = Series { turns, ..Series::new(blocked(5, 2), 2) };
     series.look(&mut explored, subject.bricks, Demand::Connected);
