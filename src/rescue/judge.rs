@@ -135,3 +135,43 @@ impl Judge {
         self.best[wfr].is_some_and(|best| best.robot == choice.robot)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use tautline_kernel::broadcast::NodeId;
+    use tautline_kernel::rescue::{Rule, Upward, WfrTimer, Word};
+
+    use super::*;
+
+    const ROBOT: RobotId = RobotId(0);
+
+    /// A WFR that counts on the robot: it has asked, was chosen, and has accepted.
+    fn leased(id: u32) -> Wfr<MAX_ROBOTS> {
+        let (wfr, _) = Wfr::new(Rule::REPAIRED, NodeId(id)).raise();
+        let call = wfr.call();
+        let word = |word| Upward { call, robot: ROBOT, word, parent: call.wfr };
+        let (wfr, _) = wfr.receive(word(Word::Move { hops: 1 }));
+        let (wfr, _) = wfr.expire(WfrTimer::Window(call.epoch));
+        wfr.receive(word(Word::Accept)).0
+    }
+
+    /// What is told of two WFRs that count on the same robot.
+    fn told(has_failed: bool) -> Vec<Violation> {
+        let mut judge = Judge::new(1, 2);
+        let (wfrs, machine) = ([leased(4), leased(7)], Robot::new(Rule::REPAIRED, ROBOT));
+        for (number, wfr) in wfrs.iter().enumerate() {
+            judge.calls(number);
+            judge.bids(number, Bid { hops: 1, robot: ROBOT });
+            judge.closes(number);
+            judge.takes(0, number, wfr.call().epoch);
+        }
+        judge.look(&[Seen { machine: &machine, has_failed }], &wfrs, 5);
+        judge.violations
+    }
+
+    #[test]
+    fn two_that_count_on_one_robot_are_told_while_it_lives() {
+        assert_eq!(told(false), [Violation { demand: Demand::OneCallForARobot, at_ns: 5, wfr: 1 }]);
+        assert_eq!(told(true), []);
+    }
+}
