@@ -7,6 +7,7 @@ use criterion::{BenchmarkId, Criterion};
 use tautline::explore::agents::{Team, Way};
 use tautline::layout::Generator;
 use tautline::layout::generate::Probability;
+use tautline_kernel::ants;
 use tautline_kernel::bricks::Rule;
 
 use self::common::{group, measure};
@@ -33,7 +34,7 @@ const MOST: u32 = 20_000;
 const SCHEMES: [(&str, Way); 3] = [
     ("bricks", Way::Bricks(Rule::REPAIRED)),
     ("bricks-ants", Way::Bricks(Rule::ROBUST)),
-    ("ants", Way::Ants),
+    ("ants", Way::Ants(ants::Rule::Repaired)),
 ];
 
 const LAYOUTS: [&str; 4] = ["office:30x30:4x4", "open:30x30", "office:512x512:16x16", "open:512x512"];

@@ -1,5 +1,6 @@
 //! Files that are there whole or not at all: written beside their place under another name, then renamed.
 
+use std::ffi::OsStr;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
@@ -18,10 +19,13 @@ impl Aside {
     /// A file that is to stand at `path`; one that stands there now is replaced in the end.
     ///
     /// # Errors
-    /// A [`Fault`] if nothing can be written in its folder, or `path` is itself a folder.
+    /// A [`Fault`] if nothing can be written in its folder, or what stands at `path` is no file that can be replaced.
     pub fn new(path: &Path) -> Result<Self, Fault> {
         if path.is_dir() {
             return Err(Fault::in_file(path, "this is a folder", "name a file in it"));
+        }
+        if path.exists() && !path.is_file() {
+            return Err(Fault::in_file(path, "this is a device or a pipe", "name a file"));
         }
         let folder = match path.parent() {
             Some(parent) if parent != Path::new("") => parent,
@@ -34,14 +38,55 @@ impl Aside {
         Ok(Self { path: path.to_owned(), file: BufWriter::new(file) })
     }
 
+    /// The files that a command stores, where they have a place.
+    ///
+    /// # Errors
+    /// A [`Fault`] as of [`Aside::new`], or if two of them are the same.
+    pub fn several<const N: usize>(paths: [Option<&Path>; N]) -> Result<[Option<Self>; N], Fault> {
+        let mut asides = [const { None::<Self> }; N];
+        for (place, path) in paths.into_iter().enumerate() {
+            let Some(path) = path else { continue };
+            let (aside, taken) = (Self::new(path)?, asides[..place].iter().flatten());
+            if taken.into_iter().any(|other| other.place() == aside.place()) {
+                let what = "two files are to stand here";
+                return Err(Fault::in_file(path, what, "give each a name of its own"));
+            }
+            asides[place] = Some(aside);
+        }
+        Ok(asides)
+    }
+
+    /// Puts all of them in their places.
+    ///
+    /// # Errors
+    /// A [`Fault`] if that is not possible.
+    pub fn keep_all<const N: usize>(asides: [Option<Self>; N]) -> Result<(), Fault> {
+        asides.into_iter().flatten().try_for_each(Self::keep)
+    }
+
+    /// The same for each file, however it is written.
+    fn place(&self) -> (Option<PathBuf>, Option<&OsStr>) {
+        (
+            self.file.get_ref().path().parent().and_then(|folder| folder.canonicalize().ok()),
+            self.path.file_name(),
+        )
+    }
+
     /// Puts `content` at `path`.
     ///
     /// # Errors
     /// A [`Fault`] if it cannot be written.
     pub fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Fault> {
-        let mut aside = Self::new(path)?;
-        aside.append(content)?;
-        aside.keep()
+        Self::new(path)?.finish(content)
+    }
+
+    /// Adds `content` at the end, and puts the file in its place.
+    ///
+    /// # Errors
+    /// A [`Fault`] if it cannot be written.
+    pub fn finish(mut self, content: impl AsRef<[u8]>) -> Result<(), Fault> {
+        self.append(content)?;
+        self.keep()
     }
 
     /// Adds `content` at the end.
@@ -87,5 +132,35 @@ fn unwritable(path: &Path, error: &io::Error) -> Fault {
             format_args!("it cannot be written: {error}"),
             "name a file in a folder that you can write to",
         ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_several_files_all_are_there_or_none() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (one, other) = (folder.path().join("one"), folder.path().join("other"));
+        let files = || folder.path().read_dir().expect("a folder").count();
+        let [mut aside, none, _] = Aside::several([Some(&*one), None, Some(&*other)]).expect("places");
+        assert!(none.is_none());
+        aside.as_mut().expect("a place").append("text").expect("room");
+        drop(aside);
+        assert!(Aside::several([Some(&*one), Some(&folder.path().join("nowhere").join("other"))]).is_err());
+        let again = folder.path().join(".").join("one");
+        assert!(Aside::several([Some(&*one), Some(&*again)]).is_err());
+        assert_eq!(files(), 0);
+        Aside::several([Some(&*one), Some(&*other)]).and_then(Aside::keep_all).expect("places");
+        assert_eq!(files(), 2);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_device_is_not_replaced() {
+        let refused = Aside::new(Path::new("/dev/null")).map(|_| ());
+        let fault = Fault::in_file(Path::new("/dev/null"), "this is a device or a pipe", "name a file");
+        assert_eq!(refused, Err(fault));
     }
 }

@@ -21,7 +21,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::str::FromStr;
 
-use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use tautline_kernel::broadcast::Count;
 use tautline_kernel::lattice::Cell;
@@ -205,8 +205,18 @@ pub fn run() -> ExitCode {
             arguments.join(" ")
         );
     }));
-    let cli = Cli::parse();
+    let arguments = with_negative_numbers(Cli::command()).get_matches();
+    let cli = Cli::from_arg_matches(&arguments).unwrap_or_else(|error| error.exit());
     guarded(|| command(&cli)).into()
+}
+
+/// A negative number where a number is wanted is a wrong number, not an unknown option.
+fn with_negative_numbers(command: clap::Command) -> clap::Command {
+    let takes = |arg: clap::Arg| {
+        let takes_values = arg.get_action().takes_values();
+        arg.allow_negative_numbers(takes_values)
+    };
+    command.mut_args(takes).mut_subcommands(with_negative_numbers)
 }
 
 /// Does `work`; a panic, of which the hook has told, is a bug.

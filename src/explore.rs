@@ -13,6 +13,7 @@ use std::num::NonZeroU32;
 
 use clap::ValueEnum;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+use tautline_kernel::ants;
 use tautline_kernel::bricks;
 use tautline_kernel::chain::Rule;
 use tautline_kernel::floor::Mark;
@@ -95,7 +96,8 @@ impl SchemeName {
     pub const fn crew(self, rule: RuleName) -> Crew {
         match (self, rule) {
             (Self::Chain, _) => Crew::Chain,
-            (Self::Ants, _) => Crew::Agents(Way::Ants),
+            (Self::Ants, RuleName::Published) => Crew::Agents(Way::Ants(ants::Rule::Published)),
+            (Self::Ants, RuleName::Repaired) => Crew::Agents(Way::Ants(ants::Rule::Repaired)),
             (Self::Bricks, RuleName::Published) => Crew::Agents(Way::Bricks(bricks::Rule::PUBLISHED)),
             (Self::Bricks, RuleName::Repaired) => Crew::Agents(Way::Bricks(bricks::Rule::REPAIRED)),
             (Self::BricksAnts, _) => Crew::Agents(Way::Bricks(bricks::Rule::ROBUST)),

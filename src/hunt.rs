@@ -13,6 +13,7 @@ use tautline_proofs::search::{Bounds, Counterexample, Search, Unsearchable};
 
 use self::saved::AGAIN;
 pub use self::saved::Saved;
+use crate::aside::Aside;
 use crate::explore::{self, Limits, OnViolation, Report, RuleName, SchemeName, Setup, explore};
 use crate::fault::{Fault, Halt};
 use crate::layout::{Layout, Problem, Size};
@@ -50,9 +51,9 @@ pub fn path(folder: &Path, setup: &Setup, breach: Breach) -> PathBuf {
 /// [`Halt`] if it cannot be written.
 pub fn store(folder: &Path, setup: &Setup, breach: Breach) -> Result<(PathBuf, Report), Halt> {
     let path = path(folder, setup, breach);
-    let mut writer = trace::Writer::new(&path, setup, Some(breach))?;
+    let mut writer = trace::Writer::new(Aside::new(&path)?, setup, Some(breach))?;
     let report = explore(setup, &mut |made| Ok(writer.add(made)?))?;
-    writer.end(&report)?;
+    writer.end(&report)?.keep()?;
     Ok((path, report))
 }
 

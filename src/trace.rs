@@ -146,12 +146,11 @@ impl From<&Report> for StoredEnd {
 pub struct Writer(Aside);
 
 impl Writer {
-    /// The trace of `setup`, to stand at `path`. A counterexample names the clause that it breaks.
+    /// The trace of `setup` in `aside`. A counterexample names the clause that it breaks.
     ///
     /// # Errors
-    /// A [`Fault`] if nothing can be written there.
-    pub fn new(path: &Path, setup: &Setup, clause: Option<Breach>) -> Result<Self, Fault> {
-        let mut aside = Aside::new(path)?;
+    /// A [`Fault`] if it cannot be written.
+    pub fn new(mut aside: Aside, setup: &Setup, clause: Option<Breach>) -> Result<Self, Fault> {
         aside.append(line_of(&Header {
             format: FORMAT.to_owned(),
             version: VERSION,
@@ -178,13 +177,13 @@ impl Writer {
         self.0.append(line_of(&Line::Move(StoredMove::new(made.step, made.frame))))
     }
 
-    /// Adds the end, and puts the file in its place.
+    /// Adds the end. The file has yet to be put in its place.
     ///
     /// # Errors
-    /// A [`Fault`] if that is not possible.
-    pub fn end(mut self, report: &Report) -> Result<(), Fault> {
+    /// A [`Fault`] if it cannot be written.
+    pub fn end(mut self, report: &Report) -> Result<Aside, Fault> {
         self.0.append(line_of(&Line::End(report.into())))?;
-        self.0.keep()
+        Ok(self.0)
     }
 }
 

@@ -17,7 +17,6 @@ use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Circle, Edge, Side, Step, neighbours};
 use tautline_proofs::course::{Scene, Turn};
 
-use crate::explore::agents::Way;
 use crate::explore::{Chart, Crew, Setup, TeamMove};
 use crate::layout::Layout;
 
@@ -46,10 +45,7 @@ pub fn title_of(setup: &Setup) -> String {
         (Crew::Agents(_), 1) => "1 agent".to_owned(),
         (Crew::Agents(_), _) => format!("{robots} agents"),
     };
-    match setup.crew() {
-        Crew::Agents(Way::Ants) => format!("{}, {team}", scheme.word()),
-        Crew::Chain | Crew::Agents(Way::Bricks(_)) => format!("{} ({rule}), {team}", scheme.word()),
-    }
+    format!("{} ({rule}), {team}", scheme.word())
 }
 
 /// Lines of text with a title above them.

@@ -91,16 +91,20 @@ proptest! {
     }
 
     #[test]
-    fn ants_explore_everything(setup in setups()) {
-        let report = run(&Setup { scheme: SchemeName::Ants, ..setup });
+    fn ants_explore_everything(setup in setups(), rule in prop::sample::select(RuleName::ALL.to_vec())) {
+        let report = run(&Setup { scheme: SchemeName::Ants, rule, ..setup });
         prop_assert_eq!((report.stopped, report.explored), (Stopped::Explored, report.cells));
         prop_assert_eq!(report.violations, []);
     }
 
     #[test]
-    fn robust_agents_explore_everything_although_sensors_are_missed(setup in setups(), miss in 0.0..0.1_f64) {
+    fn repaired_ants_and_robust_agents_explore_everything_although_sensors_are_missed(
+        setup in setups(),
+        miss in 0.0..0.1_f64,
+        scheme in prop::sample::select(vec![SchemeName::Ants, SchemeName::BricksAnts]),
+    ) {
         let miss = Probability::new(miss).expect("a probability");
-        let report = run(&Setup { scheme: SchemeName::BricksAnts, miss, ..setup });
+        let report = run(&Setup { scheme, miss, ..setup });
         prop_assert_eq!(&report.violations, &[]);
         prop_assert_eq!((report.stopped, report.explored), (Stopped::Explored, report.cells));
     }

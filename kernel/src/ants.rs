@@ -5,6 +5,16 @@
 use crate::floor::{COMPASS, Floor, Ring, Scan, enter, leave};
 use crate::lattice::{Cell, Side};
 
+/// What a sensor counts from that is placed where none was, or where one was missed: an ant cannot tell which.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Rule {
+    /// From nothing, as published: it says 1.
+    Published,
+    /// Repair: from what the cell counts that the ant comes from. A missed sensor takes its count with it, and one that
+    /// says 1 draws ants back to where they have been.
+    Repaired,
+}
+
 /// Where an agent goes: the side neighbour of `among` with the fewest crossings, ties in the order of the compass.
 /// `None` if there is none.
 #[inline]
@@ -17,9 +27,13 @@ pub fn least_crossed(scan: &Scan, among: Ring) -> Option<Side> {
 }
 
 /// One action of an ant in `cell`, which has seen `scan`: the side that it has gone through, if there was one.
-pub fn act(floor: &mut impl Floor, cell: Cell, scan: &Scan) -> Option<Side> {
+pub fn act(rule: Rule, floor: &mut impl Floor, cell: Cell, scan: &Scan) -> Option<Side> {
     let side = least_crossed(scan, scan.beside)?;
+    let entry = match rule {
+        Rule::Published => scan.entry(side),
+        Rule::Repaired => scan.entry_counting_on(side),
+    };
     leave(floor, cell);
-    enter(floor, cell.beyond(side), scan.entry(side));
+    enter(floor, cell.beyond(side), entry);
     Some(side)
 }

@@ -1,7 +1,7 @@
 //! Ants on small floors, as systems whose states are all looked at (ANTS-1): which agent acts next and which sensors
 //! it misses are choices. A run is over when every cell is explored, since crossings go on to grow for ever.
 
-use tautline_kernel::ants::act;
+use tautline_kernel::ants::{Rule, act};
 use tautline_kernel::choice::Source;
 use tautline_kernel::floor::{Mark, Scan, Sensor, settle};
 use tautline_kernel::lattice::Cell;
@@ -15,6 +15,7 @@ use crate::states::{Bits, Step, System};
 
 struct Colony {
     plan: Plan,
+    rule: Rule,
     max_misses: u8,
     sabotage: Sabotage,
 }
@@ -42,9 +43,7 @@ impl Colony {
             self.plan.place(cell).is_none_or(|place| state.sensors[place].mark != Mark::Unexplored)
         })
     }
-}
 
-impl Colony {
     /// One step from `state`; none once the run is over.
     fn step(&self, state: &State, world: &mut dyn Source) -> Option<Step<State, &'static str>> {
         if self.is_explored(state) {
@@ -56,7 +55,7 @@ impl Colony {
         let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors, placed: &mut [0; CELLS] };
         let mut world = Misses { world, count: &mut state.misses, most: self.max_misses };
         let scan = Scan::new(&floor, cell, &mut world);
-        if let Some(side) = act(&mut floor, cell, &scan) {
+        if let Some(side) = act(self.rule, &mut floor, cell, &scan) {
             state.ants[ant as usize] = cell.beyond(side);
         }
         for sensor in &mut state.sensors {
@@ -95,7 +94,7 @@ impl System for Colony {
 pub(crate) fn explores(subject: &Subject) -> Explored {
     let mut tally = Tally::default();
     let colonies = |width, height, max_misses| -> Vec<Colony> {
-        let colony = |plan| Colony { plan, max_misses, sabotage: subject.sabotage };
+        let colony = |plan| Colony { plan, rule: subject.ants, max_misses, sabotage: subject.sabotage };
         blocked(width, height).map(colony).collect()
     };
     look(&mut tally, &colonies(4, 4, 0), |colony| colony.starts(1));

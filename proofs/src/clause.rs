@@ -2,6 +2,7 @@
 //! rule it is about, the engine, the bound, the expected verdict and the mutants that must be rejected. Of a step
 //! check one macro makes the exhaustive test, the property, the Kani harnesses and the line in the ledger.
 
+use tautline_kernel::ants;
 use tautline_kernel::bricks;
 use tautline_kernel::broadcast::{self, Conditions};
 use tautline_kernel::chain::{Condition, High, Rule};
@@ -24,6 +25,8 @@ pub struct Subject {
     pub intended: Rule,
     /// What is done to it behind its back.
     pub sabotage: Sabotage,
+    /// The rule of Ants.
+    pub ants: ants::Rule,
     /// The rule of Brick&Mortar.
     pub bricks: bricks::Rule,
     /// That of Brick&Mortar made robust against missed sensors.
@@ -77,6 +80,7 @@ impl Subject {
         rule: Rule::PUBLISHED,
         intended: Rule::PUBLISHED,
         sabotage: Sabotage::None,
+        ants: ants::Rule::Published,
         bricks: bricks::Rule::PUBLISHED,
         bricks_ants: bricks::Rule::ROBUST,
         rescue: rescue::Rule::PUBLISHED,
@@ -87,6 +91,7 @@ impl Subject {
         rule: Rule::REPAIRED,
         intended: Rule::REPAIRED,
         sabotage: Sabotage::None,
+        ants: ants::Rule::Repaired,
         bricks: bricks::Rule::REPAIRED,
         bricks_ants: bricks::Rule::ROBUST,
         rescue: rescue::Rule::REPAIRED,

@@ -513,13 +513,16 @@ pub static CLAUSES: [Clause; 35] = [
         id: "ANTS-1",
         sentence: "Ants MUST explore every cell that is connected with their start, whatever sensors are missed a \
                    finite number of times.",
-        checks: &[floors(
-            Subject::PUBLISHED,
-            ants::explores,
-            ants::EXPLORES,
-            Verdict::Holds,
-            &[mutant("sensors count nothing", Subject::sabotaged(Sabotage::CountsNothing))],
-        )],
+        checks: &[
+            floors(Subject::PUBLISHED, ants::explores, ants::EXPLORES, Verdict::Holds, &[]),
+            floors(
+                Subject::REPAIRED,
+                ants::explores,
+                ants::EXPLORES,
+                Verdict::Holds,
+                &[mutant("sensors count nothing", Subject::sabotaged(Sabotage::CountsNothing))],
+            ),
+        ],
     },
     Clause {
         id: "BRICKS-1",

@@ -26,7 +26,7 @@ use crate::states::{Bits, Run, Step, System, search};
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Way {
     /// By the crossings of the cells around.
-    Ants,
+    Ants(ants::Rule),
     /// By marking cells.
     Bricks(Rule),
 }
@@ -231,7 +231,7 @@ impl Floors {
 
     fn has(&self, condition: Condition) -> bool {
         match self.way {
-            Way::Ants => false,
+            Way::Ants(_) => false,
             Way::Bricks(rule) => rule.has(condition),
         }
     }
@@ -243,7 +243,7 @@ impl Floors {
             state.sensors.iter_mut().for_each(|sensor| sensor.serial = 0);
         }
         let are_crossings_read = match self.way {
-            Way::Ants => true,
+            Way::Ants(_) => true,
             Way::Bricks(rule) => rule.has(Condition::LeastCrossed),
         };
         if !are_crossings_read {
@@ -282,7 +282,7 @@ impl Floors {
 
     const fn is_passable(&self, mark: Mark) -> bool {
         match (mark, self.way) {
-            (Mark::Unexplored | Mark::Explored | Mark::Closing, _) | (Mark::Visited, Way::Ants) => true,
+            (Mark::Unexplored | Mark::Explored | Mark::Closing, _) | (Mark::Visited, Way::Ants(_)) => true,
             (Mark::Visited, Way::Bricks(rule)) => rule.has(Condition::SecondPass),
             (Mark::Sealed, _) => false,
         }
@@ -307,9 +307,9 @@ impl Floors {
             }
             let mut floor = Small { plan: &self.plan, sensors, placed };
             match self.way {
-                Way::Ants => {
+                Way::Ants(rule) => {
                     let scan = Scan::new(&floor, body.cell, world);
-                    if let Some(side) = ants::act(&mut floor, body.cell, &scan) {
+                    if let Some(side) = ants::act(rule, &mut floor, body.cell, &scan) {
                         body.cell = body.cell.beyond(side);
                     }
                 }

@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::num::NonZeroU32;
 use std::ops::RangeInclusive;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use tautline_kernel::lattice::Cell;
 
-use super::output::{Output, store};
+use super::output::Output;
 use super::{
     CellArg, Exit, Format, FormatArgs, LayoutArgs, interrupt, number, positive, probability, progress, usage,
 };
@@ -98,8 +98,9 @@ const DEFAULT_ROBOTS: u16 = 8;
 impl Explore {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let setup = self.setup()?;
-        let mut writer =
-            self.trace.as_deref().map(|path| trace::Writer::new(path, &setup, None)).transpose()?;
+        let files = [&self.trace, &self.replay, &self.svg].map(Option::as_deref);
+        let [trace, mut page, mut picture] = Aside::several(files)?;
+        let mut writer = trace.map(|aside| trace::Writer::new(aside, &setup, None)).transpose()?;
         let bar = progress::spinner("exploring");
         let report = explore(&setup, &mut |made| {
             interrupt::check()?;
@@ -107,17 +108,18 @@ impl Explore {
             Ok(writer.as_mut().map_or(Ok(()), |writer| writer.add(made))?)
         })?;
         bar.finish_and_clear();
-        writer.map_or(Ok(()), |writer| writer.end(&report))?;
-        if let Some(path) = &self.replay {
-            store_page(path, &setup, &report, &(1..=report.steps))?;
+        let trace = writer.map(|writer| writer.end(&report)).transpose()?;
+        if let Some(page) = &mut page {
+            page.append(played(&setup, &report, &(1..=report.steps))?)?;
         }
-        if let Some(path) = &self.svg {
+        if let Some(picture) = &mut picture {
             let panels = match self.draw {
                 Some(Draw::Moves) => panels(&setup, &report, &(1..=report.steps))?,
                 Some(Draw::Order) | None => vec![svg::order(&setup, &report.chart)],
             };
-            store(Some(path), &view::title_of(&setup), &panels)?;
+            picture.append(svg::picture(&view::title_of(&setup), &panels))?;
         }
+        Aside::keep_all([trace, page, picture])?;
         match self.format.format {
             Format::Json => out.json(&Summary::new(&setup, &self.layout.layout, &report))?,
             Format::Text => {
@@ -197,19 +199,14 @@ pub(super) fn panels(
     Ok(panels)
 }
 
-/// Stores a page that plays the team moves in `moves`.
-pub(super) fn store_page(
-    path: &Path,
-    setup: &Setup,
-    report: &Report,
-    moves: &RangeInclusive<u32>,
-) -> Result<(), Halt> {
+/// A page that plays the team moves in `moves`.
+pub(super) fn played(setup: &Setup, report: &Report, moves: &RangeInclusive<u32>) -> Result<String, Halt> {
     let mut page = Page::new(setup, report);
     explore(setup, &mut |made| {
         interrupt::check()?;
         Ok(if moves.contains(&made.step) { page.add(made) } else { Ok(()) }?)
     })?;
-    Ok(Aside::write(path, page.finish())?)
+    Ok(page.finish())
 }
 
 /// What came of a run, in a few lines.
@@ -237,7 +234,7 @@ pub(super) fn summary(setup: &Setup, layout: &str, report: &Report) -> String {
     }
     match setup.crew() {
         Crew::Chain => {}
-        Crew::Agents(Way::Ants) => {
+        Crew::Agents(Way::Ants(_)) => {
             text.push_str("ants never know that they are done: whoever watches them ends the run\n");
             text.push_str(&components(report, |_| String::new()));
         }
@@ -250,6 +247,9 @@ pub(super) fn summary(setup: &Setup, layout: &str, report: &Report) -> String {
             let whole = report.whole();
             let percent = whole.visited * 100 / whole.cells;
             let ends = match (whole.active, report.stopped) {
+                (0, _) if whole.explored < whole.cells => {
+                    format!("every agent is done, and {} cells are unexplored", whole.cells - whole.explored)
+                }
                 (0, _) => "every agent knows that it is done".to_owned(),
                 (active, Stopped::Explored) => format!(
                     "{active} of {} agents may never know that they are done: whoever watches them ends the run",
@@ -378,7 +378,7 @@ struct Part {
 impl Knowledge {
     fn of(way: Way, component: &Component) -> Option<Self> {
         match way {
-            Way::Ants => None,
+            Way::Ants(_) => None,
             Way::Bricks(_) => Some(Self { visited: component.visited, terminated: component.active == 0 }),
         }
     }

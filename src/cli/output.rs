@@ -3,14 +3,11 @@
 
 use std::fmt;
 use std::io::{self, BufWriter, ErrorKind, StdoutLock, Write};
-use std::path::Path;
 
 use serde::Serialize;
 
 use super::SCHEMA_VERSION;
-use crate::aside::Aside;
 use crate::fault::Fault;
-use crate::view::svg::{self, Panel};
 
 pub(super) struct Output(Option<BufWriter<StdoutLock<'static>>>);
 
@@ -75,9 +72,4 @@ impl Write for Output {
 
 pub(super) fn unwritable(error: &io::Error) -> Fault {
     Fault::in_file("standard output", error, "make room, or send it elsewhere")
-}
-
-/// Stores a picture of `panels` where the user wants one.
-pub(super) fn store(path: Option<&Path>, title: &str, panels: &[Panel]) -> Result<(), Fault> {
-    path.map_or(Ok(()), |path| Aside::write(path, svg::picture(title, panels)))
 }

@@ -9,14 +9,16 @@ use serde::Serialize;
 use tautline_proofs::judge::judge;
 use tautline_proofs::run::Breach;
 
-use super::explore::{Summary, panels, store_page, summary};
-use super::output::{Output, store};
+use super::explore::{Summary, panels, played, summary};
+use super::output::Output;
 use super::rescue::{Files, tell};
 use super::{Exit, Format, FormatArgs, interrupt};
+use crate::aside::Aside;
 use crate::exhibit::exhibit;
 use crate::explore::{Crew, Report, Setup, explore};
 use crate::fault::{Fault, Halt};
 use crate::trace::{StoredMove, Trace, lines};
+use crate::view::svg;
 use crate::{rescue, view};
 
 const EXAMPLES: &str = "\
@@ -74,9 +76,14 @@ struct Replayed<'a> {
 
 impl Replay {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        let [page, picture] = Aside::several([&self.html, &self.svg].map(Option::as_deref))?;
         if lines::format(&self.file).as_deref() == Some(rescue::trace::FORMAT) {
-            return self.run_rescue(out);
+            return self.run_rescue(Files { trace: None, page, map: picture }, out);
         }
+        self.run_team([page, picture], out)
+    }
+
+    fn run_team(&self, [mut page, mut picture]: [Option<Aside>; 2], out: &mut Output) -> Result<Exit, Halt> {
         let trace = Trace::open(&self.file)?;
         let (setup, clause) = (trace.setup.clone(), trace.clause);
         let judged = match setup.crew() {
@@ -97,14 +104,16 @@ impl Replay {
         }
         drop(frames);
         let moves = self.moves(&report);
-        if let Some(path) = &self.html {
+        if let Some(page) = &mut page {
             let moves = self.moves.as_ref().map_or(1..=report.steps, |Moves(moves)| moves.clone());
-            store_page(path, &setup, &report, &moves)?;
+            page.append(played(&setup, &report, &moves)?)?;
         }
-        if let Some(path) = &self.svg {
+        if let Some(picture) = &mut picture {
             let moves = self.moves.as_ref().map_or(report.steps..=report.steps, |Moves(moves)| moves.clone());
-            store(Some(path), &view::title_of(&setup), &panels(&setup, &report, &moves)?)?;
+            let panels = panels(&setup, &report, &moves)?;
+            picture.append(svg::picture(&view::title_of(&setup), &panels))?;
         }
+        Aside::keep_all([page, picture])?;
         let name = self.file.display().to_string();
         match self.format.format {
             Format::Json => {
@@ -131,14 +140,13 @@ impl Replay {
         Ok(if report.violations.is_empty() { Exit::Expected } else { Exit::Violation })
     }
 
-    fn run_rescue(&self, out: &mut Output) -> Result<Exit, Halt> {
+    fn run_rescue(&self, files: Files, out: &mut Output) -> Result<Exit, Halt> {
         if self.moves.is_some() {
             let what = "a rescue has no team moves";
             return Err(Fault::usage(what, "leave out --moves, or name a run of a team").into());
         }
         let (setting, seed, report) = rescue::trace::replay(&self.file)?;
-        let files = Files { page: self.html.as_deref(), map: self.svg.as_deref() };
-        tell(out, self.format.format, (&setting, seed, &report), &files)
+        tell(out, self.format.format, (&setting, seed, &report), files)
     }
 
     fn moves(&self, report: &Report) -> RangeInclusive<u32> {

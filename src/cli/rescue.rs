@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 use std::ops::RangeInclusive;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::Args;
@@ -201,11 +201,11 @@ impl Rescue {
         let setting = self.setting();
         let seeds = &self.seeds.0;
         if let Some(seed) = self.seeds.one() {
+            let files = [&self.trace, &self.replay, &self.svg].map(Option::as_deref);
+            let [trace, page, map] = Aside::several(files)?;
             let report = rescue(&setting, seed).map_err(Fault::from)?;
-            if let Some(path) = &self.trace {
-                trace::store(path, &setting, seed, &report)?;
-            }
-            return tell(out, self.format.format, (&setting, seed, &report), &self.files());
+            let files = Files { trace, page, map };
+            return tell(out, self.format.format, (&setting, seed, &report), files);
         }
         if self.trace.is_some() || self.replay.is_some() || self.svg.is_some() {
             let first = seeds.start();
@@ -215,10 +215,6 @@ impl Rescue {
         let measure = |watch: &Watch<'_>| Summary::measure(&setting, seeds.clone(), watch);
         let summary = progress::during("rescuing", count(seeds), measure)?;
         print(out, self.format.format, &setting, seeds, (&summary, None))
-    }
-
-    fn files(&self) -> Files<'_> {
-        Files { page: self.replay.as_deref(), map: self.svg.as_deref() }
     }
 
     fn setting(&self) -> Setting {
@@ -244,24 +240,29 @@ impl Rescue {
     }
 }
 
-/// Where drawings of a rescue are stored.
-pub(super) struct Files<'a> {
+/// What is stored of a rescue.
+pub(super) struct Files {
+    /// Itself.
+    pub(super) trace: Option<Aside>,
     /// The page that plays it.
-    pub(super) page: Option<&'a Path>,
+    pub(super) page: Option<Aside>,
     /// The map.
-    pub(super) map: Option<&'a Path>,
+    pub(super) map: Option<Aside>,
 }
 
-/// Prints what came of one rescue, and stores the drawings of it.
+/// Prints what came of one rescue, and stores it and the drawings of it.
 pub(super) fn tell(
     out: &mut Output,
     format: Format,
     (setting, seed, report): (&Setting, u64, &Report),
-    files: &Files<'_>,
+    mut files: Files,
 ) -> Result<Exit, Halt> {
     let summary = Summary::of(setting, seed, report);
     let title = format!("{}, seed {seed}", title(setting));
-    if let Some(path) = files.page {
+    if let Some(trace) = &mut files.trace {
+        trace::write(trace, setting, seed, report)?;
+    }
+    if let Some(page) = &mut files.page {
         let served = summary.assignments.served_once + summary.assignments.served_more_often;
         let broken: Vec<&str> = summary.violations.iter().map(|broken| broken.clause).collect();
         let broken = if broken.is_empty() {
@@ -270,11 +271,12 @@ pub(super) fn tell(
             format!("{} broken", broken.join(", "))
         };
         let outcome = format!("{served} of {} WFRs served; {broken}.", summary.assignments.wfrs);
-        Aside::write(path, view::rescue::page(&title, &outcome, report)?)?;
+        page.append(view::rescue::page(&title, &outcome, report)?)?;
     }
-    if let Some(path) = files.map {
-        Aside::write(path, picture(&title, &[view::rescue::map(String::new(), report)]))?;
+    if let Some(map) = &mut files.map {
+        map.append(picture(&title, &[view::rescue::map(String::new(), report)]))?;
     }
+    Aside::keep_all([files.trace, files.page, files.map])?;
     print(out, format, setting, &(seed..=seed), (&summary, Some(report)))
 }
 

@@ -1,15 +1,17 @@
 //! `tautline show`: a layout or the environments of a cell, drawn.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde::Serialize;
 use tautline_kernel::lattice::Cell;
 
-use super::output::{Output, store};
+use super::output::Output;
 use super::{Exit, Format, FormatArgs, LayoutArgs, usage};
-use crate::fault::Halt;
-use crate::view::{self, Environment, svg};
+use crate::aside::Aside;
+use crate::fault::{Fault, Halt};
+use crate::view::svg::{self, Panel};
+use crate::view::{self, Environment};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -88,6 +90,11 @@ impl Show {
         }
         Ok(Exit::Expected)
     }
+}
+
+/// Stores a picture of `panels` where the user wants one.
+fn store(path: Option<&Path>, title: &str, panels: &[Panel]) -> Result<(), Fault> {
+    path.map_or(Ok(()), |path| Aside::write(path, svg::picture(title, panels)))
 }
 
 fn shown(environment: Environment) -> ShownEnvironment {

@@ -92,7 +92,7 @@ pub struct Team {
 }
 
 impl Team {
-    /// A team in `layout`, an agent in each of `starts`: at most 255 free cells. They miss sensors by `chance`, drawn
+    /// A team in `layout`, an agent in each of `starts`: at most 255, and in free cells. They miss sensors by `chance`, drawn
     /// from `seed`.
     pub fn new(way: Way, layout: &Layout, starts: &[Cell], chance: Probability, seed: u64) -> Self {
         let mut floor = SensorFloor::new(layout, starts);
@@ -163,7 +163,7 @@ impl Team {
             self.unseen.extend(cells);
         }
         let step = match self.way {
-            Way::Ants => ants::act(&mut self.floor, *cell, &scan).map_or(Step::Stay, |side| {
+            Way::Ants(rule) => ants::act(rule, &mut self.floor, *cell, &scan).map_or(Step::Stay, |side| {
                 *cell = cell.beyond(side);
                 Step::Cross(side)
             }),
@@ -218,7 +218,7 @@ impl Team {
     /// again, to whom missed sensors always show something.
     fn may_roam(&self) -> bool {
         match self.way {
-            Way::Ants => true,
+            Way::Ants(_) => true,
             Way::Bricks(rule) => rule.has(Condition::SecondPass) && !self.misses.chance.is_never(),
         }
     }
@@ -227,7 +227,7 @@ impl Team {
     /// the crossings, which only grow.
     fn repeats(&self) -> bool {
         match self.way {
-            Way::Ants => false,
+            Way::Ants(_) => false,
             Way::Bricks(rule) => !rule.has(Condition::LeastCrossed) && self.misses.chance.is_never(),
         }
     }
@@ -280,7 +280,7 @@ impl Scheme for Agents {
     /// That every cell is visited is promised where no sensor is missed, and by those who mark cells.
     fn broken_at_end(&self, _: &Setup, _: &Chart, _: End) -> Vec<Breach> {
         let is_promised = match self.team.way {
-            Way::Ants => false,
+            Way::Ants(_) => false,
             Way::Bricks(_) => self.team.misses.is_never(),
         };
         let is_broken = is_promised && self.team.visited() < self.team.due();

@@ -26,6 +26,8 @@ pub enum Misfit {
     Miss,
     /// The same, one by one.
     MissedByChain,
+    /// All sensors are missed, and nothing ends the run.
+    MissAll,
     /// The numbers of the sensors that are missed do not grow from 1 on.
     Missed,
     /// The scheme starts at the base.
@@ -47,7 +49,7 @@ impl Misfit {
         match self {
             Self::Robots { .. } => "robots",
             Self::Rule(_) => "rule",
-            Self::Miss => "miss",
+            Self::Miss | Self::MissAll => "miss",
             Self::MissedByChain | Self::Missed => "missed",
             Self::StartsOfChain | Self::Starts { .. } | Self::Start(_) => "starts",
         }
@@ -62,11 +64,12 @@ impl Misfit {
             Self::Robots {
                 scheme: SchemeName::Ants | SchemeName::Bricks | SchemeName::BricksAnts, ..
             } => {
-                format!("there are 1 to {MAX_AGENTS} agents")
+                format!("a team has 1 to {MAX_AGENTS} agents")
             }
             Self::Rule(scheme) => format!("take the rule repaired, or another scheme than {}", scheme.word()),
             Self::Miss => "take ants, bricks or bricks-ants, or leave out how likely that is".to_owned(),
             Self::MissedByChain => "take ants, bricks or bricks-ants, or leave out what is missed".to_owned(),
+            Self::MissAll => "give a probability below 1, or end the run by --max-moves".to_owned(),
             Self::Missed => "number them from 1 on, in order, each once".to_owned(),
             Self::StartsOfChain => "give the base another place".to_owned(),
             Self::Starts { robots, .. } => format!("give one start for all, or {robots}, one for each agent"),
@@ -86,15 +89,16 @@ impl fmt::Display for Misfit {
             Self::Robots {
                 scheme: SchemeName::Ants | SchemeName::Bricks | SchemeName::BricksAnts,
                 robots: 0,
-            } => f.write_str("no agents cannot be the team"),
+            } => f.write_str("no agents are no team"),
             Self::Robots {
                 scheme: SchemeName::Ants | SchemeName::Bricks | SchemeName::BricksAnts,
                 robots,
-            } => write!(f, "{robots} agents cannot be the team"),
+            } => write!(f, "{robots} agents are too many for a team"),
             Self::Rule(scheme) => write!(f, "{} is ours: nobody has published it", scheme.word()),
             Self::Miss | Self::MissedByChain => {
                 f.write_str("the robots of a chain have no floor sensors to miss")
             }
+            Self::MissAll => f.write_str("agents that miss every sensor go on for ever"),
             Self::Missed => f.write_str("the numbers of the sensors that are missed are not in order"),
             Self::StartsOfChain => f.write_str("the robots of a chain start at the base"),
             Self::Starts { starts, robots } => write!(f, "{starts} starts are not those of {robots} agents"),
@@ -131,6 +135,9 @@ impl Setup {
         match (self.crew(), &self.starts) {
             (Crew::Chain, _) if !self.miss.is_never() => Err(Misfit::Miss),
             (Crew::Chain, _) if !self.missed.is_empty() => Err(Misfit::MissedByChain),
+            (Crew::Agents(_), _) if self.miss.is_certain() && self.limits.max_moves.is_none() => {
+                Err(Misfit::MissAll)
+            }
             (Crew::Agents(_), _)
                 if self.missed.first() == Some(&0) || !self.missed.is_sorted_by(|a, b| a < b) =>
             {

@@ -127,6 +127,11 @@ impl Probability {
         self == Self::NEVER
     }
 
+    /// Whether it always happens.
+    pub fn is_certain(self) -> bool {
+        self.0 >= 1.0
+    }
+
     /// Draws once: 53 random bits are compared with p·2⁵³, which is exact.
     pub(crate) fn happens(self, rng: &mut ChaCha8Rng) -> bool {
         let threshold = (self.0 * TWO_TO_THE_53) as u64;

@@ -2,22 +2,39 @@
 //! Brick&Mortar with ants' ways where sensors are missed, by the number of agents (Fig. 11) and by the area (Fig. 12); and
 //! how long they take where none is (the idealized conditions that the paper takes from its reference 2).
 //!
-//! Layouts are `office:SIDExSIDE:4x4`, all agents start at the cell nearest the centre, and all schemes get the same
+//! Layouts are `office:SIDExSIDE:4x4`, all agents start at the cell nearest the centre, and all teams get the same
 //! layouts and seeds. A run that goes on is ended after a number of agents' steps, and counted.
 
 use rayon::prelude::*;
 use serde::Serialize;
 use tautline_kernel::lattice::Cell;
+use tautline_kernel::{ants, bricks};
 
 use super::interval::Estimate;
-use crate::explore::agents::{Team, Way};
-use crate::explore::{Crew, RuleName, SchemeName};
+use crate::explore::agents::{self as explore, Way};
+use crate::explore::{RuleName, SchemeName};
 use crate::fault::{Fault, Halt, Watch};
 use crate::layout::generate::Probability;
 use crate::layout::{Generator, Layout, Problem};
 
-/// The schemes that are compared.
-pub const SCHEMES: [SchemeName; 3] = [SchemeName::Bricks, SchemeName::Ants, SchemeName::BricksAnts];
+/// A scheme under one of its rules.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+pub struct Team {
+    /// The scheme.
+    pub scheme: SchemeName,
+    /// Its rule.
+    pub rule: RuleName,
+    #[serde(skip)]
+    way: Way,
+}
+
+/// The teams that are compared.
+pub const TEAMS: [Team; 4] = [
+    Team { scheme: SchemeName::Bricks, rule: RuleName::Repaired, way: Way::Bricks(bricks::Rule::REPAIRED) },
+    Team { scheme: SchemeName::BricksAnts, rule: RuleName::Repaired, way: Way::Bricks(bricks::Rule::ROBUST) },
+    Team { scheme: SchemeName::Ants, rule: RuleName::Repaired, way: Way::Ants(ants::Rule::Repaired) },
+    Team { scheme: SchemeName::Ants, rule: RuleName::Published, way: Way::Ants(ants::Rule::Published) },
+];
 
 /// The sensors that the paper's agents miss, of all.
 pub const MISS: &str = "0.0556";
@@ -70,11 +87,12 @@ pub struct Extent {
     pub max_steps: u32,
 }
 
-/// A scheme at a point.
+/// A team at a point.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Line {
-    /// The scheme, under its repaired rule.
-    pub scheme: SchemeName,
+    /// Who explores.
+    #[serde(flatten)]
+    pub team: Team,
     /// Cells on a side.
     pub side: u16,
     /// Agents.
@@ -132,18 +150,16 @@ pub fn measure(figure: Figure, extent: Extent, watch: &Watch<'_>) -> Result<Vec<
             let seed = extent.seed.wrapping_add(index);
             let layout = generator.generate(seed).map_err(|problem| fault(&problem))?;
             let start = layout.default_base().map_err(|problem| fault(&problem))?;
-            let run = |scheme: SchemeName| {
-                let Crew::Agents(way) = scheme.crew(RuleName::Repaired) else { return Ok(None) };
-                let outcome = follow(way, &layout, start, agents, miss, seed, extent.max_steps);
-                watch().map(|()| Some(outcome))
+            let run = |team: Team| {
+                let outcome = follow(team.way, &layout, start, agents, miss, seed, extent.max_steps);
+                watch().map(|()| outcome)
             };
-            let [bricks, ants, both] = SCHEMES.map(run);
-            Ok([bricks?, ants?, both?])
+            TEAMS.into_iter().map(run).collect()
         });
-        let runs: Vec<_> = runs.collect::<Result<_, Halt>>()?;
-        for (place, scheme) in SCHEMES.into_iter().enumerate() {
-            let outcomes: Vec<Outcome> = runs.iter().filter_map(|run| run[place]).collect();
-            lines.extend(Line::of(scheme, side, agents, &outcomes));
+        let runs: Vec<Vec<Outcome>> = runs.collect::<Result<_, Halt>>()?;
+        for (place, team) in TEAMS.into_iter().enumerate() {
+            let outcomes: Vec<Outcome> = runs.iter().map(|run| run[place]).collect();
+            lines.extend(Line::of(team, side, agents, &outcomes));
         }
     }
     Ok(lines)
@@ -162,9 +178,9 @@ fn follow(
     seed: u64,
     max_steps: u32,
 ) -> Outcome {
-    let mut team = Team::new(way, layout, &vec![start; agents.into()], miss, seed);
+    let mut team = explore::Team::new(way, layout, &vec![start; agents.into()], miss, seed);
     let (mut team_moves, mut steps, mut exploration) = (0, 0, None);
-    let now = |team: &Team, team_moves| Moment { team_moves, milliseconds: team.milliseconds() };
+    let now = |team: &explore::Team, team_moves| Moment { team_moves, milliseconds: team.milliseconds() };
     while !team.is_over() && steps < max_steps {
         team_moves += 1;
         steps += team.active();
@@ -183,18 +199,28 @@ fn follow(
     }
 }
 
+impl Team {
+    /// Its name: the scheme, with its rule where that is the published one.
+    pub fn name(self) -> String {
+        match self.rule {
+            RuleName::Repaired => self.scheme.word().to_owned(),
+            RuleName::Published => format!("{} ({})", self.scheme.word(), self.rule),
+        }
+    }
+}
+
 impl Line {
-    fn of(scheme: SchemeName, side: u16, agents: u16, outcomes: &[Outcome]) -> Option<Self> {
+    fn of(team: Team, side: u16, agents: u16, outcomes: &[Outcome]) -> Option<Self> {
         let percent = |number: fn(&Outcome) -> u32| {
             let share = |outcome: &Outcome| 100.0 * f64::from(number(outcome)) / f64::from(outcome.cells);
             Estimate::of_values(&outcomes.iter().map(share).collect::<Vec<_>>())
         };
-        let visited = match scheme {
-            SchemeName::Chain | SchemeName::Ants => None,
-            SchemeName::Bricks | SchemeName::BricksAnts => percent(|outcome| outcome.visited),
+        let visited = match team.way {
+            Way::Ants(_) => None,
+            Way::Bricks(_) => percent(|outcome| outcome.visited),
         };
         Some(Self {
-            scheme,
+            team,
             side,
             agents,
             explored: percent(|outcome| outcome.explored)?,

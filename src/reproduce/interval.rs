@@ -75,10 +75,19 @@ impl Estimate {
         self.interval.map(|[low, high]| (high - low) / 2.0)
     }
 
-    /// For people: the mean and, if there is one, half the width of the interval, with so many decimals.
+    /// For people, with so many decimals: the mean and the interval, if there is one, by half its width, or by its ends
+    /// where the mean is clearly not its middle.
     pub fn text(self, decimals: usize) -> String {
-        let margin = self.margin().map_or(String::new(), |margin| format!(" ± {margin:.decimals$}"));
-        format!("{:.decimals$}{margin}", self.mean)
+        let number = |number: f64| format!("{number:.decimals$}");
+        let mean = number(self.mean);
+        let Some([low, high]) = self.interval else { return mean };
+        // What was rounded before may be off by half a decimal at each end, and by as much in the middle.
+        let is_middle = (high + low - 2.0 * self.mean).abs() < 2.5 * 0.1_f64.powi(decimals as i32);
+        if is_middle {
+            format!("{mean} ± {}", number((high - low) / 2.0))
+        } else {
+            format!("{mean} [{}, {}]", number(low), number(high))
+        }
     }
 
     /// The same of one that may be none, for which a dash stands.
@@ -200,6 +209,15 @@ mod tests {
         assert_eq!(estimate.interval.map(|bounds| bounds.map(rounded)), Some([-3_956, 83_956]));
         assert_eq!(estimate.times(10.0).interval.map(|bounds| bounds.map(rounded)), Some([-39_557, 839_557]));
         assert_eq!(estimate.margin().map(rounded), Some(43_956));
+    }
+
+    #[test]
+    fn an_interval_is_told_by_its_ends_where_the_mean_is_not_its_middle() {
+        let text = |hits, count| Estimate::share(hits, count).expect("a share").times(100.0).text(2);
+        assert_eq!([text(200, 200), text(0, 1)], ["100.00 [98.12, 100.00]", "0.00 [0.00, 79.35]"]);
+        let mean = Estimate::of_values(&[1.0, 2.0, 3.0, 4.0, 10.0]).expect("values");
+        assert_eq!([mean.text(2), mean.text(0)], ["4.00 ± 4.40", "4 ± 4"]);
+        assert_eq!(Estimate { interval: None, ..mean }.text(1), "4.0");
     }
 
     #[test]

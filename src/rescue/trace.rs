@@ -62,19 +62,17 @@ impl Last {
     }
 }
 
-/// Stores a rescue at `path`.
+/// Writes a rescue.
 ///
 /// # Errors
 /// A [`Fault`] if that is not possible.
-pub fn store(path: &Path, setting: &Setting, seed: u64, report: &Report) -> Result<(), Fault> {
-    let mut aside = Aside::new(path)?;
+pub fn write(aside: &mut Aside, setting: &Setting, seed: u64, report: &Report) -> Result<(), Fault> {
     let header = Header { format: FORMAT.to_owned(), version: VERSION, seed, setting: setting.clone() };
     aside.append(line_of(&header))?;
     for logged in &report.log {
         aside.append(line_of(logged))?;
     }
-    aside.append(line_of(&Last::of(report)))?;
-    aside.keep()
+    aside.append(line_of(&Last::of(report)))
 }
 
 /// Does the rescue that is stored at `path` again, and compares every line.

@@ -289,16 +289,10 @@ impl Ended {
     }
 }
 
-/// What the neighbour beyond `side` is entered as. A sensor that is placed in the place of one that was missed forgets how
-/// often the cell was entered, and agents would be drawn back to it again and again: under [`Condition::SecondPass`] it
-/// begins with what the cell that the agent comes from counts.
+/// What the neighbour beyond `side` is entered as. Missed sensors take their counts with them: under
+/// [`Condition::SecondPass`] new ones count on, lest agents be drawn back again and again.
 fn entry(rule: Rule, scan: &Scan, side: Side) -> Entry {
-    match scan.entry(side) {
-        Entry::New { .. } if rule.has(Condition::SecondPass) => {
-            Entry::New { crossings: scan.here.crossings.saturating_sub(1) }
-        }
-        entry => entry,
-    }
+    if rule.has(Condition::SecondPass) { scan.entry_counting_on(side) } else { scan.entry(side) }
 }
 
 /// The unexplored neighbour with the most inaccessible sides, as far as the scan shows them; ties in the order of the

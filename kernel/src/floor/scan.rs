@@ -150,6 +150,15 @@ impl Scan {
         if self.unexplored.has(side) { Entry::New { crossings: 0 } } else { Entry::Known }
     }
 
+    /// The same; if a sensor is placed, it counts on from this cell's.
+    #[inline]
+    pub fn entry_counting_on(&self, side: Side) -> Entry {
+        match self.entry(side) {
+            Entry::New { .. } => Entry::New { crossings: self.here.crossings.saturating_sub(1) },
+            Entry::Known => Entry::Known,
+        }
+    }
+
     /// Whether the square to the left of the way through `side`, which is reachable, is free all round: the neighbours
     /// beyond `side` and to the left of it, the corner between them, and the edges to it.
     #[inline]

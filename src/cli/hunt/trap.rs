@@ -150,8 +150,9 @@ const ENDLESS: &str = "BRICKS-5";
 
 fn tell(hunted: &Hunted) -> Result<String, Halt> {
     let Hunted { scheme, rule, robots, size, layouts, states, steps, max_misses, misses_done, .. } = hunted;
+    let order = if *robots == 1 { "" } else { " that act in turn" };
     let mut text = format!(
-        "{} ({rule}), {robots} {}, at most {max_misses} missed, layouts up to {size}: {layouts} layouts, {states} states, \
+        "{} ({rule}), {robots} {}{order}, at most {max_misses} missed, layouts up to {size}: {layouts} layouts, {states} states, \
          {steps} team moves\n",
         scheme.word(),
         if *robots == 1 { "agent" } else { "agents" },

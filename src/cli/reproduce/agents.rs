@@ -12,7 +12,7 @@ use crate::cli::{Exit, Format, FormatArgs, number, progress};
 use crate::explore::SchemeName;
 use crate::fault::Halt;
 use crate::reproduce::Reproduction;
-use crate::reproduce::agents::{self, Duration, Extent, Figure, Line, SCHEMES};
+use crate::reproduce::agents::{self, Duration, Extent, Figure, Line, TEAMS, Team};
 use crate::reproduce::interval::Estimate;
 use crate::view::chart::{Axis, LineChart, Point, Series, Stroke};
 
@@ -66,12 +66,13 @@ impl Agents {
         figure: Figure,
         out: &mut Output,
     ) -> Result<Exit, Halt> {
-        let runs = u64::from(self.layouts) * (figure.points().len() * SCHEMES.len()) as u64;
+        let file = self.svg.as_deref().map(Aside::new).transpose()?;
+        let runs = u64::from(self.layouts) * (figure.points().len() * TEAMS.len()) as u64;
         let extent = Extent { layouts: self.layouts, seed: self.seed, max_steps: self.max_steps };
         let lines = progress::during("exploring", runs, |watch| agents::measure(figure, extent, watch))?;
         let printed = printed(figure, &lines);
-        if let Some(path) = &self.svg {
-            Aside::write(path, chart(figure, &lines).svg())?;
+        if let Some(file) = file {
+            file.finish(chart(figure, &lines).svg())?;
         }
         match self.format.format {
             Format::Json => out.json(&Measured {
@@ -100,10 +101,10 @@ impl Agents {
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
-            "{:7} {:>6}  {:11} {:>15} {:>15} {:>26} {:>26} {:>5}",
+            "{:7} {:>6}  {:16} {:>15} {:>15} {:>26} {:>26} {:>5}",
             "area",
             "agents",
-            "scheme",
+            "team",
             "% explored",
             "% visited",
             "moves until explored",
@@ -115,12 +116,12 @@ impl Agents {
             let visited = line.visited.map_or_else(|| "-".to_owned(), |visited| visited.text(1));
             let _ = writeln!(
                 text,
-                "{area:7} {:>6}  {:11} {:>15} {visited:>15} {:>26} {:>26} {:>5}",
+                "{area:7} {:>6}  {:16} {:>15} {visited:>15} {:>26} {:>26} {:>5}",
                 line.agents,
-                line.scheme.word(),
+                line.team.name(),
                 line.explored.text(1),
-                self.moves(line.exploration),
-                self.moves(line.termination),
+                self.of_runs(line.exploration, |duration| duration.team_moves.text(0)),
+                self.of_runs(line.termination, |duration| duration.team_moves.text(0)),
                 line.ended
             );
         }
@@ -134,55 +135,53 @@ impl Agents {
             Figure::Agents | Figure::Area => {}
             Figure::Ideal => text.push_str(&self.seconds(lines)),
         }
-        if !printed.is_empty() {
-            text.push_str("\n                               paper   ours   difference\n");
-        }
+        let _ = writeln!(text, "\n{:40}  paper           ours  difference", "");
         for Printed { what, paper, ours, difference } in printed {
-            let _ = writeln!(text, "{what:30} {paper:>5.1}  {:>5.1}  {difference:>+5.1}", ours.mean);
+            let _ = writeln!(text, "{what:40}  {paper:>5.1}  {:>13}  {difference:>+10.1}", ours.text(1));
         }
         text
     }
 
-    fn moves(&self, duration: Option<Duration>) -> String {
-        duration.map_or_else(|| "never".to_owned(), |Duration { team_moves, .. }| self.of_runs(team_moves))
-    }
-
-    fn of_runs(&self, estimate: Estimate) -> String {
-        let of = if estimate.count < self.layouts { format!(" ({})", estimate.count) } else { String::new() };
-        estimate.text(0) + &of
+    /// How long something took, and in how many runs if not in all.
+    fn of_runs(&self, duration: Option<Duration>, text: impl Fn(Duration) -> String) -> String {
+        match duration {
+            None => "never".to_owned(),
+            Some(duration) if duration.seconds.count < self.layouts => {
+                format!("{} ({})", text(duration), duration.seconds.count)
+            }
+            Some(duration) => text(duration),
+        }
     }
 
     fn seconds(&self, lines: &[Line]) -> String {
         let mut text = format!(
-            "\nHours of the slowest agent\n{:>6}  {:11} {:>20} {:>20}\n",
-            "agents", "scheme", "until explored", "until done"
+            "\nHours of the slowest agent\n{:>6}  {:16} {:>20} {:>20}\n",
+            "agents", "team", "until explored", "until done"
         );
-        let hours = |duration: Option<Duration>| {
-            let hours = |Duration { seconds, .. }: Duration| {
-                let of = if seconds.count < self.layouts {
-                    format!(" ({})", seconds.count)
-                } else {
-                    String::new()
-                };
-                seconds.times(1.0 / 3600.0).text(1) + &of
-            };
-            duration.map_or_else(|| "never".to_owned(), hours)
-        };
+        let hours = |duration: Duration| duration.seconds.times(1.0 / 3600.0).text(1);
         for line in lines {
-            let (explored, done) = (hours(line.exploration), hours(line.termination));
-            let _ = writeln!(text, "{:>6}  {:11} {explored:>20} {done:>20}", line.agents, line.scheme.word());
+            let (explored, done) =
+                (self.of_runs(line.exploration, hours), self.of_runs(line.termination, hours));
+            let _ = writeln!(text, "{:>6}  {:16} {explored:>20} {done:>20}", line.agents, line.team.name());
         }
         text
     }
 }
 
-/// What the paper says of Fig. 11 in numbers.
+/// What the paper says in numbers: of Brick&Mortar in Fig. 11, and that Ants explore everything.
 fn printed(figure: Figure, lines: &[Line]) -> Vec<Printed> {
-    let one = lines.iter().find(|line| (line.scheme, line.agents) == (SchemeName::Bricks, 1));
-    let Some(one) = one.filter(|_| figure == Figure::Agents) else { return Vec::new() };
+    let [bricks, _, ants, ants_published] = TEAMS;
+    let one = lines.iter().find(|line| (line.team, line.agents) == (bricks, 1));
+    let one = one.filter(|_| figure == Figure::Agents);
+    let least = |team: Team| {
+        let explored = lines.iter().filter(|line| line.team == team).map(|line| line.explored);
+        explored.min_by(|one, other| one.mean.total_cmp(&other.mean))
+    };
     let claims = [
-        ("% explored by one agent", 50.0, Some(one.explored)),
-        ("% visited by one agent", 40.0, one.visited),
+        ("% explored by one agent of bricks", 50.0, one.map(|line| line.explored)),
+        ("% visited by one agent of bricks", 40.0, one.and_then(|line| line.visited)),
+        ("% explored by ants, at least", 100.0, least(ants)),
+        ("% explored by ants (published), at least", 100.0, least(ants_published)),
     ];
     let printed = claims.into_iter().filter_map(|(what, paper, ours)| {
         ours.map(|ours| Printed { what, paper, ours, difference: ours.mean - paper })
@@ -195,28 +194,28 @@ fn chart(figure: Figure, lines: &[Line]) -> LineChart {
         Figure::Agents | Figure::Ideal => f64::from(line.agents),
         Figure::Area => f64::from(line.side) * f64::from(line.side),
     };
-    let series = |name: String, scheme: SchemeName, of: &dyn Fn(&Line) -> Option<Estimate>| {
-        let lines = lines.iter().filter(|line| line.scheme == scheme);
+    let series = |name: String, team: Team, of: &dyn Fn(&Line) -> Option<Estimate>| {
+        let lines = lines.iter().filter(|line| line.team == team);
         let points: Vec<Point> =
             lines.filter_map(|line| of(line).map(|estimate| estimate.at(along(line)))).collect();
         Series { name, stroke: Stroke::Solid, points }
     };
     let mut drawn = Vec::new();
-    for scheme in SCHEMES {
-        let word = scheme.word();
+    for team in TEAMS {
+        let word = team.name();
         match figure {
             Figure::Agents | Figure::Area => {
-                drawn.push(series(format!("{word}: explored"), scheme, &|line| Some(line.explored)));
-                drawn.push(series(format!("{word}: visited"), scheme, &|line| line.visited));
+                drawn.push(series(format!("{word}: explored"), team, &|line| Some(line.explored)));
+                drawn.push(series(format!("{word}: visited"), team, &|line| line.visited));
             }
             Figure::Ideal => {
                 let explored = |line: &Line| line.exploration.map(|duration| duration.team_moves);
                 let done = |line: &Line| line.termination.map(|duration| duration.team_moves);
-                drawn.push(series(format!("{word}: until explored"), scheme, &explored));
-                drawn.push(series(format!("{word}: until done"), scheme, &done));
+                drawn.push(series(format!("{word}: until explored"), team, &explored));
+                drawn.push(series(format!("{word}: until done"), team, &done));
             }
         }
-        let printed: &[(&str, f64)] = match (figure, scheme) {
+        let printed: &[(&str, f64)] = match (figure, team.scheme) {
             (Figure::Agents, SchemeName::Bricks) => &[("explored", 50.0), ("visited", 40.0)],
             (Figure::Agents | Figure::Area | Figure::Ideal, _) => &[],
         };

@@ -28,10 +28,10 @@ Examples:
 #[command(after_help = EXAMPLES)]
 pub(super) struct AntennaFig4 {
     /// How far off the node is, in metres.
-    #[arg(long, value_name = "METRES", allow_negative_numbers = true, default_value_t = DISTANCE_M, value_parser = distance)]
+    #[arg(long, value_name = "METRES", default_value_t = DISTANCE_M, value_parser = distance)]
     distance: f64,
     /// Standard deviations of the strengths measured, in dB.
-    #[arg(long, value_name = "LIST", value_delimiter = ',', allow_negative_numbers = true, default_values_t = NOISES_DB, value_parser = real)]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_values_t = NOISES_DB, value_parser = real)]
     noise_db: Vec<f64>,
     /// Scans with each, of nodes in random directions.
     #[arg(long, value_name = "COUNT", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
@@ -63,11 +63,12 @@ struct Report<'a> {
 
 impl AntennaFig4 {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        let file = self.svg.as_deref().map(Aside::new).transpose()?;
         let noises_db = self.noise_db.clone();
         let setting = Setting { distance_m: self.distance, noises_db, scans: self.scans, seed: self.seed };
         let measured = setting.measure()?;
-        if let Some(path) = &self.svg {
-            Aside::write(path, antenna_fig4::chart(&measured.pattern, self.distance).svg())?;
+        if let Some(file) = file {
+            file.finish(antenna_fig4::chart(&measured.pattern, self.distance).svg())?;
         }
         match self.format.format {
             Format::Json => out.json(&Report {
@@ -92,14 +93,14 @@ impl AntennaFig4 {
         }
         let _ = write!(
             text,
-            "\n\n{} scans of nodes in random directions for each noise, seed {}\n\n{:>9}  {:>15}  {:>15}  {:>14}",
+            "\n\nScans of nodes in random directions, {} for each noise, seed {}\n\n{:>9}  {:>23}  {:>23}  {:>14}",
             self.scans, self.seed, "noise, dB", "right, %", "one beside, %", "off, degrees"
         );
         let percent = |estimate: Estimate| estimate.times(100.0).text(2);
         for noise in &measured.noises {
             let _ = write!(
                 text,
-                "\n{:>9}  {:>15}  {:>15}  {:>14}",
+                "\n{:>9}  {:>23}  {:>23}  {:>14}",
                 noise.noise_db,
                 percent(noise.right),
                 percent(noise.beside),
@@ -107,7 +108,6 @@ impl AntennaFig4 {
             );
         }
         text + "\n\nright: the strongest direction is the nearest of the 24 to the node's · one beside: that, or one of the two \
-                beside it ·\noff: between the strongest direction and the node's · ±: half the width of the 95 % \
-                interval\n"
+                beside it ·\noff: between the strongest direction and the node's · ±, […]: the 95 % interval\n"
     }
 }

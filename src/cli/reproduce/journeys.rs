@@ -36,19 +36,19 @@ pub(super) struct Journeys {
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = number::<usize>)]
     nodes: Vec<usize>,
     /// The side of the square, in metres.
-    #[arg(long, value_name = "METRES", allow_negative_numbers = true, default_value_t = SIDE_M, value_parser = real)]
+    #[arg(long, value_name = "METRES", default_value_t = SIDE_M, value_parser = real)]
     side: f64,
     /// The radio range, in metres.
-    #[arg(long, value_name = "METRES", allow_negative_numbers = true, default_value_t = RANGE_M, value_parser = real)]
+    #[arg(long, value_name = "METRES", default_value_t = RANGE_M, value_parser = real)]
     range: f64,
     /// An obstacle by its sides; may be given again [default: those of the figure]
-    #[arg(long, value_name = "W,N,E,S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "W,N,E,S", allow_hyphen_values = true)]
     obstacle: Vec<Metres<4>>,
     /// The k of k-FNF, whose tree TAN uses.
     #[arg(long, default_value = "1", value_parser = count)]
     k: Count,
     /// The standard deviation of the strengths that robots measure, in dB.
-    #[arg(long, value_name = "DB", allow_negative_numbers = true, default_value_t = 0.0, value_parser = real)]
+    #[arg(long, value_name = "DB", default_value_t = 0.0, value_parser = real)]
     noise_db: f64,
     /// Topologies for each number of nodes.
     #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
@@ -84,6 +84,7 @@ impl Journeys {
         figure: Figure,
         out: &mut Output,
     ) -> Result<Exit, Halt> {
+        let file = self.svg.as_deref().map(Aside::new).transpose()?;
         let given = |own: &[usize]| if own.is_empty() { figure.nodes() } else { own.to_vec() };
         let own: Vec<Obstacle> = self.obstacle.iter().map(|&Metres(sides)| sides.into()).collect();
         let obstacles = if own.is_empty() { figure.obstacles() } else { own };
@@ -99,8 +100,8 @@ impl Journeys {
         };
         let topologies = u64::from(self.topologies) * setting.nodes.len() as u64;
         let densities = progress::during("walking", topologies, |watch| setting.measure(watch))?;
-        if let Some(path) = &self.svg {
-            Aside::write(path, picture(figure, &setting, &densities)?)?;
+        if let Some(file) = file {
+            file.finish(picture(figure, &setting, &densities)?)?;
         }
         match self.format.format {
             Format::Json => out.json(&Measured {
@@ -151,7 +152,7 @@ fn text(setting: &Setting, densities: &[Density]) -> String {
         setting.seed,
         side = setting.side_m,
     );
-    let mut table = Table::new(heading, 21, densities);
+    let mut table = Table::new(heading, densities);
     let or_dash = |estimate: Option<Estimate>| Estimate::text_or_dash(estimate, 2);
     let percent = |share: Option<Estimate>| or_dash(share.map(|share| share.times(100.0)));
     table.row("nodes", |density| density.nodes.to_string());
@@ -179,16 +180,16 @@ fn text(setting: &Setting, densities: &[Density]) -> String {
     let mut rival = None;
     for (place, claim) in Claim::ALL.into_iter().enumerate() {
         if rival.replace(claim.rival()) != Some(claim.rival()) {
-            table.row(&format!("TAN less {}", claim.rival().word()), |density| {
+            table.row(format!("TAN less {}", claim.rival().word()), |density| {
                 or_dash(density.claims[place].difference)
             });
         }
-        table.row(&format!("  {}", claim.words()), |density| density.claims[place].verdict.word().to_owned());
+        table.row(format!("  {}", claim.words()), |density| density.claims[place].verdict.word().to_owned());
     }
     table.with_notes(&format!(
         "linked: % of the topologies in which links lead from the robot to the WFR · told: % of those in which the \
          robot\nhears the call by k-FNF, which TAN needs · RD: metres walked for each metre of the shortest way · hops: for \
          each hop\nof the shortest chain of links · shorter: % of the topologies in which TAN's way is shorter than Reich's · \
-         holds, fails:\nthe whole 95 % interval says so, close being up to {CLOSE} · ±: half its width"
+         holds, fails:\nthe whole 95 % interval says so, close being up to {CLOSE} · ±, […]: that interval"
     ))
 }

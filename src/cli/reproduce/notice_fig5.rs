@@ -1,6 +1,6 @@
 //! `tautline reproduce notice-fig5`: how far broadcasts reach, and how many nodes forward them.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
@@ -10,7 +10,7 @@ use super::table::Table;
 use crate::aside::Aside;
 use crate::cli::output::Output;
 use crate::cli::{Exit, Format, FormatArgs, count, number, progress, real};
-use crate::fault::{Fault, Halt};
+use crate::fault::Halt;
 use crate::radio::ChannelName;
 use crate::reproduce::Reproduction;
 use crate::reproduce::interval::Estimate;
@@ -34,10 +34,10 @@ pub(super) struct NoticeFig5 {
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_values_t = NODES, value_parser = number::<usize>)]
     nodes: Vec<usize>,
     /// The side of the square, in metres.
-    #[arg(long, value_name = "METRES", allow_negative_numbers = true, default_value_t = SIDE_M, value_parser = real)]
+    #[arg(long, value_name = "METRES", default_value_t = SIDE_M, value_parser = real)]
     side: f64,
     /// The radio range, in metres.
-    #[arg(long, value_name = "METRES", allow_negative_numbers = true, default_value_t = RANGE_M, value_parser = real)]
+    #[arg(long, value_name = "METRES", default_value_t = RANGE_M, value_parser = real)]
     range: f64,
     /// The k of k-FNF: how many senders, the first not counted, make a node silent.
     #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "1,2,3", value_parser = count)]
@@ -74,6 +74,8 @@ struct Measured<'a> {
 
 impl NoticeFig5 {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        let files = [&self.svg_reach, &self.svg_rebroadcasts].map(Option::as_deref);
+        let mut charts = Aside::several(files)?;
         let setting = Setting {
             nodes: self.nodes.clone(),
             side_m: self.side,
@@ -85,8 +87,12 @@ impl NoticeFig5 {
         };
         let topologies = u64::from(self.topologies) * self.nodes.len() as u64;
         let densities = progress::during("broadcasting", topologies, |watch| setting.measure(watch))?;
-        store(self.svg_reach.as_deref(), Part::Reach, &densities)?;
-        store(self.svg_rebroadcasts.as_deref(), Part::Rebroadcasts, &densities)?;
+        for (chart, part) in charts.iter_mut().zip([Part::Reach, Part::Rebroadcasts]) {
+            if let Some(chart) = chart {
+                chart.append(notice_fig5::chart(part, &densities).svg())?;
+            }
+        }
+        Aside::keep_all(charts)?;
         match self.format.format {
             Format::Json => out.json(&Measured {
                 id: Reproduction::NoticeFig5.id(),
@@ -112,14 +118,14 @@ impl NoticeFig5 {
             side = self.side,
         );
         let percent = |estimate: Estimate| estimate.times(100.0).text(2);
-        let mut table = Table::new(heading, 14, densities);
+        let mut table = Table::new(heading, densities);
         table.row("nodes", |density| density.nodes.to_string());
-        table.row("connected", |density| format!("{:.2}", 100.0 * density.connected.mean));
+        table.row("connected", |density| percent(density.connected));
         table.row("component", |density| percent(density.component));
         let schemes = densities.first().map_or(&[][..], |density| &density.schemes);
         table.title("Reach, % of all nodes");
         for (place, line) in schemes.iter().enumerate() {
-            table.row(&line.scheme, |density| percent(density.schemes[place].reach));
+            table.row(line.scheme.as_str(), |density| percent(density.schemes[place].reach));
             if densities.iter().any(|density| density.schemes[place].paper.is_some()) {
                 let said =
                     |part: Option<f64>| part.map_or("-".to_owned(), |part| format!("{:.2}", 100.0 * part));
@@ -129,20 +135,16 @@ impl NoticeFig5 {
         }
         table.title("Reach, % of the nodes connected to the source");
         for (place, line) in schemes.iter().enumerate() {
-            table.row(&line.scheme, |density| percent(density.schemes[place].reach_component));
+            table.row(line.scheme.as_str(), |density| percent(density.schemes[place].reach_component));
         }
         table.title("Rebroadcasts");
         for (place, line) in schemes.iter().enumerate() {
-            table.row(&line.scheme, |density| density.schemes[place].rebroadcasts.text(2));
+            table.row(line.scheme.as_str(), |density| density.schemes[place].rebroadcasts.text(2));
         }
         table.with_notes(
             "connected: % of the networks in which links connect all nodes · component: % of the nodes that they \
-               connect to the\nsource · ±: half the width of the 95 % interval · paper: “near 100 %” at every density; all \
+               connect to the\nsource · ±, […]: the 95 % interval · paper: “near 100 %” at every density; all \
                else it draws only",
         )
     }
-}
-
-fn store(path: Option<&Path>, part: Part, densities: &[Density]) -> Result<(), Fault> {
-    path.map_or(Ok(()), |path| Aside::write(path, notice_fig5::chart(part, densities).svg()))
 }

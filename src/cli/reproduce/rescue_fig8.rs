@@ -70,10 +70,11 @@ impl RescueFig8 {
         let Self { nodes, topologies, seed, .. } = *self;
         let (robots, wfrs, k) = (self.robots as usize, self.wfr as usize, self.k.get());
         let setting = Setting { nodes, robots, wfrs, k, topologies, seed };
+        let file = self.svg.as_deref().map(Aside::new).transpose()?;
         let rescues = 2 * u64::from(topologies);
         let lines = progress::during("rescuing", rescues, |watch| setting.measure(watch))?;
-        if let Some(path) = &self.svg {
-            Aside::write(path, setting.picture()?)?;
+        if let Some(file) = file {
+            file.finish(setting.picture()?)?;
         }
         match self.format.format {
             Format::Json => {
@@ -91,7 +92,7 @@ fn table(setting: &Setting, lines: &[Line]) -> String {
     let heading = format!(
         "{robots} robots, {wfrs} WFRs, {nodes} nodes in 300×300 m, range 25 m, k = {k}, {topologies} topologies, seed {seed}"
     );
-    let mut table = Table::new(heading, 26, lines);
+    let mut table = Table::new(heading, lines);
     let percent = |share: f64| format!("{:.2}", 100.0 * share);
     table.row("MRC", |line| line.rule.to_string());
     table.row("served, %", |line| line.served.ours.times(100.0).text(2));
@@ -111,6 +112,6 @@ fn table(setting: &Setting, lines: &[Line]) -> String {
            each ·\npaper: a picture of one topology in which it is so, and “for all simulated scenarios” · RD: metres walked for \
            each metre\nof the shortest ways · over the best assignment: how many times as far the robots are off the WFRs \
            that they come to as\nunder the best of all assignments, where each WFR has a robot of its own · the best assignment: % \
-           of these in which it is\nthat one · ±: half the width of the 95 % interval",
+           of these in which it is\nthat one · ±, […]: the 95 % interval",
     )
 }
