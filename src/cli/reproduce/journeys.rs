@@ -154,7 +154,7 @@ fn text(setting: &Setting, densities: &[Density]) -> String {
     );
     let mut table = Table::new(heading, densities);
     let or_dash = |estimate: Option<Estimate>| Estimate::text_or_dash(estimate, 2);
-    let percent = |share: Option<Estimate>| or_dash(share.map(|share| share.times(100.0)));
+    let percent = |share: Option<Estimate>| Estimate::text_or_dash(share.map(|share| share.times(100.0)), 1);
     table.row("nodes", |density| density.nodes.to_string());
     table.row("linked", |density| percent(Some(density.linked)));
     table.row("told", |density| percent(density.told));

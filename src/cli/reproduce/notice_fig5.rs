@@ -120,7 +120,7 @@ impl NoticeFig5 {
         let percent = |estimate: Estimate| estimate.times(100.0).text(2);
         let mut table = Table::new(heading, densities);
         table.row("nodes", |density| density.nodes.to_string());
-        table.row("connected", |density| percent(density.connected));
+        table.row("connected", |density| density.connected.times(100.0).text(1));
         table.row("component", |density| percent(density.component));
         let schemes = densities.first().map_or(&[][..], |density| &density.schemes);
         table.title("Reach, % of all nodes");
