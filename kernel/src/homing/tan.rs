@@ -415,6 +415,32 @@ mod tests {
     }
 
     #[test]
+    fn tries_and_times_are_counted_anew_at_each_node() {
+        let at = |robot: Homing, hops, strength| {
+            (0..24).fold(robot.hear(nav(hops)), |robot, _| robot.measure(Some(Strength(strength))))
+        };
+        let in_vain = |robot: Homing, times| (0..times).fold(robot, |robot, _| robot.expire());
+        let asks = |robot: Homing| match robot.order() {
+            Order::Ask(request) => Some(request.node.0),
+            Order::Point(_) | Order::Walk(_) | Order::Stop => None,
+        };
+        let beside = at(in_vain(start(4), 2), 3, -900);
+        assert_eq!(asks(in_vain(beside, 2)), Some(2), "the tries with the node before do not count");
+        let back = in_vain(beside, 3);
+        assert_eq!(
+            [0, 1, 2].map(|times| asks(in_vain(back, times))),
+            [Some(3); 3],
+            "nor those that led back"
+        );
+        assert_eq!(in_vain(back, 3).stage(), Stage::Lost);
+        let nearest = at(in_vain(at(back, 3, -700), 3), 3, -400);
+        let next = at(nearest, 2, -1_000);
+        let back = at(in_vain(next, 3), 2, -700);
+        assert_eq!(asks(in_vain(back, 3)), Some(2), "twice nearer to the node before, and twice to this one");
+        assert_eq!(in_vain(at(in_vain(back, 3), 2, -400), 3).stage(), Stage::Lost);
+    }
+
+    #[test]
     fn a_robot_whose_way_is_barred_scans_again() {
         let scanned = (0..24).fold(start(2).hear(nav(1)), |robot, _| robot.measure(Some(Strength(-9_000))));
         assert_eq!(scanned.bump().order(), Order::Point(Heading::FIRST));
@@ -429,6 +455,7 @@ mod tests {
         assert_eq!(scanned.order(), Order::Walk(Heading::FIRST));
         let nearer = scanned.measure(Some(Strength(-8_000)));
         assert_eq!(nearer.order(), Order::Walk(Heading::FIRST));
+        assert_eq!(nearer.measure(Some(Strength(-8_000))), nearer, "no weaker is not past the node");
         assert_eq!(nearer.measure(Some(Strength(-8_500))).order(), Order::Point(Heading::FIRST));
         assert!(matches!(nearer.measure(None).order(), Order::Ask(_)));
         let deaf = |robot: Homing| (0..24).fold(robot.hear(nav(1)), |robot, _| robot.measure(None));
@@ -447,6 +474,11 @@ mod tests {
             assert_eq!(other.conduct, Conduct::Silent, "{id}");
             assert_eq!(other.expire(), Guide::IDLE);
         }
+        let elsewhere = Nav { wfr: NodeId(9), ..nav(2) };
+        let newer = asked.request(ReqNav { wfr: NodeId(9), ..request }, NodeId(2), Some(elsewhere));
+        assert_eq!(newer.conduct, Conduct::Signals(elsewhere), "the latest request counts");
+        let others = ReqNav { node: NodeId(3), ..request };
+        assert_eq!(asked.request(others, NodeId(2), Some(nav(2))), asked, "another's does not silence it");
         let silent = Guide::IDLE.overhear();
         assert_eq!(silent.request(request, NodeId(2), Some(nav(2))), silent);
     }

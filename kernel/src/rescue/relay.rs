@@ -102,6 +102,13 @@ mod tests {
     }
 
     #[test]
+    fn the_latest_way_of_a_robot_is_the_way_back() {
+        let (node, _) = Relay::<2>::new(NodeId(7)).up(message(1, 1, 7), Hop::Node(NodeId(9)), NodeId(3));
+        let (node, _) = node.up(message(1, 1, 7), Hop::Robot(RobotId(1)), NodeId(3));
+        assert_eq!(node.down(resb(1, 1)), Some(Hop::Robot(RobotId(1))));
+    }
+
+    #[test]
     fn a_newer_call_takes_the_way_of_an_older_one_and_not_the_reverse() {
         let (node, _) = Relay::<1>::new(NodeId(7)).up(message(1, 1, 7), Hop::Node(NodeId(9)), NodeId(3));
         let (node, up) = node.up(message(1, 0, 7), Hop::Node(NodeId(8)), NodeId(3));

@@ -320,6 +320,30 @@ mod tests {
     }
 
     #[test]
+    fn a_newer_call_ends_what_a_robot_does_for_the_older_and_for_no_other() {
+        let asking = [notice(call(0, 1), 4, 10)];
+        let leased = [notice(call(0, 1), 4, 10), resb(call(0, 1), ME, ME)];
+        for heard in [&asking[..], &leased] {
+            let (robot, _) = after(Rule::REPAIRED, heard);
+            let (other, sent) = robot.receive(notice(call(1, 1), 1, 10));
+            assert_eq!((other.task(), sent), (robot.task(), None));
+            let (robot, sent) = robot.receive(notice(call(0, 2), 4, 10));
+            assert_eq!(word(sent), Some((0, 2, Word::Move { hops: 5 })));
+            assert_eq!(robot.task(), Task::Asking { call: call(0, 2), repeats_left: 1 });
+        }
+    }
+
+    #[test]
+    fn an_answer_that_names_nobody_frees_a_robot_that_asks() {
+        let heard = [notice(call(0, 1), 4, 10), notice(call(1, 1), 6, 10)];
+        let (robot, _) = after(Rule::REPAIRED, &heard);
+        let nobody = Downward::Resb(Resb { call: call(0, 1), robot: ME, chosen: None });
+        let (robot, sent) = robot.receive(nobody);
+        assert_eq!(word(sent), Some((1, 1, Word::Move { hops: 7 })));
+        assert_eq!(robot.request(NodeId(0)).map(|request| request.served), Some(Served::Yes));
+    }
+
+    #[test]
     fn what_names_an_unknown_wfr_epoch_or_robot_changes_nothing() {
         let (robot, _) = after(Rule::REPAIRED, &[notice(call(0, 3), 4, 10)]);
         for stray in [

@@ -298,6 +298,28 @@ mod tests {
     }
 
     #[test]
+    fn a_new_call_forgets_who_asked_under_the_one_before() {
+        let (wfr, _) = closed(after(Rule::REPAIRED, &[bid(1, 4), bid(2, 5)]).0);
+        let (wfr, _) = wfr.receive(word(1, 1, Word::Decline));
+        assert_eq!((wfr.call().epoch, wfr.asked().count()), (Epoch(2), 0));
+        let (wfr, _) = wfr.receive(word(2, 2, Word::Move { hops: 5 }));
+        let told = Resb { call: wfr.call(), ..resb(2, 2) };
+        assert_eq!(closed(wfr).1, Sent::All([Some(told), None]));
+    }
+
+    #[test]
+    fn the_next_event_is_a_new_call_once_a_robot_has_come_and_not_before() {
+        for rule in [Rule::PUBLISHED, Rule::REPAIRED] {
+            let (waiting, _) = after(rule, &[bid(1, 4)]);
+            assert_eq!(waiting.raise(), (waiting, Sent::Nothing));
+            let (again, sent) = waiting.reach(RobotId(1)).raise();
+            let call = Call { wfr: ME, epoch: Epoch(2) };
+            assert_eq!(sent, Sent::Notice(Notice { call, hops: 0, sender: ME }));
+            assert_eq!((again.call(), again.phase()), (call, Phase::Collecting { best: None }));
+        }
+    }
+
+    #[test]
     fn a_late_move_is_answered_with_the_choice_that_stands() {
         let (wfr, _) = closed(after(Rule::REPAIRED, &[bid(1, 4)]).0);
         assert_eq!(wfr.receive(bid(2, 1)), (wfr, Sent::One(resb(2, 1))));
