@@ -634,7 +634,7 @@ fn pictures_and_pages_are_whole_and_need_nothing_from_elsewhere() {
 fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
     let folder = folder();
     fs::write(folder.path().join("file"), "").expect("a file");
-    let wrong: [&[&str]; 46] = [
+    let wrong: [&[&str]; 47] = [
         &["explore", "open:9x9", "--robots", "0"],
         &["explore", "open:9x9", "--robots", "1"],
         &["explore", "open:9x9", "--robots", "257"],
@@ -654,6 +654,7 @@ fn what_is_wrong_with_the_command_line_is_said_with_a_remedy() {
         &["explore", "open:9x9", "--scheme", "bricks", "--start", "9,0"],
         &["explore", "open:9x9", "--scheme", "bricks", "--start", "1,1", "--start", "2,2", "--robots", "3"],
         &["explore", "open:9x9", "--scheme", "bricks", "--start", "1,1", "--base", "2,2"],
+        &["explore", "open:9x9", "--scheme", "bricks", "--miss", "1"],
         &["hunt", "--max-misses", "2"],
         &["hunt", "--scheme", "bricks", "--max-walls", "2"],
         &["hunt", "--scheme", "bricks", "--max-misses", "256"],

@@ -48,7 +48,8 @@ pub(super) struct Hunt {
     /// The scheme as published, or repaired.
     #[arg(long, value_enum, default_value = "repaired")]
     rule: RuleName,
-    /// Robots: 4 in a chain, the base counted, or 1 agent, unless this says otherwise.
+    /// Robots: 4 in a chain, the base counted, or 1 agent, unless this says otherwise. Agents act in turn here; `prove`
+    /// looks at every order.
     #[arg(long, value_name = "N", value_parser = number::<u64>)]
     robots: Option<u64>,
     /// Most walls that a chain meets in one run, 4 unless this says otherwise; the border is not counted.

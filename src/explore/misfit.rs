@@ -61,11 +61,7 @@ impl Misfit {
             Self::Robots { scheme: SchemeName::Chain, .. } => {
                 format!("a chain has 2 to {MAX_ROBOTS} robots, the base counted")
             }
-            Self::Robots {
-                scheme: SchemeName::Ants | SchemeName::Bricks | SchemeName::BricksAnts, ..
-            } => {
-                format!("a team has 1 to {MAX_AGENTS} agents")
-            }
+            Self::Robots { .. } => format!("a team has 1 to {MAX_AGENTS} agents"),
             Self::Rule(scheme) => format!("take the rule repaired, or another scheme than {}", scheme.word()),
             Self::Miss => "take ants, bricks or bricks-ants, or leave out how likely that is".to_owned(),
             Self::MissedByChain => "take ants, bricks or bricks-ants, or leave out what is missed".to_owned(),
@@ -86,14 +82,8 @@ impl fmt::Display for Misfit {
                 f.write_str("the base alone is no chain")
             }
             Self::Robots { scheme: SchemeName::Chain, robots } => write!(f, "{robots} robots are no chain"),
-            Self::Robots {
-                scheme: SchemeName::Ants | SchemeName::Bricks | SchemeName::BricksAnts,
-                robots: 0,
-            } => f.write_str("no agents are no team"),
-            Self::Robots {
-                scheme: SchemeName::Ants | SchemeName::Bricks | SchemeName::BricksAnts,
-                robots,
-            } => write!(f, "{robots} agents are too many for a team"),
+            Self::Robots { robots: 0, .. } => f.write_str("no agents are no team"),
+            Self::Robots { robots, .. } => write!(f, "{robots} agents are too many for a team"),
             Self::Rule(scheme) => write!(f, "{} is ours: nobody has published it", scheme.word()),
             Self::Miss | Self::MissedByChain => {
                 f.write_str("the robots of a chain have no floor sensors to miss")

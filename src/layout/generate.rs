@@ -115,8 +115,8 @@ impl Rooms {
 
 impl Probability {
     /// The probability `p`, if it is one.
-    pub fn new(p: f64) -> Option<Self> {
-        (0.0..=1.0).contains(&p).then_some(Self(p))
+    pub const fn new(p: f64) -> Option<Self> {
+        if 0.0 <= p && p <= 1.0 { Some(Self(p)) } else { None }
     }
 
     /// What never happens.

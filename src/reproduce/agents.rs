@@ -37,7 +37,7 @@ pub const TEAMS: [Team; 4] = [
 ];
 
 /// The sensors that the paper's agents miss, of all.
-pub const MISS: &str = "0.0556";
+pub const MISS: Probability = Probability::new(0.0556).expect("a probability");
 
 /// The paper's area, and its team where it varies the area.
 const SIDE: u16 = 30;
@@ -65,13 +65,10 @@ impl Figure {
     }
 
     /// How likely a sensor is missed.
-    ///
-    /// # Errors
-    /// None: the number is one of ours.
-    pub fn miss(self) -> Result<Probability, Problem> {
+    pub const fn miss(self) -> Probability {
         match self {
-            Self::Agents | Self::Area => MISS.parse(),
-            Self::Ideal => Ok(Probability::NEVER),
+            Self::Agents | Self::Area => MISS,
+            Self::Ideal => Probability::NEVER,
         }
     }
 }
@@ -141,7 +138,7 @@ struct Outcome {
 /// # Errors
 /// [`Halt`], as `watch` returned it.
 pub fn measure(figure: Figure, extent: Extent, watch: &Watch<'_>) -> Result<Vec<Line>, Halt> {
-    let miss = figure.miss().map_err(|problem| fault(&problem))?;
+    let miss = figure.miss();
     let mut lines = Vec::new();
     for (side, agents) in figure.points() {
         let description = format!("office:{side}x{side}:4x4");

@@ -79,7 +79,7 @@ impl Agents {
                 id: reproduction.id(),
                 layouts: self.layouts,
                 seed: self.seed,
-                miss: figure.miss().map_or(0.0, f64::from),
+                miss: figure.miss().into(),
                 max_steps: self.max_steps,
                 lines: &lines,
                 paper: &printed,
