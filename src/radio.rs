@@ -16,7 +16,7 @@ mod problem;
 mod queue;
 
 pub use air::{Air, Channel, Faults, Heard, Protocol, Shared, run};
-pub use broadcast::{Broadcast, LONGEST_WAIT_NS, Report, broadcast};
+pub use broadcast::{Broadcast, LONGEST_WAIT_NS, Reach, Report, broadcast};
 pub use chance::Chance;
 pub(crate) use chance::{checked_deviation, deviation_db};
 pub use field::{Area, Field, MAX_NODES, Obstacle, Point};

@@ -25,7 +25,7 @@ pub use event::{Event, Logged, Millimetres};
 pub use judge::Violation;
 pub use problem::Problem;
 pub use report::{Fate, Fix, Journey, Report, Spread};
-pub use setting::{CallTimes, MAX_ROBOTS, MAX_WFRS, SchemeName, Setting};
+pub use setting::{CallTimes, MAX_EVENTS, MAX_ROBOTS, MAX_WFRS, SchemeName, Setting};
 pub(crate) use summary::seconds;
 pub use summary::{Assignments, Broken, Summary};
 pub use world::rescue;
@@ -58,6 +58,7 @@ mod tests {
             wfrs_at: vec![],
             robots: 3,
             robots_at_m: vec![],
+            events_per_wfr: 1,
             calls: CallTimes::Together,
             channel: ChannelName::Ideal,
             loss: 0.1,
@@ -87,6 +88,38 @@ mod tests {
         assert_eq!(of_a_hundred(RuleName::Repaired, &is_good), 100);
         let is_served = |report: &Report| report.fates.iter().all(is_served_once);
         assert_eq!(of_a_hundred(RuleName::Published, &is_served), 48);
+    }
+
+    #[test]
+    fn with_losses_and_a_robot_failing_every_event_is_served_once_repaired_and_no_second_as_published() {
+        let counts = |rule: RuleName| {
+            let setting = Setting { events_per_wfr: 3, ..setting(rule) };
+            let rescues: Vec<Report> =
+                (0..30).map(|seed| rescue(&setting, seed).expect("a rescue")).collect();
+            assert!(rescues.iter().all(|report| report.fates.len() == 9));
+            let of_event = |event: usize| {
+                let fates = rescues.iter().flat_map(|report| report.fates.iter().skip(event).step_by(3));
+                fates.filter(|fate| is_served_once(fate)).count()
+            };
+            let broken = |demand: Demand| rescues.iter().filter(|report| breaks(report, demand)).count();
+            ([0, 1, 2].map(of_event), Demand::ALL.map(broken))
+        };
+        assert_eq!(counts(RuleName::Repaired), ([90, 90, 90], [0; 6]));
+        let (served, broken) = counts(RuleName::Published);
+        assert_eq!((served, broken), ([72, 0, 0], [1, 0, 0, 30, 30, 30]));
+    }
+
+    #[test]
+    fn the_first_event_is_the_same_however_many_follow() {
+        let told = |events_per_wfr: usize| {
+            let setting = Setting { events_per_wfr, ..setting(RuleName::Repaired) };
+            rescue(&setting, 3).expect("a rescue").log
+        };
+        let (once, thrice) = (told(1), told(3));
+        let second = thrice.iter().position(|logged| matches!(logged.event, Event::Recurs { .. }));
+        let second = second.expect("a second event");
+        assert!(second > 50);
+        assert_eq!(once[..second], thrice[..second]);
     }
 
     #[test]
@@ -133,7 +166,7 @@ mod tests {
             nodes in 40_usize..300,
             (robots, wfrs) in (1_usize..5, 1_usize..5),
             (loss, noise_db) in (0.0..0.3, 0.0..3.0),
-            (failing, failing_nodes) in (0_usize..2, 0_usize..30),
+            (failing, failing_nodes, events_per_wfr) in (0_usize..2, 0_usize..30, 1_usize..4),
             (is_shared, is_spread, has_lake) in any::<(bool, bool, bool)>(),
             scheme in prop::sample::select(vec![
                 SchemeName::KFnf, SchemeName::Flooding, SchemeName::Counter, SchemeName::Distance, SchemeName::Sba,
@@ -146,6 +179,7 @@ mod tests {
                 obstacles_m: if has_lake { vec![[40.0, 30.0, 70.0, 50.0]] } else { vec![] },
                 wfrs,
                 robots,
+                events_per_wfr,
                 calls: if is_spread { CallTimes::Spread } else { CallTimes::Together },
                 channel: if is_shared { ChannelName::Shared } else { ChannelName::Ideal },
                 loss,
@@ -157,6 +191,13 @@ mod tests {
             let report = rescue(&setting, seed).expect("a rescue");
             for violation in &report.violations {
                 prop_assert_eq!(violation.demand, Demand::IsServed);
+            }
+            prop_assert_eq!(report.fates.len(), wfrs * events_per_wfr);
+            for fates in report.fates.chunks(events_per_wfr) {
+                // The next event comes when the one before is served.
+                let is_served = |fate: &Fate| matches!(fate, Fate::Served { .. });
+                let served = fates.iter().take_while(|fate| is_served(fate)).count();
+                prop_assert!(fates.iter().skip(served + 1).all(|&fate| fate == Fate::StillToCome));
             }
             for fate in &report.fates {
                 let came_twice = matches!(fate, Fate::Served { visits: 2.., .. });
@@ -253,6 +294,42 @@ mod tests {
     }
 
     #[test]
+    fn as_published_the_robot_beside_the_wfr_stays_deaf_to_its_second_event() {
+        let outcome = |rule: Rule| {
+            let mut plan = row(rule, &ROW, &[(60.0, None)], &[]);
+            plan.wfrs[0].pauses_ns = vec![100_000_000_000];
+            let report = plan.rescue(&mut Seeded::new(0, 0)).expect("a rescue");
+            let journeys: Vec<(usize, f64)> =
+                report.journeys.iter().map(|journey| (journey.event, journey.moved_m.round())).collect();
+            let found = [Demand::AsksAnew, Demand::IsServed]
+                .map(|demand| report.violations.iter().any(|one| (one.demand, one.event) == (demand, 1)));
+            (report.fates, journeys, found)
+        };
+        let served = Fate::Served { by: 0, visits: 1 };
+        assert_eq!(
+            outcome(Rule::REPAIRED),
+            (vec![served, served], vec![(0, 50.0), (1, 0.0)], [false, false])
+        );
+        assert_eq!(outcome(Rule::PUBLISHED), (vec![served, Fate::Abandoned], vec![(0, 50.0)], [true, true]));
+    }
+
+    #[test]
+    fn without_numbers_nodes_do_not_send_the_second_event_on() {
+        let outcome = |conditions: broadcast::Conditions| {
+            // The robot that serves the first event fails before the second; the other one is three hops off.
+            let mut plan = row(Rule::REPAIRED, &ROW, &[(85.0, None), (60.0, Some(100))], &[]);
+            plan.wfrs[0].pauses_ns = vec![100_000_000_000];
+            plan.broadcast.conditions = conditions;
+            let report = plan.rescue(&mut Seeded::new(0, 0)).expect("a rescue");
+            let spreads: Vec<u32> = report.spreads.iter().map(|spread| spread.reached).collect();
+            (report.fates, spreads)
+        };
+        let served = |by: usize| Fate::Served { by, visits: 1 };
+        assert_eq!(outcome(broadcast::Conditions::REPAIRED), (vec![served(1), served(0)], vec![4, 4]));
+        assert_eq!(outcome(broadcast::Conditions::PUBLISHED), (vec![served(1), Fate::Unheard], vec![4, 1]));
+    }
+
+    #[test]
     fn whom_nobody_can_reach_or_has_heard_of_is_told_apart() {
         let alone = row(Rule::REPAIRED, &ROW, &[(150.0, None)], &[]);
         let fates = |plan: Plan| plan.rescue(&mut Seeded::new(0, 0)).expect("a rescue").fates;
@@ -305,6 +382,10 @@ mod tests {
             refusal(Setting { wfrs_at: vec![1, 2, 3, 4], ..good.clone() }),
             Err(Problem::WfrPlaces { places: 4, wfrs: 3 })
         );
+        for events in [0, 17] {
+            let refused = refusal(Setting { events_per_wfr: events, ..good.clone() });
+            assert_eq!(refused, Err(Problem::Events { events }));
+        }
         assert_eq!(refusal(Setting { robots: 17, ..good.clone() }), Err(Problem::Robots { robots: 17 }));
         assert_eq!(
             refusal(Setting { robots_at_m: vec![[0.0; 2]; 4], ..good.clone() }),

@@ -921,6 +921,8 @@ fn a_rescue_is_told_event_by_event() {
     assert_snapshot!("rescue_of_one_wfr", printed(folder, &["rescue", "--seeds", "0"], 0));
     let published = [&RESCUE[..], &["--rule", "published", "--seeds", "8"]].concat();
     assert_snapshot!("rescue_published", printed(folder, &published, 1));
+    let twice = ["rescue", "--events", "2", "--rule", "published", "--seeds", "0"];
+    assert_snapshot!("rescue_of_two_events", printed(folder, &twice, 1));
     let lake = ["--obstacle", "100,100,200,200", "--robot", "20,150", "--robot", "90.5,1", "--wfr-at", "350"];
     let told = json(folder, &[&["rescue", "--seeds", "7"], &lake[..]].concat(), 0);
     assert_eq!((&told["robots"], &told["wfrs"]), (&2.into(), &1.into()));
@@ -942,9 +944,13 @@ fn rescues_are_counted_and_judged() {
     let published = [&RESCUE[..], &["--seeds", "0..19", "--rule", "published"]].concat();
     assert_snapshot!("rescues_published", printed(folder, &published, 1));
     let counted = json(folder, &published, 1);
-    assert_snapshot!(counted["assignments"], @r#"{"cut_off":0,"never":13,"served_more_often":0,"served_once":47,"unheard":0,"wfrs":60}"#);
-    assert_snapshot!(counted["violations"], @r#"[{"at_s":0.094795064,"clause":"MRC-1","rescues":1,"seed":8,"wfr":3},{"at_s":0.01635954,"clause":"MRC-4","rescues":20,"seed":0,"wfr":3},{"at_s":125.692057474,"clause":"MRC-5","rescues":12,"seed":0,"wfr":2}]"#);
+    assert_snapshot!(counted["assignments"], @r#"{"cut_off":0,"events":60,"never":13,"served_more_often":0,"served_once":47,"still_to_come":0,"unheard":0,"wfrs":60}"#);
+    assert_snapshot!(counted["violations"], @r#"[{"at_s":0.094795064,"clause":"MRC-1","event":1,"rescues":1,"seed":8,"wfr":3},{"at_s":0.01635954,"clause":"MRC-4","event":1,"rescues":20,"seed":0,"wfr":3},{"at_s":125.692057474,"clause":"MRC-5","event":1,"rescues":12,"seed":0,"wfr":2}]"#);
     assert_eq!(counted.get("events"), None);
+    let thrice = [&RESCUE[..], &["--seeds", "0..9", "--events", "3"]].concat();
+    assert_eq!(json(folder, &thrice, 0)["assignments"]["served_once"], 90);
+    let published = [&thrice[..], &["--rule", "published"]].concat();
+    assert_snapshot!("rescues_of_three_events", printed(folder, &published, 1));
     let schemes = ["flooding", "counter", "distance", "sba"].map(|scheme| {
         let arguments =
             [&RESCUE[..], &["--seeds", "0..4", "--channel", "shared", "--scheme", scheme]].concat();
@@ -976,6 +982,16 @@ fn a_rescue_is_stored_played_and_drawn() {
     let events = run.lines().count() - 2;
     assert_eq!(page.matches("<g class=\"move\"").count(), 1 + events);
     assert_eq!(read("r.svg").matches("class=\"wfr\"").count(), 4, "three, and the legend");
+    // What was stored before there were several events.
+    let older = run.replacen("\"events_per_wfr\":1,", "", 1);
+    assert_ne!(older, run);
+    fs::write(folder.join("older.jsonl"), older).expect("a file");
+    assert_eq!(printed(folder, &["replay", "older.jsonl"], 1), told);
+    let events = ["--events", "2", "--trace", "twice.jsonl", "--replay", "twice.html"];
+    let told = printed(folder, &[&published[..], &events].concat(), 1);
+    assert_eq!(printed(folder, &["replay", "twice.jsonl", "--html", "twice again.html"], 1), told);
+    assert_eq!(read("twice.html"), read("twice again.html"));
+    assert!(read("twice.html").contains("event 2 happens at WFR"));
     let several = [&RESCUE[..], &["--seeds", "0..1", "--trace", "several.jsonl"]].concat();
     let cases = [
         ("no seed", run.replacen("\"seed\":8,", "", 1)),
@@ -983,6 +999,7 @@ fn a_rescue_is_stored_played_and_drawn() {
         ("another rule", run.replacen("published", "repaired", 1)),
         ("another version", run.replacen("\"version\":1", "\"version\":2", 1)),
         ("no field", run.replacen("\"range_m\":25.0", "\"range_m\":0.0", 1)),
+        ("no event", run.replacen("\"events_per_wfr\":1", "\"events_per_wfr\":0", 1)),
         ("an unknown field", run.replacen("\"k\":1", "\"k\":1,\"mood\":1", 1)),
         ("another hop", run.replacen("\"hops\":4", "\"hops\":5", 1)),
         ("cut", run.split_inclusive('\n').take(3).collect()),
@@ -1003,13 +1020,27 @@ fn a_rescue_is_stored_played_and_drawn() {
      Help: leave out --moves, or name a run of a team
     ");
     assert!(refused(folder, &["minimise", "r.jsonl"]).contains("name a \"tautline run\""));
-    assert_eq!(names(folder), ["again.html", "again.svg", "r.html", "r.jsonl", "r.svg", "wrong.jsonl"]);
+    assert_eq!(
+        names(folder),
+        [
+            "again.html",
+            "again.svg",
+            "older.jsonl",
+            "r.html",
+            "r.jsonl",
+            "r.svg",
+            "twice again.html",
+            "twice.html",
+            "twice.jsonl",
+            "wrong.jsonl",
+        ]
+    );
 }
 
 #[test]
 fn what_makes_no_rescue_is_refused_with_what_would_be_right() {
     let folder = folder();
-    let cases: [&[&str]; 26] = [
+    let cases: [&[&str]; 29] = [
         &["--nodes", "0"],
         &["--nodes", "1"],
         &["--nodes", "2000000"],
@@ -1025,6 +1056,9 @@ fn what_makes_no_rescue_is_refused_with_what_would_be_right() {
         &["--wfr", "3", "--nodes", "2"],
         &["--wfr-at", "700"],
         &["--wfr-at", "7", "--wfr-at", "7"],
+        &["--events", "0"],
+        &["--events", "17"],
+        &["--events", "some"],
         &["--robots", "17"],
         &["--robot", "301,1"],
         &["--robot", "NaN,1"],

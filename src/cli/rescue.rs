@@ -27,16 +27,20 @@ Examples:
   tautline rescue --wfr 3 --robots 3 --loss 0.1 --failing 1 --seeds 0..999
   tautline rescue --wfr 3 --robots 3 --loss 0.1 --failing 1 --seeds 0..999 --rule published --format json
   tautline rescue --obstacle 100,100,200,200 --robot 20,150 --wfr-at 350 --seeds 7
+  tautline rescue --wfr 2 --robots 3 --loss 0.1 --events 3 --rule published
   tautline rescue --nodes 300 --scheme flooding --channel shared --noise-db 2
   tautline rescue --wfr 3 --robots 3 --seeds 8 --rule published --trace rescue.jsonl --replay rescue.html
 
-What the JSON says: reach, reach_component and rebroadcasts are means over the seeds of what becomes of the WFRs' first \
-calls; assignments counts all WFRs of all seeds: served_once, served_more_often, never (a robot that lives is connected \
-with it and has heard of it), unheard (connected, but the broadcast has not reached it), cut_off (not connected); \
-distance_ratio is the sum of the distances moved over the sum of the shortest; wait_s the time from the first call to \
-the robot; violations the clauses broken, in how many rescues, and where first. Each mean has its 95 % interval.
+What the JSON says: reach, reach_component and rebroadcasts are means over the seeds of what becomes of the first call \
+for each event at a WFR; assignments counts all WFRs and events of all seeds, and the events that were served_once, \
+served_more_often, never (a robot that lives is connected with the WFR and has heard of the event), unheard (connected, \
+but the broadcast has not reached it), cut_off (not connected) and still_to_come (the one before was not served); \
+distance_ratio is the sum of the distances moved over the sum of the shortest; wait_s the time from the first call for \
+an event to the robot; violations the clauses broken, in how many rescues, and where first. Each mean has its 95 % \
+interval.
 
-A rescue ends when nothing more happens, or after six hours: who then still waits for a robot counts as never served.
+A rescue ends when nothing more happens, or after six hours for each event: who then still waits for a robot counts as \
+never served.
 
 The exit code is 1 if a clause is broken.";
 
@@ -76,7 +80,10 @@ pub(super) struct Rescue {
     /// Where a robot begins, in metres. May be given repeatedly; the others are at random places.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     robot: Vec<Metres<2>>,
-    /// When nodes call.
+    /// How often something happens at each node that calls: again at a random time of the ten minutes after it was served.
+    #[arg(long, value_name = "N", default_value = "1", value_parser = number::<usize>)]
+    events: usize,
+    /// When nodes call for the first time.
     #[arg(long, value_enum, default_value = "together")]
     calls: CallTimes,
     /// MRC as published, or repaired.
@@ -230,6 +237,7 @@ impl Rescue {
             wfrs_at: self.wfr_at.clone(),
             robots: self.robots.unwrap_or(self.robot.len().max(1)),
             robots_at_m: self.robot.iter().map(|&Metres(place)| place).collect(),
+            events_per_wfr: self.events,
             calls: self.calls,
             channel: self.channel,
             loss: self.loss,
@@ -270,7 +278,8 @@ pub(super) fn tell(
         } else {
             format!("{} broken", broken.join(", "))
         };
-        let outcome = format!("{served} of {} WFRs served; {broken}.", summary.assignments.wfrs);
+        let (events, what) = (summary.assignments.events, counted_as(setting));
+        let outcome = format!("{served} of {events} {what} served; {broken}.");
         page.append(view::rescue::page(&title, &outcome, report)?)?;
     }
     if let Some(map) = &mut files.map {
@@ -282,7 +291,23 @@ pub(super) fn tell(
 
 fn title(setting: &Setting) -> String {
     let (robots, wfrs) = (counted(setting.robots, "robot"), counted(setting.wfrs, "WFR"));
-    format!("{robots} for {wfrs}, MRC ({})", setting.rule)
+    format!("{robots} for {wfrs}{}, MRC ({})", events_each(setting), setting.rule)
+}
+
+/// How often something happens at each WFR, unless it is once.
+fn events_each(setting: &Setting) -> String {
+    match setting.events_per_wfr {
+        1 => String::new(),
+        several => format!(", {several} events each"),
+    }
+}
+
+/// What is counted when fates are: where each WFR has one event, WFRs.
+const fn counted_as(setting: &Setting) -> &'static str {
+    match setting.events_per_wfr {
+        1 => "WFRs",
+        _ => "events",
+    }
 }
 
 /// Prints what came of rescues, and what happened in the only one.
@@ -301,7 +326,7 @@ fn print(
             events: report.map(|report| &report.log[..]),
         })?,
         Format::Text => {
-            out.text(heading(setting, seeds) + &table(summary))?;
+            out.text(heading(setting, seeds) + &table(setting, summary))?;
             if let Some(report) = report {
                 out.text(story(report))?;
             }
@@ -330,11 +355,12 @@ fn heading(setting: &Setting, seeds: &RangeInclusive<u64>) -> String {
     };
     let Setting { loss, noise_db, failing, failing_nodes, .. } = setting;
     format!(
-        "{} for {}, calling {times}: MRC ({rule}), {}{k}\n\
+        "{} for {}, calling {times}{}: MRC ({rule}), {}{k}\n\
          {nodes} nodes in {width_m}×{height_m} m, range {range_m} m, {}, {} channel\n\
          loss {loss}, noise {noise_db} dB, {} and {} fail; {seeds}\n\n",
         counted(setting.robots, "robot"),
         counted(setting.wfrs, "WFR"),
+        events_each(setting),
         scheme.word(),
         counted(setting.obstacles_m.len(), "obstacle"),
         channel.word(),
@@ -343,23 +369,35 @@ fn heading(setting: &Setting, seeds: &RangeInclusive<u64>) -> String {
     )
 }
 
-fn table(summary: &Summary) -> String {
+fn table(setting: &Setting, summary: &Summary) -> String {
     let percent = |share: Estimate| share.times(100.0).text(2);
-    let Assignments { wfrs, served_once, served_more_often, never, unheard, cut_off } = summary.assignments;
-    let of_wfrs = |count: u32| format!("{count} of {wfrs}");
-    let rows = [
-        ("reach, % of all nodes", percent(summary.reach)),
-        ("reach, % of the nodes connected with the WFR", percent(summary.reach_component)),
-        ("rebroadcasts of a first call", summary.rebroadcasts.text(2)),
-        ("messages in a rescue", summary.messages.text(0)),
-        ("WFRs served once", of_wfrs(served_once)),
-        ("WFRs served more often", of_wfrs(served_more_often)),
-        ("WFRs never served", of_wfrs(never)),
-        ("WFRs that no robot has heard", of_wfrs(unheard)),
-        ("WFRs with no robot connected", of_wfrs(cut_off)),
-        ("distance moved / shortest distance", Estimate::text_or_dash(summary.distance_ratio, 3)),
-        ("seconds from the first call to the robot", Estimate::text_or_dash(summary.wait_s, 1)),
+    let Assignments {
+        events, served_once, served_more_often, never, unheard, cut_off, still_to_come, ..
+    } = summary.assignments;
+    let of_all = |count: u32| format!("{count} of {events}");
+    let fate = |words: &str| format!("{} {words}", counted_as(setting));
+    let mut rows = vec![
+        ("reach, % of all nodes".to_owned(), percent(summary.reach)),
+        ("reach, % of the nodes connected with the WFR".to_owned(), percent(summary.reach_component)),
+        ("rebroadcasts of a first call".to_owned(), summary.rebroadcasts.text(2)),
+        ("messages in a rescue".to_owned(), summary.messages.text(0)),
+        (fate("served once"), of_all(served_once)),
+        (fate("served more often"), of_all(served_more_often)),
+        (fate("never served"), of_all(never)),
+        (fate("that no robot has heard"), of_all(unheard)),
+        (fate("with no robot connected"), of_all(cut_off)),
     ];
+    if setting.events_per_wfr > 1 {
+        rows.push((fate("still to come"), of_all(still_to_come)));
+    }
+    rows.push((
+        "distance moved / shortest distance".to_owned(),
+        Estimate::text_or_dash(summary.distance_ratio, 3),
+    ));
+    rows.push((
+        "seconds from the first call to the robot".to_owned(),
+        Estimate::text_or_dash(summary.wait_s, 1),
+    ));
     let width = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
     let mut text = String::new();
     // Writing to a string cannot fail.
@@ -369,9 +407,13 @@ fn table(summary: &Summary) -> String {
     text.push('\n');
     for broken in &summary.violations {
         let rescues = counted(broken.rescues as usize, "rescue");
+        let event = match setting.events_per_wfr {
+            1 => String::new(),
+            _ => format!(", event {}", broken.event),
+        };
         let _ = writeln!(
             text,
-            "{} is broken in {rescues}, first with seed {} after {:.3} s, WFR {}: {}",
+            "{} is broken in {rescues}, first with seed {} after {:.3} s, WFR {}{event}: {}",
             broken.clause, broken.seed, broken.at_s, broken.wfr, broken.broken
         );
     }

@@ -12,6 +12,18 @@ use super::{Air, Channel, Faults, Network, Problem, Protocol, run};
 /// the same for any other.
 pub const LONGEST_WAIT_NS: u32 = 100_000_000;
 
+/// The number of a source's first event.
+const FIRST_EVENT: u32 = 1;
+
+/// How far an event has come.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Reach {
+    /// Nodes that know of it, the source included.
+    pub reached: u32,
+    /// Nodes that forwarded it, the source not included.
+    pub rebroadcasts: u32,
+}
+
 /// What became of a broadcast.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Report {
@@ -37,15 +49,8 @@ pub fn broadcast(
 ) -> Result<(Report, Vec<Node>), Problem> {
     let mut broadcast = Broadcast::new(network, *rule, source);
     let air = run(network, channel, faults, &mut broadcast, &[(source, 0)], chance)?;
-    let nodes = broadcast.nodes;
-    let count =
-        |is_counted: fn(Stage) -> bool| nodes.iter().filter(|node| is_counted(node.stage())).count() as u32;
-    let report = Report {
-        reached: count(|stage| stage != Stage::Unaware),
-        rebroadcasts: count(|stage| stage == Stage::Forwarded) - 1,
-        air,
-    };
-    Ok((report, nodes))
+    let Reach { reached, rebroadcasts } = broadcast.reach(FIRST_EVENT);
+    Ok((Report { reached, rebroadcasts, air }, broadcast.nodes))
 }
 
 /// The nodes of a network while an event spreads.
@@ -101,6 +106,13 @@ impl<'a> Broadcast<'a> {
     /// The source begins its next event: what it sends. `None` if it has no number left.
     pub fn originate(&mut self) -> Option<Notice> {
         self.nodes.get_mut(self.source.0 as usize)?.originate()
+    }
+
+    /// How far an event, by its number, has come: to be asked before the next.
+    pub fn reach(&self, event: u32) -> Reach {
+        let aware = || self.nodes.iter().filter(|node| node.event() == Some(event));
+        let forwarded = aware().filter(|node| node.stage() == Stage::Forwarded).count() as u32;
+        Reach { reached: aware().count() as u32, rebroadcasts: forwarded.saturating_sub(1) }
     }
 
     /// The nodes' states.

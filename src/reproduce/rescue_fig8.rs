@@ -111,6 +111,7 @@ impl Setting {
             wfrs_at: Vec::new(),
             robots: self.robots,
             robots_at_m: Vec::new(),
+            events_per_wfr: 1,
             calls: CallTimes::Together,
             channel: ChannelName::Ideal,
             loss: 0.0,
@@ -175,7 +176,7 @@ impl Sample {
             .iter()
             .filter_map(|fate| match *fate {
                 Fate::Served { by, .. } => Some(by),
-                Fate::CutOff | Fate::Unheard | Fate::Abandoned => None,
+                Fate::CutOff | Fate::Unheard | Fate::Abandoned | Fate::StillToCome => None,
             })
             .collect();
         let is_own = is_served && (1..servants.len()).all(|wfr| !servants[..wfr].contains(&servants[wfr]));

@@ -19,6 +19,8 @@ pub(super) fn millimetres(at: Point) -> Millimetres {
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 #[expect(missing_docs, reason = "the fields are the numbers of who takes part")]
 pub enum Event {
+    /// Something happens at a WFR for the second time, or for a later one.
+    Recurs { wfr: usize, event: usize },
     /// A WFR calls.
     Calls { wfr: usize, node: u32, epoch: u32 },
     /// A robot hears of a call, so many hops from the WFR.
@@ -62,6 +64,7 @@ impl fmt::Display for Metres {
 impl fmt::Display for Event {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
+            Self::Recurs { wfr, event } => write!(f, "event {event} happens at WFR {wfr}"),
             Self::Calls { wfr, node, epoch } => write!(f, "WFR {wfr}, node {node}, calls, epoch {epoch}"),
             Self::Hears { robot, wfr, epoch, hops } => {
                 write!(f, "robot {robot} hears of WFR {wfr}, epoch {epoch}: hops {hops}")

@@ -14,10 +14,14 @@ pub struct Violation {
     pub at_ns: u64,
     /// Of which WFR.
     pub wfr: usize,
+    /// During which of its events.
+    pub event: usize,
 }
 
 /// What is noted down beside the machines' own states.
 pub(super) struct Judge {
+    /// The latest event of each WFR.
+    event: Vec<usize>,
     /// The best MOVE of each WFR's latest call that arrived while its window was open.
     best: Vec<Option<Bid>>,
     is_open: Vec<bool>,
@@ -45,6 +49,7 @@ impl Seen<'_> {
 impl Judge {
     pub(super) fn new(robots: usize, wfrs: usize) -> Self {
         Self {
+            event: vec![0; wfrs],
             best: vec![None; wfrs],
             is_open: vec![false; wfrs],
             taken: vec![vec![None; wfrs]; robots],
@@ -55,8 +60,13 @@ impl Judge {
     /// `demand` is not met.
     pub(super) fn tell(&mut self, demand: Demand, wfr: usize, at_ns: u64) {
         if !self.violations.iter().any(|known| known.demand == demand) {
-            self.violations.push(Violation { demand, at_ns, wfr });
+            self.violations.push(Violation { demand, at_ns, wfr, event: self.event[wfr] });
         }
+    }
+
+    /// An event happens at a WFR.
+    pub(super) fn happens(&mut self, wfr: usize, event: usize) {
+        self.event[wfr] = event;
     }
 
     /// A WFR calls.
@@ -171,7 +181,7 @@ mod tests {
 
     #[test]
     fn two_that_count_on_one_robot_are_told_while_it_lives() {
-        assert_eq!(told(false), [Violation { demand: Demand::OneCallForARobot, at_ns: 5, wfr: 1 }]);
+        assert_eq!(told(false), [Violation { demand: Demand::OneCallForARobot, at_ns: 5, wfr: 1, event: 0 }]);
         assert_eq!(told(true), []);
     }
 }

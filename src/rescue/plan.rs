@@ -7,7 +7,7 @@ use tautline_kernel::choice::Source;
 use tautline_kernel::rescue::Rule;
 
 use super::problem::MAX_STATES;
-use super::{MAX_ROBOTS, MAX_WFRS, Problem, SchemeName, Setting};
+use super::{MAX_EVENTS, MAX_ROBOTS, MAX_WFRS, Problem, SchemeName, Setting};
 use crate::explore::RuleName;
 use crate::homing::{Equipment, Signal, apart_m, hops};
 use crate::radio::{
@@ -18,7 +18,8 @@ use crate::rescue::setting::CallTimes;
 /// The threshold of the distance-based scheme, in tenths of the range: the larger of the paper's two.
 const THRESHOLD_TENTHS: u64 = 8;
 
-/// Whatever happens at a random time happens within so many milliseconds: ten minutes.
+/// Whatever happens at a random time happens within so many milliseconds of the beginning, or of what it follows: ten
+/// minutes.
 const EARLY_MS: u32 = 600_000;
 
 const MILLISECOND_NS: u64 = 1_000_000;
@@ -43,7 +44,10 @@ pub(super) struct Plan {
 /// A node that calls.
 pub(super) struct Caller {
     pub(super) node: NodeId,
+    /// When the first event happens.
     pub(super) at_ns: u64,
+    /// For each further event how long after the service of the one before it happens.
+    pub(super) pauses_ns: Vec<u64>,
     /// Hops from it to the node farthest off that links connect with it.
     pub(super) depth: u16,
 }
@@ -51,7 +55,7 @@ pub(super) struct Caller {
 impl Caller {
     pub(super) fn new(network: &Network, node: NodeId, at_ns: u64) -> Self {
         let depth = hops(network, node, |_| true).into_iter().flatten().max();
-        Self { node, at_ns, depth: depth.unwrap_or(0) }
+        Self { node, at_ns, pauses_ns: Vec::new(), depth: depth.unwrap_or(0) }
     }
 }
 
@@ -79,7 +83,7 @@ impl Setting {
             if self.noise_db == 0.0 { faults } else { faults.with_noise(self.noise_db, radio.exponent())? };
         let field = Field::random(Area::new(width_m, height_m)?, obstacles, self.nodes, chance)?;
         let network = Network::new(&field, radio, chance)?;
-        let wfrs = self.wfrs(&network, chance)?;
+        let mut wfrs = self.wfrs(&network, chance)?;
         let robots = self.robots(&field, chance)?;
         let others = (0..self.nodes as u32)
             .map(NodeId)
@@ -89,6 +93,10 @@ impl Setting {
             .into_iter()
             .map(|node| (node, early_ns(chance)))
             .collect();
+        // Last, so that the first events are the same however many follow.
+        for caller in &mut wfrs {
+            caller.pauses_ns = (1..self.events_per_wfr).map(|_| early_ns(chance)).collect();
+        }
         Ok(Plan {
             rule,
             broadcast: broadcast::Rule {
@@ -110,7 +118,7 @@ impl Setting {
 
     /// What is wrong by the numbers alone.
     fn check(&self) -> Result<(), Problem> {
-        let Self { nodes, wfrs, robots, failing, failing_nodes, .. } = *self;
+        let Self { nodes, wfrs, robots, events_per_wfr: events, failing, failing_nodes, .. } = *self;
         if !(1..=MAX_ROBOTS).contains(&robots) {
             return Err(Problem::Robots { robots });
         }
@@ -128,6 +136,9 @@ impl Setting {
         }
         if !(1..=MAX_WFRS).contains(&wfrs) {
             return Err(Problem::Wfrs { wfrs });
+        }
+        if !(1..=MAX_EVENTS).contains(&events) {
+            return Err(Problem::Events { events });
         }
         if self.wfrs_at.len() > wfrs {
             return Err(Problem::WfrPlaces { places: self.wfrs_at.len(), wfrs });
@@ -216,6 +227,11 @@ fn early_ns(chance: &mut dyn Source) -> u64 {
 }
 
 impl Plan {
+    /// How many events happen at each WFR.
+    pub(super) fn events(&self) -> usize {
+        1 + self.wfrs.first().map_or(0, |caller| caller.pauses_ns.len())
+    }
+
     /// Which of the WFRs a node is.
     pub(super) fn wfr(&self, node: NodeId) -> Option<usize> {
         self.wfrs.iter().position(|wfr| wfr.node == node)

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{MAX_ROBOTS, MAX_WFRS, SchemeName};
+use super::{MAX_EVENTS, MAX_ROBOTS, MAX_WFRS, SchemeName};
 use crate::fault::Fault;
 use crate::radio;
 
@@ -25,6 +25,8 @@ pub enum Problem {
     WfrTwice { node: u32 },
     /// More places for WFRs than WFRs.
     WfrPlaces { places: usize, wfrs: usize },
+    /// No event at each WFR, or too many.
+    Events { events: usize },
     /// No robot, or too many.
     Robots { robots: usize },
     /// More places for robots than robots.
@@ -57,6 +59,7 @@ impl Problem {
             Self::WfrsOfNodes { nodes, .. } => format!("let 1 to {nodes} nodes call, or take more nodes"),
             Self::WfrTwice { .. } => "name each node once".to_owned(),
             Self::WfrPlaces { places, .. } => format!("let {places} nodes call, or name fewer of them"),
+            Self::Events { .. } => format!("let 1 to {MAX_EVENTS} events happen at each node that calls"),
             Self::Robots { .. } => format!("take 1 to {MAX_ROBOTS} robots"),
             Self::RobotPlaces { places, .. } => format!("take {places} robots, or place fewer of them"),
             Self::RobotOutside { .. } => {
@@ -84,6 +87,8 @@ impl fmt::Display for Problem {
             Self::WfrPlaces { places, wfrs } => {
                 write!(f, "{places} nodes are named for {wfrs} that call")
             }
+            Self::Events { events: 0 } => write!(f, "nothing happens"),
+            Self::Events { events } => write!(f, "{events} events at each node that calls are too many"),
             Self::Robots { robots: 0 } => write!(f, "there is no robot"),
             Self::Robots { robots } => write!(f, "{robots} robots are too many"),
             Self::RobotPlaces { places, robots } => {

@@ -3,7 +3,7 @@
 use super::{Logged, Violation};
 use crate::radio::{Air, Field, Point};
 
-/// What became of the first call of a WFR on its way through the network.
+/// What became of the first call for an event on its way through the network.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Spread {
     /// Nodes that know of it, the WFR included.
@@ -14,7 +14,7 @@ pub struct Spread {
     pub rebroadcasts: u32,
 }
 
-/// What became of a WFR.
+/// What became of an event at a WFR.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Fate {
     /// Robots came: how many, the first included.
@@ -26,10 +26,12 @@ pub enum Fate {
     },
     /// No robot that lives is connected with it by links, over nodes that live.
     CutOff,
-    /// Some are, but none has heard of any of its calls: the broadcast has not reached them.
+    /// Some are, but none has heard of any of its calls for this event: the broadcast has not reached them.
     Unheard,
     /// One that lives and is connected has heard of it, and none ever came.
     Abandoned,
+    /// It has not happened: nobody has served the one before.
+    StillToCome,
 }
 
 /// How a robot came to a WFR that waited.
@@ -39,9 +41,11 @@ pub struct Journey {
     pub robot: usize,
     /// To whom.
     pub wfr: usize,
+    /// For which of its events.
+    pub event: usize,
     /// When, in nanoseconds.
     pub at_ns: u64,
-    /// How long that was after the WFR's first call, in nanoseconds.
+    /// How long that was after the first call for the event, in nanoseconds.
     pub waited_ns: u64,
     /// All that the robot went since it was last at a WFR, or since the beginning, in metres.
     pub moved_m: f64,
@@ -61,11 +65,11 @@ pub struct Fix {
 /// What came of a rescue.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Report {
-    /// WFR by WFR.
+    /// WFR by WFR, for each event that has happened.
     pub spreads: Vec<Spread>,
-    /// WFR by WFR.
+    /// WFR by WFR, event by event.
     pub fates: Vec<Fate>,
-    /// The first to each WFR that was served, in the order of their arrival.
+    /// The first for each event that was served, in the order of their arrival.
     pub journeys: Vec<Journey>,
     /// The clauses that were broken, each where it first was.
     pub violations: Vec<Violation>,

@@ -12,6 +12,9 @@ pub const MAX_ROBOTS: usize = 16;
 /// The most WFRs: what a robot and a path node remember is sized by it.
 pub const MAX_WFRS: usize = 16;
 
+/// The most events at each WFR.
+pub const MAX_EVENTS: usize = 16;
+
 /// How calls are broadcast.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -41,7 +44,7 @@ impl SchemeName {
     }
 }
 
-/// When something happens at the WFRs.
+/// When something happens at the WFRs for the first time.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CallTimes {
@@ -77,7 +80,10 @@ pub struct Setting {
     pub robots: usize,
     /// Where robots begin, x and y in metres, as far as they are not to be at random places.
     pub robots_at_m: Vec<[f64; 2]>,
-    /// When something happens at the WFRs.
+    /// How often something happens at each WFR: again at a random time of the ten minutes after a robot has served it.
+    #[serde(default = "once")]
+    pub events_per_wfr: usize,
+    /// When something happens at the WFRs for the first time.
     pub calls: CallTimes,
     /// What lies between a sender and those who hear it.
     pub channel: ChannelName,
@@ -89,4 +95,9 @@ pub struct Setting {
     pub failing: usize,
     /// How many nodes fail, likewise. No WFR does.
     pub failing_nodes: usize,
+}
+
+/// What stored rescues have that do not say how many events there are.
+const fn once() -> usize {
+    1
 }

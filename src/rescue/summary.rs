@@ -15,17 +15,17 @@ use crate::reproduce::interval::{Estimate, rounded};
 /// What came of many rescues.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Summary {
-    /// The share of all nodes that the first calls reach, the WFRs included.
+    /// The share of all nodes that the first call for an event reaches, the WFR included.
     pub reach: Estimate,
     /// The share of the nodes that links connect with the WFRs.
     pub reach_component: Estimate,
     /// Nodes that forward a first call, the WFR not included.
     pub rebroadcasts: Estimate,
-    /// What became of the WFRs, counted over all rescues.
+    /// What became of the events at the WFRs, counted over all rescues.
     pub assignments: Assignments,
     /// RD: the sum of the distances that robots moved to WFRs over the sum of the shortest. None if nobody came.
     pub distance_ratio: Option<Estimate>,
-    /// Seconds from the first call to the first robot, of the WFRs that were served: those of one rescue depend on each
+    /// Seconds from the first call for an event to the first robot, of the events that were served: those of one rescue depend on each
     /// other, so that the interval is that of a ratio of sums over rescues. None if nobody came.
     pub wait_s: Option<Estimate>,
     /// Messages sent in a rescue.
@@ -34,21 +34,25 @@ pub struct Summary {
     pub violations: Vec<Broken>,
 }
 
-/// What became of the WFRs.
+/// What became of the events at the WFRs.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
 pub struct Assignments {
     /// WFRs in all.
     pub wfrs: u32,
-    /// To which one robot came.
+    /// Events in all. The following are counts of them.
+    pub events: u32,
+    /// One robot came.
     pub served_once: u32,
-    /// To which several robots came, or one several times.
+    /// Several robots came, or one several times.
     pub served_more_often: u32,
-    /// Of which robots had heard, and to which none ever came, although one that lives is connected with it.
+    /// Robots had heard of it, and none ever came, although one that lives is connected with the WFR.
     pub never: u32,
-    /// Of which no robot that lives and is connected has heard: what the broadcast has not reached.
+    /// No robot that lives and is connected has heard of it: the broadcast has not reached them.
     pub unheard: u32,
-    /// With which links connect no robot that lives.
+    /// Links connect no robot that lives with the WFR.
     pub cut_off: u32,
+    /// It has not happened, since the one before was not served.
+    pub still_to_come: u32,
 }
 
 /// A clause that was broken.
@@ -67,6 +71,8 @@ pub struct Broken {
     pub at_s: f64,
     /// Of which WFR, counted from 1.
     pub wfr: usize,
+    /// During which of its events, counted from 1.
+    pub event: usize,
 }
 
 /// What is kept of a rescue.
@@ -75,6 +81,7 @@ struct Kept {
     reach: f64,
     reach_component: f64,
     rebroadcasts: f64,
+    wfrs: u32,
     fates: Vec<Fate>,
     moved_m: f64,
     shortest_m: f64,
@@ -104,6 +111,7 @@ impl Kept {
             reach: mean(&|spread| f64::from(spread.reached) / f64::from(nodes as u32)),
             reach_component: mean(&|spread| f64::from(spread.reached) / f64::from(spread.component)),
             rebroadcasts: mean(&|spread| f64::from(spread.rebroadcasts)),
+            wfrs: report.wfrs.len() as u32,
             fates: report.fates.clone(),
             moved_m,
             shortest_m,
@@ -150,19 +158,17 @@ impl Summary {
                 Some((one.seed, *violation))
             };
             let mut all = kept.iter().filter_map(found);
-            let (seed, Violation { at_ns, wfr, .. }) = all.next()?;
+            let (seed, Violation { at_ns, wfr, event, .. }) = all.next()?;
             let rescues = 1 + all.count() as u32;
             let (clause, broken) = (demand.clause(), demand.broken());
-            Some(Broken { clause, broken, rescues, seed, at_s: seconds(at_ns), wfr: wfr + 1 })
+            let (wfr, event) = (wfr + 1, event + 1);
+            Some(Broken { clause, broken, rescues, seed, at_s: seconds(at_ns), wfr, event })
         };
         Self {
             reach: rounded(mean(&|one| one.reach), 1e4),
             reach_component: rounded(mean(&|one| one.reach_component), 1e4),
             rebroadcasts: rounded(mean(&|one| one.rebroadcasts), 1e2),
-            assignments: kept
-                .iter()
-                .flat_map(|one| &one.fates)
-                .fold(Assignments::default(), Assignments::and),
+            assignments: kept.iter().fold(Assignments::default(), Assignments::and),
             distance_ratio: ratio(&|one| (one.moved_m, one.shortest_m)).map(|ratio| rounded(ratio, 1e4)),
             wait_s: ratio(&|one| one.waits_s).map(|wait| rounded(wait, 1e2)),
             messages: rounded(mean(&|one| one.messages), 1e2),
@@ -172,14 +178,18 @@ impl Summary {
 }
 
 impl Assignments {
-    const fn and(mut self, fate: &Fate) -> Self {
-        self.wfrs += 1;
-        match fate {
-            Fate::Served { visits: 0 | 1, .. } => self.served_once += 1,
-            Fate::Served { .. } => self.served_more_often += 1,
-            Fate::Abandoned => self.never += 1,
-            Fate::Unheard => self.unheard += 1,
-            Fate::CutOff => self.cut_off += 1,
+    fn and(mut self, one: &Kept) -> Self {
+        self.wfrs += one.wfrs;
+        for fate in &one.fates {
+            self.events += 1;
+            match fate {
+                Fate::Served { visits: 0 | 1, .. } => self.served_once += 1,
+                Fate::Served { .. } => self.served_more_often += 1,
+                Fate::Abandoned => self.never += 1,
+                Fate::Unheard => self.unheard += 1,
+                Fate::CutOff => self.cut_off += 1,
+                Fate::StillToCome => self.still_to_come += 1,
+            }
         }
         self
     }
@@ -190,12 +200,13 @@ mod tests {
     use super::*;
 
     fn kept(seed: u64, fates: &[Fate], (moved_m, shortest_m): (f64, f64)) -> Kept {
-        let violation = Violation { demand: Demand::IsServed, at_ns: 1_500_000_000 * seed, wfr: 1 };
+        let violation = Violation { demand: Demand::IsServed, at_ns: 1_500_000_000 * seed, wfr: 1, event: 2 };
         Kept {
             seed,
             reach: 0.5,
             reach_component: 1.0,
             rebroadcasts: 10.0,
+            wfrs: 2,
             fates: fates.to_vec(),
             moved_m,
             shortest_m,
@@ -213,18 +224,27 @@ mod tests {
             kept(1, &[once, twice], (110.0, 100.0)),
             kept(2, &[once, Fate::Abandoned], (60.0, 50.0)),
             kept(3, &[Fate::CutOff, Fate::Unheard], (0.0, 0.0)),
-            kept(4, &[once, once], (13.0, 10.0)),
+            kept(4, &[once, once, once, Fate::StillToCome], (13.0, 10.0)),
         ];
         let summary = Summary::over(&all);
-        let assignments =
-            Assignments { wfrs: 8, served_once: 4, served_more_often: 1, never: 1, unheard: 1, cut_off: 1 };
+        let assignments = Assignments {
+            wfrs: 8,
+            events: 10,
+            served_once: 5,
+            served_more_often: 1,
+            never: 1,
+            unheard: 1,
+            cut_off: 1,
+            still_to_come: 1,
+        };
         assert_eq!(summary.assignments, assignments);
         let ratio = summary.distance_ratio.expect("a ratio");
         assert_eq!((ratio.count, ratio.mean), (3, 1.1438), "183 m over 160 m");
         assert!(ratio.interval.is_some_and(|[low, high]| low < 1.1438 && 1.1438 < high));
         let words = Demand::IsServed.broken();
-        let broken = Broken { clause: "MRC-5", broken: words, rescues: 2, seed: 2, at_s: 3.0, wfr: 2 };
-        assert_eq!(summary.violations, [Broken { rescues: 3, ..broken }]);
+        let first =
+            Broken { clause: "MRC-5", broken: words, rescues: 3, seed: 2, at_s: 3.0, wfr: 2, event: 3 };
+        assert_eq!(summary.violations, [first]);
         assert_eq!((summary.reach.mean, summary.wait_s), (0.5, None));
         assert_eq!(Summary::over(&all[2..3]).distance_ratio, None);
     }

@@ -44,7 +44,7 @@ struct Last {
 #[derive(PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct End {
-    /// How often robots came to each WFR.
+    /// How often robots came, WFR by WFR and event by event.
     served: Vec<u32>,
     /// The clauses that were broken, in the order in which they were.
     violations: Vec<String>,
@@ -54,7 +54,7 @@ impl Last {
     fn of(report: &Report) -> Self {
         let visits = |fate: &Fate| match *fate {
             Fate::Served { visits, .. } => visits,
-            Fate::CutOff | Fate::Unheard | Fate::Abandoned => 0,
+            Fate::CutOff | Fate::Unheard | Fate::Abandoned | Fate::StillToCome => 0,
         };
         let clause = |violation: &super::Violation| violation.demand.clause().to_owned();
         let served = report.fates.iter().map(visits).collect();

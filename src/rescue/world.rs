@@ -21,9 +21,9 @@ use super::rover::{Onward, Rover, Way};
 use super::timers::Timers;
 use super::{Event, Fate, Journey, Logged, MAX_ROBOTS, MAX_WFRS, Problem, Report, Setting, Spread};
 use crate::homing::{Signal, Walker, hops, shortest_m};
-use crate::radio::{Air, Broadcast, Heard, Link, Point, Protocol, run};
+use crate::radio::{Air, Broadcast, Heard, Link, Point, Protocol, Reach, run};
 
-/// Nothing that would happen later happens: six hours. A WFR to which nobody can come calls until then.
+/// Nothing that would happen later happens: six hours for each event. A WFR to which nobody can come calls until then.
 const HORIZON_NS: u64 = 6 * 3_600 * 1_000_000_000;
 
 /// How long a robot serves at a WFR before it is free again, which the paper leaves open: ten seconds.
@@ -105,6 +105,17 @@ struct Sensor {
     relay: Option<Box<Relay<ROUTES>>>,
 }
 
+/// An event that has happened at a WFR.
+struct Happening {
+    at_ns: u64,
+    /// The epoch of the first call for it.
+    epoch: Epoch,
+    /// What became of that call, once there was another.
+    spread: Option<Spread>,
+    /// How many robots have come.
+    visits: u32,
+}
+
 struct World<'a> {
     plan: &'a Plan,
     timers: Vec<Timers>,
@@ -116,8 +127,8 @@ struct World<'a> {
     rovers: Vec<Rover>,
     wfrs: Vec<Wfr<MAX_ROBOTS>>,
     broadcasts: Vec<Broadcast<'a>>,
-    spreads: Vec<Option<Spread>>,
-    visits: Vec<u32>,
+    /// What has happened so far, WFR by WFR.
+    happenings: Vec<Vec<Happening>>,
     journeys: Vec<Journey>,
     judge: Judge,
     log: Vec<Logged>,
@@ -128,7 +139,6 @@ impl<'a> World<'a> {
         let stations = plan.network.nodes() + plan.robots.len();
         let leg_ns = pace::leg_ns(&plan.equipment, plan.range_m, plan.noise_db);
         let sensor = || Sensor { has_failed: false, guide: Guide::IDLE, until_ns: 0, relay: None };
-        let wfrs = plan.wfrs.len();
         Self {
             plan,
             timers: plan.wfrs.iter().map(|wfr| Timers::new(wfr.depth, leg_ns)).collect(),
@@ -145,10 +155,9 @@ impl<'a> World<'a> {
                 .iter()
                 .map(|wfr| Broadcast::new(&plan.network, plan.broadcast, wfr.node))
                 .collect(),
-            spreads: vec![None; wfrs],
-            visits: vec![0; wfrs],
+            happenings: plan.wfrs.iter().map(|_| Vec::new()).collect(),
             journeys: Vec::new(),
-            judge: Judge::new(plan.robots.len(), wfrs),
+            judge: Judge::new(plan.robots.len(), plan.wfrs.len()),
             log: Vec::new(),
         }
     }
@@ -184,7 +193,7 @@ impl<'a> World<'a> {
     }
 
     fn put(&mut self, at: NodeId, at_ns: u64, duty: Duty) {
-        if at_ns <= HORIZON_NS {
+        if at_ns <= HORIZON_NS * self.plan.events() as u64 {
             self.agendas[at.0 as usize].put(at_ns, duty);
         }
     }
@@ -421,9 +430,7 @@ impl<'a> World<'a> {
     fn call(&mut self, wfr: usize, now_ns: u64) {
         let node = self.plan.wfrs[wfr].node;
         let Epoch(epoch) = self.wfrs[wfr].call().epoch;
-        if Epoch(epoch) > Epoch::FIRST {
-            self.measure_spread(wfr);
-        }
+        self.measure_spread(wfr);
         self.judge.calls(wfr);
         self.tell(now_ns, Event::Calls { wfr: wfr + 1, node: node.0, epoch });
         if let Some(notice) = self.broadcasts[wfr].originate() {
@@ -431,18 +438,26 @@ impl<'a> World<'a> {
         }
     }
 
-    /// How far the first call has come: to be asked before the second.
+    /// Something happens at a WFR.
+    fn raise(&mut self, wfr: usize, now_ns: u64) {
+        let event = self.happenings[wfr].len();
+        if event > 0 {
+            self.tell(now_ns, Event::Recurs { wfr: wfr + 1, event: event + 1 });
+        }
+        self.judge.happens(wfr, event);
+        self.turn_wfr(wfr, now_ns, Wfr::raise);
+        let epoch = self.wfrs[wfr].call().epoch;
+        self.happenings[wfr].push(Happening { at_ns: now_ns, epoch, spread: None, visits: 0 });
+    }
+
+    /// How far the first call for the latest event so far has come: to be asked before another call.
     fn measure_spread(&mut self, wfr: usize) {
-        let nodes = self.broadcasts[wfr].nodes();
-        let count = |is_counted: fn(Stage) -> bool| {
-            nodes.iter().filter(|node| is_counted(node.stage())).count() as u32
-        };
-        let spread = Spread {
-            reached: count(|stage| stage != Stage::Unaware),
-            component: self.plan.network.component(self.plan.wfrs[wfr].node) as u32,
-            rebroadcasts: count(|stage| stage == Stage::Forwarded).saturating_sub(1),
-        };
-        self.spreads[wfr].get_or_insert(spread);
+        let Some(Happening { epoch, spread, .. }) = self.happenings[wfr].last_mut() else { return };
+        spread.get_or_insert_with(|| {
+            let Reach { reached, rebroadcasts } = self.broadcasts[wfr].reach(epoch.0);
+            let component = self.plan.network.component(self.plan.wfrs[wfr].node) as u32;
+            Spread { reached, component, rebroadcasts }
+        });
     }
 
     fn turn_robot(
@@ -606,18 +621,25 @@ impl<'a> World<'a> {
         way.has_come = true;
         let (wfr, call, id, at) = (way.wfr, way.call, rover.machine.id(), rover.at);
         let goal = self.plan.field.nodes()[self.plan.wfrs[wfr].node.0 as usize];
-        self.visits[wfr] += 1;
-        if self.wfrs[wfr].is_waiting() {
+        let event = self.happenings[wfr].len() - 1;
+        let happening = &mut self.happenings[wfr][event];
+        happening.visits += 1;
+        let is_first = self.wfrs[wfr].is_waiting();
+        if is_first {
             let shortest_m = shortest_m(&self.plan.field, rover.since, goal);
             let moved_m = rover.moved_m + way.walker.walked_m();
-            let waited_ns = now_ns - self.plan.wfrs[wfr].at_ns;
-            let journey = Journey { robot, wfr, at_ns: now_ns, waited_ns, moved_m, shortest_m };
+            let waited_ns = now_ns - happening.at_ns;
+            let journey = Journey { robot, wfr, event, at_ns: now_ns, waited_ns, moved_m, shortest_m };
             self.journeys.push(journey);
         }
         (rover.since, rover.moved_m) = (at, 0.0);
         self.wfrs[wfr] = self.wfrs[wfr].reach(id);
         self.tell(now_ns, Event::Arrives { robot: robot + 1, wfr: wfr + 1, at: millimetres(at) });
         self.put(station, now_ns + SERVICE_NS, Duty::Served(call));
+        let caller = &self.plan.wfrs[wfr];
+        if let Some(pause_ns) = caller.pauses_ns.get(event).filter(|_| is_first) {
+            self.put(caller.node, now_ns + SERVICE_NS + pause_ns, Duty::Raise(wfr));
+        }
         self.look(now_ns);
     }
 
@@ -635,7 +657,7 @@ impl<'a> World<'a> {
                 self.agendas[at.0 as usize].clear();
                 self.tell(now_ns, Event::RobotFails { robot: robot + 1, at: at_mm });
             }
-            (Duty::Raise(wfr), _) => self.turn_wfr(wfr, now_ns, Wfr::raise),
+            (Duty::Raise(wfr), _) => self.raise(wfr, now_ns),
             (Duty::Forward(wfr), _) => {
                 if let Some(notice) = self.broadcasts[wfr].expire(at, now_ns, chance) {
                     self.send(at, Message::Notice(notice));
@@ -717,14 +739,18 @@ impl<'a> World<'a> {
         for wfr in 0..self.wfrs.len() {
             self.measure_spread(wfr);
         }
-        let fates: Vec<Fate> = (0..self.wfrs.len()).map(|wfr| self.fate(wfr)).collect();
-        for (wfr, fate) in fates.iter().enumerate() {
-            if *fate == Fate::Abandoned {
+        let mut fates = Vec::new();
+        for wfr in 0..self.wfrs.len() {
+            let of_wfr = (0..self.plan.events()).map(|event| self.fate(wfr, event));
+            let place = fates.len();
+            fates.extend(of_wfr);
+            if fates[place..].contains(&Fate::Abandoned) {
                 self.judge.tell(Demand::IsServed, wfr, air.end_ns);
             }
         }
+        let happenings = self.happenings.iter().flatten();
         Report {
-            spreads: self.spreads.into_iter().flatten().collect(),
+            spreads: happenings.filter_map(|happening| happening.spread).collect(),
             fates,
             journeys: self.journeys,
             violations: self.judge.violations,
@@ -736,10 +762,13 @@ impl<'a> World<'a> {
         }
     }
 
-    fn fate(&self, wfr: usize) -> Fate {
-        let first = self.journeys.iter().find(|journey| journey.wfr == wfr);
+    fn fate(&self, wfr: usize, event: usize) -> Fate {
+        let Some(&Happening { epoch, visits, .. }) = self.happenings[wfr].get(event) else {
+            return Fate::StillToCome;
+        };
+        let first = self.journeys.iter().find(|journey| (journey.wfr, journey.event) == (wfr, event));
         if let Some(first) = first {
-            return Fate::Served { by: first.robot, visits: self.visits[wfr] };
+            return Fate::Served { by: first.robot, visits };
         }
         let node = self.plan.wfrs[wfr].node;
         let lives = |node: NodeId| !self.sensors[node.0 as usize].has_failed;
@@ -754,7 +783,8 @@ impl<'a> World<'a> {
         if linked.peek().is_none() {
             return Fate::CutOff;
         }
-        if linked.any(|rover| rover.machine.request(node).is_some()) {
+        let has_heard = |request: &Request| request.call.epoch >= epoch;
+        if linked.any(|rover| rover.machine.request(node).is_some_and(has_heard)) {
             Fate::Abandoned
         } else {
             Fate::Unheard
