@@ -19,7 +19,6 @@ mod tree;
 mod walker;
 
 pub use antenna::Antenna;
-pub(crate) use ear::apart_m;
 pub use ear::{Ear, NEAREST_M, ROBOT_REACH, Signal};
 pub use journey::{End, Journey, Site};
 pub use shortest::shortest_m;

@@ -21,5 +21,5 @@ pub use chance::Chance;
 pub(crate) use chance::{checked_deviation, deviation_db};
 pub use field::{Area, Field, MAX_NODES, Obstacle, Point};
 pub use names::ChannelName;
-pub use network::{Link, MAX_RANGE_M, Model, Network, Radio};
+pub use network::{FREE_SPACE, Link, MAX_RANGE_M, Model, Network, Radio};
 pub use problem::Problem;

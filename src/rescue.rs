@@ -41,8 +41,10 @@ mod tests {
     use super::plan::{Caller, Place, Plan};
     use super::*;
     use crate::explore::RuleName;
-    use crate::homing::Equipment;
-    use crate::radio::{self, Area, Channel, ChannelName, Faults, Field, Model, Network, Point, Radio};
+    use crate::homing::{Equipment, Signal};
+    use crate::radio::{
+        self, Area, Channel, ChannelName, FREE_SPACE, Faults, Field, Model, Network, Point, Radio,
+    };
 
     /// Three robots, three WFRs, one message in ten lost on each link, one robot failing.
     fn setting(rule: RuleName) -> Setting {
@@ -62,6 +64,8 @@ mod tests {
             calls: CallTimes::Together,
             channel: ChannelName::Ideal,
             loss: 0.1,
+            shadowing_db: 0.0,
+            exponent: FREE_SPACE,
             noise_db: 0.0,
             failing: 1,
             failing_nodes: 0,
@@ -211,6 +215,92 @@ mod tests {
         }
     }
 
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(32))]
+
+        #[test]
+        fn repaired_nothing_is_broken_and_nobody_comes_twice_under_shadows(
+            seed in any::<u64>(),
+            (robots, wfrs, failing) in (1_usize..4, 1_usize..4, 0_usize..2),
+            (loss, noise_db) in (0.0..0.2, 0.0..2.0),
+            (shadowing_db, exponent) in (0.1..8.0, 2.0..5.0),
+            (is_shared, has_lake) in any::<(bool, bool)>(),
+        ) {
+            let setting = Setting {
+                nodes: 120,
+                area_m: [120.0, 90.0],
+                obstacles_m: if has_lake { vec![[40.0, 30.0, 70.0, 50.0]] } else { vec![] },
+                wfrs,
+                robots,
+                channel: if is_shared { ChannelName::Shared } else { ChannelName::Ideal },
+                loss,
+                shadowing_db,
+                exponent,
+                noise_db,
+                failing,
+                ..setting(RuleName::Repaired)
+            };
+            let report = rescue(&setting, seed).expect("a rescue");
+            for violation in &report.violations {
+                prop_assert_eq!(violation.demand, Demand::IsServed);
+            }
+            for fate in &report.fates {
+                let came_twice = matches!(fate, Fate::Served { visits: 2.., .. });
+                prop_assert!(!came_twice);
+            }
+        }
+    }
+
+    #[test]
+    fn under_shadows_links_are_others_and_every_wfr_is_served_all_the_same() {
+        let setting = Setting { shadowing_db: 4.0, exponent: 3.0, ..setting(RuleName::Repaired) };
+        let lies_beyond = |plan: &Plan| {
+            let place = |node: NodeId| plan.field.nodes()[node.0 as usize];
+            let nodes = (0..700).map(NodeId).flat_map(|node| {
+                plan.network.neighbours(node).iter().map(move |&other| (place(node), place(other)))
+            });
+            nodes.filter(|(one, other)| (one.x_m - other.x_m).hypot(one.y_m - other.y_m) > 25.0).count()
+        };
+        let of_plan = |setting: &Setting| setting.plan(&mut Seeded::new(0, 0)).expect("a plan");
+        let plain = Setting { shadowing_db: 0.0, ..setting.clone() };
+        assert_eq!(lies_beyond(&of_plan(&plain)), 0);
+        assert!(lies_beyond(&of_plan(&setting)) > 1_000);
+        for seed in 0..20 {
+            let report = rescue(&setting, seed).expect("a rescue");
+            assert!(report.fates.iter().all(is_served_once) && report.violations.is_empty(), "seed {seed}");
+        }
+    }
+
+    #[test]
+    fn without_shadows_and_noise_the_exponent_changes_no_link_and_no_fate() {
+        let of = |exponent: f64| {
+            let report = rescue(&Setting { exponent, ..setting(RuleName::Repaired) }, 2).expect("a rescue");
+            (report.spreads, report.fates)
+        };
+        assert_eq!(of(2.0), of(3.5));
+    }
+
+    #[test]
+    fn a_robot_has_the_shadows_of_the_node_at_which_it_was_last() {
+        let setting = Setting { shadowing_db: 4.0, exponent: 3.0, ..setting(RuleName::Repaired) };
+        let plan = setting.plan(&mut Seeded::new(0, 0)).expect("a plan");
+        let place = NodeId(9);
+        let at = plan.field.nodes()[9];
+        let mut links = plan.network.links(place).peekable();
+        assert!(links.peek().is_some());
+        for link in links {
+            let heard = plan
+                .link(link.to, plan.signal(link.to, Some(place)), at)
+                .expect("it hears whom the node hears");
+            assert!(heard.distance_um.abs_diff(link.distance_um) <= 1);
+            let plain = plan.signal(link.to, None);
+            assert_eq!(plain, Signal::plain(plan.field.nodes()[link.to.0 as usize]));
+        }
+        let far = (0..700).map(NodeId).find(|&node| plan.network.distance_um(place, node).is_none());
+        let far = far.expect("a node that is not linked");
+        assert_eq!(plan.signal(far, Some(place)), plan.signal(far, None));
+    }
+
     /// Nodes at these places, WFR the first, that flood; robots at these, some of which fail.
     fn row(rule: Rule, nodes: &[(f64, f64)], robots: &[(f64, Option<u64>)], failing: &[(u32, u64)]) -> Plan {
         let area = Area::new(200.0, 20.0).expect("an area");
@@ -223,7 +313,7 @@ mod tests {
         Plan {
             rule,
             broadcast: broadcast::Rule::new(Scheme::Flooding, range_um, 100_000_000),
-            range_m: 25.0,
+            radio,
             noise_db: 0.0,
             equipment: Equipment::new(radio, 0.0).expect("an equipment"),
             wfrs: vec![Caller::new(&network, NodeId(0), 0)],
@@ -359,6 +449,14 @@ mod tests {
         assert_eq!(
             refusal(Setting { noise_db: -1.0, ..good.clone() }),
             field(radio::Problem::Deviation { deviation_db: -1.0 })
+        );
+        assert_eq!(
+            refusal(Setting { shadowing_db: 20.5, ..good.clone() }),
+            field(radio::Problem::Deviation { deviation_db: 20.5 })
+        );
+        assert_eq!(
+            refusal(Setting { exponent: 1.9, ..good.clone() }),
+            field(radio::Problem::Exponent { exponent: 1.9 })
         );
         assert_eq!(
             refusal(Setting { wfrs_at: vec![700], ..good.clone() }),

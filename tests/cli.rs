@@ -943,6 +943,8 @@ fn rescues_are_counted_and_judged() {
     assert_snapshot!("rescues", printed(folder, &[&RESCUE[..], &["--seeds", "0..19"]].concat(), 0));
     let published = [&RESCUE[..], &["--seeds", "0..19", "--rule", "published"]].concat();
     assert_snapshot!("rescues_published", printed(folder, &published, 1));
+    let shadows = ["--seeds", "0..19", "--shadowing-db", "4", "--exponent", "3", "--noise-db", "1"];
+    assert_snapshot!("rescues_under_shadows", printed(folder, &[&RESCUE[..], &shadows].concat(), 0));
     let counted = json(folder, &published, 1);
     assert_snapshot!(counted["assignments"], @r#"{"cut_off":0,"events":60,"never":13,"served_more_often":0,"served_once":47,"still_to_come":0,"unheard":0,"wfrs":60}"#);
     assert_snapshot!(counted["violations"], @r#"[{"at_s":0.094795064,"clause":"MRC-1","event":1,"rescues":1,"seed":8,"wfr":3},{"at_s":0.01635954,"clause":"MRC-4","event":1,"rescues":20,"seed":0,"wfr":3},{"at_s":125.692057474,"clause":"MRC-5","event":1,"rescues":12,"seed":0,"wfr":2}]"#);
@@ -982,9 +984,11 @@ fn a_rescue_is_stored_played_and_drawn() {
     let events = run.lines().count() - 2;
     assert_eq!(page.matches("<g class=\"move\"").count(), 1 + events);
     assert_eq!(read("r.svg").matches("class=\"wfr\"").count(), 4, "three, and the legend");
-    // What was stored before there were several events.
-    let older = run.replacen("\"events_per_wfr\":1,", "", 1);
-    assert_ne!(older, run);
+    // What was stored before there were several events, and shadows.
+    let older = ["\"events_per_wfr\":1,", "\"shadowing_db\":0.0,", "\"exponent\":2.0,"]
+        .iter()
+        .fold(run.clone(), |run, field| run.replacen(field, "", 1));
+    assert_eq!(older.len() + 53, run.len());
     fs::write(folder.join("older.jsonl"), older).expect("a file");
     assert_eq!(printed(folder, &["replay", "older.jsonl"], 1), told);
     let events = ["--events", "2", "--trace", "twice.jsonl", "--replay", "twice.html"];
@@ -1040,7 +1044,7 @@ fn a_rescue_is_stored_played_and_drawn() {
 #[test]
 fn what_makes_no_rescue_is_refused_with_what_would_be_right() {
     let folder = folder();
-    let cases: [&[&str]; 29] = [
+    let cases: [&[&str]; 34] = [
         &["--nodes", "0"],
         &["--nodes", "1"],
         &["--nodes", "2000000"],
@@ -1068,6 +1072,11 @@ fn what_makes_no_rescue_is_refused_with_what_would_be_right() {
         &["--loss", "1.5"],
         &["--loss", "a tenth"],
         &["--noise-db", "-1"],
+        &["--shadowing-db", "-1"],
+        &["--shadowing-db", "21"],
+        &["--exponent", "1.9"],
+        &["--exponent", "NaN"],
+        &["--exponent", "steep"],
         &["--failing", "2"],
         &["--failing-nodes", "700"],
     ];

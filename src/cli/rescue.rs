@@ -13,7 +13,7 @@ use super::{Exit, Format, FormatArgs, number, progress, real};
 use crate::aside::Aside;
 use crate::explore::RuleName;
 use crate::fault::{Fault, Halt, Watch};
-use crate::radio::ChannelName;
+use crate::radio::{ChannelName, FREE_SPACE};
 use crate::reproduce::interval::Estimate;
 use crate::rescue::{
     Assignments, CallTimes, Logged, Report, SchemeName, Setting, Summary, rescue, seconds, trace,
@@ -98,7 +98,13 @@ pub(super) struct Rescue {
     /// How likely it is that a message is lost, on each link anew, from 0 to 1.
     #[arg(long, value_name = "PROBABILITY", allow_hyphen_values = true, default_value_t = 0.0, value_parser = real)]
     loss: f64,
-    /// The standard deviation of the strength of signals, in dB.
+    /// The standard deviation of the shadow on each link, for ever the same, in dB: it changes how far off a sender seems.
+    #[arg(long, value_name = "DB", allow_hyphen_values = true, default_value_t = 0.0, value_parser = real)]
+    shadowing_db: f64,
+    /// Power falls with the distance to the power of this, from 2 to 5: the larger, the less do shadows and noise change.
+    #[arg(long, value_name = "ALPHA", allow_hyphen_values = true, default_value_t = FREE_SPACE, value_parser = real)]
+    exponent: f64,
+    /// The standard deviation of the strength of signals, each time anew, in dB.
     #[arg(long, value_name = "DB", allow_hyphen_values = true, default_value_t = 0.0, value_parser = real)]
     noise_db: f64,
     /// How many robots fail, each at a random time of the first ten minutes.
@@ -241,6 +247,8 @@ impl Rescue {
             calls: self.calls,
             channel: self.channel,
             loss: self.loss,
+            shadowing_db: self.shadowing_db,
+            exponent: self.exponent,
             noise_db: self.noise_db,
             failing: self.failing,
             failing_nodes: self.failing_nodes,
@@ -356,17 +364,26 @@ fn heading(setting: &Setting, seeds: &RangeInclusive<u64>) -> String {
     let Setting { loss, noise_db, failing, failing_nodes, .. } = setting;
     format!(
         "{} for {}, calling {times}{}: MRC ({rule}), {}{k}\n\
-         {nodes} nodes in {width_m}×{height_m} m, range {range_m} m, {}, {} channel\n\
+         {nodes} nodes in {width_m}×{height_m} m, range {range_m} m{}, {}, {} channel\n\
          loss {loss}, noise {noise_db} dB, {} and {} fail; {seeds}\n\n",
         counted(setting.robots, "robot"),
         counted(setting.wfrs, "WFR"),
         events_each(setting),
         scheme.word(),
+        shadows(setting),
         counted(setting.obstacles_m.len(), "obstacle"),
         channel.word(),
         counted(*failing, "robot"),
         counted(*failing_nodes, "node"),
     )
+}
+
+/// How signals spread, unless everything within the range is heard, and nothing else.
+fn shadows(setting: &Setting) -> String {
+    let Setting { shadowing_db, exponent, .. } = *setting;
+    let shadows = if shadowing_db == 0.0 { String::new() } else { format!(", shadows {shadowing_db} dB") };
+    let exponent = if exponent == FREE_SPACE { String::new() } else { format!(", exponent {exponent}") };
+    shadows + &exponent
 }
 
 fn table(setting: &Setting, summary: &Summary) -> String {

@@ -3,12 +3,13 @@
 //! The level of a signal is 10·α·log₁₀(R/d) dB above what can just be heard all round, R being the robot's reach and d
 //! how far off the node seems to be; the antenna adds its gain. Strengths are levels in hundredths of a dB.
 
+use tautline_kernel::broadcast::NodeId;
 use tautline_kernel::choice::Source;
 use tautline_kernel::homing::{Heading, Strength};
 
 use super::Antenna;
 use super::antenna::degrees_off;
-use crate::radio::{Field, Point, Problem, Radio, checked_deviation, deviation_db};
+use crate::radio::{Field, Network, Point, Problem, Radio, checked_deviation, deviation_db};
 
 /// How many times as far as a node a robot hears, and is heard: a tenth of a dB in free space. A robot that is at a node,
 /// as near as it goes, so hears whom the node hears.
@@ -32,7 +33,16 @@ impl Signal {
         Self { at, stretch: 1.0 }
     }
 
-    fn seems_m(self, from: Point) -> f64 {
+    /// `node` as it is heard near `place`: with the shadow between the two, if they are linked.
+    pub fn near(field: &Field, network: &Network, node: NodeId, place: NodeId) -> Self {
+        let at = |node: NodeId| field.nodes()[node.0 as usize];
+        let apart_m = apart_m(at(node), at(place));
+        let seems_um = network.distance_um(place, node).filter(|_| apart_m > 0.0);
+        Self { at: at(node), stretch: seems_um.map_or(1.0, |seems_um| f64::from(seems_um) / 1e6 / apart_m) }
+    }
+
+    /// How far off it seems to be, in metres.
+    pub(crate) fn seems_m(self, from: Point) -> f64 {
         self.stretch * apart_m(self.at, from)
     }
 }
@@ -83,9 +93,7 @@ impl Ear {
         if level_db < 0.0 || !field.has_way(signal.at, from) {
             return None;
         }
-        // Without noise nothing is left to chance.
-        let noise_db = if self.noise_db > 0.0 { deviation_db(self.noise_db, chance) } else { 0.0 };
-        Some(Strength(hundredths(level_db + noise_db)))
+        Some(Strength(hundredths(level_db + deviation_db(self.noise_db, chance))))
     }
 
     /// How strong the signal of a node so far off is on the axis of `antenna`, without shadow and noise.

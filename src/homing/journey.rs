@@ -5,7 +5,6 @@ use tautline_kernel::choice::Source;
 use tautline_kernel::homing::{Nav, Order, Stage};
 use tautline_kernel::rescue::RobotId;
 
-use super::ear::apart_m;
 use super::{Equipment, Signal, Tree, Walker};
 use crate::radio::{Field, Network, Point};
 
@@ -65,12 +64,9 @@ impl Site<'_> {
         self.field.nodes()[node.0 as usize]
     }
 
-    /// The signal of `node` as it is heard near `place`: with the shadow between the two.
+    /// The signal of `node` as it is heard near `place`.
     pub(super) fn signal(&self, node: NodeId, place: NodeId) -> Signal {
-        let at = self.point(node);
-        let apart_m = apart_m(at, self.point(place));
-        let link = self.network.links(place).find(|link| link.to == node).filter(|_| apart_m > 0.0);
-        Signal { at, stretch: link.map_or(1.0, |link| f64::from(link.distance_um) / 1e6 / apart_m) }
+        Signal::near(self.field, self.network, node, place)
     }
 
     /// The journey by TAN through `tree`.

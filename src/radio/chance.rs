@@ -37,8 +37,11 @@ impl Chance {
 }
 
 /// A deviation in dB around 0, near to a normal one but at most three times the standard deviation: the sum of twelve
-/// uniform numbers.
+/// uniform numbers. Where the standard deviation is 0 nothing is left to chance.
 pub(crate) fn deviation_db(standard_db: f64, source: &mut dyn Source) -> f64 {
+    if standard_db == 0.0 {
+        return 0.0;
+    }
     // Whole numbers, to the last step. The plain case, twelve zeros, is to be no deviation: each number is turned by half.
     let steps: i32 = (0..12).map(|_| (source.pick(1 << 16) ^ (1 << 15)) as i32 - (1 << 15)).sum();
     let standard = (f64::from(steps) / 65_536.0).clamp(-MOST_DEVIATIONS, MOST_DEVIATIONS);

@@ -23,6 +23,9 @@ const MIN_RANGE_M: f64 = 0.001;
 /// The most pairs that are looked at: their links fit into a gibibyte.
 const MAX_PAIRS: u64 = 1 << 28;
 
+/// α of free space.
+pub const FREE_SPACE: f64 = 2.0;
+
 /// How signals spread.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Model {
@@ -68,9 +71,14 @@ impl Radio {
     /// α: power falls with the distance to the power of it. Where the model is a disc, that of free space.
     pub const fn exponent(self) -> f64 {
         match self.model {
-            Model::Disc => 2.0,
+            Model::Disc => FREE_SPACE,
             Model::Shadowed { exponent, .. } => exponent,
         }
+    }
+
+    /// How signals spread.
+    pub const fn model(self) -> Model {
+        self.model
     }
 
     /// The range in micrometres, rounded to the nearest.
@@ -80,7 +88,7 @@ impl Radio {
     }
 
     /// No signal is heard from farther.
-    fn reach_m(self) -> f64 {
+    pub fn reach_m(self) -> f64 {
         match self.model {
             Model::Disc => self.range_m,
             Model::Shadowed { exponent, deviation_db } => {
@@ -198,6 +206,12 @@ impl Network {
         let range = self.range(node);
         let ends = self.to[range.clone()].iter().zip(&self.distances_um[range]);
         ends.map(|(&to, &distance_um)| Link { to, distance_um })
+    }
+
+    /// How far off two nodes that are linked seem to be to each other, in micrometres; `None` if they are not linked.
+    pub fn distance_um(&self, one: NodeId, other: NodeId) -> Option<u32> {
+        let place = self.neighbours(one).binary_search(&other).ok()?;
+        self.distances_um.get(self.range(one).start + place).copied()
     }
 
     /// How many nodes are connected to `node` by links, itself included.

@@ -11,7 +11,7 @@ use super::notice_fig5::{RANGE_M, SIDE_M};
 use crate::explore::RuleName;
 use crate::fault::{Fault, Halt, Watch};
 use crate::homing::shortest_m;
-use crate::radio::{ChannelName, Point};
+use crate::radio::{ChannelName, FREE_SPACE, Point};
 use crate::rescue::{CallTimes, Fate, Problem, Report, SchemeName, rescue};
 use crate::view::field::picture;
 use crate::view::rescue::map;
@@ -115,6 +115,8 @@ impl Setting {
             calls: CallTimes::Together,
             channel: ChannelName::Ideal,
             loss: 0.0,
+            shadowing_db: 0.0,
+            exponent: FREE_SPACE,
             noise_db: 0.0,
             failing: 0,
             failing_nodes: 0,

@@ -18,13 +18,13 @@ pub(super) const ASK_NS: u64 = 1_000_000_000;
 /// that was silent for another robot's sake can answer.
 pub(super) const TRY_NS: u64 = 2 * SIGNAL_NS;
 
-/// A robot takes at most so long from one path node to the next, in nanoseconds: it asks in vain once, and goes twice the
-/// range at its speed, which leaves room for scans and detours. Where strengths are off it may take the node to be behind
+/// A robot takes at most so long from one path node to the next, in nanoseconds: it asks in vain once, and goes twice as far
+/// as any signal reaches at its speed, which leaves room for scans and detours. Where strengths are off it may take the node to be behind
 /// it after each step, and scan again.
-pub(super) fn leg_ns(equipment: &Equipment, range_m: f64, noise_db: f64) -> u64 {
+pub(super) fn leg_ns(equipment: &Equipment, reach_m: f64, noise_db: f64) -> u64 {
     let Gait { speed_mm_s, turn_ns, measure_ns, step_mm, .. } = equipment.gait;
-    let walk_ns = 2.0 * range_m / (f64::from(speed_mm_s.max(1)) / 1e3) * 1e9;
-    let steps = if noise_db > 0.0 { range_m * 1e3 / f64::from(step_mm.max(1)) } else { 0.0 };
+    let walk_ns = 2.0 * reach_m / (f64::from(speed_mm_s.max(1)) / 1e3) * 1e9;
+    let steps = if noise_db > 0.0 { reach_m * 1e3 / f64::from(step_mm.max(1)) } else { 0.0 };
     let scan_ns = u64::from(Heading::COUNT) * (turn_ns + measure_ns);
     TRY_NS + SIGNAL_NS + walk_ns as u64 + steps as u64 * scan_ns
 }

@@ -9,9 +9,9 @@ use tautline_kernel::rescue::Rule;
 use super::problem::MAX_STATES;
 use super::{MAX_EVENTS, MAX_ROBOTS, MAX_WFRS, Problem, SchemeName, Setting};
 use crate::explore::RuleName;
-use crate::homing::{Equipment, Signal, apart_m, hops};
+use crate::homing::{Equipment, Signal, hops};
 use crate::radio::{
-    self, Area, Chance, Channel, Faults, Field, LONGEST_WAIT_NS, Model, Network, Obstacle, Point, Radio,
+    self, Area, Chance, Channel, Faults, Field, LONGEST_WAIT_NS, Link, Model, Network, Obstacle, Point, Radio,
 };
 use crate::rescue::setting::CallTimes;
 
@@ -28,7 +28,7 @@ const MILLISECOND_NS: u64 = 1_000_000;
 pub(super) struct Plan {
     pub(super) rule: Rule,
     pub(super) broadcast: broadcast::Rule,
-    pub(super) range_m: f64,
+    pub(super) radio: Radio,
     pub(super) noise_db: f64,
     pub(super) equipment: Equipment,
     pub(super) field: Field,
@@ -71,7 +71,7 @@ impl Setting {
         self.check()?;
         let [width_m, height_m] = self.area_m;
         let obstacles = self.obstacles_m.iter().copied().map(Obstacle::from).collect();
-        let radio = Radio::new(self.range_m, Model::Disc)?;
+        let radio = Radio::new(self.range_m, self.model())?;
         let range_um = radio.range_um();
         let (rule, conditions) = match self.rule {
             RuleName::Published => (Rule::PUBLISHED, broadcast::Conditions::PUBLISHED),
@@ -103,7 +103,7 @@ impl Setting {
                 conditions,
                 ..broadcast::Rule::new(scheme, range_um, LONGEST_WAIT_NS)
             },
-            range_m: self.range_m,
+            radio,
             noise_db: self.noise_db,
             equipment: Equipment::new(radio, self.noise_db)?,
             field,
@@ -237,9 +237,20 @@ impl Plan {
         self.wfrs.iter().position(|wfr| wfr.node == node)
     }
 
-    /// How far off a node or a robot seems to be to a robot, in micrometres; `None` if they do not hear each other.
-    pub(super) fn heard_um(&self, sender: Point, robot: Point) -> Option<u32> {
-        let is_heard = self.equipment.ear.hears(&self.field, Signal::plain(sender), robot);
-        is_heard.then(|| (apart_m(sender, robot) * 1e6 + 0.5) as u32)
+    /// A node as a robot hears it that was last at `place`: with the shadow between the two, if they are linked. Otherwise, and
+    /// before it was at a node, without shadow.
+    pub(super) fn signal(&self, node: NodeId, place: Option<NodeId>) -> Signal {
+        match (self.radio.model(), place) {
+            (Model::Shadowed { .. }, Some(place)) => Signal::near(&self.field, &self.network, node, place),
+            (Model::Disc, _) | (Model::Shadowed { .. }, None) => {
+                Signal::plain(self.field.nodes()[node.0 as usize])
+            }
+        }
+    }
+
+    /// The link of a robot with another station; `None` if they do not hear each other.
+    pub(super) fn link(&self, to: NodeId, signal: Signal, robot: Point) -> Option<Link> {
+        let is_heard = self.equipment.ear.hears(&self.field, signal, robot);
+        is_heard.then(|| Link { to, distance_um: (signal.seems_m(robot) * 1e6 + 0.5) as u32 })
     }
 }

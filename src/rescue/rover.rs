@@ -12,6 +12,8 @@ pub(super) struct Rover {
     pub(super) machine: Robot<MAX_WFRS>,
     pub(super) has_failed: bool,
     pub(super) at: Point,
+    /// The node at which it was last: its shadows are the robot's.
+    pub(super) place: Option<NodeId>,
     pub(super) path: Vec<Fix>,
     pub(super) way: Option<Way>,
     /// Where it was when it was last at a WFR, and how far it has gone since on journeys that came to nothing.
@@ -32,6 +34,7 @@ impl Rover {
             machine: Robot::new(rule, id),
             has_failed: false,
             at,
+            place: None,
             path: vec![Fix { at_ns: 0, at }],
             way: None,
             since: at,

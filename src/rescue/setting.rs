@@ -4,7 +4,7 @@ use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
 use crate::explore::RuleName;
-use crate::radio::ChannelName;
+use crate::radio::{ChannelName, FREE_SPACE, Model};
 
 /// The most robots: what a WFR and a path node remember is sized by it.
 pub const MAX_ROBOTS: usize = 16;
@@ -89,6 +89,12 @@ pub struct Setting {
     pub channel: ChannelName,
     /// How likely it is that a message is lost, on each link anew.
     pub loss: f64,
+    /// The standard deviation of the shadow on each link, in dB.
+    #[serde(default)]
+    pub shadowing_db: f64,
+    /// α: power falls with the distance to the power of it.
+    #[serde(default = "free_space")]
+    pub exponent: f64,
     /// The standard deviation of the strength of a signal, each time anew, in dB.
     pub noise_db: f64,
     /// How many robots fail, each at a random time of the first ten minutes.
@@ -97,7 +103,21 @@ pub struct Setting {
     pub failing_nodes: usize,
 }
 
+impl Setting {
+    /// How signals spread.
+    pub(super) fn model(&self) -> Model {
+        let Self { exponent, shadowing_db: deviation_db, .. } = *self;
+        let is_plain = [exponent, deviation_db] == [FREE_SPACE, 0.0];
+        if is_plain { Model::Disc } else { Model::Shadowed { exponent, deviation_db } }
+    }
+}
+
 /// What stored rescues have that do not say how many events there are.
 const fn once() -> usize {
     1
+}
+
+/// What stored rescues have that do not say how power falls.
+const fn free_space() -> f64 {
+    FREE_SPACE
 }

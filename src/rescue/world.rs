@@ -21,7 +21,7 @@ use super::rover::{Onward, Rover, Way};
 use super::timers::Timers;
 use super::{Event, Fate, Journey, Logged, MAX_ROBOTS, MAX_WFRS, Problem, Report, Setting, Spread};
 use crate::homing::{Signal, Walker, hops, shortest_m};
-use crate::radio::{Air, Broadcast, Heard, Link, Point, Protocol, Reach, run};
+use crate::radio::{Air, Broadcast, Heard, Link, Protocol, Reach, run};
 
 /// Nothing that would happen later happens: six hours for each event. A WFR to which nobody can come calls until then.
 const HORIZON_NS: u64 = 6 * 3_600 * 1_000_000_000;
@@ -137,7 +137,7 @@ struct World<'a> {
 impl<'a> World<'a> {
     fn new(plan: &'a Plan) -> Self {
         let stations = plan.network.nodes() + plan.robots.len();
-        let leg_ns = pace::leg_ns(&plan.equipment, plan.range_m, plan.noise_db);
+        let leg_ns = pace::leg_ns(&plan.equipment, plan.radio.reach_m(), plan.noise_db);
         let sensor = || Sensor { has_failed: false, guide: Guide::IDLE, until_ns: 0, relay: None };
         Self {
             plan,
@@ -589,21 +589,21 @@ impl<'a> World<'a> {
             Order::Point(_) | Order::Walk(_) => {}
             Order::Ask(_) | Order::Stop => return self.begin_leg(robot, now_ns),
         }
-        let points = self.plan.field.nodes();
         let sends = |node: &NodeId| {
             let sensor = &self.sensors[node.0 as usize];
             let is_for = |nav: Nav| nav.wfr == way.call.wfr;
             !sensor.has_failed && matches!(sensor.guide.conduct, Conduct::Signals(nav) if is_for(nav))
         };
         let guide = way.walker.guide();
-        let signal = guide.filter(sends).map(|node| Signal::plain(points[node.0 as usize]));
+        let signal = guide.filter(sends).map(|node| self.plan.signal(node, rover.place));
         let (hops, places) = (way.walker.hops(), way.walker.trail().len());
         let takes_ns = way.walker.act(&self.plan.field, signal, chance);
         let (to, done_ns, leg) = (way.walker.at(), now_ns + takes_ns, way.leg);
         let onward = if way.walker.trail().len() > places { Onward::Turned } else { Onward::Straight };
-        let is_at_node = 0 < way.walker.hops() && way.walker.hops() < hops;
-        let is_news = |node: &NodeId| is_at_node && way.passed.replace(*node) != Some(*node);
-        let passed = guide.filter(is_news);
+        let reached = guide.filter(|_| way.walker.hops() < hops);
+        rover.place = reached.or(rover.place);
+        let is_news = |node: &NodeId| *node != way.call.wfr && way.passed.replace(*node) != Some(*node);
+        let passed = reached.filter(is_news);
         if rover.at != to {
             rover.go(to, now_ns, done_ns, onward);
         }
@@ -730,6 +730,11 @@ impl<'a> World<'a> {
         }
     }
 
+    /// The link of a node with a robot, to either; `None` if they do not hear each other.
+    fn link(&self, node: NodeId, rover: &Rover, to: NodeId) -> Option<Link> {
+        self.plan.link(to, self.plan.signal(node, rover.place), rover.at)
+    }
+
     /// A robot's journey, if it is still in this leg.
     fn way_in(&mut self, robot: usize, leg: u32) -> Option<&mut Way> {
         self.rovers[robot].way.as_mut().filter(|way| way.leg == leg)
@@ -774,10 +779,9 @@ impl<'a> World<'a> {
         let lives = |node: NodeId| !self.sensors[node.0 as usize].has_failed;
         let hops = hops(&self.plan.network, node, lives);
         let linked = (0..).map(NodeId).zip(hops).filter(|&(node, hops)| hops.is_some() && lives(node));
-        let points: Vec<Point> = linked.map(|(node, _)| self.plan.field.nodes()[node.0 as usize]).collect();
+        let nodes: Vec<NodeId> = linked.map(|(node, _)| node).collect();
         let is_linked = |rover: &&Rover| {
-            let hears = |&point: &Point| self.plan.heard_um(point, rover.at).is_some();
-            !rover.has_failed && points.iter().any(hears)
+            !rover.has_failed && nodes.iter().any(|&node| self.link(node, rover, node).is_some())
         };
         let mut linked = self.rovers.iter().filter(is_linked).peekable();
         if linked.peek().is_none() {
@@ -832,18 +836,16 @@ impl Protocol for World<'_> {
     }
 
     fn roving(&self, at: NodeId, links: &mut Vec<Link>) {
-        let robots = self.rovers.iter().enumerate().filter(|&(robot, _)| self.station(robot) != at);
-        let robots = robots.map(|(robot, rover)| (self.station(robot), rover.at));
-        let link = |from: Point| {
-            move |(to, there): (NodeId, Point)| {
-                self.plan.heard_um(from, there).map(|distance_um| Link { to, distance_um })
-            }
-        };
-        match self.robot(at) {
-            None => links.extend(robots.filter_map(link(self.plan.field.nodes()[at.0 as usize]))),
-            Some(robot) => {
-                let nodes = (0..).map(NodeId).zip(self.plan.field.nodes().iter().copied());
-                links.extend(nodes.chain(robots).filter_map(link(self.rovers[robot].at)));
+        let robots = || self.rovers.iter().enumerate().map(|(robot, rover)| (self.station(robot), rover));
+        match self.robot(at).map(|robot| &self.rovers[robot]) {
+            None => links.extend(robots().filter_map(|(to, rover)| self.link(at, rover, to))),
+            Some(sender) => {
+                let nodes = (0..self.plan.network.nodes() as u32).map(NodeId);
+                links.extend(nodes.filter_map(|to| self.link(to, sender, to)));
+                let others = robots().filter(|&(to, _)| to != at);
+                links.extend(
+                    others.filter_map(|(to, rover)| self.plan.link(to, Signal::plain(rover.at), sender.at)),
+                );
             }
         }
     }
