@@ -1,9 +1,9 @@
 //! What a robot hears of a node: whether it hears it at all, and how strong, by distance, direction, shadow and noise.
 //!
-//! The level of a signal is 10·α·log₁₀(R/d) dB above what can just be heard all round, R being the robot's reach and d
-//! how far off the node seems to be; the antenna adds its gain. Strengths are levels in hundredths of a dB.
+//! The level of a signal is that of equation (1) above what can just be heard all round, at the robot's reach, by how far
+//! off the node seems to be; the antenna adds its gain. Strengths are levels in hundredths of a dB.
 
-use tautline_kernel::broadcast::NodeId;
+use tautline_kernel::broadcast::{NodeId, Propagation};
 use tautline_kernel::choice::Source;
 use tautline_kernel::homing::{Heading, Strength};
 
@@ -57,7 +57,7 @@ pub(crate) fn apart_m(one: Point, other: Point) -> f64 {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Ear {
     reach_m: f64,
-    exponent: f64,
+    propagation: Propagation,
     noise_db: f64,
 }
 
@@ -69,7 +69,7 @@ impl Ear {
     /// [`Problem::Deviation`] if that is not from 0 to 20 dB.
     pub fn new(radio: Radio, noise_db: f64) -> Result<Self, Problem> {
         let reach_m = ROBOT_REACH * radio.range_m();
-        Ok(Self { reach_m, exponent: radio.exponent(), noise_db: checked_deviation(noise_db)? })
+        Ok(Self { reach_m, propagation: radio.propagation(), noise_db: checked_deviation(noise_db)? })
     }
 
     /// Whether a robot and a node hear each other's messages.
@@ -104,11 +104,11 @@ impl Ear {
     /// How far off a node seems to be whose signal is so strong on the axis of `antenna`, in metres: the reverse.
     pub fn distance_m(&self, antenna: &Antenna, strength: Strength) -> f64 {
         let level_db = f64::from(strength.0) / 100.0 - antenna.most_db();
-        self.reach_m * libm::pow(10.0, -level_db / (10.0 * self.exponent))
+        self.reach_m * self.propagation.times_as_far(-level_db)
     }
 
     fn level_db(&self, seems_m: f64) -> f64 {
-        10.0 * self.exponent * libm::log10(self.reach_m / seems_m.max(NEAREST_M))
+        self.propagation.level_db(self.reach_m, seems_m.max(NEAREST_M))
     }
 }
 

@@ -6,11 +6,11 @@
 
 use std::collections::VecDeque;
 
-use tautline_kernel::broadcast::NodeId;
+use tautline_kernel::broadcast::{NodeId, Propagation};
 use tautline_kernel::choice::Source;
 
 use super::chance::{Chance, checked_deviation, deviation_db};
-use super::network::{Link, checked_exponent, gain};
+use super::network::Link;
 use super::queue::Queue;
 use super::{Network, Problem};
 
@@ -87,8 +87,8 @@ impl Shared {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Faults {
     loss: Chance,
-    /// The noise of signal strength in dB, and α.
-    noise: Option<(f64, f64)>,
+    /// The noise of signal strength in dB, and how power falls with the distance.
+    noise: Option<(f64, Propagation)>,
 }
 
 impl Faults {
@@ -102,12 +102,12 @@ impl Faults {
     }
 
     /// The strength of each signal that is heard is off by a standard deviation of `deviation_db`, anew each time. It
-    /// tells another distance then, by equation (1) with α = `exponent`.
+    /// tells another distance then.
     ///
     /// # Errors
-    /// A [`Problem`] if the exponent is not from 2 to 5, or the deviation not from 0 to 20 dB.
-    pub fn with_noise(self, deviation_db: f64, exponent: f64) -> Result<Self, Problem> {
-        Ok(Self { noise: Some((checked_deviation(deviation_db)?, checked_exponent(exponent)?)), ..self })
+    /// [`Problem::Deviation`] if that is not from 0 to 20 dB.
+    pub fn with_noise(self, deviation_db: f64, propagation: Propagation) -> Result<Self, Problem> {
+        Ok(Self { noise: Some((checked_deviation(deviation_db)?, propagation)), ..self })
     }
 
     #[inline]
@@ -119,8 +119,12 @@ impl Faults {
     }
 }
 
-fn noisy_um((standard_db, exponent): (f64, f64), distance_um: u32, chance: &mut dyn Source) -> u32 {
-    (f64::from(distance_um) * gain(exponent, -deviation_db(standard_db, chance))) as u32
+fn noisy_um(
+    (standard_db, propagation): (f64, Propagation),
+    distance_um: u32,
+    chance: &mut dyn Source,
+) -> u32 {
+    (f64::from(distance_um) * propagation.times_as_far(-deviation_db(standard_db, chance))) as u32
 }
 
 /// What was on the air.
@@ -508,14 +512,14 @@ mod tests {
 
     #[test]
     fn noise_changes_the_distance_and_nothing_else() {
-        let noisy = Faults::NONE.with_noise(6.0, 2.0).expect("a noise");
+        let noisy = Faults::NONE.with_noise(6.0, Propagation::FREE_SPACE).expect("a noise");
         let mut source = Seeded::new(1, 1);
         let measured: Vec<u32> = (0..1000).map(|_| noisy.measured_um(1_000_000, &mut source)).collect();
         let nearer = measured.iter().filter(|&&one| one < 1_000_000).count();
         assert!((400..600).contains(&nearer), "{nearer}");
         assert_eq!(noisy.measured_um(1_000_000, &mut Tape(&[])), 1_000_000);
         assert!(
-            Faults::NONE.with_noise(1.0, 9.0).is_err() && Faults::NONE.with_noise(f64::NAN, 2.0).is_err()
+            [20.5, f64::NAN].iter().all(|&db| Faults::NONE.with_noise(db, Propagation::FREE_SPACE).is_err())
         );
     }
 }

@@ -147,7 +147,7 @@ mod tests {
     use std::num::NonZeroU32;
 
     use proptest::prelude::*;
-    use tautline_kernel::broadcast::Count;
+    use tautline_kernel::broadcast::{Count, Propagation};
     use tautline_proofs::engine::Seeded;
 
     use super::*;
@@ -162,6 +162,10 @@ mod tests {
 
     fn rule(scheme: Scheme) -> Rule {
         Rule::new(scheme, NonZeroU32::new(25_000_000).expect("a range"), 100_000_000)
+    }
+
+    fn cubed() -> Propagation {
+        Propagation::new(3.0).expect("an exponent")
     }
 
     fn schemes() -> [Scheme; 7] {
@@ -200,7 +204,7 @@ mod tests {
             let source = NodeId(chance.pick(nodes as u32));
             let channel = if is_shared { Channel::Shared(Shared::SENSOR) } else { Channel::Ideal };
             let faults = Faults::NONE.with_loss(Chance::new(loss).expect("a probability"));
-            let faults = faults.with_noise(loss * 10.0, 3.0).expect("a noise");
+            let faults = faults.with_noise(loss * 10.0, cubed()).expect("a noise");
             let (report, states) =
                 broadcast(&network, &rule(schemes()[scheme]), channel, &faults, source, &mut chance).expect("a source");
             prop_assert!(is_a_tree(&states, source));
@@ -244,7 +248,7 @@ mod tests {
         let radio = Radio::new(25.0, model).expect("a radio");
         let network = Network::new(&field, radio, &mut seeded).expect("a network");
         let faults = Faults::NONE.with_loss(Chance::new(0.1).expect("a probability"));
-        let faults = faults.with_noise(2.0, 3.0).expect("a noise");
+        let faults = faults.with_noise(2.0, cubed()).expect("a noise");
         let made = schemes().map(|scheme| {
             let channel = Channel::Shared(Shared::SENSOR);
             let chance = &mut Seeded::new(7, 1);

@@ -1,13 +1,13 @@
 //! Who hears whom, and how far off each seems to be by the strength of its signal.
 //!
-//! Under log-distance propagation the mean power at distance d is 10·α·log₁₀(L/d) dB above what can just be heard, L
-//! being the range, and a shadow adds its deviation X to that. So a signal is heard if d·10^(−X/10α) ≤ L, and that
-//! product is also the distance that the receiver makes of it by equation (1) of paper 003: with or without shadows, who
+//! By equation (1) of paper 003, the kernel's [`Propagation`], the mean power at distance d is 10·α·log₁₀(L/d) dB above
+//! what can just be heard, L being the range, and a shadow adds its deviation X to that. So a signal is heard if
+//! d·10^(−X/10α) ≤ L, and that product is also the distance that the receiver makes of it: with or without shadows, who
 //! seems to be within the range is heard. A shadow is that of a pair of places, the same both ways and for ever.
 
 use std::num::NonZeroU32;
 
-use tautline_kernel::broadcast::NodeId;
+use tautline_kernel::broadcast::{NodeId, Propagation};
 use tautline_kernel::choice::Source;
 
 use super::chance::{MOST_DEVIATIONS, checked_deviation, deviation_db};
@@ -24,7 +24,7 @@ const MIN_RANGE_M: f64 = 0.001;
 const MAX_PAIRS: u64 = 1 << 28;
 
 /// α of free space.
-pub const FREE_SPACE: f64 = 2.0;
+pub const FREE_SPACE: f64 = Propagation::FREE_SPACE.exponent();
 
 /// How signals spread.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -45,6 +45,7 @@ pub enum Model {
 pub struct Radio {
     range_m: f64,
     model: Model,
+    propagation: Propagation,
 }
 
 impl Radio {
@@ -56,11 +57,14 @@ impl Radio {
         if !(MIN_RANGE_M..=MAX_RANGE_M).contains(&range_m) {
             return Err(Problem::Range { range_m });
         }
-        if let Model::Shadowed { exponent, deviation_db } = model {
-            checked_exponent(exponent)?;
-            checked_deviation(deviation_db)?;
-        }
-        Ok(Self { range_m, model })
+        let propagation = match model {
+            Model::Disc => Propagation::FREE_SPACE,
+            Model::Shadowed { exponent, deviation_db } => {
+                checked_deviation(deviation_db)?;
+                Propagation::new(exponent).ok_or(Problem::Exponent { exponent })?
+            }
+        };
+        Ok(Self { range_m, model, propagation })
     }
 
     /// The range in metres.
@@ -68,12 +72,9 @@ impl Radio {
         self.range_m
     }
 
-    /// α: power falls with the distance to the power of it. Where the model is a disc, that of free space.
-    pub const fn exponent(self) -> f64 {
-        match self.model {
-            Model::Disc => FREE_SPACE,
-            Model::Shadowed { exponent, .. } => exponent,
-        }
+    /// How power falls with the distance. Where the model is a disc, as in free space.
+    pub const fn propagation(self) -> Propagation {
+        self.propagation
     }
 
     /// How signals spread.
@@ -91,21 +92,11 @@ impl Radio {
     pub fn reach_m(self) -> f64 {
         match self.model {
             Model::Disc => self.range_m,
-            Model::Shadowed { exponent, deviation_db } => {
-                self.range_m * gain(exponent, MOST_DEVIATIONS * deviation_db)
+            Model::Shadowed { deviation_db, .. } => {
+                self.range_m * self.propagation.times_as_far(MOST_DEVIATIONS * deviation_db)
             }
         }
     }
-}
-
-/// α, if it is one.
-pub(super) fn checked_exponent(exponent: f64) -> Result<f64, Problem> {
-    if (2.0..=5.0).contains(&exponent) { Ok(exponent) } else { Err(Problem::Exponent { exponent }) }
-}
-
-/// How many times as far a signal comes that is stronger by `deviation_db`.
-pub(super) fn gain(exponent: f64, deviation_db: f64) -> f64 {
-    libm::pow(10.0, deviation_db / (10.0 * exponent))
 }
 
 /// Rounds to the nearest.
@@ -157,8 +148,8 @@ impl Network {
                 let apart_m = squared_m2.sqrt();
                 let seems_m = match radio.model {
                     Model::Disc => apart_m,
-                    Model::Shadowed { exponent, deviation_db: standard_db } => {
-                        apart_m * gain(exponent, -deviation_db(standard_db, source))
+                    Model::Shadowed { deviation_db: standard_db, .. } => {
+                        apart_m * radio.propagation.times_as_far(-deviation_db(standard_db, source))
                     }
                 };
                 if seems_m <= radio.range_m && field.has_way(point, points[other as usize]) {

@@ -79,8 +79,11 @@ impl Setting {
         };
         let scheme = self.scheme(range_um)?;
         let faults = Faults::NONE.with_loss(Chance::new(self.loss)?);
-        let faults =
-            if self.noise_db == 0.0 { faults } else { faults.with_noise(self.noise_db, radio.exponent())? };
+        let faults = if self.noise_db == 0.0 {
+            faults
+        } else {
+            faults.with_noise(self.noise_db, radio.propagation())?
+        };
         let field = Field::random(Area::new(width_m, height_m)?, obstacles, self.nodes, chance)?;
         let network = Network::new(&field, radio, chance)?;
         let mut wfrs = self.wfrs(&network, chance)?;
