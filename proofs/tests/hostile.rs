@@ -163,7 +163,7 @@ fn homing(source: &mut dyn Source) -> Outcome {
         hops: hops(source),
     };
     let stations: Vec<Station> = (0..source.pick(5)).map(|_| station(source)).collect();
-    let _ = verma(hops(source), stations);
+    let _ = verma(stations);
     let far = |source: &mut dyn Source| one_of(source, &[0, 1, i32::MIN, i32::MAX]);
     let _ = Heading::towards(far(source), far(source));
     Ok("a robot on its way")

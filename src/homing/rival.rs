@@ -82,7 +82,7 @@ impl Site<'_> {
             (fewest, guide) = nearest.copied().unwrap_or((fewest, guide));
             let stations =
                 neighbours.iter().map(|&(hops, node)| Station { at: position(self.point(node)), hops });
-            let middle = verma(fewest.saturating_add(1), stations).map(point);
+            let middle = verma(stations).map(point);
             match middle.filter(|&middle| has_gained && is_open(self.field, at, middle)) {
                 Some(middle) => {
                     trail.go_straight(middle);

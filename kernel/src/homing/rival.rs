@@ -22,23 +22,23 @@ pub struct Station {
     pub hops: u16,
 }
 
-/// Verma's credit field: the place to which the robot goes next, `hops` from the goal itself. A neighbour's credit is
-/// larger the nearer it is to the goal: here, how many hops nearer than the robot. Each neighbour that has credit attracts
-/// the robot by it, so that it goes to the middle of them, weighted by credit; to the goal itself where that is in
-/// range. `None` if no neighbour is nearer than the robot: it has gone astray, or the network is in parts.
-pub fn verma(hops: u16, neighbours: impl IntoIterator<Item = Station>) -> Option<Position> {
-    let (mut x, mut y, mut credits) = (0, 0, 0);
-    for Station { at, hops: of_neighbour } in neighbours {
-        let credit = i128::from(hops.saturating_sub(of_neighbour));
-        if of_neighbour == 0 && credit > 0 {
-            return Some(at);
+/// Verma's credit field: the place to which the robot goes next. A neighbour's credit is the larger the fewer its hops from
+/// the goal. The paper says only that high-credit neighbours attract the robot; here those of the highest credit do, all
+/// alike, so that it goes to the middle of them: to the goal itself where that is in range. `None` if there is no neighbour.
+pub fn verma(neighbours: impl IntoIterator<Item = Station>) -> Option<Position> {
+    let (mut fewest, mut x, mut y, mut count) = (u16::MAX, 0, 0, 0);
+    for Station { at, hops } in neighbours {
+        if hops < fewest {
+            (fewest, x, y, count) = (hops, 0, 0, 0);
         }
-        x += i128::from(at.x_um) * credit;
-        y += i128::from(at.y_um) * credit;
-        credits += credit;
+        if hops == fewest {
+            x += i128::from(at.x_um);
+            y += i128::from(at.y_um);
+            count += 1;
+        }
     }
     // A mean is between the least and the greatest of what it is the mean of.
-    let mean = |sum: i128| sum.checked_div_euclid(credits).map(|mean| mean as i64);
+    let mean = |sum: i128| sum.checked_div_euclid(count).map(|mean| mean as i64);
     Some(Position { x_um: mean(x)?, y_um: mean(y)? })
 }
 
@@ -70,15 +70,17 @@ mod tests {
     }
 
     #[test]
-    fn credit_draws_the_robot_to_the_neighbours_nearer_to_the_goal_and_to_the_goal_in_range() {
-        let level = [station(0, 9_000, 5), station(0, -9_000, 6)];
-        let nearer = [station(6_000, 0, 4), station(12_000, 3_000, 3)];
+    fn credit_draws_the_robot_to_the_middle_of_the_neighbours_nearest_to_the_goal_and_to_the_goal_in_range() {
         let place = |x_um, y_um| Some(Position { x_um, y_um });
-        assert_eq!(verma(5, level), None, "none is nearer");
-        assert_eq!(verma(5, level.into_iter().chain(nearer)), place(10_000, 2_000));
-        assert_eq!(verma(1, [station(-7_000, 1, 0), station(5, 5, 1)]), place(-7_000, 1));
-        assert_eq!(verma(5, []), None);
-        assert_eq!(verma(2, [station(i64::MAX, i64::MIN, 1); 3]), place(i64::MAX, i64::MIN));
+        let farther = [station(0, 9_000, 5), station(0, -9_000, 6)];
+        let nearest = [station(6_000, 0, 4), station(12_000, 3_000, 4)];
+        assert_eq!(verma(farther), place(0, 9_000));
+        assert_eq!(verma(farther.into_iter().chain(nearest)), place(9_000, 1_500));
+        assert_eq!(verma(nearest.into_iter().chain(farther)), place(9_000, 1_500));
+        assert_eq!(verma([station(5, 5, 1), station(-7_000, 1, 0)]), place(-7_000, 1));
+        assert_eq!(verma([]), None);
+        assert_eq!(verma([station(3, 4, u16::MAX)]), place(3, 4));
+        assert_eq!(verma([station(i64::MAX, i64::MIN, 1); 3]), place(i64::MAX, i64::MIN));
     }
 
     #[test]
