@@ -27,7 +27,7 @@ pub use problem::Problem;
 pub use report::{Fate, Fix, Journey, Report, Spread};
 pub use setting::{CallTimes, MAX_EVENTS, MAX_ROBOTS, MAX_WFRS, SchemeName, Setting};
 pub(crate) use summary::seconds;
-pub use summary::{Assignments, Broken, Summary};
+pub use summary::{Assignments, Broken, RobotsFailed, Summary};
 pub use world::rescue;
 
 #[cfg(test)]

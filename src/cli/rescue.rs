@@ -16,7 +16,8 @@ use crate::fault::{Fault, Halt, Watch};
 use crate::radio::{ChannelName, FREE_SPACE};
 use crate::reproduce::interval::Estimate;
 use crate::rescue::{
-    Assignments, CallTimes, Logged, Report, SchemeName, Setting, Summary, rescue, seconds, trace,
+    Assignments, CallTimes, Logged, Report, RobotsFailed, SchemeName, Setting, Summary, rescue, seconds,
+    trace,
 };
 use crate::view;
 use crate::view::field::picture;
@@ -34,7 +35,8 @@ Examples:
 What the JSON says: reach, reach_component and rebroadcasts are means over the seeds of what becomes of the first call \
 for each event at a WFR; assignments counts all WFRs and events of all seeds, and the events that were served_once, \
 served_more_often, never (a robot that lives is connected with the WFR and has heard of the event), unheard (connected, \
-but the broadcast has not reached it), cut_off (not connected) and still_to_come (the one before was not served); \
+but the broadcast has not reached it), cut_off (not connected) and still_to_come (the one before was not served); robots_failed counts the robots that failed \
+on their way to a WFR, before the last arrival of all but not on their way, and after it; \
 distance_ratio is the sum of the distances moved over the sum of the shortest; wait_s the time from the first call for \
 an event to the robot; violations the clauses broken, in how many rescues, and where first. Each mean has its 95 % \
 interval.
@@ -406,6 +408,17 @@ fn table(setting: &Setting, summary: &Summary) -> String {
     ];
     if setting.events_per_wfr > 1 {
         rows.push((fate("still to come"), of_all(still_to_come)));
+    }
+    if setting.failing > 0 {
+        let RobotsFailed { on_their_way, not_on_their_way, after_the_last_arrival } = summary.robots_failed;
+        let robots = on_their_way + not_on_their_way + after_the_last_arrival;
+        let failed =
+            |words: &str, count: u32| (format!("robots failed {words}"), format!("{count} of {robots}"));
+        rows.extend([
+            failed("on their way", on_their_way),
+            failed("not on their way", not_on_their_way),
+            failed("after the last arrival", after_the_last_arrival),
+        ]);
     }
     rows.push((
         "distance moved / shortest distance".to_owned(),

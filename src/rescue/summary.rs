@@ -1,6 +1,7 @@
 //! Many rescues of one setting, seed by seed: means with their intervals, what became of the WFRs, and which clauses were
 //! broken.
 
+use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
 use rayon::prelude::*;
@@ -8,7 +9,7 @@ use serde::Serialize;
 use tautline_proofs::engine::Seeded;
 use tautline_proofs::rescue::Demand;
 
-use super::{Fate, Report, Setting, Violation, rescue};
+use super::{Event, Fate, Logged, Report, Setting, Violation, rescue};
 use crate::fault::{Fault, Halt, Watch};
 use crate::reproduce::interval::{Estimate, rounded};
 
@@ -23,6 +24,8 @@ pub struct Summary {
     pub rebroadcasts: Estimate,
     /// What became of the events at the WFRs, counted over all rescues.
     pub assignments: Assignments,
+    /// When robots failed, counted over all rescues.
+    pub robots_failed: RobotsFailed,
     /// RD: the sum of the distances that robots moved to WFRs over the sum of the shortest. None if nobody came.
     pub distance_ratio: Option<Estimate>,
     /// Seconds from the first call for an event to the first robot, of the events that were served: those of one rescue depend on each
@@ -55,6 +58,17 @@ pub struct Assignments {
     pub still_to_come: u32,
 }
 
+/// When robots failed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
+pub struct RobotsFailed {
+    /// While they had set out for a WFR and had not come.
+    pub on_their_way: u32,
+    /// Not on their way, and before a robot came to a WFR for the last time, if one ever did.
+    pub not_on_their_way: u32,
+    /// Not on their way, and after that.
+    pub after_the_last_arrival: u32,
+}
+
 /// A clause that was broken.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Broken {
@@ -83,6 +97,7 @@ struct Kept {
     rebroadcasts: f64,
     wfrs: u32,
     fates: Vec<Fate>,
+    robots_failed: RobotsFailed,
     moved_m: f64,
     shortest_m: f64,
     /// The sum of the waits of those that were served, and how many they are.
@@ -113,6 +128,7 @@ impl Kept {
             rebroadcasts: mean(&|spread| f64::from(spread.rebroadcasts)),
             wfrs: report.wfrs.len() as u32,
             fates: report.fates.clone(),
+            robots_failed: RobotsFailed::of(&report.log),
             moved_m,
             shortest_m,
             waits_s: (waits.sum(), f64::from(report.journeys.len() as u32)),
@@ -169,11 +185,55 @@ impl Summary {
             reach_component: rounded(mean(&|one| one.reach_component), 1e4),
             rebroadcasts: rounded(mean(&|one| one.rebroadcasts), 1e2),
             assignments: kept.iter().fold(Assignments::default(), Assignments::and),
+            robots_failed: kept.iter().fold(RobotsFailed::default(), RobotsFailed::and),
             distance_ratio: ratio(&|one| (one.moved_m, one.shortest_m)).map(|ratio| rounded(ratio, 1e4)),
             wait_s: ratio(&|one| one.waits_s).map(|wait| rounded(wait, 1e2)),
             messages: rounded(mean(&|one| one.messages), 1e2),
             violations: Demand::ALL.into_iter().filter_map(broken).collect(),
         }
+    }
+}
+
+impl RobotsFailed {
+    fn of(log: &[Logged]) -> Self {
+        let arrives = |logged: &Logged| matches!(logged.event, Event::Arrives { .. });
+        let last = log.iter().rposition(arrives);
+        let mut failed = Self::default();
+        let mut on_their_way = BTreeSet::new();
+        for (place, logged) in log.iter().enumerate() {
+            match logged.event {
+                Event::SetsOut { robot, .. } => {
+                    on_their_way.insert(robot);
+                }
+                Event::Arrives { robot, .. } | Event::LetsGo { robot, .. } => {
+                    on_their_way.remove(&robot);
+                }
+                Event::RobotFails { robot, .. } if on_their_way.contains(&robot) => failed.on_their_way += 1,
+                Event::RobotFails { .. } if last.is_some_and(|last| last < place) => {
+                    failed.after_the_last_arrival += 1;
+                }
+                Event::RobotFails { .. } => failed.not_on_their_way += 1,
+                Event::Recurs { .. }
+                | Event::Calls { .. }
+                | Event::Hears { .. }
+                | Event::Asks { .. }
+                | Event::Chooses { .. }
+                | Event::CountsOn { .. }
+                | Event::Declines { .. }
+                | Event::Passes { .. }
+                | Event::LosesItsWay { .. }
+                | Event::NodeFails { .. } => {}
+            }
+        }
+        failed
+    }
+
+    const fn and(mut self, one: &Kept) -> Self {
+        let Self { on_their_way, not_on_their_way, after_the_last_arrival } = one.robots_failed;
+        self.on_their_way += on_their_way;
+        self.not_on_their_way += not_on_their_way;
+        self.after_the_last_arrival += after_the_last_arrival;
+        self
     }
 }
 
@@ -208,12 +268,34 @@ mod tests {
             rebroadcasts: 10.0,
             wfrs: 2,
             fates: fates.to_vec(),
+            robots_failed: RobotsFailed::default(),
             moved_m,
             shortest_m,
             waits_s: (0.0, 0.0),
             messages: 7.0,
             violations: if seed > 1 { vec![violation] } else { vec![] },
         }
+    }
+
+    #[test]
+    fn a_robot_fails_on_its_way_or_not_or_when_all_is_over() {
+        let at = [0, 0];
+        let sets_out = |robot| Event::SetsOut { robot, wfr: 1, epoch: 1, at };
+        let arrives = |robot| Event::Arrives { robot, wfr: 1, at };
+        let lets_go = |robot| Event::LetsGo { robot, wfr: 1, epoch: 1, at };
+        let fails = |robot| Event::RobotFails { robot, at };
+        let counted = |events: &[Event]| {
+            let log: Vec<Logged> = (0..).zip(events).map(|(at_ns, &event)| Logged { at_ns, event }).collect();
+            let RobotsFailed { on_their_way, not_on_their_way, after_the_last_arrival } =
+                RobotsFailed::of(&log);
+            [on_their_way, not_on_their_way, after_the_last_arrival]
+        };
+        assert_eq!(counted(&[sets_out(1), fails(1), sets_out(2), arrives(2)]), [1, 0, 0]);
+        assert_eq!(counted(&[sets_out(1), fails(2), arrives(1)]), [0, 1, 0]);
+        assert_eq!(counted(&[sets_out(1), lets_go(1), fails(1), arrives(2)]), [0, 1, 0]);
+        assert_eq!(counted(&[sets_out(1), arrives(1), fails(1), fails(2)]), [0, 0, 2]);
+        assert_eq!(counted(&[sets_out(1), sets_out(2), arrives(1), fails(2)]), [1, 0, 0]);
+        assert_eq!(counted(&[fails(1)]), [0, 1, 0]);
     }
 
     #[test]
