@@ -137,6 +137,13 @@ impl Fault {
         &self.0.remedy
     }
 
+    /// The same fault with another remedy.
+    #[must_use]
+    pub fn with_remedy(mut self, remedy: impl fmt::Display) -> Self {
+        self.0.remedy = one_line(&remedy.to_string());
+        self
+    }
+
     /// The fault over several lines, with the spot drawn where there is one. Ends with a newline.
     pub fn render(&self, colour: Colour) -> String {
         match &self.0.place {

@@ -25,7 +25,8 @@ use crate::layout::generate::Probability;
 use crate::layout::{Layout, MAX_FILE_BYTES};
 use lines::{Lines, line_of};
 
-const FORMAT: &str = "tautline run";
+/// The format of the header.
+pub(crate) const FORMAT: &str = "tautline run";
 const VERSION: u32 = 1;
 
 const AGAIN: &str = "store the run again with `tautline explore --trace` or `tautline hunt`";

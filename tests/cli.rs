@@ -834,7 +834,9 @@ fn what_is_wrong_with_a_stored_run_is_said_with_its_place() {
     let said = cases.map(|(what, text)| {
         fs::write(folder.join("run.jsonl"), text).expect("a file");
         let refusal = refused(folder, &["replay", "run.jsonl"]);
-        assert_eq!(refused(folder, &["minimise", "run.jsonl"]), refusal);
+        // What is no run might have been a rescue, which can be replayed and not minimised.
+        let is_foreign = ["no bytes", "another format"].contains(&what);
+        assert_eq!(refused(folder, &["minimise", "run.jsonl"]) != refusal, is_foreign, "{what}");
         format!("{what}\n{refusal}\n")
     });
     assert_snapshot!("wrong_runs", said.join("\n"));
@@ -847,7 +849,7 @@ fn what_is_wrong_with_a_stored_run_is_said_with_its_place() {
        │ ┬
        │ ╰── here
        │
-       │ Help: store the run again with `tautline explore --trace` or `tautline hunt`
+       │ Help: name a file that `tautline explore --trace`, `tautline rescue --trace`, `tautline hunt` or `tautline minimise` wrote
     ───╯
     "#);
 }
@@ -984,6 +986,10 @@ fn a_rescue_is_stored_played_and_drawn() {
     let events = run.lines().count() - 2;
     assert_eq!(page.matches("<g class=\"move\"").count(), 1 + events);
     assert_eq!(read("r.svg").matches("class=\"wfr\"").count(), 4, "three, and the legend");
+    for number in 1..=3 {
+        let text = format!(">{number}</text>");
+        assert_eq!((read("r.svg").matches(&text).count(), page.matches(&text).count()), (1, 1));
+    }
     // What was stored before there were several events, and shadows.
     let older = ["\"events_per_wfr\":1,", "\"shadowing_db\":0.0,", "\"exponent\":2.0,"]
         .iter()
@@ -1004,6 +1010,8 @@ fn a_rescue_is_stored_played_and_drawn() {
         ("another version", run.replacen("\"version\":1", "\"version\":2", 1)),
         ("no field", run.replacen("\"range_m\":25.0", "\"range_m\":0.0", 1)),
         ("no event", run.replacen("\"events_per_wfr\":1", "\"events_per_wfr\":0", 1)),
+        ("a robot nowhere", run.replacen("\"robots_at_m\":[]", "\"robots_at_m\":[[1.0,301.0]]", 1)),
+        ("no decibels", run.replacen("\"noise_db\":0.0", "\"noise_db\":-1.0", 1)),
         ("an unknown field", run.replacen("\"k\":1", "\"k\":1,\"mood\":1", 1)),
         ("another hop", run.replacen("\"hops\":4", "\"hops\":5", 1)),
         ("cut", run.split_inclusive('\n').take(3).collect()),

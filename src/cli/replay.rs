@@ -17,7 +17,7 @@ use crate::aside::Aside;
 use crate::exhibit::exhibit;
 use crate::explore::{Crew, Report, Setup, explore};
 use crate::fault::{Fault, Halt};
-use crate::trace::{StoredMove, Trace, lines};
+use crate::trace::{self, StoredMove, Trace, lines};
 use crate::view::svg;
 use crate::{rescue, view};
 
@@ -62,6 +62,10 @@ impl FromStr for Moves {
     }
 }
 
+/// What can be replayed.
+const REPLAYABLE: &str = "name a file that `tautline explore --trace`, `tautline rescue --trace`, `tautline hunt` or \
+                          `tautline minimise` wrote";
+
 /// Team moves that are shown of a run when nobody says which.
 const SHOWN: u32 = 100;
 
@@ -77,14 +81,22 @@ struct Replayed<'a> {
 impl Replay {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let [page, picture] = Aside::several([&self.html, &self.svg].map(Option::as_deref))?;
-        if lines::format(&self.file).as_deref() == Some(rescue::trace::FORMAT) {
-            return self.run_rescue(Files { trace: None, page, map: picture }, out);
+        match lines::format(&self.file).as_deref() {
+            Some(rescue::trace::FORMAT) => self.run_rescue(Files { trace: None, page, map: picture }, out),
+            Some(trace::FORMAT) => self.run_team(Trace::open(&self.file)?, [page, picture], out),
+            Some(_) | None => {
+                let foreign = |fault: Fault| fault.with_remedy(REPLAYABLE);
+                self.run_team(Trace::open(&self.file).map_err(foreign)?, [page, picture], out)
+            }
         }
-        self.run_team([page, picture], out)
     }
 
-    fn run_team(&self, [mut page, mut picture]: [Option<Aside>; 2], out: &mut Output) -> Result<Exit, Halt> {
-        let trace = Trace::open(&self.file)?;
+    fn run_team(
+        &self,
+        trace: Trace,
+        [mut page, mut picture]: [Option<Aside>; 2],
+        out: &mut Output,
+    ) -> Result<Exit, Halt> {
         let (setup, clause) = (trace.setup.clone(), trace.clause);
         let judged = match setup.crew() {
             Crew::Chain => clause,

@@ -1,5 +1,6 @@
 //! `tautline rescue`: rescues over a radio field.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -16,8 +17,8 @@ use crate::fault::{Fault, Halt, Watch};
 use crate::radio::{ChannelName, FREE_SPACE};
 use crate::reproduce::interval::Estimate;
 use crate::rescue::{
-    Assignments, CallTimes, Logged, Report, RobotsFailed, SchemeName, Setting, Summary, rescue, seconds,
-    trace,
+    Assignments, CallTimes, Event, Logged, Report, RobotsFailed, SchemeName, Setting, Summary, rescue,
+    seconds, trace,
 };
 use crate::view;
 use crate::view::field::picture;
@@ -338,7 +339,7 @@ fn print(
         Format::Text => {
             out.text(heading(setting, seeds) + &table(setting, summary))?;
             if let Some(report) = report {
-                out.text(story(report))?;
+                out.text(story(&report.log))?;
             }
         }
     }
@@ -453,11 +454,68 @@ fn table(setting: &Setting, summary: &Summary) -> String {
     text
 }
 
-/// What happened, event by event.
-fn story(report: &Report) -> String {
+/// Of so many calls of one WFR, with nothing but calls between them, all are told.
+const CALLS_TOLD: u32 = 3;
+
+/// What happened, event by event. Of more calls that come to nothing the first and the last are told.
+fn story(log: &[Logged]) -> String {
+    let calls = |logged: &Logged| if let Event::Calls { wfr, .. } = logged.event { Some(wfr) } else { None };
     let mut text = "\nseconds\n".to_owned();
-    for Logged { at_ns, event } in &report.log {
-        let _ = writeln!(text, "{:>10.3}  {event}", seconds(*at_ns));
+    for run in log.chunk_by(|one, other| calls(one).is_some() && calls(other).is_some()) {
+        let mut left = BTreeMap::<usize, u32>::new();
+        for wfr in run.iter().filter_map(calls) {
+            *left.entry(wfr).or_default() += 1;
+        }
+        let all = left.clone();
+        for logged in run {
+            let place = calls(logged).and_then(|wfr| Some((wfr, left.get_mut(&wfr)?, *all.get(&wfr)?)));
+            if let Some((wfr, left, all)) = place {
+                *left -= 1;
+                let told_before = all - 1 - *left;
+                if all > CALLS_TOLD && told_before > 0 && *left > 0 {
+                    if told_before == 1 {
+                        let _ = writeln!(text, "{:>10}  WFR {wfr} calls {} times more", "…", all - 2);
+                    }
+                    continue;
+                }
+            }
+            let _ = writeln!(text, "{:>10.3}  {}", seconds(logged.at_ns), logged.event);
+        }
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn calls_that_come_to_nothing_are_folded_wfr_by_wfr() {
+        let call = |wfr, epoch| Event::Calls { wfr, node: 7, epoch };
+        let told = |events: &[Event]| {
+            let log: Vec<Logged> = (0..).zip(events).map(|(at_ns, &event)| Logged { at_ns, event }).collect();
+            let text = story(&log);
+            let words =
+                |line: &str| line.trim_start().split_once("  ").map(|(_, words)| words.trim().to_owned());
+            text.lines().filter_map(words).collect::<Vec<_>>()
+        };
+        let three = [call(1, 1), call(1, 2), call(1, 3)];
+        assert_eq!(told(&three), three.map(|event| event.to_string()));
+        let both: Vec<Event> = (1..=5).flat_map(|epoch| [call(1, epoch), call(2, epoch)]).collect();
+        let fails = Event::NodeFails { node: 3 };
+        let more = "calls 3 times more";
+        assert_eq!(
+            told(&[&both[..], &[fails, call(1, 6)]].concat()),
+            [
+                call(1, 1).to_string(),
+                call(2, 1).to_string(),
+                format!("WFR 1 {more}"),
+                format!("WFR 2 {more}"),
+                call(1, 5).to_string(),
+                call(2, 5).to_string(),
+                fails.to_string(),
+                call(1, 6).to_string(),
+            ]
+        );
+    }
 }

@@ -7,6 +7,7 @@ use std::io::{BufRead, BufReader, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use crate::fault::Fault;
@@ -174,6 +175,16 @@ impl Lines {
     pub(crate) fn fault(&self, text: &str, key: &str, what: impl Display, remedy: impl Display) -> Fault {
         let start = text.find(key).unwrap_or_default();
         self.at(text, start..start + key.len(), what, remedy)
+    }
+
+    /// A fault in the value that `key` has in the line.
+    pub(crate) fn fault_in(&self, text: &str, key: &str, what: impl Display, remedy: impl Display) -> Fault {
+        let name = format!("\"{key}\"");
+        let rest = text.find(&name).map_or(text, |start| &text[start + name.len()..]);
+        let start = text.len() - rest.trim_start_matches([' ', ':']).len();
+        let mut values = serde_json::Deserializer::from_str(&text[start..]).into_iter::<IgnoredAny>();
+        let _ = values.next();
+        self.at(text, start..start + values.byte_offset(), what, remedy)
     }
 
     fn whole(&self, text: &str, what: impl Display, remedy: impl Display) -> Fault {

@@ -20,7 +20,7 @@ const SAMPLE: i32 = 36;
 /// A robot, round 0,0: a disc.
 pub(super) const ROBOT: &str = "m-6 0a6 6 0 1 0 12 0a6 6 0 1 0-12 0z";
 /// A WFR: a star of four points.
-pub(super) const WFR: &str = "m0-9l2.5 6.5l6.5 2.5l-6.5 2.5l-2.5 6.5l-2.5-6.5l-6.5-2.5l6.5-2.5z";
+const WFR: &str = "m0-9l2.5 6.5l6.5 2.5l-6.5 2.5l-2.5 6.5l-2.5-6.5l-6.5-2.5l6.5-2.5z";
 /// Where a robot has given up: a cross.
 const CROSS: &str = "m-5-5l10 10m0-10l-10 10";
 /// Where a robot has failed: a square.
@@ -136,8 +136,10 @@ impl Drawn {
         for (look, trail) in map.trails.iter().enumerate() {
             body.push_str(&way(look, trail, scale));
         }
-        for &wfr in &map.wfrs {
-            let _ = write!(body, "<path class=\"wfr\" d=\"M{}{WFR}\"/>", scale.place(wfr));
+        for (number, &wfr) in (1..).zip(&map.wfrs) {
+            let place = scale.place(wfr);
+            // One alone needs no number.
+            body.push_str(&if map.wfrs.len() > 1 { numbered(&place, number) } else { star(&place) });
         }
         body.push_str("</g>");
         let mut drawn = Self { width: width.max(text_width(&caption)), height: top + height, body };
@@ -183,6 +185,17 @@ impl Scale {
     pub(super) fn place(self, point: Point) -> String {
         format!("{:.1} {:.1}", point.x_m * self.0, point.y_m * self.0)
     }
+}
+
+/// A WFR.
+fn star(place: &str) -> String {
+    format!("<path class=\"wfr\" d=\"M{place}{WFR}\"/>")
+}
+
+/// A WFR with its number, counted from 1.
+pub(super) fn numbered(place: &str, number: usize) -> String {
+    let (x, y) = place.split_once(' ').unwrap_or_default();
+    format!("{}<text class=\"start\" dx=\"10\" x=\"{x}\" y=\"{y}\">{number}</text>", star(place))
 }
 
 /// The area with obstacles, links and nodes.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::field::{ALONE, Map, ROBOT, STYLE, Scale, Terminus, Trail, WFR, ground};
+use super::field::{ALONE, Map, ROBOT, STYLE, Scale, Terminus, Trail, ground, numbered};
 use super::page::filled;
 use super::svg::{MARGIN, SERIES, SERIES_STYLE, document, text_width};
 use crate::fault::Fault;
@@ -44,13 +44,7 @@ pub fn page(title: &str, outcome: &str, report: &Report) -> Result<String, Fault
     let (scale, (width, height)) = Scale::of(&map, ALONE);
     let mut body = format!("<g transform=\"translate({MARGIN},{MARGIN})\">{}", ground(&map, scale));
     for (number, &wfr) in (1..).zip(&report.wfrs) {
-        // Writing to a string cannot fail.
-        let place = scale.place(wfr);
-        let (x, y) = place.split_once(' ').unwrap_or_default();
-        let _ = write!(
-            body,
-            "<path class=\"wfr\" d=\"M{place}{WFR}\"/><text class=\"start\" dx=\"10\" x=\"{x}\" y=\"{y}\">{number}</text>"
-        );
+        body.push_str(&numbered(&scale.place(wfr), number));
     }
     let mut before_ns = 0;
     body += &frame(report, scale, 0, (0, 0), "The start");
@@ -64,6 +58,7 @@ pub fn page(title: &str, outcome: &str, report: &Report) -> Result<String, Fault
     let mut x = MARGIN;
     let y = height + 2 * MARGIN;
     for (look, name) in names.enumerate() {
+        // Writing to a string cannot fail.
         let _ = write!(
             body,
             "<g class=\"trail-{}\" transform=\"translate({x},{y})\"><path class=\"mark\" d=\"M6 0{ROBOT}\"/></g>\
