@@ -3,7 +3,7 @@
 
 use tautline_kernel::broadcast::NodeId;
 use tautline_kernel::choice::{Source, one_of};
-use tautline_kernel::homing::{Guide, Heading, Homing, Nav, Nearness, Position, ReqNav, Stage, Station};
+use tautline_kernel::homing::{Guide, Homing, Nav, Nearness, Position, ReqNav, Stage, Station};
 use tautline_kernel::homing::{Strength, verma};
 use tautline_kernel::rescue::{
     Call, Downward, Epoch, Hop, Notice, Relay, Resb, Robot, RobotId, RobotTimer, Rule, Upward, Wfr, WfrTimer,
@@ -164,8 +164,6 @@ fn homing(source: &mut dyn Source) -> Outcome {
     };
     let stations: Vec<Station> = (0..source.pick(5)).map(|_| station(source)).collect();
     let _ = verma(stations);
-    let far = |source: &mut dyn Source| one_of(source, &[0, 1, i32::MIN, i32::MAX]);
-    let _ = Heading::towards(far(source), far(source));
     Ok("a robot on its way")
 }
 

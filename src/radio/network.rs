@@ -12,7 +12,7 @@ use tautline_kernel::choice::Source;
 
 use super::chance::{MOST_DEVIATIONS, checked_deviation, deviation_db};
 use super::grid::Grid;
-use super::{Chance, Field, Point, Problem};
+use super::{Field, Point, Problem};
 
 /// The longest range: distances have to fit into 32 bits of micrometres.
 pub const MAX_RANGE_M: f64 = 4_000.0;
@@ -224,22 +224,6 @@ impl Network {
         }
         looked_at
     }
-
-    /// The network when each node but the `spared` has failed with this chance. Who has failed neither hears nor sends.
-    #[must_use]
-    pub fn failing(&self, chance: Chance, spared: &[NodeId], source: &mut dyn Source) -> Self {
-        let nodes = (0..self.nodes() as u32).map(NodeId);
-        let has_failed: Vec<bool> =
-            nodes.clone().map(|node| !spared.contains(&node) && chance.happens(source)).collect();
-        let is_alive = |node: NodeId| !has_failed[node.0 as usize];
-        let mut upper = Upper::with_room(self.nodes(), self.to.len() / 2);
-        for node in nodes {
-            let links = self.links(node).filter(|link| link.to > node);
-            links.filter(|link| is_alive(node) && is_alive(link.to)).for_each(|link| upper.add(link));
-            upper.end_node();
-        }
-        upper.both_ways()
-    }
 }
 
 /// The nodes with larger numbers than `node` within reach of it, with the squares of their distances. The buffer has room
@@ -417,15 +401,6 @@ mod tests {
         assert_eq!(network.component(NodeId(5)), 0);
         assert_eq!(network.node(5), Err(Problem::NoNode { node: 5, nodes: 5 }));
         assert_eq!((network.node(4), network.neighbours(NodeId(u32::MAX - 1))), (Ok(NodeId(4)), &[][..]));
-    }
-
-    #[test]
-    fn who_has_failed_has_no_link() {
-        let network = line(&[0.0, 5.0, 10.0, 15.0]);
-        let certain = Chance::new(1.0).expect("a probability");
-        let left = network.failing(certain, &[NodeId(1), NodeId(2)], &mut Tape(&[]));
-        assert_eq!(listed(&left), [(1, 2, 5_000_000), (2, 1, 5_000_000)]);
-        assert_eq!(network.failing(Chance::NEVER, &[], &mut Tape(&[])), network);
     }
 
     #[test]

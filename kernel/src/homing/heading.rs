@@ -48,16 +48,6 @@ impl Heading {
     pub fn vector(self) -> (i32, i32) {
         (cosine(self.0), cosine((self.0 + Self::COUNT * 3 / 4) % Self::COUNT))
     }
-
-    /// The direction nearest to that of (`x`, `y`), the first of two that are equally near; the first of all for (0, 0).
-    pub fn towards(x: i32, y: i32) -> Self {
-        let along = |heading: &Self| {
-            let (cosine, sine) = heading.vector();
-            i64::from(x) * i64::from(cosine) + i64::from(y) * i64::from(sine)
-        };
-        Self::all()
-            .fold(Self::FIRST, |best, heading| if along(&heading) > along(&best) { heading } else { best })
-    }
 }
 
 /// The cosine of a multiple of 15°, in millionths.
@@ -99,8 +89,18 @@ impl Scan {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+
+    /// The direction nearest to that of (`x`, `y`), the first of two that are equally near; the first of all for (0, 0).
+    pub(in crate::homing) fn towards(x: i32, y: i32) -> Heading {
+        let along = |heading: &Heading| {
+            let (cosine, sine) = heading.vector();
+            i64::from(x) * i64::from(cosine) + i64::from(y) * i64::from(sine)
+        };
+        Heading::all()
+            .fold(Heading::FIRST, |best, heading| if along(&heading) > along(&best) { heading } else { best })
+    }
 
     #[test]
     fn every_direction_is_a_unit_vector_and_the_one_nearest_to_itself() {
@@ -108,21 +108,21 @@ mod tests {
             let (x, y) = heading.vector();
             let length = i64::from(x).pow(2) + i64::from(y).pow(2);
             assert!(length.abs_diff(i64::from(UNIT).pow(2)) < 2_000_000, "{heading:?}: {length}");
-            assert_eq!(Heading::towards(x, y), heading);
+            assert_eq!(towards(x, y), heading);
             assert_eq!(heading.opposite().vector(), (-x, -y));
             assert_eq!(heading.quarter().vector(), (-y, x));
             assert_eq!(heading.turned(Heading::COUNT), heading);
         }
         assert_eq!(Heading::FIRST.vector(), (UNIT, 0));
         assert_eq!(Heading::FIRST.quarter().degrees(), 90);
-        assert_eq!(Heading::towards(0, 0), Heading::FIRST);
+        assert_eq!(towards(0, 0), Heading::FIRST);
     }
 
     #[test]
     fn the_nearest_direction_is_never_more_than_seven_and_a_half_degrees_off() {
         for x in -40..=40 {
             for y in -40..=40 {
-                let (cosine, sine) = Heading::towards(x, y).vector();
+                let (cosine, sine) = towards(x, y).vector();
                 let along = i64::from(x) * i64::from(cosine) + i64::from(y) * i64::from(sine);
                 let across = i64::from(y) * i64::from(cosine) - i64::from(x) * i64::from(sine);
                 // tan 7.5° is 0.131652…, and the cosines are rounded.

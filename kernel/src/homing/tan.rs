@@ -302,6 +302,7 @@ impl Homing {
 
 #[cfg(test)]
 mod tests {
+    use super::super::heading::tests::towards;
     use super::*;
 
     const WFR: NodeId = NodeId(0);
@@ -321,7 +322,7 @@ mod tests {
     /// Minus the distance in millimetres, less one part in eight for each direction that the antenna is off.
     fn heard(antenna: Heading, (x_mm, y_mm): (i32, i32)) -> Strength {
         let off = Heading::all().filter(|heading| {
-            let turned = |steps: u8| Heading::towards(x_mm, y_mm).turned(steps) == antenna;
+            let turned = |steps: u8| towards(x_mm, y_mm).turned(steps) == antenna;
             let steps = heading.degrees() / 15;
             steps <= 12 && (turned(steps as u8) || turned(24 - steps as u8))
         });
