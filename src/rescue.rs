@@ -21,7 +21,7 @@ mod timers;
 pub mod trace;
 mod world;
 
-pub use event::{Event, Logged, Millimetres};
+pub use event::{Event, Logged, Millimetres, Ordinal};
 pub use judge::Violation;
 pub use problem::Problem;
 pub use report::{Fate, Fix, Journey, Report, Spread};
@@ -344,8 +344,8 @@ mod tests {
         let who = |event: Event| {
             if let Event::Passes { robot, node, .. } = event { Some((robot, node)) } else { None }
         };
-        let passed: Vec<(usize, u32)> = events(&report).into_iter().filter_map(who).collect();
-        assert_eq!(passed, [(2, 2), (2, 1)]);
+        let passed: Vec<(Ordinal, u32)> = events(&report).into_iter().filter_map(who).collect();
+        assert_eq!(passed, [(Ordinal(1), 2), (Ordinal(1), 1)]);
         let [journey] = &report.journeys[..] else { panic!("one journey") };
         assert!((journey.moved_m - 50.0).abs() < 1.0, "{journey:?}");
         assert_eq!(journey.shortest_m.map(f64::round), Some(50.0));

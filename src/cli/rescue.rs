@@ -17,8 +17,8 @@ use crate::fault::{Fault, Halt, Watch};
 use crate::radio::{ChannelName, FREE_SPACE};
 use crate::reproduce::interval::Estimate;
 use crate::rescue::{
-    Assignments, CallTimes, Event, Logged, Report, RobotsFailed, SchemeName, Setting, Summary, rescue,
-    seconds, trace,
+    Assignments, CallTimes, Event, Logged, Ordinal, Report, RobotsFailed, SchemeName, Setting, Summary,
+    rescue, seconds, trace,
 };
 use crate::view;
 use crate::view::field::picture;
@@ -462,7 +462,7 @@ fn story(log: &[Logged]) -> String {
     let calls = |logged: &Logged| if let Event::Calls { wfr, .. } = logged.event { Some(wfr) } else { None };
     let mut text = "\nseconds\n".to_owned();
     for run in log.chunk_by(|one, other| calls(one).is_some() && calls(other).is_some()) {
-        let mut left = BTreeMap::<usize, u32>::new();
+        let mut left = BTreeMap::<Ordinal, u32>::new();
         for wfr in run.iter().filter_map(calls) {
             *left.entry(wfr).or_default() += 1;
         }
@@ -491,7 +491,7 @@ mod tests {
 
     #[test]
     fn calls_that_come_to_nothing_are_folded_wfr_by_wfr() {
-        let call = |wfr, epoch| Event::Calls { wfr, node: 7, epoch };
+        let call = |wfr: usize, epoch| Event::Calls { wfr: Ordinal(wfr - 1), node: 7, epoch };
         let told = |events: &[Event]| {
             let log: Vec<Logged> = (0..).zip(events).map(|(at_ns, &event)| Logged { at_ns, event }).collect();
             let text = story(&log);

@@ -14,37 +14,63 @@ pub(super) fn millimetres(at: Point) -> Millimetres {
     [at.x_m, at.y_m].map(|metres| (metres * 1e3 + 0.5) as u32)
 }
 
-/// Something that happens. Robots and WFRs are numbered from 1, nodes from 0, as in the field.
+/// The number of a robot, a WFR, or an event at one: counted from 0 here, and from 1 wherever people read it, in text and in
+/// JSON.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize)]
+#[serde(try_from = "usize", into = "usize")]
+pub struct Ordinal(pub usize);
+
+impl From<Ordinal> for usize {
+    fn from(Ordinal(place): Ordinal) -> Self {
+        place + 1
+    }
+}
+
+impl TryFrom<usize> for Ordinal {
+    type Error = &'static str;
+
+    fn try_from(number: usize) -> Result<Self, Self::Error> {
+        number.checked_sub(1).map(Self).ok_or("robots, WFRs and events are counted from 1")
+    }
+}
+
+impl fmt::Display for Ordinal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", usize::from(*self))
+    }
+}
+
+/// Something that happens. Nodes are numbered from 0, as in the field.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 #[expect(missing_docs, reason = "the fields are the numbers of who takes part")]
 pub enum Event {
     /// Something happens at a WFR for the second time, or for a later one.
-    Recurs { wfr: usize, event: usize },
+    Recurs { wfr: Ordinal, event: Ordinal },
     /// A WFR calls.
-    Calls { wfr: usize, node: u32, epoch: u32 },
+    Calls { wfr: Ordinal, node: u32, epoch: u32 },
     /// A robot hears of a call, so many hops from the WFR.
-    Hears { robot: usize, wfr: usize, epoch: u32, hops: u16 },
+    Hears { robot: Ordinal, wfr: Ordinal, epoch: u32, hops: u16 },
     /// A robot sends MOVE.
-    Asks { robot: usize, wfr: usize, epoch: u32, hops: u16 },
+    Asks { robot: Ordinal, wfr: Ordinal, epoch: u32, hops: u16 },
     /// A WFR sends RESB.
-    Chooses { wfr: usize, epoch: u32, robot: usize },
+    Chooses { wfr: Ordinal, epoch: u32, robot: Ordinal },
     /// A WFR has done with choosing: it waits for this robot.
-    CountsOn { wfr: usize, epoch: u32, robot: usize },
+    CountsOn { wfr: Ordinal, epoch: u32, robot: Ordinal },
     /// A robot declines.
-    Declines { robot: usize, wfr: usize, epoch: u32 },
+    Declines { robot: Ordinal, wfr: Ordinal, epoch: u32 },
     /// A robot takes the lease of a call and sets out.
-    SetsOut { robot: usize, wfr: usize, epoch: u32, at: Millimetres },
+    SetsOut { robot: Ordinal, wfr: Ordinal, epoch: u32, at: Millimetres },
     /// A robot is at a path node.
-    Passes { robot: usize, node: u32, at: Millimetres },
+    Passes { robot: Ordinal, node: u32, at: Millimetres },
     /// A robot gets no signal any more.
-    LosesItsWay { robot: usize, at: Millimetres },
+    LosesItsWay { robot: Ordinal, at: Millimetres },
     /// A robot gives up a lease, since it has lapsed or the WFR calls anew.
-    LetsGo { robot: usize, wfr: usize, epoch: u32, at: Millimetres },
+    LetsGo { robot: Ordinal, wfr: Ordinal, epoch: u32, at: Millimetres },
     /// A robot reaches a WFR.
-    Arrives { robot: usize, wfr: usize, at: Millimetres },
+    Arrives { robot: Ordinal, wfr: Ordinal, at: Millimetres },
     /// A robot fails.
-    RobotFails { robot: usize, at: Millimetres },
+    RobotFails { robot: Ordinal, at: Millimetres },
     /// A node fails.
     NodeFails { node: u32 },
 }

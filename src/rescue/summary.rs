@@ -9,7 +9,7 @@ use serde::Serialize;
 use tautline_proofs::engine::Seeded;
 use tautline_proofs::rescue::Demand;
 
-use super::{Event, Fate, Logged, Report, Setting, Violation, rescue};
+use super::{Event, Fate, Logged, Ordinal, Report, Setting, Violation, rescue};
 use crate::fault::{Fault, Halt, Watch};
 use crate::reproduce::interval::{Estimate, rounded};
 
@@ -83,10 +83,10 @@ pub struct Broken {
     pub seed: u64,
     /// When it was broken there, in seconds from the beginning.
     pub at_s: f64,
-    /// Of which WFR, counted from 1.
-    pub wfr: usize,
-    /// During which of its events, counted from 1.
-    pub event: usize,
+    /// Of which WFR.
+    pub wfr: Ordinal,
+    /// During which of its events.
+    pub event: Ordinal,
 }
 
 /// What is kept of a rescue.
@@ -177,7 +177,7 @@ impl Summary {
             let (seed, Violation { at_ns, wfr, event, .. }) = all.next()?;
             let rescues = 1 + all.count() as u32;
             let (clause, broken) = (demand.clause(), demand.broken());
-            let (wfr, event) = (wfr + 1, event + 1);
+            let (wfr, event) = (Ordinal(wfr), Ordinal(event));
             Some(Broken { clause, broken, rescues, seed, at_s: seconds(at_ns), wfr, event })
         };
         Self {
@@ -280,10 +280,11 @@ mod tests {
     #[test]
     fn a_robot_fails_on_its_way_or_not_or_when_all_is_over() {
         let at = [0, 0];
-        let sets_out = |robot| Event::SetsOut { robot, wfr: 1, epoch: 1, at };
-        let arrives = |robot| Event::Arrives { robot, wfr: 1, at };
-        let lets_go = |robot| Event::LetsGo { robot, wfr: 1, epoch: 1, at };
-        let fails = |robot| Event::RobotFails { robot, at };
+        let wfr = Ordinal(0);
+        let sets_out = |robot| Event::SetsOut { robot: Ordinal(robot), wfr, epoch: 1, at };
+        let arrives = |robot| Event::Arrives { robot: Ordinal(robot), wfr, at };
+        let lets_go = |robot| Event::LetsGo { robot: Ordinal(robot), wfr, epoch: 1, at };
+        let fails = |robot| Event::RobotFails { robot: Ordinal(robot), at };
         let counted = |events: &[Event]| {
             let log: Vec<Logged> = (0..).zip(events).map(|(at_ns, &event)| Logged { at_ns, event }).collect();
             let RobotsFailed { on_their_way, not_on_their_way, after_the_last_arrival } =
@@ -324,8 +325,15 @@ mod tests {
         assert_eq!((ratio.count, ratio.mean), (3, 1.1438), "183 m over 160 m");
         assert!(ratio.interval.is_some_and(|[low, high]| low < 1.1438 && 1.1438 < high));
         let words = Demand::IsServed.broken();
-        let first =
-            Broken { clause: "MRC-5", broken: words, rescues: 3, seed: 2, at_s: 3.0, wfr: 2, event: 3 };
+        let first = Broken {
+            clause: "MRC-5",
+            broken: words,
+            rescues: 3,
+            seed: 2,
+            at_s: 3.0,
+            wfr: Ordinal(1),
+            event: Ordinal(2),
+        };
         assert_eq!(summary.violations, [first]);
         assert_eq!((summary.reach.mean, summary.wait_s), (0.5, None));
         assert_eq!(Summary::over(&all[2..3]).distance_ratio, None);

@@ -6,6 +6,7 @@ use std::fmt::Write;
 
 use super::svg::{MARGIN, SERIES, SERIES_STYLE, document, escaped, text_width};
 use crate::radio::{Field, Point};
+use crate::rescue::Ordinal;
 
 /// The longest side of a map that stands alone, and of one among others.
 pub(super) const ALONE: i32 = 600;
@@ -136,7 +137,7 @@ impl Drawn {
         for (look, trail) in map.trails.iter().enumerate() {
             body.push_str(&way(look, trail, scale));
         }
-        for (number, &wfr) in (1..).zip(&map.wfrs) {
+        for (number, &wfr) in (0..).map(Ordinal).zip(&map.wfrs) {
             let place = scale.place(wfr);
             // One alone needs no number.
             body.push_str(&if map.wfrs.len() > 1 { numbered(&place, number) } else { star(&place) });
@@ -192,8 +193,8 @@ fn star(place: &str) -> String {
     format!("<path class=\"wfr\" d=\"M{place}{WFR}\"/>")
 }
 
-/// A WFR with its number, counted from 1.
-pub(super) fn numbered(place: &str, number: usize) -> String {
+/// A WFR with its number.
+pub(super) fn numbered(place: &str, number: Ordinal) -> String {
     let (x, y) = place.split_once(' ').unwrap_or_default();
     format!("{}<text class=\"start\" dx=\"10\" x=\"{x}\" y=\"{y}\">{number}</text>", star(place))
 }

@@ -7,14 +7,14 @@ use super::page::filled;
 use super::svg::{MARGIN, SERIES, SERIES_STYLE, document, text_width};
 use crate::fault::Fault;
 use crate::radio::Point;
-use crate::rescue::{Event, Fix, Logged, Report, seconds};
+use crate::rescue::{Event, Fix, Logged, Ordinal, Report, seconds};
 
 /// Robots that a page can draw, over all its events.
 const MAX_DRAWN: usize = 100_000;
 
 /// The map of a rescue: the nodes, the WFRs, and where each robot went. The place where one failed is marked.
 pub fn map(caption: String, report: &Report) -> Map<'_> {
-    let trail = |(number, path): (usize, &Vec<Fix>)| {
+    let trail = |(number, path): (Ordinal, &Vec<Fix>)| {
         let fails =
             |logged: &Logged| matches!(logged.event, Event::RobotFails { robot, .. } if robot == number);
         let end = if report.log.iter().any(fails) { Terminus::Failed } else { Terminus::There };
@@ -26,7 +26,7 @@ pub fn map(caption: String, report: &Report) -> Map<'_> {
         field: &report.field,
         nodes: report.field.nodes().len(),
         links: Vec::new(),
-        trails: (1..).zip(&report.paths).map(trail).collect(),
+        trails: (0..).map(Ordinal).zip(&report.paths).map(trail).collect(),
         wfrs: report.wfrs.clone(),
     }
 }
@@ -43,7 +43,7 @@ pub fn page(title: &str, outcome: &str, report: &Report) -> Result<String, Fault
     let map = map(String::new(), report);
     let (scale, (width, height)) = Scale::of(&map, ALONE);
     let mut body = format!("<g transform=\"translate({MARGIN},{MARGIN})\">{}", ground(&map, scale));
-    for (number, &wfr) in (1..).zip(&report.wfrs) {
+    for (number, &wfr) in (0..).map(Ordinal).zip(&report.wfrs) {
         body.push_str(&numbered(&scale.place(wfr), number));
     }
     let mut before_ns = 0;
@@ -54,7 +54,7 @@ pub fn page(title: &str, outcome: &str, report: &Report) -> Result<String, Fault
         before_ns = *at_ns;
     }
     body.push_str("</g>");
-    let names = (0..report.paths.len()).map(|robot| format!("robot {}", robot + 1));
+    let names = (0..report.paths.len()).map(|robot| format!("robot {}", Ordinal(robot)));
     let mut x = MARGIN;
     let y = height + 2 * MARGIN;
     for (look, name) in names.enumerate() {
