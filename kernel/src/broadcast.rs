@@ -1,5 +1,5 @@
 //! Broadcasting an event through a network of sensor nodes (paper 003, 3.2): k-farthest-node forwarding, and the
-//! schemes that it is compared with. Clauses NOTICE-1 to NOTICE-5.
+//! schemes that it is compared with. Clauses NOTICE-1 to NOTICE-6.
 //!
 //! A node's state is a plain value, [`Node`], one for each source that it hears of. [`Node::receive`] says what a
 //! NOTICE makes of it, [`Node::expire`] whether the node forwards when its wait is over. Time and distance are whole

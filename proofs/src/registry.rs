@@ -2,7 +2,7 @@
 
 use tautline_kernel::bricks::Condition::{Alone, Corners, SeenOnly};
 use tautline_kernel::bricks::{self, Precedence};
-use tautline_kernel::broadcast::Condition::{FrozenOnceForwarded, LeastHops, RememberEvent};
+use tautline_kernel::broadcast::Condition::{FirstHeard, FrozenOnceForwarded, LeastHops, RememberEvent};
 use tautline_kernel::chain::Condition::{
     CoveredBehind, Distinct, EpochMustGain, FullForFollower, FullForLeader, RefusedIsVirtual, SafeAhead,
     Unfold, UnsureAhead,
@@ -11,7 +11,8 @@ use tautline_kernel::chain::{High, Rule};
 use tautline_kernel::lattice::Circle;
 use tautline_kernel::rescue;
 use tautline_kernel::rescue::Condition::{
-    AnswersAgain, ChoiceStands, Consent, Epochs, NearestRobot, Renewal, Repetition, Window,
+    AnswersAgain, ChoiceStands, Consent, Epochs, LeastIdentity, NearestCall, NearestRobot, Renewal,
+    Repetition, Window,
 };
 
 use crate::bricks as small_floors;
@@ -212,9 +213,15 @@ const fn spreads(body: Body, covers: &'static [&'static str], mutants: &'static 
 
 const EVERY_K: &str = "all networks of up to 5 nodes, every k, every order";
 
-const UNFROZEN: [Mutant; 2] = [
-    mutant("a later NOTICE with HC ≤ own changes the parent", Subject::hearing_without(FrozenOnceForwarded)),
+const LATER: Mutant =
+    mutant("a later NOTICE with HC ≤ own changes the parent", Subject::hearing_without(FrozenOnceForwarded));
+
+const UNFROZEN: [Mutant; 1] = [LATER];
+
+const ANOTHER_PARENT: [Mutant; 3] = [
+    LATER,
     mutant("the parent is the last heard", Subject::hearing_without(LeastHops)),
+    mutant("of equal HC the last heard", Subject::hearing_without(FirstHeard)),
 ];
 
 const FORGETFUL: [Mutant; 1] =
@@ -237,7 +244,7 @@ const THREE: (usize, u32) = (4, 3);
 const THREE_BOUND: &str = "all layouts, N = 4, at most 3 walls";
 
 /// Every clause, in the order of `SPEC.md`.
-pub static CLAUSES: [Clause; 35] = [
+pub static CLAUSES: [Clause; 37] = [
     Clause {
         id: "LATTICE-1",
         sentence: "The environments derived from the radii MUST be the sets that the paper draws: E_N the cell and \
@@ -709,6 +716,15 @@ pub static CLAUSES: [Clause; 35] = [
         ],
     },
     Clause {
+        id: "NOTICE-6",
+        sentence: "Of the senders that a node has heard before it forwards or falls silent, its parent MUST be one with \
+                   the least hop count, and of several the first heard.",
+        checks: &[
+            states(notice::NEAREST_PARENT, EVERY_K, Verdict::Holds, &ANOTHER_PARENT),
+            spreads(notice::nearest_parent_at_random, &notice::SPREADS, &ANOTHER_PARENT),
+        ],
+    },
+    Clause {
         id: "MRC-1",
         sentence: "Two robots MUST never be on their way for the same call of a WFR.",
         checks: &[
@@ -720,6 +736,7 @@ pub static CLAUSES: [Clause; 35] = [
                 Verdict::Holds,
                 &[mutant("redecide on a late MOVE", REDECIDE)],
             ),
+            rescued(Subject::REPAIRED, Demand::OneRobotForACall, TWO_LONGER, Verdict::Holds, &[]),
             rescued(Subject::REPAIRED, Demand::OneRobotForACall, THREE_AND_TWO, Verdict::Holds, &[]),
         ],
     },
@@ -733,8 +750,9 @@ pub static CLAUSES: [Clause; 35] = [
                 Demand::OneCallForARobot,
                 TWO,
                 Verdict::Holds,
-                &[mutant("no consent", Subject::rescuing(rescue::Rule::REPAIRED.without(Consent)))],
+                &[mutant("no consent", NO_CONSENT)],
             ),
+            rescued(Subject::REPAIRED, Demand::OneCallForARobot, TWO_LONGER, Verdict::Holds, &[]),
             rescued(Subject::REPAIRED, Demand::OneCallForARobot, THREE_AND_TWO, Verdict::Holds, &[]),
         ],
     },
@@ -752,12 +770,20 @@ pub static CLAUSES: [Clause; 35] = [
                     mutant("no collection window", Subject::rescuing(rescue::Rule::REPAIRED.without(Window))),
                     mutant("redecide on a late MOVE", REDECIDE),
                     mutant(
-                        "the first MOVE heard",
+                        "the least MID, however far",
                         Subject::rescuing(rescue::Rule::REPAIRED.without(NearestRobot)),
+                    ),
+                    mutant("of equal MHC the first heard", FIRST_OF_EQUALS),
+                    mutant(
+                        "the first MOVE heard",
+                        Subject::rescuing(
+                            rescue::Rule::REPAIRED.without(NearestRobot).without(LeastIdentity),
+                        ),
                     ),
                     mutant("no epoch", NO_EPOCH),
                 ],
             ),
+            rescued(Subject::REPAIRED, Demand::BestOfTheWindow, TWO_LONGER, Verdict::Holds, &[]),
             rescued(Subject::REPAIRED, Demand::BestOfTheWindow, THREE_AND_TWO, Verdict::Holds, &[]),
         ],
     },
@@ -772,14 +798,15 @@ pub static CLAUSES: [Clause; 35] = [
                 Demand::CountsOnConsent,
                 TWO,
                 Verdict::Holds,
-                &[mutant("no consent", Subject::rescuing(rescue::Rule::REPAIRED.without(Consent)))],
+                &[mutant("no consent", NO_CONSENT)],
             ),
+            rescued(Subject::REPAIRED, Demand::CountsOnConsent, TWO_LONGER, Verdict::Holds, &[]),
             rescued(Subject::REPAIRED, Demand::CountsOnConsent, THREE_AND_TWO, Verdict::Holds, &[]),
         ],
     },
     Clause {
         id: "MRC-5",
-        sentence: "A WFR that waits MUST be rescued in the end, as long as a robot lives.",
+        sentence: "A WFR that waits MUST be rescued in the end, as long as a robot lives that its calls reach.",
         checks: &[
             rescued(Subject::PUBLISHED, Demand::IsServed, TWO_AND_ONE, Verdict::Refuted, &[]),
             rescued(
@@ -796,6 +823,7 @@ pub static CLAUSES: [Clause; 35] = [
                     mutant("no epoch", NO_EPOCH),
                 ],
             ),
+            rescued(Subject::REPAIRED, Demand::IsServed, TWO_LONGER, Verdict::Holds, &[]),
             rescued(Subject::REPAIRED, Demand::IsServed, THREE_AND_TWO, Verdict::Holds, &[]),
         ],
     },
@@ -811,13 +839,57 @@ pub static CLAUSES: [Clause; 35] = [
                 Verdict::Holds,
                 &[mutant("no epoch", NO_EPOCH)],
             ),
+            rescued(Subject::REPAIRED, Demand::AsksAnew, TWO_LONGER, Verdict::Holds, &[]),
             rescued(Subject::REPAIRED, Demand::AsksAnew, THREE_AND_TWO, Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-7",
+        sentence: "A free robot MUST ask for the nearest of the calls that it has heard and whose SBit is clear.",
+        checks: &[
+            rescued(
+                Subject::PUBLISHED,
+                Demand::AsksNearest,
+                ONE_AND_THREE,
+                Verdict::Holds,
+                &[
+                    mutant(
+                        "the least SN, however far",
+                        Subject::rescuing(rescue::Rule::PUBLISHED.without(NearestCall)),
+                    ),
+                    mutant(
+                        "of equal HC the first heard",
+                        Subject::rescuing(rescue::Rule::PUBLISHED.without(LeastIdentity)),
+                    ),
+                ],
+            ),
+            rescued(
+                Subject::REPAIRED,
+                Demand::AsksNearest,
+                TWO,
+                Verdict::Holds,
+                &[
+                    mutant(
+                        "the least SN, however far",
+                        Subject::rescuing(rescue::Rule::REPAIRED.without(NearestCall)),
+                    ),
+                    mutant("of equal HC the first heard", FIRST_OF_EQUALS),
+                    mutant(
+                        "the first call heard",
+                        Subject::rescuing(rescue::Rule::REPAIRED.without(NearestCall).without(LeastIdentity)),
+                    ),
+                ],
+            ),
+            rescued(Subject::REPAIRED, Demand::AsksNearest, ONE_AND_THREE, Verdict::Holds, &[]),
+            rescued(Subject::REPAIRED, Demand::AsksNearest, THREE_AND_TWO, Verdict::Holds, &[]),
         ],
     },
 ];
 
 const REDECIDE: Subject = Subject::rescuing(rescue::Rule::REPAIRED.without(ChoiceStands));
+const FIRST_OF_EQUALS: Subject = Subject::rescuing(rescue::Rule::REPAIRED.without(LeastIdentity));
 const NO_EPOCH: Subject = Subject::rescuing(rescue::Rule::REPAIRED.without(Epochs));
+const NO_CONSENT: Subject = Subject::rescuing(rescue::Rule::REPAIRED.without(Consent));
 
 /// The settings of a rescue, and what they are in words.
 const TWO: (Setting, &str) = (
@@ -825,21 +897,33 @@ const TWO: (Setting, &str) = (
         rule: rescue::Rule::REPAIRED,
         robots: 2,
         wfrs: 2,
-        events: 3,
-        max_hops: 1,
+        events: 2,
+        max_hops: 2,
         faults: Faults::any(1),
         lossy: Lossy::All,
         leases: Leases::UntilCalled,
     },
-    "all states, 2 robots, 2 WFRs, 3 events, at most 1 fault",
+    "all states, 2 robots, 2 WFRs, 2 events, at most 1 fault, 1 or 2 hops",
 );
-const THREE_AND_TWO: (Setting, &str) =
-    (Setting { robots: 3, events: 2, ..TWO.0 }, "all states, 3 robots, 2 WFRs, 2 events, at most 1 fault");
+const TWO_LONGER: (Setting, &str) = (
+    Setting { events: 3, max_hops: 1, ..TWO.0 },
+    "all states, 2 robots, 2 WFRs, 3 events, at most 1 fault, all one hop away",
+);
+const THREE_AND_TWO: (Setting, &str) = (
+    Setting { robots: 3, max_hops: 1, ..TWO.0 },
+    "all states, 3 robots, 2 WFRs, 2 events, at most 1 fault, all one hop away",
+);
 
 const TWO_AND_ONE: (Setting, &str) =
-    (Setting { wfrs: 1, events: 2, ..TWO.0 }, "all states, 2 robots, 1 WFR, 2 events, at most 1 fault");
-const ONE_AND_TWO: (Setting, &str) =
-    (Setting { robots: 1, ..TWO.0 }, "all states, 1 robot, 2 WFRs, 3 events, at most 1 fault");
+    (Setting { wfrs: 1, ..TWO.0 }, "all states, 2 robots, 1 WFR, 2 events, at most 1 fault, 1 or 2 hops");
+const ONE_AND_TWO: (Setting, &str) = (
+    Setting { robots: 1, events: 3, ..TWO.0 },
+    "all states, 1 robot, 2 WFRs, 3 events, at most 1 fault, 1 or 2 hops",
+);
+const ONE_AND_THREE: (Setting, &str) = (
+    Setting { robots: 1, wfrs: 3, events: 3, ..TWO.0 },
+    "all states, 1 robot, 3 WFRs, 3 events, at most 1 fault, 1 or 2 hops",
+);
 
 const fn rescued(
     subject: Subject,

@@ -149,7 +149,7 @@ pub enum Action {
     },
 }
 
-/// What the clauses MRC-1 to MRC-6 demand.
+/// What the clauses MRC-1 to MRC-7 demand.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Demand {
     /// MRC-1.
@@ -164,17 +164,20 @@ pub enum Demand {
     IsServed,
     /// MRC-6.
     AsksAnew,
+    /// MRC-7.
+    AsksNearest,
 }
 
 impl Demand {
     /// Every demand.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::OneRobotForACall,
         Self::OneCallForARobot,
         Self::BestOfTheWindow,
         Self::CountsOnConsent,
         Self::IsServed,
         Self::AsksAnew,
+        Self::AsksNearest,
     ];
 
     /// The id of its clause.
@@ -186,6 +189,7 @@ impl Demand {
             Self::CountsOnConsent => "MRC-4",
             Self::IsServed => "MRC-5",
             Self::AsksAnew => "MRC-6",
+            Self::AsksNearest => "MRC-7",
         }
     }
 
@@ -200,6 +204,7 @@ impl Demand {
             Self::CountsOnConsent => "a WFR counts on a robot that has not taken its lease",
             Self::IsServed => "a WFR waits for ever, and a robot lives",
             Self::AsksAnew => "a robot has heard a new call, and its SBit is set",
+            Self::AsksNearest => "a free robot has not asked for the nearest call whose SBit is clear",
         }
     }
 }
@@ -215,6 +220,8 @@ struct Notes {
     taken: [[Option<Epoch>; WFRS]; ROBOTS],
     /// Whether a robot has heard a new call and kept its SBit.
     kept: bool,
+    /// Whether a free robot has asked for another call than the nearest, or for none.
+    strayed: bool,
 }
 
 /// Robots, WFRs and what is between them.
@@ -507,8 +514,8 @@ impl State {
                     && self.notes.open[wfr]
                     && upward.call == self.wfrs[wfr].call()
                 {
-                    let bid = Bid { hops, robot: upward.robot };
-                    self.notes.best[wfr] = Some(self.notes.best[wfr].map_or(bid, |best| best.min(bid)));
+                    let bids = self.notes.best[wfr].into_iter().chain([Bid { hops, robot: upward.robot }]);
+                    self.notes.best[wfr] = bids.min_by_key(|&Bid { hops, robot: RobotId(id) }| (hops, id));
                 }
                 self.turn_wfr(setting, wfr, |wfr| wfr.receive(upward));
             }
@@ -538,8 +545,18 @@ impl State {
     }
 
     fn turn_robot(&mut self, robot: usize, turn: impl FnOnce(Robot<WFRS>) -> (Robot<WFRS>, Option<Upward>)) {
+        let before = self.robots[robot].task();
         let (next, sent) = turn(self.robots[robot]);
         self.robots[robot] = next;
+        let rank = |call: Call| (self.hops[robot][place(call.wfr)], call.wfr.0);
+        let open = next.requests().filter(|request| request.served == Served::No);
+        let nearest = open.map(|request| request.call).min_by_key(|&call| rank(call));
+        self.notes.strayed |= match (before, next.task()) {
+            (Task::Asking { call: before, .. }, Task::Asking { call, .. }) if before == call => false,
+            (_, Task::Asking { call, .. }) => nearest != Some(call),
+            (_, Task::Free) => nearest.is_some(),
+            (_, Task::Leased { .. }) => false,
+        };
         if let Task::Leased { call } = next.task() {
             self.notes.taken[robot][place(call.wfr)] = Some(call.epoch);
         }
@@ -642,7 +659,7 @@ impl State {
             }),
             Demand::BestOfTheWindow => (0..WFRS).any(|wfr| match self.wfrs[wfr].phase() {
                 Phase::Offered { choice, .. } | Phase::Leased { choice } => {
-                    self.notes.best[wfr].is_some_and(|best| best.robot != choice.robot)
+                    self.notes.best[wfr].is_none_or(|best| best.robot != choice.robot)
                 }
                 Phase::Idle | Phase::Collecting { .. } | Phase::Rescued { .. } => false,
             }),
@@ -655,6 +672,7 @@ impl State {
                 }
             }),
             Demand::AsksAnew => self.notes.kept,
+            Demand::AsksNearest => self.notes.strayed,
             Demand::IsServed => false,
         }
     }
@@ -673,20 +691,15 @@ impl State {
     }
 
     fn write(&self, out: &mut Writer) {
-        let by_first_heard =
-            self.robots.iter().map(|robot| robot.requests().next().map(|request| request.call.wfr));
         out.bytes(self.hops.as_flattened().iter().map(|&hops| hops as u8));
-        out.bytes(by_first_heard.map(|wfr| wfr.map_or(0, |wfr| 1 + wfr.0 as u8)));
         for (robot, machine) in self.robots.iter().enumerate() {
             out.byte(u8::from(self.failed[robot]));
+            for request in machine.requests() {
+                out.byte(1 + u8::from(request.served == Served::Yes));
+                out.call(request.call);
+            }
+            out.byte(0);
             for wfr in 0..WFRS {
-                match machine.request(node(wfr)) {
-                    None => out.byte(0),
-                    Some(request) => {
-                        out.byte(1 + u8::from(request.served == Served::Yes));
-                        out.call(request.call);
-                    }
-                }
                 out.epoch(wfr, self.cut[robot][wfr]);
                 let current = self.wfrs[wfr].call().epoch;
                 out.byte(self.notes.taken[robot][wfr].map_or(0, |taken| 1 + u8::from(taken == current)));
@@ -726,6 +739,7 @@ impl State {
             nodes,
             self.events_left,
             u8::from(self.notes.kept),
+            u8::from(self.notes.strayed),
         ]);
         for message in &self.network {
             let kind = match message {

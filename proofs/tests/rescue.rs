@@ -95,6 +95,44 @@ fn the_repaired_rule_holds_with_two_faults() {
 }
 
 #[test]
+fn the_repaired_rule_holds_with_three_events_at_any_hops() {
+    holds(&setting((2, 2), 3, 2, Faults::any(1)), 2_706_712, 8_577_464);
+}
+
+/// The demands that break without one condition, or without several.
+#[test]
+fn each_condition_is_needed_for_the_clauses_that_the_spec_names() {
+    use Condition::*;
+    use Demand::*;
+    let broken = |conditions: &[Condition]| {
+        let rule = conditions.iter().fold(Rule::REPAIRED, |rule, &condition| rule.without(condition));
+        let of = |robots_wfrs, events| {
+            found(&Setting { rule, ..setting(robots_wfrs, events, 2, Faults::any(1)) }).broken
+        };
+        let found = [of((2, 1), 2), of((1, 2), 3)].concat();
+        Demand::ALL.into_iter().filter(|&demand| found.iter().any(|broken| broken.demand == demand)).collect()
+    };
+    let expected: [(&[Condition], &[Demand]); 12] = [
+        (&[NearestCall], &[AsksNearest]),
+        (&[NearestRobot], &[BestOfTheWindow]),
+        (&[LeastIdentity], &[BestOfTheWindow, AsksNearest]),
+        (&[NearestCall, NearestRobot, LeastIdentity], &[BestOfTheWindow, AsksNearest]),
+        (&[Window], &[BestOfTheWindow, IsServed]),
+        (&[ChoiceStands], &[OneRobotForACall, BestOfTheWindow]),
+        (&[AnswersAgain], &[]),
+        (&[Repetition], &[]),
+        (&[AnswersAgain, Repetition], &[IsServed]),
+        (&[Epochs], &[BestOfTheWindow, IsServed, AsksAnew]),
+        (&[Consent], &[OneCallForARobot, CountsOnConsent]),
+        (&[Renewal], &[IsServed]),
+    ];
+    for (conditions, demands) in expected {
+        let broken: Vec<Demand> = broken(conditions);
+        assert_eq!(broken, demands, "{conditions:?}");
+    }
+}
+
+#[test]
 fn the_repaired_rule_holds_where_a_robot_lets_a_lease_go_that_is_over_and_not_where_it_does_so_earlier() {
     let lapsing = |setting: Setting| Setting { leases: Leases::UntilOver, ..setting };
     holds(&lapsing(setting((2, 1), 2, 2, Faults::any(1))), 11_424, 31_356);

@@ -208,7 +208,8 @@ impl Node {
     )]
     fn is_late(&self, rule: &Rule, notice: Notice) -> bool {
         let is_frozen = rule.has(Condition::RememberEvent) && rule.has(Condition::FrozenOnceForwarded);
-        let is_idle = !can_settle(rule.scheme) && rule.has(Condition::LeastHops);
+        let is_idle =
+            !can_settle(rule.scheme) && rule.has(Condition::LeastHops) && rule.has(Condition::FirstHeard);
         let is_through = (self.phase == Phase::Silent) | (self.phase == Phase::Forwarded) & is_frozen;
         let is_no_nearer = notice.hops.saturating_add(1) >= self.hops;
         let waits_on = (self.phase == Phase::Waiting) & is_idle & is_no_nearer;
@@ -319,10 +320,10 @@ impl Node {
             return Reaction::Ignored;
         }
         let hops = notice.hops.saturating_add(1);
-        if hops < self.hops || !rule.has(Condition::LeastHops) {
-            self.parent = notice.sender;
+        let is_best = hops < self.hops || hops == self.hops && !rule.has(Condition::FirstHeard);
+        if is_best || !rule.has(Condition::LeastHops) {
+            (self.parent, self.hops) = (notice.sender, hops);
         }
-        self.hops = self.hops.min(hops);
         if is_counted(rule.scheme) {
             self.heard.add(notice.sender);
         }

@@ -12,8 +12,10 @@ pub enum Condition {
     /// From forwarding on, a node's parent and hop count stay what they are. Without it, a NOTICE with a hop count up to
     /// the node's own makes its sender the parent.
     FrozenOnceForwarded,
-    /// The parent is the sender with the least hop count, of several the first heard. Without it, the last heard.
+    /// The parent is a sender with the least hop count. Without it, the last heard, whatever its hop count.
     LeastHops,
+    /// Of several senders with the least hop count the parent is the first heard. Without it, the last.
+    FirstHeard,
     /// A node that has forwarded an event takes no later NOTICE of it as a first one.
     RememberEvent,
     /// Repair: a NOTICE of a newer event of the same source is a first one. Without it, whoever has heard of one event
@@ -23,8 +25,13 @@ pub enum Condition {
 
 impl Condition {
     /// Every condition.
-    pub const ALL: [Self; 4] =
-        [Self::FrozenOnceForwarded, Self::LeastHops, Self::RememberEvent, Self::NumberedEvents];
+    pub const ALL: [Self; 5] = [
+        Self::FrozenOnceForwarded,
+        Self::LeastHops,
+        Self::FirstHeard,
+        Self::RememberEvent,
+        Self::NumberedEvents,
+    ];
 }
 
 conditions!(Condition);

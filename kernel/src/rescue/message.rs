@@ -31,8 +31,8 @@ pub struct Call {
     pub epoch: Epoch,
 }
 
-/// What a WFR chooses by: the least is the best, by hops, then by identity.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+/// What a WFR chooses by.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Bid {
     /// MHC: hops from the robot to the WFR.
     pub hops: u16,

@@ -208,10 +208,12 @@ impl<const CALLS: usize> Robot<CALLS> {
             Task::Asking { .. } | Task::Leased { .. } => return (self, None),
             Task::Free => {}
         }
-        let nearest = self.rule.has(Condition::NearestCall);
+        let by_hops = self.rule.has(Condition::NearestCall);
+        let by_identity = self.rule.has(Condition::LeastIdentity);
+        let rank =
+            |request: &&Request| (by_hops.then_some(request.hops), by_identity.then_some(request.call.wfr));
         let open = self.requests().filter(|request| request.served == Served::No);
-        let chosen = open.min_by_key(|request| nearest.then_some((request.hops, request.call.wfr)));
-        let Some(request) = chosen.copied() else { return (self, None) };
+        let Some(request) = open.min_by_key(rank).copied() else { return (self, None) };
         self.task = Task::Asking { call: request.call, repeats_left: self.rule.repeats() };
         (self, Some(self.bid(&request)))
     }
@@ -297,10 +299,10 @@ mod tests {
             assert_eq!(word(sent), Some((8, 0, Word::Move { hops: 7 })));
             assert!(robot.requests().map(|request| request.served).eq([Served::Yes, Served::No]));
         }
-        let tie = [notice(call(9, 0), 1, 3), notice(call(8, 0), 4, 3), notice(call(7, 0), 4, 3)];
+        let tie = [(9, 1), (8, 4), (7, 4), (6, 5)].map(|(wfr, hops)| notice(call(wfr, 0), hops, 3));
         let (robot, _) = tie
             .iter()
-            .fold((Robot::<3>::new(Rule::REPAIRED, ME), None), |(robot, _), &message| robot.receive(message));
+            .fold((Robot::<4>::new(Rule::REPAIRED, ME), None), |(robot, _), &message| robot.receive(message));
         let (_, sent) = robot.receive(resb(call(9, 0), ME, OTHER));
         assert_eq!(word(sent), Some((7, 0, Word::Move { hops: 5 })));
     }

@@ -1,15 +1,18 @@
-//! MRC's rule as a set of named conditions. What the paper says is the first two; the others repair what it leaves
-//! open: when a WFR chooses, what becomes of later MOVEs, and of messages, nodes and robots that fail.
+//! MRC's rule as a set of named conditions. What the paper says is the first three, one of them a reading;
+//! the others repair what it leaves open: when a WFR chooses, what becomes of later MOVEs, and of messages, nodes and
+//! robots that fail.
 
 use crate::conditions::conditions;
 
 /// One condition of the rule, by the sentence it stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Condition {
-    /// A free robot asks for the call of least (HC, SN), not for the one it heard first.
+    /// A free robot asks for the call of least HC.
     NearestCall,
-    /// A WFR chooses the robot of least (MHC, MID), not the one it heard first.
+    /// A WFR chooses the robot of least MHC.
     NearestRobot,
+    /// Where that leaves several, a robot takes the call of least SN and a WFR the robot of least MID, not the first heard.
+    LeastIdentity,
     /// Repair: a WFR chooses when its window closes, not when the first MOVE arrives.
     Window,
     /// Repair: a MOVE that arrives after the choice does not change it.
@@ -32,9 +35,10 @@ pub enum Condition {
 
 impl Condition {
     /// Every condition.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::NearestCall,
         Self::NearestRobot,
+        Self::LeastIdentity,
         Self::Window,
         Self::ChoiceStands,
         Self::AnswersAgain,
@@ -59,8 +63,14 @@ pub struct Rule {
 impl Rule {
     /// MRC as the paper publishes it. A WFR chooses at every MOVE anew among those that it has heard, and a robot does
     /// what the latest RESB says: the paper names no time at which either would stop.
-    pub const PUBLISHED: Self =
-        Self { conditions: Conditions::of(&[Condition::NearestCall, Condition::NearestRobot]), repeats: 0 };
+    pub const PUBLISHED: Self = Self {
+        conditions: Conditions::of(&[
+            Condition::NearestCall,
+            Condition::NearestRobot,
+            Condition::LeastIdentity,
+        ]),
+        repeats: 0,
+    };
 
     /// MRC with all repairs; a message without an answer is repeated once.
     pub const REPAIRED: Self = Self { conditions: Conditions::of(&Condition::ALL), repeats: 1 };

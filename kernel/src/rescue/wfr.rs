@@ -200,7 +200,10 @@ impl<const ROBOTS: usize> Wfr<ROBOTS> {
 
     /// The better of two bids, the first heard first.
     fn better(&self, first: Bid, second: Bid) -> Bid {
-        if self.rule.has(Condition::NearestRobot) { first.min(second) } else { first }
+        let by_hops = self.rule.has(Condition::NearestRobot);
+        let by_identity = self.rule.has(Condition::LeastIdentity);
+        let rank = |bid: Bid| (by_hops.then_some(bid.hops), by_identity.then_some(bid.robot));
+        if rank(second) < rank(first) { second } else { first }
     }
 
     fn remember(&mut self, robot: RobotId) {
