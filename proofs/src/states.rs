@@ -325,7 +325,7 @@ impl<'a, S: System> Graph<'a, S> {
     }
 
     /// The first node from which a run can go round in which `owed` is owed and all act who are awake throughout; and
-    /// the numbers of the steps of a shortest round.
+    /// the numbers of the steps of such a round.
     fn round(&self, owed: Bits) -> Option<(usize, Vec<u32>)> {
         let part = self.components(owed);
         let mut awake = vec![Bits::MAX; self.nodes.len()];
@@ -341,23 +341,49 @@ impl<'a, S: System> Graph<'a, S> {
         }
         let is_fair = |home: usize| acting[home].is_some_and(|acting| awake[home] & !acting == 0);
         let first = (0..self.nodes.len()).find(|&node| part[node] != NONE && is_fair(part[node] as usize))?;
-        Some((first, self.way_round(&part, first)))
+        Some((first, self.way_round(&part, first, awake[part[first] as usize])))
     }
 
-    /// The numbers of the steps of a shortest way from `home` round to it within its part.
-    fn way_round(&self, part: &[u32], home: usize) -> Vec<u32> {
+    /// The numbers of the steps of a way from `home` round to it within its part in which all of `due` act: a shortest
+    /// one, and for each whom it leaves out a way on to the nearest step of theirs and home.
+    fn way_round(&self, part: &[u32], home: usize, due: Bits) -> Vec<u32> {
+        let (mut steps, mut node, mut left) = (Vec::new(), home, due);
+        loop {
+            let is_homeward = |arc: &Arc| arc.to as usize == home;
+            let is_due = |arc: &Arc| arc.acting & left != 0;
+            let onward = if steps.is_empty() || left == 0 {
+                self.way_within(part, node, is_homeward)
+            } else {
+                self.way_within(part, node, is_due)
+            };
+            for &number in &onward {
+                let arc = &self.arcs(node)[number as usize];
+                (node, left) = (arc.to as usize, left & !arc.acting);
+            }
+            let is_over = onward.is_empty() || node == home && left == 0;
+            steps.extend(onward);
+            if is_over {
+                return steps;
+            }
+        }
+    }
+
+    /// The numbers of the steps of a shortest way from `start` within its part, up to the first step that `is_last`.
+    fn way_within(&self, part: &[u32], start: usize, is_last: impl Fn(&Arc) -> bool) -> Vec<u32> {
         let mut before = FxHashMap::default();
-        let mut ahead = VecDeque::from([home]);
+        let mut ahead = VecDeque::from([start]);
         while let Some(node) = ahead.pop_front() {
             for (number, arc) in (0..).zip(self.arcs(node)) {
                 let to = arc.to as usize;
-                if !arc.is_bound || part[to] != part[home] {
+                if !arc.is_bound || part[to] != part[start] {
                     continue;
                 }
-                if to == home {
+                if is_last(arc) {
                     let mut steps = vec![number];
                     let mut last = node;
-                    while let Some(&(from, number)) = before.get(&last) {
+                    while last != start
+                        && let Some(&(from, number)) = before.get(&last)
+                    {
                         steps.push(number);
                         last = from;
                     }
@@ -547,7 +573,25 @@ mod tests {
     fn an_endless_run_keeps_nobody_from_acting() {
         let owing = &[1, 2, 3, 4, 5, 6];
         assert_eq!(broken(&Graphic { awake: 3, owing, ..GRAPH }), None);
-        assert!(broken(&Graphic { awake: 1, owing, ..GRAPH }).is_some());
-        assert!(broken(&Graphic { awake: 3, owing: &[0, 1, 2], ..GRAPH }).is_some());
+        let round = |steps, round| Run { demand: ROUND, start: 0, steps, ending: Ending::Round(round) };
+        assert_eq!(broken(&Graphic { awake: 1, owing, ..GRAPH }), Some(round(vec![0, 1], vec![0, 0])));
+        let owing = &[0, 1, 2];
+        assert_eq!(broken(&Graphic { awake: 3, owing, ..GRAPH }), Some(round(vec![], vec![0, 0, 0])));
+    }
+
+    #[test]
+    fn everybody_who_is_awake_acts_in_a_round() {
+        const SHARED: &[&[Drawn]] = &[&[(0, 1), (1, 2)], &[(0, 2)]];
+        const FAR: &[&[Drawn]] = &[&[(0, 1), (1, 1)], &[(1, 2), (2, 1), (0, 1)], &[(1, 1), (2, 4)]];
+        let round = |awake, arcs| {
+            let found = broken(&Graphic { awake, arcs, owing: &[0, 1, 2], ..GRAPH });
+            found.map(|run| run.ending)
+        };
+        assert_eq!(round(1, SHARED), Some(Ending::Round(vec![0])));
+        assert_eq!(round(3, SHARED), Some(Ending::Round(vec![0, 1, 0])));
+        assert_eq!(round(1, FAR), Some(Ending::Round(vec![0])));
+        assert_eq!(round(3, FAR), Some(Ending::Round(vec![0, 1, 0, 2])));
+        assert_eq!(round(7, FAR), Some(Ending::Round(vec![0, 1, 0, 1, 1, 0, 2])));
+        assert_eq!(round(15, FAR), None);
     }
 }
