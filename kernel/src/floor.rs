@@ -21,8 +21,9 @@ pub trait Floor {
     fn sensor(&self, cell: Cell) -> Option<Sensor>;
     /// Changes what the sensor in `cell` stores; no effect where there is none.
     fn put(&mut self, cell: Cell, sensor: Sensor);
-    /// The identifier of a sensor that is about to be placed in `cell`: it differs from that of any sensor that has been
-    /// there, and is not 0.
+    /// The identifier of a sensor that is about to be placed in `cell`: not 0, and another than that of any of the 65,534
+    /// sensors that have been there last. There are no more, so that a lap during which the sensors of one cell are
+    /// replaced more often than that may take the last for the first.
     fn unpack(&mut self, cell: Cell) -> u16;
     /// Whether no wall stands on `edge`, which is between two cells that have sensors.
     fn is_open(&self, edge: Edge) -> bool;

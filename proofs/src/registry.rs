@@ -1,6 +1,6 @@
 //! The list of all clauses, in the order of `SPEC.md`.
 
-use tautline_kernel::bricks::Condition::{Alone, Corners, SeenOnly};
+use tautline_kernel::bricks::Condition::{Alone, Corners, Laps, LeastCrossed, SecondPass, SeenOnly};
 use tautline_kernel::bricks::{self, Precedence};
 use tautline_kernel::broadcast::Condition::{FirstHeard, FrozenOnceForwarded, LeastHops, RememberEvent};
 use tautline_kernel::chain::Condition::{
@@ -172,6 +172,15 @@ const NO_CORNERS: Subject = Subject::marking(bricks::Rule::REPAIRED.without(Corn
 
 /// Agents that mark cells in which others are.
 const NOT_ALONE: Subject = Subject::marking(bricks::Rule::REPAIRED.without(Alone));
+
+/// Agents that walk no laps.
+const NO_LAPS: Subject = Subject::marking(bricks::Rule::REPAIRED.without(Laps));
+
+/// Agents that are robust against missed sensors only so far.
+const TRUSTING: [Mutant; 2] = [
+    mutant("ways through what reads as unexplored", Subject::marking_twice_without(SeenOnly)),
+    mutant("nothing gone over twice", Subject::marking_twice_without(SecondPass)),
+];
 
 /// Agents whose laps are told apart in another way.
 const fn laps(precedence: Precedence) -> Subject {
@@ -563,7 +572,7 @@ pub static CLAUSES: [Clause; 37] = [
                 small_floors::connected_half_blind,
                 small_floors::HALF_BLIND,
                 Verdict::Holds,
-                &[mutant("ways through what reads as unexplored", Subject::marking_twice_without(SeenOnly))],
+                &TRUSTING,
             ),
         ],
     },
@@ -602,7 +611,11 @@ pub static CLAUSES: [Clause; 37] = [
                 small_floors::robust_knowing_half_blind,
                 small_floors::HALF_BLIND,
                 Verdict::Holds,
-                &[mutant("ways through what reads as unexplored", Subject::marking_twice_without(SeenOnly))],
+                &[
+                    mutant("ways through what reads as unexplored", Subject::marking_twice_without(SeenOnly)),
+                    mutant("nothing gone over twice", Subject::marking_twice_without(SecondPass)),
+                    mutant("laps in the first pass", Subject::marking_twice_without(LeastCrossed)),
+                ],
             ),
         ],
     },
@@ -622,14 +635,14 @@ pub static CLAUSES: [Clause; 37] = [
                 small_floors::robust_explores_half_blind,
                 small_floors::HALF_BLIND,
                 Verdict::Holds,
-                &[mutant("ways through what reads as unexplored", Subject::marking_twice_without(SeenOnly))],
+                &TRUSTING,
             ),
         ],
     },
     Clause {
         id: "BRICKS-6",
-        sentence: "If no sensor is missed and every agent acts again and again, every run MUST end with every cell \
-                   visited.",
+        sentence: "Every run in which every agent acts again and again MUST end with every cell visited, whatever \
+                   sensors are missed a finite number of times.",
         checks: &[
             floors(Subject::PUBLISHED, small_floors::ends_alone, small_floors::ALONE, Verdict::Refuted, &[]),
             floors(
@@ -640,9 +653,34 @@ pub static CLAUSES: [Clause; 37] = [
                 &[
                     mutant("both laps give way", laps(Precedence::Everybody)),
                     mutant("marks cells in which others are", NOT_ALONE),
+                    mutant("walks no laps", NO_LAPS),
                 ],
             ),
-            floors(Subject::REPAIRED, small_floors::robust_ends, small_floors::TWICE, Verdict::Holds, &[]),
+            floors(
+                Subject::REPAIRED,
+                small_floors::robust_ends,
+                small_floors::TWICE,
+                Verdict::Holds,
+                &[mutant("walks no laps", Subject::marking_twice_without(Laps))],
+            ),
+            floors(
+                Subject::PUBLISHED,
+                small_floors::ends_half_blind,
+                small_floors::HALF_BLIND,
+                Verdict::Refuted,
+                &[],
+            ),
+            floors(
+                Subject::REPAIRED,
+                small_floors::robust_ends_half_blind,
+                small_floors::HALF_BLIND,
+                Verdict::Holds,
+                &[
+                    mutant("ways through what reads as unexplored", Subject::marking_twice_without(SeenOnly)),
+                    mutant("nothing gone over twice", Subject::marking_twice_without(SecondPass)),
+                    mutant("laps in the first pass", Subject::marking_twice_without(LeastCrossed)),
+                ],
+            ),
         ],
     },
     Clause {

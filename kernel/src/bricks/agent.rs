@@ -122,9 +122,7 @@ impl Agent {
             self.is_lost = false;
             self.idle = match self.pass {
                 // It may be a missed sensor that was replaced, again and again.
-                Pass::First if rule.has(Condition::SecondPass) => {
-                    self.idle.saturating_sub(u16::from(rule.patience) / 16)
-                }
+                Pass::First if rule.has(Condition::SecondPass) => self.idle.saturating_sub(2),
                 Pass::First | Pass::Second => 0,
             };
         } else if rule.has(Condition::LeastCrossed) {

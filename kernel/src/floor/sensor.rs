@@ -58,17 +58,26 @@ pub struct Sensor {
     pub shut: Sides,
     /// The claim on the cell, if there is one.
     pub claim: Option<Claim>,
-    /// The sensor's own identifier; 0 where there is none yet.
+    /// The sensor's own identifier; 0 where there is none yet. See [`Floor::unpack`](super::Floor::unpack) for what it
+    /// tells.
     pub serial: u16,
 }
 
 impl Sensor {
-    /// The bits that a sensor stores: 3 for the mark, 32 for the crossings, 8 for the agents, 4 for the sides that are
-    /// shut, 9 for the claim. Its identifier is not counted: every sensor has one built in.
-    pub const BITS: u32 = 56;
-
-    /// The bits of a sensor that Ants needs.
+    /// The bits that a sensor stores for Ants: the crossings.
     pub const BITS_FOR_ANTS: u32 = 32;
+
+    /// For Brick&Mortar as published: the mark, which is neither closing nor sealed.
+    pub const BITS_FOR_PUBLISHED: u32 = 2;
+
+    /// For Brick&Mortar repaired: 2 for the mark, which is not sealed, 32 for the crossings, 8 for the agents, 4 for the
+    /// sides that are shut, 9 for the claim.
+    pub const BITS_FOR_REPAIRED: u32 = 55;
+
+    /// For Brick&Mortar robust against missed sensors: one more for the mark, and 16 for the identifier.
+    pub const BITS_FOR_ROBUST: u32 = Self::BITS_WITHOUT_SERIAL + u16::BITS;
+
+    const BITS_WITHOUT_SERIAL: u32 = Self::BITS_FOR_REPAIRED + 1;
 
     /// What it stores once one agent more has entered.
     #[inline]
@@ -87,7 +96,7 @@ impl Sensor {
         Self { agents: self.agents.saturating_sub(1), ..self }
     }
 
-    /// All that it stores but its identifier, in its lowest [`Sensor::BITS`] bits.
+    /// All that it stores but its identifier, in the lowest 56 bits.
     pub const fn to_bits(self) -> u64 {
         let claim = match self.claim {
             None => 0,
@@ -146,13 +155,14 @@ mod tests {
             claim: Some(Claim { owner: u8::MAX }),
             serial: 0,
         };
-        assert!(full.to_bits() < 1 << Sensor::BITS);
+        assert_eq!(full.to_bits() >> (Sensor::BITS_WITHOUT_SERIAL - 1), 1);
+        assert_eq!(Sensor::BITS_FOR_ROBUST, 72);
         let part = Sensor { shut: Sides::default().with(Side::West), claim: None, ..full };
         let owned = Sensor { claim: Some(Claim { owner: 0 }), ..Sensor::default() };
         for sensor in [full, part, owned, Sensor::default()] {
             assert_eq!(Sensor::from_bits(sensor.to_bits()), Some(sensor));
         }
-        for wrong in [5, 1 << 48, 1 << Sensor::BITS] {
+        for wrong in [5, 1 << 48, 1 << Sensor::BITS_WITHOUT_SERIAL] {
             assert_eq!(Sensor::from_bits(wrong), None, "{wrong:b}");
         }
     }
