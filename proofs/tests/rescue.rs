@@ -2,12 +2,16 @@
 //! stateright, which keeps fingerprints and knows no cycles. Both must find the same states, and break a demand in as
 //! few steps. Then longer runs with more faults than can be searched, at random.
 
+use std::collections::hash_map::{DefaultHasher, Entry};
+use std::collections::{HashMap, HashSet, VecDeque};
+use std::hash::{Hash, Hasher};
+
 use stateright::{Checker, Model, Property};
 use tautline_kernel::choice::Source;
 use tautline_kernel::rescue::{Condition, Rule, Task};
 use tautline_proofs::engine::{Outcome, require, sample};
 use tautline_proofs::rescue::space::{Found, Until, search};
-use tautline_proofs::rescue::{Action, Demand, Faults, Leases, Lossy, Setting, State};
+use tautline_proofs::rescue::{Action, Actor, Demand, Faults, Leases, Lossy, Setting, State};
 
 /// A setting, and the demands that no state may break.
 struct Rescue(Setting, Vec<Demand>);
@@ -73,6 +77,64 @@ fn stateright_finds_the_same_states_of_the_repaired_rule_and_none_that_breaks_a_
         checker.assert_properties();
         let counted = (checker.unique_state_count() as u64, found(&setting).states);
         assert_eq!(counted, (states, states), "{setting:?}");
+    }
+}
+
+/// A state as it is: every field, epochs by their numbers, records and notes whether or not they play a part.
+fn fingerprint(state: &State) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    format!("{state:?}").hash(&mut hasher);
+    hasher.finish()
+}
+
+/// What can come of a state: what it breaks, who waits, whose timer runs; and for each action whether it is bound to
+/// happen and which state, as the search tells states apart, it leads to.
+#[derive(PartialEq, Eq, Debug)]
+struct Future {
+    broken: Vec<Demand>,
+    owed: Vec<bool>,
+    awake: Vec<bool>,
+    next: Vec<(Action, bool, Box<[u8]>)>,
+}
+
+/// The search and stateright both take states for one that have the same key, so neither would notice a key that leaves
+/// out something that matters. Here every state is gone on from that differs in anything at all, and whichever have the
+/// same key must have the same future.
+#[test]
+fn states_that_are_taken_for_one_have_the_same_future() {
+    let setting = setting((2, 1), 2, 2, Faults::any(1));
+    let (mut known, mut futures) = (HashSet::new(), HashMap::new());
+    let mut ahead = VecDeque::from(setting.starts());
+    while let Some(state) = ahead.pop_front() {
+        if !known.insert(fingerprint(&state)) {
+            continue;
+        }
+        let after = |action| (action, state.after(&setting, action));
+        let next: Vec<(Action, State)> = state.actions(&setting).into_iter().map(after).collect();
+        let actors = (0..setting.robots).map(Actor::Robot).chain((0..setting.wfrs).map(Actor::Wfr));
+        let future = Future {
+            broken: Demand::ALL.into_iter().filter(|&demand| state.breaks(demand)).collect(),
+            owed: (0..setting.wfrs).map(|wfr| state.is_owed_service(&setting, wfr)).collect(),
+            awake: actors.map(|actor| state.timer_runs(actor)).collect(),
+            next: next
+                .iter()
+                .map(|(action, after)| (*action, state.is_bound_to_happen(&setting, *action), after.key()))
+                .collect(),
+        };
+        ahead.extend(next.into_iter().map(|(_, after)| after));
+        match futures.entry(state.key()) {
+            Entry::Vacant(entry) => {
+                entry.insert(future);
+            }
+            Entry::Occupied(entry) => assert_eq!(entry.get(), &future, "{state:?}"),
+        }
+    }
+    let found = found(&setting);
+    assert_eq!(futures.len() as u64, found.states);
+    assert_eq!((known.len(), futures.len()), (14_852, 11_388));
+    for demand in Demand::ALL.into_iter().filter(|&demand| demand != Demand::IsServed) {
+        let is_broken = futures.values().any(|future| future.broken.contains(&demand));
+        assert_eq!(is_broken, found.broken(demand).is_some(), "{demand:?}");
     }
 }
 
