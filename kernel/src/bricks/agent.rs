@@ -181,9 +181,11 @@ impl Agent {
         let reachable = scan.reachable();
         let free = reachable.and(scan.closing.not());
         let side = if let Some(lap) = self.lap {
-            let (lap, along) = self.go_on(rule, scan, lap);
+            let (mut lap, along) = self.go_on(rule, scan, lap);
             let along = along.filter(|&side| free.has(side));
             if let Some(side) = along {
+                // It may be a sealed cell that was missed: who goes through it has other material at hand.
+                lap.is_void |= rule.has(Condition::SeenOnly) && scan.unexplored.has(side);
                 self.lap = lap.through(side);
                 self.is_lost = self.lap.is_none();
             }
