@@ -7,7 +7,7 @@ mod scan;
 mod sensor;
 
 pub use ring::Ring;
-pub use scan::{Scan, around};
+pub use scan::Scan;
 pub use sensor::{Claim, Mark, Sensor, Sides};
 
 use crate::lattice::{Cell, Edge, Side};

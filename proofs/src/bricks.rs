@@ -5,7 +5,7 @@
 use rayon::prelude::*;
 use tautline_kernel::bricks::{Act, Agent, Condition, Next, Rule, carry_out};
 use tautline_kernel::choice::Source;
-use tautline_kernel::floor::{Floor, Mark, Scan, Sensor, around, settle};
+use tautline_kernel::floor::{Floor, Mark, Scan, Sensor, settle};
 use tautline_kernel::lattice::{Cell, Edge, Side, Step};
 
 use crate::clause::{Sabotage, Subject};
@@ -254,7 +254,7 @@ impl Team {
             let mut world = Misses { world, count: &mut state.misses, most: self.max_misses };
             let scan = Scan::new(&floor, body.cell, &mut world);
             if state.misses > missed {
-                unseen = misread(&floor, body.cell, &scan);
+                unseen = scan.misread(&floor, body.cell).collect();
             }
             (body.agent.decide(self.rule, &scan), self.turns == Turns::Whole)
         };
@@ -323,13 +323,6 @@ struct Turned {
     /// The cells of the sensors that it misses.
     unseen: Vec<Cell>,
     breaks: Option<&'static str>,
-}
-
-/// The cells around `cell` that read as unexplored in `scan` and are not.
-fn misread(floor: &impl Floor, cell: Cell, scan: &Scan) -> Vec<Cell> {
-    let reads = (0..).zip(around(cell)).filter(|(place, _)| scan.unexplored.0 >> place & 1 == 1);
-    let is_known = |&cell: &Cell| floor.sensor(cell).is_some_and(|sensor| sensor.mark != Mark::Unexplored);
-    reads.map(|(_, cell)| cell).filter(is_known).collect()
 }
 
 impl System for Team {

@@ -176,11 +176,11 @@ const NOT_ALONE: Subject = Subject::marking(bricks::Rule::REPAIRED.without(Alone
 /// Agents that walk no laps.
 const NO_LAPS: Subject = Subject::marking(bricks::Rule::REPAIRED.without(Laps));
 
-/// Agents that are robust against missed sensors only so far.
-const TRUSTING: [Mutant; 2] = [
-    mutant("ways through what reads as unexplored", Subject::marking_twice_without(SeenOnly)),
-    mutant("nothing gone over twice", Subject::marking_twice_without(SecondPass)),
-];
+/// Agents that are robust against missed sensors but for one thing.
+const TRUSTING: Mutant =
+    mutant("ways through what reads as unexplored", Subject::marking_twice_without(SeenOnly));
+const ONCE_OVER: Mutant = mutant("nothing gone over twice", Subject::marking_twice_without(SecondPass));
+const EARLY_LAPS: Mutant = mutant("laps in the first pass", Subject::marking_twice_without(LeastCrossed));
 
 /// Agents whose laps are told apart in another way.
 const fn laps(precedence: Precedence) -> Subject {
@@ -572,7 +572,7 @@ pub static CLAUSES: [Clause; 37] = [
                 small_floors::connected_half_blind,
                 small_floors::HALF_BLIND,
                 Verdict::Holds,
-                &TRUSTING,
+                &[TRUSTING, ONCE_OVER],
             ),
         ],
     },
@@ -611,11 +611,7 @@ pub static CLAUSES: [Clause; 37] = [
                 small_floors::robust_knowing_half_blind,
                 small_floors::HALF_BLIND,
                 Verdict::Holds,
-                &[
-                    mutant("ways through what reads as unexplored", Subject::marking_twice_without(SeenOnly)),
-                    mutant("nothing gone over twice", Subject::marking_twice_without(SecondPass)),
-                    mutant("laps in the first pass", Subject::marking_twice_without(LeastCrossed)),
-                ],
+                &[TRUSTING, ONCE_OVER, EARLY_LAPS],
             ),
         ],
     },
@@ -635,7 +631,7 @@ pub static CLAUSES: [Clause; 37] = [
                 small_floors::robust_explores_half_blind,
                 small_floors::HALF_BLIND,
                 Verdict::Holds,
-                &TRUSTING,
+                &[TRUSTING, ONCE_OVER],
             ),
         ],
     },
@@ -675,11 +671,7 @@ pub static CLAUSES: [Clause; 37] = [
                 small_floors::robust_ends_half_blind,
                 small_floors::HALF_BLIND,
                 Verdict::Holds,
-                &[
-                    mutant("ways through what reads as unexplored", Subject::marking_twice_without(SeenOnly)),
-                    mutant("nothing gone over twice", Subject::marking_twice_without(SecondPass)),
-                    mutant("laps in the first pass", Subject::marking_twice_without(LeastCrossed)),
-                ],
+                &[TRUSTING, ONCE_OVER, EARLY_LAPS],
             ),
         ],
     },

@@ -12,7 +12,7 @@ use tautline_kernel::ants;
 use tautline_kernel::bricks::{self, Agent, Condition, Next};
 use tautline_kernel::chain::Kind;
 use tautline_kernel::choice::Source;
-use tautline_kernel::floor::{Claim, Mark, Scan, around, settle};
+use tautline_kernel::floor::{Claim, Mark, Scan, settle};
 use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Edge, Step};
 use tautline_kernel::perception::time;
@@ -157,10 +157,7 @@ impl Team {
         let (body, cell) = (&mut self.bodies[number], &mut self.cells[number]);
         let scan = Scan::new(&self.floor, *cell, &mut self.misses);
         if !self.misses.is_never() {
-            let floor = &self.floor;
-            let cells = (0..).zip(around(*cell)).filter(|(place, _)| scan.unexplored.0 >> place & 1 == 1);
-            let cells = cells.map(|(_, cell)| cell).filter(|&cell| floor.mark(cell) != Mark::Unexplored);
-            self.unseen.extend(cells);
+            self.unseen.extend(scan.misread(&self.floor, *cell));
         }
         let step = match self.way {
             Way::Ants(rule) => ants::act(rule, &mut self.floor, *cell, &scan).map_or(Step::Stay, |side| {

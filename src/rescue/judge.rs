@@ -77,7 +77,7 @@ impl Judge {
     /// A MOVE of the present call arrives.
     pub(super) fn bids(&mut self, wfr: usize, bid: Bid) {
         if self.is_open[wfr] {
-            // The least (MHC, MID), said here anew: WFRs choose by the order that the kernel gives bids.
+            // The least (MHC, MID), said here anew: the judge does not ask the kernel which bid is the better.
             let bids = self.best[wfr].into_iter().chain([bid]);
             self.best[wfr] = bids.min_by_key(|&Bid { hops, robot: RobotId(id) }| (hops, id));
         }

@@ -28,8 +28,8 @@ pub struct Summary {
     pub robots_failed: RobotsFailed,
     /// RD: the sum of the distances that robots moved to WFRs over the sum of the shortest. None if nobody came.
     pub distance_ratio: Option<Estimate>,
-    /// Seconds from the first call for an event to the first robot, of the events that were served: those of one rescue depend on each
-    /// other, so that the interval is that of a ratio of sums over rescues. None if nobody came.
+    /// Seconds from the first call for an event to the first robot, of the events that were served: those of one rescue
+    /// depend on each other, so that the interval is that of a ratio of sums over rescues. None if nobody came.
     pub wait_s: Option<Estimate>,
     /// Messages sent in a rescue.
     pub messages: Estimate,
@@ -139,7 +139,8 @@ impl Kept {
 }
 
 impl Summary {
-    /// The rescues of `setting` with these seeds. `watch` is called after each. The result is the same on any number of threads.
+    /// The rescues of `setting` with these seeds. `watch` is called after each. The result is the same on any number of
+    /// threads.
     ///
     /// # Errors
     /// [`Halt`], as `watch` returned it, or if the setting makes no rescue.

@@ -34,7 +34,8 @@ pub struct Scan {
     pub serials: [u16; 8],
 }
 
-/// The cells around, clockwise from the northern one, and the side that leads from each to the next.
+/// The cells around, clockwise from the northern one as the bits of a [`Ring`], and the side that leads from each to the
+/// next.
 const AROUND: [(i16, i16, Side); 8] = [
     (0, -1, Side::East),
     (1, -1, Side::South),
@@ -48,11 +49,6 @@ const AROUND: [(i16, i16, Side); 8] = [
 
 const fn moved(cell: Cell, columns: i16, rows: i16) -> Cell {
     Cell::new(cell.x.saturating_add(columns), cell.y.saturating_add(rows))
-}
-
-/// The cells around `cell`, clockwise from the northern one: those of a [`Ring`], in the order of its bits.
-pub fn around(cell: Cell) -> [Cell; 8] {
-    AROUND.map(|(columns, rows, _)| moved(cell, columns, rows))
 }
 
 impl Scan {
@@ -142,6 +138,15 @@ impl Scan {
     #[inline]
     pub fn claim(&self, side: Side) -> Option<Claim> {
         self.claims.into_iter().zip(COMPASS).find_map(|(claim, at)| claim.filter(|_| at == side))
+    }
+
+    /// The cells around `cell`, from which this is a scan on `floor`, that read as unexplored and are not.
+    pub fn misread(&self, floor: &impl Floor, cell: Cell) -> impl Iterator<Item = Cell> {
+        let unexplored = self.unexplored;
+        let reads = (0..).zip(AROUND).filter(move |(place, _)| unexplored.0 >> place & 1 == 1);
+        let is_known =
+            |&cell: &Cell| floor.sensor(cell).is_some_and(|sensor| sensor.mark != Mark::Unexplored);
+        reads.map(move |(_, (columns, rows, _))| moved(cell, columns, rows)).filter(is_known)
     }
 
     /// What the neighbour beyond `side`, which has a sensor, is entered as.
