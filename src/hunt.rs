@@ -67,6 +67,7 @@ pub const fn breach(invariant: Invariant) -> Option<Breach> {
         | Invariant::Progress
         | Invariant::Ends
         | Invariant::Heard
+        | Invariant::Cheap
         | Invariant::Exhausts => None,
     }
 }

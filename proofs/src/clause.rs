@@ -48,6 +48,12 @@ pub enum Sabotage {
     BaseFollows,
     /// The planner is the plain recursion.
     PlainRecursion,
+    /// The plain recursion takes nobody ahead for sure to arrive.
+    DoubtsAll,
+    /// A virtual obstacle binds followers, too.
+    BindsFollowers,
+    /// One row and one column of a grid are not flooded.
+    SkipsALine,
     /// Agents beside each other scan and write at once.
     ActsAtOnce,
     /// Sensors do not count crossings.
@@ -66,6 +72,9 @@ impl Sabotage {
             Self::None
             | Self::BaseFollows
             | Self::PlainRecursion
+            | Self::DoubtsAll
+            | Self::BindsFollowers
+            | Self::SkipsALine
             | Self::ActsAtOnce
             | Self::CountsNothing
             | Self::LocalisesBadly

@@ -14,6 +14,8 @@ pub struct Decision {
     pub verdict: Verdict,
     /// Cases of a body that met its assumptions, runs of a search, or states.
     pub cases: u64,
+    /// Cases that were given up undecided; they are not among the others.
+    pub given_up: u64,
     /// The counterexample, if it is refuted.
     pub counterexample: Option<Evidence>,
     /// Mutants that were rejected.
@@ -152,7 +154,7 @@ impl Prover {
 
 impl Decision {
     const fn new(verdict: Verdict, cases: u64, counterexample: Option<Evidence>) -> Self {
-        Self { verdict, cases, counterexample, killed: Vec::new(), survived: Vec::new() }
+        Self { verdict, cases, given_up: 0, counterexample, killed: Vec::new(), survived: Vec::new() }
     }
 
     /// A body that did not cover what it claims to, holds for want of cases: that is no verdict.
@@ -163,6 +165,6 @@ impl Decision {
             None => Verdict::Open,
         };
         let evidence = tally.violation.map(|(choices, demand)| Evidence::Choices(choices, demand));
-        Self::new(verdict, tally.cases, evidence)
+        Self { given_up: tally.given_up, ..Self::new(verdict, tally.cases, evidence) }
     }
 }

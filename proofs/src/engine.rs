@@ -12,6 +12,8 @@ use tautline_kernel::choice::Source;
 pub enum Stop {
     /// The choices made no case of the clause.
     Assumed,
+    /// What the case is compared with takes too long to find: the case was not decided.
+    GivenUp,
     /// The clause is broken: what was required, in words.
     Violated(&'static str),
 }
@@ -38,8 +40,10 @@ pub const fn require(holds: bool, demand: &'static str) -> Result<(), Stop> {
 /// What became of a body under many answers.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Tally {
-    /// Cases that met the assumptions, up to the violation if there is one.
+    /// Cases that met the assumptions and were decided, up to the violation if there is one.
     pub cases: u64,
+    /// Cases that were given up.
+    pub given_up: u64,
     /// The situations that occurred, sorted.
     pub covered: Vec<&'static str>,
     /// The first violation: the choices, and the demand that was not met.
@@ -51,6 +55,10 @@ impl Tally {
     fn count(&mut self, outcome: Outcome, choices: &[u32]) -> bool {
         match outcome {
             Err(Stop::Assumed) => return false,
+            Err(Stop::GivenUp) => {
+                self.given_up += 1;
+                return false;
+            }
             Err(Stop::Violated(demand)) => self.violation = Some((choices.to_vec(), demand)),
             Ok(situation) => cover(&mut self.covered, situation),
         }
@@ -274,7 +282,7 @@ mod tests {
             Ok(if first == 0 { "none" } else { "some" })
         });
         assert_eq!(seen, [(0, 0), (2, 0), (2, 1), (2, 2)]);
-        assert_eq!(tally, Tally { cases: 4, covered: vec!["none", "some"], violation: None });
+        assert_eq!(tally, Tally { cases: 4, given_up: 0, covered: vec!["none", "some"], violation: None });
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //! their own: of the kernel's rule only the names of its conditions are used.
 
 use serde::{Deserialize, Serialize};
-use tautline_kernel::chain::{Chain, Condition, Kind, Message, Outcome};
+use tautline_kernel::chain::{Budget, Chain, Condition, Kind, Message, Outcome, Plan};
 use tautline_kernel::grid::{Avoid, CellMark, EdgeMark, Grid};
 use tautline_kernel::lattice::{Cell, Edge, Step};
 
@@ -20,8 +20,8 @@ pub(crate) struct Moment<'a, G, const ROBOTS: usize> {
     pub(crate) planned: &'a Chain<G, ROBOTS>,
     /// When it had moved.
     pub(crate) after: &'a Chain<G, ROBOTS>,
-    pub(crate) kind: Kind,
-    /// Base first.
+    pub(crate) plan: &'a Plan<ROBOTS>,
+    /// What is taken for the plan's steps, base first.
     pub(crate) steps: &'a [Step],
     /// Of R_2 … R_N, as they arrived.
     pub(crate) messages: &'a [u8],
@@ -45,6 +45,8 @@ pub enum Invariant {
     Ends,
     /// CHAIN-8: who hears the bytes knows the state.
     Heard,
+    /// CHAIN-12: no plan costs more than the budget of the rule.
+    Cheap,
     /// CHAIN-14: at the end of a run, every cell that a chain can reach at all is explored.
     Exhausts,
 }
@@ -59,14 +61,21 @@ impl Invariant {
         Self::Ends,
     ];
 
+    /// Those of plans and what is said of them.
+    const OF_PLANS: [Self; 6] =
+        [Self::Admitted, Self::Distinct, Self::BaseStays, Self::Progress, Self::Heard, Self::Cheap];
+
     /// Those that are looked for in one search with this one.
     pub const fn family(self) -> &'static [Self] {
         match self {
             Self::Without(_) | Self::Ends => &Self::OF_RUNS,
             Self::Exhausts => &[Self::Exhausts],
-            Self::Admitted | Self::Distinct | Self::BaseStays | Self::Progress | Self::Heard => {
-                &[Self::Admitted, Self::Distinct, Self::BaseStays, Self::Progress, Self::Heard]
-            }
+            Self::Admitted
+            | Self::Distinct
+            | Self::BaseStays
+            | Self::Progress
+            | Self::Heard
+            | Self::Cheap => &Self::OF_PLANS,
         }
     }
 
@@ -79,6 +88,7 @@ impl Invariant {
             Self::BaseStays => "CHAIN-6",
             Self::Progress | Self::Ends => "CHAIN-7",
             Self::Heard => "CHAIN-8",
+            Self::Cheap => "CHAIN-12",
             Self::Exhausts => "CHAIN-14",
         }
     }
@@ -114,6 +124,7 @@ impl Invariant {
             // Of the end of a run, or of its never coming.
             Self::Ends | Self::Exhausts => Ok(()),
             Self::Heard => moment.is_heard(),
+            Self::Cheap => moment.is_cheap(),
         }
     }
 }
@@ -124,7 +135,7 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
     }
 
     fn is_admitted(&self) -> Result<(), Stop> {
-        if self.kind == Kind::Backtrack {
+        if self.plan.kind == Kind::Backtrack {
             return Ok(());
         }
         let demanded = |condition| self.subject.intended.has(condition);
@@ -172,7 +183,7 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
     }
 
     fn is_distinct(&self) -> Result<(), Stop> {
-        if self.kind == Kind::Backtrack {
+        if self.plan.kind == Kind::Backtrack {
             return Ok(());
         }
         let planned: Vec<Cell> = self.planned_cells().collect();
@@ -207,7 +218,7 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
             self.after.gained() == (self.planned.gained() || gains),
             "a cell explored and a wall found are gains, and nothing else is",
         )?;
-        match self.kind {
+        match self.plan.kind {
             Kind::Backtrack => {
                 require(!unfolds, "an epoch that unfolds the chain gains before it takes anything back")?;
                 require(
@@ -253,40 +264,33 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
             .map_or(Vec::new(), |(cells, _)| cells)
     }
 
-    /// What a listener makes of the state before and the bytes, is the state after.
+    /// The budget of the rule that the team claims to follow.
+    fn is_cheap(&self) -> Result<(), Stop> {
+        let most = match self.subject.intended.budget {
+            Budget::Unlimited => u32::MAX,
+            Budget::LooksPerRobot(looks) => u32::from(looks) * self.planned.cells().len() as u32,
+        };
+        require(self.planned.looked_at() <= most, "a plan looks at no more candidates than its budget allows")
+    }
+
+    /// One who had the state before, planned the same and hears the bytes, has the state after: so a second chain that
+    /// is fed with bytes alone is at every time what the first one is.
     fn is_heard(&self) -> Result<(), Stop> {
-        let mut grid = *self.planned.grid();
-        let mut cells = self.planned.cells().to_vec();
-        for (cell, &byte) in cells[1..].iter_mut().zip(self.messages) {
-            let Ok(message) = Message::decode(byte) else {
-                return require(false, "every byte is a message");
-            };
-            if let Step::Cross(side) = message.step {
-                let edge = Edge::new(*cell, side);
-                match message.outcome {
-                    Outcome::Arrived => grid.put_edge(EdgeMark::Open, edge),
-                    Outcome::Blocked => grid.put_edge(EdgeMark::Wall, edge),
-                    Outcome::TookBack => {}
-                }
-            }
-            *cell = cell.after(message.made());
-            grid.put(CellMark::Explored, *cell);
-        }
-        require(
-            cells == self.after.cells() && grid == *self.after.grid(),
-            "who hears the bytes knows the state",
-        )
+        let mut listener = *self.planned;
+        let understood = listener.hear(self.plan, self.messages).is_ok();
+        require(understood, "every byte is a message that fits the plan")?;
+        require(listener == *self.after, "one who hears the bytes has the state of the whole team")
     }
 }
 
 /// E_S: at most one column and one row apart.
-fn in_safe(centre: Cell, cell: Cell) -> bool {
+pub(crate) fn in_safe(centre: Cell, cell: Cell) -> bool {
     let (dx, dy) = centre.apart(cell);
     dx <= 1 && dy <= 1
 }
 
 /// E_C: E_S, and two straight ahead.
-fn in_covered(centre: Cell, cell: Cell) -> bool {
+pub(crate) fn in_covered(centre: Cell, cell: Cell) -> bool {
     let (dx, dy) = centre.apart(cell);
     in_safe(centre, cell) || u32::from(dx) + u32::from(dy) <= 2
 }

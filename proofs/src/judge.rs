@@ -2,7 +2,7 @@
 //! the sentences of `SPEC.md`, and has geometry, history and knowledge of its own: it shares no code with the
 //! planner, the search or the simulator.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet, VecDeque};
 use std::fmt;
 
 /// Column and row.
@@ -11,7 +11,8 @@ pub type Place = (i32, i32);
 /// A counterexample, written down.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Exhibit {
-    /// The clause that its last move is said to break, `CHAIN-1`, `CHAIN-2` or `CHAIN-3`, or its end, `CHAIN-13`.
+    /// The clause that its last move is said to break, `CHAIN-1`, `CHAIN-2` or `CHAIN-3`, or its end, `CHAIN-13` or
+    /// `CHAIN-14`.
     pub clause: String,
     /// The rule that the team is said to follow.
     pub repairs: Repairs,
@@ -74,29 +75,31 @@ impl fmt::Display for Objection {
 
 impl std::error::Error for Objection {}
 
-/// Judges an exhibit: whether its moves are possible in its layout and admitted by its rule, whether each of its
-/// walls was met, and whether its last move, and no earlier one, breaks the clause; or whether the clause is broken if
-/// the run ends here.
+/// Judges an exhibit: whether its moves are possible in its layout and admitted by its rule; whether in each of them the
+/// leader does what its rule says, and a backtrack is due; whether each of the walls was met; and whether the last move,
+/// and no earlier one, breaks the clause, or the run is over after it and not before, and its end breaks the clause. What
+/// followers prefer among the moves that are admitted is not asked, nor by which way a chain unfolds. Of more than 12
+/// robots it is not asked either what the leader does, so that the end of their runs cannot be judged.
 ///
 /// # Errors
 /// The first [`Objection`].
 pub fn judge(exhibit: &Exhibit) -> Result<(), Objection> {
     let whole = |what| Objection { at: 0, what };
-    let is_broken: fn(&Court<'_>, &Move) -> bool = match exhibit.clause.as_str() {
-        "CHAIN-1" => |_, made| contact_is_lost(&made.places),
-        "CHAIN-2" => |_, made| cell_is_crowded(&made.places),
-        "CHAIN-3" => |court, made| range_is_left(&court.places, &made.places),
-        "CHAIN-13" => |court, _| court.misses_a_cell(),
+    let clause = match exhibit.clause.as_str() {
+        "CHAIN-1" => Broken::ByMove(|_, made| contact_is_lost(&made.places)),
+        "CHAIN-2" => Broken::ByMove(|_, made| cell_is_crowded(&made.places)),
+        "CHAIN-3" => Broken::ByMove(|court, made| range_is_left(&court.places, &made.places)),
+        "CHAIN-13" => Broken::AtEnd(|court| Ok(court.misses_within_reach())),
+        "CHAIN-14" => Broken::AtEnd(|court| court.misses_reachable()),
         _ => return Err(whole("there is no such clause to break in a run")),
     };
-    let is_about_the_end = exhibit.clause == "CHAIN-13";
-    if is_about_the_end && exhibit.repairs == Repairs::With {
-        return Err(whole("with its repairs the team would go on: it unfolds towards the cell"));
-    }
     let first = exhibit.moves.first().filter(|_| exhibit.robots >= 2);
     let Some(first) = first else { return Err(whole("a counterexample needs two robots and a move")) };
     if !exhibit.is_free(exhibit.base) {
         return Err(whole("the base is not a free cell of the layout"));
+    }
+    if matches!(clause, Broken::AtEnd(_)) && exhibit.robots > MOST_LED {
+        return Err(whole("the judge cannot say of more than 12 robots whether their run is over"));
     }
     let mut court = Court {
         exhibit,
@@ -106,18 +109,34 @@ pub fn judge(exhibit: &Exhibit) -> Result<(), Objection> {
         walls: BTreeSet::new(),
         open: BTreeSet::new(),
         explored: BTreeSet::from([exhibit.base]),
+        refused: BTreeSet::new(),
+        gained: true,
+        unfolds: false,
     };
     for (index, made) in exhibit.moves.iter().enumerate() {
         let at = index + 1;
-        court.hear(made).map_err(|what| Objection { at, what })?;
-        court.explored.extend(&made.places);
+        let object = |what| Objection { at, what };
+        court.are_all_there(made).map_err(object)?;
+        if exhibit.robots <= MOST_LED {
+            court.duty().and_then(|duty| duty.is_done_by(made)).map_err(object)?;
+        }
+        court.hear(made).map_err(object)?;
         let is_last = at == exhibit.moves.len();
-        let broken = (is_last || !is_about_the_end) && is_broken(&court, made);
+        if let Broken::ByMove(is_broken) = clause {
+            match (is_broken(&court, made), is_last) {
+                (true, false) => return Err(object("the clause is broken before the last move")),
+                (false, true) => return Err(object("the last move does not break the clause")),
+                (true, true) | (false, false) => {}
+            }
+        }
         court.places.clone_from(&made.places);
-        match (broken, is_last) {
-            (true, false) => return Err(Objection { at, what: "the clause is broken before the last move" }),
-            (false, true) => return Err(Objection { at, what: "the last move does not break the clause" }),
-            (true, true) | (false, false) => {}
+    }
+    if let Broken::AtEnd(is_broken) = clause {
+        if court.duty().map_err(whole)? != Duty::Nothing {
+            return Err(whole("the run goes on after the last move"));
+        }
+        if !is_broken(&court).map_err(whole)? {
+            return Err(whole("the end of the run does not break the clause"));
         }
     }
     if exhibit.walls.iter().any(|wall| !court.walls.contains(wall)) {
@@ -125,6 +144,56 @@ pub fn judge(exhibit: &Exhibit) -> Result<(), Objection> {
     }
     Ok(())
 }
+
+/// What breaks a clause.
+#[derive(Clone, Copy)]
+enum Broken {
+    ByMove(fn(&Court<'_>, &Move) -> bool),
+    AtEnd(fn(&Court<'_>) -> Result<bool, &'static str>),
+}
+
+/// What the team has to do next.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Duty {
+    /// To advance, the leader by this step.
+    Lead(Place),
+    /// To advance, since the chain unfolds.
+    Unfold,
+    /// To take the latest open move back.
+    TakeBack,
+    /// The run is over.
+    Nothing,
+}
+
+impl Duty {
+    fn is_done_by(self, made: &Move) -> Result<(), &'static str> {
+        match self {
+            Self::Nothing => Err("the run is over before this move"),
+            Self::TakeBack if !made.is_backtrack => {
+                Err("the leader has no way on: the team takes a move back")
+            }
+            Self::Lead(_) | Self::Unfold if made.is_backtrack => {
+                Err("the leader has a way on: the team takes no move back")
+            }
+            Self::Lead(step) if made.tried.last() != Some(&step) => {
+                Err("the leader has a candidate that comes first")
+            }
+            Self::Lead(_) | Self::Unfold | Self::TakeBack => Ok(()),
+        }
+    }
+}
+
+/// Robots of which the judge looks at everything that they could do behind a leader.
+const MOST_LED: usize = 12;
+
+/// Ways of followers that the judge looks at for one step of the leader.
+const MOST_LOOKS: u32 = 1_000_000;
+
+/// Places of all robots that the judge looks at to say what a chain can reach.
+const MOST_CONFIGURATIONS: usize = 1_000_000;
+
+/// East, south, west, north: the order that settles ties.
+const SIDES: [Place; 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
 
 impl Exhibit {
     fn is_free(&self, (x, y): Place) -> bool {
@@ -144,29 +213,46 @@ impl Exhibit {
             && (y - self.base.1).abs() <= range
     }
 
+    /// The places of that area.
+    fn inside(&self) -> impl Iterator<Item = Place> {
+        let range = i32::try_from(self.robots).unwrap_or(i32::MAX) - 1;
+        let (x, y) = self.base;
+        let columns = x.saturating_sub(range).max(0)..=x.saturating_add(range).min(self.width - 1);
+        let rows = y.saturating_sub(range).max(0)..=y.saturating_add(range).min(self.height - 1);
+        rows.flat_map(move |y| columns.clone().map(move |x| (x, y)))
+    }
+
     /// The border of the area: known from the start.
     fn is_border(&self, side: (Place, Place)) -> bool {
         !(self.is_inside(side.0) && self.is_inside(side.1))
     }
 
-    /// The places of the area that are one link from `from`.
-    fn linked(&self, from: Place) -> Vec<Place> {
+    /// The places of the area at most N−1 links from the base, where links cross the sides that `is_open`.
+    fn within_reach(&self, is_open: impl Fn((Place, Place)) -> bool) -> BTreeSet<Place> {
         let pass = |from: Place, step: Place| {
             let to = add(from, step);
-            (self.is_inside(to) && self.is_open(side_between(from, to))).then_some(to)
+            (self.is_inside(to) && is_open(side_between(from, to))).then_some(to)
         };
-        let mut linked = Vec::new();
-        for (x, y) in [(1, 0), (0, 1), (-1, 0), (0, -1)] {
-            if let Some(next) = pass(from, (x, y)) {
-                linked.push(next);
-                linked.extend([(y, x), (-y, -x)].into_iter().filter_map(|turn| pass(next, turn)));
-            }
+        let linked = |from: Place| {
+            SIDES
+                .into_iter()
+                .filter_map(move |(x, y)| pass(from, (x, y)).map(|next| (next, (x, y))))
+                .flat_map(move |(next, (x, y))| {
+                    let turns = [(y, x), (-y, -x)].into_iter().filter_map(move |turn| pass(next, turn));
+                    std::iter::once(next).chain(turns)
+                })
+        };
+        let mut reached = BTreeSet::from([self.base]);
+        let mut rim = vec![self.base];
+        for _ in 1..self.robots {
+            rim = rim.into_iter().flat_map(linked).filter(|&place| reached.insert(place)).collect();
         }
-        linked
+        reached
     }
 }
 
 /// What the team knows, kept by the judge.
+#[derive(Clone)]
 struct Court<'a> {
     exhibit: &'a Exhibit,
     places: Vec<Place>,
@@ -175,14 +261,24 @@ struct Court<'a> {
     walls: BTreeSet<(Place, Place)>,
     open: BTreeSet<(Place, Place)>,
     explored: BTreeSet<Place>,
+    /// The sides with a virtual obstacle.
+    refused: BTreeSet<(Place, Place)>,
+    /// Whether this epoch has explored a cell or found a wall; the first begins with one explored.
+    gained: bool,
+    /// Whether this epoch began by unfolding the chain.
+    unfolds: bool,
 }
 
 impl Court<'_> {
-    fn hear(&mut self, made: &Move) -> Result<(), &'static str> {
+    fn are_all_there(&self, made: &Move) -> Result<(), &'static str> {
         let robots = self.exhibit.robots;
-        if [made.tried.len(), made.blocked.len(), made.places.len()] != [robots; 3] {
+        if [made.tried.len(), made.blocked.len(), made.places.len(), self.places.len()] != [robots; 4] {
             return Err("every robot has a step, an outcome and a place");
         }
+        Ok(())
+    }
+
+    fn hear(&mut self, made: &Move) -> Result<(), &'static str> {
         if made.tried.iter().any(|&(x, y)| x.unsigned_abs().saturating_add(y.unsigned_abs()) > 1) {
             return Err("a step leads to a side neighbour or nowhere");
         }
@@ -194,11 +290,12 @@ impl Court<'_> {
         } else {
             self.hear_advance(made)?;
         }
-        for robot in 0..robots {
+        for robot in 0..self.exhibit.robots {
             let arrived = if made.blocked[robot] { self.places[robot] } else { self.target(made, robot) };
             if made.places[robot] != arrived {
                 return Err("a robot is not where its step leads");
             }
+            self.gained |= self.explored.insert(arrived);
         }
         Ok(())
     }
@@ -218,54 +315,32 @@ impl Court<'_> {
         self.admits(made)?;
         for robot in 1..made.tried.len() {
             let is_step = made.tried[robot] != (0, 0);
-            let side = self.side(made, robot);
             if made.blocked[robot] && !is_step {
                 return Err("a robot that stays is not blocked");
             }
-            if is_step && made.blocked[robot] == self.exhibit.is_open(side) {
+            if is_step && made.blocked[robot] == self.exhibit.is_open(self.side(robot, made.tried[robot])) {
                 return Err("a robot is blocked where nothing is in the way, or passes where something is");
             }
         }
         for robot in 1..made.tried.len() {
-            if made.tried[robot] != (0, 0) {
-                let known = if made.blocked[robot] { &mut self.walls } else { &mut self.open };
-                known.insert(side_between(self.places[robot], add(self.places[robot], made.tried[robot])));
+            let side = self.side(robot, made.tried[robot]);
+            if made.blocked[robot] {
+                self.gained |= self.walls.insert(side);
+            } else if made.tried[robot] != (0, 0) {
+                self.open.insert(side);
             }
         }
-        let zero = |robot: usize| if made.blocked[robot] { (0, 0) } else { made.tried[robot] };
-        self.history.push((0..made.tried.len()).map(zero).collect());
+        let displaced = |robot: usize| if made.blocked[robot] { (0, 0) } else { made.tried[robot] };
+        self.history.push((0..made.tried.len()).map(displaced).collect());
         Ok(())
     }
 
-    /// The sentences of the rule.
+    /// The sentences of the rule about a planned move.
     fn admits(&self, made: &Move) -> Result<(), &'static str> {
-        let leader = made.tried.len() - 1;
-        let planned: Vec<Place> = (0..=leader).map(|robot| self.target(made, robot)).collect();
-        for robot in 1..=leader {
-            let stays = made.tried[robot] == (0, 0);
-            let side = self.side(made, robot);
-            if !stays && (self.walls.contains(&side) || self.exhibit.is_border(side)) {
-                return Err("a robot plans to cross a known wall");
-            }
-            let is_null = robot == leader && stays;
-            if !is_null && !is_covered(self.places[robot - 1], planned[robot]) {
-                return Err("a planned position is not in E_C of the present position behind");
-            }
-            if !is_safe(planned[robot], planned[robot - 1]) {
-                return Err("a planned position is not in E_S of the planned position ahead");
-            }
-            let is_sure = stays || self.open.contains(&side);
-            let others = self.places.iter().filter(|&&place| place == planned[robot]).count();
-            if self.exhibit.repairs == Repairs::With {
-                if !is_sure && !is_covered(self.places[robot], planned[robot - 1]) {
-                    return Err(
-                        "behind an unsure neighbour a robot plans to leave E_C of its present position",
-                    );
-                }
-                if !stays && planned[robot] != self.exhibit.base && others >= 2 {
-                    return Err("a robot plans to enter a cell that two others occupy");
-                }
-            }
+        let planned: Vec<Place> = (0..made.tried.len()).map(|robot| self.target(made, robot)).collect();
+        for robot in 1..planned.len() {
+            self.admits_step(robot, made.tried[robot])?;
+            self.admits_pair(robot, made.tried[robot], planned[robot - 1])?;
             if planned[robot] != self.exhibit.base && planned[1..robot].contains(&planned[robot]) {
                 return Err("two robots plan to be in one cell outside the base");
             }
@@ -273,23 +348,214 @@ impl Court<'_> {
         Ok(())
     }
 
-    /// CHAIN-13: everything is taken back, and some place at most N−1 links from the base was never explored.
-    fn misses_a_cell(&self) -> bool {
-        let mut within_reach = BTreeSet::from([self.exhibit.base]);
-        for _ in 1..self.exhibit.robots {
-            let wider: Vec<Place> =
-                within_reach.iter().flat_map(|&place| self.exhibit.linked(place)).collect();
-            within_reach.extend(wider);
+    /// Those about a robot alone.
+    fn admits_step(&self, robot: usize, step: Place) -> Result<(), &'static str> {
+        let (stays, planned) = (step == (0, 0), add(self.places[robot], step));
+        if !stays && self.is_known_wall(self.side(robot, step)) {
+            return Err("a robot plans to cross a known wall");
         }
-        self.history.is_empty() && !within_reach.is_subset(&self.explored)
+        let is_null = stays && robot + 1 == self.exhibit.robots;
+        if !is_null && !is_covered(self.places[robot - 1], planned) {
+            return Err("a planned position is not in E_C of the present position behind");
+        }
+        let others = self.places.iter().filter(|&&place| place == planned).count();
+        let is_full = !stays && planned != self.exhibit.base && others >= 2;
+        if is_full && self.exhibit.repairs == Repairs::With {
+            return Err("a robot plans to enter a cell that two others occupy");
+        }
+        Ok(())
+    }
+
+    /// Those about a robot that plans to make `step`, and the one behind it, which plans to be at `behind`.
+    fn admits_pair(&self, robot: usize, step: Place, behind: Place) -> Result<(), &'static str> {
+        if !is_safe(add(self.places[robot], step), behind) {
+            return Err("a planned position is not in E_S of the planned position ahead");
+        }
+        let is_sure = step == (0, 0) || self.open.contains(&self.side(robot, step));
+        if self.exhibit.repairs == Repairs::With && !is_sure && !is_covered(self.places[robot], behind) {
+            return Err("behind an unsure neighbour a robot plans to leave E_C of its present position");
+        }
+        Ok(())
+    }
+
+    /// What the team has to do next, by the rule; new virtual obstacles and epochs are noted.
+    fn duty(&mut self) -> Result<Duty, &'static str> {
+        if self.exhibit.inside().all(|place| self.explored.contains(&place)) {
+            return Ok(Duty::Nothing);
+        }
+        let is_target = self.exhibit.repairs == Repairs::With
+            && !self.exhibit.within_reach(|side| !self.is_known_wall(side)).is_subset(&self.explored);
+        for is_fresh in [false, true] {
+            if self.unfolds && !self.gained && is_target {
+                return Ok(Duty::Unfold);
+            }
+            if let Some(step) = self.lead()? {
+                return Ok(Duty::Lead(step));
+            }
+            if !self.history.is_empty() {
+                return Ok(Duty::TakeBack);
+            }
+            let unfolds = !is_fresh && is_target;
+            if !self.gained && !unfolds {
+                break;
+            }
+            (self.gained, self.unfolds) = (false, unfolds);
+            self.refused.clear();
+        }
+        Ok(Duty::Nothing)
+    }
+
+    /// The step of the leader that its rule chooses: of its candidates the first that the others can follow.
+    fn lead(&mut self) -> Result<Option<Place>, &'static str> {
+        let leader = self.places.len() - 1;
+        let (at, base) = (self.places[leader], self.exhibit.base);
+        let mut list: Vec<(u32, i32, Place)> = SIDES
+            .into_iter()
+            .filter(|&step| !self.is_shut(self.side(leader, step)))
+            .filter_map(|step| {
+                let outward = step.0 * (at.0 - base.0) + step.1 * (at.1 - base.1);
+                Some((self.distance(add(at, step))?, -outward, step))
+            })
+            .collect();
+        // A stable sort: direction settles what is left.
+        list.sort_by_key(|&(distance, inward, _)| (distance, inward));
+        let mut candidates = Vec::new();
+        for (_, _, step) in list {
+            let side = self.side(leader, step);
+            let is_covered = is_covered(self.places[leader - 1], add(at, step));
+            if !is_covered {
+                self.refused.insert(side);
+            }
+            candidates.push((side, if is_covered { step } else { (0, 0) }));
+        }
+        for (side, step) in candidates {
+            let mut tried = vec![(0, 0); leader + 1];
+            tried[leader] = step;
+            let is_admitted = self.admits_step(leader, step).is_ok();
+            if is_admitted && self.can_follow(&mut tried, leader, &mut MOST_LOOKS.clone())? {
+                return Ok(Some(step));
+            }
+            self.refused.insert(side);
+        }
+        Ok(None)
+    }
+
+    /// Whether the robots behind `robot` have steps that are admitted with those of `tried` from it on.
+    fn can_follow(&self, tried: &mut [Place], robot: usize, looks: &mut u32) -> Result<bool, &'static str> {
+        let behind = robot - 1;
+        if behind == 0 {
+            return Ok(self.admits_pair(robot, tried[robot], self.exhibit.base).is_ok());
+        }
+        for step in SIDES.into_iter().chain([(0, 0)]) {
+            *looks = looks.checked_sub(1).ok_or("followers have too many ways for the judge to look at")?;
+            let planned = add(self.places[behind], step);
+            let is_taken = planned != self.exhibit.base
+                && (robot..tried.len()).any(|ahead| add(self.places[ahead], tried[ahead]) == planned);
+            if is_taken
+                || self.admits_step(behind, step).is_err()
+                || self.admits_pair(robot, tried[robot], planned).is_err()
+            {
+                continue;
+            }
+            tried[behind] = step;
+            if self.can_follow(tried, behind, looks)? {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Steps from `from` to the nearest unexplored place, over sides that are not shut for the leader.
+    fn distance(&self, from: Place) -> Option<u32> {
+        let mut seen = BTreeSet::from([from]);
+        let mut queue = VecDeque::from([(from, 0)]);
+        while let Some((place, steps)) = queue.pop_front() {
+            if !self.explored.contains(&place) {
+                return Some(steps);
+            }
+            for step in SIDES {
+                let next = add(place, step);
+                if !self.is_shut(side_between(place, next)) && seen.insert(next) {
+                    queue.push_back((next, steps + 1));
+                }
+            }
+        }
+        None
+    }
+
+    /// CHAIN-13: some place at most N−1 links from the base was never explored.
+    fn misses_within_reach(&self) -> bool {
+        let within_reach = self.exhibit.within_reach(|side| self.exhibit.is_open(side));
+        !within_reach.is_subset(&self.explored)
+    }
+
+    /// CHAIN-14: a team that knows the layout, and tries no wall, can bring a robot to a place that was never explored.
+    fn misses_reachable(&self) -> Result<bool, &'static str> {
+        let start = vec![self.exhibit.base; self.exhibit.robots];
+        // One who knows all sides: nobody is unsure, and no wall is planned to be crossed.
+        let mut informed = Court { open: BTreeSet::new(), walls: BTreeSet::new(), ..self.clone() };
+        for place in self.exhibit.inside() {
+            for step in [(1, 0), (0, 1)] {
+                let side = side_between(place, add(place, step));
+                let known = if self.exhibit.is_open(side) { &mut informed.open } else { &mut informed.walls };
+                known.insert(side);
+            }
+        }
+        let mut seen = HashSet::from([start.clone()]);
+        let mut left = vec![start];
+        while let Some(places) = left.pop() {
+            if places.iter().any(|place| !self.explored.contains(place)) {
+                return Ok(true);
+            }
+            informed.places = places;
+            informed.configurations(&mut vec![(0, 0)], &mut |next| {
+                if seen.insert(next.clone()) {
+                    left.push(next);
+                }
+            });
+            if seen.len() > MOST_CONFIGURATIONS {
+                return Err("the robots have too many places for the judge to say what they can reach");
+            }
+        }
+        Ok(false)
+    }
+
+    /// The places of all robots after each team move that is admitted and begins with the steps `tried`, base first.
+    fn configurations(&self, tried: &mut Vec<Place>, sink: &mut dyn FnMut(Vec<Place>)) {
+        let robot = tried.len();
+        let planned: Vec<Place> = tried.iter().zip(&self.places).map(|(&step, &at)| add(at, step)).collect();
+        if robot == self.exhibit.robots {
+            return sink(planned);
+        }
+        for step in SIDES.into_iter().chain([(0, 0)]) {
+            let to = add(self.places[robot], step);
+            let is_taken = to != self.exhibit.base && planned[1..].contains(&to);
+            if !is_taken
+                && self.admits_step(robot, step).is_ok()
+                && self.admits_pair(robot, step, planned[robot - 1]).is_ok()
+            {
+                tried.push(step);
+                self.configurations(tried, sink);
+                tried.pop();
+            }
+        }
+    }
+
+    fn is_known_wall(&self, side: (Place, Place)) -> bool {
+        self.walls.contains(&side) || self.exhibit.is_border(side)
+    }
+
+    /// Whether the leader does not cross a side in this epoch.
+    fn is_shut(&self, side: (Place, Place)) -> bool {
+        self.is_known_wall(side) || self.refused.contains(&side)
     }
 
     fn target(&self, made: &Move, robot: usize) -> Place {
         add(self.places[robot], made.tried[robot])
     }
 
-    fn side(&self, made: &Move, robot: usize) -> (Place, Place) {
-        side_between(self.places[robot], self.target(made, robot))
+    fn side(&self, robot: usize, step: Place) -> (Place, Place) {
+        side_between(self.places[robot], add(self.places[robot], step))
     }
 }
 
@@ -336,32 +602,37 @@ fn range_is_left(before: &[Place], after: &[Place]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use tautline_kernel::chain::{Kind, Rule};
+    use tautline_kernel::chain::{Chain, Intent, Kind, Rule};
+    use tautline_kernel::grid::SmallGrid;
     use tautline_kernel::lattice::{Cell, Step};
 
     use super::*;
     use crate::clause::Subject;
+    use crate::invariant::Invariant;
+    use crate::run::Frame;
     use crate::search::{Bounds, Counterexample, search, unwatched};
 
     fn place(cell: Cell) -> Place {
         (i32::from(cell.x), i32::from(cell.y))
     }
 
-    fn exhibit(found: &Counterexample) -> Exhibit {
+    fn exhibit(found: &Counterexample, bounds: &Bounds) -> Exhibit {
         let tried = |step: &Step| place(Cell::new(0, 0).after(*step));
+        let side = 2 * bounds.robots as i32 - 1;
+        let repairs = if bounds.subject.rule == Rule::REPAIRED { Repairs::With } else { Repairs::Without };
         Exhibit {
             clause: found.invariant.clause().to_owned(),
-            repairs: Repairs::Without,
-            width: 7,
-            height: 7,
+            repairs,
+            width: side,
+            height: side,
             walls: found
                 .walls
                 .iter()
                 .map(|wall| (place(wall.cell()), place(wall.cell().beyond(wall.side()))))
                 .collect(),
             blocked: BTreeSet::new(),
-            base: (3, 3),
-            robots: 4,
+            base: place(bounds.base),
+            robots: bounds.robots,
             moves: found
                 .frames
                 .iter()
@@ -375,39 +646,123 @@ mod tests {
         }
     }
 
+    fn found(bounds: &Bounds) -> Vec<Exhibit> {
+        let found = search(bounds, &mut unwatched).expect("so few robots fit");
+        found.counterexamples.iter().map(|found| exhibit(found, bounds)).collect()
+    }
+
+    /// The smallest counterexample to each clause that the judge knows and a rule breaks.
     fn counterexamples() -> Vec<Exhibit> {
-        assert_eq!(Subject::PUBLISHED.rule, Rule::PUBLISHED);
-        let found = search(&Bounds::new(Subject::PUBLISHED, 4, 4), &mut unwatched).expect("four robots fit");
-        found.counterexamples.iter().map(exhibit).collect()
+        let exhausting =
+            |subject| Bounds { invariants: vec![Invariant::Exhausts], ..Bounds::new(subject, 3, 3) };
+        let bounds = [
+            Bounds::new(Subject::PUBLISHED, 4, 4),
+            exhausting(Subject::PUBLISHED),
+            exhausting(Subject::REPAIRED),
+        ];
+        bounds.iter().flat_map(found).collect()
+    }
+
+    /// A move of the whole team in the open.
+    fn step(tried: [Place; 2], places: [Place; 2], is_backtrack: bool) -> Move {
+        let base = (2, 2);
+        Move {
+            is_backtrack,
+            tried: [vec![(0, 0)], tried.to_vec()].concat(),
+            blocked: vec![false; 3],
+            places: [vec![base], places.to_vec()].concat(),
+        }
+    }
+
+    #[test]
+    fn a_step_and_back_is_not_the_end_of_a_run() {
+        let out = step([(0, 0), (1, 0)], [(2, 2), (3, 2)], false);
+        let back = step([(0, 0), (-1, 0)], [(2, 2), (2, 2)], true);
+        for clause in ["CHAIN-13", "CHAIN-14"] {
+            for repairs in [Repairs::Without, Repairs::With] {
+                let mut exhibit = Exhibit {
+                    clause: clause.to_owned(),
+                    repairs,
+                    width: 5,
+                    height: 5,
+                    walls: BTreeSet::new(),
+                    blocked: BTreeSet::new(),
+                    base: (2, 2),
+                    robots: 3,
+                    moves: vec![out.clone()],
+                };
+                let goes_on = Objection { at: 0, what: "the run goes on after the last move" };
+                assert_eq!(judge(&exhibit), Err(goes_on));
+                exhibit.moves.push(back.clone());
+                let has_a_way = "the leader has a way on: the team takes no move back";
+                assert_eq!(judge(&exhibit), Err(Objection { at: 2, what: has_a_way }));
+            }
+        }
+    }
+
+    /// The whole run of three robots in the open, as a counterexample to `clause`.
+    fn open_run(subject: Subject, clause: &str) -> Exhibit {
+        let bounds = Bounds::new(subject, 3, 0);
+        let grid = SmallGrid::new(bounds.area).expect("five cells wide");
+        let mut chain = Chain::<_, 3>::new(subject.rule, 3, bounds.base, grid).expect("it fits");
+        let (mut log, mut frames) = (Vec::new(), Vec::new());
+        while let Intent::Go(plan) = chain.plan(&log).expect("its own log") {
+            let settled = chain.settle(&plan, |_| true);
+            log.extend_from_slice(settled.messages());
+            frames.push(Frame::new(plan.kind, settled.messages(), chain.cells()));
+        }
+        let (invariant, demand) = (Invariant::Exhausts, "nothing");
+        let run = Counterexample { invariant, runs: 1, demand, walls: Vec::new(), frames };
+        Exhibit { clause: clause.to_owned(), ..exhibit(&run, &bounds) }
+    }
+
+    #[test]
+    fn a_run_that_ends_with_everything_explored_breaks_nothing() {
+        for (subject, clause) in [(Subject::PUBLISHED, "CHAIN-13"), (Subject::REPAIRED, "CHAIN-14")] {
+            let mut exhibit = open_run(subject, clause);
+            let what = "the end of the run does not break the clause";
+            assert_eq!(judge(&exhibit), Err(Objection { at: 0, what }));
+            let last = exhibit.moves.pop().expect("it has moves");
+            let what = "the run goes on after the last move";
+            assert_eq!(judge(&exhibit), Err(Objection { at: 0, what }));
+            exhibit.moves.extend([last.clone(), last]);
+            let what = "the run is over before this move";
+            assert_eq!(judge(&exhibit), Err(Objection { at: exhibit.moves.len(), what }));
+        }
     }
 
     #[test]
     fn the_minimal_counterexamples_are_accepted_and_none_with_one_change() {
         let exhibits = counterexamples();
         assert_eq!(
-            exhibits.iter().map(|exhibit| exhibit.clause.as_str()).collect::<Vec<_>>(),
-            ["CHAIN-1", "CHAIN-2", "CHAIN-13"]
+            exhibits.iter().map(|exhibit| (exhibit.clause.as_str(), exhibit.repairs)).collect::<Vec<_>>(),
+            [
+                ("CHAIN-1", Repairs::Without),
+                ("CHAIN-2", Repairs::Without),
+                ("CHAIN-13", Repairs::Without),
+                ("CHAIN-14", Repairs::Without),
+                ("CHAIN-14", Repairs::With),
+            ]
         );
         for exhibit in exhibits {
-            assert_eq!(judge(&exhibit), Ok(()));
+            assert_eq!(judge(&exhibit), Ok(()), "{}", exhibit.clause);
             let rejects = |change: &dyn Fn(&mut Exhibit), what: &str| {
                 let mut changed = exhibit.clone();
                 change(&mut changed);
                 assert!(judge(&changed).is_err(), "{}: {what} is accepted", exhibit.clause);
             };
-            for x in 0..7 {
-                for y in 0..7 {
-                    for wall in [((x, y), (x + 1, y)), ((x, y), (x, y + 1))] {
-                        if wall.1.0 < 7 && wall.1.1 < 7 {
-                            rejects(
-                                &|changed| {
-                                    if !changed.walls.remove(&wall) {
-                                        changed.walls.insert(wall);
-                                    }
-                                },
-                                &format!("a changed wall {wall:?}"),
-                            );
-                        }
+            let (width, height) = (exhibit.width, exhibit.height);
+            for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+                for wall in [((x, y), (x + 1, y)), ((x, y), (x, y + 1))] {
+                    if wall.1.0 < width && wall.1.1 < height {
+                        rejects(
+                            &|changed| {
+                                if !changed.walls.remove(&wall) {
+                                    changed.walls.insert(wall);
+                                }
+                            },
+                            &format!("a changed wall {wall:?}"),
+                        );
                     }
                 }
             }
@@ -415,7 +770,12 @@ mod tests {
                 rejects(&|changed| drop(changed.moves.remove(index)), &format!("move {index} left out"));
                 let twice = |changed: &mut Exhibit| changed.moves.insert(index, changed.moves[index].clone());
                 rejects(&twice, &format!("move {index} twice: {:?}", exhibit.moves[index]));
-                for robot in 0..4 {
+                rejects(&|changed| changed.moves.truncate(index), &format!("nothing from move {index} on"));
+                rejects(
+                    &|changed| changed.moves[index].is_backtrack ^= true,
+                    &format!("move {index} as the other kind: {:?}", exhibit.moves[index]),
+                );
+                for robot in 0..exhibit.robots {
                     let flip = |changed: &mut Exhibit| changed.moves[index].blocked[robot] ^= true;
                     rejects(&flip, "another outcome");
                     for step in [(1, 0), (0, 1), (-1, 0), (0, -1), (0, 0)] {
@@ -433,11 +793,14 @@ mod tests {
                     }
                 }
             }
-            rejects(&|changed| changed.repairs = Repairs::With, "the repaired rule");
+            // The run that breaks CHAIN-14 as repaired is one that the published rule makes, too.
+            if exhibit.repairs == Repairs::Without {
+                rejects(&|changed| changed.repairs = Repairs::With, "the repaired rule");
+            }
             rejects(&|changed| changed.clause = "CHAIN-3".to_owned(), "another clause");
-            rejects(&|changed| changed.robots = 5, "another robot");
-            rejects(&|changed| changed.base = (2, 3), "another base");
-            rejects(&|changed| changed.blocked = BTreeSet::from([(3, 3)]), "a blocked base");
+            rejects(&|changed| changed.robots += 1, "another robot");
+            rejects(&|changed| changed.base.0 -= 1, "another base");
+            rejects(&|changed| changed.blocked = BTreeSet::from([changed.base]), "a blocked base");
             rejects(&|changed| changed.robots = usize::MAX, "more robots than there can be");
         }
     }

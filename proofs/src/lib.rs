@@ -9,6 +9,7 @@ pub mod course;
 pub mod crowd;
 pub mod decide;
 pub mod engine;
+pub mod frontier;
 pub mod invariant;
 pub mod judge;
 pub mod links;

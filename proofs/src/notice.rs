@@ -372,7 +372,7 @@ impl Case {
     fn broken(&self, spread: &Spread<SMALL>, point: Point) -> Option<&'static str> {
         match self.demand.check(&self.links, spread, point) {
             Err(Stop::Violated(demand)) => Some(demand),
-            Ok(()) | Err(Stop::Assumed) => None,
+            Ok(()) | Err(Stop::Assumed | Stop::GivenUp) => None,
         }
     }
 }

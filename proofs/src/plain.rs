@@ -1,14 +1,16 @@
 //! The chain as the paper writes it down, without any of the kernel's machinery: growing lists, the plain recursion
 //! of Algorithms 1 to 3, a flood fill for every candidate, the history as a list of team moves. It shares no
-//! search, flood fill or bookkeeping with the planner, and asks the same [`Rule`] for its conditions. What the repair
-//! *Unfold* adds is written down here once more, too. CHAIN-11 compares the two; the benchmarks measure the one by
-//! the other.
+//! search, flood fill or bookkeeping with the planner, and says the conditions in its own words: of the kernel's [`Rule`]
+//! it uses only the names of the conditions and the reading of P_high. What the repair *Unfold* adds is written down here
+//! once more, too; a budget it does not know. CHAIN-11 compares the two; the benchmarks measure the one by the other.
 
 use std::collections::VecDeque;
 
 use tautline_kernel::chain::{Condition, High, Rule};
 use tautline_kernel::grid::{Area, Avoid};
 use tautline_kernel::lattice::{Cell, Edge, Side, Step};
+
+use crate::invariant::{in_covered, in_safe};
 
 /// A chain on an area of its own.
 #[derive(Clone, Debug)]
@@ -24,6 +26,8 @@ pub struct PlainChain {
     gained: bool,
     /// Whether this epoch began by unfolding the chain.
     unfolds: bool,
+    /// Whether it takes nobody for sure to arrive.
+    doubts_all: bool,
 }
 
 /// What is known of an edge.
@@ -74,6 +78,7 @@ impl PlainChain {
             history: Vec::new(),
             gained: true,
             unfolds: false,
+            doubts_all: false,
         };
         for cell in area.cells() {
             for side in Side::ALL {
@@ -84,6 +89,12 @@ impl PlainChain {
         }
         chain.explore(base);
         chain
+    }
+
+    /// The same chain, wrong in one thing: *UnsureAhead* binds it also behind a robot that is sure to arrive.
+    #[must_use]
+    pub fn that_doubts_all(self) -> Self {
+        Self { doubts_all: true, ..self }
     }
 
     /// Where the robots are, base first.
@@ -191,7 +202,7 @@ impl PlainChain {
             (self.distance(to, Avoid::WallsAndVirtual), -outward)
         });
         for (side, step) in &mut list {
-            if !self.rule.admits_behind(at.after(*step), self.cells[leader - 1]) {
+            if !self.admits_behind(at.after(*step), self.cells[leader - 1]) {
                 self.mark(Edge::new(at, *side), |marks| marks.virtual_obstacle = true);
                 *step = Step::Stay;
             }
@@ -241,6 +252,21 @@ impl PlainChain {
             Step::ALL.into_iter().find(|&step| Some(cell.after(step)) == walk.get(planned).copied())
         });
         steps.collect()
+    }
+
+    /// P′_i ∈ E_C(P_{i−1}).
+    fn admits_behind(&self, to: Cell, behind: Cell) -> bool {
+        !self.rule.has(Condition::CoveredBehind) || in_covered(behind, to)
+    }
+
+    /// P′_i ∈ E_S(P′_{i+1}), and unless R_{i+1} is sure to arrive P′_i ∈ E_C(P_{i+1}).
+    fn admits_ahead(&self, to: Cell, (from, step): (Cell, Step)) -> bool {
+        let is_sure = match step {
+            Step::Stay => true,
+            Step::Cross(side) => !self.doubts_all && self.marks(Edge::new(from, side)).open,
+        };
+        let is_safe = !self.rule.has(Condition::SafeAhead) || in_safe(from.after(step), to);
+        is_safe && (is_sure || !self.rule.has(Condition::UnsureAhead) || in_covered(from, to))
     }
 
     fn is_full(&self, cell: Cell) -> bool {
@@ -373,11 +399,10 @@ impl Recursion<'_> {
     /// Algorithm 1: whether R_i, and all behind it, can follow.
     fn follow(&mut self, robot: usize) -> Result<bool, TooMany> {
         let chain = self.chain;
-        let ahead = self.move_of(robot + 1, self.planned[robot + 1].unwrap_or(Step::Stay));
+        let ahead = (chain.cells[robot + 1], self.planned[robot + 1].unwrap_or(Step::Stay));
         if robot == 0 {
-            let stay = self.move_of(0, Step::Stay);
             self.planned[0] = Some(Step::Stay);
-            return Ok(chain.rule.admits_ahead(stay, ahead));
+            return Ok(chain.admits_ahead(chain.cells[0], ahead));
         }
         let at = chain.cells[robot];
         let mut list = Vec::new();
@@ -386,25 +411,25 @@ impl Recursion<'_> {
             if self.looked_at > self.most {
                 return Err(TooMany);
             }
-            let own = self.move_of(robot, step);
+            let to = at.after(step);
             let is_wall = matches!(step, Step::Cross(side) if chain.marks(Edge::new(at, side)).wall);
             let is_full =
-                step != Step::Stay && chain.rule.has(Condition::FullForFollower) && chain.is_full(own.to());
+                step != Step::Stay && chain.rule.has(Condition::FullForFollower) && chain.is_full(to);
             if is_wall
                 || is_full
-                || self.is_taken(robot, own.to())
-                || !chain.rule.admits_behind(own.to(), chain.cells[robot - 1])
-                || !chain.rule.admits_ahead(own, ahead)
+                || self.is_taken(robot, to)
+                || !chain.admits_behind(to, chain.cells[robot - 1])
+                || !chain.admits_ahead(to, ahead)
             {
                 continue;
             }
             let target = match chain.rule.high {
-                High::Planned => ahead.to(),
-                High::Present => ahead.from,
+                High::Planned => ahead.0.after(ahead.1),
+                High::Present => ahead.0,
             };
-            let (dx, dy) = target.apart(own.to());
+            let (dx, dy) = target.apart(to);
             let is_high = dx + dy <= 1;
-            let distance = chain.distance(own.to(), Avoid::Walls).unwrap_or(u32::MAX);
+            let distance = chain.distance(to, Avoid::Walls).unwrap_or(u32::MAX);
             list.push(((!(is_high && step == Step::Stay), !is_high, distance), step));
         }
         list.sort_by_key(|&(key, _)| key);
@@ -424,11 +449,5 @@ impl Recursion<'_> {
             && (robot + 1..self.planned.len()).any(|ahead| {
                 self.planned[ahead].is_some_and(|step| self.chain.cells[ahead].after(step) == cell)
             })
-    }
-
-    fn move_of(&self, robot: usize, step: Step) -> tautline_kernel::chain::Move {
-        let from = self.chain.cells[robot];
-        let known_open = matches!(step, Step::Cross(side) if self.chain.marks(Edge::new(from, side)).open);
-        tautline_kernel::chain::Move { from, step, known_open }
     }
 }

@@ -1,5 +1,5 @@
 //! What a chain can reach at all, by a team that knows the layout: the cells that count as missed when a run leaves
-//! them unexplored. The conditions stand here in plain words of their own, as in [`crate::invariant`]: of the kernel's
+//! them unexplored. The conditions stand here in plain words, those of [`crate::invariant`]: of the kernel's
 //! rule only the names of its conditions are used, and nothing of the planner.
 //!
 //! A configuration is where the robots R_2 … R_N are. [`Ground::reachable`] goes through all of them: it keeps for
@@ -13,6 +13,8 @@ use std::fmt;
 use tautline_kernel::chain::{self, Condition, Rule};
 use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Edge, Side, Step};
+
+use crate::invariant::{in_covered, in_safe};
 
 /// Most cells of a ground that [`Ground::reachable`] bears: one bit each in a word.
 pub const MAX_CELLS: usize = 128;
@@ -514,18 +516,6 @@ impl Visited {
         self.pending[place as usize] |= new;
         self.reached |= relation.cells(followers) | new;
     }
-}
-
-/// E_S: at most one column and one row apart.
-fn in_safe(one: Cell, other: Cell) -> bool {
-    let (dx, dy) = one.apart(other);
-    dx <= 1 && dy <= 1
-}
-
-/// E_C: E_S, and two straight ahead.
-fn in_covered(one: Cell, other: Cell) -> bool {
-    let (dx, dy) = one.apart(other);
-    in_safe(one, other) || u32::from(dx) + u32::from(dy) <= 2
 }
 
 #[cfg(test)]

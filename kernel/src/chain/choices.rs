@@ -9,7 +9,7 @@
 
 use core::cmp::Reverse;
 
-use super::plan::Planner;
+use super::plan::{Looks, Planner};
 use super::rule::Condition;
 use crate::grid::Grid;
 use crate::lattice::{Cell, Step, Steps, neighbours};
@@ -33,7 +33,7 @@ pub(super) struct Choices<'a, const ROBOTS: usize> {
     failures: [u32; ROBOTS],
     /// The robot whose trial was the last to leave some robot without a step.
     culprit: usize,
-    looked_at: u32,
+    looks: Looks,
 }
 
 /// A step that was tried.
@@ -79,7 +79,7 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
             witness: [Steps::NONE; ROBOTS],
             failures: [0; ROBOTS],
             culprit: 0,
-            looked_at: 0,
+            looks: planner.looks,
         };
         for robot in 1..=leader {
             let steps = if robot == leader {
@@ -87,7 +87,7 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
             } else {
                 Steps::ALL.filter(|step| planner.is_candidate(robot, step))
             };
-            choices.looked_at += if robot == leader { 0 } else { Steps::ALL.len() };
+            choices.looks.take(if robot == leader { 0 } else { Steps::ALL.len() });
             let behind = choices.left[robot - 1];
             choices.left[robot] = steps.filter(|step| {
                 let own = planner.as_move(robot, step);
@@ -99,7 +99,7 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
         }
         for robot in (1..=leader).rev() {
             let behind = choices.left[robot - 1];
-            choices.looked_at += behind.len();
+            choices.looks.take(behind.len());
             choices.left[robot - 1] = behind.and(choices.agreeing(robot, choices.left[robot]));
         }
         let mut wave = Wave::NONE;
@@ -118,16 +118,16 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
         let found =
             self.left[leader].has(lead) && self.leave(leader, Steps::only(lead)) && self.decide(planner);
         if found {
-            for (step, left) in planner.steps.iter_mut().zip(self.left).take(leader) {
-                *step = left.first();
+            for (step, witness) in planner.steps.iter_mut().zip(self.witness).take(leader) {
+                *step = witness.first();
             }
         }
-        planner.looked_at += core::mem::take(&mut self.looked_at);
+        planner.looks = self.looks;
         self.restore(start);
         found
     }
 
-    /// Leaves every follower the one step that the recursion gives it; false if there is no plan.
+    /// Makes the witness the plan of the recursion, as far as the budget goes; false if no plan is found.
     fn decide<G: Grid>(&mut self, planner: &mut Planner<'a, G, ROBOTS>) -> bool {
         let Some(trials) = self.complete(planner) else { return false };
         if self.trials[..trials].iter().all(|trial| trial.turn == Turn::Own) {
@@ -135,7 +135,7 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
         }
         self.take_back(trials);
         for robot in (1..self.team.len() - 1).rev() {
-            while self.left[robot].len() > 1 {
+            while self.left[robot].len() > 1 && !self.looks.is_over() {
                 let step = self.preferred(planner, robot);
                 let mark = self.trail_length;
                 let fits = self.leave(robot, Steps::only(step))
@@ -213,22 +213,22 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
         self.follow_up(wave)
     }
 
-    /// Strikes out what the steps struck out before entail; false if some robot is left with none.
+    /// Strikes out what the steps struck out before entail; false if some robot is left with none, or the budget ends.
     fn follow_up(&mut self, mut wave: Wave<ROBOTS>) -> bool {
-        while !wave.is_over {
+        while !wave.is_over && !self.looks.is_over() {
             let Some(robot) = wave.next(&self.left) else { return true };
             let struck = core::mem::replace(&mut wave.struck[robot], Steps::NONE);
             let left = self.left[robot];
             if let Some(behind) = robot.checked_sub(1) {
                 let doubtful = self.left[behind].and(self.agreeing(robot, struck));
-                self.looked_at += doubtful.len();
+                self.looks.take(doubtful.len());
                 self.strike(behind, doubtful.minus(self.agreeing(robot, left)), &mut wave);
             }
             let ahead = robot + 1;
             if ahead < self.team.len() {
                 let agreeing = self.agreeing[ahead];
                 let doubtful = self.left[ahead].filter(|step| !agreeing[step.place()].and(struck).is_empty());
-                self.looked_at += doubtful.len();
+                self.looks.take(doubtful.len());
                 let alone = doubtful.filter(|step| agreeing[step.place()].and(left).is_empty());
                 self.strike(ahead, alone, &mut wave);
             }

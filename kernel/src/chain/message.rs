@@ -26,7 +26,7 @@ pub struct Message {
     pub outcome: Outcome,
 }
 
-/// Why a log of messages cannot be read.
+/// Why messages cannot be those of this team. Robots are numbered from 1, the base.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Damaged {
     /// A byte is no message.
@@ -38,6 +38,34 @@ pub enum Damaged {
         /// Bytes that the team sent: one for each robot but the base and each team move.
         sent: usize,
     },
+    /// The move to be taken back was a backtrack itself, of this robot at least.
+    TakenBack {
+        /// The robot.
+        robot: usize,
+    },
+    /// With the move taken back, this robot and the one behind it would not be in contact.
+    OutOfContact {
+        /// The robot.
+        robot: usize,
+    },
+    /// With the move taken back, three robots would be in one cell other than the base.
+    Crowded,
+    /// All moves would be taken back, and this robot would not be in the base.
+    NotHome {
+        /// The robot.
+        robot: usize,
+    },
+    /// What this robot says about a team move does not fit the plan.
+    OtherStep {
+        /// The robot.
+        robot: usize,
+    },
+    /// This robot says that it crossed a side which nobody is known to have crossed, or met a wall which is not known to be
+    /// one; or of a side that is new to the team it says something else than another robot.
+    OtherWorld {
+        /// The robot.
+        robot: usize,
+    },
 }
 
 impl fmt::Display for Damaged {
@@ -47,8 +75,26 @@ impl fmt::Display for Damaged {
             Self::Length { bytes, sent } => {
                 write!(
                     f,
-                    "the log has {bytes} bytes, the team sent {sent}: keep all messages, in their order"
+                    "there are {bytes} messages, the team sent {sent}: keep all of them, in their order"
                 )
+            }
+            Self::TakenBack { robot } => {
+                write!(f, "R_{robot} says that the move to be taken back was a backtrack itself")
+            }
+            Self::OutOfContact { robot } => {
+                write!(
+                    f,
+                    "with the move taken back, R_{robot} would have no contact with R_{}",
+                    robot.saturating_sub(1)
+                )
+            }
+            Self::Crowded => f.write_str("with the move taken back, three robots would be in one cell"),
+            Self::NotHome { robot } => {
+                write!(f, "with all moves taken back, R_{robot} would not be in the base")
+            }
+            Self::OtherStep { robot } => write!(f, "R_{robot} says that it did something else than planned"),
+            Self::OtherWorld { robot } => {
+                write!(f, "what R_{robot} says of a side contradicts what the team knows of it")
             }
         }
     }

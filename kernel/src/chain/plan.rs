@@ -4,7 +4,7 @@
 //! would return, without its cost (clauses CHAIN-4, CHAIN-11 and CHAIN-12).
 
 use super::choices::Choices;
-use super::rule::{Condition, Move, Role, Rule};
+use super::rule::{Budget, Condition, Move, Role, Rule};
 use crate::grid::{Avoid, CellMark, EdgeMark, Grid};
 use crate::lattice::{Cell, Edge, Side, Step, Steps};
 
@@ -36,6 +36,65 @@ impl<const ROBOTS: usize> Plan<ROBOTS> {
     }
 }
 
+/// The candidates of followers that a plan has looked at, and may look at.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Looks {
+    used: u32,
+    most: u32,
+    /// Whether more were wanted than there are.
+    is_over: bool,
+}
+
+impl Looks {
+    /// None so far, for a plan of `robots`.
+    pub(super) const fn new(budget: Budget, robots: usize) -> Self {
+        let most = match budget {
+            Budget::Unlimited => u32::MAX,
+            // At most 256 robots: the product fits.
+            Budget::LooksPerRobot(looks) => looks as u32 * robots as u32,
+        };
+        Self { used: 0, most, is_over: false }
+    }
+
+    /// Looks at `candidates` more; false if they are too many, then and from then on.
+    pub(super) const fn take(&mut self, candidates: u32) -> bool {
+        if self.is_over || candidates > self.most - self.used {
+            self.is_over = true;
+        } else {
+            self.used += candidates;
+        }
+        !self.is_over
+    }
+
+    pub(super) const fn used(self) -> u32 {
+        self.used
+    }
+
+    pub(super) const fn is_over(self) -> bool {
+        self.is_over
+    }
+}
+
+/// Marks the cells other than the base in which robots of `team` are, [`CellMark::Occupied`] with one and
+/// [`CellMark::Full`] with more; whether three or more are in one.
+pub(super) fn mark_occupied(grid: &mut impl Grid, team: impl Iterator<Item = Cell>, base: Cell) -> bool {
+    let mut is_crowded = false;
+    for cell in team.filter(|&cell| cell != base) {
+        is_crowded |= grid.has(CellMark::Full, cell);
+        let mark = if grid.has(CellMark::Occupied, cell) { CellMark::Full } else { CellMark::Occupied };
+        grid.put(mark, cell);
+    }
+    is_crowded
+}
+
+/// Takes the marks of [`mark_occupied`] off again.
+pub(super) fn unmark_occupied(grid: &mut impl Grid, team: impl Iterator<Item = Cell>) {
+    for cell in team {
+        grid.take(CellMark::Occupied, cell);
+        grid.take(CellMark::Full, cell);
+    }
+}
+
 /// The making of one plan.
 pub(super) struct Planner<'a, G, const ROBOTS: usize> {
     pub(super) rule: &'a Rule,
@@ -44,37 +103,22 @@ pub(super) struct Planner<'a, G, const ROBOTS: usize> {
     pub(super) team: &'a [Cell],
     /// What is planned so far, from the leader backwards.
     pub(super) steps: [Step; ROBOTS],
-    /// Candidates of followers looked at.
-    pub(super) looked_at: u32,
+    pub(super) looks: Looks,
 }
 
 impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
     /// A planner for the robots in `team`, base first, at least two and at most `ROBOTS`.
-    pub(super) fn new(rule: &'a Rule, grid: &'a mut G, team: &'a [Cell]) -> Self {
-        Self { rule, grid, team, steps: [Step::Stay; ROBOTS], looked_at: 0 }
+    pub(super) fn new(rule: &'a Rule, grid: &'a mut G, team: &'a [Cell], looks: Looks) -> Self {
+        Self { rule, grid, team, steps: [Step::Stay; ROBOTS], looks }
     }
 
-    /// Makes the plan, and says how many candidates of followers it looked at. `None` if the leader has no
-    /// candidate that the others can follow. Refused candidates of the leader become virtual obstacles.
-    pub(super) fn make(mut self) -> (Option<[Step; ROBOTS]>, u32) {
-        self.mark_occupied();
+    /// Makes the plan, and says what is looked at by then. `None` if the leader has no candidate that the others can
+    /// follow, or the budget ends before one is found. Refused candidates of the leader become virtual obstacles.
+    pub(super) fn make(mut self) -> (Option<[Step; ROBOTS]>, Looks) {
+        mark_occupied(self.grid, self.team.iter().copied(), self.base());
         let found = self.lead();
-        for &cell in self.team {
-            self.grid.take(CellMark::Occupied, cell);
-            self.grid.take(CellMark::Full, cell);
-        }
-        (found.then_some(self.steps), self.looked_at)
-    }
-
-    fn mark_occupied(&mut self) {
-        for &cell in self.team {
-            if cell == self.base() {
-                continue;
-            }
-            let mark =
-                if self.grid.has(CellMark::Occupied, cell) { CellMark::Full } else { CellMark::Occupied };
-            self.grid.put(mark, cell);
-        }
+        unmark_occupied(self.grid, self.team.iter().copied());
+        (found.then_some(self.steps), self.looks)
     }
 
     /// Algorithm 2: the first candidate of the leader that can be completed to a team move.
@@ -93,7 +137,7 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
         let leads = list[..count].iter().fold(Steps::NONE, |steps, &(_, step)| steps.with(step));
         let mut choices = None;
         for &(side, step) in &list[..count] {
-            if self.may_enter(Role::Leader, at, step) {
+            if !self.looks.is_over() && self.may_enter(Role::Leader, at, step) {
                 self.steps[leader] = step;
                 if choices.is_none() && self.descend() {
                     return true;
@@ -154,8 +198,8 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
             let at = self.team[robot];
             let distinct = self.rule.has(Condition::Distinct);
             let fits = |planner: &mut Self, step| {
-                planner.looked_at += 1;
-                planner.is_candidate(robot, step)
+                planner.looks.take(1)
+                    && planner.is_candidate(robot, step)
                     && planner.rule.admits_ahead(planner.as_move(robot, step), ahead)
                     && !(distinct && planner.grid.has(CellMark::Planned, at.after(step)))
             };
@@ -167,7 +211,7 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
         for robot in planned..=leader {
             self.grid.take(CellMark::Planned, self.planned(robot).to());
         }
-        closes
+        closes && !self.looks.is_over()
     }
 
     /// Takes the cell that `robot` is to be in.

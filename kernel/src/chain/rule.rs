@@ -66,7 +66,7 @@ pub enum Role {
     Follower,
 }
 
-/// The rule of a chain: its conditions, the two circles, and how P_high is read.
+/// The rule of a chain: its conditions, the two circles, how P_high is read, and what a plan may cost.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Rule {
     /// The conditions in force.
@@ -77,6 +77,20 @@ pub struct Rule {
     pub covered: Circle,
     /// The reading of P_high.
     pub high: High,
+    /// How many candidates of followers one plan looks at, at the most.
+    pub budget: Budget,
+}
+
+/// What a plan may cost (clause CHAIN-12). A look is a candidate of a follower that is tested against the conditions, or
+/// tested again because a step that it relied on was struck out. Counting looks, and not time, makes the plan the same on
+/// every machine.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Budget {
+    /// A plan is sought to the end, as in the paper.
+    Unlimited,
+    /// Repair: as many looks for each robot of the team, the base counted. When they are used up, the team takes the plan
+    /// for the leader's present candidate if one is known by then; else this candidate and all later ones are refused.
+    LooksPerRobot(u16),
 }
 
 /// A robot's planned move, as its neighbours see it.
@@ -126,10 +140,15 @@ impl Rule {
         safe: Circle::SAFE,
         covered: Circle::COVERED,
         high: High::Planned,
+        budget: Budget::Unlimited,
     };
 
-    /// The chain with the three repairs, of contact, of crowding and of what is left unexplored.
-    pub const REPAIRED: Self = Self { conditions: Conditions::of(&Condition::ALL), ..Self::PUBLISHED };
+    /// The chain with the four repairs: of contact, of crowding, of what is left unexplored, and of what a plan costs.
+    pub const REPAIRED: Self = Self {
+        conditions: Conditions::of(&Condition::ALL),
+        budget: Budget::LooksPerRobot(100),
+        ..Self::PUBLISHED
+    };
 
     /// This rule with one condition taken out.
     #[must_use]
@@ -165,6 +184,23 @@ impl Rule {
             Role::Follower => self.has(Condition::FullForFollower),
         };
         !guarded || occupants < 2
+    }
+
+    /// Whether R_i at `behind` and R_{i+1} at `ahead` are as near as this rule keeps neighbours in the chain: in E_C of
+    /// each other if it has the repair of contact (CHAIN-1), else within r_cov, centre to centre (CHAIN-3).
+    #[inline]
+    pub fn keeps_contact(&self, behind: Cell, ahead: Cell) -> bool {
+        if self.has(Condition::UnsureAhead) {
+            self.covered.covers(behind, ahead)
+        } else {
+            self.covered.reaches(behind, ahead)
+        }
+    }
+
+    /// Whether this rule keeps three robots out of one cell other than the base (CHAIN-2).
+    #[inline]
+    pub const fn keeps_apart(&self) -> bool {
+        self.has(Condition::FullForFollower) && self.has(Condition::FullForLeader)
     }
 
     /// Whether a follower's position `to` is in P_high: the robot ahead would have all its moves from there.

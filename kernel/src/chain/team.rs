@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::MAX_ROBOTS;
 use super::message::{Damaged, Message, Outcome};
-use super::plan::{Kind, Plan, Planner};
+use super::plan::{Kind, Looks, Plan, Planner, mark_occupied, unmark_occupied};
 use super::rule::{Condition, Rule};
 use super::unfold::unfold;
 use crate::grid::{Area, CellMark, EdgeMark, Grid};
@@ -113,7 +113,8 @@ pub struct Chain<G, const ROBOTS: usize> {
     /// Epochs that ended.
     epochs: u32,
     stage: Stage,
-    looked_at: u32,
+    /// What the last plan cost.
+    looks: Looks,
 }
 
 impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
@@ -145,7 +146,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             last_open: None,
             epochs: 0,
             stage: Stage::Gained,
-            looked_at: 0,
+            looks: Looks::new(rule.budget, robots),
         })
     }
 
@@ -164,9 +165,14 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         &self.rule
     }
 
-    /// How many candidates of followers the last call of [`Chain::plan`] looked at.
+    /// How many candidates of followers the last call of [`Chain::plan`] looked at: see [`Budget`](super::Budget).
     pub const fn looked_at(&self) -> u32 {
-        self.looked_at
+        self.looks.used()
+    }
+
+    /// Whether the last call of [`Chain::plan`] used up its budget, and may have planned otherwise for it.
+    pub const fn is_cut_short(&self) -> bool {
+        self.looks.is_over()
     }
 
     /// The log entry that a backtrack would take back, if any: entries count team moves from 0.
@@ -193,10 +199,15 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     /// What the team intends. `log` holds the messages of all team moves so far, as [`Settled::messages`]
     /// gave them.
     ///
+    /// The log is not trusted: a backtrack goes over sides that are known to be open, and ends where neighbours are in
+    /// contact and no three robots in one cell. So a log that was changed may lead elsewhere than the true one, but never
+    /// against CHAIN-1, CHAIN-2 and CHAIN-3.
+    ///
     /// # Errors
-    /// [`Damaged`] if a backtrack needs the log, and it is not as long as the run or a byte needed is no message.
+    /// [`Damaged`] if a backtrack needs the log, and it is not as long as the run, a byte needed is no message, or the
+    /// messages are of a move that the team cannot have made.
     pub fn plan(&mut self, log: &[u8]) -> Result<Intent<ROBOTS>, Damaged> {
-        self.looked_at = 0;
+        self.looks = Looks::new(self.rule.budget, self.robots);
         if self.grid.is_explored() {
             return Ok(Intent::Done(End::Explored));
         }
@@ -207,9 +218,10 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             {
                 return Ok(Intent::Go(self.advance(steps)));
             }
-            let (steps, looked_at) =
-                Planner::<G, ROBOTS>::new(&self.rule, &mut self.grid, &self.cells[..self.robots]).make();
-            self.looked_at += looked_at;
+            let team = &self.cells[..self.robots];
+            let (steps, looks) =
+                Planner::<G, ROBOTS>::new(&self.rule, &mut self.grid, team, self.looks).make();
+            self.looks = looks;
             if let Some(steps) = steps {
                 return Ok(Intent::Go(self.advance(steps)));
             }
@@ -240,7 +252,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     }
 
     /// The plan that takes log entry `entry` back.
-    fn backtrack(&self, log: &[u8], entry: u32) -> Result<Plan<ROBOTS>, Damaged> {
+    fn backtrack(&mut self, log: &[u8], entry: u32) -> Result<Plan<ROBOTS>, Damaged> {
         let movers = self.robots - 1;
         let sent = self.moves as usize * movers;
         if log.len() != sent {
@@ -248,8 +260,32 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         }
         let messages = log.chunks_exact(movers).nth(entry as usize).unwrap_or(&[]);
         let mut steps = [Step::Stay; ROBOTS];
-        for (step, &byte) in steps[1..].iter_mut().zip(messages) {
-            *step = Message::decode(byte)?.made().reverse();
+        let mut cells = self.cells;
+        for (robot, &byte) in (1..).zip(messages) {
+            let message = Message::decode(byte)?;
+            if message.outcome == Outcome::TookBack {
+                return Err(Damaged::TakenBack { robot: robot + 1 });
+            }
+            let back = message.made().reverse();
+            let met = match (message.outcome, message.step, back) {
+                (Outcome::Blocked, Step::Cross(side), _) => Some((side, EdgeMark::Wall)),
+                (_, _, Step::Cross(side)) => Some((side, EdgeMark::Open)),
+                (_, _, Step::Stay) => None,
+            };
+            if met.is_some_and(|(side, mark)| !self.grid.edge_has(mark, Edge::new(cells[robot], side))) {
+                return Err(Damaged::OtherWorld { robot: robot + 1 });
+            }
+            steps[robot] = back;
+            cells[robot] = cells[robot].after(back);
+            if !self.rule.keeps_contact(cells[robot - 1], cells[robot]) {
+                return Err(Damaged::OutOfContact { robot: robot + 1 });
+            }
+        }
+        let team = &cells[..self.robots];
+        let is_crowded = mark_occupied(&mut self.grid, team.iter().copied(), cells[0]);
+        unmark_occupied(&mut self.grid, team.iter().copied());
+        if is_crowded && self.rule.keeps_apart() {
+            return Err(Damaged::Crowded);
         }
         // Read backwards, every backtrack pairs with the nearest open move before it.
         let mut taken_back = 0_u32;
@@ -264,6 +300,11 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             } else {
                 taken_back -= 1;
             }
+        }
+        if last_open.is_none()
+            && let Some(robot) = team.iter().position(|&cell| cell != cells[0])
+        {
+            return Err(Damaged::NotHome { robot: robot + 1 });
         }
         Ok(Plan { kind: Kind::Backtrack, steps, robots: self.robots, last_open })
     }
@@ -293,6 +334,49 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         self.moves += 1;
         self.last_open = plan.last_open;
         Settled { messages, robots: self.robots }
+    }
+
+    /// Carries `plan` out as one who plans along and hears of the rest: `messages` are those of R_2 … R_N about this team
+    /// move, one byte each. Afterwards the chain is what [`Chain::settle`] makes of the team that sent them.
+    ///
+    /// # Errors
+    /// [`Damaged`] if they cannot be about this plan and this world; then nothing has changed.
+    pub fn hear(&mut self, plan: &Plan<ROBOTS>, messages: &[u8]) -> Result<(), Damaged> {
+        let movers = self.robots - 1;
+        if messages.len() != movers {
+            return Err(Damaged::Length { bytes: messages.len(), sent: movers });
+        }
+        let edge = |robot: usize| match plan.steps[robot] {
+            Step::Cross(side) => Some(Edge::new(self.cells[robot], side)),
+            Step::Stay => None,
+        };
+        let mut outcomes = [Outcome::Arrived; ROBOTS];
+        for (robot, &byte) in (1..).zip(messages) {
+            let Message { step, outcome } = Message::decode(byte)?;
+            let is_back = outcome == Outcome::TookBack;
+            if step != plan.steps[robot] || is_back != (plan.kind == Kind::Backtrack) {
+                return Err(Damaged::OtherStep { robot: robot + 1 });
+            }
+            outcomes[robot] = outcome;
+            let Some(crossed) = edge(robot).filter(|_| !is_back) else { continue };
+            let known = if self.grid.edge_has(EdgeMark::Open, crossed) {
+                Some(Outcome::Arrived)
+            } else if self.grid.edge_has(EdgeMark::Wall, crossed) {
+                Some(Outcome::Blocked)
+            } else {
+                (1..robot).find(|&other| edge(other) == Some(crossed)).map(|other| outcomes[other])
+            };
+            if known.is_some_and(|known| known != outcome) {
+                return Err(Damaged::OtherWorld { robot: robot + 1 });
+            }
+        }
+        let crossed: [Option<Edge>; ROBOTS] =
+            core::array::from_fn(|robot| (robot < self.robots).then(|| edge(robot)).flatten());
+        self.settle(plan, |asked| {
+            let first = (1..ROBOTS).find(|&robot| crossed[robot] == Some(asked));
+            first.is_some_and(|robot| outcomes[robot] == Outcome::Arrived)
+        });
+        Ok(())
     }
 
     fn try_edge(&mut self, edge: Edge, is_open: &mut impl FnMut(Edge) -> bool) -> Outcome {

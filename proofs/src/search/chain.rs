@@ -85,6 +85,9 @@ where
         match subject.sabotage {
             Sabotage::None
             | Sabotage::PlainRecursion
+            | Sabotage::DoubtsAll
+            | Sabotage::BindsFollowers
+            | Sabotage::SkipsALine
             | Sabotage::ActsAtOnce
             | Sabotage::CountsNothing
             | Sabotage::LocalisesBadly
@@ -101,14 +104,17 @@ where
                 messages = forged;
             }
         }
-        let moment = Moment { subject, before, planned, after, kind: plan.kind, steps, messages };
+        let moment = Moment { subject, before, planned, after, plan, steps, messages };
         self.bounds.invariants.iter().find_map(|&invariant| match invariant.check(&moment) {
             Err(Stop::Violated(demand)) => Some((invariant, demand)),
-            Err(Stop::Assumed) | Ok(()) => None,
+            Err(Stop::Assumed | Stop::GivenUp) | Ok(()) => None,
         })
     }
 
-    fn broken_at_end(&self, chain: &Self::State) -> Option<Demand> {
+    fn broken_at_end(&self, chain: &Self::State, log: &[u8]) -> Option<Demand> {
+        if self.looks_for(Invariant::Heard) && chain.clone().plan(log).is_err() {
+            return Some((Invariant::Heard, "no message of a team is refused by it"));
+        }
         let grid = chain.grid();
         if grid.is_explored() {
             return None;

@@ -45,8 +45,8 @@ pub(crate) trait Game: Send + Sync + 'static {
     /// What a team move breaks.
     fn broken_by(&self, turn: &Turn<'_, Self>) -> Option<Demand>;
 
-    /// What a run breaks that ends in `state`.
-    fn broken_at_end(&self, state: &Self::State) -> Option<Demand>;
+    /// What a run breaks that ends in `state`, with all that it remembers in `log`.
+    fn broken_at_end(&self, state: &Self::State, log: &[u8]) -> Option<Demand>;
 
     /// What a run breaks that goes on for ever: it was in the state `then` when the log had `sent` bytes, and is in
     /// `now` without an answer in between.

@@ -233,7 +233,7 @@ impl<G: Game> Lane<G> {
             let answered = match self.next {
                 Next::Advance => {
                     let Some(fork) = self.plan(game) else {
-                        self.end(game.broken_at_end(&self.state), count);
+                        self.end(game.broken_at_end(&self.state, &self.log), count);
                         continue;
                     };
                     self.make(game, &fork, count)
@@ -373,7 +373,7 @@ pub(super) fn record<G: Game>(
         broken = game.broken_by(&turn).or_else(|| lane.recurs(game));
     }
     if broken.is_none() && lane.plan(game).is_none() {
-        broken = game.broken_at_end(&lane.state);
+        broken = game.broken_at_end(&lane.state, &lane.log);
     }
     Some((broken?, frames))
 }

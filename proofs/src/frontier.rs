@@ -1,0 +1,113 @@
+//! LATTICE-2: the distance to the frontier, equation (4) of paper 000. The grids flood whole sets of cells at a time, in
+//! machine words; here every case is small enough, or straight enough, to be counted cell by cell.
+
+use std::collections::VecDeque;
+
+use tautline_kernel::choice::Source;
+use tautline_kernel::grid::{Area, Avoid, BitGrid, CellMark, EdgeMark, Grid, Plane};
+use tautline_kernel::lattice::{Cell, Edge, Side};
+
+use crate::clause::{Sabotage, Subject};
+use crate::engine::{Outcome, Stop, require};
+
+const DISTANCE: &str = "the distance to the frontier is the fewest steps to an unexplored cell";
+
+/// In 3×2 cells, each edge open, a wall or a virtual obstacle, and each cell explored or not: the distances from all of
+/// them, those of a follower and those of the leader.
+///
+/// # Errors
+/// [`Stop::Violated`] if one is not the fewest steps.
+pub fn in_six_cells(subject: &Subject, source: &mut dyn Source) -> Outcome {
+    let area = area(3, 2)?;
+    let edges: Vec<(Edge, u32)> = area.edges().map(|edge| (edge, source.pick(3))).collect();
+    let explored: Vec<Cell> = area.cells().filter(|_| source.flip()).collect();
+    // One word for all cells, and one for each row.
+    let (mut tiny, mut small) = (grid::<u64>(area)?, grid::<[u16; 16]>(area)?);
+    mark(&mut tiny, &edges, &explored);
+    mark(&mut small, &edges, &explored);
+    for avoid in [Avoid::Walls, Avoid::WallsAndVirtual] {
+        let is_open = |edge: Edge| {
+            let state = edges.iter().find(|&&(other, _)| other == edge).map_or(WALL, |&(_, state)| state);
+            state == OPEN || state == VIRTUAL && avoid == Avoid::Walls
+        };
+        let asked = if subject.sabotage == Sabotage::BindsFollowers { Avoid::WallsAndVirtual } else { avoid };
+        for from in area.cells() {
+            let counted = count(from, is_open, |cell| explored.contains(&cell));
+            require([tiny.distance(from, asked), small.distance(from, asked)] == [counted; 2], DISTANCE)?;
+        }
+    }
+    Ok(if explored.len() == area.cells().count() { "no frontier" } else { "a frontier" })
+}
+
+const OPEN: u32 = 0;
+const WALL: u32 = 1;
+const VIRTUAL: u32 = 2;
+
+/// In the widest area of every grid, open and explored but for one cell at the end of a row or a column: the distance
+/// from its other end.
+///
+/// # Errors
+/// [`Stop::Violated`] if it is not the length of the line.
+pub fn along_every_line(subject: &Subject, source: &mut dyn Source) -> Outcome {
+    match source.pick(5) {
+        0 => along_a_line::<u64>(subject, source),
+        1 => along_a_line::<u128>(subject, source),
+        2 => along_a_line::<[u16; 16]>(subject, source),
+        3 => along_a_line::<[u64; 64]>(subject, source),
+        _ => along_a_line::<[u128; 128]>(subject, source),
+    }
+}
+
+fn along_a_line<P: Plane>(subject: &Subject, source: &mut dyn Source) -> Outcome {
+    let (columns, rows) = (P::COLUMNS as i16, P::ROWS as i16);
+    let (is_column, is_backwards) = (source.flip(), source.flip());
+    let (lines, length) = if is_column { (columns, rows) } else { (rows, columns) };
+    let line = source.pick(lines as u32) as i16;
+    let cell = |place| if is_column { Cell::new(line, place) } else { Cell::new(place, line) };
+    let (from, to) = if is_backwards { (cell(length - 1), cell(0)) } else { (cell(0), cell(length - 1)) };
+    let mut grid = grid::<P>(area(columns, rows)?)?;
+    grid.area().cells().filter(|&cell| cell != to).for_each(|cell| grid.put(CellMark::Explored, cell));
+    if subject.sabotage == Sabotage::SkipsALine && line == lines / 2 {
+        let side = if is_column { Side::South } else { Side::East };
+        (0..length).for_each(|place| grid.put_edge(EdgeMark::Wall, Edge::new(cell(place), side)));
+    }
+    require(grid.distance(from, Avoid::Walls) == Some(length as u32 - 1), DISTANCE)?;
+    Ok(if is_column { "a column" } else { "a row" })
+}
+
+fn area(width: i16, height: i16) -> Result<Area, Stop> {
+    Area::new(Cell::new(0, 0), Cell::new(width - 1, height - 1)).ok_or(Stop::Assumed)
+}
+
+fn grid<P: Plane>(area: Area) -> Result<BitGrid<P>, Stop> {
+    BitGrid::new(area).ok_or(Stop::Assumed)
+}
+
+fn mark(grid: &mut impl Grid, edges: &[(Edge, u32)], explored: &[Cell]) {
+    for &(edge, state) in edges {
+        match state {
+            WALL => grid.put_edge(EdgeMark::Wall, edge),
+            VIRTUAL => grid.put_edge(EdgeMark::Virtual, edge),
+            _ => {}
+        }
+    }
+    explored.iter().for_each(|&cell| grid.put(CellMark::Explored, cell));
+}
+
+/// Steps from `from` to the nearest cell that is not explored, counted layer by layer.
+fn count(from: Cell, is_open: impl Fn(Edge) -> bool, is_explored: impl Fn(Cell) -> bool) -> Option<u32> {
+    let (mut seen, mut queue) = (vec![from], VecDeque::from([(from, 0)]));
+    while let Some((cell, steps)) = queue.pop_front() {
+        if !is_explored(cell) {
+            return Some(steps);
+        }
+        for side in Side::ALL.into_iter().filter(|&side| is_open(Edge::new(cell, side))) {
+            let next = cell.beyond(side);
+            if !seen.contains(&next) {
+                seen.push(next);
+                queue.push_back((next, steps + 1));
+            }
+        }
+    }
+    None
+}
