@@ -42,6 +42,9 @@ fn every_clause_stands_in_the_spec_word_for_word() {
 fn the_ledger_is_that_of_the_readme() {
     let all = printed(&["prove"], 0);
     let (ledger, _) = all.split_once("\n\n").expect("a ledger, then counterexamples");
+    for line in ledger.lines() {
+        assert!(line.chars().count() <= 80, "wider than 80 columns: {line}");
+    }
     assert_snapshot!("ledger", ledger);
     assert!(document("README.md").contains(ledger), "the README shows another ledger:\n{ledger}");
 }

@@ -8,9 +8,8 @@ use tautline_kernel::lattice::Cell;
 
 use crate::bricks::{Misses, Small, look};
 use crate::clause::{Sabotage, Subject};
-use crate::course::Explored;
 use crate::engine::{Tally, outcomes};
-use crate::plans::{CELLS, Plan, blocked};
+use crate::plans::{Area, CELLS, Plan};
 use crate::states::{Bits, Step, System};
 
 struct Colony {
@@ -90,18 +89,46 @@ impl System for Colony {
     }
 }
 
-/// ANTS-1 on every small floor.
-pub(crate) fn explores(subject: &Subject) -> Explored {
-    let mut tally = Tally::default();
-    let colonies = |width, height, max_misses| -> Vec<Colony> {
-        let colony = |plan| Colony { plan, rule: subject.ants, max_misses, sabotage: subject.sabotage };
-        blocked(width, height).map(colony).collect()
-    };
-    look(&mut tally, &colonies(4, 4, 0), |colony| colony.starts(1));
-    look(&mut tally, &colonies(3, 3, 2), |colony| colony.starts(1));
-    look(&mut tally, &colonies(3, 2, 0), |colony| colony.starts(2));
-    Explored { tally, course: None }
+/// Ants on all plans of an area, in any of their cells.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Series {
+    area: Area,
+    ants: u32,
+    max_misses: u8,
 }
 
-/// What [`explores`] covers.
-pub(crate) const EXPLORES: &str = "1 ant to 4×4, to 3×3, 2 misses; 2 to 3×2 cells, every order";
+const SERIES: [Series; 3] = [
+    Series { area: Area::blocked(4, 4), ants: 1, max_misses: 0 },
+    Series { area: Area::blocked(3, 3), ants: 1, max_misses: 2 },
+    Series { area: Area::blocked(3, 2), ants: 2, max_misses: 0 },
+];
+
+impl Series {
+    fn colonies(self, subject: &Subject) -> Vec<Colony> {
+        let Self { area, ants: _, max_misses } = self;
+        let colony = |plan| Colony { plan, rule: subject.ants, max_misses, sabotage: subject.sabotage };
+        area.plans().map(colony).collect()
+    }
+}
+
+/// ANTS-1 on every small floor. The choices of a violation are as those of [`look`].
+pub(crate) fn explore(subject: &Subject) -> Tally {
+    let mut tally = Tally::default();
+    for (number, series) in (0..).zip(SERIES) {
+        let colonies = series.colonies(subject);
+        if look(&mut tally, number, &colonies, |colony| colony.starts(series.ants)).is_some() {
+            break;
+        }
+    }
+    tally
+}
+
+/// What [`explore`] covers.
+pub(crate) fn bound() -> String {
+    let words = |Series { area, ants, max_misses }: Series| {
+        let missed = if max_misses > 0 { format!(", {max_misses} missed") } else { String::new() };
+        let who = if ants == 1 { "ant" } else { "ants" };
+        format!("{ants} {who} to {area}{missed}")
+    };
+    SERIES.map(words).join("; ")
+}

@@ -11,7 +11,7 @@ use tautline_kernel::lattice::{Cell, Edge, Side, Step};
 use crate::clause::{Sabotage, Subject};
 use crate::course::{Course, Explored, Scene, Turn};
 use crate::engine::{Tally, cover, outcomes};
-use crate::plans::{CELLS, Plan, blocked, walled};
+use crate::plans::{Area, CELLS, Plan};
 use crate::states::{self, Bits, Ending, Found, Run, System, search};
 
 /// The sensors of a plan.
@@ -369,9 +369,10 @@ impl System for Team {
     }
 }
 
-/// Teams to look at: a set of plans, how many agents start in any of their cells, and how many sensors they miss.
-struct Series<P> {
-    plans: P,
+/// Teams to look at: all plans of an area, how many agents start in any of their cells, and how many sensors they miss.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Series {
+    area: Area,
     agents: u32,
     max_misses: u8,
     max_streak: Option<u8>,
@@ -386,51 +387,129 @@ struct Series<P> {
 /// in small layouts.
 const PATIENT: u8 = 2;
 
-impl<P: Iterator<Item = Plan>> Series<P> {
+impl Series {
     /// Every action one step, every schedule, nothing missed, no patience.
-    fn new(plans: P, agents: u32) -> Self {
+    const fn new(area: Area, agents: u32) -> Self {
         let turns = Turns::Whole;
-        Self { plans, agents, max_misses: 0, max_streak: None, turns, patience: 0, reach: 4 }
+        Self { area, agents, max_misses: 0, max_streak: None, turns, patience: 0, reach: 4 }
     }
 
     /// The same with missed sensors; no agent acts more than twice while another waits.
-    fn missing(plans: P, agents: u32, max_misses: u8) -> Self {
-        Self { max_misses, max_streak: Some(2), ..Self::new(plans, agents) }
+    const fn missing(area: Area, agents: u32, max_misses: u8) -> Self {
+        Self { max_misses, max_streak: Some(2), ..Self::new(area, agents) }
     }
 
     /// The same with patient agents, which read the crossings of cells: they count up without end where an agent is kept
     /// from acting, so no agent acts more than twice while another waits.
-    fn patient(plans: P, agents: u32, max_misses: u8) -> Self {
-        Self { patience: PATIENT, ..Self::missing(plans, agents, max_misses) }
+    const fn patient(area: Area, agents: u32, max_misses: u8) -> Self {
+        Self { patience: PATIENT, ..Self::missing(area, agents, max_misses) }
     }
 
-    /// Looks at all of them.
-    fn look(self, explored: &mut Explored, rule: Rule, demand: Demand) {
-        let Self { plans, agents, max_misses, max_streak, turns, patience, reach } = self;
-        let rule = Rule { patience, reach, ..rule };
-        let teams: Vec<Team> =
-            plans.map(|plan| Team { plan, rule, turns, max_misses, max_streak, demand }).collect();
-        let broken = look(&mut explored.tally, &teams, |team| team.starts(agents).collect());
-        let shown =
-            broken.and_then(|(team, run)| Some(team.course(team.starts(agents).nth(run.start)?, &run)));
-        explored.course = shown.or(explored.course.take());
+    /// The teams, one in each plan.
+    fn teams(self, subject: &Subject, demand: Demand) -> Vec<Team> {
+        let Self { area, agents: _, max_misses, max_streak, turns, patience, reach } = self;
+        let rule = Rule { patience, reach, ..subject.bricks };
+        let is_atomic = subject.sabotage != Sabotage::ActsAtOnce;
+        let turns = if turns == Turns::Overlapping && !is_atomic { Turns::Free } else { turns };
+        area.plans().map(|plan| Team { plan, rule, turns, max_misses, max_streak, demand }).collect()
+    }
+
+    /// What it is, `who` standing for its agents.
+    fn words(self, who: &str) -> String {
+        let Self { area, agents, max_misses, max_streak, turns, patience, reach: _ } = self;
+        let mut words = format!("{agents}{who} to {area}");
+        if max_misses > 0 {
+            words += &format!(", {max_misses} missed");
+        }
+        if patience > 0 {
+            words += &format!(", patience {patience}");
+        }
+        match turns {
+            Turns::Whole => {}
+            Turns::Overlapping => words += ", scans and writes in every order unless scans overlap",
+            Turns::Free => words += ", scans and writes in every order",
+        }
+        if let Some(most) = max_streak.filter(|_| agents > 1) {
+            words += &format!(", at most {most} acts in a row");
+        }
+        words
+    }
+}
+
+/// The small floors of a check, and what is demanded of every state of the agents on them.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Floors {
+    series: &'static [Series],
+    demand: Demand,
+}
+
+impl Floors {
+    /// BRICKS-2, nothing missed, one agent.
+    pub const CONNECTED_ALONE: Self = Self { series: &ALONE, demand: Demand::Connected };
+    /// BRICKS-2, nothing missed.
+    pub const CONNECTED: Self = Self { series: &TOGETHER, demand: Demand::Connected };
+    /// BRICKS-2, sensors missed.
+    pub const CONNECTED_HALF_BLIND: Self = Self { series: &HALF_BLIND, demand: Demand::Connected };
+    /// BRICKS-3
+    pub const CONNECTED_IN_TURNS: Self = Self { series: &IN_TURNS, demand: Demand::Connected };
+    /// BRICKS-4, nothing missed.
+    pub const KNOWING: Self = Self { series: &TOGETHER, demand: Demand::Knowing };
+    /// BRICKS-4, sensors missed.
+    pub const KNOWING_HALF_BLIND: Self = Self { series: &HALF_BLIND, demand: Demand::Knowing };
+    /// BRICKS-5, sensors missed.
+    pub const EXPLORES_HALF_BLIND: Self = Self { series: &HALF_BLIND, demand: Demand::Explores };
+    /// BRICKS-6, nothing missed, one agent.
+    pub const ENDS_ALONE: Self = Self { series: &ALONE, demand: Demand::Ends };
+    /// BRICKS-6, nothing missed.
+    pub const ENDS: Self = Self { series: &TOGETHER, demand: Demand::Ends };
+    /// BRICKS-6, nothing missed, and all gone over twice.
+    pub const ENDS_TWICE: Self = Self { series: &TWICE, demand: Demand::Ends };
+    /// BRICKS-6, sensors missed.
+    pub const ENDS_HALF_BLIND: Self = Self { series: &HALF_BLIND, demand: Demand::Ends };
+
+    /// Looks at all states, series by series, until the first violation. Its choices are the numbers of the series, the
+    /// plan and the start, then the steps.
+    pub fn explore(self, subject: &Subject) -> Explored {
+        let mut explored = Explored::default();
+        for (number, series) in (0..).zip(self.series) {
+            let teams = series.teams(subject, self.demand);
+            let tally = &mut explored.tally;
+            let Some((team, run)) = look(tally, number, &teams, |team| team.starts(series.agents).collect())
+            else {
+                continue;
+            };
+            explored.course = team.starts(series.agents).nth(run.start).map(|start| team.course(start, &run));
+            break;
+        }
+        explored
+    }
+
+    /// What it covers, every series by its name.
+    pub fn bound(self) -> String {
+        let name = |agents: u32| if agents == 1 { " agent" } else { " agents" };
+        let first = self.series.iter().take(1).map(|series| series.words(name(series.agents)));
+        let mut words: Vec<String> =
+            first.chain(self.series.iter().skip(1).map(|series| series.words(""))).collect();
+        let mut reaches: Vec<u8> = self.series.iter().map(|series| series.reach).collect();
+        reaches.dedup();
+        words.extend(reaches.into_iter().map(|reach| format!("reach {reach}")));
+        words.join("; ")
     }
 }
 
 /// Plans that are looked at between two looks for a violation.
 const WAVE: usize = 64;
 
-/// Searches all states of `systems` from their starts, until something is broken: by which system, and how. The choices
-/// of a violation are the numbers of the system, the start, and the steps; the tally is the same on any number of threads.
+/// Searches all states of `systems`, which are of the series with this number, from their starts, until something is
+/// broken: by which system, and how. The choices of a violation are the numbers of the series, the system, the start, and
+/// the steps; the tally is the same on any number of threads.
 pub(crate) fn look<'a, S: System<Demand = &'static str> + Sync>(
     tally: &mut Tally,
+    series: u32,
     systems: &'a [S],
     starts: impl Fn(&S) -> Vec<S::State> + Sync,
 ) -> Option<(&'a S, Run<&'static str>)> {
     for (wave, first) in systems.chunks(WAVE).zip((0..).step_by(WAVE)) {
-        if tally.violation.is_some() {
-            return None;
-        }
         let found: Vec<Found<_>> =
             wave.par_iter().map(|system| search(system, starts(system), u32::MAX)).collect();
         let mut shown = None;
@@ -442,7 +521,7 @@ pub(crate) fn look<'a, S: System<Demand = &'static str> + Sync>(
             shown = shown.or(broken.into_iter().next().map(|run| (place, system, run)));
         }
         if let Some((place, system, run)) = shown {
-            let choices = [&[place, run.start as u32], &run.steps[..]].concat();
+            let choices = [&[series, place, run.start as u32], &run.steps[..]].concat();
             tally.violation = Some((choices, run.demand));
             return Some((system, run));
         }
@@ -452,125 +531,41 @@ pub(crate) fn look<'a, S: System<Demand = &'static str> + Sync>(
 
 /// Nothing missed: one agent alone, two and three in every order; patient ones last, since what is wrong with a rule
 /// may let them go on without end.
-fn together(rule: Rule, demand: Demand) -> Explored {
-    let mut explored = Explored::default();
-    Series::new(blocked(4, 4), 1).look(&mut explored, rule, demand);
-    Series::new(walled(3, 3), 1).look(&mut explored, rule, demand);
-    Series::new(walled(3, 2), 2).look(&mut explored, rule, demand);
-    Series::new(blocked(3, 2), 3).look(&mut explored, rule, demand);
-    Series::new(blocked(3, 3), 2).look(&mut explored, rule, demand);
-    Series::patient(blocked(4, 3), 1, 0).look(&mut explored, rule, demand);
-    Series::patient(blocked(4, 2), 2, 0).look(&mut explored, rule, demand);
-    explored
-}
-
-/// What [`together`] covers.
-pub(crate) const TOGETHER: &str = "1 agent to 4×4, 2 to 3×3, 3 to 3×2; with walls 1 to 3×3, 2 to 3×2";
+const TOGETHER: [Series; 7] = [
+    Series::new(Area::blocked(4, 4), 1),
+    Series::new(Area::walled(3, 3), 1),
+    Series::new(Area::walled(3, 2), 2),
+    Series::new(Area::blocked(3, 2), 3),
+    Series::new(Area::blocked(3, 3), 2),
+    Series::patient(Area::blocked(4, 3), 1, 0),
+    Series::patient(Area::blocked(4, 2), 2, 0),
+];
 
 /// One agent alone, nothing missed.
-fn alone(rule: Rule, demand: Demand) -> Explored {
-    let mut explored = Explored::default();
-    Series::new(blocked(4, 4), 1).look(&mut explored, rule, demand);
-    explored
-}
+const ALONE: [Series; 1] = [Series::new(Area::blocked(4, 4), 1)];
 
-/// What [`alone`] covers.
-pub(crate) const ALONE: &str = "1 agent to 4×4 cells, every start";
-
-/// Sensors missed; small areas first and patient agents last, as in [`together`].
-fn half_blind(rule: Rule, demand: Demand) -> Explored {
-    let mut explored = Explored::default();
-    Series::missing(blocked(3, 2), 1, 4).look(&mut explored, rule, demand);
-    Series::missing(walled(3, 2), 1, 2).look(&mut explored, rule, demand);
-    Series::missing(blocked(3, 3), 1, 2).look(&mut explored, rule, demand);
-    Series::missing(blocked(3, 2), 2, 1).look(&mut explored, rule, demand);
-    Series::patient(blocked(3, 3), 1, 1).look(&mut explored, rule, demand);
-    Series::patient(blocked(3, 2), 1, 2).look(&mut explored, rule, demand);
-    Series::patient(blocked(2, 2), 2, 1).look(&mut explored, rule, demand);
-    explored
-}
-
-/// What [`half_blind`] covers.
-pub(crate) const HALF_BLIND: &str = "1 agent to 3×3, 2 misses, to 3×2, 4; 2 to 3×2, 1, ≤ 2 acts in a row";
-
-pub(crate) fn connected_alone(subject: &Subject) -> Explored {
-    alone(subject.bricks, Demand::Connected)
-}
-
-pub(crate) fn connected(subject: &Subject) -> Explored {
-    together(subject.bricks, Demand::Connected)
-}
-
-pub(crate) fn connected_half_blind(subject: &Subject) -> Explored {
-    half_blind(subject.bricks_ants, Demand::Connected)
-}
+/// Sensors missed; small areas first and patient agents last, as in [`TOGETHER`].
+const HALF_BLIND: [Series; 7] = [
+    Series::missing(Area::blocked(3, 2), 1, 4),
+    Series::missing(Area::walled(3, 2), 1, 2),
+    Series::missing(Area::blocked(3, 3), 1, 2),
+    Series::missing(Area::blocked(3, 2), 2, 1),
+    Series::patient(Area::blocked(3, 3), 1, 1),
+    Series::patient(Area::blocked(3, 2), 1, 2),
+    Series::patient(Area::blocked(2, 2), 2, 1),
+];
 
 /// Scanning and writing are two steps.
-pub(crate) fn connected_in_turns(subject: &Subject) -> Explored {
-    let is_atomic = subject.sabotage != Sabotage::ActsAtOnce;
-    let turns = if is_atomic { Turns::Overlapping } else { Turns::Free };
-    let mut explored = Explored::default();
-    let series = Series { turns, ..Series::new(blocked(5, 2), 2) };
-    series.look(&mut explored, subject.bricks, Demand::Connected);
-    explored
-}
-
-/// What [`connected_in_turns`] covers.
-pub(crate) const IN_TURNS: &str = "2 agents to 5×2 cells, every order of scans and writes";
-
-pub(crate) fn knowing(subject: &Subject) -> Explored {
-    together(subject.bricks, Demand::Knowing)
-}
-
-pub(crate) fn knowing_half_blind(subject: &Subject) -> Explored {
-    half_blind(subject.bricks, Demand::Knowing)
-}
-
-pub(crate) fn robust_knowing_half_blind(subject: &Subject) -> Explored {
-    half_blind(subject.bricks_ants, Demand::Knowing)
-}
-
-pub(crate) fn explores_half_blind(subject: &Subject) -> Explored {
-    half_blind(subject.bricks, Demand::Explores)
-}
-
-pub(crate) fn robust_explores_half_blind(subject: &Subject) -> Explored {
-    half_blind(subject.bricks_ants, Demand::Explores)
-}
-
-pub(crate) fn ends_alone(subject: &Subject) -> Explored {
-    alone(subject.bricks, Demand::Ends)
-}
-
-pub(crate) fn ends(subject: &Subject) -> Explored {
-    together(subject.bricks, Demand::Ends)
-}
-
-pub(crate) fn ends_half_blind(subject: &Subject) -> Explored {
-    half_blind(subject.bricks, Demand::Ends)
-}
-
-pub(crate) fn robust_ends_half_blind(subject: &Subject) -> Explored {
-    half_blind(subject.bricks_ants, Demand::Ends)
-}
+const IN_TURNS: [Series; 1] = [Series { turns: Turns::Overlapping, ..Series::new(Area::blocked(5, 2), 2) }];
 
 /// Nothing missed, and all gone over twice.
-fn twice(rule: Rule, demand: Demand) -> Explored {
-    let mut explored = Explored::default();
-    Series::new(blocked(4, 3), 1).look(&mut explored, rule, demand);
-    Series::new(walled(3, 3), 1).look(&mut explored, rule, demand);
-    Series::new(blocked(4, 2), 2).look(&mut explored, rule, demand);
-    Series::patient(blocked(4, 3), 1, 0).look(&mut explored, rule, demand);
-    Series::patient(blocked(3, 2), 2, 0).look(&mut explored, rule, demand);
-    explored
-}
-
-/// What [`twice`] covers.
-pub(crate) const TWICE: &str = "1 agent to 4×3, 2 to 4×2; with walls 1 to 3×3";
-
-pub(crate) fn robust_ends(subject: &Subject) -> Explored {
-    twice(subject.bricks_ants, Demand::Ends)
-}
+const TWICE: [Series; 5] = [
+    Series::new(Area::blocked(4, 3), 1),
+    Series::new(Area::walled(3, 3), 1),
+    Series::new(Area::blocked(4, 2), 2),
+    Series::patient(Area::blocked(4, 3), 1, 0),
+    Series::patient(Area::blocked(3, 2), 2, 0),
+];
 
 #[cfg(test)]
 mod tests {
@@ -581,10 +576,9 @@ mod tests {
     #[ignore = "takes minutes: cargo test -p tautline-proofs -- --ignored two_agents"]
     fn two_agents_keep_all_layouts_of_four_by_three_cells_connected_and_end_with_every_cell_visited() {
         for demand in [Demand::Connected, Demand::Ends] {
-            let mut explored = Explored::default();
-            let series = Series { reach: u8::MAX, ..Series::new(blocked(4, 3), 2) };
-            series.look(&mut explored, Rule::REPAIRED, demand);
-            let Explored { tally, course } = explored;
+            const FAR: [Series; 1] = [Series { reach: u8::MAX, ..Series::new(Area::blocked(4, 3), 2) }];
+            let floors = Floors { series: &FAR, demand };
+            let Explored { tally, course } = floors.explore(&Subject::REPAIRED);
             assert_eq!((tally.violation, course, tally.cases), (None, None, 32_566_853), "{demand:?}");
         }
     }

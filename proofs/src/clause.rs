@@ -5,12 +5,12 @@
 use tautline_kernel::ants;
 use tautline_kernel::bricks;
 use tautline_kernel::broadcast::{self, Conditions};
-use tautline_kernel::chain::{Condition, High, Rule};
+use tautline_kernel::chain::{Budget, Condition, High, Rule};
 use tautline_kernel::choice::Source;
 use tautline_kernel::lattice::Circle;
 use tautline_kernel::rescue;
 
-use crate::course::Explored;
+use crate::bricks::Floors;
 use crate::engine::Outcome;
 use crate::invariant::Invariant;
 use crate::notice::Networks;
@@ -29,8 +29,6 @@ pub struct Subject {
     pub ants: ants::Rule,
     /// The rule of Brick&Mortar.
     pub bricks: bricks::Rule,
-    /// That of Brick&Mortar made robust against missed sensors.
-    pub bricks_ants: bricks::Rule,
     /// The rule of a rescue.
     pub rescue: rescue::Rule,
     /// The conditions that the nodes of a network follow.
@@ -91,7 +89,6 @@ impl Subject {
         sabotage: Sabotage::None,
         ants: ants::Rule::Published,
         bricks: bricks::Rule::PUBLISHED,
-        bricks_ants: bricks::Rule::ROBUST,
         rescue: rescue::Rule::PUBLISHED,
         notice: Conditions::PUBLISHED,
     };
@@ -102,10 +99,38 @@ impl Subject {
         sabotage: Sabotage::None,
         ants: ants::Rule::Repaired,
         bricks: bricks::Rule::REPAIRED,
-        bricks_ants: bricks::Rule::ROBUST,
         rescue: rescue::Rule::REPAIRED,
         notice: Conditions::REPAIRED,
     };
+
+    /// Everything repaired, and agents robust against missed sensors.
+    pub const ROBUST: Self = Self::marking(bricks::Rule::ROBUST);
+
+    /// The chain as published, without *CoveredBehind*: CHAIN-3 does not need it.
+    pub const UNCOVERED: Self = {
+        let rule = Rule::PUBLISHED.without(Condition::CoveredBehind);
+        Self { rule, intended: rule, ..Self::PUBLISHED }
+    };
+
+    /// The repaired chain with so small a budget that many plans use it up, also in small areas.
+    pub const SPARING: Self = {
+        let rule = Rule { budget: Budget::LooksPerRobot(4), ..Rule::REPAIRED };
+        Self { rule, intended: rule, ..Self::REPAIRED }
+    };
+
+    /// The subjects that have a name.
+    const NAMED: [(Self, &'static str); 5] = [
+        (Self::PUBLISHED, "published"),
+        (Self::REPAIRED, "repaired"),
+        (Self::ROBUST, "robust"),
+        (Self::UNCOVERED, "uncovered"),
+        (Self::SPARING, "sparing"),
+    ];
+
+    /// The name of the rule; of a mutant, none.
+    pub fn name(&self) -> Option<&'static str> {
+        Self::NAMED.iter().find(|(named, _)| named == self).map(|&(_, name)| name)
+    }
 
     /// Agents that follow `rule`.
     pub const fn marking(rule: bricks::Rule) -> Self {
@@ -114,7 +139,7 @@ impl Subject {
 
     /// Agents that follow the robust rule without one condition.
     pub const fn marking_twice_without(condition: bricks::Condition) -> Self {
-        Self { bricks_ants: bricks::Rule::ROBUST.without(condition), ..Self::REPAIRED }
+        Self::marking(bricks::Rule::ROBUST.without(condition))
     }
 
     /// A team that claims to follow the repaired rule, but follows `rule`.
@@ -179,13 +204,14 @@ pub struct Check {
     pub subject: Subject,
     /// How it is decided.
     pub method: Method,
-    /// What the method covers, in words.
-    pub bound: &'static str,
     /// What must come out.
     pub expected: Verdict,
     /// Subjects for which the check must fail.
     pub mutants: &'static [Mutant],
 }
+
+/// The bound of a body in words, made from the numbers that its choices range over.
+pub type Range = fn() -> String;
 
 /// How a check is decided.
 #[derive(Clone, Copy, Debug)]
@@ -194,6 +220,8 @@ pub enum Method {
     Exhaustive {
         /// The body.
         body: Body,
+        /// What its choices range over.
+        range: Range,
         /// The situations that must occur, sorted.
         covers: &'static [&'static str],
     },
@@ -203,23 +231,17 @@ pub enum Method {
         body: Body,
         /// How many times.
         runs: u64,
+        /// What its choices range over: what so many of are drawn.
+        range: Range,
         /// The situations that must occur, sorted.
         covers: &'static [&'static str],
     },
-    /// Every state of agents on small floors.
-    Floors {
-        /// Goes through them.
-        explore: fn(&Subject) -> Explored,
-        /// The situations that must occur, sorted.
-        covers: &'static [&'static str],
-    },
+    /// Every state of Ants on small floors.
+    Ants,
+    /// Every state of agents that mark cells, on small floors.
+    Floors(Floors),
     /// Every state of an event on its way through small networks.
-    Spread {
-        /// The networks, and the demand on every state.
-        networks: Networks,
-        /// The situations that must occur, sorted.
-        covers: &'static [&'static str],
-    },
+    Spread(Networks),
     /// Every layout within a bound.
     Search {
         /// Robots, base included.
@@ -245,7 +267,35 @@ impl Method {
             Self::Exhaustive { .. } => "exhaustive",
             Self::Sampled { .. } => "sampled",
             Self::Search { .. } => "search",
-            Self::Floors { .. } | Self::Spread { .. } | Self::States { .. } => "states",
+            Self::Ants | Self::Floors(_) | Self::Spread(_) | Self::States { .. } => "states",
+        }
+    }
+
+    /// What it covers, in words that are made from the data that runs.
+    pub fn bound(self) -> String {
+        match self {
+            Self::Exhaustive { range, .. } => range(),
+            Self::Sampled { runs, range, .. } => format!("{runs} {}", range()),
+            Self::Ants => crate::ants::bound(),
+            Self::Floors(floors) => floors.bound(),
+            Self::Spread(networks) => networks.bound(),
+            Self::Search { robots, max_walls, .. } => {
+                format!("all layouts, N = {robots}, at most {max_walls} walls")
+            }
+            Self::States { setting, .. } => setting.bound(),
+        }
+    }
+
+    /// What is shown by it when it finds no counterexample within its bound.
+    pub const fn shows(self) -> Verdict {
+        match self {
+            Self::Exhaustive { .. }
+            | Self::Ants
+            | Self::Floors(_)
+            | Self::Spread(_)
+            | Self::Search { .. }
+            | Self::States { .. } => Verdict::Holds,
+            Self::Sampled { .. } => Verdict::Unrefuted,
         }
     }
 }
@@ -262,8 +312,10 @@ pub struct Mutant {
 /// What a check found.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Verdict {
-    /// Within the bound the clause holds.
+    /// Every case within the bound was looked at, and none breaks the clause.
     Holds,
+    /// Cases were sampled, and none of them breaks the clause.
+    Unrefuted,
     /// There is a counterexample.
     Refuted,
     /// Neither: the check ended before its bound, or did not cover what it claims to.
@@ -275,6 +327,7 @@ impl Verdict {
     pub const fn word(self) -> &'static str {
         match self {
             Self::Holds => "holds",
+            Self::Unrefuted => "unrefuted",
             Self::Refuted => "refuted",
             Self::Open => "open",
         }

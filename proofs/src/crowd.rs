@@ -9,6 +9,14 @@ use crate::clause::Subject;
 use crate::engine::{Outcome, assume, require};
 use crate::pair::World;
 
+/// How many robots must not be in one cell.
+const ROBOTS: usize = 3;
+
+/// What [`crowding`] looks at.
+pub fn crowds() -> String {
+    format!("any {ROBOTS} robots in a cell or beside it, every plan and answer")
+}
+
 /// CHAIN-2, inductive step: if not all three are in the cell, they are not after the move.
 ///
 /// # Errors
@@ -17,14 +25,14 @@ pub fn crowding(subject: &Subject, source: &mut dyn Source) -> Outcome {
     let rule = &subject.rule;
     let cell = Cell::new(0, 0);
     // One of them may be the leader, or none.
-    let leader = source.pick(4) as usize;
-    let from = [(); 3].map(|()| cell.after(one_of(source, &Step::ALL)));
+    let leader = source.pick(ROBOTS as u32 + 1) as usize;
+    let from = [(); ROBOTS].map(|()| cell.after(one_of(source, &Step::ALL)));
     let present = from.iter().filter(|&&at| at == cell).count();
-    assume(present < 3)?;
-    let mut world = World::<3>::new();
+    assume(present < ROBOTS)?;
+    let mut world = World::<ROBOTS>::new();
     let tried = from.map(|at| world.pick(at, source));
     let entering = |robot: usize| from[robot] != cell && tried[robot].plan.to() == cell;
-    for robot in 0..3 {
+    for robot in 0..ROBOTS {
         let role = if robot == leader { Role::Leader } else { Role::Follower };
         // Those of the three that are there are others, since this one is not.
         assume(!entering(robot) || rule.admits_entry(role, present))?;
@@ -32,7 +40,7 @@ pub fn crowding(subject: &Subject, source: &mut dyn Source) -> Outcome {
     let planned = tried.iter().filter(|robot| robot.plan.to() == cell).count();
     assume(planned < 2 || !rule.has(Condition::Distinct))?;
     let arrived = tried.iter().filter(|robot| robot.arrived == cell).count();
-    require(arrived < 3, "no three robots end in one cell outside the base")?;
+    require(arrived < ROBOTS, "no three robots end in one cell outside the base")?;
     Ok(match (present, arrived) {
         (2, _) => "two were there",
         (_, 0) => "none arrives",

@@ -1,11 +1,14 @@
 //! Deciding a check: its verdict, and whether its mutants are rejected. A verdict of a search is remembered, since
 //! one search looks for several invariants at once.
 
+use crate::ants;
 use crate::clause::{Check, Method, Subject, Verdict};
 use crate::course::{Course, Explored};
 use crate::engine::{self, Tally};
+use crate::notice;
 use crate::rescue::{Setting, space};
 use crate::search::{Bounds, Counterexample, Found, Unsearchable, Until, Watch, search};
+use crate::states::END;
 
 /// What came of a check.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -68,7 +71,7 @@ impl Prover {
             let verdict = self.settle(check, &mutant.subject, Until::Violation, watch)?.verdict;
             match verdict {
                 Verdict::Refuted => decision.killed.push(mutant.name),
-                Verdict::Holds | Verdict::Open => decision.survived.push(mutant.name),
+                Verdict::Holds | Verdict::Unrefuted | Verdict::Open => decision.survived.push(mutant.name),
             }
         }
         Ok(decision)
@@ -81,22 +84,25 @@ impl Prover {
         until: Until,
         watch: Watch<'_>,
     ) -> Result<Decision, Unsearchable> {
+        let shown = check.method.shows();
+        let of_tally = |tally, covers: &[&str]| Decision::of_tally(tally, covers, shown);
         match check.method {
-            Method::Exhaustive { body, covers } => {
-                Ok(Decision::of_tally(engine::exhaust(|source| body(subject, source)), covers))
+            Method::Exhaustive { body, covers, .. } => {
+                Ok(of_tally(engine::exhaust(|source| body(subject, source)), covers))
             }
-            Method::Sampled { body, runs, covers } => {
-                Ok(Decision::of_tally(engine::sample(runs, SEED, |source| body(subject, source)), covers))
+            Method::Sampled { body, runs, covers, .. } => {
+                Ok(of_tally(engine::sample(runs, SEED, |source| body(subject, source)), covers))
             }
-            Method::Floors { explore, covers } => {
-                let Explored { tally, course } = explore(subject);
+            Method::Ants => Ok(of_tally(ants::explore(subject), &[END])),
+            Method::Floors(floors) => {
+                let Explored { tally, course } = floors.explore(subject);
                 let broken = tally.violation.as_ref().map(|&(_, demand)| demand);
-                let decision = Decision::of_tally(tally, covers);
+                let decision = of_tally(tally, &[END]);
                 let drawn =
                     broken.zip(course).map(|(demand, course)| Evidence::Course(Box::new(course), demand));
                 Ok(Decision { counterexample: drawn.or(decision.counterexample), ..decision })
             }
-            Method::Spread { networks, covers } => Ok(Decision::of_tally(networks.explore(subject), covers)),
+            Method::Spread(networks) => Ok(of_tally(networks.explore(subject), &notice::EVENTS)),
             Method::Search { robots, max_walls, invariant } => {
                 let invariants = match until {
                     Until::Exhausted => invariant.family().to_vec(),
@@ -107,7 +113,7 @@ impl Prover {
                 let counterexample = found.counterexamples.iter().find(|found| found.invariant == invariant);
                 let verdict = match counterexample {
                     Some(_) => Verdict::Refuted,
-                    None if found.complete => Verdict::Holds,
+                    None if found.complete => shown,
                     None => Verdict::Open,
                 };
                 let counterexample = counterexample.map(|run| Evidence::Run(Box::new(run.clone())));
@@ -123,7 +129,7 @@ impl Prover {
                 let broken = found.broken(demand).cloned();
                 let verdict = match broken {
                     Some(_) => Verdict::Refuted,
-                    None if found.complete => Verdict::Holds,
+                    None if found.complete => shown,
                     None => Verdict::Open,
                 };
                 let evidence = broken.map(|broken| Evidence::Rescue(Box::new((setting, broken))));
@@ -157,11 +163,12 @@ impl Decision {
         Self { verdict, cases, given_up: 0, counterexample, killed: Vec::new(), survived: Vec::new() }
     }
 
-    /// A body that did not cover what it claims to, holds for want of cases: that is no verdict.
-    fn of_tally(tally: Tally, covers: &[&str]) -> Self {
+    /// A tally without a violation shows `shown`, but not for want of cases: one that did not cover what it claims to
+    /// gives no verdict.
+    fn of_tally(tally: Tally, covers: &[&str], shown: Verdict) -> Self {
         let verdict = match tally.violation {
             Some(_) => Verdict::Refuted,
-            None if covers.iter().all(|situation| tally.covered.contains(situation)) => Verdict::Holds,
+            None if covers.iter().all(|situation| tally.covered.contains(situation)) => shown,
             None => Verdict::Open,
         };
         let evidence = tally.violation.map(|(choices, demand)| Evidence::Choices(choices, demand));

@@ -12,13 +12,27 @@ use crate::engine::{Outcome, Stop, require};
 
 const DISTANCE: &str = "the distance to the frontier is the fewest steps to an unexplored cell";
 
+/// Columns and rows of [`in_six_cells`].
+const SIX_CELLS: (i16, i16) = (3, 2);
+
+/// What [`in_six_cells`] looks at.
+pub fn small_maps() -> String {
+    let (width, height) = SIX_CELLS;
+    format!("every map of {width}×{height} cells, in one word and in one for each row")
+}
+
+/// What [`along_every_line`] looks at.
+pub fn lines() -> String {
+    format!("every row and column of {GRIDS} grids, from 8×8 to 128×128 cells, both ways")
+}
+
 /// In 3×2 cells, each edge open, a wall or a virtual obstacle, and each cell explored or not: the distances from all of
 /// them, those of a follower and those of the leader.
 ///
 /// # Errors
 /// [`Stop::Violated`] if one is not the fewest steps.
 pub fn in_six_cells(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let area = area(3, 2)?;
+    let area = area(SIX_CELLS.0, SIX_CELLS.1)?;
     let edges: Vec<(Edge, u32)> = area.edges().map(|edge| (edge, source.pick(3))).collect();
     let explored: Vec<Cell> = area.cells().filter(|_| source.flip()).collect();
     // One word for all cells, and one for each row.
@@ -43,13 +57,16 @@ const OPEN: u32 = 0;
 const WALL: u32 = 1;
 const VIRTUAL: u32 = 2;
 
+/// The grids of [`along_every_line`].
+const GRIDS: u32 = 5;
+
 /// In the widest area of every grid, open and explored but for one cell at the end of a row or a column: the distance
 /// from its other end.
 ///
 /// # Errors
 /// [`Stop::Violated`] if it is not the length of the line.
 pub fn along_every_line(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    match source.pick(5) {
+    match source.pick(GRIDS) {
         0 => along_a_line::<u64>(subject, source),
         1 => along_a_line::<u128>(subject, source),
         2 => along_a_line::<[u16; 16]>(subject, source),

@@ -8,10 +8,32 @@ use tautline_kernel::floor::{Ring, Scan, Sensor};
 use crate::clause::{Sabotage, Subject};
 use crate::engine::{Outcome, require};
 
+/// Cells around a cell.
+const AROUND: usize = 8;
+
+/// What [`neighbourhood`] looks at.
+pub(crate) fn neighbourhoods() -> String {
+    format!("all {} neighbourhoods", 1 << AROUND)
+}
+
+/// What [`walled`] looks at.
+pub(crate) fn walled_neighbourhoods() -> String {
+    format!("{}, walls between cells in every way", neighbourhoods())
+}
+
+/// What a cell around can be and be read as: inaccessible, explored, unexplored, explored but missed, inaccessible but
+/// missed.
+const READINGS: u32 = 5;
+
+/// What [`half_seen`] looks at.
+pub(crate) fn readings() -> String {
+    format!("all neighbourhoods, any of {AROUND} sensors missed: {} readings", READINGS.pow(AROUND as u32))
+}
+
 /// What is around a cell, and what is seen of it.
 struct Around {
     /// Accessible cells, clockwise from the northern one.
-    accessible: [bool; 8],
+    accessible: [bool; AROUND],
     /// What an agent makes of them: unexplored, explored or inaccessible.
     unexplored: Ring,
     explored: Ring,
@@ -88,7 +110,7 @@ pub(crate) fn neighbourhood(subject: &Subject, source: &mut dyn Source) -> Outco
 
 /// All neighbourhoods, and walls between any two of the nine cells.
 pub(crate) fn walled(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let accessible: [bool; 8] = core::array::from_fn(|_| source.flip());
+    let accessible: [bool; AROUND] = core::array::from_fn(|_| source.flip());
     let explored = Ring((0..8).fold(0, |ring, place| ring | u8::from(accessible[place]) << place));
     let rims =
         core::array::from_fn(|place| accessible[place] && accessible[(place + 1) % 8] && source.flip());
@@ -99,9 +121,8 @@ pub(crate) fn walled(subject: &Subject, source: &mut dyn Source) -> Outcome {
 /// All neighbourhoods, and any of their sensors missed: the rule of the second pass.
 pub(crate) fn half_seen(subject: &Subject, source: &mut dyn Source) -> Outcome {
     let (mut unexplored, mut explored) = (Ring::default(), Ring::default());
-    let accessible: [bool; 8] = core::array::from_fn(|place| {
-        // Inaccessible, explored, unexplored, explored but missed, inaccessible but missed.
-        let what = source.pick(5);
+    let accessible: [bool; AROUND] = core::array::from_fn(|place| {
+        let what = source.pick(READINGS);
         unexplored.0 |= u8::from(what >= 2) << place;
         explored.0 |= u8::from(what == 1) << place;
         (1..4).contains(&what)
@@ -114,22 +135,32 @@ pub(crate) fn half_seen(subject: &Subject, source: &mut dyn Source) -> Outcome {
         rims: core::array::from_fn(|place| is_read(place) && is_read((place + 1) % 8)),
         spokes: core::array::from_fn(|place| place % 2 == 0),
     };
-    decide(subject.bricks_ants, &around)
+    decide(subject.bricks, &around)
 }
 
 /// The side of a cell in millimetres (paper 004, V.A).
 const SIDE: u16 = 480;
 
+/// Where the sensors around are, in columns and rows, clockwise from the northern one.
+const PLACES: [(i32, i32); AROUND] = [(0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1)];
+
+/// Errors of each coordinate, in halves of the largest.
+const ERRORS: [i32; 5] = [0, -2, -1, 1, 2];
+
+/// What [`localised`] looks at.
+pub(crate) fn errors() -> String {
+    format!("{AROUND} sensors, {} errors each, a cell of {} cm", ERRORS.len().pow(2), SIDE / 10)
+}
+
 /// Every sensor around, localised with errors to just under half a side.
 pub(crate) fn localised(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    const AROUND: [(i32, i32); 8] = [(0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1)];
     let most = match subject.sabotage {
         Sabotage::LocalisesBadly => i32::from(SIDE) * 3 / 5,
         _ => i32::from(SIDE) / 2 - 1,
     };
-    let place = source.pick(8);
-    let (columns, rows) = AROUND[place as usize];
-    let error = |source: &mut dyn Source| one_of(source, &[0, -most, -most / 2, most / 2, most]);
+    let place = source.pick(AROUND as u32);
+    let (columns, rows) = PLACES[place as usize];
+    let error = |source: &mut dyn Source| most * one_of(source, &ERRORS) / 2;
     let east = columns * i32::from(SIDE) + error(source);
     let south = rows * i32::from(SIDE) + error(source);
     require(Ring::locate(east, south, SIDE) == Some(place), "the sensor is taken for the one of its cell")?;

@@ -3,6 +3,7 @@
 //! arrives is lost. So node numbers play no part either, and one network of each shape is enough.
 
 use core::num::NonZeroU32;
+use core::ops::RangeInclusive;
 
 use tautline_kernel::broadcast::{
     Count, Node, NodeId, Notice, Reaction, Reception, Rule, Scheme, Stage, Surroundings,
@@ -420,6 +421,17 @@ impl Networks {
 }
 
 impl Networks {
+    /// What it covers.
+    pub fn bound(self) -> String {
+        let rules = match self.rules {
+            Rules::EveryK => "every k".to_owned(),
+            Rules::Endless => "k = ∞ and flooding".to_owned(),
+            Rules::Only(0) => "k = ∞".to_owned(),
+            Rules::Only(k) => format!("k = {k}"),
+        };
+        format!("all networks of up to {SMALL} nodes, {rules}, every order")
+    }
+
     /// Goes through all states, until the first violation. A case is a state.
     pub fn explore(self, subject: &Subject) -> Tally {
         let mut tally = Tally::default();
@@ -477,6 +489,28 @@ impl Networks {
 /// The largest of the random networks.
 const LARGE: usize = 40;
 
+/// Nodes of a random network.
+const NODES: RangeInclusive<usize> = SMALL + 1..=LARGE;
+
+/// Links of a random network, in percent of all pairs of nodes.
+const LINKS: RangeInclusive<u32> = 5..=44;
+
+/// What [`tree_at_random`] and its like draw.
+pub fn random_networks() -> String {
+    format!("{}, k = 1 … {} or ∞", random_nodes(), Count::MOST)
+}
+
+/// What [`flood_at_random`] draws.
+pub fn random_floods() -> String {
+    format!("{}, k = ∞", random_nodes())
+}
+
+fn random_nodes() -> String {
+    let (nodes, links) = (NODES, LINKS);
+    let (fewest, most, thin, dense) = (nodes.start(), nodes.end(), links.start(), links.end());
+    format!("random networks of {fewest} to {most} nodes with {thin} to {dense} % links")
+}
+
 /// Events after which nothing more is left to chance, so that copies do not go on arriving for ever.
 const MOST_EVENTS: usize = 4_000;
 
@@ -485,8 +519,8 @@ fn spread_at_random(subject: &Subject, source: &mut dyn Source, demand: Demand) 
     // k = ∞ is one of them, and for flooding the only one.
     let k = if demand == Demand::Floods { 0 } else { source.pick(u32::from(Count::MOST) + 1) };
     let rule = farthest(subject, Count::new(k as u8));
-    let nodes = LARGE - source.pick(LARGE as u32 - SMALL as u32) as usize;
-    let links_percent = 5 + source.pick(40);
+    let nodes = NODES.end() - source.pick(NODES.count() as u32) as usize;
+    let links_percent = LINKS.start() + source.pick(LINKS.count() as u32);
     let mut links = Links::<LARGE>::NONE;
     for one in 0..nodes {
         for other in one + 1..nodes {
@@ -543,6 +577,22 @@ pub fn flood_at_random(subject: &Subject, source: &mut dyn Source) -> Outcome {
     spread_at_random(subject, source, Demand::Floods)
 }
 
+/// What can have become of the event before.
+const FATES: [&str; 4] =
+    ["unaware of the first", "waiting with the first", "silent about the first", "through with the first"];
+
+/// Later events, their senders and their hop counts.
+const LATER: [u32; 3] = [2, 3, 3];
+
+/// What [`second_event`] looks at.
+pub fn later_events() -> String {
+    let [events, senders, hops] = LATER;
+    format!(
+        "{} fates of an event, {events} later ones by {senders} senders with {hops} hop counts",
+        FATES.len()
+    )
+}
+
 /// NOTICE-4: whatever a node has made of one event, the next one is new to it.
 ///
 /// # Errors
@@ -550,29 +600,29 @@ pub fn flood_at_random(subject: &Subject, source: &mut dyn Source) -> Outcome {
 pub fn second_event(subject: &Subject, source: &mut dyn Source) -> Outcome {
     let rule = farthest(subject, Some(Count::ONE));
     let mut node = Node::new(NodeId(1), NodeId(0));
-    let situation = match source.pick(4) {
-        0 => "unaware of the first",
+    let fate = source.pick(FATES.len() as u32);
+    match fate {
+        0 => {}
         1 => {
             hear(&mut node, &rule, notice(2));
-            "waiting with the first"
         }
         2 => {
             hear(&mut node, &rule, notice(2));
             hear(&mut node, &rule, notice(3));
-            "silent about the first"
         }
         _ => {
             hear(&mut node, &rule, notice(2));
             node.expire(0);
-            "through with the first"
         }
-    };
-    let (event, sender, hops) = (2 + source.pick(2), 2 + source.pick(3), source.pick(3) as u16);
+    }
+    let [events, senders, most_hops] = LATER;
+    let (event, sender) = (2 + source.pick(events), 2 + source.pick(senders));
+    let hops = source.pick(most_hops) as u16;
     let reaction = hear(&mut node, &rule, Notice { event, hops, ..notice(sender as usize) });
     require(reaction == Reaction::Armed { at_ns: 0 }, "the first NOTICE of a newer event begins a wait")?;
     require(node.parent() == Some(NodeId(sender)), "its sender is the parent")?;
     require(node.hops() == Some(hops + 1), "the node is one hop farther than its sender")?;
-    Ok(situation)
+    Ok(FATES[fate as usize])
 }
 
 #[cfg(test)]

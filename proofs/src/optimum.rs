@@ -6,6 +6,7 @@
 use std::cmp::Reverse;
 use std::collections::HashMap;
 use std::fmt;
+use std::ops::RangeInclusive;
 
 use tautline_kernel::chain::Rule;
 use tautline_kernel::choice::Source;
@@ -393,12 +394,20 @@ impl Search<'_> {
     }
 }
 
-/// CHAIN-10, without its argument: the fewest team moves for the (2N−1)² cells, N = 2 … 6.
+/// The chains for which [`least_in_the_open`] finds the fewest team moves.
+const SOLVED: RangeInclusive<u32> = 2..=6;
+
+/// What [`least_in_the_open`] looks at.
+pub fn solved() -> String {
+    format!("{}, solved by A*", whole::chains(&SOLVED))
+}
+
+/// CHAIN-10, without its argument: the fewest team moves for the (2N−1)² cells.
 ///
 /// # Errors
 /// [`Stop::Violated`] if they are not 9(N−1)−1.
 pub fn least_in_the_open(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let robots = source.pick(5) as usize + 2;
+    let robots = whole::within(&SOLVED, source) as usize;
     let (area, base) = whole::area(robots);
     let ground = Ground::new(area, base, robots, |_| true).ok_or(Stop::Assumed)?;
     let goals = ground.reachable(&subject.rule).map_err(|_| UNSOLVED)?;

@@ -69,6 +69,14 @@ impl Tried {
     }
 }
 
+/// How many columns and rows the robot ahead is looked at from the one behind. E_C reaches no farther.
+const FAR: u32 = 2;
+
+/// What [`contact`] and [`coverage`] look at.
+pub fn neighbours() -> String {
+    format!("every pair of neighbours up to {FAR} apart, every plan and answer")
+}
+
 /// R_i and R_{i+1}, i ≥ 1.
 struct Pair {
     behind: Tried,
@@ -84,7 +92,8 @@ impl Pair {
         source: &mut dyn Source,
     ) -> Result<Self, Stop> {
         let behind = Cell::new(0, 0);
-        let ahead = Cell::new(source.pick(5) as i16 - 2, source.pick(5) as i16 - 2);
+        let mut offset = || source.pick(2 * FAR + 1) as i16 - FAR as i16;
+        let ahead = Cell::new(offset(), offset());
         assume(related(behind, ahead))?;
         let mut world = World::<2>::new();
         let pair = Self { behind: world.pick(behind, source), ahead: world.pick(ahead, source) };

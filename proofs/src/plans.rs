@@ -1,6 +1,8 @@
 //! Small areas for the searches over all layouts of agents on a floor: which cells are free, and the walls between
 //! them.
 
+use std::fmt;
+
 use tautline_kernel::lattice::{Cell, Edge, Side};
 
 /// The most cells of a small floor.
@@ -81,6 +83,51 @@ impl Plan {
     }
 }
 
+/// All plans of so many columns and rows.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Area {
+    width: i16,
+    height: i16,
+    drawn: Drawn,
+}
+
+/// What is drawn in every way.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Drawn {
+    BlockedCells,
+    Walls,
+}
+
+impl Area {
+    /// Blocked cells are drawn in every way.
+    pub(crate) const fn blocked(width: i16, height: i16) -> Self {
+        Self { width, height, drawn: Drawn::BlockedCells }
+    }
+
+    /// Walls between free cells are drawn in every way.
+    pub(crate) const fn walled(width: i16, height: i16) -> Self {
+        Self { width, height, drawn: Drawn::Walls }
+    }
+
+    /// Every plan of which all free cells are connected.
+    pub(crate) fn plans(self) -> Box<dyn Iterator<Item = Plan>> {
+        match self.drawn {
+            Drawn::BlockedCells => Box::new(blocked(self.width, self.height)),
+            Drawn::Walls => Box::new(walled(self.width, self.height)),
+        }
+    }
+}
+
+impl fmt::Display for Area {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}×{}", self.width, self.height)?;
+        match self.drawn {
+            Drawn::BlockedCells => Ok(()),
+            Drawn::Walls => f.write_str(" with walls"),
+        }
+    }
+}
+
 /// Every plan of `width` by `height` cells, blocked cells drawn in every way, of which all free cells are connected.
 pub(crate) fn blocked(width: i16, height: i16) -> impl Iterator<Item = Plan> {
     let all = open(width, height);
@@ -88,7 +135,7 @@ pub(crate) fn blocked(width: i16, height: i16) -> impl Iterator<Item = Plan> {
 }
 
 /// Every plan of `width` by `height` free cells, walls drawn between them in every way, that is connected.
-pub(crate) fn walled(width: i16, height: i16) -> impl Iterator<Item = Plan> {
+fn walled(width: i16, height: i16) -> impl Iterator<Item = Plan> {
     let all = open(width, height);
     let edges: Vec<Edge> = all
         .cells()

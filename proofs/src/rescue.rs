@@ -258,6 +258,22 @@ impl Faults {
         Self { in_all, losses: in_all, duplicates: in_all, delays: in_all, robots: in_all, nodes: in_all }
     }
 
+    /// What it allows, in words.
+    fn bound(self) -> String {
+        let Self { in_all, losses, duplicates, delays, robots, nodes } = self;
+        let kinds = [
+            (losses, "losses"),
+            (duplicates, "duplicates"),
+            (delays, "delays"),
+            (robots, "failed robots"),
+            (nodes, "failed nodes"),
+        ];
+        let fewer = kinds.into_iter().filter(|&(most, _)| most < in_all);
+        let fewer: Vec<String> = fewer.map(|(most, kind)| format!("at most {most} {kind}")).collect();
+        let of_them = if fewer.is_empty() { String::new() } else { format!(" ({})", fewer.join(", ")) };
+        format!("at most {in_all} fault{}{of_them}", if in_all == 1 { "" } else { "s" })
+    }
+
     /// What is left of one kind.
     fn left(self, kind: impl Fn(&Self) -> u8) -> u8 {
         kind(&self).min(self.in_all)
@@ -271,6 +287,35 @@ impl Faults {
 }
 
 impl Setting {
+    /// What it covers, in words.
+    pub fn bound(&self) -> String {
+        let Self { rule: _, robots, wfrs, events, max_hops, faults, lossy, leases } = *self;
+        let count =
+            |number: usize, one: &str| format!("{number} {one}{}", if number == 1 { "" } else { "s" });
+        let hops = match max_hops {
+            1 => "all one hop away".to_owned(),
+            2 => "1 or 2 hops".to_owned(),
+            most => format!("1 to {most} hops"),
+        };
+        let mut words = vec![
+            count(robots, "robot"),
+            count(wfrs, "WFR"),
+            count(events.into(), "event"),
+            faults.bound(),
+            hops,
+        ];
+        match lossy {
+            Lossy::All => {}
+            Lossy::Resb => words.push("of messages only RESBs lost".to_owned()),
+        }
+        match leases {
+            Leases::UntilCalled => {}
+            Leases::UntilOver => words.push("leases end no earlier than the WFR's".to_owned()),
+            Leases::Any => words.push("leases end at any time".to_owned()),
+        }
+        words.join(", ")
+    }
+
     /// The states in which nothing has happened, one for each combination of hops.
     pub fn starts(&self) -> Vec<State> {
         let ways = self.robots * self.wfrs;

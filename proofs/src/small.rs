@@ -10,12 +10,21 @@ use tautline_kernel::lattice::{Cell, Step, neighbours};
 use crate::clause::Subject;
 use crate::engine::{Outcome, assume, require};
 
+/// How many columns and rows LATTICE-1 looks in every direction.
+const FAR: u32 = 4;
+
+/// What [`environments`] looks at.
+pub fn offsets() -> String {
+    format!("{} offsets", (2 * FAR + 1).pow(2))
+}
+
 /// LATTICE-1: every offset is in the environments that the paper draws, and in no other.
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
 pub fn environments(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let (dx, dy) = (source.pick(9) as i16 - 4, source.pick(9) as i16 - 4);
+    let mut offset = || source.pick(2 * FAR + 1) as i16 - FAR as i16;
+    let (dx, dy) = (offset(), offset());
     let (centre, cell) = (Cell::new(0, 0), Cell::new(dx, dy));
     let block = dx.abs() <= 1 && dy.abs() <= 1;
     let tips = dx.abs().max(dy.abs()) == 2 && dx.abs().min(dy.abs()) == 0;
@@ -31,13 +40,21 @@ pub fn environments(subject: &Subject, source: &mut dyn Source) -> Outcome {
     })
 }
 
+/// Values of a byte.
+const BYTES: u32 = 1 << u8::BITS;
+
+/// What [`message`] looks at.
+pub fn messages() -> String {
+    format!("every message, all {BYTES} bytes")
+}
+
 /// CHAIN-8: a message survives its byte, and a byte that is no message is refused.
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
 pub fn message(subject: &Subject, source: &mut dyn Source) -> Outcome {
     if source.flip() {
-        let byte = source.pick(256) as u8;
+        let byte = source.pick(BYTES) as u8;
         let Ok(message) = Message::decode(byte) else { return Ok("no message") };
         require(message.encode() == byte, "a message has one byte")?;
         return Ok("a byte");
@@ -58,14 +75,27 @@ pub fn message(subject: &Subject, source: &mut dyn Source) -> Outcome {
 /// The longest chain that the ring argument is checked for. The step of the argument does not depend on N.
 const LONGEST: u32 = 32;
 
+/// Columns and rows in which the robot behind is looked at, from the base on.
+const BEHIND: u32 = 4;
+
+/// How many columns and rows the robot ahead may be from the one behind.
+const AHEAD: u32 = 3;
+
+/// What [`ring_of_neighbours`] looks at.
+pub fn pairs_in_rings() -> String {
+    let last = BEHIND - 1;
+    format!("every pair up to {AHEAD} apart, the robot behind in 0…{last} by 0…{last}")
+}
+
 /// CHAIN-10, first fact: a robot is at most one ring farther out than the one behind it, so that R_N alone comes
 /// to ring N−1.
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
 pub fn ring_of_neighbours(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let behind = Cell::new(source.pick(4) as i16, source.pick(4) as i16);
-    let ahead = Cell::new(behind.x + source.pick(7) as i16 - 3, behind.y + source.pick(7) as i16 - 3);
+    let behind = Cell::new(source.pick(BEHIND) as i16, source.pick(BEHIND) as i16);
+    let mut offset = || source.pick(2 * AHEAD + 1) as i16 - AHEAD as i16;
+    let ahead = Cell::new(behind.x + offset(), behind.y + offset());
     assume(subject.rule.admits_ahead(Move::stay(behind), Move::stay(ahead)))?;
     let farther = ring(ahead).cmp(&ring(behind));
     require(ring(ahead) <= ring(behind) + 1, "a robot is at most one ring farther out than the one behind")?;
@@ -74,6 +104,11 @@ pub fn ring_of_neighbours(subject: &Subject, source: &mut dyn Source) -> Outcome
         Ordering::Equal => "in the same ring",
         Ordering::Greater => "farther out",
     })
+}
+
+/// What [`ring_cells`] looks at.
+pub fn rings() -> String {
+    format!("N = 2 … {LONGEST}")
 }
 
 /// CHAIN-10, second fact: ring N−1 has 8(N−1) cells.

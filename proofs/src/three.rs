@@ -10,6 +10,21 @@ use crate::clause::Subject;
 use crate::engine::{Outcome, assume, require};
 use crate::pair::World;
 
+/// How many columns and rows R_2 is looked at from the base, and R_3 from R_2.
+const FAR: [u32; 2] = [1, 2];
+
+/// What [`contact`] looks at.
+pub fn places() -> String {
+    let [second, third] = FAR;
+    format!("R_2 up to {second} from the base, R_3 up to {third} from R_2, every plan and answer")
+}
+
+/// A cell at most so many columns and rows from `cell`.
+fn near(cell: Cell, far: u32, source: &mut dyn Source) -> Cell {
+    let mut offset = || source.pick(2 * far + 1) as i16 - far as i16;
+    Cell::new(cell.x + offset(), cell.y + offset())
+}
+
 /// CHAIN-15, inductive step: a base, R_2 in E_S of it, and R_3 in E_C of R_2.
 ///
 /// # Errors
@@ -17,8 +32,8 @@ use crate::pair::World;
 pub fn contact(subject: &Subject, source: &mut dyn Source) -> Outcome {
     let rule = &subject.rule;
     let base = Cell::new(0, 0);
-    let at = Cell::new(source.pick(3) as i16 - 1, source.pick(3) as i16 - 1);
-    let ahead = Cell::new(at.x + source.pick(5) as i16 - 2, at.y + source.pick(5) as i16 - 2);
+    let at = near(base, FAR[0], source);
+    let ahead = near(at, FAR[1], source);
     assume(Circle::COVERED.covers(at, ahead))?;
     let mut world = World::<2>::new();
     let leader = world.pick(ahead, source);

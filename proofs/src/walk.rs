@@ -41,6 +41,11 @@ impl Pair {
     }
 }
 
+/// What [`unfolding`] looks at.
+pub fn walks() -> String {
+    "every pair of neighbours on a walk, and every turn of it".to_owned()
+}
+
 /// CHAIN-13, inductive step: neighbours on a walk plan what is admitted, and stay neighbours on it.
 ///
 /// # Errors

@@ -1,6 +1,8 @@
 //! Bodies that run a chain from its start to its end, each unknown edge decided by the source: the plan of the
 //! plain recursion (CHAIN-11), the cost of planning (CHAIN-12) and the obstacle-free optimum (CHAIN-9).
 
+use std::ops::RangeInclusive;
+
 use tautline_kernel::chain::{Chain, End, Intent, Kind};
 use tautline_kernel::choice::{Source, one_of};
 use tautline_kernel::grid::{Area, EdgeMark, Grid, LargeGrid, MediumGrid, SmallGrid};
@@ -26,14 +28,37 @@ fn start<G: Grid, const ROBOTS: usize>(
     grid(area).and_then(|grid| Chain::new(subject.rule, robots, base, grid).ok()).ok_or(Stop::Assumed)
 }
 
+/// A number from `range`.
+pub(crate) fn within(range: &RangeInclusive<u32>, source: &mut dyn Source) -> u32 {
+    range.start() + source.pick(range.end() - range.start() + 1)
+}
+
+/// Chains of any length in `range`.
+pub(crate) fn chains(range: &RangeInclusive<u32>) -> String {
+    format!("N = {} … {}", range.start(), range.end())
+}
+
+/// Numbers in words.
+fn listed<N: ToString>(numbers: impl IntoIterator<Item = N>) -> String {
+    numbers.into_iter().map(|number| number.to_string()).collect::<Vec<_>>().join(", ")
+}
+
 const NO_MESSAGE: Stop = Stop::Violated("the log holds messages only");
 
-/// CHAIN-9: in an open area the chain of N = 2 … 32 is done after 9(N−1)−1 team moves.
+/// The chains of [`spiral`].
+const SPIRALS: RangeInclusive<u32> = 2..=32;
+
+/// What [`spiral`] looks at.
+pub fn spirals() -> String {
+    chains(&SPIRALS)
+}
+
+/// CHAIN-9: in an open area the chain is done after 9(N−1)−1 team moves.
 ///
 /// # Errors
 /// [`Stop::Violated`] if it is not.
 pub fn spiral(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let robots = source.pick(31) as usize + 2;
+    let robots = within(&SPIRALS, source) as usize;
     let mut chain = start::<_, 32>(subject, robots, MediumGrid::new)?;
     let mut log = Vec::new();
     let optimum = 9 * (robots - 1) - 1;
@@ -48,12 +73,21 @@ pub fn spiral(subject: &Subject, source: &mut dyn Source) -> Outcome {
     Ok("an open area")
 }
 
-/// CHAIN-11 over all layouts with few walls: 2, 3 and 4 robots.
+/// Robots, and most walls, of [`same_plan_in_all_layouts`].
+const FEW_WALLS: [(usize, u32); 3] = [(2, 3), (3, 2), (4, 2)];
+
+/// What [`same_plan_in_all_layouts`] looks at.
+pub fn layouts_with_few_walls() -> String {
+    let (robots, walls) = (FEW_WALLS.map(|(robots, _)| robots), FEW_WALLS.map(|(_, walls)| walls));
+    format!("all layouts, N = {}, at most {} walls", listed(robots), listed(walls))
+}
+
+/// CHAIN-11 over all layouts with few walls.
 ///
 /// # Errors
 /// [`Stop::Violated`] if the plans differ.
 pub fn same_plan_in_all_layouts(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let (robots, mut walls) = one_of(source, &[(2, 3), (3, 2), (4, 2)]);
+    let (robots, mut walls) = one_of(source, &FEW_WALLS);
     same_plan(subject, robots, &mut |_| {
         let is_wall = walls > 0 && source.flip();
         walls -= u32::from(is_wall);
@@ -64,13 +98,22 @@ pub fn same_plan_in_all_layouts(subject: &Subject, source: &mut dyn Source) -> O
 /// Candidates that the plain recursion may look at in one plan before a comparison is given up.
 const PATIENCE: u64 = 10_000;
 
-/// CHAIN-11 over random layouts: 2 to 12 robots, 2 to 30 % walls.
+/// Robots, and walls in percent, of [`same_plan_in_random_layouts`].
+const RANDOM: (RangeInclusive<u32>, RangeInclusive<u32>) = (2..=12, 2..=30);
+
+/// What [`same_plan_in_random_layouts`] draws.
+pub fn random_layouts() -> String {
+    let (robots, walls) = RANDOM;
+    format!("random layouts, {}, {} to {} % walls", chains(&robots), walls.start(), walls.end())
+}
+
+/// CHAIN-11 over random layouts.
 ///
 /// # Errors
 /// [`Stop::Violated`] if the plans differ.
 pub fn same_plan_in_random_layouts(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let robots = source.pick(11) as usize + 2;
-    let walls_percent = source.pick(29) + 2;
+    let robots = within(&RANDOM.0, source) as usize;
+    let walls_percent = within(&RANDOM.1, source);
     same_plan(subject, robots, &mut |_| source.pick(100) >= walls_percent)
 }
 
@@ -132,23 +175,47 @@ fn in_step<G: Grid, const ROBOTS: usize>(
 /// Team moves after which the cost of plans has been seen enough in one layout.
 const CHEAP_MOVES: u32 = 5_000;
 
-/// CHAIN-12: the first team moves of 16 to 64 robots among 0.5 to 30 % walls.
+/// Robots, and walls in thousandths, of [`cheap`].
+const CHEAP_TEAMS: [usize; 4] = [16, 24, 32, 64];
+const CHEAP_WALLS: [u32; 11] = [5, 10, 15, 20, 30, 50, 100, 150, 200, 250, 300];
+
+/// What [`cheap`] draws.
+pub fn cheap_runs() -> String {
+    first_moves(&CHEAP_TEAMS, &CHEAP_WALLS)
+}
+
+/// CHAIN-12: the first team moves, the cost of each plan in bounds.
 ///
 /// # Errors
 /// [`Stop::Violated`] if a plan looks at more than 100·N candidates.
 pub fn cheap(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let robots = one_of(source, &[16, 24, 32, 64]);
-    let walls_permille = one_of(source, &[5, 10, 15, 20, 30, 50, 100, 150, 200, 250, 300]);
+    let robots = one_of(source, &CHEAP_TEAMS);
+    let walls_permille = one_of(source, &CHEAP_WALLS);
     cheap_among(subject, robots, &mut |_| source.pick(1000) >= walls_permille)
 }
 
-/// The same of 64 robots among 0.5 to 3 % walls, where plans are dearest.
+/// Robots, and walls in thousandths, where plans are dearest.
+const DEAR_TEAM: usize = 64;
+const DEAR_WALLS: [u32; 6] = [5, 10, 15, 20, 25, 30];
+
+/// What [`cheap_among_few_walls`] draws.
+pub fn runs_among_few_walls() -> String {
+    first_moves(&[DEAR_TEAM], &DEAR_WALLS)
+}
+
+/// CHAIN-12 where plans are dearest.
 ///
 /// # Errors
 /// As of [`cheap`].
 pub fn cheap_among_few_walls(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let walls_permille = one_of(source, &[5, 10, 15, 20, 25, 30]);
-    cheap_among(subject, 64, &mut |_| source.pick(1000) >= walls_permille)
+    let walls_permille = one_of(source, &DEAR_WALLS);
+    cheap_among(subject, DEAR_TEAM, &mut |_| source.pick(1000) >= walls_permille)
+}
+
+fn first_moves(robots: &[usize], walls_permille: &[u32]) -> String {
+    let percent = walls_permille.iter().map(|permille| f64::from(*permille) / 10.0);
+    let (robots, walls) = (listed(robots), listed(percent));
+    format!("random layouts, N of {robots}, walls of {walls} %, at most {CHEAP_MOVES} moves")
 }
 
 fn cheap_among(subject: &Subject, robots: usize, is_open: &mut dyn FnMut(Edge) -> bool) -> Outcome {

@@ -56,7 +56,7 @@ struct Line {
     id: &'static str,
     rule: &'static str,
     engine: &'static str,
-    bound: &'static str,
+    bound: String,
     cases: u64,
     verdict: &'static str,
     registered: &'static str,
@@ -143,7 +143,7 @@ impl Prove {
 
 /// The name of the rule that a check is about.
 fn rule(subject: &Subject) -> &'static str {
-    RuleName::of(subject).map_or("other", RuleName::word)
+    subject.name().unwrap_or("other")
 }
 
 impl Row {
@@ -183,7 +183,7 @@ impl Row {
             id: self.clause.id,
             rule: rule(&self.check.subject),
             engine: self.check.method.engine(),
-            bound: self.check.bound,
+            bound: self.check.method.bound(),
             cases: self.decision.cases,
             verdict: self.decision.verdict.word(),
             registered: self.check.expected.word(),
@@ -219,12 +219,13 @@ impl Row {
             Some(Evidence::Choices(choices, demand)) => {
                 let rule = rule(&self.check.subject);
                 match self.check.method {
-                    Method::Spread { networks, .. } => {
+                    Method::Spread(networks) => {
                         let story = networks.story(&self.check.subject, choices);
                         format!("\n{id} as {rule}: not so: {demand}.\n{story}")
                     }
                     Method::Exhaustive { .. }
-                    | Method::Floors { .. }
+                    | Method::Ants
+                    | Method::Floors(_)
                     | Method::Sampled { .. }
                     | Method::Search { .. }
                     | Method::States { .. } => format!(
@@ -277,9 +278,16 @@ fn listed(choices: &[u32]) -> String {
     first.join(" ") + &rest
 }
 
-const HEAD: [&str; 7] = ["clause", "rule", "engine", "bound", "cases", "verdict", "mutants killed"];
+const HEAD: [&str; 6] = ["clause", "rule", "engine", "cases", "verdict", "mutants killed"];
 
-/// The ledger. What takes time is not in it, so that it is the same everywhere.
+/// The column of the cases, which are numbers.
+const CASES: usize = 3;
+
+/// Columns of text that a line of the ledger may take.
+const WIDTH: usize = 80;
+
+/// The ledger: a line for each check, and its bound below. What takes time is not in it, so that it is the same
+/// everywhere.
 fn table(rows: &[Row]) -> String {
     let cells = |row: &Row| {
         let Mutants { killed, of, .. } = row.mutants();
@@ -288,25 +296,55 @@ fn table(rows: &[Row]) -> String {
             row.clause.id.to_owned(),
             rule(&row.check.subject).to_owned(),
             row.check.method.engine().to_owned(),
-            row.check.bound.to_owned(),
             row.decision.cases.to_string(),
             row.decision.verdict.word().to_owned(),
             mutants,
         ]
     };
-    let lines: Vec<[String; 7]> =
+    let lines: Vec<[String; 6]> =
         [HEAD.map(str::to_owned)].into_iter().chain(rows.iter().map(cells)).collect();
-    let widths: [usize; 7] = std::array::from_fn(|column| {
+    let widths: [usize; 6] = std::array::from_fn(|column| {
         lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0)
     });
+    let bounds = ["bound".to_owned()].into_iter().chain(rows.iter().map(|row| row.check.method.bound()));
     let mut text = String::new();
-    for line in &lines {
-        let padded: Vec<String> =
-            line.iter().zip(widths).map(|(cell, width)| format!("{cell:width$}")).collect();
+    for (line, bound) in lines.iter().zip(bounds) {
+        let padded: Vec<String> = (0..)
+            .zip(line.iter().zip(widths))
+            .map(|(column, (cell, width))| match column {
+                CASES => format!("{cell:>width$}"),
+                _ => format!("{cell:width$}"),
+            })
+            .collect();
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}", padded.join("  ").trim_end());
+        let indent = widths[0] + 2;
+        for part in wrapped(&bound, WIDTH - indent) {
+            let _ = writeln!(text, "{:indent$}{part}", "");
+        }
     }
     text
+}
+
+/// `text` in lines of at most `width` characters, broken behind commas and semicolons.
+fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut before = ' ';
+    let parts = text.split_inclusive(|letter: char| {
+        let is_break = letter == ' ' && matches!(before, ',' | ';');
+        before = letter;
+        is_break
+    });
+    let joined = |mut lines: Vec<String>, part: &str| {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + part.chars().count() <= width => {
+                line.push(' ');
+                line.push_str(part);
+            }
+            Some(_) | None => lines.push(part.to_owned()),
+        }
+        lines
+    };
+    parts.map(str::trim_end).fold(Vec::new(), joined)
 }
 
 fn last_line(rows: &[Row]) -> String {

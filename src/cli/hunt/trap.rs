@@ -88,7 +88,7 @@ pub(super) fn run(hunt: &Hunt, way: Way, out: &mut Output) -> Result<Exit, Halt>
     }
     Ok(match verdict(&found) {
         Verdict::Refuted => Exit::Violation,
-        Verdict::Holds => Exit::Expected,
+        Verdict::Holds | Verdict::Unrefuted => Exit::Expected,
         Verdict::Open => Exit::Unfinished,
     })
 }
