@@ -358,8 +358,8 @@ fn unwritable(path: &Path, error: &io::Error) -> Fault {
             Fault::in_file(path, "what should be its folder is none", "name a file in a folder")
         }
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
-            let what = format_args!("it is left out, there is no room for it: {error}");
-            Fault::in_file(path, what, "make room, or name a file elsewhere")
+            let what = format_args!("it is left out, there is no room for it: {}", error.kind());
+            Fault::in_file(path, what, "make room, or store it elsewhere")
         }
         _ => Fault::in_file(
             path,

@@ -2,7 +2,7 @@
 //! two. It is written aside and put in its place, so the last good one stands there whenever the work is killed. The file
 //! that stands there is locked as long as the hunt goes on: no other process can go on from it meanwhile.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
@@ -196,8 +196,9 @@ impl<'a> Saved<'a> {
 #[cfg(unix)]
 fn stands_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
-    let place = |data: fs::Metadata| (data.dev(), data.ino());
-    matches!((file.metadata().map(place), fs::metadata(path).map(place)), (Ok(one), Ok(other)) if one == other)
+    let [one, other] =
+        [file.metadata(), path.metadata()].map(|data| data.ok().map(|data| (data.dev(), data.ino())));
+    one.is_some() && one == other
 }
 
 /// Whether `file` is the one that stands at `path`: what is open is not replaced.

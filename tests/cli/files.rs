@@ -34,17 +34,16 @@ fn what_a_command_reads_is_never_overwritten_by_whatever_name() {
     write(folder, "floor.pgm", image);
     printed(folder, &["explore", "open:3x3", "--robots", "2", "--trace", "run.jsonl"], 0);
     let run = read(folder, "run.jsonl");
-    let mut before = names(folder);
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink("own.map", folder.join("link")).expect("a link");
         fs::hard_link(folder.join("own.map"), folder.join("hard")).expect("a link");
-        before = names(folder);
         for other in ["link", "hard"] {
             refused(folder, &["explore", "own.map", "--robots", "2", "--trace", other, "--force"]);
             refused(folder, &["explore", other, "--robots", "2", "--trace", "own.map", "--force"]);
         }
     }
+    let before = names(folder);
     let twice: [&[&str]; 9] = [
         &["explore", "own.map", "--robots", "2", "--trace", "own.map"],
         &["explore", "own.map", "--robots", "2", "--trace", "./own.map"],
@@ -237,17 +236,18 @@ fn files_are_stored_also_if_nothing_can_be_printed() {
 fn a_page_or_picture_that_is_too_large_is_left_out_alone() {
     let folder = folder();
     let folder = folder.path();
-    let explore = ["explore", "walls:31x31:0.1", "--robots", "16", "--draw", "moves"];
+    let explore = ["explore", "cells:9x9:0.1", "--scheme", "bricks", "--robots", "1", "--draw", "moves"];
     let files = ["--trace", "run.jsonl", "--replay", "run.html", "--svg", "moves.svg"];
     let whole = printed(folder, &explore, 0);
     let (told, said) = left_out(folder, &[&explore[..], &files].concat());
     assert_eq!(told, whole);
     assert!(said.contains("a picture of more than 200 team moves"), "{said}");
     assert_eq!(names(folder), ["run.html", "run.jsonl"]);
-    let crowd = ["explore", "cells:96x96:0.1", "--scheme", "bricks", "--robots", "255"];
+    let crowd =
+        ["explore", "cells:96x96:0.1", "--scheme", "bricks", "--robots", "255", "--max-moves", "2500"];
     let (told, said) =
         left_out(folder, &[&crowd[..], &["--trace", "c.jsonl", "--replay", "c.html"]].concat());
-    assert!(told.contains("every agent knows that it is done"), "{told}");
+    assert!(told.contains("no clause is broken"), "{told}");
     assert!(said.contains("c.html: a page of more than 64 MiB is left out"), "{said}");
     assert_eq!(names(folder), ["c.jsonl", "run.html", "run.jsonl"]);
 }
@@ -303,7 +303,7 @@ fn peak_kib(folder: &Path, arguments: &[&str]) -> (u64, Option<i32>) {
     }
 }
 
-/// Held all at once, the drawings, the JSON and the page of these moves take 60 MB each or more.
+/// Held all at once, the drawings, the JSON and the page of these moves take 40 MB each or more.
 #[cfg(target_os = "linux")]
 #[test]
 fn however_many_team_moves_are_replayed_memory_stays_bounded() {
@@ -313,13 +313,13 @@ fn however_many_team_moves_are_replayed_memory_stays_bounded() {
     printed(folder, &[&explore[..], &["--trace", "run.jsonl"]].concat(), 0);
     let replay = ["replay", "run.jsonl", "--moves"];
     let cases: [&[&str]; 3] =
-        [&["1..1200"], &["1..999999", "--format", "json"], &["1..3000", "--html", "run.html"]];
+        [&["1..300"], &["1..999999", "--format", "json"], &["1..1500", "--html", "run.html"]];
     for case in cases {
         let (peak, code) = peak_kib(folder, &[&replay, case].concat());
         assert_eq!(code, Some(0), "{case:?}");
-        assert!(peak < 40_000, "{case:?}: {peak} KiB");
+        assert!(peak < 30_000, "{case:?}: {peak} KiB");
     }
-    assert!(fs::metadata(folder.join("run.html")).expect("a page").len() > 20_000_000);
+    assert!(fs::metadata(folder.join("run.html")).expect("a page").len() > 15_000_000);
 }
 
 #[test]
@@ -392,6 +392,7 @@ fn hunting(mut command: Command, folder: &Path) -> Child {
     child
 }
 
+#[cfg(unix)]
 const LONG_HUNT: [&str; 7] = ["hunt", "--robots", "6", "--max-walls", "6", "--resume", "kept.json"];
 
 #[cfg(unix)]
