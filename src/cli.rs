@@ -1,6 +1,6 @@
 //! The command line: what is asked, where it goes, and with which exit code it ends. Data goes to stdout, progress and
 //! logs to stderr. A fault ends a command with code 2, an interruption with 3, a panic, which is a bug of ours,
-//! with 70.
+//! with 70. A file that cannot be stored is left out: the rest is given all the same, and the code is 2.
 
 mod explore;
 mod hunt;
@@ -27,35 +27,53 @@ use tautline_kernel::broadcast::Count;
 use tautline_kernel::lattice::Cell;
 use tautline_proofs::run::{Breach, NoBreach};
 
+use crate::aside::{Aside, Foreign, Replaceable};
 use crate::fault::{Colour, Fault, Halt};
 use crate::layout::generate::Probability;
 use crate::layout::{self, Layout, Problem, Size};
 use output::Output;
 
-/// How a command ended.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+/// How a command ended. Where several are so, the last of them in this order is told.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 enum Exit {
     /// As expected.
-    Expected = 0,
+    Expected,
     /// A violation was found.
-    Violation = 1,
-    /// Wrong usage or bad input.
-    Fault = 2,
+    Violation,
     /// A budget or the user ended the work before its bound.
-    Unfinished = 3,
+    Unfinished,
+    /// Wrong usage or bad input, or a file could not be stored.
+    Fault,
     /// A bug of ours.
-    Bug = 70,
+    Bug,
+}
+
+impl Exit {
+    /// The exit code of the process.
+    const fn code(self) -> u8 {
+        match self {
+            Self::Expected => 0,
+            Self::Violation => 1,
+            Self::Fault => 2,
+            Self::Unfinished => 3,
+            Self::Bug => 70,
+        }
+    }
 }
 
 impl From<Exit> for ExitCode {
     fn from(exit: Exit) -> Self {
-        Self::from(exit as u8)
+        Self::from(exit.code())
     }
 }
 
 const AFTER_HELP: &str = "\
-Exit codes: 0 as expected · 1 a violation was found · 2 wrong usage or bad input · 3 a budget or Ctrl-C ended the work \
-before its bound · 70 a bug of ours
+Exit codes: 0 as expected · 1 a violation was found · 2 wrong usage or bad input, or a file could not be stored · 3 a \
+budget, Ctrl-C, SIGTERM or SIGHUP ended the work before its bound, also if something was found by then · 70 a bug of \
+ours. Where several apply: 70, 2, 3, 1, 0.
+
+Files stand in their places whole or not at all. Only a process that is killed (SIGKILL) can leave a file \
+.tautline-….part behind, which nobody needs.
 
 LAYOUT is a file (our text drawing, a MovingAI .map, a ROS .yaml) or a generator: open:15x15 · walls:15x15:0.1 · \
 rooms-a · rooms-b · office:30x30:4x4 · cells:32x32:0.2";
@@ -128,6 +146,42 @@ impl LayoutArgs {
     fn load(&self) -> Result<Layout, Fault> {
         layout::load(&self.layout, self.seed, self.image.as_deref())
     }
+
+    /// The files that this is read from.
+    fn inputs(&self) -> Vec<PathBuf> {
+        layout::inputs(&self.layout, self.image.as_deref())
+    }
+}
+
+/// What is done about files that stand where others are to be stored.
+#[derive(Debug, Args)]
+struct ForceArgs {
+    /// Also replace files that tautline did not write. A file that the command reads is never replaced.
+    #[arg(long)]
+    force: bool,
+}
+
+impl ForceArgs {
+    /// What a command may replace that reads these files.
+    fn replaceable(&self, inputs: impl IntoIterator<Item = PathBuf>) -> Replaceable {
+        Replaceable::new(if self.force { Foreign::Replace } else { Foreign::Keep }, inputs)
+    }
+
+    /// The files that a command stores, where they have a place, if it reads these.
+    ///
+    /// # Errors
+    /// A [`Fault`] if one of them has none, or there is nothing to force.
+    fn files<const N: usize>(
+        &self,
+        paths: [&Option<PathBuf>; N],
+        inputs: impl IntoIterator<Item = PathBuf>,
+    ) -> Result<[Option<Aside>; N], Fault> {
+        if self.force && paths.iter().all(|path| path.is_none()) {
+            let what = "--force without a file to store";
+            return Err(Fault::usage(what, "name a file, or leave out --force"));
+        }
+        Aside::several(paths.map(Option::as_deref), &self.replaceable(inputs))
+    }
 }
 
 /// A cell as `X,Y`.
@@ -198,7 +252,9 @@ fn usage(problem: &Problem) -> Fault {
 pub fn run() -> ExitCode {
     panic::set_hook(Box::new(|bug| {
         let arguments: Vec<String> = std::env::args().map(|argument| format!("{argument:?}")).collect();
-        eprintln!(
+        // Nobody may be there any more to read it.
+        let _ = writeln!(
+            io::stderr(),
             "This is a bug of tautline {}: {bug}\nPlease report it at {}/issues with this command: {}",
             env!("CARGO_PKG_VERSION"),
             env!("CARGO_PKG_REPOSITORY"),
@@ -234,16 +290,19 @@ fn command(cli: &Cli) -> Exit {
         Ok(exit)
     });
     match result {
+        Ok(exit) if out.has_left_out() => exit.max(Exit::Fault),
         Ok(exit) => exit,
         Err(Halt::Fault(fault)) => {
-            eprint!("{}", fault.render(colour()));
+            complain(&fault);
             Exit::Fault
         }
-        Err(Halt::Interrupted) => {
-            eprintln!("Interrupted before the end: nothing is claimed.");
-            Exit::Unfinished
-        }
+        Err(Halt::Interrupted) => Exit::Unfinished,
     }
+}
+
+/// Tells on stderr what went wrong, if anybody is there to read it.
+fn complain(fault: &Fault) {
+    let _ = write!(io::stderr(), "{}", fault.render(colour()));
 }
 
 impl Command {
@@ -309,6 +368,6 @@ mod tests {
     fn a_panic_is_a_bug_of_ours() {
         assert_eq!(guarded(|| Exit::Violation), Exit::Violation);
         assert_eq!(guarded(|| panic!("on purpose")), Exit::Bug);
-        assert_eq!(Exit::Bug as u8, 70);
+        assert_eq!(Exit::Bug.code(), 70);
     }
 }

@@ -29,7 +29,8 @@ pub fn exhibit(setup: &Setup, clause: Breach, frames: &[Frame]) -> Exhibit {
     }
 }
 
-fn written_down(frame: &Frame) -> Move {
+/// A team move of a chain as the judge reads it.
+pub fn written_down(frame: &Frame) -> Move {
     Move {
         is_backtrack: match frame.kind {
             Kind::Advance => false,

@@ -15,7 +15,7 @@ use clap::ValueEnum;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use tautline_kernel::ants;
 use tautline_kernel::bricks;
-use tautline_kernel::chain::Rule;
+use tautline_kernel::chain::{self as kernel, Rule};
 use tautline_kernel::floor::Mark;
 use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Edge};
@@ -188,6 +188,15 @@ impl Setup {
     /// Who explores.
     pub const fn crew(&self) -> Crew {
         self.scheme.crew(self.rule)
+    }
+
+    /// The cells among which the team explores.
+    pub fn area(&self) -> Area {
+        let whole = self.layout.size().area();
+        match self.crew() {
+            Crew::Chain => kernel::area(whole, self.base, self.robots.into()).unwrap_or(whole),
+            Crew::Agents(_) => whole,
+        }
     }
 
     /// Where the robots start.

@@ -13,7 +13,7 @@ use tautline_proofs::search::{Bounds, Counterexample, Search, Unsearchable};
 
 use self::saved::AGAIN;
 pub use self::saved::Saved;
-use crate::aside::Aside;
+use crate::aside::{Aside, Replaceable};
 use crate::explore::{self, Limits, OnViolation, Report, RuleName, SchemeName, Setup, explore};
 use crate::fault::{Fault, Halt};
 use crate::layout::{Layout, Problem, Size};
@@ -45,16 +45,24 @@ pub fn path(folder: &Path, setup: &Setup, breach: Breach) -> PathBuf {
     folder.join(format!("{clause}{scheme}-{rule}-n{robots}.jsonl"))
 }
 
-/// Stores the run of `setup`, which breaks `breach`, in `folder` under a name that says so.
+/// Writes the run of `setup`, which breaks `breach`, to a file in `folder` under a name that says so. The file has yet to
+/// be put in its place.
 ///
 /// # Errors
-/// [`Halt`] if it cannot be written.
-pub fn store(folder: &Path, setup: &Setup, breach: Breach) -> Result<(PathBuf, Report), Halt> {
-    let path = path(folder, setup, breach);
-    let mut writer = trace::Writer::new(Aside::new(&path)?, setup, Some(breach))?;
-    let report = explore(setup, &mut |made| Ok(writer.add(made)?))?;
-    writer.end(&report)?.keep()?;
-    Ok((path, report))
+/// [`Halt`] if the setup does not fit its scheme.
+pub fn store(
+    folder: &Path,
+    setup: &Setup,
+    breach: Breach,
+    replaceable: &Replaceable,
+) -> Result<(Aside, Report), Halt> {
+    let aside = Aside::late(&path(folder, setup, breach), replaceable);
+    let mut writer = trace::Writer::new(aside, setup, Some(breach));
+    let report = explore(setup, &mut |made| {
+        writer.add(made);
+        Ok(())
+    })?;
+    Ok((writer.end(&report), report))
 }
 
 /// The breach that an invariant forbids, if it is one of safety.

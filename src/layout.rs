@@ -20,7 +20,7 @@ use tautline_kernel::lattice::{Cell, Edge, Side};
 
 use plane::Plane;
 
-pub use file::{MAX_FILE_BYTES, load};
+pub use file::{MAX_FILE_BYTES, inputs, load};
 pub use generate::Generator;
 pub use problem::{Misread, Problem};
 pub use size::{MAX_CELLS, MAX_SIDE_CELLS, Size};

@@ -148,10 +148,7 @@ pub struct Writer(Aside);
 
 impl Writer {
     /// The trace of `setup` in `aside`. A counterexample names the clause that it breaks.
-    ///
-    /// # Errors
-    /// A [`Fault`] if it cannot be written.
-    pub fn new(mut aside: Aside, setup: &Setup, clause: Option<Breach>) -> Result<Self, Fault> {
+    pub fn new(mut aside: Aside, setup: &Setup, clause: Option<Breach>) -> Self {
         aside.append(line_of(&Header {
             format: FORMAT.to_owned(),
             version: VERSION,
@@ -166,25 +163,19 @@ impl Writer {
             limits: setup.limits,
             clause: clause.map(|breach| breach.clause().to_owned()),
             layout: setup.layout.to_string(),
-        }))?;
-        Ok(Self(aside))
+        }));
+        Self(aside)
     }
 
     /// Adds a team move.
-    ///
-    /// # Errors
-    /// A [`Fault`] if it cannot be written.
-    pub fn add(&mut self, made: &TeamMove<'_>) -> Result<(), Fault> {
-        self.0.append(line_of(&Line::Move(StoredMove::new(made.step, made.frame))))
+    pub fn add(&mut self, made: &TeamMove<'_>) {
+        self.0.append(line_of(&Line::Move(StoredMove::new(made.step, made.frame))));
     }
 
     /// Adds the end. The file has yet to be put in its place.
-    ///
-    /// # Errors
-    /// A [`Fault`] if it cannot be written.
-    pub fn end(mut self, report: &Report) -> Result<Aside, Fault> {
-        self.0.append(line_of(&Line::End(report.into())))?;
-        Ok(self.0)
+    pub fn end(mut self, report: &Report) -> Aside {
+        self.0.append(line_of(&Line::End(report.into())));
+        self.0
     }
 }
 

@@ -10,6 +10,7 @@ pub mod story;
 pub mod svg;
 
 use std::fmt::Write;
+use std::mem;
 
 use tautline_kernel::chain::Kind;
 use tautline_kernel::floor::Mark;
@@ -57,16 +58,49 @@ pub struct Block {
     pub lines: Vec<String>,
 }
 
+impl Block {
+    /// Columns of its longest line.
+    fn width(&self) -> usize {
+        self.lines.iter().chain([&self.title]).map(|line| line.chars().count()).max().unwrap_or(0)
+    }
+}
+
 /// Blocks beside each other, as many in a row as the page holds.
-pub fn beside(blocks: &[Block]) -> String {
-    let columns = |block: &Block| {
-        let longest = block.lines.iter().map(|line| line.chars().count()).max().unwrap_or(0);
-        longest.max(block.title.chars().count())
-    };
-    let width = blocks.iter().map(columns).max().unwrap_or(0);
-    let across = ((PAGE_COLUMNS + 3) / (width + 3)).max(1);
-    let mut text = String::new();
-    for row in blocks.chunks(across) {
+pub fn beside(blocks: Vec<Block>) -> String {
+    let mut rows = Rows::new(blocks.iter().map(Block::width).max().unwrap_or(0));
+    let text: String = blocks.into_iter().map(|block| rows.add(block)).collect();
+    text + &rows.rest()
+}
+
+/// Blocks of at most so many columns beside each other, as many in a row as the page holds, and no more than a row at a
+/// time.
+#[derive(Debug)]
+pub struct Rows {
+    width: usize,
+    row: Vec<Block>,
+    is_first: bool,
+}
+
+impl Rows {
+    /// No block yet.
+    pub const fn new(width: usize) -> Self {
+        Self { width, row: Vec::new(), is_first: true }
+    }
+
+    /// Adds a block: the row that it fills, or nothing.
+    pub fn add(&mut self, block: Block) -> String {
+        self.row.push(block);
+        let across = ((PAGE_COLUMNS + 3) / (self.width + 3)).max(1);
+        if self.row.len() < across { String::new() } else { self.rest() }
+    }
+
+    /// What stands in the row that is not full.
+    pub fn rest(&mut self) -> String {
+        let (row, width) = (mem::take(&mut self.row), self.width);
+        if row.is_empty() {
+            return String::new();
+        }
+        let mut text = if mem::take(&mut self.is_first) { String::new() } else { "\n".to_owned() };
         let height = row.iter().map(|block| block.lines.len()).max().unwrap_or(0);
         for line in 0..=height {
             let parts: Vec<String> = row
@@ -79,10 +113,8 @@ pub fn beside(blocks: &[Block]) -> String {
             text.push_str(parts.join("   ").trim_end());
             text.push('\n');
         }
-        text.push('\n');
+        text
     }
-    text.truncate(text.trim_end().len());
-    text + "\n"
 }
 
 /// The cells of `area`, with a label of at most `width` characters in each. `is_marked` says which edges show an x.
@@ -149,24 +181,64 @@ pub enum Pose {
 
 /// One team move of the run of `setup`. `chart` knows the explored cells.
 pub fn team_move(setup: &Setup, chart: &Chart, made: &TeamMove<'_>, pose: Pose) -> Block {
-    let (cells, step) = match pose {
-        Pose::Before => (made.before, made.step - 1),
-        Pose::After => (made.frame.cells.as_slice(), made.step),
-    };
-    let labels = Labels {
-        crew: setup.crew(),
-        cells,
-        steps: (pose == Pose::Before).then_some(&made.frame.steps),
-        unseen: made.unseen,
-    };
-    let bumps: Vec<Edge> = made.frame.bumps().collect();
-    let lines = if is_bare(setup, chart.area()) && made.unseen.is_empty() && pose == Pose::After {
-        bare(setup.crew(), chart.area(), cells, |cell| chart.mark(cell, step))
-    } else {
-        let label = |cell| labels.label(cell, chart.mark(cell, step));
-        grid(&setup.layout, chart.area(), labels.width(), label, |edge| bumps.contains(&edge))
-    };
-    Block { title: title(made), lines }
+    TeamMoves::new(setup, chart).draw(made, pose)
+}
+
+/// The team moves of a run, drawn one by one.
+#[derive(Debug)]
+pub struct TeamMoves<'a> {
+    setup: &'a Setup,
+    chart: &'a Chart,
+    is_bare: bool,
+}
+
+impl<'a> TeamMoves<'a> {
+    /// Those of the run of `setup`. `chart` knows the explored cells.
+    pub fn new(setup: &'a Setup, chart: &'a Chart) -> Self {
+        Self { setup, chart, is_bare: is_bare(setup, chart.area()) }
+    }
+
+    /// Whether one character for each cell is enough to draw a team move.
+    fn is_bare(&self, made: &TeamMove<'_>, pose: Pose) -> bool {
+        self.is_bare && made.unseen.is_empty() && pose == Pose::After
+    }
+
+    fn labels<'b>(&self, made: &'b TeamMove<'_>, pose: Pose) -> Labels<'b> {
+        let (cells, steps) = match pose {
+            Pose::Before => (made.before, Some(&made.frame.steps)),
+            Pose::After => (made.frame.cells.as_slice(), None),
+        };
+        Labels { crew: self.setup.crew(), cells, steps, unseen: made.unseen }
+    }
+
+    /// Columns of the drawing of a team move.
+    pub fn columns(&self, made: &TeamMove<'_>, pose: Pose) -> usize {
+        let width = self.chart.area().width();
+        let columns = if self.is_bare(made, pose) {
+            width + 2
+        } else {
+            width * (self.labels(made, pose).width() + 1) + 1
+        };
+        columns.max(title(made).chars().count())
+    }
+
+    /// A team move.
+    pub fn draw(&self, made: &TeamMove<'_>, pose: Pose) -> Block {
+        let Self { setup, chart, .. } = self;
+        let step = match pose {
+            Pose::Before => made.step - 1,
+            Pose::After => made.step,
+        };
+        let labels = self.labels(made, pose);
+        let bumps: Vec<Edge> = made.frame.bumps().collect();
+        let lines = if self.is_bare(made, pose) {
+            bare(setup.crew(), chart.area(), labels.cells, |cell| chart.mark(cell, step))
+        } else {
+            let label = |cell| labels.label(cell, chart.mark(cell, step));
+            grid(&setup.layout, chart.area(), labels.width(), label, |edge| bumps.contains(&edge))
+        };
+        Block { title: title(made), lines }
+    }
 }
 
 /// Agents on a floor with such marks, one of them with the arrow of what it tries if that is given, with the sensors that
@@ -414,5 +486,5 @@ pub fn environments() -> String {
         });
         Block { title: format!("{}, {}", environment.symbol(), environment.words()), lines: rows.collect() }
     });
-    beside(&blocks)
+    beside(blocks.into())
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::{env, fs};
 
 use proptest::prelude::*;
-use tautline::aside::Aside;
+use tautline::aside::{Aside, Replaceable};
 use tautline::explore::{
     Limits, Milestone, OnViolation, Report, RuleName, SchemeName, Setup, Stopped, TeamMove, explore,
 };
@@ -86,9 +86,13 @@ fn is_possible(setup: &Setup, made: &TeamMove<'_>, robot: usize) -> bool {
 }
 
 fn stored(setup: &Setup, clause: Option<Breach>, path: &Path) -> Report {
-    let mut writer = Writer::new(Aside::new(path).expect("a place"), setup, clause).expect("a file");
-    let report = explore(setup, &mut |made| Ok(writer.add(made)?)).expect("a run");
-    writer.end(&report).and_then(Aside::keep).expect("a file");
+    let mut writer = Writer::new(Aside::new(path, &Replaceable::default()).expect("a place"), setup, clause);
+    let report = explore(setup, &mut |made| {
+        writer.add(made);
+        Ok(())
+    })
+    .expect("a run");
+    writer.end(&report).keep().expect("a file");
     report
 }
 

@@ -6,6 +6,7 @@ use std::env;
 use std::num::NonZeroU32;
 use std::path::Path;
 
+use tautline::aside::Replaceable;
 use tautline::exhibit::exhibit;
 use tautline::explore::{Limits, OnViolation, RuleName, SchemeName, Setup, Stopped, explore};
 use tautline::fault::Halt;
@@ -243,7 +244,10 @@ fn a_minimal_run_that_breaks_another_clause_before_replays_to_its_own() {
     let minimal = minimal(&setup, Some(Breach::Crowding)).expect("it breaks CHAIN-2");
     check(&minimal);
     let folder = tempfile::tempdir().expect("a folder");
-    let (path, report) = store(folder.path(), &minimal.setup, minimal.breach).expect("a file");
+    let replaceable = Replaceable::default();
+    let (file, report) = store(folder.path(), &minimal.setup, minimal.breach, &replaceable).expect("a run");
+    let path = file.path().to_owned();
+    file.keep().expect("a file");
     assert_eq!(path.file_name(), Some("chain-2-published-n10.jsonl".as_ref()));
     let broken: Vec<Breach> = report.violations.iter().map(|violation| violation.breach).collect();
     assert_eq!(broken, [Breach::Contact, Breach::Crowding]);

@@ -257,11 +257,12 @@ pub fn kept_hunt(bytes: &[u8]) {
     let cut = Bounds { budget_moves: Some(number(5_000) as u64), ..bounds.clone() };
     let mut search = Search::new(&cut).expect("three robots fit");
     while search.wave() {}
-    let file = tempfile::NamedTempFile::new().expect("a file");
-    Saved::new(file.path(), SchemeName::Chain, RuleName::Published, &bounds)
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("hunt");
+    Saved::new(&file, SchemeName::Chain, RuleName::Published, &bounds)
         .write(&search)
         .expect("it can be written");
-    let mut kept = fs::read(file.path()).expect("a kept hunt");
+    let mut kept = fs::read(&file).expect("a kept hunt");
     for _ in 0..number(4) {
         let place = number(kept.len());
         kept[place] = number(256) as u8;

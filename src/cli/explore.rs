@@ -12,18 +12,19 @@ use tautline_kernel::lattice::Cell;
 
 use super::output::Output;
 use super::{
-    CellArg, Exit, Format, FormatArgs, LayoutArgs, interrupt, number, positive, probability, progress, usage,
+    CellArg, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, number, positive, probability, progress, usage,
 };
 use crate::aside::Aside;
 use crate::explore::agents::Way;
 use crate::explore::floor::Component;
 use crate::explore::{
-    Crew, Limits, Milestone, OnViolation, Report, RuleName, SchemeName, Setup, Stopped, Violation, explore,
+    Crew, Limits, Milestone, OnViolation, Report, RuleName, SchemeName, Setup, Stopped, TeamMove, Violation,
+    explore,
 };
 use crate::fault::{Fault, Halt};
 use crate::layout::generate::Probability;
 use crate::view::page::Page;
-use crate::view::svg::{self, Panel};
+use crate::view::svg;
 use crate::{trace, view};
 
 const EXAMPLES: &str = "\
@@ -77,6 +78,8 @@ pub(super) struct Explore {
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     #[command(flatten)]
+    force: ForceArgs,
+    #[command(flatten)]
     format: FormatArgs,
 }
 
@@ -98,28 +101,37 @@ const DEFAULT_ROBOTS: u16 = 8;
 impl Explore {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let setup = self.setup()?;
-        let files = [&self.trace, &self.replay, &self.svg].map(Option::as_deref);
-        let [trace, mut page, mut picture] = Aside::several(files)?;
-        let mut writer = trace.map(|aside| trace::Writer::new(aside, &setup, None)).transpose()?;
+        let files = [&self.trace, &self.replay, &self.svg];
+        let [trace, page, picture] = self.force.files(files, self.layout.inputs())?;
+        if page.is_some() || picture.is_some() {
+            svg::check_size(setup.area())?;
+        }
+        let mut writer = trace.map(|aside| trace::Writer::new(aside, &setup, None));
         let bar = progress::spinner("exploring");
         let report = explore(&setup, &mut |made| {
-            interrupt::check()?;
             bar.set_message(format!("team move {}", made.step));
-            Ok(writer.as_mut().map_or(Ok(()), |writer| writer.add(made))?)
+            if let Some(writer) = &mut writer {
+                writer.add(made);
+            }
+            Ok(())
         })?;
         bar.finish_and_clear();
-        let trace = writer.map(|writer| writer.end(&report)).transpose()?;
-        if let Some(page) = &mut page {
-            page.append(played(&setup, &report, &(1..=report.steps))?)?;
+        if let Some(writer) = writer {
+            out.keep(writer.end(&report));
         }
-        if let Some(picture) = &mut picture {
-            let panels = match self.draw {
-                Some(Draw::Moves) => panels(&setup, &report, &(1..=report.steps))?,
-                Some(Draw::Order) | None => vec![svg::order(&setup, &report.chart)],
-            };
-            picture.append(svg::picture(&view::title_of(&setup), &panels))?;
+        if let Some(page) = page {
+            play(page, &setup, &report, &(1..=report.steps), out)?;
         }
-        Aside::keep_all([trace, page, picture])?;
+        if let Some(mut picture) = picture {
+            match self.draw {
+                Some(Draw::Moves) => picture.draw(panels(&setup, &report, &(1..=report.steps)))?,
+                Some(Draw::Order) | None => {
+                    let order = svg::order(&setup, &report.chart);
+                    picture.append(svg::picture(&view::title_of(&setup), &[order]));
+                }
+            }
+            out.keep(picture);
+        }
         match self.format.format {
             Format::Json => out.json(&Summary::new(&setup, &self.layout.layout, &report))?,
             Format::Text => {
@@ -157,13 +169,7 @@ impl Explore {
         match self.draw {
             Some(Draw::Order) => out.text(format_args!("\n{}", view::order(setup, &report.chart)))?,
             Some(Draw::Moves) => {
-                let mut blocks = Vec::new();
-                explore(setup, &mut |made| {
-                    interrupt::check()?;
-                    blocks.push(view::team_move(setup, &report.chart, made, view::Pose::Before));
-                    Ok(())
-                })?;
-                out.text(format_args!("\n{}\n\n{}", view::legend(setup.crew()), view::beside(&blocks)))?;
+                draw_moves(setup, report, &(1..=report.steps), view::Pose::Before, out)?;
             }
             None if report.chart.area().width() <= SMALL_COLUMNS => {
                 out.text(format_args!("\n{}", view::outcome(setup, &report.chart, &report.team)))?;
@@ -177,36 +183,101 @@ impl Explore {
 /// Team moves that a picture can hold.
 const MAX_PANELS: u32 = 200;
 
-/// The team moves in `moves`, one panel each.
-pub(super) fn panels(
+/// Checks that a picture can hold a panel for each of `moves`.
+pub(super) fn check_panels(moves: &RangeInclusive<u32>) -> Result<(), Fault> {
+    if moves.end().saturating_sub(*moves.start()) < MAX_PANELS {
+        return Ok(());
+    }
+    let what = format!("a picture of more than {MAX_PANELS} team moves");
+    Err(Fault::usage(
+        what,
+        format_args!("store a trace, and draw at most {MAX_PANELS} with `tautline replay --moves`"),
+    ))
+}
+
+/// Bytes of the panels that a picture can hold.
+const MAX_PANEL_BYTES: usize = 64 << 20;
+
+/// A picture of the team moves in `moves`, one panel each.
+pub(super) fn panels(setup: &Setup, report: &Report, moves: &RangeInclusive<u32>) -> Result<String, Halt> {
+    check_panels(&(*moves.start()..=report.steps.min(*moves.end())))?;
+    let (mut panels, mut bytes) = (Vec::new(), 0);
+    among(setup, moves, &mut |made| {
+        let panel = svg::team_move(setup, &report.chart, made);
+        bytes += panel.bytes();
+        if bytes > MAX_PANEL_BYTES {
+            let what = format!("a picture of more than {} MiB", MAX_PANEL_BYTES >> 20);
+            return Err(Fault::usage(what, "draw fewer team moves").into());
+        }
+        panels.push(panel);
+        Ok(())
+    })?;
+    Ok(svg::picture(&view::title_of(setup), &panels))
+}
+
+/// Stores a page that plays the team moves in `moves`.
+pub(super) fn play(
+    mut file: Aside,
     setup: &Setup,
     report: &Report,
     moves: &RangeInclusive<u32>,
-) -> Result<Vec<Panel>, Halt> {
-    let count = (*moves.end()).min(report.steps).saturating_sub(*moves.start());
-    if count >= MAX_PANELS {
-        let what = format!("a picture of more than {MAX_PANELS} team moves");
-        return Err(
-            Fault::usage(what, "store a trace, and give `tautline replay` the --moves to draw").into()
-        );
-    }
-    let mut panels = Vec::new();
-    explore(setup, &mut |made| {
-        interrupt::check()?;
-        panels.extend(moves.contains(&made.step).then(|| svg::team_move(setup, &report.chart, made)));
+    out: &mut Output,
+) -> Result<(), Halt> {
+    let mut page = Page::new(&mut file, setup, report, moves);
+    among(setup, moves, &mut |made| {
+        page.add(made);
         Ok(())
     })?;
-    Ok(panels)
+    page.finish();
+    out.keep(file);
+    Ok(())
 }
 
-/// A page that plays the team moves in `moves`.
-pub(super) fn played(setup: &Setup, report: &Report, moves: &RangeInclusive<u32>) -> Result<String, Halt> {
-    let mut page = Page::new(setup, report);
-    explore(setup, &mut |made| {
-        interrupt::check()?;
-        Ok(if moves.contains(&made.step) { page.add(made) } else { Ok(()) }?)
+/// Draws the team moves in `moves`, a row at a time.
+pub(super) fn draw_moves(
+    setup: &Setup,
+    report: &Report,
+    moves: &RangeInclusive<u32>,
+    pose: view::Pose,
+    out: &mut Output,
+) -> Result<(), Halt> {
+    let drawn = view::TeamMoves::new(setup, &report.chart);
+    let mut columns = None;
+    among(setup, moves, &mut |made| {
+        columns = columns.max(Some(drawn.columns(made, pose)));
+        Ok(())
     })?;
-    Ok(page.finish())
+    let Some(columns) = columns else { return Ok(()) };
+    out.text(format_args!("\n{}\n\n", view::legend(setup.crew())))?;
+    let mut rows = view::Rows::new(columns);
+    among(setup, moves, &mut |made| {
+        if out.is_gone() {
+            return Ok(());
+        }
+        Ok(out.text(rows.add(drawn.draw(made, pose)))?)
+    })?;
+    Ok(out.text(rows.rest())?)
+}
+
+/// Runs `setup` as far as the last of `moves`, and lets `watch` see those.
+pub(super) fn among(
+    setup: &Setup,
+    moves: &RangeInclusive<u32>,
+    watch: &mut dyn FnMut(&TeamMove<'_>) -> Result<(), Halt>,
+) -> Result<(), Halt> {
+    let mut is_over = false;
+    let run = explore(setup, &mut |made| {
+        is_over = made.step > *moves.end();
+        match (is_over, moves.contains(&made.step)) {
+            (true, _) => Err(Halt::Interrupted),
+            (false, true) => watch(made),
+            (false, false) => Ok(()),
+        }
+    });
+    match run {
+        Err(Halt::Interrupted) if is_over => Ok(()),
+        run => run.map(|_| ()),
+    }
 }
 
 /// What came of a run, in a few lines.

@@ -12,7 +12,8 @@ use tautline_proofs::clause::Verdict;
 use tautline_proofs::search::{Bounds, Found};
 
 use super::output::Output;
-use super::{Exit, Format, FormatArgs, SizeArg, number, progress};
+use super::{Exit, ForceArgs, Format, FormatArgs, SizeArg, interrupt, number, progress};
+use crate::aside::Aside;
 use crate::explore::{Crew, RuleName, SchemeName, Setup};
 use crate::fault::{Fault, Halt};
 use crate::hunt::Saved;
@@ -72,6 +73,8 @@ pub(super) struct Hunt {
     #[arg(long, value_name = "DIR", default_value = ".")]
     out: PathBuf,
     #[command(flatten)]
+    force: ForceArgs,
+    #[command(flatten)]
     format: FormatArgs,
 }
 
@@ -90,6 +93,9 @@ struct Hunted {
     /// The most walls up to which every layout was covered.
     walls_done: Option<u32>,
     verdict: &'static str,
+    /// Where the hunt is kept, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kept: Option<String>,
     counterexamples: Vec<Stored>,
 }
 
@@ -100,8 +106,10 @@ struct Stored {
     runs: u64,
     walls: usize,
     steps: usize,
-    /// Where the smallest is stored; a run without end is not.
+    /// Where the smallest is stored; a run without end is not, nor one that was left out.
     file: Option<String>,
+    #[serde(skip)]
+    is_endless: bool,
     #[serde(skip)]
     setup: Setup,
 }
@@ -126,52 +134,56 @@ impl Hunt {
             (self.robots.unwrap_or(DEFAULT_ROBOTS), self.max_walls.unwrap_or(DEFAULT_WALLS));
         let mut bounds = hunt::bounds(self.rule, robots, walls, self.size.map(|SizeArg(size)| size))?;
         bounds.budget_moves = self.budget;
-        let found = self.search(&bounds)?;
-        let hunted = self.store(&bounds, &found)?;
+        let found = self.search(&bounds, out)?;
+        let hunted = self.store(&bounds, &found, out)?;
         match self.format.format {
             Format::Json => out.json(&hunted)?,
             Format::Text => out.text(tell(&hunted)?)?,
         }
-        Ok(if !found.counterexamples.is_empty() {
-            Exit::Violation
-        } else if found.complete {
-            Exit::Expected
-        } else {
-            Exit::Unfinished
+        Ok(match (found.complete, found.counterexamples.is_empty()) {
+            (false, _) => Exit::Unfinished,
+            (true, false) => Exit::Violation,
+            (true, true) => Exit::Expected,
         })
     }
 
-    fn search(&self, bounds: &Bounds) -> Result<Found, Fault> {
-        let saved = self.resume.as_deref().map(|path| Saved::new(path, self.scheme, self.rule, bounds));
-        let mut search = match &saved {
+    fn search(&self, bounds: &Bounds, out: &mut Output) -> Result<Found, Fault> {
+        let mut saved = self.resume.as_deref().map(|path| Saved::new(path, self.scheme, self.rule, bounds));
+        let mut search = match &mut saved {
             Some(saved) => saved.search(bounds)?,
             None => hunt::start(bounds)?,
         };
         // What cannot be kept is refused before it has cost anything.
-        if let Some(saved) = &saved {
+        if let Some(saved) = &mut saved {
             saved.write(&search)?;
         }
+        interrupt::defer();
         let bar = progress::bar("hunting", 1);
         let mut written = Instant::now();
         while progress::show(&bar, &search.progress()).is_continue() && search.wave() {
-            if let Some(saved) = saved.as_ref().filter(|_| written.elapsed() > KEEP_EVERY) {
-                saved.write(&search)?;
+            if let Some(saved) = saved.as_mut().filter(|_| written.elapsed() > KEEP_EVERY) {
+                // There may be room again later on; the last good one stands there until then.
+                if let Err(fault) = saved.write(&search) {
+                    tracing::warn!("{fault}");
+                }
                 written = Instant::now();
             }
         }
         bar.finish_and_clear();
-        if let Some(saved) = saved {
-            saved.write(&search)?;
+        if let Some(Err(fault)) = saved.as_mut().map(|saved| saved.write(&search)) {
+            out.leave_out(&fault);
         }
         Ok(search.found())
     }
 
-    fn store(&self, bounds: &Bounds, found: &Found) -> Result<Hunted, Halt> {
+    fn store(&self, bounds: &Bounds, found: &Found, out: &mut Output) -> Result<Hunted, Halt> {
+        let replaceable = self.force.replaceable(self.resume.clone());
         let counterexamples = found.counterexamples.iter().map(|counterexample| {
             let setup =
                 hunt::setup(self.rule, bounds, counterexample).map_err(|problem| super::usage(&problem))?;
-            let file = match hunt::breach(counterexample.invariant) {
-                Some(breach) => Some(shown(&hunt::store(&self.out, &setup, breach)?.0)),
+            let breach = hunt::breach(counterexample.invariant);
+            let file = match breach {
+                Some(breach) => keep(hunt::store(&self.out, &setup, breach, &replaceable)?.0, out),
                 None => None,
             };
             Ok(Stored {
@@ -180,6 +192,7 @@ impl Hunt {
                 walls: counterexample.walls.len(),
                 steps: counterexample.frames.len(),
                 file,
+                is_endless: breach.is_none(),
                 setup,
             })
         });
@@ -200,6 +213,7 @@ impl Hunt {
             complete: found.complete,
             walls_done: (found.levels.len() as u32).checked_sub(1),
             verdict: verdict.word(),
+            kept: self.resume.as_deref().map(shown),
             counterexamples,
         })
     }
@@ -214,14 +228,31 @@ pub(super) fn check_folder(out: &Path) -> Result<(), Fault> {
     Err(Fault::in_file(out, what, "give --out a folder that is there"))
 }
 
+/// Puts the file of a counterexample in its place; where it stands then.
+pub(super) fn keep(file: Aside, out: &mut Output) -> Option<String> {
+    let path = file.path().to_owned();
+    out.keep(file).then(|| shown(&path))
+}
+
 /// The path as one would type it.
 pub(super) fn shown(path: &Path) -> String {
     path.strip_prefix(".").unwrap_or(path).display().to_string()
 }
 
 fn tell(hunted: &Hunted) -> Result<String, Halt> {
-    let Hunted { scheme, rule, robots, runs, moves, longest, max_walls, walls_done, counterexamples, .. } =
-        hunted;
+    let Hunted {
+        scheme,
+        rule,
+        robots,
+        runs,
+        moves,
+        longest,
+        max_walls,
+        walls_done,
+        kept,
+        counterexamples,
+        ..
+    } = hunted;
     let mut text = format!(
         "{} ({rule}), {robots} robots, at most {max_walls} walls: {runs} runs, {moves} team moves, {longest} the longest\n",
         scheme.word()
@@ -238,15 +269,18 @@ fn tell(hunted: &Hunted) -> Result<String, Halt> {
         [] => writeln!(text, "No clause is broken {bound}."),
         _ => writeln!(text, "The smallest counterexample to each clause that is broken {bound}:"),
     };
-    for Stored { clause, runs, walls, steps, file, setup } in counterexamples {
+    for Stored { clause, runs, walls, steps, file, is_endless, setup } in counterexamples {
         let _ = writeln!(text, "\n{clause}, {walls} walls, {steps} team moves; broken in {runs} runs");
-        let _ = match file {
-            Some(file) => {
-                let story = view::story::last_move(setup)?;
-                writeln!(text, "\n{story}\nreplay it with: tautline replay {file}")
-            }
-            None => writeln!(text, "\nA run without end in this layout:\n\n{}", setup.layout),
+        let _ = match is_endless {
+            false => writeln!(text, "\n{}", view::story::last_move(setup)?),
+            true => writeln!(text, "\nA run without end in this layout:\n\n{}", setup.layout),
         };
+        if let Some(file) = file {
+            let _ = writeln!(text, "replay it with: tautline replay {file}");
+        }
+    }
+    if let Some(kept) = kept {
+        let _ = writeln!(text, "The hunt is kept in {kept}.");
     }
     Ok(text)
 }

@@ -1,7 +1,6 @@
 //! `tautline minimise`: from a run that breaks a clause to one in which nothing can go.
 
 use std::fmt::Write;
-use std::fs;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -10,10 +9,10 @@ use tautline_proofs::run::Breach;
 
 use super::output::Output;
 use super::replay::draw;
-use super::{Exit, Format, FormatArgs, clause, hunt, interrupt, progress};
+use super::{Exit, ForceArgs, Format, FormatArgs, clause, hunt, progress};
 use crate::explore::{Report, RuleName, SchemeName};
 use crate::fault::{Fault, Halt};
-use crate::hunt::{path, store};
+use crate::hunt::store;
 use crate::minimise::{Extent, Failure, Minimal, minimise};
 use crate::trace::Trace;
 
@@ -40,6 +39,8 @@ pub(super) struct Minimise {
     #[arg(long, value_name = "DIR", default_value = ".")]
     out: PathBuf,
     #[command(flatten)]
+    force: ForceArgs,
+    #[command(flatten)]
     format: FormatArgs,
 }
 
@@ -52,7 +53,8 @@ struct Minimised {
     after: Extent,
     /// Runs that were made to find it.
     runs: u32,
-    file: String,
+    /// Where it is stored, unless it was left out.
+    file: Option<String>,
 }
 
 impl Minimise {
@@ -60,7 +62,7 @@ impl Minimise {
         hunt::check_folder(&self.out)?;
         let trace = Trace::open(&self.file)?;
         let (setup, clause) = (trace.setup.clone(), self.clause.or(trace.clause));
-        trace.replay(&mut |_| interrupt::check())?;
+        trace.replay(&mut |_| Ok(()))?;
         let bar = progress::spinner("minimising");
         let mut shown = None;
         let minimal = minimise(&setup, clause, &mut |progress| {
@@ -71,35 +73,31 @@ impl Minimise {
                     progress.runs
                 ));
             }
-            interrupt::check()
+            Ok(())
         });
         bar.finish_and_clear();
         let minimal = minimal.map_err(|failure| match failure {
             Failure::Refused(refused) => Fault::in_file(&self.file, &refused, refused.remedy()).into(),
             Failure::Halted(halt) => halt,
         })?;
-        let (minimised, report) = self.store(&minimal)?;
+        let (minimised, report) = self.store(&minimal, out)?;
         match self.format.format {
             Format::Json => out.json(&minimised)?,
             Format::Text => {
                 out.text(tell(&self.file.display().to_string(), &minimised))?;
                 draw(&minimal.setup, &report, &(1..=report.steps), out)?;
-                out.text(format_args!("\nreplay it with: tautline replay {}\n", minimised.file))?;
+                if let Some(file) = &minimised.file {
+                    out.text(format_args!("\nreplay it with: tautline replay {file}\n"))?;
+                }
             }
         }
         Ok(Exit::Expected)
     }
 
-    fn store(&self, minimal: &Minimal) -> Result<(Minimised, Report), Halt> {
+    fn store(&self, minimal: &Minimal, out: &mut Output) -> Result<(Minimised, Report), Halt> {
         let Minimal { setup, breach, before, after, runs } = minimal;
-        let place = path(&self.out, setup, *breach);
-        if fs::canonicalize(&place)
-            .is_ok_and(|place| fs::canonicalize(&self.file).is_ok_and(|file| file == place))
-        {
-            let what = "the minimal run would take the place of this one";
-            return Err(Fault::in_file(&self.file, what, "give --out another folder").into());
-        }
-        let (place, report) = store(&self.out, setup, *breach)?;
+        let replaceable = self.force.replaceable([self.file.clone()]);
+        let (aside, report) = store(&self.out, setup, *breach, &replaceable)?;
         let minimised = Minimised {
             scheme: setup.scheme,
             rule: setup.rule,
@@ -107,7 +105,7 @@ impl Minimise {
             before: *before,
             after: *after,
             runs: *runs,
-            file: hunt::shown(&place),
+            file: hunt::keep(aside, out),
         };
         Ok((minimised, report))
     }

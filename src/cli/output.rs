@@ -1,15 +1,21 @@
-//! Stdout. A reader that has gone away, as in `tautline … | head`, ends the printing and not the work, so that the exit
-//! code is that of the whole.
+//! What a command gives: text on stdout, and files. A reader that has gone away, as in `tautline … | head`, ends the
+//! printing and not the work, so that the exit code is that of the whole. A file that cannot be stored is left out, and
+//! nothing else.
 
 use std::fmt;
 use std::io::{self, BufWriter, ErrorKind, StdoutLock, Write};
 
 use serde::Serialize;
 
-use super::SCHEMA_VERSION;
+use super::{SCHEMA_VERSION, complain};
+use crate::aside::Aside;
 use crate::fault::Fault;
 
-pub(super) struct Output(Option<BufWriter<StdoutLock<'static>>>);
+pub(super) struct Output {
+    /// Unless its reader has gone away.
+    stdout: Option<BufWriter<StdoutLock<'static>>>,
+    has_left_out: bool,
+}
 
 /// What every JSON object begins with.
 #[derive(Serialize)]
@@ -21,7 +27,28 @@ struct Versioned<'a, T> {
 
 impl Output {
     pub(super) fn stdout() -> Self {
-        Self(Some(BufWriter::new(io::stdout().lock())))
+        Self { stdout: Some(BufWriter::new(io::stdout().lock())), has_left_out: false }
+    }
+
+    /// Puts a file in its place. Whether it stands there now; otherwise it is left out.
+    pub(super) fn keep(&mut self, file: Aside) -> bool {
+        file.keep().map_err(|fault| self.leave_out(&fault)).is_ok()
+    }
+
+    /// Tells why a file is left out. The command goes on, and ends as one with a fault.
+    pub(super) fn leave_out(&mut self, fault: &Fault) {
+        complain(fault);
+        self.has_left_out = true;
+    }
+
+    /// Whether a file was left out.
+    pub(super) const fn has_left_out(&self) -> bool {
+        self.has_left_out
+    }
+
+    /// Whether nobody reads any more what is printed.
+    pub(super) const fn is_gone(&self) -> bool {
+        self.stdout.is_none()
     }
 
     /// Prints `text` as it is.
@@ -46,11 +73,11 @@ impl Output {
         done: T,
         act: impl FnOnce(&mut BufWriter<StdoutLock<'static>>) -> io::Result<T>,
     ) -> io::Result<T> {
-        let Some(stdout) = &mut self.0 else { return Ok(done) };
+        let Some(stdout) = &mut self.stdout else { return Ok(done) };
         match act(stdout) {
             Err(error) if error.kind() == ErrorKind::BrokenPipe => {
                 // What is still buffered has no reader: it is not to be written when dropped.
-                if let Some(stdout) = self.0.take() {
+                if let Some(stdout) = self.stdout.take() {
                     let _ = stdout.into_parts();
                 }
                 Ok(done)

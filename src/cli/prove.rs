@@ -14,7 +14,7 @@ use tautline_proofs::rescue::chart::chart;
 use tautline_proofs::search::{Bounds, Counterexample};
 
 use super::output::Output;
-use super::{Exit, Format, FormatArgs, interrupt, progress, usage};
+use super::{Exit, Format, FormatArgs, progress, usage};
 use crate::explore::agents::Way;
 use crate::explore::{Crew, RuleName, Setup};
 use crate::fault::{Fault, Halt};
@@ -91,7 +91,6 @@ impl Prove {
         let mut prover = Prover::default();
         let mut rows = Vec::new();
         for (place, (clause, check)) in (1..).zip(&checks) {
-            interrupt::check()?;
             let bar = progress::bar(format!("{place}/{} {}", checks.len(), clause.id), 1);
             let start = Instant::now();
             let decision =
@@ -108,7 +107,6 @@ impl Prove {
             );
             rows.push(Row { clause, check, decision, seconds });
         }
-        interrupt::check()?;
         let as_registered = rows.iter().all(|row| row.decision.is_as_registered(row.check));
         match self.format.format {
             Format::Json => {

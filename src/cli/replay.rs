@@ -5,17 +5,18 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::Args;
-use serde::Serialize;
+use serde::ser::{Error, SerializeSeq};
+use serde::{Serialize, Serializer};
 use tautline_proofs::judge::judge;
 use tautline_proofs::run::Breach;
 
-use super::explore::{Summary, panels, played, summary};
+use super::explore::{Summary, among, check_panels, draw_moves, panels, play, summary};
 use super::output::Output;
 use super::rescue::{Files, tell};
-use super::{Exit, Format, FormatArgs, interrupt};
+use super::{Exit, ForceArgs, Format, FormatArgs};
 use crate::aside::Aside;
-use crate::exhibit::exhibit;
-use crate::explore::{Crew, Report, Setup, explore};
+use crate::exhibit::{exhibit, written_down};
+use crate::explore::{Crew, Report, Setup};
 use crate::fault::{Fault, Halt};
 use crate::trace::{self, StoredMove, Trace, lines};
 use crate::view::svg;
@@ -44,6 +45,8 @@ pub(super) struct Replay {
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     #[command(flatten)]
+    force: ForceArgs,
+    #[command(flatten)]
     format: FormatArgs,
 }
 
@@ -69,18 +72,43 @@ const REPLAYABLE: &str = "name a file that `tautline explore --trace`, `tautline
 /// Team moves that are shown of a run when nobody says which.
 const SHOWN: u32 = 100;
 
+/// Robots that the judge can judge, over all team moves of a counterexample: all of them are held.
+const MAX_JUDGED: usize = 1 << 22;
+
 #[derive(Serialize)]
 struct Replayed<'a> {
     #[serde(flatten)]
     run: Summary<'a>,
     /// The clause that the file says it is a counterexample to; for a chain the judge agrees.
     counterexample_to: Option<&'static str>,
-    moves: Vec<StoredMove>,
+    moves: ShownMoves<'a>,
+}
+
+/// Team moves of a run, made one by one as they are written.
+struct ShownMoves<'a> {
+    setup: &'a Setup,
+    moves: &'a RangeInclusive<u32>,
+}
+
+impl Serialize for ShownMoves<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut list = serializer.serialize_seq(None)?;
+        let mut written = Ok(());
+        among(self.setup, self.moves, &mut |made| {
+            if written.is_ok() {
+                written = list.serialize_element(&StoredMove::new(made.step, made.frame));
+            }
+            Ok(())
+        })
+        .map_err(|_| S::Error::custom("the run cannot be made again"))?;
+        written?;
+        list.end()
+    }
 }
 
 impl Replay {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        let [page, picture] = Aside::several([&self.html, &self.svg].map(Option::as_deref))?;
+        let [page, picture] = self.force.files([&self.html, &self.svg], [self.file.clone()])?;
         match lines::format(&self.file).as_deref() {
             Some(rescue::trace::FORMAT) => self.run_rescue(Files { trace: None, page, map: picture }, out),
             Some(trace::FORMAT) => self.run_team(Trace::open(&self.file)?, [page, picture], out),
@@ -94,7 +122,7 @@ impl Replay {
     fn run_team(
         &self,
         trace: Trace,
-        [mut page, mut picture]: [Option<Aside>; 2],
+        [page, picture]: [Option<Aside>; 2],
         out: &mut Output,
     ) -> Result<Exit, Halt> {
         let (setup, clause) = (trace.setup.clone(), trace.clause);
@@ -102,41 +130,45 @@ impl Replay {
             Crew::Chain => clause,
             Crew::Agents(_) => None,
         };
-        let mut frames = Vec::new();
+        let is_drawn = page.is_none() && picture.is_none();
+        if !is_drawn {
+            svg::check_size(setup.area())?;
+        }
+        if let (Some(_), Some(Moves(moves))) = (&picture, &self.moves) {
+            check_panels(moves)?;
+        }
+        let mut exhibit = judged.map(|breach| exhibit(&setup, breach, &[]));
         let report = trace.replay(&mut |made| {
-            interrupt::check()?;
-            frames.extend(judged.is_some().then(|| made.frame.clone()));
-            Ok(())
+            let Some(exhibit) = &mut exhibit else { return Ok(()) };
+            exhibit.moves.push(written_down(made.frame));
+            if exhibit.moves.len() * exhibit.robots <= MAX_JUDGED {
+                return Ok(());
+            }
+            let what = format!("the judge reads no more than {MAX_JUDGED} robots in all team moves");
+            Err(Fault::in_file(&self.file, what, "shrink the run with `tautline minimise`").into())
         })?;
-        if let Some(breach) = judged {
-            judge(&exhibit(&setup, breach, &frames)).map_err(|objection| {
+        if let Some(exhibit) = exhibit {
+            judge(&exhibit).map_err(|objection| {
                 let what = format!("the judge rejects this counterexample: {objection}");
                 Fault::in_file(&self.file, what, "make it again with `tautline hunt`")
             })?;
         }
-        drop(frames);
         let moves = self.moves(&report);
-        if let Some(page) = &mut page {
+        if let Some(page) = page {
             let moves = self.moves.as_ref().map_or(1..=report.steps, |Moves(moves)| moves.clone());
-            page.append(played(&setup, &report, &moves)?)?;
+            play(page, &setup, &report, &moves, out)?;
         }
-        if let Some(picture) = &mut picture {
+        if let Some(mut picture) = picture {
             let moves = self.moves.as_ref().map_or(report.steps..=report.steps, |Moves(moves)| moves.clone());
-            let panels = panels(&setup, &report, &moves)?;
-            picture.append(svg::picture(&view::title_of(&setup), &panels))?;
+            picture.draw(panels(&setup, &report, &moves))?;
+            out.keep(picture);
         }
-        Aside::keep_all([page, picture])?;
         let name = self.file.display().to_string();
         match self.format.format {
             Format::Json => {
-                let mut shown = Vec::new();
-                explore(&setup, &mut |made| {
-                    interrupt::check()?;
-                    shown.extend(moves.contains(&made.step).then(|| StoredMove::new(made.step, made.frame)));
-                    Ok(())
-                })?;
                 let run = Summary::new(&setup, &name, &report);
-                out.json(&Replayed { run, counterexample_to: clause.map(Breach::clause), moves: shown })?;
+                let moves = ShownMoves { setup: &setup, moves: &moves };
+                out.json(&Replayed { run, counterexample_to: clause.map(Breach::clause), moves })?;
             }
             Format::Text => {
                 out.text(summary(&setup, &name, &report))?;
@@ -146,7 +178,9 @@ impl Replay {
                         breach.clause()
                     ))?;
                 }
-                draw(&setup, &report, &moves, out)?;
+                if is_drawn {
+                    draw(&setup, &report, &moves, out)?;
+                }
             }
         }
         Ok(if report.violations.is_empty() { Exit::Expected } else { Exit::Violation })
@@ -176,25 +210,18 @@ pub(super) fn draw(
     moves: &RangeInclusive<u32>,
     out: &mut Output,
 ) -> Result<(), Halt> {
-    let (mut blocks, mut stories) = (Vec::new(), String::new());
-    explore(setup, &mut |made| {
-        interrupt::check()?;
-        if moves.contains(&made.step) {
-            blocks.push(view::team_move(setup, &report.chart, made, view::Pose::After));
-            if !made.breaches.is_empty() {
-                stories.push('\n');
-                stories.push_str(&view::story::of(setup, &report.chart, made));
+    draw_moves(setup, report, moves, view::Pose::After, out)?;
+    if report.violations.iter().any(|violation| moves.contains(&violation.step)) {
+        among(setup, moves, &mut |made| {
+            if made.breaches.is_empty() || out.is_gone() {
+                return Ok(());
             }
-        }
-        Ok(())
-    })?;
-    if blocks.is_empty() {
-        return Ok(());
+            Ok(out.text(format_args!("\n{}", view::story::of(setup, &report.chart, made)))?)
+        })?;
     }
     let end = view::story::of_end(setup, report);
     if moves.contains(&report.steps) && !end.is_empty() {
-        stories.push('\n');
-        stories.push_str(&end);
+        out.text(format_args!("\n{end}"))?;
     }
-    Ok(out.text(format_args!("\n{}\n\n{}{stories}", view::legend(setup.crew()), view::beside(&blocks)))?)
+    Ok(())
 }

@@ -10,7 +10,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::output::Output;
-use super::{Exit, Format, FormatArgs, number, progress, real};
+use super::{Exit, ForceArgs, Format, FormatArgs, number, progress, real};
 use crate::aside::Aside;
 use crate::explore::RuleName;
 use crate::fault::{Fault, Halt, Watch};
@@ -126,6 +126,8 @@ pub(super) struct Rescue {
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     #[command(flatten)]
+    force: ForceArgs,
+    #[command(flatten)]
     format: FormatArgs,
 }
 
@@ -217,8 +219,7 @@ impl Rescue {
         let setting = self.setting();
         let seeds = &self.seeds.0;
         if let Some(seed) = self.seeds.one() {
-            let files = [&self.trace, &self.replay, &self.svg].map(Option::as_deref);
-            let [trace, page, map] = Aside::several(files)?;
+            let [trace, page, map] = self.force.files([&self.trace, &self.replay, &self.svg], [])?;
             let report = rescue(&setting, seed).map_err(Fault::from)?;
             let files = Files { trace, page, map };
             return tell(out, self.format.format, (&setting, seed, &report), files);
@@ -274,14 +275,15 @@ pub(super) fn tell(
     out: &mut Output,
     format: Format,
     (setting, seed, report): (&Setting, u64, &Report),
-    mut files: Files,
+    files: Files,
 ) -> Result<Exit, Halt> {
     let summary = Summary::of(setting, seed, report);
     let title = format!("{}, seed {seed}", title(setting));
-    if let Some(trace) = &mut files.trace {
-        trace::write(trace, setting, seed, report)?;
+    if let Some(mut trace) = files.trace {
+        trace::write(&mut trace, setting, seed, report);
+        out.keep(trace);
     }
-    if let Some(page) = &mut files.page {
+    if let Some(mut page) = files.page {
         let served = summary.assignments.served_once + summary.assignments.served_more_often;
         let broken: Vec<&str> = summary.violations.iter().map(|broken| broken.clause).collect();
         let broken = if broken.is_empty() {
@@ -291,12 +293,13 @@ pub(super) fn tell(
         };
         let (events, what) = (summary.assignments.events, counted_as(setting));
         let outcome = format!("{served} of {events} {what} served; {broken}.");
-        page.append(view::rescue::page(&title, &outcome, report)?)?;
+        page.draw(view::rescue::page(&title, &outcome, report).map_err(Halt::from))?;
+        out.keep(page);
     }
-    if let Some(map) = &mut files.map {
-        map.append(picture(&title, &[view::rescue::map(String::new(), report)]))?;
+    if let Some(mut map) = files.map {
+        map.append(picture(&title, &[view::rescue::map(String::new(), report)]));
+        out.keep(map);
     }
-    Aside::keep_all([files.trace, files.page, files.map])?;
     print(out, format, setting, &(seed..=seed), (&summary, Some(report)))
 }
 

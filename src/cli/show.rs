@@ -1,15 +1,15 @@
 //! `tautline show`: a layout or the environments of a cell, drawn.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
 use tautline_kernel::lattice::Cell;
 
 use super::output::Output;
-use super::{Exit, Format, FormatArgs, LayoutArgs, usage};
+use super::{Exit, ForceArgs, Format, FormatArgs, LayoutArgs, usage};
 use crate::aside::Aside;
-use crate::fault::{Fault, Halt};
+use crate::fault::Halt;
 use crate::view::svg::{self, Panel};
 use crate::view::{self, Environment};
 
@@ -31,6 +31,8 @@ pub(super) struct Show {
     /// Store the drawing as a picture.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceArgs,
     #[command(flatten)]
     format: FormatArgs,
 }
@@ -62,7 +64,8 @@ struct ShownEnvironments {
 impl Show {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         if self.layout.layout == ENVIRONMENTS {
-            store(self.svg.as_deref(), "The environments of a cell", &svg::environments())?;
+            let [file] = self.force.files([&self.svg], [])?;
+            store(out, file, "The environments of a cell", &svg::environments());
             match self.format.format {
                 Format::Text => out.text(view::environments())?,
                 Format::Json => out.json(&ShownEnvironments { environments: Environment::ALL.map(shown) })?,
@@ -70,7 +73,11 @@ impl Show {
             return Ok(Exit::Expected);
         }
         let layout = self.layout.load()?;
-        store(self.svg.as_deref(), "A layout", &[svg::layout(&layout)])?;
+        let [file] = self.force.files([&self.svg], self.layout.inputs())?;
+        if file.is_some() {
+            svg::check_size(layout.size().area())?;
+        }
+        store(out, file, "A layout", &[svg::layout(&layout)]);
         let drawing = layout.to_string();
         match self.format.format {
             Format::Text => out.text(drawing)?,
@@ -93,8 +100,11 @@ impl Show {
 }
 
 /// Stores a picture of `panels` where the user wants one.
-fn store(path: Option<&Path>, title: &str, panels: &[Panel]) -> Result<(), Fault> {
-    path.map_or(Ok(()), |path| Aside::write(path, svg::picture(title, panels)))
+fn store(out: &mut Output, file: Option<Aside>, title: &str, panels: &[Panel]) {
+    if let Some(mut file) = file {
+        file.append(svg::picture(title, panels));
+        out.keep(file);
+    }
 }
 
 fn shown(environment: Environment) -> ShownEnvironment {

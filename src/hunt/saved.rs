@@ -1,8 +1,9 @@
 //! A hunt on its way, as a file of three lines of JSON: what is hunted, where the search is, and the checksum of the
-//! two. It is written aside and put in its place, so the last good one stands there whenever the work is killed.
+//! two. It is written aside and put in its place, so the last good one stands there whenever the work is killed. The file
+//! that stands there is locked as long as the hunt goes on: no other process can go on from it meanwhile.
 
-use std::fs;
-use std::io::ErrorKind;
+use std::fs::File;
+use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
@@ -11,15 +12,13 @@ use tautline_kernel::lattice::Cell;
 use tautline_proofs::search::{Bounds, Position, Search};
 
 use super::{remedy, start};
-use crate::aside::Aside;
+use crate::aside::{Aside, Replaceable, Standing, lock};
 use crate::explore::{RuleName, SchemeName};
 use crate::fault::Fault;
+use crate::layout::MAX_FILE_BYTES;
 
 const FORMAT: &str = "tautline hunt";
 const VERSION: u32 = 1;
-
-/// Larger files are refused: a search of the largest team has less to say.
-const MAX_BYTES: u64 = 1 << 26;
 
 /// What to do about a file that is no hunt of ours.
 pub(super) const AGAIN: &str = "name another file, or remove it and hunt from the start";
@@ -52,10 +51,14 @@ struct Seal {
 }
 
 /// A hunt that is kept in a file.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Saved<'a> {
     path: &'a Path,
     header: Header,
+    /// What stands at the path, as far as this hunt knows.
+    standing: Standing,
+    /// That file, locked.
+    held: Option<File>,
 }
 
 impl<'a> Saved<'a> {
@@ -71,14 +74,14 @@ impl<'a> Saved<'a> {
             area: [area.first(), area.last()],
             base: bounds.base,
         };
-        Self { path, header }
+        Self { path, header, standing: Standing::Nothing, held: None }
     }
 
     /// The search as it is in the file, or from the start if there is no file.
     ///
     /// # Errors
-    /// A [`Fault`] if the file is damaged or of another hunt, or the bounds cannot be searched.
-    pub fn search(&self, bounds: &Bounds) -> Result<Search, Fault> {
+    /// A [`Fault`] if the file is damaged, of another hunt or in use, or the bounds cannot be searched.
+    pub fn search(&mut self, bounds: &Bounds) -> Result<Search, Fault> {
         match self.read()? {
             None => start(bounds),
             Some(position) => Search::at(bounds, &position)
@@ -89,27 +92,59 @@ impl<'a> Saved<'a> {
     /// Keeps where `search` is.
     ///
     /// # Errors
-    /// A [`Fault`] if it cannot be written.
-    pub fn write(&self, search: &Search) -> Result<(), Fault> {
+    /// A [`Fault`] if it cannot be written, or another process has put a file there.
+    pub fn write(&mut self, search: &Search) -> Result<(), Fault> {
         let mut text = line(&self.header) + &line(&search.position());
         text += &line(&Seal { crc32: crc32fast::hash(text.as_bytes()) });
-        Aside::write(self.path, text)
+        let mut aside = Aside::new(self.path, &Replaceable::default())?;
+        aside.append(text);
+        if cfg!(not(unix)) {
+            // Elsewhere no file is replaced that is open.
+            self.held = None;
+        }
+        self.held = Some(aside.keep_locked(self.standing)?);
+        self.standing = Standing::Held;
+        Ok(())
     }
 
-    fn read(&self) -> Result<Option<Position>, Fault> {
+    /// The file that stands at the path, locked; `None` if none does.
+    fn open(&self) -> Result<Option<File>, Fault> {
+        loop {
+            let file = match File::open(self.path) {
+                Ok(file) => file,
+                Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+                Err(error) => {
+                    let what = format_args!("the file cannot be read: {error}");
+                    return Err(Fault::in_file(self.path, what, AGAIN));
+                }
+            };
+            lock(self.path, &file)?;
+            // A process that has just let it go may have put a newer one there.
+            if stands_at(&file, self.path) {
+                return Ok(Some(file));
+            }
+        }
+    }
+
+    fn read(&mut self) -> Result<Option<Position>, Fault> {
         let whole = |what: String| Fault::in_file(self.path, what, AGAIN);
         if self.path.is_dir() {
             return Err(Fault::in_file(self.path, "this is a folder", "name a file in it"));
         }
-        let too_long = fs::metadata(self.path).is_ok_and(|data| data.is_file() && data.len() > MAX_BYTES);
-        if too_long {
-            return Err(whole(format!("a kept hunt has at most {MAX_BYTES} bytes, and this file more")));
+        if self.path.exists() && !self.path.is_file() {
+            return Err(Fault::in_file(self.path, "this is a device or a pipe", "name a file"));
         }
-        let text = match fs::read(self.path) {
-            Ok(bytes) => String::from_utf8(bytes).map_err(|_| whole("this is not UTF-8 text".to_owned()))?,
-            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(whole(format!("the file cannot be read: {error}"))),
-        };
+        let Some(file) = self.open()? else { return Ok(None) };
+        let mut bytes = Vec::new();
+        (&file)
+            .take(MAX_FILE_BYTES + 1)
+            .read_to_end(&mut bytes)
+            .map_err(|error| whole(format!("the file cannot be read: {error}")))?;
+        if bytes.len() as u64 > MAX_FILE_BYTES {
+            return Err(whole(format!("a kept hunt has at most {MAX_FILE_BYTES} bytes, and this file more")));
+        }
+        (self.standing, self.held) = (Standing::Held, Some(file));
+        let text = String::from_utf8(bytes).map_err(|_| whole("this is not UTF-8 text".to_owned()))?;
         let lines: Vec<&str> = text.lines().collect();
         let [first, second, third] = lines[..] else {
             return Err(whole(format!("a kept hunt has three lines, and this file {}", lines.len())));
@@ -155,6 +190,21 @@ impl<'a> Saved<'a> {
             Fault::in_line(self.path, number, text, column..column + 1, what, AGAIN)
         })
     }
+}
+
+/// Whether `file` is the one that stands at `path`.
+#[cfg(unix)]
+fn stands_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let [one, other] =
+        [file.metadata(), path.metadata()].map(|data| data.ok().map(|data| (data.dev(), data.ino())));
+    one.is_some() && one == other
+}
+
+/// Whether `file` is the one that stands at `path`: what is open is not replaced.
+#[cfg(not(unix))]
+fn stands_at(_: &File, _: &Path) -> bool {
+    true
 }
 
 fn line(value: &impl Serialize) -> String {

@@ -1,8 +1,10 @@
 //! The LAYOUT argument of the command line: a generator's description, or a file of one of the three formats.
 
+use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, Read};
-use std::path::Path;
+use std::iter;
+use std::path::{Path, PathBuf};
 
 use super::generate::Form;
 use super::{Generator, Layout, Misread, Problem, movingai, ros, text};
@@ -27,6 +29,26 @@ pub fn load(description: &str, seed: u64, image: Option<&Path>) -> Result<Layout
     }
 }
 
+/// The files that [`load`] reads for these arguments.
+pub fn inputs(description: &str, image: Option<&Path>) -> Vec<PathBuf> {
+    let file = PathBuf::from(description);
+    if description.parse::<Generator>().is_ok() {
+        return Vec::new();
+    }
+    let image = image.map(Path::to_owned).or_else(|| is_ros(&file).then(|| ros::image(&file)).flatten());
+    iter::once(file).chain(image).collect()
+}
+
+/// The end of a file's name, in small letters.
+fn extension(file: &Path) -> OsString {
+    file.extension().unwrap_or_default().to_ascii_lowercase()
+}
+
+/// Whether the name is that of a ROS map.
+fn is_ros(file: &Path) -> bool {
+    matches!(extension(file).to_str(), Some("yaml" | "yml"))
+}
+
 /// Whether a description that is no generator was meant as one: it names one, or looks like none of the
 /// paths.
 fn means_generator(description: &str) -> bool {
@@ -34,19 +56,15 @@ fn means_generator(description: &str) -> bool {
 }
 
 fn load_file(file: &Path, image: Option<&Path>) -> Result<Layout, Fault> {
-    let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
-    let read: fn(&str) -> Result<Layout, Misread> = match extension.to_str() {
-        Some("yaml" | "yml") => {
-            let (layout, frame) = ros::load(file, image)?;
-            if frame.yaw_rad != 0.0 {
-                tracing::warn!(
-                    "{} is turned by {} rad; cells are those of its image",
-                    file.display(),
-                    frame.yaw_rad
-                );
-            }
-            return Ok(layout);
+    if is_ros(file) {
+        let (layout, frame) = ros::load(file, image)?;
+        if frame.yaw_rad != 0.0 {
+            let name = file.display();
+            tracing::warn!("{name} is turned by {} rad; cells are those of its image", frame.yaw_rad);
         }
+        return Ok(layout);
+    }
+    let read: fn(&str) -> Result<Layout, Misread> = match extension(file).to_str() {
         Some("pgm" | "png") => return Err(in_file(file, &Problem::BareImage)),
         Some("map") => movingai::read,
         Some(_) | None => text::read,

@@ -8,7 +8,7 @@
 
 use std::io::Cursor;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use image::{GenericImageView, ImageError, ImageFormat, ImageReader, Limits, Rgba};
 use serde::Deserialize;
@@ -94,6 +94,12 @@ pub fn load(file: &Path, image: Option<&Path>) -> Result<(Layout, Frame), Fault>
     })?;
     let layout = read(&description, &bytes).map_err(|problem| in_file(path, &problem))?;
     Ok((layout, description.frame))
+}
+
+/// The image that `file` names, if it can be read.
+pub(super) fn image(file: &Path) -> Option<PathBuf> {
+    let description = describe(&read_text(file).ok()?).ok()?;
+    Some(file.with_file_name(description.image))
 }
 
 /// Reads the YAML file.

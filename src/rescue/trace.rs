@@ -63,16 +63,13 @@ impl Last {
 }
 
 /// Writes a rescue.
-///
-/// # Errors
-/// A [`Fault`] if that is not possible.
-pub fn write(aside: &mut Aside, setting: &Setting, seed: u64, report: &Report) -> Result<(), Fault> {
+pub fn write(aside: &mut Aside, setting: &Setting, seed: u64, report: &Report) {
     let header = Header { format: FORMAT.to_owned(), version: VERSION, seed, setting: setting.clone() };
-    aside.append(line_of(&header))?;
+    aside.append(line_of(&header));
     for logged in &report.log {
-        aside.append(line_of(logged))?;
+        aside.append(line_of(logged));
     }
-    aside.append(line_of(&Last::of(report)))
+    aside.append(line_of(&Last::of(report)));
 }
 
 /// Does the rescue that is stored at `path` again, and compares every line.

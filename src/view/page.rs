@@ -1,45 +1,79 @@
 //! A page that plays a run: one file without anything from elsewhere, stepped by buttons, slider and keys, in light and
-//! dark. The pictures are those of [`svg`]; the page only shows one team move at a time.
+//! dark. The pictures are those of [`svg`]; the page draws one team move at a time. Of the cells it holds only what changes
+//! from move to move, and nothing that is not shown; it is written as the run goes on.
 
 use std::fmt::Write;
+use std::ops::RangeInclusive;
 
 use tautline_kernel::chain::Kind;
 use tautline_kernel::floor::Mark;
-use tautline_kernel::lattice::Step;
+use tautline_kernel::lattice::{Cell, Step};
 use tautline_proofs::run::Frame as Outcome;
 
 use super::svg::{self, Frame};
+use crate::aside::{Aside, HTML_HEAD};
 use crate::explore::{Chart, Crew, Report, Setup, TeamMove};
 use crate::fault::Fault;
 
-/// Robots that a page can draw, over all its team moves.
-const MAX_DRAWN: usize = 100_000;
+/// Bytes of a page. What is larger no browser shows.
+const MAX_BYTES: usize = 64 << 20;
 
 const TEMPLATE: &str = include_str!("page.html");
 
-/// A page in the making.
+/// A page in the making. One that grows too large is left out.
 #[derive(Debug)]
 pub struct Page<'a> {
+    file: &'a mut Aside,
     setup: &'a Setup,
     report: &'a Report,
-    moves: String,
-    drawn: usize,
+    /// How many bytes it has.
+    bytes: usize,
+    /// What comes after the team moves.
+    foot: String,
+    is_begun: bool,
 }
 
 impl<'a> Page<'a> {
-    /// The page of a run that came out as `report`.
-    pub fn new(setup: &'a Setup, report: &'a Report) -> Self {
-        Self { setup, report, moves: String::new(), drawn: 0 }
+    /// The page in `file` that plays these team moves of a run that came out as `report`.
+    pub fn new(
+        file: &'a mut Aside,
+        setup: &'a Setup,
+        report: &'a Report,
+        moves: &RangeInclusive<u32>,
+    ) -> Self {
+        let outcome = format!(
+            "{} team moves: {}. {} of {} cells explored; {}.",
+            report.steps,
+            report.stopped.words(),
+            report.explored,
+            report.cells,
+            broken(report)
+        );
+        let title = super::title_of(setup);
+        let [head, middle, foot] = parts(svg::STYLE, ["team move", "Team moves"], &title, &outcome);
+        let area = report.chart.area();
+        let mut page = Self { file, setup, report, bytes: 0, foot, is_begun: false };
+        page.put(&(head + &svg::open(area) + &svg::blocked(&setup.layout, area)));
+        page.put(&marked(&report.chart, moves));
+        page.put(&(svg::lines(area) + &svg::walls(&setup.layout, area) + TEAM + "</g></svg>" + &middle));
+        page
+    }
+
+    fn put(&mut self, text: &str) {
+        self.bytes += text.len();
+        if self.bytes > MAX_BYTES {
+            let what = format!("a page of more than {} MiB is left out", MAX_BYTES >> 20);
+            let remedy = "store a trace, and give `tautline replay` fewer --moves to show";
+            self.file.leave_out(Fault::in_file(self.file.path(), what, remedy));
+        } else {
+            self.file.append(text);
+        }
     }
 
     /// Adds a team move; before the first one, where the robots were.
-    ///
-    /// # Errors
-    /// A [`Fault`] if the page grows too large.
-    pub fn add(&mut self, made: &TeamMove<'_>) -> Result<(), Fault> {
-        let chart = &self.report.chart;
-        let frame = Frame(chart.area());
-        if self.moves.is_empty() {
+    pub fn add(&mut self, made: &TeamMove<'_>) {
+        if !self.is_begun {
+            self.is_begun = true;
             let robots = made.before.len();
             let start = Outcome {
                 kind: Kind::Advance,
@@ -50,73 +84,76 @@ impl<'a> Page<'a> {
             let step = made.step - 1;
             let start = TeamMove { step, before: made.before, frame: &start, unseen: &[], breaches: &[] };
             let words = if step == 0 { "The start".to_owned() } else { format!("After team move {step}") };
-            self.push(frame, &start, &words);
+            self.push(&start, &words);
         }
-        self.push(frame, made, &words(self.setup.crew(), made, self.report));
-        self.drawn += made.before.len();
-        if self.drawn > MAX_DRAWN {
-            let what = format!("a page of more than {MAX_DRAWN} robots in all its team moves");
-            return Err(Fault::usage(what, "store a trace, and give `tautline replay` the --moves to show"));
-        }
-        Ok(())
+        self.push(made, &words(self.setup.crew(), made, self.report));
     }
 
-    fn push(&mut self, frame: Frame, made: &TeamMove<'_>, words: &str) {
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            self.moves,
-            "<g class=\"move\" data-step=\"{}\" hidden><title>{words}</title>{}</g>",
-            made.step,
-            svg::team(self.setup.crew(), frame, made)
-        );
+    fn push(&mut self, made: &TeamMove<'_>, words: &str) {
+        let team = svg::team(self.setup.crew(), Frame(self.report.chart.area()), made);
+        self.put(&moved(made.step, words, &team));
     }
 
-    /// The whole page.
-    pub fn finish(self) -> String {
-        let Self { setup, report, moves, drawn: _ } = self;
-        let area = report.chart.area();
-        let picture = svg::open(area)
-            + &svg::ground(&setup.layout, area)
-            + &marked(&report.chart)
-            + &svg::walls(&setup.layout, area)
-            + &moves
-            + "</g></svg>";
-        let title = super::title_of(setup);
-        let outcome = format!(
-            "{} team moves: {}. {} of {} cells explored; {}.",
-            report.steps,
-            report.stopped.words(),
-            report.explored,
-            report.cells,
-            broken(report)
-        );
-        filled(svg::STYLE, ["team move", "Team moves"], &title, &outcome, &picture)
+    /// Adds what comes after the team moves.
+    pub fn finish(mut self) {
+        let foot = std::mem::take(&mut self.foot);
+        self.put(&foot);
     }
 }
 
-/// A page of a picture with a group of the class `move` for each step, of which it shows one at a time, and groups of the
-/// class `cell`, which it shows from their step on. `steps` are the words for one step, and for many.
-pub(super) fn filled(style: &str, steps: [&str; 2], title: &str, outcome: &str, picture: &str) -> String {
+/// Where a picture shows one step after the other.
+pub(super) const TEAM: &str = "<g id=\"team\"></g>";
+
+/// A step of a page, in one line, as it is drawn in [`TEAM`].
+pub(super) fn moved(step: u32, words: &str, drawn: &str) -> String {
+    format!("<g class=\"move\" data-step=\"{step}\"><title>{words}</title>{drawn}</g>\n")
+}
+
+/// A page in three parts. The first ends where its picture begins, which holds [`TEAM`] and parts of the class `cell`, in the
+/// order of their steps, which it shows from their step on. The second ends where the steps stand, which [`moved`] makes.
+/// `steps` are the words for one step, and for many.
+pub(super) fn parts(style: &str, steps: [&str; 2], title: &str, outcome: &str) -> [String; 3] {
     let [step, steps] = steps;
-    TEMPLATE
-        .replace("{{style}}", style)
-        .replace("{{step}}", step)
-        .replace("{{steps}}", steps)
-        .replace("{{title}}", title)
-        .replace("{{outcome}}", outcome)
-        .replace("{{picture}}", picture)
+    let filled = |part: &str| {
+        part.replace("{{style}}", style)
+            .replace("{{step}}", step)
+            .replace("{{steps}}", steps)
+            .replace("{{title}}", title)
+            .replace("{{outcome}}", outcome)
+    };
+    let (head, rest) = TEMPLATE.split_once("{{picture}}").unwrap_or((TEMPLATE, ""));
+    let (middle, foot) = rest.split_once("{{moves}}\n").unwrap_or((rest, ""));
+    [HTML_HEAD.to_owned() + &filled(head), filled(middle), filled(foot)]
 }
 
-/// The cells as they are from a team move on, each mark over the one before it.
-fn marked(chart: &Chart) -> String {
+/// The cells as they are before the first of `moves`, and what becomes of them in these.
+fn marked(chart: &Chart, moves: &RangeInclusive<u32>) -> String {
     let frame = Frame(chart.area());
-    let cells = chart.area().cells();
-    let explored = cells.filter_map(|cell| chart.step(cell).map(|step| (cell, step, Mark::Explored)));
-    explored.chain(chart.marks()).fold(String::new(), |mut text, (cell, step, mark)| {
-        let drawn = svg::marked_cell(frame, cell, mark);
-        let _ = write!(text, "<g class=\"cell\" data-step=\"{step}\">{drawn}</g>");
-        text
-    })
+    let before = moves.start().saturating_sub(1);
+    let mut text = String::new();
+    for mark in [Mark::Explored, Mark::Closing, Mark::Visited, Mark::Sealed] {
+        let cells = chart.area().cells().filter(|&cell| chart.mark(cell, before) == mark);
+        let path = svg::stripes(frame, cells);
+        if let (Some(class), false) = (svg::class(mark), path.is_empty()) {
+            // Writing to a string cannot fail.
+            let _ = write!(text, "<path class=\"{class}\" d=\"{path}\"/>");
+        }
+    }
+    let explored = chart.area().cells().filter_map(|cell| Some((cell, chart.step(cell)?, Mark::Explored)));
+    let mut changes: Vec<(u32, Mark, Cell)> = explored
+        .chain(chart.marks())
+        .filter(|&(_, step, _)| step > before && step <= *moves.end())
+        .map(|(cell, step, mark)| (step, mark, cell))
+        .collect();
+    changes.sort_unstable_by_key(|&(step, mark, cell)| (step, mark as u8, cell));
+    for alike in changes.chunk_by(|one, other| (one.0, one.1) == (other.0, other.1)) {
+        let (step, mark, _) = alike[0];
+        if let Some(class) = svg::class(mark) {
+            let path = svg::stripes(frame, alike.iter().map(|&(_, _, cell)| cell));
+            let _ = write!(text, "<path class=\"cell {class}\" data-step=\"{step}\" d=\"{path}\"/>");
+        }
+    }
+    text
 }
 
 fn broken(report: &Report) -> String {

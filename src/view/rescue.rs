@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::field::{ALONE, Map, ROBOT, STYLE, Scale, Terminus, Trail, ground, numbered};
-use super::page::filled;
+use super::page::{TEAM, moved, parts};
 use super::svg::{MARGIN, SERIES, SERIES_STYLE, document, text_width};
 use crate::fault::Fault;
 use crate::radio::Point;
@@ -47,13 +47,14 @@ pub fn page(title: &str, outcome: &str, report: &Report) -> Result<String, Fault
         body.push_str(&numbered(&scale.place(wfr), number));
     }
     let mut before_ns = 0;
-    body += &frame(report, scale, 0, (0, 0), "The start");
+    let mut moves = moved(0, "The start", &robots(report, scale, 0));
     for (step, Logged { at_ns, event }) in (1..).zip(&report.log) {
         let words = format!("{:.3} s: {event}", seconds(*at_ns));
-        body += &frame(report, scale, step, (before_ns, *at_ns), &words);
+        body += &ways(report, scale, step, (before_ns, *at_ns));
+        moves += &moved(step, &words, &robots(report, scale, *at_ns));
         before_ns = *at_ns;
     }
-    body.push_str("</g>");
+    body = body + TEAM + "</g>";
     let names = (0..report.paths.len()).map(|robot| format!("robot {}", Ordinal(robot)));
     let mut x = MARGIN;
     let y = height + 2 * MARGIN;
@@ -70,12 +71,13 @@ pub fn page(title: &str, outcome: &str, report: &Report) -> Result<String, Fault
     }
     let size = (x.max(width + 2 * MARGIN), y + MARGIN);
     let picture = document(title, &format!("{SERIES_STYLE}{STYLE}"), size, &body);
-    Ok(filled("", ["event", "Events"], title, outcome, &picture))
+    let [head, middle, foot] = parts("", ["event", "Events"], title, outcome);
+    Ok([head, picture, middle, moves, foot].concat())
 }
 
-/// Where the robots are at an event, and where they have gone since the one before.
-fn frame(report: &Report, scale: Scale, step: u32, (from_ns, to_ns): (u64, u64), words: &str) -> String {
-    let (mut ways, mut robots) = (String::new(), String::new());
+/// Where the robots have gone between an event and the one before.
+fn ways(report: &Report, scale: Scale, step: u32, (from_ns, to_ns): (u64, u64)) -> String {
+    let mut ways = String::new();
     for (look, path) in report.paths.iter().enumerate() {
         let (from, to) = (place(path, from_ns), place(path, to_ns));
         let between = path.iter().filter(|fix| (from_ns..to_ns).contains(&fix.at_ns)).map(|fix| fix.at);
@@ -87,15 +89,17 @@ fn frame(report: &Report, scale: Scale, step: u32, (from_ns, to_ns): (u64, u64),
             }
             let _ = write!(ways, "<path class=\"trail trail-{look}\" d=\"{line}\"/>");
         }
-        let _ = write!(
-            robots,
-            "<g class=\"trail-{look}\"><path class=\"mark\" d=\"M{}{ROBOT}\"/></g>",
-            scale.place(to)
-        );
     }
-    let ways =
-        if ways.is_empty() { ways } else { format!("<g class=\"cell\" data-step=\"{step}\">{ways}</g>\n") };
-    format!("{ways}<g class=\"move\" data-step=\"{step}\" hidden><title>{words}</title>{robots}</g>\n")
+    if ways.is_empty() { ways } else { format!("<g class=\"cell\" data-step=\"{step}\">{ways}</g>\n") }
+}
+
+/// Where the robots are at a time.
+fn robots(report: &Report, scale: Scale, at_ns: u64) -> String {
+    report.paths.iter().enumerate().fold(String::new(), |mut robots, (look, path)| {
+        let (look, at) = (look % SERIES, scale.place(place(path, at_ns)));
+        let _ = write!(robots, "<g class=\"trail-{look}\"><path class=\"mark\" d=\"M{at}{ROBOT}\"/></g>");
+        robots
+    })
 }
 
 /// Where a robot is at a time.

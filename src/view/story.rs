@@ -41,7 +41,7 @@ pub fn of(setup: &Setup, chart: &Chart, made: &TeamMove<'_>) -> String {
     }
     text.push('\n');
     let draw = |pose, title: &str| Block { title: title.to_owned(), ..team_move(setup, chart, made, pose) };
-    text + &beside(&[draw(Pose::Before, "before, with what each tries"), draw(Pose::After, "after")])
+    text + &beside(vec![draw(Pose::Before, "before, with what each tries"), draw(Pose::After, "after")])
 }
 
 fn did(made: &TeamMove<'_>, robot: usize) -> String {
@@ -176,7 +176,7 @@ pub fn of_trap(setup: &Setup) -> Result<String, Halt> {
         }
         Ok(())
     })?;
-    Ok(format!("{}\n\n{words}\n{}", legend(setup.crew()), beside(&blocks)))
+    Ok(format!("{}\n\n{words}\n{}", legend(setup.crew()), beside(blocks)))
 }
 
 /// What agents do in `course`, turn by turn: every turn before it is made, with what the agent tries and the sensors that
@@ -216,7 +216,7 @@ pub fn of_course(crew: Crew, course: &Course) -> Result<String, Problem> {
         }
     }
     blocks.push(Block { title: "the end".to_owned(), lines: agents(crew, &layout, end, None) });
-    Ok(format!("{}\n\n{words}\n{}", legend(crew), beside(&blocks)))
+    Ok(format!("{}\n\n{words}\n{}", legend(crew), beside(blocks)))
 }
 
 /// How the last team move of the run of `setup`, or its end, breaks its clauses.

@@ -9,7 +9,9 @@ use tautline_kernel::lattice::{Cell, Edge, Side, Step};
 use tautline_proofs::run::Breach;
 
 use super::{Environment, REACH, first_drawn};
+use crate::aside::SVG_HEAD;
 use crate::explore::{Chart, Crew, Setup, TeamMove};
+use crate::fault::Fault;
 use crate::layout::Layout;
 
 /// The side of a cell.
@@ -36,6 +38,25 @@ text{fill:var(--ink);text-anchor:middle;dominant-baseline:central}.caption{text-
 .way{stroke:var(--ink);stroke-width:1.5}.tip{fill:var(--ink)}.bump{stroke:var(--bad);stroke-width:3}\
 .unseen{stroke:var(--bad);stroke-width:2;stroke-dasharray:3 2;fill:none}.broken{stroke:var(--bad);stroke-width:3;stroke-dasharray:5 3}.crowded{fill:var(--bad)}";
 
+/// Cells of an area that is drawn. What is larger no browser shows.
+const MAX_CELLS: usize = 1 << 19;
+
+/// Checks that `area` is not too large to be drawn.
+///
+/// # Errors
+/// A [`Fault`] of the command line.
+pub fn check_size(area: Area) -> Result<(), Fault> {
+    let (columns, rows) = (area.width(), area.height());
+    if columns * rows <= MAX_CELLS {
+        return Ok(());
+    }
+    let what = format!("an area of {columns}x{rows} cells is too large to be drawn");
+    Err(Fault::usage(
+        what,
+        format_args!("leave out the picture and the page, or take at most {MAX_CELLS} cells"),
+    ))
+}
+
 /// How many colours there are for what is to be told apart.
 pub(super) const SERIES: usize = 6;
 
@@ -52,6 +73,13 @@ pub struct Panel {
     width: i32,
     height: i32,
     body: String,
+}
+
+impl Panel {
+    /// How many bytes it has in a picture, about.
+    pub fn bytes(&self) -> usize {
+        self.caption.len() + self.body.len()
+    }
 }
 
 /// A whole picture of panels beside each other, as many in a row as the page holds.
@@ -101,8 +129,8 @@ pub(super) fn escaped(text: &str) -> String {
 /// A picture of `body` alone, which wants `style` beside that of all pictures. The title is escaped.
 pub(super) fn document(title: &str, style: &str, (width, height): (i32, i32), body: &str) -> String {
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
-         height=\"{height}\" role=\"img\" aria-label=\"{title}\">\n<title>{title}</title>\n<style>{STYLE}{style}</style>\n\
+        "{SVG_HEAD}viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" role=\"img\" \
+         aria-label=\"{title}\">\n<title>{title}</title>\n<style>{STYLE}{style}</style>\n\
          <rect width=\"{width}\" height=\"{height}\" style=\"fill:var(--ground)\"/>\n{body}</svg>\n"
     )
 }
@@ -220,7 +248,7 @@ impl Frame {
 }
 
 /// The lines between cells.
-fn lines(area: Area) -> String {
+pub(super) fn lines(area: Area) -> String {
     let (columns, rows) = (area.width() as i32, area.height() as i32);
     let mut path = String::new();
     for column in 0..=columns {
@@ -233,15 +261,30 @@ fn lines(area: Area) -> String {
 }
 
 /// The lines between cells, and the blocked cells.
-pub(super) fn ground(layout: &Layout, area: Area) -> String {
-    let frame = Frame(area);
+fn ground(layout: &Layout, area: Area) -> String {
+    lines(area) + &blocked(layout, area)
+}
+
+/// The blocked cells.
+pub(super) fn blocked(layout: &Layout, area: Area) -> String {
+    let path = stripes(Frame(area), area.cells().filter(|&cell| !layout.is_free(cell)));
+    if path.is_empty() { path } else { format!("<path class=\"blocked\" d=\"{path}\"/>") }
+}
+
+/// The outlines of `cells`, which come row by row; those beside each other have one.
+pub(super) fn stripes(frame: Frame, cells: impl IntoIterator<Item = Cell>) -> String {
     let mut path = String::new();
-    for cell in area.cells().filter(|&cell| !layout.is_free(cell)) {
-        let (x, y) = frame.corner(cell);
-        let _ = write!(path, "M{x} {y}h{CELL}v{CELL}h-{CELL}z");
+    let mut cells = cells.into_iter().peekable();
+    while let Some(first) = cells.next() {
+        let mut last = first;
+        while let Some(next) = cells.next_if(|&cell| cell == last.beyond(Side::East)) {
+            last = next;
+        }
+        let (x, y) = frame.corner(first);
+        let width = frame.corner(last).0 - x + CELL;
+        let _ = write!(path, "M{x} {y}h{width}v{CELL}h-{width}z");
     }
-    let blocked = if path.is_empty() { path } else { format!("<path class=\"blocked\" d=\"{path}\"/>") };
-    lines(area) + &blocked
+    path
 }
 
 /// The walls and the rim.
@@ -263,15 +306,20 @@ fn side(frame: Frame, edge: Edge) -> String {
     }
 }
 
+/// The class of cells with a mark, unless they are unexplored.
+pub(super) const fn class(mark: Mark) -> Option<&'static str> {
+    match mark {
+        Mark::Unexplored => None,
+        Mark::Explored => Some("explored"),
+        Mark::Closing => Some("closing"),
+        Mark::Visited => Some("visited"),
+        Mark::Sealed => Some("sealed"),
+    }
+}
+
 /// A cell with its mark; nothing if it is unexplored.
-pub(super) fn marked_cell(frame: Frame, cell: Cell, mark: Mark) -> String {
-    let class = match mark {
-        Mark::Unexplored => return String::new(),
-        Mark::Explored => "explored",
-        Mark::Closing => "closing",
-        Mark::Visited => "visited",
-        Mark::Sealed => "sealed",
-    };
+fn marked_cell(frame: Frame, cell: Cell, mark: Mark) -> String {
+    let Some(class) = class(mark) else { return String::new() };
     let (x, y) = frame.corner(cell);
     let inner = CELL - 1;
     format!("<rect class=\"{class}\" x=\"{x}.5\" y=\"{y}.5\" width=\"{inner}\" height=\"{inner}\"/>")

@@ -8,7 +8,7 @@ use tautline_proofs::clause::Verdict;
 use tautline_proofs::run::Breach;
 use tautline_proofs::trap::{self, Bounds, End, Found, Trap, Way};
 
-use super::{Hunt, check_folder, shown};
+use super::{Hunt, check_folder, keep};
 use crate::cli::output::Output;
 use crate::cli::{Exit, Format, SizeArg, interrupt, progress, usage};
 use crate::explore::{Misfit, RuleName, SchemeName, Setup};
@@ -51,8 +51,10 @@ struct Stored {
     columns: i16,
     rows: i16,
     steps: u32,
-    /// Where it is stored; a run without end is not.
+    /// Where it is stored; a run without end is not, nor one that was left out.
     file: Option<String>,
+    #[serde(skip)]
+    is_endless: bool,
     #[serde(skip)]
     setup: Setup,
 }
@@ -67,6 +69,7 @@ pub(super) fn run(hunt: &Hunt, way: Way, out: &mut Output) -> Result<Exit, Halt>
     };
     let (agents, misses) = (hunt.robots.unwrap_or(DEFAULT_AGENTS), hunt.max_misses.unwrap_or(DEFAULT_MISSES));
     let bounds = Bounds { budget_steps: hunt.budget, ..bounds(way, agents, misses, size)? };
+    interrupt::defer();
     let found = search(&bounds);
     let hunted = Hunted {
         scheme: hunt.scheme,
@@ -80,16 +83,16 @@ pub(super) fn run(hunt: &Hunt, way: Way, out: &mut Output) -> Result<Exit, Halt>
         complete: found.is_complete,
         misses_done: found.levels.checked_sub(1),
         verdict: verdict(&found).word(),
-        counterexamples: found.trap.iter().map(|trap| stored(hunt, trap)).collect::<Result<_, _>>()?,
+        counterexamples: found.trap.iter().map(|trap| stored(hunt, trap, out)).collect::<Result<_, _>>()?,
     };
     match hunt.format.format {
         Format::Json => out.json(&hunted)?,
         Format::Text => out.text(tell(&hunted)?)?,
     }
-    Ok(match verdict(&found) {
-        Verdict::Refuted => Exit::Violation,
-        Verdict::Holds | Verdict::Unrefuted => Exit::Expected,
-        Verdict::Open => Exit::Unfinished,
+    Ok(match (found.is_complete, &found.trap) {
+        (false, _) => Exit::Unfinished,
+        (true, Some(_)) => Exit::Violation,
+        (true, None) => Exit::Expected,
     })
 }
 
@@ -132,17 +135,18 @@ const fn verdict(found: &Found) -> Verdict {
     }
 }
 
-fn stored(hunt: &Hunt, trap: &Trap) -> Result<Stored, Halt> {
+fn stored(hunt: &Hunt, trap: &Trap, out: &mut Output) -> Result<Stored, Halt> {
     let setup = setup(hunt.scheme, hunt.rule, trap).map_err(|problem| usage(&problem))?;
     let (clause, file) = match trap.end {
         End::Done => {
-            let (path, _) = store(&hunt.out, &setup, Breach::Premature)?;
-            (Breach::Premature.clause(), Some(shown(&path)))
+            let (file, _) = store(&hunt.out, &setup, Breach::Premature, &hunt.force.replaceable([]))?;
+            (Breach::Premature.clause(), keep(file, out))
         }
         End::Endless => (ENDLESS, None),
     };
     let (columns, rows) = (trap.width, trap.height);
-    Ok(Stored { clause, misses: trap.missed.len(), columns, rows, steps: trap.moves, file, setup })
+    let (misses, steps, is_endless) = (trap.missed.len(), trap.moves, trap.end == End::Endless);
+    Ok(Stored { clause, misses, columns, rows, steps, file, is_endless, setup })
 }
 
 /// The clause that a run without end breaks.
@@ -169,15 +173,15 @@ fn tell(hunted: &Hunted) -> Result<String, Halt> {
             writeln!(text, "The fewest missed sensors and the smallest layout with which agents are trapped:")
         }
     };
-    for Stored { clause, misses, columns, rows, steps, file, setup } in &hunted.counterexamples {
+    for Stored { clause, misses, columns, rows, steps, file, is_endless, setup } in &hunted.counterexamples {
         let _ = writeln!(text, "\n{clause}, {misses} missed, {columns}x{rows} cells, {steps} team moves");
-        let _ = match file {
-            Some(file) => {
-                let story = view::story::of_trap(setup)?;
-                writeln!(text, "\n{story}\nreplay it with: tautline replay {file}")
-            }
-            None => writeln!(text, "\nA run without end in this layout:\n\n{}", setup.layout),
+        let _ = match is_endless {
+            false => writeln!(text, "\n{}", view::story::of_trap(setup)?),
+            true => writeln!(text, "\nA run without end in this layout:\n\n{}", setup.layout),
         };
+        if let Some(file) = file {
+            let _ = writeln!(text, "replay it with: tautline replay {file}");
+        }
     }
     Ok(text)
 }

@@ -6,9 +6,8 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 
-use crate::aside::Aside;
 use crate::cli::output::Output;
-use crate::cli::{Exit, Format, FormatArgs, number, progress};
+use crate::cli::{Exit, ForceArgs, Format, FormatArgs, number, progress};
 use crate::explore::SchemeName;
 use crate::fault::Halt;
 use crate::reproduce::Reproduction;
@@ -35,6 +34,8 @@ pub(super) struct Agents {
     /// Store a chart.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceArgs,
     #[command(flatten)]
     format: FormatArgs,
 }
@@ -66,13 +67,14 @@ impl Agents {
         figure: Figure,
         out: &mut Output,
     ) -> Result<Exit, Halt> {
-        let file = self.svg.as_deref().map(Aside::new).transpose()?;
+        let [file] = self.force.files([&self.svg], [])?;
         let runs = u64::from(self.layouts) * (figure.points().len() * TEAMS.len()) as u64;
         let extent = Extent { layouts: self.layouts, seed: self.seed, max_steps: self.max_steps };
         let lines = progress::during("exploring", runs, |watch| agents::measure(figure, extent, watch))?;
         let printed = printed(figure, &lines);
-        if let Some(file) = file {
-            file.finish(chart(figure, &lines).svg())?;
+        if let Some(mut file) = file {
+            file.append(chart(figure, &lines).svg());
+            out.keep(file);
         }
         match self.format.format {
             Format::Json => out.json(&Measured {

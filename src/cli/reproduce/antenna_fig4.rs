@@ -6,9 +6,8 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 
-use crate::aside::Aside;
 use crate::cli::output::Output;
-use crate::cli::{Exit, Format, FormatArgs, number, real};
+use crate::cli::{Exit, ForceArgs, Format, FormatArgs, number, real};
 use crate::fault::Halt;
 use crate::homing::NEAREST_M;
 use crate::radio::MAX_RANGE_M;
@@ -43,6 +42,8 @@ pub(super) struct AntennaFig4 {
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     #[command(flatten)]
+    force: ForceArgs,
+    #[command(flatten)]
     format: FormatArgs,
 }
 
@@ -63,12 +64,13 @@ struct Report<'a> {
 
 impl AntennaFig4 {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        let file = self.svg.as_deref().map(Aside::new).transpose()?;
+        let [file] = self.force.files([&self.svg], [])?;
         let noises_db = self.noise_db.clone();
         let setting = Setting { distance_m: self.distance, noises_db, scans: self.scans, seed: self.seed };
         let measured = setting.measure()?;
-        if let Some(file) = file {
-            file.finish(antenna_fig4::chart(&measured.pattern, self.distance).svg())?;
+        if let Some(mut file) = file {
+            file.append(antenna_fig4::chart(&measured.pattern, self.distance).svg());
+            out.keep(file);
         }
         match self.format.format {
             Format::Json => out.json(&Report {

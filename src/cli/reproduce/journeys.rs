@@ -7,10 +7,9 @@ use serde::Serialize;
 use tautline_kernel::broadcast::Count;
 
 use super::table::Table;
-use crate::aside::Aside;
 use crate::cli::output::Output;
 use crate::cli::rescue::Metres;
-use crate::cli::{Exit, Format, FormatArgs, count, number, progress, real};
+use crate::cli::{Exit, ForceArgs, Format, FormatArgs, count, number, progress, real};
 use crate::fault::{Fault, Halt};
 use crate::radio::Obstacle;
 use crate::reproduce::Reproduction;
@@ -60,6 +59,8 @@ pub(super) struct Journeys {
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     #[command(flatten)]
+    force: ForceArgs,
+    #[command(flatten)]
     format: FormatArgs,
 }
 
@@ -84,7 +85,7 @@ impl Journeys {
         figure: Figure,
         out: &mut Output,
     ) -> Result<Exit, Halt> {
-        let file = self.svg.as_deref().map(Aside::new).transpose()?;
+        let [file] = self.force.files([&self.svg], [])?;
         let given = |own: &[usize]| if own.is_empty() { figure.nodes() } else { own.to_vec() };
         let own: Vec<Obstacle> = self.obstacle.iter().map(|&Metres(sides)| sides.into()).collect();
         let obstacles = if own.is_empty() { figure.obstacles() } else { own };
@@ -100,8 +101,9 @@ impl Journeys {
         };
         let topologies = u64::from(self.topologies) * setting.nodes.len() as u64;
         let densities = progress::during("walking", topologies, |watch| setting.measure(watch))?;
-        if let Some(file) = file {
-            file.finish(picture(figure, &setting, &densities)?)?;
+        if let Some(mut file) = file {
+            file.draw(picture(figure, &setting, &densities))?;
+            out.keep(file);
         }
         match self.format.format {
             Format::Json => out.json(&Measured {

@@ -7,9 +7,8 @@ use serde::Serialize;
 use tautline_kernel::broadcast::Count;
 
 use super::table::Table;
-use crate::aside::Aside;
 use crate::cli::output::Output;
-use crate::cli::{Exit, Format, FormatArgs, count, number, progress, real};
+use crate::cli::{Exit, ForceArgs, Format, FormatArgs, count, number, progress, real};
 use crate::fault::Halt;
 use crate::radio::ChannelName;
 use crate::reproduce::Reproduction;
@@ -58,6 +57,8 @@ pub(super) struct NoticeFig5 {
     #[arg(long, value_name = "FILE")]
     svg_rebroadcasts: Option<PathBuf>,
     #[command(flatten)]
+    force: ForceArgs,
+    #[command(flatten)]
     format: FormatArgs,
 }
 
@@ -74,8 +75,7 @@ struct Measured<'a> {
 
 impl NoticeFig5 {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        let files = [&self.svg_reach, &self.svg_rebroadcasts].map(Option::as_deref);
-        let mut charts = Aside::several(files)?;
+        let charts = self.force.files([&self.svg_reach, &self.svg_rebroadcasts], [])?;
         let setting = Setting {
             nodes: self.nodes.clone(),
             side_m: self.side,
@@ -87,12 +87,12 @@ impl NoticeFig5 {
         };
         let topologies = u64::from(self.topologies) * self.nodes.len() as u64;
         let densities = progress::during("broadcasting", topologies, |watch| setting.measure(watch))?;
-        for (chart, part) in charts.iter_mut().zip([Part::Reach, Part::Rebroadcasts]) {
-            if let Some(chart) = chart {
-                chart.append(notice_fig5::chart(part, &densities).svg())?;
+        for (chart, part) in charts.into_iter().zip([Part::Reach, Part::Rebroadcasts]) {
+            if let Some(mut chart) = chart {
+                chart.append(notice_fig5::chart(part, &densities).svg());
+                out.keep(chart);
             }
         }
-        Aside::keep_all(charts)?;
         match self.format.format {
             Format::Json => out.json(&Measured {
                 id: Reproduction::NoticeFig5.id(),

@@ -97,7 +97,7 @@ fn drawing(line: &Line, worst: &Worst) -> Result<String, Halt> {
     let blocks: Vec<Block> =
         titles.into_iter().zip(lines).map(|(title, lines)| Block { title, lines }).collect();
     let title = format!("The worst for {} robots ({}): when each cell is explored", line.robots, line.rule);
-    Ok(format!("\n{title}\n\n{}", view::beside(&blocks)))
+    Ok(format!("\n{title}\n\n{}", view::beside(blocks)))
 }
 
 const fn is_worse(one: &Worst, other: &Worst) -> bool {

@@ -7,9 +7,8 @@ use serde::Serialize;
 use tautline_kernel::broadcast::Count;
 
 use super::table::Table;
-use crate::aside::Aside;
 use crate::cli::output::Output;
-use crate::cli::{Exit, Format, FormatArgs, count, number, progress};
+use crate::cli::{Exit, ForceArgs, Format, FormatArgs, count, number, progress};
 use crate::fault::Halt;
 use crate::reproduce::Reproduction;
 use crate::reproduce::interval::Estimate;
@@ -50,6 +49,8 @@ pub(super) struct RescueFig8 {
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     #[command(flatten)]
+    force: ForceArgs,
+    #[command(flatten)]
     format: FormatArgs,
 }
 
@@ -70,11 +71,12 @@ impl RescueFig8 {
         let Self { nodes, topologies, seed, .. } = *self;
         let (robots, wfrs, k) = (self.robots as usize, self.wfr as usize, self.k.get());
         let setting = Setting { nodes, robots, wfrs, k, topologies, seed };
-        let file = self.svg.as_deref().map(Aside::new).transpose()?;
+        let [file] = self.force.files([&self.svg], [])?;
         let rescues = 2 * u64::from(topologies);
         let lines = progress::during("rescuing", rescues, |watch| setting.measure(watch))?;
-        if let Some(file) = file {
-            file.finish(setting.picture()?)?;
+        if let Some(mut file) = file {
+            file.draw(setting.picture())?;
+            out.keep(file);
         }
         match self.format.format {
             Format::Json => {
