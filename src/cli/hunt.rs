@@ -9,10 +9,11 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use serde::Serialize;
 use tautline_proofs::clause::Verdict;
-use tautline_proofs::search::{Bounds, Found};
+use tautline_proofs::search::{Bounds, Found, Progress};
+use tautline_proofs::words::counted;
 
 use super::output::Output;
-use super::{Exit, Format, FormatArgs, SizeArg, number, progress};
+use super::{Exit, Format, FormatArgs, SizeArg, number, progress, whole};
 use crate::explore::{Crew, RuleName, SchemeName, Setup};
 use crate::fault::{Fault, Halt};
 use crate::hunt::Saved;
@@ -50,10 +51,10 @@ pub(super) struct Hunt {
     rule: RuleName,
     /// Robots: 4 in a chain, the base counted, or 1 agent, unless this says otherwise. Agents act in turn here; `prove`
     /// looks at every order.
-    #[arg(long, value_name = "N", value_parser = number::<u64>)]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>)]
     robots: Option<u64>,
     /// Most walls that a chain meets in one run, 4 unless this says otherwise; the border is not counted.
-    #[arg(long, value_name = "K", value_parser = number::<u32>)]
+    #[arg(long, value_name = "K", value_parser = whole::<u32>)]
     max_walls: Option<u32>,
     /// Most sensors that agents miss in one run, 1 unless this says otherwise.
     #[arg(long, value_name = "K", value_parser = number::<u8>)]
@@ -152,7 +153,8 @@ impl Hunt {
             saved.write(&search)?;
         }
         let bar = progress::bar("hunting", 1);
-        let mut written = Instant::now();
+        let start = Instant::now();
+        let mut written = start;
         while progress::show(&bar, &search.progress()).is_continue() && search.wave() {
             if let Some(saved) = saved.as_ref().filter(|_| written.elapsed() > KEEP_EVERY) {
                 saved.write(&search)?;
@@ -160,6 +162,9 @@ impl Hunt {
             }
         }
         bar.finish_and_clear();
+        let Progress { runs, moves, .. } = search.progress();
+        let (runs, moves) = (counted(runs, "run"), counted(moves, "team move"));
+        tracing::info!("hunted through {runs} and {moves} in {:.3} s", start.elapsed().as_secs_f64());
         if let Some(saved) = saved {
             saved.write(&search)?;
         }
@@ -223,13 +228,18 @@ fn tell(hunted: &Hunted) -> Result<String, Halt> {
     let Hunted { scheme, rule, robots, runs, moves, longest, max_walls, walls_done, counterexamples, .. } =
         hunted;
     let mut text = format!(
-        "{} ({rule}), {robots} robots, at most {max_walls} walls: {runs} runs, {moves} team moves, {longest} the longest\n",
-        scheme.word()
+        "{} ({rule}), {}, at most {}: {}, {}, {longest} the longest\n",
+        scheme.word(),
+        counted(*robots, "robot"),
+        counted(*max_walls, "wall"),
+        counted(*runs, "run"),
+        counted(*moves, "team move")
     );
     let bound = match walls_done {
         Some(walls) if *walls == *max_walls => "in any layout within this bound".to_owned(),
         Some(walls) => {
-            format!("in any layout with at most {walls} walls; the hunt was ended before its bound")
+            let walls = counted(*walls, "wall");
+            format!("in any layout with at most {walls}; the hunt was ended before its bound")
         }
         None => "so far; the hunt was ended before it had covered any layout".to_owned(),
     };
@@ -239,7 +249,8 @@ fn tell(hunted: &Hunted) -> Result<String, Halt> {
         _ => writeln!(text, "The smallest counterexample to each clause that is broken {bound}:"),
     };
     for Stored { clause, runs, walls, steps, file, setup } in counterexamples {
-        let _ = writeln!(text, "\n{clause}, {walls} walls, {steps} team moves; broken in {runs} runs");
+        let (walls, steps) = (counted(*walls, "wall"), counted(*steps, "team move"));
+        let _ = writeln!(text, "\n{clause}, {walls}, {steps}; broken in {}", counted(*runs, "run"));
         let _ = match file {
             Some(file) => {
                 let story = view::story::last_move(setup)?;

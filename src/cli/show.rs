@@ -7,7 +7,7 @@ use serde::Serialize;
 use tautline_kernel::lattice::Cell;
 
 use super::output::Output;
-use super::{Exit, Format, FormatArgs, LayoutArgs, usage};
+use super::{Chance, Exit, Format, FormatArgs, LayoutArgs, needless, usage};
 use crate::aside::Aside;
 use crate::fault::{Fault, Halt};
 use crate::view::svg::{self, Panel};
@@ -62,6 +62,13 @@ struct ShownEnvironments {
 impl Show {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         if self.layout.layout == ENVIRONMENTS {
+            let why = "the environments are the same in every layout";
+            if self.layout.seed.is_some() {
+                return Err(needless("--seed", why).into());
+            }
+            if self.layout.image.is_some() {
+                return Err(needless("--image", why).into());
+            }
             store(self.svg.as_deref(), "The environments of a cell", &svg::environments())?;
             match self.format.format {
                 Format::Text => out.text(view::environments())?,
@@ -69,7 +76,7 @@ impl Show {
             }
             return Ok(Exit::Expected);
         }
-        let layout = self.layout.load()?;
+        let layout = self.layout.load(Chance::None)?;
         store(self.svg.as_deref(), "A layout", &[svg::layout(&layout)])?;
         let drawing = layout.to_string();
         match self.format.format {

@@ -7,6 +7,7 @@ use tautline_kernel::chain::Kind;
 use tautline_kernel::floor::Mark;
 use tautline_kernel::lattice::Step;
 use tautline_proofs::run::Frame as Outcome;
+use tautline_proofs::words::counted;
 
 use super::svg::{self, Frame};
 use crate::explore::{Chart, Crew, Report, Setup, TeamMove};
@@ -49,7 +50,7 @@ impl<'a> Page<'a> {
             };
             let step = made.step - 1;
             let start = TeamMove { step, before: made.before, frame: &start, unseen: &[], breaches: &[] };
-            let words = if step == 0 { "The start".to_owned() } else { format!("After team move {step}") };
+            let words = if step == 0 { started(self.setup) } else { format!("After team move {step}") };
             self.push(frame, &start, &words);
         }
         self.push(frame, made, &words(self.setup.crew(), made, self.report));
@@ -83,11 +84,11 @@ impl<'a> Page<'a> {
             + "</g></svg>";
         let title = super::title_of(setup);
         let outcome = format!(
-            "{} team moves: {}. {} of {} cells explored; {}.",
-            report.steps,
+            "{}: {}. {} of {} explored; {}.",
+            counted(report.steps, "team move"),
             report.stopped.words(),
             report.explored,
-            report.cells,
+            counted(report.cells, "cell"),
             broken(report)
         );
         filled(svg::STYLE, ["team move", "Team moves"], &title, &outcome, &picture)
@@ -117,6 +118,16 @@ fn marked(chart: &Chart) -> String {
         let _ = write!(text, "<g class=\"cell\" data-step=\"{step}\">{drawn}</g>");
         text
     })
+}
+
+/// Who stands where before the first team move.
+fn started(setup: &Setup) -> String {
+    match setup.crew() {
+        Crew::Chain => {
+            format!("The start: the base, with {} in its cell", counted(setup.robots - 1, "robot"))
+        }
+        Crew::Agents(_) => format!("The start: {}", counted(setup.robots, "agent")),
+    }
 }
 
 fn broken(report: &Report) -> String {
