@@ -5,6 +5,7 @@
 mod explore;
 mod hunt;
 mod interrupt;
+mod manual;
 mod minimise;
 mod output;
 mod progress;
@@ -13,13 +14,15 @@ mod replay;
 mod reproduce;
 mod rescue;
 mod show;
+mod threads;
 
 use std::io::{self, IsTerminal, Write};
-use std::num::NonZeroU32;
+use std::num::{IntErrorKind, NonZeroU32, ParseIntError};
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::str::FromStr;
+use std::time::Instant;
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
@@ -30,7 +33,7 @@ use tautline_proofs::run::{Breach, NoBreach};
 use crate::aside::{Aside, Foreign, Replaceable};
 use crate::fault::{Colour, Fault, Halt};
 use crate::layout::generate::Probability;
-use crate::layout::{self, Layout, Problem, Size};
+use crate::layout::{self, Generator, Layout, Problem, Size};
 use output::Output;
 
 /// How a command ended. Where several are so, the last of them in this order is told.
@@ -67,20 +70,25 @@ impl From<Exit> for ExitCode {
     }
 }
 
-const AFTER_HELP: &str = "\
-Exit codes: 0 as expected · 1 a violation was found · 2 wrong usage or bad input, or a file could not be stored · 3 a \
-budget, Ctrl-C, SIGTERM or SIGHUP ended the work before its bound, also if something was found by then · 70 a bug of \
-ours. Where several apply: 70, 2, 3, 1, 0.
+/// What the exit codes say, for the help, the manual pages and the README.
+const EXIT_CODES: &str = "\
+0 as expected · 1 a violation was found · 2 wrong usage or bad input, or a file could not be stored · 3 a budget, Ctrl-C, \
+SIGTERM or SIGHUP ended the work before its bound, also if something was found by then · 70 a bug of ours. Where several \
+apply, the code is the first of 70, 2, 3, 1, 0.";
 
+/// What becomes of files.
+const FILES: &str = "\
 Files stand in their places whole or not at all. Only a process that is killed (SIGKILL) can leave a file \
-.tautline-….part behind, which nobody needs.
+.tautline-….part behind, which nobody needs.";
 
+const LAYOUTS: &str = "\
 LAYOUT is a file (our text drawing, a MovingAI .map, a ROS .yaml) or a generator: open:15x15 · walls:15x15:0.1 · \
 rooms-a · rooms-b · office:30x30:4x4 · cells:32x32:0.2";
 
 /// Verified multi-robot coordination: bounded proofs, counterexamples and simulation.
 #[derive(Debug, Parser)]
-#[command(name = "tautline", version, about, after_help = AFTER_HELP, max_term_width = 100)]
+#[command(name = "tautline", version, about, max_term_width = 100)]
+#[command(after_help = format!("Exit codes: {EXIT_CODES}\n\n{FILES}\n\n{LAYOUTS}"))]
 struct Cli {
     /// Tell more on stderr; twice for everything.
     #[arg(short, long, global = true, action = clap::ArgAction::Count)]
@@ -106,9 +114,7 @@ enum Command {
         /// The shell.
         shell: Shell,
     },
-    /// Print the manual page.
-    #[command(after_help = "Example: tautline man | man -l -")]
-    Man,
+    Man(manual::Manual),
 }
 
 /// What stdout gets.
@@ -134,23 +140,45 @@ struct FormatArgs {
 struct LayoutArgs {
     /// A layout file or a generator.
     layout: String,
-    /// The seed of whatever is left to chance.
-    #[arg(long, default_value = "0", value_parser = number::<u64>)]
-    seed: u64,
+    /// The seed of whatever is left to chance. Without it 0.
+    #[arg(long, value_parser = number::<u64>)]
+    seed: Option<u64>,
     /// The image of a ROS map, in place of the one that it names.
     #[arg(long, value_name = "FILE")]
     image: Option<PathBuf>,
 }
 
+/// Whether a command leaves anything else than the layout to chance.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Chance {
+    None,
+    Some,
+}
+
 impl LayoutArgs {
-    fn load(&self) -> Result<Layout, Fault> {
-        layout::load(&self.layout, self.seed, self.image.as_deref())
+    fn seed(&self) -> u64 {
+        self.seed.unwrap_or(0)
     }
 
     /// The files that this is read from.
     fn inputs(&self) -> Vec<PathBuf> {
         layout::inputs(&self.layout, self.image.as_deref())
     }
+
+    /// The layout. A seed is refused if neither that nor anything else is left to chance.
+    fn load(&self, elsewhere: Chance) -> Result<Layout, Fault> {
+        let layout = layout::load(&self.layout, self.seed(), self.image.as_deref())?;
+        let is_random = self.layout.parse::<Generator>().is_ok_and(|generator| generator.is_random());
+        if self.seed.is_some() && !is_random && elsewhere == Chance::None {
+            return Err(needless("--seed", "nothing here is left to chance"));
+        }
+        Ok(layout)
+    }
+}
+
+/// An option that can have no effect.
+fn needless(option: &str, why: &str) -> Fault {
+    Fault::usage(format_args!("{option} has no effect: {why}"), format_args!("leave {option} out"))
 }
 
 /// What is done about files that stand where others are to be stored.
@@ -177,8 +205,7 @@ impl ForceArgs {
         inputs: impl IntoIterator<Item = PathBuf>,
     ) -> Result<[Option<Aside>; N], Fault> {
         if self.force && paths.iter().all(|path| path.is_none()) {
-            let what = "--force without a file to store";
-            return Err(Fault::usage(what, "name a file, or leave out --force"));
+            return Err(needless("--force", "no file is to be stored"));
         }
         Aside::several(paths.map(Option::as_deref), &self.replaceable(inputs))
     }
@@ -217,15 +244,23 @@ fn clause(id: &str) -> Result<Breach, String> {
     id.to_ascii_uppercase().parse().map_err(|none: NoBreach| format!("{none}; {}", none.remedy()))
 }
 
-/// A whole number.
+/// A whole number, as large as its type holds.
 fn number<T: FromStr>(text: &str) -> Result<T, String> {
     let largest = u128::MAX >> (128 - 8 * size_of::<T>());
     text.parse().map_err(|_| format!("write a whole number up to {largest}"))
 }
 
+/// A whole number of which something else says how large it may be.
+fn whole<T: FromStr<Err = ParseIntError>>(text: &str) -> Result<T, &'static str> {
+    text.parse().map_err(|error: ParseIntError| match error.kind() {
+        IntErrorKind::PosOverflow => "write a smaller number",
+        _ => "write a whole number",
+    })
+}
+
 /// A number that need not be whole.
 fn real(text: &str) -> Result<f64, &'static str> {
-    text.parse().map_err(|_| "write a number, for example 0.5")
+    text.parse().map_err(|_| "write a number")
 }
 
 /// A number from 0 to 1.
@@ -261,9 +296,15 @@ pub fn run() -> ExitCode {
             arguments.join(" ")
         );
     }));
-    let arguments = with_negative_numbers(Cli::command()).get_matches();
+    let arguments = with_negative_numbers(program()).get_matches();
     let cli = Cli::from_arg_matches(&arguments).unwrap_or_else(|error| error.exit());
-    guarded(|| command(&cli)).into()
+    let name = arguments.subcommand_name().unwrap_or_default();
+    guarded(|| command(&cli, name)).into()
+}
+
+/// The command line, as the help, the manual pages and the completions tell of it.
+fn program() -> clap::Command {
+    Cli::command()
 }
 
 /// A negative number where a number is wanted is a wrong number, not an unknown option.
@@ -281,15 +322,22 @@ fn guarded(work: impl FnOnce() -> Exit) -> Exit {
 }
 
 /// Runs a command, and tells what went wrong.
-fn command(cli: &Cli) -> Exit {
+fn command(cli: &Cli, name: &str) -> Exit {
     start_log(cli.verbose);
-    interrupt::listen();
+    let start = Instant::now();
+    // Without the thread that listens, Ctrl-C would be taken from the system and heard by nobody.
+    if threads::can_start() {
+        interrupt::listen();
+    } else {
+        tracing::warn!("the system starts no thread: Ctrl-C will end the work at once");
+    }
+    threads::start();
     let mut out = Output::stdout();
     let result = cli.command.run(&mut out).and_then(|exit| {
         out.flush().map_err(|error| output::unwritable(&error))?;
         Ok(exit)
     });
-    match result {
+    let exit = match result {
         Ok(exit) if out.has_left_out() => exit.max(Exit::Fault),
         Ok(exit) => exit,
         Err(Halt::Fault(fault)) => {
@@ -297,7 +345,9 @@ fn command(cli: &Cli) -> Exit {
             Exit::Fault
         }
         Err(Halt::Interrupted) => Exit::Unfinished,
-    }
+    };
+    tracing::info!("{name}: exit code {} after {:.3} s", exit.code(), start.elapsed().as_secs_f64());
+    exit
 }
 
 /// Tells on stderr what went wrong, if anybody is there to read it.
@@ -318,18 +368,11 @@ impl Command {
             Self::Reproduce(reproduce) => reproduce.run(out),
             Self::Completions { shell } => {
                 let mut script = Vec::new();
-                clap_complete::generate(*shell, &mut Cli::command(), "tautline", &mut script);
+                clap_complete::generate(*shell, &mut program(), "tautline", &mut script);
                 out.bytes(&script)?;
                 Ok(Exit::Expected)
             }
-            Self::Man => {
-                let mut page = Vec::new();
-                clap_mangen::Man::new(Cli::command())
-                    .render(&mut page)
-                    .map_err(|error| output::unwritable(&error))?;
-                out.bytes(&page)?;
-                Ok(Exit::Expected)
-            }
+            Self::Man(manual) => manual.run(out),
         }
     }
 }

@@ -13,6 +13,9 @@ const CLIP_CHARS: usize = 32;
 /// Longer names and messages are clipped: they may quote the input.
 const MAX_MESSAGE_CHARS: usize = 1_000;
 
+/// What some editors put before a text; it is no part of it.
+pub(crate) const BOM: char = '\u{feff}';
+
 /// Beyond this line the spot is not drawn: the drawing counts lines from the first.
 const MAX_DRAWN_LINE: usize = 1 << 20;
 
@@ -80,8 +83,9 @@ impl Fault {
         what: impl fmt::Display,
         remedy: impl fmt::Display,
     ) -> Self {
-        let start = text.floor_char_boundary(range.start);
-        let line_start = text[..start].rfind('\n').map_or(0, |newline| newline + 1);
+        let begin = text.len() - text.strip_prefix(BOM).unwrap_or(text).len();
+        let start = text.floor_char_boundary(range.start).max(begin);
+        let line_start = text[..start].rfind('\n').map_or(begin, |newline| newline + 1);
         let line_end = text[start..].find('\n').map_or(text.len(), |newline| start + newline);
         let end = text.ceil_char_boundary(range.end).clamp(start, line_end);
         let place = Place::Spot {

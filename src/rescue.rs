@@ -462,8 +462,11 @@ mod tests {
         assert_eq!(refusal(Setting { k: 0, ..good.clone() }), most(SchemeName::KFnf, 0, 8));
         let counter = Setting { scheme: SchemeName::Counter, k: 8, ..good.clone() };
         assert_eq!(refusal(counter), most(SchemeName::Counter, 8, 7));
-        assert_eq!(refusal(Setting { wfrs: 0, ..good.clone() }), Err(Problem::Wfrs { wfrs: 0 }));
-        assert_eq!(refusal(Setting { wfrs: 17, ..good.clone() }), Err(Problem::Wfrs { wfrs: 17 }));
+        assert_eq!(refusal(Setting { wfrs: 0, ..good.clone() }), Err(Problem::Wfrs { wfrs: 0, nodes: 700 }));
+        assert_eq!(
+            refusal(Setting { wfrs: 17, ..good.clone() }),
+            Err(Problem::Wfrs { wfrs: 17, nodes: 700 })
+        );
         assert_eq!(
             refusal(Setting { nodes: 2, ..good.clone() }),
             Err(Problem::WfrsOfNodes { wfrs: 3, nodes: 2 })

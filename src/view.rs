@@ -17,6 +17,7 @@ use tautline_kernel::floor::Mark;
 use tautline_kernel::grid::Area;
 use tautline_kernel::lattice::{Cell, Circle, Edge, Side, Step, neighbours};
 use tautline_proofs::course::{Scene, Turn};
+use tautline_proofs::words::counted;
 
 use crate::explore::{Chart, Crew, Setup, TeamMove};
 use crate::layout::Layout;
@@ -41,10 +42,9 @@ pub const fn legend(crew: Crew) -> &'static str {
 /// What a picture of the run of `setup` is called.
 pub fn title_of(setup: &Setup) -> String {
     let Setup { scheme, rule, robots, .. } = setup;
-    let team = match (setup.crew(), robots) {
-        (Crew::Chain, _) => format!("{robots} robots"),
-        (Crew::Agents(_), 1) => "1 agent".to_owned(),
-        (Crew::Agents(_), _) => format!("{robots} agents"),
+    let team = match setup.crew() {
+        Crew::Chain => counted(*robots, "robot"),
+        Crew::Agents(_) => counted(*robots, "agent"),
     };
     format!("{} ({rule}), {team}", scheme.word())
 }

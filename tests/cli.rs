@@ -1142,11 +1142,258 @@ fn every_command_has_help_with_examples() {
 }
 
 #[test]
-fn completions_and_the_manual_page_are_printed() {
+fn completions_and_the_manual_pages_are_printed_and_stored() {
     let folder = folder();
+    let folder = folder.path();
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
-        let script = printed(folder.path(), &["completions", shell], 0);
+        let script = printed(folder, &["completions", shell], 0);
         assert!(script.contains("tautline") && script.contains("hunt"), "{shell}");
     }
-    assert!(printed(folder.path(), &["man"], 0).contains(".TH tautline 1"));
+    fs::create_dir(folder.join("man1")).expect("a folder");
+    assert_eq!(printed(folder, &["man", "--out", "man1"], 0), "");
+    let stored = names(&folder.join("man1"));
+    let of_tables = stored.iter().filter(|name| name.starts_with("tautline-reproduce-")).count();
+    assert_eq!((stored.len(), of_tables), (1 + 10 + 13, 13), "{stored:?}");
+    for name in stored {
+        let page = fs::read_to_string(folder.join("man1").join(&name)).expect("a page");
+        let title = name.strip_suffix(".1").expect("section 1");
+        let end = "Where several apply, the code is the first of 70, 2, 3, 1, 0.";
+        assert!(page.contains(&format!(".TH {title} 1 ")), "{name}");
+        assert!(page.contains(".SH \"EXIT STATUS\"\n0 as expected") && page.contains(end), "{name}");
+        let tables = title.strip_prefix("tautline-reproduce-").map(|table| vec!["reproduce", table]);
+        let command = tables.unwrap_or_else(|| title.split('-').skip(1).collect());
+        assert_eq!(printed(folder, &[&["man"], &command[..]].concat(), 0), page);
+    }
+    let wrong: [&[&str]; 5] = [
+        &["man", "dance"],
+        &["man", "reproduce", "fig99"],
+        &["man", "show", "rooms-a"],
+        &["man", "--out", "nowhere"],
+        &["man", "show", "--out", "man1"],
+    ];
+    let said = wrong
+        .map(|arguments| format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder, arguments)));
+    assert_snapshot!("wrong_manuals", said.join("\n"));
+}
+
+/// What the program logs, if it ends with `code`.
+fn logged(folder: &Path, arguments: &[&str], code: i32) -> String {
+    let output = ran(folder, arguments);
+    let log = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {log}");
+    log
+}
+
+#[test]
+fn with_v_every_command_says_what_it_read_and_how_long_it_took() {
+    let folder = folder();
+    let folder = folder.path();
+    let run: &[&str] = &["explore", "walls:15x15:0.15", "--seed", "41", "--rule", "published"];
+    printed(folder, &[run, &["--trace", "run.jsonl"]].concat(), 1);
+    let cases: [(&[&str], i32, &str); 11] = [
+        (&["prove", "LATTICE-1"], 0, "LATTICE-1 published exhaustive: "),
+        (run, 1, "layout walls:15x15:0.15: 15x15 cells, 225 free, 65 walls between them"),
+        (&["hunt", "--robots", "2", "--max-walls", "1"], 0, "hunted through "),
+        (&["minimise", "run.jsonl"], 0, "minimised in "),
+        (&["rescue", "--seeds", "0..1"], 0, "rescuing: 2 of 2 in "),
+        (&["rescue", "--seeds", "0"], 0, "the rescue with seed 0 has "),
+        (&["replay", "run.jsonl"], 1, "reading run.jsonl: "),
+        (&["show", "rooms-a"], 0, "layout rooms-a: 15x15 cells, 225 free, 39 walls between them"),
+        (&["reproduce", "repair-cost", "--layouts", "1"], 0, "comparing: 7 of 7 in "),
+        (&["completions", "bash"], 0, ""),
+        (&["man"], 0, ""),
+    ];
+    for (arguments, code, said) in cases {
+        let log = logged(folder, &[arguments, &["-v"]].concat(), code);
+        let end = format!("{}: exit code {code} after ", arguments[0]);
+        assert!(log.contains(said) && log.contains(&end) && !log.contains("DEBUG"), "{arguments:?}: {log}");
+    }
+}
+
+/// The program with so few processes and threads that it can start no more.
+#[cfg(target_os = "linux")]
+fn alone(folder: &Path, arguments: &[&str]) -> Command {
+    use std::os::unix::fs::PermissionsExt;
+    fs::set_permissions(folder, fs::Permissions::from_mode(0o755)).expect("our own folder");
+    let program = folder.join("tautline");
+    fs::copy(env!("CARGO_BIN_EXE_tautline"), &program).expect("room");
+    let user = Command::new("id").arg("-u").output().expect("id runs").stdout;
+    // Root has no such limit.
+    let nobody: &[&str] = &["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"];
+    let others: &[&str] = if user == b"0\n" { nobody } else { &[] };
+    let limited = [others, &["prlimit", "--nproc=1"]].concat();
+    let mut command = Command::new(limited[0]);
+    command.args(&limited[1..]).arg(program).args(arguments).env("NO_COLOR", "1");
+    command
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn where_no_thread_can_be_started_the_work_is_done_without() {
+    let folder = folder();
+    let table = ["reproduce", "repair-cost", "--layouts", "2"];
+    let output = alone(folder.path(), &table).output().expect("prlimit runs");
+    let errors = String::from_utf8(output.stderr).expect("text");
+    assert_snapshot!(errors.lines().next().unwrap_or_default(), @" WARN the system starts no thread: Ctrl-C will end the work at once");
+    assert!(errors.contains("the system starts no more threads: 1 instead of "), "{errors}");
+    assert_eq!(output.status.code(), Some(0), "{errors}");
+    let told = String::from_utf8(output.stdout).expect("text");
+    assert_eq!(told, printed(folder.path(), &table, 0));
+}
+
+#[test]
+fn a_hundred_thousand_threads_are_as_many_as_make_sense() {
+    let folder = folder();
+    let table = ["reproduce", "repair-cost", "--layouts", "2"];
+    let output = tautline(folder.path(), &table).env("RAYON_NUM_THREADS", "100000").output();
+    let output = output.expect("the program runs");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(errors.contains("RAYON_NUM_THREADS asks for 100000 threads; "), "{errors}");
+    assert_eq!(String::from_utf8_lossy(&output.stdout), printed(folder.path(), &table, 0));
+}
+
+#[test]
+fn an_option_that_can_have_no_effect_is_refused() {
+    let folder = folder();
+    let folder = folder.path();
+    fs::write(folder.join("ring"), RING).expect("a file");
+    let wrong: [&[&str]; 13] = [
+        &["explore", "ring", "--seed", "1"],
+        &["explore", "open:9x9", "--seed", "0"],
+        &["explore", "rooms-a", "--scheme", "bricks", "--seed", "7"],
+        &["explore", "rooms-a", "--scheme", "bricks", "--miss", "0", "--seed", "7"],
+        &["explore", "rooms-a", "--image", "map.pgm"],
+        &["explore", "open:9x9", "--miss", "0"],
+        &["explore", "open:9x9", "--start", "1,1"],
+        &["explore", "open:9x9", "--format", "json", "--draw", "order"],
+        &["show", "ring", "--seed", "1"],
+        &["show", "environments", "--seed", "1"],
+        &["show", "environments", "--image", "map.pgm"],
+        &["rescue", "--scheme", "flooding", "--k", "1"],
+        &["rescue", "--scheme", "distance", "--k", "2"],
+    ];
+    let said = wrong
+        .map(|arguments| format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder, arguments)));
+    assert_snapshot!("needless_options", said.join("\n"));
+    // Where they matter they are taken.
+    let right: [&[&str]; 5] = [
+        &["explore", "walls:3x3:0.1", "--seed", "0"],
+        &["explore", "ring", "--scheme", "ants", "--miss", "0.1", "--seed", "3"],
+        &["explore", "open:3x3", "--format", "json", "--draw", "moves", "--svg", "moves.svg"],
+        &["show", "office:9x9:2x2", "--seed", "1"],
+        &["rescue", "--seeds", "0", "--scheme", "counter", "--k", "2"],
+    ];
+    for arguments in right {
+        printed(folder, arguments, 0);
+    }
+}
+
+#[test]
+fn one_is_not_many() {
+    let folder = folder();
+    let folder = folder.path();
+    let said = |arguments: &[&str], code| {
+        let text = printed(folder, arguments, code);
+        let lines: Vec<&str> = text.lines().take(4).collect();
+        format!("$ tautline {}\n{}\n", arguments.join(" "), lines.join("\n"))
+    };
+    let said = [
+        said(&["explore", "open:1x1", "--robots", "2"], 0),
+        said(&["explore", "open:1x2", "--scheme", "bricks", "--robots", "1"], 0),
+        said(&["explore", "open:3x3", "--robots", "2", "--max-moves", "1"], 0),
+        said(&["hunt", "--robots", "2", "--max-walls", "1"], 0),
+        said(&["reproduce", "repair-cost", "--layouts", "1"], 0),
+        said(&["reproduce", "notice-fig5", "--nodes", "20", "--topologies", "1"], 0),
+        said(&["reproduce", "rescue-fig8", "--robots", "1", "--wfr", "1", "--topologies", "1"], 0),
+        said(&["reproduce", "rescue-fig7", "--nodes", "300", "--topologies", "1"], 0),
+    ];
+    assert_snapshot!("one_of_each", said.join("\n"));
+}
+
+#[test]
+fn the_first_frame_of_a_page_tells_how_many_robots_stand_at_the_base() {
+    let folder = folder();
+    let folder = folder.path();
+    let page = |arguments: &[&str], file: &str| {
+        printed(folder, &[arguments, &["--replay", file]].concat(), 0);
+        fs::read_to_string(folder.join(file)).expect("a page")
+    };
+    let chain = page(&["explore", "open:5x5", "--robots", "12"], "chain.html");
+    let start = chain.find("<title>The start").expect("a first frame");
+    let frame = &chain[start..start + chain[start..].find("</g>").expect("its end")];
+    assert!(frame.contains("The start: the base, with 11 robots in its cell"), "{frame}");
+    assert!(frame.contains("class=\"base\"") && frame.contains(">B</text>"), "{frame}");
+    assert!(frame.contains(">+11</text>") && !frame.contains("<circle"), "{frame}");
+    let pair = page(&["explore", "open:3x3", "--robots", "2"], "pair.html");
+    assert!(pair.contains("The start: the base, with 1 robot in its cell"));
+    let agents = page(&["explore", "open:3x3", "--scheme", "ants", "--robots", "6"], "agents.html");
+    assert!(agents.contains("The start: 6 agents"));
+}
+
+#[test]
+fn a_byte_order_mark_before_a_text_is_no_part_of_it() {
+    let folder = folder();
+    let folder = folder.path();
+    let marked = |name: &str| {
+        let text = fs::read_to_string(folder.join(name)).expect("text");
+        fs::write(folder.join(format!("marked-{name}")), format!("\u{feff}{text}")).expect("a file");
+    };
+    fs::write(folder.join("ring.txt"), RING).expect("a file");
+    fs::write(folder.join("two.map"), "type octile\nheight 1\nwidth 3\nmap\n.@.\n").expect("a file");
+    let map = "image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.2\n";
+    fs::write(folder.join("ros.yaml"), map).expect("a file");
+    fs::write(folder.join("map.pgm"), b"P5 2 1 255 \xff\x00").expect("a file");
+    for name in ["ring.txt", "two.map", "ros.yaml"] {
+        marked(name);
+        let shown = printed(folder, &["show", name], 0);
+        assert_eq!(printed(folder, &["show", &format!("marked-{name}")], 0), shown, "{name}");
+    }
+    printed(folder, &["explore", "open:3x3", "--robots", "2", "--trace", "run.jsonl"], 0);
+    printed(folder, &["rescue", "--seeds", "0", "--trace", "rescue.jsonl"], 0);
+    for name in ["run.jsonl", "rescue.jsonl"] {
+        marked(name);
+        printed(folder, &["replay", &format!("marked-{name}")], 0);
+    }
+    // What is wrong after it is where a person sees it.
+    fs::write(folder.join("wrong.map"), "\u{feff}type tile\n").expect("a file");
+    fs::write(folder.join("wrong.yaml"), format!("\u{feff}{}", map.replace("0.1", "-1"))).expect("a file");
+    fs::write(folder.join("wrong.jsonl"), "\u{feff}{\"format\":\"a run\",\"version\":1}\n").expect("a file");
+    let said = [&["show", "wrong.map"], &["show", "wrong.yaml"], &["replay", "wrong.jsonl"]]
+        .map(|arguments| refused(folder, arguments));
+    assert_snapshot!("wrong_after_a_byte_order_mark", said.join("\n\n"));
+}
+
+#[test]
+fn a_bad_number_in_a_map_is_called_one_and_hints_keep_to_the_limits() {
+    let folder = folder();
+    let folder = folder.path();
+    let map = "type octile\nheight 1\nwidth 3\nmap\n.@.\n";
+    let maps = ["height -1", "height many", "height 99999999999999999999", "height", "high 1"].map(|line| {
+        fs::write(folder.join("a.map"), map.replace("height 1", line)).expect("a file");
+        format!("{line}\n{}\n", refused(folder, &["show", "a.map"]))
+    });
+    assert_snapshot!("bad_numbers_in_maps", maps.join("\n"));
+    let wrong: [&[&str]; 12] = [
+        &["explore", "open:9x9", "--robots", "99999999999999999999"],
+        &["hunt", "--robots", "many"],
+        &["hunt", "--max-walls", "-1"],
+        &["hunt", "--size", "1x1", "--robots", "2", "--max-walls", "1"],
+        &["rescue", "--nodes", "many"],
+        &["rescue", "--exponent", "steep"],
+        &["rescue", "--wfr", "5001", "--nodes", "5000"],
+        &["rescue", "--wfr", "0", "--nodes", "2"],
+        &["rescue", "--wfr", "1", "--wfr-at", "1", "--wfr-at", "2"],
+        &["rescue", "--robots", "1", "--robot", "1,1", "--robot", "2,2"],
+        &["rescue", "--failing-nodes", "2", "--nodes", "2"],
+        &["explore", "open:9x9", "--scheme", "ants", "--robots", "1", "--start", "1,1", "--start", "2,2"],
+    ];
+    let said = wrong
+        .map(|arguments| format!("$ tautline {}\n{}\n", arguments.join(" "), refused(folder, arguments)));
+    assert_snapshot!("hints_within_limits", said.join("\n"));
+    let places = (0..17).flat_map(|node| ["--wfr-at".to_owned(), node.to_string()]);
+    let places: Vec<String> = ["rescue", "--wfr", "3"].map(str::to_owned).into_iter().chain(places).collect();
+    assert_snapshot!(refused(folder, &places.iter().map(String::as_str).collect::<Vec<_>>()), @r"
+    Error: more nodes are named (17) than are to call (3)
+     Help: name at most 3 of them
+    ");
 }

@@ -39,6 +39,17 @@ fn every_clause_stands_in_the_spec_word_for_word() {
 }
 
 #[test]
+fn the_exit_codes_of_the_readme_are_those_of_the_help() {
+    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let help = printed(&["--help"], 0);
+    let codes = help.split("\n\n").find(|part| part.starts_with("Exit codes:")).expect("exit codes");
+    assert!(
+        words(&document("README.md")).contains(&words(codes)),
+        "the README has other exit codes:\n{codes}"
+    );
+}
+
+#[test]
 fn the_ledger_is_that_of_the_readme() {
     let all = printed(&["prove"], 0);
     let (ledger, _) = all.split_once("\n\n").expect("a ledger, then counterexamples");

@@ -203,7 +203,7 @@ fn a_bad_drawing_is_refused_at_its_place() {
     };
     assert_snapshot!(bad("layout 1", "layout 2"), @"a.txt:1:17: this is version 2, this program reads version 1; write the drawing again with this program");
     assert_snapshot!(bad("tautline layout 1\n", ""), @"a.txt:1:1: this is not the first line of a layout; a drawing begins with `tautline layout 1`; name MovingAI maps .map and ROS maps .yaml");
-    assert_snapshot!(bad("robots 4", "robots 0"), @r#"a.txt:2:8: "0" is no number of robots; write `robots N` with N from 1 to 65535, or leave the line out"#);
+    assert_snapshot!(bad("robots 4", "robots 0"), @r#"a.txt:2:8: "0" is no number of robots; write `robots N` with N from 1 to 256, or leave the line out"#);
     assert_snapshot!(bad("robots 4", "robot 4"), @"a.txt:2:1: the northern rim should be drawn here; draw it as `+--+--+`, one `--` for each column");
     assert_snapshot!(bad("+--+--+--+\n", ""), @"a.txt:3:1: the northern rim should be drawn here; draw it as `+--+--+`, one `--` for each column");
     assert_snapshot!(bad("|     |  |", "|     |  | "), @"a.txt:4:1: this row has 11 characters, not 10; make all rows equally long");
@@ -247,7 +247,7 @@ fn a_bad_movingai_map_is_refused_at_its_place() {
         refused("a.map", MAP.replacen(from, to, 1))
     };
     assert_snapshot!(bad("type octile", "type hex"), @"a.map:1:1: the header line `type octile` is missing here; a map begins with the lines `type octile`, `height N`, `width N` and `map`");
-    assert_snapshot!(bad("height 2", "height two"), @"a.map:2:1: the header line `height N` is missing here; a map begins with the lines `type octile`, `height N`, `width N` and `map`");
+    assert_snapshot!(bad("height 2", "height two"), @r#"a.map:2:8: "two" is not the number N of the header line `height N`; write a whole number from 1 to 32000"#);
     assert_snapshot!(bad("height 2\n", ""), @"a.map:2:1: the header line `height N` is missing here; a map begins with the lines `type octile`, `height N`, `width N` and `map`");
     assert_snapshot!(bad("map\n", ""), @"a.map:4:1: the header line `map` is missing here; a map begins with the lines `type octile`, `height N`, `width N` and `map`");
     assert_snapshot!(bad("\nwidth 4\nmap\n.GS@\nOTW.\n", ""), @"a.map:2:9: the header line `width N` is missing here; a map begins with the lines `type octile`, `height N`, `width N` and `map`");
@@ -364,7 +364,17 @@ fn a_file_that_is_no_layout_is_refused() {
     let file = folder.path().join("large.map");
     fs::File::create(&file).and_then(|large| large.set_len(layout::MAX_FILE_BYTES + 1)).expect("a file");
     let fault = layout::load(file.to_str().expect("a name"), 0, None).expect_err("a fault");
-    assert_snapshot!(plain(&fault, folder.path()), @"large.map: the file has more than 64 MiB; a layout has 1 to 32000 cells on a side and at most 16777216 in all");
+    assert_snapshot!(plain(&fault, folder.path()), @"large.map: the file has more than 128 MiB; a layout has 1 to 32000 cells on a side and at most 16777216 in all");
+}
+
+#[test]
+fn the_drawing_of_the_largest_layout_is_not_too_large_to_be_read() {
+    for width in [1_u64, 600, 4_096, 32_000] {
+        let height = (layout::MAX_CELLS / width).min(layout::MAX_SIDE_CELLS);
+        let lines = ["tautline layout 1", "robots 65535"].map(|line| line.len() as u64 + 2);
+        let bytes = lines.iter().sum::<u64>() + (3 * width + 1 + 2) * (2 * height + 1);
+        assert!(bytes < layout::MAX_FILE_BYTES, "{width}x{height}: {bytes}");
+    }
 }
 
 #[test]

@@ -32,3 +32,4 @@ pub mod three;
 pub mod trap;
 pub mod walk;
 pub mod whole;
+pub mod words;

@@ -30,6 +30,7 @@ use crate::clause::Subject;
 use crate::invariant::Invariant;
 use crate::run::Frame;
 use crate::whole;
+use crate::words::counted;
 
 /// What to search for, and how far.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -222,7 +223,7 @@ impl fmt::Display for Unsearchable {
         match self {
             Self::Team(refused) => refused.fmt(f),
             Self::TooManyWalls { max_walls, edges } => {
-                write!(f, "{max_walls} walls are too many: the area has {edges} edges that can be walls")
+                write!(f, "there are more walls ({max_walls}) than edges that can be walls ({edges})")
             }
             Self::TooLarge { bytes, most } => {
                 write!(
@@ -232,7 +233,9 @@ impl fmt::Display for Unsearchable {
                     most >> 20
                 )
             }
-            Self::Beyond { walls } => write!(f, "this search has already gone on to {walls} walls"),
+            Self::Beyond { walls } => {
+                write!(f, "this search has already gone on to {}", counted(*walls, "wall"))
+            }
             Self::Foreign => {
                 f.write_str("the runs of this rule do not get to where this search is said to be")
             }

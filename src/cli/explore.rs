@@ -5,21 +5,24 @@ use std::fmt::Write;
 use std::num::NonZeroU32;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
+use std::time::Instant;
 
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 use tautline_kernel::lattice::Cell;
+use tautline_proofs::words::counted;
 
 use super::output::Output;
 use super::{
-    CellArg, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, number, positive, probability, progress, usage,
+    CellArg, Chance, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless, positive, probability,
+    progress, usage, whole,
 };
 use crate::aside::Aside;
 use crate::explore::agents::Way;
 use crate::explore::floor::Component;
 use crate::explore::{
-    Crew, Limits, Milestone, OnViolation, Report, RuleName, SchemeName, Setup, Stopped, TeamMove, Violation,
-    explore,
+    Crew, Limits, Milestone, Misfit, OnViolation, Report, RuleName, SchemeName, Setup, Stopped, TeamMove,
+    Violation, explore,
 };
 use crate::fault::{Fault, Halt};
 use crate::layout::generate::Probability;
@@ -48,7 +51,7 @@ pub(super) struct Explore {
     #[arg(long, value_enum, default_value = "repaired")]
     rule: RuleName,
     /// Robots or agents; for the chain the base is one of them. Without it the layout says, or there are 8.
-    #[arg(long, value_name = "N", value_parser = number::<u64>)]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>)]
     robots: Option<u64>,
     /// Column and row of the base. Without it the layout says, or it is the free cell nearest the centre.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
@@ -56,9 +59,9 @@ pub(super) struct Explore {
     /// Column and row where the agents start; once for all, or once for each. Without it they start at the base.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, conflicts_with = "base")]
     start: Vec<CellArg>,
-    /// How likely it is that an agent misses a sensor, from 0 to 1.
-    #[arg(long, value_name = "PROBABILITY", default_value = "0", value_parser = probability, allow_hyphen_values = true)]
-    miss: Probability,
+    /// How likely it is that an agent misses a sensor, from 0 to 1. Without it 0.
+    #[arg(long, value_name = "PROBABILITY", value_parser = probability, allow_hyphen_values = true)]
+    miss: Option<Probability>,
     /// Stop when a robot has entered so many cells.
     #[arg(long, value_name = "CELLS", value_parser = positive)]
     max_moves: Option<NonZeroU32>,
@@ -107,7 +110,7 @@ impl Explore {
             svg::check_size(setup.area())?;
         }
         let mut writer = trace.map(|aside| trace::Writer::new(aside, &setup, None));
-        let bar = progress::spinner("exploring");
+        let (bar, start) = (progress::spinner("exploring"), Instant::now());
         let report = explore(&setup, &mut |made| {
             bar.set_message(format!("team move {}", made.step));
             if let Some(writer) = &mut writer {
@@ -116,6 +119,7 @@ impl Explore {
             Ok(())
         })?;
         bar.finish_and_clear();
+        tracing::info!("explored in {:.3} s", start.elapsed().as_secs_f64());
         if let Some(writer) = writer {
             out.keep(writer.end(&report));
         }
@@ -143,7 +147,15 @@ impl Explore {
     }
 
     fn setup(&self) -> Result<Setup, Fault> {
-        let mut layout = self.layout.load()?;
+        let crew = self.scheme.crew(self.rule);
+        if crew == Crew::Chain && self.miss.is_some() {
+            return Err(Fault::usage(Misfit::Miss, Misfit::Miss.remedy()));
+        }
+        if self.draw.is_some() && self.format.format == Format::Json && self.svg.is_none() {
+            return Err(needless("--draw", "JSON has no drawing, and no picture is stored"));
+        }
+        let miss = self.miss.unwrap_or(Probability::NEVER);
+        let mut layout = self.layout.load(if miss.is_never() { Chance::None } else { Chance::Some })?;
         let robots = self.robots.unwrap_or_else(|| layout.robots().unwrap_or(DEFAULT_ROBOTS).into());
         let robots =
             Setup::count(self.scheme, robots).map_err(|misfit| Fault::usage(&misfit, misfit.remedy()))?;
@@ -154,11 +166,11 @@ impl Explore {
         let asked = self.base.map(|CellArg(cell)| cell).or(starts.first().copied());
         let base = Setup::choose_base(&mut layout, asked).map_err(|problem| usage(&problem))?;
         let limits = Limits { until: self.until, max_moves: self.max_moves, violation: OnViolation::GoOn };
-        let starts = match (self.scheme.crew(self.rule), starts.len()) {
+        let starts = match (crew, starts.len()) {
             (_, 0) | (Crew::Agents(_), 1) => None,
             (Crew::Chain | Crew::Agents(_), _) => Some(starts),
         };
-        let (scheme, rule, seed, miss) = (self.scheme, self.rule, self.layout.seed, self.miss);
+        let (scheme, rule, seed) = (self.scheme, self.rule, self.layout.seed());
         let missed = Vec::new();
         let setup = Setup { scheme, rule, robots, seed, layout, base, starts, miss, missed, limits };
         setup.check().map_err(|misfit| Fault::usage(&misfit, misfit.remedy()))?;
@@ -284,13 +296,13 @@ pub(super) fn among(
 pub(super) fn summary(setup: &Setup, layout: &str, report: &Report) -> String {
     let percent = report.explored * 100 / report.cells;
     let mut text = format!(
-        "{}, {}: {layout}\n{} team moves: {}\n{} of {} cells explored ({percent} %)",
+        "{}, {}: {layout}\n{}: {}\n{} of {} explored ({percent} %)",
         view::title_of(setup),
         place(setup),
-        report.steps,
+        counted(report.steps, "team move"),
         report.stopped.words(),
         report.explored,
-        report.cells,
+        counted(report.cells, "cell"),
     );
     for milestone in Milestone::ALL {
         // Writing to a string cannot fail.
@@ -316,20 +328,20 @@ pub(super) fn summary(setup: &Setup, layout: &str, report: &Report) -> String {
                 format!(", {visited} visited; {ends}")
             };
             let whole = report.whole();
-            let percent = whole.visited * 100 / whole.cells;
+            let (percent, cells) = (whole.visited * 100 / whole.cells, counted(whole.cells, "cell"));
             let ends = match (whole.active, report.stopped) {
                 (0, _) if whole.explored < whole.cells => {
-                    format!("every agent is done, and {} cells are unexplored", whole.cells - whole.explored)
+                    let left = counted(whole.cells - whole.explored, "cell");
+                    format!("every agent is done, with {left} unexplored")
                 }
                 (0, _) => "every agent knows that it is done".to_owned(),
                 (active, Stopped::Explored) => format!(
-                    "{active} of {} agents may never know that they are done: whoever watches them ends the run",
-                    whole.robots
+                    "{active} of {} may never be done: whoever watches the agents ends the run",
+                    counted(whole.robots, "agent")
                 ),
-                (active, _) => format!("{active} of {} agents do not know that they are done", whole.robots),
+                (active, _) => format!("{active} of {} not done", counted(whole.robots, "agent")),
             };
-            let _ =
-                writeln!(text, "{} of {} cells visited ({percent} %); {ends}", whole.visited, whole.cells);
+            let _ = writeln!(text, "{} of {cells} visited ({percent} %); {ends}", whole.visited);
             text.push_str(&components(report, words));
         }
     }
@@ -358,9 +370,8 @@ fn components(report: &Report, words: impl Fn(&Component) -> String) -> String {
     let _ = writeln!(text, "the agents start in {count} parts of the layout that are not connected:");
     for component in &report.components {
         let Component { robots, cells, explored, .. } = component;
-        let agents = if *robots == 1 { "agent" } else { "agents" };
-        let _ =
-            writeln!(text, "  {robots} {agents}, {explored} of {cells} cells explored{}", words(component));
+        let (agents, cells) = (counted(*robots, "agent"), counted(*cells, "cell"));
+        let _ = writeln!(text, "  {agents}, {explored} of {cells} explored{}", words(component));
     }
     text
 }

@@ -9,10 +9,11 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use serde::Serialize;
 use tautline_proofs::clause::Verdict;
-use tautline_proofs::search::{Bounds, Found};
+use tautline_proofs::search::{Bounds, Found, Progress};
+use tautline_proofs::words::counted;
 
 use super::output::Output;
-use super::{Exit, ForceArgs, Format, FormatArgs, SizeArg, interrupt, number, progress};
+use super::{Exit, ForceArgs, Format, FormatArgs, SizeArg, interrupt, number, progress, whole};
 use crate::aside::Aside;
 use crate::explore::{Crew, RuleName, SchemeName, Setup};
 use crate::fault::{Fault, Halt};
@@ -51,10 +52,10 @@ pub(super) struct Hunt {
     rule: RuleName,
     /// Robots: 4 in a chain, the base counted, or 1 agent, unless this says otherwise. Agents act in turn here; `prove`
     /// looks at every order.
-    #[arg(long, value_name = "N", value_parser = number::<u64>)]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>)]
     robots: Option<u64>,
     /// Most walls that a chain meets in one run, 4 unless this says otherwise; the border is not counted.
-    #[arg(long, value_name = "K", value_parser = number::<u32>)]
+    #[arg(long, value_name = "K", value_parser = whole::<u32>)]
     max_walls: Option<u32>,
     /// Most sensors that agents miss in one run, 1 unless this says otherwise.
     #[arg(long, value_name = "K", value_parser = number::<u8>)]
@@ -159,7 +160,8 @@ impl Hunt {
         }
         interrupt::defer();
         let bar = progress::bar("hunting", 1);
-        let mut written = Instant::now();
+        let start = Instant::now();
+        let mut written = start;
         while progress::show(&bar, &search.progress()).is_continue() && search.wave() {
             if let Some(saved) = saved.as_mut().filter(|_| written.elapsed() > KEEP_EVERY) {
                 // There may be room again later on; the last good one stands there until then.
@@ -170,6 +172,9 @@ impl Hunt {
             }
         }
         bar.finish_and_clear();
+        let Progress { runs, moves, .. } = search.progress();
+        let (runs, moves) = (counted(runs, "run"), counted(moves, "team move"));
+        tracing::info!("hunted through {runs} and {moves} in {:.3} s", start.elapsed().as_secs_f64());
         if let Some(Err(fault)) = saved.as_mut().map(|saved| saved.write(&search)) {
             out.leave_out(&fault);
         }
@@ -254,13 +259,18 @@ fn tell(hunted: &Hunted) -> Result<String, Halt> {
         ..
     } = hunted;
     let mut text = format!(
-        "{} ({rule}), {robots} robots, at most {max_walls} walls: {runs} runs, {moves} team moves, {longest} the longest\n",
-        scheme.word()
+        "{} ({rule}), {}, at most {}: {}, {}, {longest} the longest\n",
+        scheme.word(),
+        counted(*robots, "robot"),
+        counted(*max_walls, "wall"),
+        counted(*runs, "run"),
+        counted(*moves, "team move")
     );
     let bound = match walls_done {
         Some(walls) if *walls == *max_walls => "in any layout within this bound".to_owned(),
         Some(walls) => {
-            format!("in any layout with at most {walls} walls; the hunt was ended before its bound")
+            let walls = counted(*walls, "wall");
+            format!("in any layout with at most {walls}; the hunt was ended before its bound")
         }
         None => "so far; the hunt was ended before it had covered any layout".to_owned(),
     };
@@ -270,7 +280,8 @@ fn tell(hunted: &Hunted) -> Result<String, Halt> {
         _ => writeln!(text, "The smallest counterexample to each clause that is broken {bound}:"),
     };
     for Stored { clause, runs, walls, steps, file, is_endless, setup } in counterexamples {
-        let _ = writeln!(text, "\n{clause}, {walls} walls, {steps} team moves; broken in {runs} runs");
+        let (walls, steps) = (counted(*walls, "wall"), counted(*steps, "team move"));
+        let _ = writeln!(text, "\n{clause}, {walls}, {steps}; broken in {}", counted(*runs, "run"));
         let _ = match is_endless {
             false => writeln!(text, "\n{}", view::story::last_move(setup)?),
             true => writeln!(text, "\nA run without end in this layout:\n\n{}", setup.layout),

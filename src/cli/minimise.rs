@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 use tautline_proofs::run::Breach;
+use tautline_proofs::words::counted;
 
 use super::output::Output;
 use super::replay::draw;
@@ -69,7 +70,7 @@ impl Minimise {
             if shown.replace(progress.runs) != Some(progress.runs) {
                 let Extent { robots, columns, rows, walls, blocked, steps: _ } = progress.smallest;
                 bar.set_message(format!(
-                    "run {}; {robots} robots, {columns}x{rows} cells, {walls} walls, {blocked} blocked cells",
+                    "run {}; robots {robots}, cells {columns}x{rows}, walls {walls}, blocked cells {blocked}",
                     progress.runs
                 ));
             }
@@ -80,6 +81,7 @@ impl Minimise {
             Failure::Refused(refused) => Fault::in_file(&self.file, &refused, refused.remedy()).into(),
             Failure::Halted(halt) => halt,
         })?;
+        tracing::info!("minimised in {}", counted(minimal.runs, "run"));
         let (minimised, report) = self.store(&minimal, out)?;
         match self.format.format {
             Format::Json => out.json(&minimised)?,
@@ -128,8 +130,9 @@ fn tell(name: &str, minimised: &Minimised) -> String {
     }
     let _ = writeln!(
         text,
-        "\nNo robot, column, row, blocked cell or wall can go: without any one of them {clause} is not broken ({runs} \
-         runs tried)."
+        "\nNo robot, column, row, blocked cell or wall can go: without any one of them {clause} is not broken ({} \
+         tried).",
+        counted(*runs, "run")
     );
     text
 }

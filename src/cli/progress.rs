@@ -1,7 +1,7 @@
 //! Progress on stderr, on a terminal only.
 
 use std::ops::ControlFlow;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use tautline_proofs::search::Progress;
@@ -24,12 +24,14 @@ pub(super) fn during<T>(
     of: u64,
     work: impl FnOnce(&Watch<'_>) -> Result<T, Halt>,
 ) -> Result<T, Halt> {
-    let bar = bar(prefix, of);
+    let (prefix, start) = (prefix.into(), Instant::now());
+    let bar = bar(prefix.clone(), of);
     let done = work(&|| {
         bar.inc(1);
         Ok(())
     });
     bar.finish_and_clear();
+    tracing::info!("{prefix}: {} of {of} in {:.3} s", bar.position(), start.elapsed().as_secs_f64());
     done
 }
 
@@ -44,7 +46,7 @@ pub(super) fn show(bar: &ProgressBar, progress: &Progress<'_>) -> ControlFlow<()
     let rest = Duration::try_from_secs_f64((expected - moves as f64) / rate)
         .map_or_else(|_| String::new(), |rest| format!(", about {} left", HumanDuration(rest)));
     bar.set_message(format!(
-        "walls {} of {max_walls}, {} runs, {} moves, {}/s{rest}",
+        "walls {} of {max_walls}, runs {}, moves {}, {}/s{rest}",
         levels.len().min(max_walls as usize),
         HumanCount(runs),
         HumanCount(moves),

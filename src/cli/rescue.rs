@@ -8,9 +8,10 @@ use std::str::FromStr;
 
 use clap::Args;
 use serde::Serialize;
+use tautline_proofs::words::counted;
 
 use super::output::Output;
-use super::{Exit, ForceArgs, Format, FormatArgs, number, progress, real};
+use super::{Exit, ForceArgs, Format, FormatArgs, needless, progress, real, whole};
 use crate::aside::Aside;
 use crate::explore::RuleName;
 use crate::fault::{Fault, Halt, Watch};
@@ -54,7 +55,7 @@ The exit code is 1 if a clause is broken.";
 #[command(after_help = EXAMPLES)]
 pub(super) struct Rescue {
     /// Sensor nodes, at random places.
-    #[arg(long, value_name = "N", default_value = "700", value_parser = number::<usize>)]
+    #[arg(long, value_name = "N", default_value = "700", value_parser = whole::<usize>)]
     nodes: usize,
     /// Width and height of the area, in metres.
     #[arg(long, value_name = "WxH", default_value = "300x300", allow_hyphen_values = true)]
@@ -68,23 +69,23 @@ pub(super) struct Rescue {
     /// How calls are broadcast.
     #[arg(long, value_enum, default_value = "k-fnf")]
     scheme: SchemeName,
-    /// How many senders, the first not counted, make a node silent; for k-fnf and counter.
-    #[arg(long, default_value = "1", value_parser = number::<u8>)]
-    k: u8,
+    /// How many senders, the first not counted, make a node silent; for k-fnf and counter. Without it 1.
+    #[arg(long, value_parser = whole::<u8>)]
+    k: Option<u8>,
     /// How many nodes call for help. Without it as many as --wfr-at names, or one.
-    #[arg(long, value_name = "N", value_parser = number::<usize>)]
+    #[arg(long, value_name = "N", value_parser = whole::<usize>)]
     wfr: Option<usize>,
     /// A node that calls. May be given repeatedly; the others are random ones.
-    #[arg(long, value_name = "NODE", value_parser = number::<u32>)]
+    #[arg(long, value_name = "NODE", value_parser = whole::<u32>)]
     wfr_at: Vec<u32>,
     /// Robots. Without it as many as --robot places, or one.
-    #[arg(long, value_name = "N", value_parser = number::<usize>)]
+    #[arg(long, value_name = "N", value_parser = whole::<usize>)]
     robots: Option<usize>,
     /// Where a robot begins, in metres. May be given repeatedly; the others are at random places.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     robot: Vec<Metres<2>>,
     /// How often something happens at each node that calls: again at a random time of the ten minutes after it was served.
-    #[arg(long, value_name = "N", default_value = "1", value_parser = number::<usize>)]
+    #[arg(long, value_name = "N", default_value = "1", value_parser = whole::<usize>)]
     events: usize,
     /// When nodes call for the first time.
     #[arg(long, value_enum, default_value = "together")]
@@ -111,10 +112,10 @@ pub(super) struct Rescue {
     #[arg(long, value_name = "DB", allow_hyphen_values = true, default_value_t = 0.0, value_parser = real)]
     noise_db: f64,
     /// How many robots fail, each at a random time of the first ten minutes.
-    #[arg(long, value_name = "N", default_value = "0", value_parser = number::<usize>)]
+    #[arg(long, value_name = "N", default_value = "0", value_parser = whole::<usize>)]
     failing: usize,
     /// How many nodes fail, likewise; none that calls.
-    #[arg(long, value_name = "N", default_value = "0", value_parser = number::<usize>)]
+    #[arg(long, value_name = "N", default_value = "0", value_parser = whole::<usize>)]
     failing_nodes: usize,
     /// Store the rescue as JSON lines; one seed only.
     #[arg(long, value_name = "FILE")]
@@ -216,11 +217,16 @@ fn count(seeds: &RangeInclusive<u64>) -> u64 {
 
 impl Rescue {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        if self.k.is_some() && !matches!(self.scheme, SchemeName::KFnf | SchemeName::Counter) {
+            let why = format!("{} does not count senders", self.scheme.word());
+            return Err(needless("--k", &why).into());
+        }
         let setting = self.setting();
         let seeds = &self.seeds.0;
         if let Some(seed) = self.seeds.one() {
             let [trace, page, map] = self.force.files([&self.trace, &self.replay, &self.svg], [])?;
             let report = rescue(&setting, seed).map_err(Fault::from)?;
+            tracing::info!("the rescue with seed {seed} has {}", counted(report.log.len(), "event"));
             let files = Files { trace, page, map };
             return tell(out, self.format.format, (&setting, seed, &report), files);
         }
@@ -238,7 +244,7 @@ impl Rescue {
         Setting {
             rule: self.rule,
             scheme: self.scheme,
-            k: self.k,
+            k: self.k.unwrap_or(1),
             nodes: self.nodes,
             area_m: self.area.0,
             range_m: self.range,
@@ -347,10 +353,6 @@ fn print(
         }
     }
     Ok(if summary.violations.is_empty() { Exit::Expected } else { Exit::Violation })
-}
-
-fn counted(count: usize, one: &str) -> String {
-    if count == 1 { format!("1 {one}") } else { format!("{count} {one}s") }
 }
 
 fn heading(setting: &Setting, seeds: &RangeInclusive<u64>) -> String {

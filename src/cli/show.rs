@@ -7,7 +7,7 @@ use serde::Serialize;
 use tautline_kernel::lattice::Cell;
 
 use super::output::Output;
-use super::{Exit, ForceArgs, Format, FormatArgs, LayoutArgs, usage};
+use super::{Chance, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless, usage};
 use crate::aside::Aside;
 use crate::fault::Halt;
 use crate::view::svg::{self, Panel};
@@ -64,6 +64,13 @@ struct ShownEnvironments {
 impl Show {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         if self.layout.layout == ENVIRONMENTS {
+            let why = "the environments are the same in every layout";
+            if self.layout.seed.is_some() {
+                return Err(needless("--seed", why).into());
+            }
+            if self.layout.image.is_some() {
+                return Err(needless("--image", why).into());
+            }
             let [file] = self.force.files([&self.svg], [])?;
             store(out, file, "The environments of a cell", &svg::environments());
             match self.format.format {
@@ -72,7 +79,7 @@ impl Show {
             }
             return Ok(Exit::Expected);
         }
-        let layout = self.layout.load()?;
+        let layout = self.layout.load(Chance::None)?;
         let [file] = self.force.files([&self.svg], self.layout.inputs())?;
         if file.is_some() {
             svg::check_size(layout.size().area())?;

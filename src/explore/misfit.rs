@@ -3,6 +3,7 @@
 use std::fmt;
 
 use tautline_kernel::chain::MAX_ROBOTS;
+use tautline_proofs::words::counted;
 
 use super::{Crew, RuleName, SchemeName, Setup};
 use crate::layout::Problem;
@@ -67,8 +68,8 @@ impl Misfit {
             Self::MissedByChain => "take ants, bricks or bricks-ants, or leave out what is missed".to_owned(),
             Self::MissAll => "give a probability below 1, or end the run by --max-moves".to_owned(),
             Self::Missed => "number them from 1 on, in order, each once".to_owned(),
-            Self::StartsOfChain => "give the base another place".to_owned(),
-            Self::Starts { robots, .. } => format!("give one start for all, or {robots}, one for each agent"),
+            Self::StartsOfChain => "give the base another place by --base".to_owned(),
+            Self::Starts { .. } => "give one start for all, or one for each agent".to_owned(),
             Self::Start(problem) => problem.remedy(),
         }
     }
@@ -91,7 +92,9 @@ impl fmt::Display for Misfit {
             Self::MissAll => f.write_str("agents that miss every sensor go on for ever"),
             Self::Missed => f.write_str("the numbers of the sensors that are missed are not in order"),
             Self::StartsOfChain => f.write_str("the robots of a chain start at the base"),
-            Self::Starts { starts, robots } => write!(f, "{starts} starts are not those of {robots} agents"),
+            Self::Starts { starts, robots } => {
+                write!(f, "{} for {}", counted(*starts, "start"), counted(*robots, "agent"))
+            }
             Self::Start(problem) => problem.fmt(f),
         }
     }

@@ -6,12 +6,14 @@ use std::io::{self, Read};
 use std::iter;
 use std::path::{Path, PathBuf};
 
+use tautline_proofs::words::counted;
+
 use super::generate::Form;
 use super::{Generator, Layout, Misread, Problem, movingai, ros, text};
 use crate::fault::Fault;
 
-/// Larger files are refused before they are read.
-pub const MAX_FILE_BYTES: u64 = 64 << 20;
+/// Larger files are refused before they are read. The drawing of the largest layout is smaller.
+pub const MAX_FILE_BYTES: u64 = 128 << 20;
 
 /// The layout that `description` names: a generator's, for `seed`, or else that of a file: a `MovingAI` map
 /// (`.map`), a ROS map (`.yaml`, `.yml`), or a drawing of ours. `image` takes the place of the image that a
@@ -20,6 +22,16 @@ pub const MAX_FILE_BYTES: u64 = 64 << 20;
 /// # Errors
 /// A [`Fault`] that names the file, the line and the column, or what is wrong with the description.
 pub fn load(description: &str, seed: u64, image: Option<&Path>) -> Result<Layout, Fault> {
+    let layout = make(description, seed, image)?;
+    let (size, free, walls) = (layout.size(), layout.free_cells(), layout.walls().count());
+    tracing::info!(
+        "layout {description}: {size} cells, {free} free, {} between them",
+        counted(walls, "wall")
+    );
+    Ok(layout)
+}
+
+fn make(description: &str, seed: u64, image: Option<&Path>) -> Result<Layout, Fault> {
     let file = Path::new(description);
     match description.parse::<Generator>() {
         Ok(_) if image.is_some() => Err(usage(&Problem::NeedlessImage)),
@@ -97,7 +109,10 @@ pub(super) fn read_bytes(file: &Path) -> Result<Vec<u8>, Problem> {
     opened.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(|error| unreadable(&error))?;
     match bytes.len() as u64 {
         0 => Err(Problem::Empty),
-        1..=MAX_FILE_BYTES => Ok(bytes),
+        size @ 1..=MAX_FILE_BYTES => {
+            tracing::info!("read {}: {}", file.display(), counted(size, "byte"));
+            Ok(bytes)
+        }
         _ => Err(Problem::TooLarge),
     }
 }

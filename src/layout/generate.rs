@@ -87,6 +87,14 @@ impl Form {
 }
 
 impl Generator {
+    /// Whether anything of the layout is left to chance.
+    pub const fn is_random(&self) -> bool {
+        match self {
+            Self::Open(_) | Self::RoomsA | Self::RoomsB => false,
+            Self::Walls(..) | Self::Office(..) | Self::Cells(..) => true,
+        }
+    }
+
     /// The layout for `seed`; those without chance are the same for all seeds.
     ///
     /// # Errors

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::{Misread, Problem};
+use crate::fault::BOM;
 
 /// A line without its end (`\n` or `\r\n`), and the byte at which it starts.
 #[derive(Clone, Copy)]
@@ -11,9 +12,11 @@ pub(super) struct Line<'a> {
     start: usize,
 }
 
-/// The lines of `source`, blank ones at its end left out.
+/// The lines of `source`, blank ones at its end left out, and a byte order mark before them.
 pub(super) fn lines(source: &str) -> impl Iterator<Item = Line<'_>> {
-    source.trim_end_matches(['\r', '\n']).split('\n').scan(0, |next, raw| {
+    let text = source.strip_prefix(BOM).unwrap_or(source);
+    let begin = source.len() - text.len();
+    text.trim_end_matches(['\r', '\n']).split('\n').scan(begin, |next, raw| {
         let start = *next;
         *next += raw.len() + 1;
         Some(Line { text: raw.strip_suffix('\r').unwrap_or(raw), start })

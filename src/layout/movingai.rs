@@ -16,7 +16,8 @@ const SYMBOLS: &str = "a cell is `.`, `G` or `S` (free), `@`, `O`, `T` or `W` (b
 ///
 /// # Errors
 /// The first [`Problem`] from the top and the bytes it lies in: a header line that is not as above, a size
-/// out of bounds, rows of another length or number than the header says, an unknown symbol, or no free cell.
+/// out of bounds, a number that is none, rows of another length or number than the header
+/// says, an unknown symbol, or no free cell.
 pub fn read(source: &str) -> Result<Layout, Misread> {
     let mut lines = lines(source);
     let cut = |expected| Misread { at: end(source), problem: Problem::Header { expected } };
@@ -59,7 +60,12 @@ fn literal(line: &Line<'_>, expected: &'static str) -> Result<(), Misread> {
 
 /// The number of a header line such as `height 32`.
 fn count(line: &Line<'_>, expected: &'static str) -> Result<u64, Misread> {
-    let number = expected.strip_suffix('N').and_then(|name| line.text.strip_prefix(name));
-    let count = number.and_then(|number| number.trim().parse().ok());
-    count.ok_or_else(|| line.misread(Problem::Header { expected }))
+    let name = expected.trim_end_matches([' ', 'N']);
+    let number = line.text.strip_prefix(name).filter(|rest| rest.is_empty() || rest.starts_with(' '));
+    let number = number.ok_or_else(|| line.misread(Problem::Header { expected }))?.trim();
+    number.parse().map_err(|_| {
+        let start = line.text.trim_end().len() - number.len();
+        let problem = Problem::Count { found: number.to_owned(), expected };
+        line.misread_at(start..start + number.len(), problem)
+    })
 }

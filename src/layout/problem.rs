@@ -4,7 +4,9 @@
 use std::fmt;
 use std::ops::Range;
 
+use tautline_kernel::chain::MAX_ROBOTS;
 use tautline_kernel::lattice::Cell;
+use tautline_proofs::words::counted;
 
 use super::generate::{FORMS, Form};
 use super::{MAX_CELLS, MAX_FILE_BYTES, MAX_SIDE_CELLS, Size};
@@ -59,6 +61,8 @@ pub enum Problem {
 
     /// A header line of a `MovingAI` map is not as it should be.
     Header { expected: &'static str },
+    /// The number of a header line is none.
+    Count { found: String, expected: &'static str },
     /// Fewer rows than the header says.
     TooFewRows { found: usize, expected: usize },
     /// More rows than the header says.
@@ -124,10 +128,15 @@ impl fmt::Display for Problem {
             Self::TwoBases { first } => write!(f, "a second base; the first is {first}"),
             Self::Symbol { found, known: _ } => write!(f, "the symbol {found:?} is unknown"),
             Self::RowLength { found, expected } => {
-                write!(f, "this row has {found} characters, not {expected}")
+                write!(f, "this row has {}, not {expected}", counted(*found, "character"))
             }
             Self::Header { expected } => write!(f, "the header line `{expected}` is missing here"),
-            Self::TooFewRows { found, expected } => write!(f, "the map has {found} rows, not {expected}"),
+            Self::Count { found, expected } => {
+                write!(f, "{found:?} is not the number N of the header line `{expected}`")
+            }
+            Self::TooFewRows { found, expected } => {
+                write!(f, "the map has {}, not {expected}", counted(*found, "row"))
+            }
             Self::TooManyRows { expected } => {
                 write!(f, "this is row {}, but `height` is {expected}", expected + 1)
             }
@@ -172,7 +181,9 @@ impl Problem {
                     .to_owned()
             }
             Self::Version(_) => "write the drawing again with this program".to_owned(),
-            Self::Robots(_) => "write `robots N` with N from 1 to 65535, or leave the line out".to_owned(),
+            Self::Robots(_) => {
+                format!("write `robots N` with N from 1 to {MAX_ROBOTS}, or leave the line out")
+            }
             Self::NoDrawing => "draw it as `+--+--+`, one `--` for each column".to_owned(),
             Self::CutShort => {
                 "a drawing is a line of walls, then for each row a line of cells and a line of walls"
@@ -185,6 +196,7 @@ impl Problem {
             Self::Header { .. } => {
                 "a map begins with the lines `type octile`, `height N`, `width N` and `map`".to_owned()
             }
+            Self::Count { .. } => format!("write a whole number from 1 to {MAX_SIDE_CELLS}"),
             Self::TooFewRows { .. } | Self::TooManyRows { .. } => {
                 "make `height` the number of rows that follow `map`".to_owned()
             }

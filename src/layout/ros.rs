@@ -17,7 +17,7 @@ use tautline_kernel::lattice::Cell;
 
 use super::file::{at, in_file, read_bytes, read_text, usage};
 use super::{Layout, MAX_CELLS, MAX_SIDE_CELLS, Misread, Problem};
-use crate::fault::Fault;
+use crate::fault::{BOM, Fault};
 
 /// Where the cells of a map lie in the world.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -108,8 +108,14 @@ pub(super) fn image(file: &Path) -> Option<PathBuf> {
 /// The first [`Problem`] and the bytes it lies in: no YAML, a field missing, a number out of bounds, another
 /// mode.
 pub fn describe(source: &str) -> Result<Description, Misread> {
-    let fields: Fields = serde_saphyr::from_str(source).map_err(|error| {
-        let at = error.location().map_or(0..0, |location| bytes_of(source, location));
+    let text = source.strip_prefix(BOM).unwrap_or(source);
+    let bytes_of = |location| {
+        let Range { start, end } = bytes_of(text, location);
+        let begin = source.len() - text.len();
+        begin + start..begin + end
+    };
+    let fields: Fields = serde_saphyr::from_str(text).map_err(|error| {
+        let at = error.location().map_or(0..0, bytes_of);
         let message = error.without_snippet().to_string();
         // One line of it, without the place, which the fault tells.
         let message =
@@ -118,7 +124,7 @@ pub fn describe(source: &str) -> Result<Description, Misread> {
     })?;
     let Fields { image, resolution, origin, negate, occupied_thresh, free_thresh, mode } = fields;
     let wrong = |location, field, allowed| {
-        Err(Misread { at: bytes_of(source, location), problem: Problem::Number { field, allowed } })
+        Err(Misread { at: bytes_of(location), problem: Problem::Number { field, allowed } })
     };
     let (metres, occupied_above, free_below) = (resolution.value, occupied_thresh.value, free_thresh.value);
     if !(metres > 0.0 && metres.is_finite()) {
@@ -139,11 +145,11 @@ pub fn describe(source: &str) -> Result<Description, Misread> {
         Negate::Number(_) => return wrong(negate.referenced, "negate", "write 0 or 1"),
     };
     if let Some(mode) = mode.filter(|mode| !matches!(mode.value.as_str(), "trinary" | "scale")) {
-        return Err(Misread { at: bytes_of(source, mode.referenced), problem: Problem::Mode(mode.value) });
+        return Err(Misread { at: bytes_of(mode.referenced), problem: Problem::Mode(mode.value) });
     }
     let [x_m, y_m, yaw_rad] = origin.value;
     Ok(Description {
-        image_at: bytes_of(source, image.referenced),
+        image_at: bytes_of(image.referenced),
         image: image.value,
         frame: Frame { resolution_m: metres, x_m, y_m, yaw_rad },
         free_below,

@@ -5,6 +5,7 @@
 
 use rayon::prelude::*;
 use serde::Serialize;
+use tautline_proofs::words::counted;
 
 use super::interval::{Estimate, decimals, rounded};
 use super::notice_fig5::{RANGE_M, SIDE_M};
@@ -163,7 +164,8 @@ impl Setting {
             }
         }
         let Some((seed, report)) = drawn else { return Ok(picture("", &[])) };
-        let title = format!("{} robots for {} WFRs, seed {seed}", self.robots, self.wfrs);
+        let team = counted(self.robots, "robot");
+        let title = format!("{team} for {}, seed {seed}", counted(self.wfrs, "WFR"));
         Ok(picture(&title, &[map(String::new(), &report)]))
     }
 }

@@ -134,11 +134,11 @@ impl Setting {
         if !(2..=radio::MAX_NODES).contains(&nodes) {
             return Err(Problem::Field(radio::Problem::Nodes { nodes }));
         }
+        if !(1..=MAX_WFRS).contains(&wfrs) {
+            return Err(Problem::Wfrs { wfrs, nodes });
+        }
         if wfrs > nodes {
             return Err(Problem::WfrsOfNodes { wfrs, nodes });
-        }
-        if !(1..=MAX_WFRS).contains(&wfrs) {
-            return Err(Problem::Wfrs { wfrs });
         }
         if !(1..=MAX_EVENTS).contains(&events) {
             return Err(Problem::Events { events });

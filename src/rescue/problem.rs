@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use tautline_proofs::words::counted;
+
 use super::{MAX_EVENTS, MAX_ROBOTS, MAX_WFRS, SchemeName};
 use crate::fault::Fault;
 use crate::radio;
@@ -18,7 +20,7 @@ pub enum Problem {
     /// k is 0, or larger than the scheme can count.
     K { k: u8, scheme: SchemeName, most: u8 },
     /// No WFR, or too many.
-    Wfrs { wfrs: usize },
+    Wfrs { wfrs: usize, nodes: usize },
     /// More WFRs than nodes.
     WfrsOfNodes { wfrs: usize, nodes: usize },
     /// A node is to be a WFR twice.
@@ -55,12 +57,18 @@ impl Problem {
         match *self {
             Self::Field(problem) => problem.remedy(),
             Self::K { most, .. } => format!("give a k from 1 to {most}"),
-            Self::Wfrs { .. } => format!("let 1 to {MAX_WFRS} nodes call"),
-            Self::WfrsOfNodes { nodes, .. } => format!("let 1 to {nodes} nodes call, or take more nodes"),
+            Self::Wfrs { nodes, .. } => format!("let 1 to {} nodes call", nodes.min(MAX_WFRS)),
+            Self::WfrsOfNodes { nodes, .. } => {
+                format!("let 1 to {nodes} nodes call, or take more nodes")
+            }
             Self::WfrTwice { .. } => "name each node once".to_owned(),
+            Self::WfrPlaces { places, wfrs } if places > MAX_WFRS => format!("name at most {wfrs} of them"),
             Self::WfrPlaces { places, .. } => format!("let {places} nodes call, or name fewer of them"),
             Self::Events { .. } => format!("let 1 to {MAX_EVENTS} events happen at each node that calls"),
             Self::Robots { .. } => format!("take 1 to {MAX_ROBOTS} robots"),
+            Self::RobotPlaces { places, robots } if places > MAX_ROBOTS => {
+                format!("place at most {robots} of them")
+            }
             Self::RobotPlaces { places, .. } => format!("take {places} robots, or place fewer of them"),
             Self::RobotOutside { .. } => {
                 "put every robot inside the area, by two finite numbers of metres".to_owned()
@@ -80,27 +88,29 @@ impl fmt::Display for Problem {
         match *self {
             Self::Field(problem) => write!(f, "{problem}"),
             Self::K { k, scheme, .. } => write!(f, "no scheme {} has a k of {k}", scheme.word()),
-            Self::Wfrs { wfrs: 0 } => write!(f, "nobody calls for help"),
-            Self::Wfrs { wfrs } => write!(f, "{wfrs} nodes that call are too many"),
+            Self::Wfrs { wfrs: 0, .. } => write!(f, "nobody calls for help"),
+            Self::Wfrs { wfrs, .. } => write!(f, "{wfrs} nodes that call are too many"),
             Self::WfrsOfNodes { wfrs, nodes } => write!(f, "{wfrs} of {nodes} nodes cannot call"),
             Self::WfrTwice { node } => write!(f, "node {node} cannot call twice"),
             Self::WfrPlaces { places, wfrs } => {
-                write!(f, "{places} nodes are named for {wfrs} that call")
+                write!(f, "more nodes are named ({places}) than are to call ({wfrs})")
             }
             Self::Events { events: 0 } => write!(f, "nothing happens"),
             Self::Events { events } => write!(f, "{events} events at each node that calls are too many"),
             Self::Robots { robots: 0 } => write!(f, "there is no robot"),
             Self::Robots { robots } => write!(f, "{robots} robots are too many"),
             Self::RobotPlaces { places, robots } => {
-                write!(f, "there are {places} places for {robots} robots")
+                write!(f, "there are {places} places for {}", counted(robots, "robot"))
             }
             Self::RobotOutside { robot, x_m, y_m } => {
                 write!(f, "robot {robot} at {x_m}, {y_m} m is not inside the area")
             }
             Self::RobotBlocked { robot } => write!(f, "robot {robot} is in an obstacle"),
-            Self::Failing { failing, robots } => write!(f, "{failing} of {robots} robots cannot fail"),
+            Self::Failing { failing, robots } => {
+                write!(f, "there are fewer robots ({robots}) than are to fail ({failing})")
+            }
             Self::FailingNodes { failing, others } => {
-                write!(f, "{failing} of the {others} nodes that do not call cannot fail")
+                write!(f, "only {others} of the nodes can fail, not {failing}: none that calls does")
             }
             Self::TooLarge { nodes, wfrs } => {
                 write!(f, "what {nodes} nodes know of {wfrs} that call does not fit into memory")

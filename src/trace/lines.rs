@@ -9,8 +9,9 @@ use std::path::{Path, PathBuf};
 
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
+use tautline_proofs::words::counted;
 
-use crate::fault::Fault;
+use crate::fault::{BOM, Fault};
 use crate::layout::MAX_FILE_BYTES;
 
 /// Longer lines than those of the longest chain are refused; the header with its drawing may be longer.
@@ -34,7 +35,8 @@ pub(crate) fn format(path: &Path) -> Option<String> {
     let mut bytes = Vec::new();
     let file = File::open(path).ok()?;
     BufReader::new(file).take(MAX_FILE_BYTES).read_until(b'\n', &mut bytes).ok()?;
-    serde_json::from_slice(&bytes).ok().map(|magic: Magic| magic.format)
+    let text = str::from_utf8(&bytes).ok()?;
+    serde_json::from_str(text.strip_prefix(BOM).unwrap_or(text)).ok().map(|magic: Magic| magic.format)
 }
 
 /// The lines of a file, one at a time.
@@ -63,6 +65,9 @@ impl Lines {
             std::io::ErrorKind::NotFound => unreadable("there is no such file".to_owned()),
             _ => unreadable(format!("the file cannot be read: {error}")),
         })?;
+        if let Ok(about) = file.metadata() {
+            tracing::info!("reading {}: {}", path.display(), counted(about.len(), "byte"));
+        }
         Ok(Self { path: path.to_owned(), input: BufReader::new(file), count: 0, again })
     }
 
@@ -98,6 +103,9 @@ impl Lines {
     /// # Errors
     /// A [`Fault`] if it cannot be read, is longer, or no text.
     pub(crate) fn next(&mut self, most: u64) -> Result<Option<String>, Fault> {
+        if self.count == 0 {
+            self.skip_bom();
+        }
         let mut bytes = Vec::new();
         let read = self.input.by_ref().take(most + 1).read_until(b'\n', &mut bytes);
         let read = read.map_err(|error| {
@@ -119,6 +127,15 @@ impl Lines {
         }
         text.truncate(text.trim_end_matches(['\n', '\r']).len());
         Ok(Some(text))
+    }
+
+    /// Leaves out a byte order mark. What cannot be read is told by whoever reads on.
+    fn skip_bom(&mut self) {
+        let mut bom = [0; BOM.len_utf8()];
+        let bom = BOM.encode_utf8(&mut bom).as_bytes();
+        if self.input.fill_buf().is_ok_and(|text| text.starts_with(bom)) {
+            self.input.consume(bom.len());
+        }
     }
 
     /// Checks that the next line is `expected`.

@@ -9,6 +9,7 @@ use tautline_kernel::chain::Kind;
 use tautline_kernel::floor::Mark;
 use tautline_kernel::lattice::{Cell, Step};
 use tautline_proofs::run::Frame as Outcome;
+use tautline_proofs::words::counted;
 
 use super::svg::{self, Frame};
 use crate::aside::{Aside, HTML_HEAD};
@@ -42,11 +43,11 @@ impl<'a> Page<'a> {
         moves: &RangeInclusive<u32>,
     ) -> Self {
         let outcome = format!(
-            "{} team moves: {}. {} of {} cells explored; {}.",
-            report.steps,
+            "{}: {}. {} of {} explored; {}.",
+            counted(report.steps, "team move"),
             report.stopped.words(),
             report.explored,
-            report.cells,
+            counted(report.cells, "cell"),
             broken(report)
         );
         let title = super::title_of(setup);
@@ -83,7 +84,7 @@ impl<'a> Page<'a> {
             };
             let step = made.step - 1;
             let start = TeamMove { step, before: made.before, frame: &start, unseen: &[], breaches: &[] };
-            let words = if step == 0 { "The start".to_owned() } else { format!("After team move {step}") };
+            let words = if step == 0 { started(self.setup) } else { format!("After team move {step}") };
             self.push(&start, &words);
         }
         self.push(made, &words(self.setup.crew(), made, self.report));
@@ -154,6 +155,16 @@ fn marked(chart: &Chart, moves: &RangeInclusive<u32>) -> String {
         }
     }
     text
+}
+
+/// Who stands where before the first team move.
+fn started(setup: &Setup) -> String {
+    match setup.crew() {
+        Crew::Chain => {
+            format!("The start: the base, with {} in its cell", counted(setup.robots - 1, "robot"))
+        }
+        Crew::Agents(_) => format!("The start: {}", counted(setup.robots, "agent")),
+    }
 }
 
 fn broken(report: &Report) -> String {

@@ -7,6 +7,7 @@ use tautline_kernel::lattice::{Cell, Side, Step};
 use tautline_proofs::course::Course;
 use tautline_proofs::registry::CLAUSES;
 use tautline_proofs::run::Breach;
+use tautline_proofs::words::counted;
 
 use super::{Block, Pose, agents, beside, first_drawn, legend, outcome, team_move};
 use crate::explore::{Chart, Crew, Report, Setup, TeamMove, Violation, explore, missed};
@@ -103,8 +104,7 @@ fn result(breach: Breach, setup: &Setup, chart: &Chart, made: &TeamMove<'_>) -> 
         Breach::Premature => {
             let is_left = |cell: &Cell| chart.mark(*cell, made.step) == Mark::Unexplored;
             let left = missed(setup, chart).into_iter().filter(is_left).count();
-            let cells = if left == 1 { "cell is" } else { "cells are" };
-            vec![format!("So an agent is done, and {left} {cells} unexplored.")]
+            vec![format!("So an agent is done, with {} unexplored.", counted(left, "cell"))]
         }
         Breach::Completeness | Breach::Unvisited => Vec::new(),
     }
@@ -124,8 +124,7 @@ fn pairs<'a>(
 
 fn apart([one, other]: [Cell; 2]) -> String {
     let (columns, rows) = one.apart(other);
-    let count = |number: u16, word: &str| format!("{number} {word}{}", if number == 1 { "" } else { "s" });
-    format!("{} and {}", count(columns, "column"), count(rows, "row"))
+    format!("{} and {}", counted(columns, "column"), counted(rows, "row"))
 }
 
 /// How the end of a run breaks its clauses: the sentence, the cells that it missed, and the layout drawn. Nothing, if it
@@ -207,9 +206,8 @@ pub fn of_course(crew: Crew, course: &Course) -> Result<String, Problem> {
     let is_unexplored = |(_, mark): &&(Cell, Mark)| *mark == Mark::Unexplored;
     match (round, end.marks.iter().filter(is_unexplored).count()) {
         (0, 0) => {}
-        (0, 1) => words.push_str("  In the end 1 cell is unexplored.\n"),
         (0, left) => {
-            let _ = writeln!(words, "  In the end {left} cells are unexplored.");
+            let _ = writeln!(words, "  The run ends with {} unexplored.", counted(left, "cell"));
         }
         (round, _) => {
             let _ = writeln!(words, "  The last {round} of {} turns can go on for ever.", turns.len());

@@ -333,9 +333,23 @@ fn unseen(frame: Frame, cell: Cell) -> String {
 }
 
 fn base_mark(frame: Frame, base: Cell) -> String {
+    base_frame(frame, base) + &name(frame.centre(base), "B")
+}
+
+fn base_frame(frame: Frame, base: Cell) -> String {
     let (x, y) = frame.corner(base);
     format!("<rect class=\"base\" x=\"{}\" y=\"{}\" width=\"16\" height=\"16\" rx=\"3\"/>", x + 4, y + 4)
-        + &name(frame.centre(base), "B")
+}
+
+/// The base, with the number of the robots in its cell if they would hide it.
+fn base_with(frame: Frame, team: &[Cell]) -> String {
+    let (x, y) = frame.centre(team[0]);
+    match team.iter().filter(|&&cell| cell == team[0]).count() - 1 {
+        0..=BESIDE_BASE => base_mark(frame, team[0]),
+        others => {
+            base_frame(frame, team[0]) + &name((x, y - 4), "B") + &name((x, y + 4), &format!("+{others}"))
+        }
+    }
 }
 
 fn name((x, y): (i32, i32), text: &str) -> String {
@@ -347,7 +361,7 @@ pub(super) fn team(crew: Crew, frame: Frame, made: &TeamMove<'_>) -> String {
     let (before, after) = (made.before, made.frame.cells.as_slice());
     let mut body: String = made.unseen.iter().map(|&cell| unseen(frame, cell)).collect();
     body += &match crew {
-        Crew::Chain => links(frame, before, after) + &base_mark(frame, after[0]),
+        Crew::Chain => links(frame, before, after) + &base_with(frame, after),
         Crew::Agents(_) => String::new(),
     };
     for (robot, &from) in before.iter().enumerate().skip(first_drawn(crew)) {
@@ -410,6 +424,9 @@ fn way(frame: Frame, from: Cell, side: Side, is_blocked: bool) -> String {
 /// Where robots that share a cell are drawn, from its centre.
 const CORNERS: [(i32, i32); 4] = [(-6, -6), (6, -6), (-6, 6), (6, 6)];
 
+/// Robots that are drawn beside the base. More are counted.
+const BESIDE_BASE: usize = 2;
+
 /// A robot, beside the others in its cell.
 fn robot(crew: Crew, frame: Frame, team: &[Cell], robot: usize) -> String {
     let cell = team[robot];
@@ -418,6 +435,7 @@ fn robot(crew: Crew, frame: Frame, team: &[Cell], robot: usize) -> String {
     let all = (first_drawn(crew)..team.len()).filter(|&other| team[other] == cell).count();
     let (x, y) = frame.centre(cell);
     let (dx, dy) = match (all, is_base, CORNERS.get(others)) {
+        (_, true, _) if all > BESIDE_BASE => return String::new(),
         (1, false, _) => (0, 0),
         (2, false, _) => (12 * others as i32 - 6, 0),
         (_, _, Some(&corner)) => corner,

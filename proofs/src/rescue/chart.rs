@@ -7,6 +7,7 @@ use tautline_kernel::rescue::{Phase, Task, Upward, WfrTimer, Word};
 
 use super::space::{Broken, Ending};
 use super::{Action, Actor, Message, Setting, State, place};
+use crate::words::counted;
 
 /// Columns of text between two lifelines.
 const GAP: usize = 18;
@@ -47,7 +48,7 @@ pub fn chart(setting: &Setting, broken: &Broken) -> String {
     let how = match &broken.ending {
         Ending::There => String::new(),
         Ending::Still => "nothing more is bound to happen: ".to_owned(),
-        Ending::Round(round) => format!("the last {} events can go on for ever: ", round.len()),
+        Ending::Round(round) => format!("the last {} can go on for ever: ", counted(round.len(), "event")),
     };
     lines.push(format!("{how}{}", broken.demand.broken()));
     lines.join("\n") + "\n"

@@ -7,6 +7,7 @@ use serde::Serialize;
 use tautline_proofs::clause::Verdict;
 use tautline_proofs::run::Breach;
 use tautline_proofs::trap::{self, Bounds, End, Found, Trap, Way};
+use tautline_proofs::words::counted;
 
 use super::{Hunt, check_folder, keep};
 use crate::cli::output::Output;
@@ -118,7 +119,7 @@ fn search(bounds: &Bounds) -> Found {
     let found = trap::hunt(bounds, &mut |found| {
         let Found { layouts, states, levels, .. } = found;
         spinner.set_message(format!(
-            "misses {levels} of {}, {layouts} layouts, {states} states",
+            "misses {levels} of {}, layouts {layouts}, states {states}",
             bounds.max_misses
         ));
         if interrupt::is_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -156,10 +157,12 @@ fn tell(hunted: &Hunted) -> Result<String, Halt> {
     let Hunted { scheme, rule, robots, size, layouts, states, steps, max_misses, misses_done, .. } = hunted;
     let order = if *robots == 1 { "" } else { " that act in turn" };
     let mut text = format!(
-        "{} ({rule}), {robots} {}{order}, at most {max_misses} missed, layouts up to {size}: {layouts} layouts, {states} states, \
-         {steps} team moves\n",
+        "{} ({rule}), {}{order}, at most {max_misses} missed, layouts up to {size}: {}, {}, {}\n",
         scheme.word(),
-        if *robots == 1 { "agent" } else { "agents" },
+        counted(*robots, "agent"),
+        counted(*layouts, "layout"),
+        counted(*states, "state"),
+        counted(*steps, "team move"),
     );
     let bound = match misses_done {
         Some(misses) if misses == max_misses => "in any layout within this bound".to_owned(),
@@ -174,7 +177,8 @@ fn tell(hunted: &Hunted) -> Result<String, Halt> {
         }
     };
     for Stored { clause, misses, columns, rows, steps, file, is_endless, setup } in &hunted.counterexamples {
-        let _ = writeln!(text, "\n{clause}, {misses} missed, {columns}x{rows} cells, {steps} team moves");
+        let steps = counted(*steps, "team move");
+        let _ = writeln!(text, "\n{clause}, {misses} missed, {columns}x{rows} cells, {steps}");
         let _ = match is_endless {
             false => writeln!(text, "\n{}", view::story::of_trap(setup)?),
             true => writeln!(text, "\nA run without end in this layout:\n\n{}", setup.layout),

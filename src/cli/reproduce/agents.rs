@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
+use tautline_proofs::words::counted;
 
 use crate::cli::output::Output;
 use crate::cli::{Exit, ForceArgs, Format, FormatArgs, number, progress};
@@ -97,8 +98,9 @@ impl Agents {
             Figure::Ideal => "no sensor missed",
         };
         let mut text = format!(
-            "Offices of 4x4 rooms, {missed}, {} layouts at each point, seeds from {}; means with 95 % intervals\n\n",
-            self.layouts, self.seed
+            "Offices of 4x4 rooms, {missed}, {} at each point, seeds from {}; means with 95 % intervals\n\n",
+            counted(self.layouts, "layout"),
+            self.seed
         );
         // Writing to a string cannot fail.
         let _ = writeln!(
@@ -129,9 +131,9 @@ impl Agents {
         }
         let _ = writeln!(
             text,
-            "\nended: runs that were stopped after {} steps of all agents. Where fewer than all runs explored every cell, or \
+            "\nended: runs that were stopped after {} of all agents. Where fewer than all runs explored every cell, or \
              were\ndone, their number follows.",
-            self.max_steps
+            counted(self.max_steps, "step")
         );
         match figure {
             Figure::Agents | Figure::Area => {}

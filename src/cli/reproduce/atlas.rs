@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use clap::Args;
 use serde::Serialize;
+use tautline_proofs::words::counted;
 
 use crate::cli::output::Output;
 use crate::cli::{Exit, Format, FormatArgs, progress};
@@ -103,10 +104,11 @@ fn text(lines: &[Line]) -> String {
             let walls: Vec<String> = walls.iter().map(|[one, other]| format!("{one}|{other}")).collect();
             let _ = writeln!(
                 text,
-                "{} robots, {}: {clause}, {} walls, {steps} team moves: {}",
+                "{} robots, {}: {clause}, {}, {}: {}",
                 line.robots,
                 line.rule,
-                walls.len(),
+                counted(walls.len(), "wall"),
+                counted(*steps, "team move"),
                 walls.join(" ")
             );
         }

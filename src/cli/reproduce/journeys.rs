@@ -5,11 +5,12 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 use tautline_kernel::broadcast::Count;
+use tautline_proofs::words::counted;
 
 use super::table::Table;
 use crate::cli::output::Output;
 use crate::cli::rescue::Metres;
-use crate::cli::{Exit, ForceArgs, Format, FormatArgs, count, number, progress, real};
+use crate::cli::{Exit, ForceArgs, Format, FormatArgs, count, number, progress, real, whole};
 use crate::fault::{Fault, Halt};
 use crate::radio::Obstacle;
 use crate::reproduce::Reproduction;
@@ -32,7 +33,7 @@ Examples:
 #[command(after_help = EXAMPLES)]
 pub(super) struct Journeys {
     /// Numbers of nodes [default: 300,500,700,900,1100 for figure 7, else 700]
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = number::<usize>)]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = whole::<usize>)]
     nodes: Vec<usize>,
     /// The side of the square, in metres.
     #[arg(long, value_name = "METRES", default_value_t = SIDE_M, value_parser = real)]
@@ -142,15 +143,14 @@ fn picture(figure: Figure, setting: &Setting, densities: &[Density]) -> Result<S
 fn text(setting: &Setting, densities: &[Density]) -> String {
     let obstacles = match setting.obstacles.len() {
         0 => "no obstacle".to_owned(),
-        1 => "1 obstacle".to_owned(),
-        more => format!("{more} obstacles"),
+        some => counted(some, "obstacle"),
     };
     let heading = format!(
-        "{side}×{side} m, range {} m, {obstacles}, k = {}, noise {} dB, {} topologies for each number of nodes, seed {}",
+        "{side}×{side} m, range {} m, {obstacles}, k = {}, noise {} dB, {} for each number of nodes, seed {}",
         setting.range_m,
         setting.k.get(),
         setting.noise_db,
-        setting.topologies,
+        counted(setting.topologies, "topology"),
         setting.seed,
         side = setting.side_m,
     );

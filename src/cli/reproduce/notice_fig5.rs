@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 use tautline_kernel::broadcast::Count;
+use tautline_proofs::words::counted;
 
 use super::table::Table;
 use crate::cli::output::Output;
-use crate::cli::{Exit, ForceArgs, Format, FormatArgs, count, number, progress, real};
+use crate::cli::{Exit, ForceArgs, Format, FormatArgs, count, number, progress, real, whole};
 use crate::fault::Halt;
 use crate::radio::ChannelName;
 use crate::reproduce::Reproduction;
@@ -30,7 +31,7 @@ Examples:
 #[command(after_help = EXAMPLES)]
 pub(super) struct NoticeFig5 {
     /// Numbers of nodes.
-    #[arg(long, value_name = "LIST", value_delimiter = ',', default_values_t = NODES, value_parser = number::<usize>)]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_values_t = NODES, value_parser = whole::<usize>)]
     nodes: Vec<usize>,
     /// The side of the square, in metres.
     #[arg(long, value_name = "METRES", default_value_t = SIDE_M, value_parser = real)]
@@ -110,9 +111,9 @@ impl NoticeFig5 {
 
     fn table(&self, densities: &[Density]) -> String {
         let heading = format!(
-            "{side}×{side} m, range {} m, {} topologies for each number of nodes, seed {}, {} channel",
+            "{side}×{side} m, range {} m, {} for each number of nodes, seed {}, {} channel",
             self.range,
-            self.topologies,
+            counted(self.topologies, "topology"),
             self.seed,
             self.channel.word(),
             side = self.side,

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use clap::Args;
 use serde::Serialize;
+use tautline_proofs::words::counted;
 
 use crate::cli::output::Output;
 use crate::cli::{Exit, Format, FormatArgs, number, progress};
@@ -58,8 +59,9 @@ impl RepairCost {
 
     fn table(&self, lines: &[Line]) -> String {
         let mut text = format!(
-            "{ROBOTS} robots in walls:15x15:DENSITY, {} layouts at each density, seeds from {}\n",
-            self.layouts, self.seed
+            "{ROBOTS} robots in walls:15x15:DENSITY, {} at each density, seeds from {}\n",
+            counted(self.layouts, "layout"),
+            self.seed
         );
         for (place, milestone) in repair_cost::MILESTONES.iter().enumerate() {
             let title = format!("Mean team moves to {} %, where both reach it", milestone.percent());

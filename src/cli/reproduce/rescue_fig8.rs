@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 use tautline_kernel::broadcast::Count;
+use tautline_proofs::words::counted;
 
 use super::table::Table;
 use crate::cli::output::Output;
-use crate::cli::{Exit, ForceArgs, Format, FormatArgs, count, number, progress};
+use crate::cli::{Exit, ForceArgs, Format, FormatArgs, count, number, progress, whole};
 use crate::fault::Halt;
 use crate::reproduce::Reproduction;
 use crate::reproduce::interval::Estimate;
@@ -28,7 +29,7 @@ Examples:
 #[command(after_help = EXAMPLES)]
 pub(super) struct RescueFig8 {
     /// Nodes.
-    #[arg(long, value_name = "N", default_value_t = NODES, value_parser = number::<usize>)]
+    #[arg(long, value_name = "N", default_value_t = NODES, value_parser = whole::<usize>)]
     nodes: usize,
     /// Robots.
     #[arg(long, value_name = "N", default_value_t = ROBOTS as u64, value_parser = clap::value_parser!(u64).range(1..=MOST as u64))]
@@ -92,7 +93,10 @@ impl RescueFig8 {
 fn table(setting: &Setting, lines: &[Line]) -> String {
     let Setting { nodes, robots, wfrs, k, topologies, seed } = setting;
     let heading = format!(
-        "{robots} robots, {wfrs} WFRs, {nodes} nodes in 300×300 m, range 25 m, k = {k}, {topologies} topologies, seed {seed}"
+        "{}, {}, {nodes} nodes in 300×300 m, range 25 m, k = {k}, {}, seed {seed}",
+        counted(*robots, "robot"),
+        counted(*wfrs, "WFR"),
+        counted(*topologies, "topology")
     );
     let mut table = Table::new(heading, lines);
     let percent = |share: f64| format!("{:.2}", 100.0 * share);
