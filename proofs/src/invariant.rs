@@ -107,8 +107,8 @@ impl Invariant {
                         Breach::Contact => "each neighbour's cell is wholly covered",
                         Breach::Crowding => "no three robots are in one cell outside the base",
                         Breach::Coverage => "the neighbours' centres stay within r_cov",
-                        Breach::Completeness | Breach::Premature | Breach::Unvisited => {
-                            "no team move is an end"
+                        Breach::Costly | Breach::Completeness | Breach::Premature | Breach::Unvisited => {
+                            "this is seen in no team move"
                         }
                     },
                 )

@@ -54,6 +54,8 @@ pub enum Breach {
     Crowding,
     /// The centres of two neighbours in the chain were, perhaps only on the way, out of range: CHAIN-3.
     Coverage,
+    /// A plan looked at more than [`CHEAP_LOOKS`] candidates of followers for each robot: CHAIN-12.
+    Costly,
     /// The run has ended, and a cell within reach is unexplored: CHAIN-13.
     Completeness,
     /// An agent is done, and a cell that it could get to is unexplored: BRICKS-4.
@@ -64,10 +66,17 @@ pub enum Breach {
 
 impl Breach {
     /// Every breach.
-    pub const ALL: [Self; 6] =
-        [Self::Contact, Self::Crowding, Self::Coverage, Self::Completeness, Self::Premature, Self::Unvisited];
+    pub const ALL: [Self; 7] = [
+        Self::Contact,
+        Self::Crowding,
+        Self::Coverage,
+        Self::Costly,
+        Self::Completeness,
+        Self::Premature,
+        Self::Unvisited,
+    ];
 
-    /// Those of the chain.
+    /// Those of the chain that are seen in where its robots are.
     pub const CHAIN: [Self; 4] = [Self::Contact, Self::Crowding, Self::Coverage, Self::Completeness];
 
     /// The id of the clause that is broken.
@@ -76,6 +85,7 @@ impl Breach {
             Self::Contact => "CHAIN-1",
             Self::Crowding => "CHAIN-2",
             Self::Coverage => "CHAIN-3",
+            Self::Costly => "CHAIN-12",
             Self::Completeness => "CHAIN-13",
             Self::Premature => "BRICKS-4",
             Self::Unvisited => "BRICKS-6",
@@ -83,7 +93,7 @@ impl Breach {
     }
 
     /// Whether the team move from `before` to `after` commits it; the base stands first in both. Completeness is of
-    /// the end of a run, and in no team move; where agents are does not tell what they know.
+    /// the end of a run, and in no team move; where robots are does not tell what they know, or what a plan has cost.
     pub fn is_in(self, before: &[Cell], after: &[Cell]) -> bool {
         match self {
             Self::Contact => after.windows(2).any(|pair| !Circle::COVERED.covers(pair[0], pair[1])),
@@ -94,10 +104,13 @@ impl Breach {
                 .windows(2)
                 .zip(after.windows(2))
                 .any(|(from, to)| !stays_in_range([from[0], to[0]], [from[1], to[1]])),
-            Self::Completeness | Self::Premature | Self::Unvisited => false,
+            Self::Costly | Self::Completeness | Self::Premature | Self::Unvisited => false,
         }
     }
 }
+
+/// Candidates of followers for each robot of a chain, the base counted, that a plan may look at by CHAIN-12.
+pub const CHEAP_LOOKS: u32 = 100;
 
 /// An id that is of no clause about runs.
 #[derive(Clone, PartialEq, Eq, Debug)]

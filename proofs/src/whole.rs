@@ -11,6 +11,7 @@ use tautline_kernel::lattice::{Cell, Edge};
 use crate::clause::{Sabotage, Subject};
 use crate::engine::{Outcome, Stop, require};
 use crate::plain::{PlainChain, PlainIntent, TooMany};
+use crate::run::CHEAP_LOOKS;
 
 /// The area of the paper for `robots`: (2N−1)² cells with the base in the middle.
 pub(crate) fn area(robots: usize) -> (Area, Cell) {
@@ -228,8 +229,6 @@ fn cheap_among(subject: &Subject, robots: usize, is_open: &mut dyn FnMut(Edge) -
     }
 }
 
-/// Candidates for each robot, the base counted, that a plan may look at.
-const CHEAP_LOOKS: u32 = 100;
 const CHEAP: &str = "a plan looks at no more than 100·N candidates of followers";
 
 fn cheap_run<G: Grid, const ROBOTS: usize>(

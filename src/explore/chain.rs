@@ -5,7 +5,7 @@ use tautline_kernel::chain::{self, Chain, Intent, MAX_ROBOTS, Refused};
 use tautline_kernel::floor::Mark;
 use tautline_kernel::grid::{Area, Grid, MediumGrid, SmallGrid};
 use tautline_kernel::lattice::{Cell, Edge};
-use tautline_proofs::run::{Breach, Frame};
+use tautline_proofs::run::{Breach, CHEAP_LOOKS, Frame};
 
 use super::floor::Component;
 use super::{Chart, End, Scheme, Setup, missed};
@@ -76,7 +76,9 @@ impl<G: Grid, const ROBOTS: usize> Scheme for ChainScheme<G, ROBOTS> {
     }
 
     fn broken_in_move(&self, before: &[Cell], frame: &Frame) -> Vec<Breach> {
-        Breach::CHAIN.into_iter().filter(|breach| breach.is_in(before, &frame.cells)).collect()
+        let is_costly = self.chain.looked_at() > CHEAP_LOOKS * before.len() as u32;
+        let seen = Breach::CHAIN.into_iter().filter(|breach| breach.is_in(before, &frame.cells));
+        seen.chain(is_costly.then_some(Breach::Costly)).collect()
     }
 
     fn broken_at_end(&self, setup: &Setup, chart: &Chart, _: End) -> Vec<Breach> {

@@ -106,7 +106,7 @@ fn result(breach: Breach, setup: &Setup, chart: &Chart, made: &TeamMove<'_>) -> 
             let left = missed(setup, chart).into_iter().filter(is_left).count();
             vec![format!("So an agent is done, with {} unexplored.", counted(left, "cell"))]
         }
-        Breach::Completeness | Breach::Unvisited => Vec::new(),
+        Breach::Costly | Breach::Completeness | Breach::Unvisited => Vec::new(),
     }
 }
 
@@ -131,7 +131,7 @@ fn apart([one, other]: [Cell; 2]) -> String {
 /// does not.
 pub fn of_end(setup: &Setup, report: &Report) -> String {
     let what = |breach| match breach {
-        Breach::Contact | Breach::Crowding | Breach::Coverage | Breach::Premature => None,
+        Breach::Contact | Breach::Crowding | Breach::Coverage | Breach::Costly | Breach::Premature => None,
         Breach::Completeness => Some("Within reach and unexplored"),
         Breach::Unvisited => Some("Connected with a start and not visited"),
     };

@@ -14,7 +14,7 @@ pub enum Link {
     Corner(Cell),
 }
 
-/// The pairs of sides that have a corner between them, in direction order.
+/// The pairs of sides that have a corner between them: south-east, south-west, north-west, north-east.
 const CORNERS: [(Side, Side); 4] = [
     (Side::East, Side::South),
     (Side::South, Side::West),
@@ -22,8 +22,8 @@ const CORNERS: [(Side, Side); 4] = [
     (Side::East, Side::North),
 ];
 
-/// The cells linked to `cell`: those beyond its sides first, then those beyond its corners, each in direction order.
-/// Of the two ways round a corner the first that is free.
+/// The cells linked to `cell`: those beyond its sides first, in direction order, then those beyond its corners, in the
+/// order south-east, south-west, north-west, north-east. Of the two ways round a corner the first that is free.
 pub fn links(grid: &impl Grid, cell: Cell) -> impl Iterator<Item = (Cell, Link)> {
     let is_open = |cell, side| !grid.edge_has(EdgeMark::Wall, Edge::new(cell, side));
     let beside = Side::ALL
