@@ -2,7 +2,7 @@
 //! process at once, unless the work in hand has results to keep; then it ends the work, and the second the process. No
 //! unfinished file stays.
 
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -26,8 +26,9 @@ fn heard() {
     }
     aside::abandon();
     if is_first {
-        // Whoever listened may have gone, and the signal have told so.
-        let _ = writeln!(io::stderr(), "Interrupted before the end: nothing is claimed.");
+        // A bar may stand on the line; and who reads may have gone, which is what the signal may have told.
+        let line = if io::stderr().is_terminal() { "\n" } else { "" };
+        let _ = writeln!(io::stderr(), "{line}Interrupted before the end: nothing is claimed.");
     }
     process::exit(Exit::Unfinished.code().into());
 }
@@ -45,8 +46,8 @@ pub(super) fn is_requested() -> bool {
 #[cfg(unix)]
 mod system {
     use std::io;
-    use std::sync::Arc;
     use std::sync::atomic::AtomicBool;
+    use std::sync::{Arc, mpsc};
     use std::{fs, thread};
 
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
@@ -54,14 +55,17 @@ mod system {
 
     /// Calls `heard` for each signal, one after the other.
     pub(super) fn on_signals(heard: fn()) -> io::Result<()> {
+        // No signal is taken from the system before there is a thread that hears it.
+        let (give, take) = mpsc::channel::<Signals>();
+        let hear = move || take.iter().for_each(|mut signals| signals.forever().for_each(|_| heard()));
+        thread::Builder::new().spawn(hear)?;
         // A file that may grow no more is a fault of its own, and no reason to die.
         flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false)))?;
-        let mut signals = Signals::new([SIGINT, SIGTERM])?;
+        let signals = Signals::new([SIGINT, SIGTERM])?;
         if !is_hangup_ignored() {
             signals.add_signal(SIGHUP)?;
         }
-        thread::Builder::new().spawn(move || signals.forever().for_each(|_| heard()))?;
-        Ok(())
+        give.send(signals).map_err(|_| io::Error::other("nobody hears them"))
     }
 
     /// Whether the process was started to outlive its terminal, as by nohup.
