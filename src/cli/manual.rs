@@ -44,7 +44,6 @@ impl Manual {
             for command in all(&program) {
                 let man = Man::new(command.clone());
                 let mut file = Aside::late(&folder.join(man.get_filename()), &replaceable);
-                file.append(MAN_HEAD);
                 file.append(page(&man)?);
                 out.keep(file);
             }
@@ -67,7 +66,7 @@ fn all(command: &Command) -> Vec<&Command> {
 }
 
 fn page(man: &Man) -> Result<Vec<u8>, Fault> {
-    let mut page = Vec::new();
+    let mut page = MAN_HEAD.as_bytes().to_vec();
     let mut exit_status = Roff::new();
     exit_status.control("SH", ["EXIT STATUS"]).text([roman(EXIT_CODES)]);
     man.render(&mut page).map_err(|error| output::unwritable(&error))?;

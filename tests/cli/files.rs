@@ -101,8 +101,8 @@ fn what_tautline_did_not_write_is_replaced_only_with_force() {
     }
     assert_eq!(names(folder), ["mine", "run.jsonl"]);
     assert_snapshot!(refused(folder, &["show", "rooms-a", "--force"]), @r"
-    Error: --force without a file to store
-     Help: name a file, or leave out --force
+    Error: --force has no effect: no file is to be stored
+     Help: leave --force out
     ");
 }
 
@@ -356,7 +356,7 @@ fn what_is_no_file_of_a_kept_hunt_is_not_read_to_its_end() {
     let made = Command::new("mkfifo").arg(folder.join("pipe")).status().expect("mkfifo runs");
     assert!(made.success());
     let large = fs::File::create(folder.join("large")).expect("a file");
-    large.set_len((64 << 20) + 1).expect("room for nothing");
+    large.set_len((128 << 20) + 1).expect("room for nothing");
     let said = ["/dev/zero", "pipe", "large"].map(|name| {
         let hunt = ["hunt", "--robots", "3", "--max-walls", "1", "--resume", name];
         format!("$ tautline {}\n{}\n", hunt.join(" "), refused(folder, &hunt))
@@ -371,7 +371,7 @@ fn what_is_no_file_of_a_kept_hunt_is_not_read_to_its_end() {
      Help: name a file
 
     $ tautline hunt --robots 3 --max-walls 1 --resume large
-    Error: large: a kept hunt has at most 67108864 bytes, and this file more
+    Error: large: a kept hunt has at most 134217728 bytes, and this file more
      Help: name another file, or remove it and hunt from the start
     ");
 }
