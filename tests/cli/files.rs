@@ -356,7 +356,7 @@ fn what_is_no_file_of_a_kept_hunt_is_not_read_to_its_end() {
     let made = Command::new("mkfifo").arg(folder.join("pipe")).status().expect("mkfifo runs");
     assert!(made.success());
     let large = fs::File::create(folder.join("large")).expect("a file");
-    large.set_len((64 << 20) + 1).expect("room for nothing");
+    large.set_len((128 << 20) + 1).expect("room for nothing");
     let said = ["/dev/zero", "pipe", "large"].map(|name| {
         let hunt = ["hunt", "--robots", "3", "--max-walls", "1", "--resume", name];
         format!("$ tautline {}\n{}\n", hunt.join(" "), refused(folder, &hunt))
@@ -371,7 +371,7 @@ fn what_is_no_file_of_a_kept_hunt_is_not_read_to_its_end() {
      Help: name a file
 
     $ tautline hunt --robots 3 --max-walls 1 --resume large
-    Error: large: a kept hunt has at most 67108864 bytes, and this file more
+    Error: large: a kept hunt has at most 134217728 bytes, and this file more
      Help: name another file, or remove it and hunt from the start
     ");
 }
