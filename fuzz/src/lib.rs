@@ -4,10 +4,16 @@
 
 #![allow(clippy::missing_panics_doc, reason = "a panic is how a body tells what it found")]
 
+mod floor;
+mod network;
+mod perception;
+mod rescue;
+
 use std::fs;
 use std::hint::black_box;
 use std::io::Write;
 use std::path::Path;
+use std::sync::LazyLock;
 
 use tautline::exhibit::exhibit;
 use tautline::explore::{RuleName, SchemeName, Setup};
@@ -25,19 +31,30 @@ use tautline_proofs::judge::{self, Exhibit};
 use tautline_proofs::run::{Breach, Frame};
 use tautline_proofs::search::{self, Bounds, Found, Search};
 
+pub use floor::floor;
+pub use network::network;
+pub use perception::perception;
+pub use rescue::{rescue, rescue_trace};
+
 /// The body of a target.
 pub type Body = fn(&[u8]);
 
 /// Every target's name and body.
-pub const TARGETS: [(&str, Body); 9] = [
+pub const TARGETS: [(&str, Body); 15] = [
     ("chain", chain),
     ("chain_log", chain_log),
+    ("floor", floor),
     ("judge", judge),
     ("kept_hunt", kept_hunt),
     ("layout_movingai", layout_movingai),
     ("layout_ros", layout_ros),
     ("layout_text", layout_text),
+    ("network", network),
+    ("perception", perception),
     ("plan_cost", plan_cost),
+    ("plan_cost_far", plan_cost_far),
+    ("rescue", rescue),
+    ("rescue_trace", rescue_trace),
     ("trace", trace),
 ];
 
@@ -210,13 +227,23 @@ fn alter(exhibit: &mut Exhibit, [which, what, robot, by]: [u32; 4]) {
     }
 }
 
-/// A chain of 16 to 64 robots, the first edges decided by the bytes and the rest at random: no plan is dear.
+/// A chain of 8 to 24 robots, the first edges decided by the bytes and the rest at random: no plan is dear. Only the
+/// first moves are made, so that many inputs can be tried.
 pub fn plan_cost(bytes: &[u8]) {
+    plan(bytes, [8, 12, 16, 24], |robots| 160 / robots);
+}
+
+/// The same for 16 to 64 robots and a thousand moves: few inputs can be tried, and plans are dearest far from the start.
+pub fn plan_cost_far(bytes: &[u8]) {
+    plan(bytes, [16, 24, 32, 64], |_| 1_000);
+}
+
+fn plan(bytes: &[u8], teams: [usize; 4], moves: fn(usize) -> usize) {
     let (head, answers) = bytes.split_at(bytes.len().min(8));
     let numbers = numbers(head);
     let mut source = Tape(&numbers);
     let rule = one_of(&mut source, &[Rule::REPAIRED, Rule::PUBLISHED]);
-    let robots = one_of(&mut source, &[16, 24, 32, 64]);
+    let robots = one_of(&mut source, &teams);
     let walls_percent = source.pick(40) + 1;
     let mut random = Seeded::new(source.pick(256).into(), source.pick(256).into());
     let range = robots as i16 - 1;
@@ -226,7 +253,7 @@ pub fn plan_cost(bytes: &[u8]) {
     let mut bits = answers.iter().flat_map(|byte| (0..8).map(move |bit| byte >> bit & 1 == 0));
     let mut log = Vec::new();
     let mut dearest = 0;
-    for _ in 0..1000 {
+    for _ in 0..moves(robots) {
         let Intent::Go(plan) = chain.plan(&log).expect("messages of the chain") else { break };
         dearest = dearest.max(chain.looked_at());
         assert!(dearest < 100 * robots as u32, "{robots} robots: a plan looked at {dearest} candidates");
@@ -239,36 +266,48 @@ pub fn plan_cost(bytes: &[u8]) {
     }
 }
 
+/// The hunt of the target: two robots are the smallest team, and the whole hunt takes less than reading a file.
+static HUNT: LazyLock<(Bounds, Found)> = LazyLock::new(|| {
+    let bounds = hunt::bounds(RuleName::Published, 2, 1, None).expect("two robots fit");
+    let whole = search::search(&bounds, &mut search::unwatched).expect("two robots fit");
+    (bounds, whole)
+});
+
 /// Any bytes as a hunt that was kept in a file, also with a checksum that fits them: it is refused, or goes on to an end.
 /// A real one, left anywhere, with some of its bytes changed: it is refused, or goes on to the end of one that was
-/// never left.
+/// never left. The first byte says which of the three.
 pub fn kept_hunt(bytes: &[u8]) {
-    let bounds = hunt::bounds(RuleName::Published, 3, 2, None).expect("three robots fit");
-    hunt_on(&bounds, bytes);
-    let lines: Vec<&[u8]> = bytes.split_inclusive(|&byte| byte == b'\n').take(2).collect();
-    let mut sealed = lines.concat();
-    let crc32 = crc32fast::hash(&sealed);
-    sealed.extend_from_slice(format!("{{\"crc32\":{crc32}}}\n").as_bytes());
-    hunt_on(&bounds, &sealed);
-
-    let numbers = numbers(bytes);
-    let mut source = Tape(&numbers);
-    let mut number = |below: usize| (256 * source.pick(256) + source.pick(256)) as usize % below;
-    let cut = Bounds { budget_moves: Some(number(5_000) as u64), ..bounds.clone() };
-    let mut search = Search::new(&cut).expect("three robots fit");
-    while search.wave() {}
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = folder.path().join("hunt");
-    Saved::new(&file, SchemeName::Chain, RuleName::Published, &bounds)
-        .write(&search)
-        .expect("it can be written");
-    let mut kept = fs::read(&file).expect("a kept hunt");
-    for _ in 0..number(4) {
-        let place = number(kept.len());
-        kept[place] = number(256) as u8;
+    let Some((&which, bytes)) = bytes.split_first() else { return };
+    let (bounds, whole) = &*HUNT;
+    match which % 3 {
+        0 => drop(hunt_on(bounds, bytes)),
+        1 => {
+            let lines: Vec<&[u8]> = bytes.split_inclusive(|&byte| byte == b'\n').take(2).collect();
+            let mut sealed = lines.concat();
+            let crc32 = crc32fast::hash(&sealed);
+            sealed.extend_from_slice(format!("{{\"crc32\":{crc32}}}\n").as_bytes());
+            hunt_on(bounds, &sealed);
+        }
+        _ => {
+            let numbers = numbers(bytes);
+            let mut source = Tape(&numbers);
+            let mut number = |below: usize| (256 * source.pick(256) + source.pick(256)) as usize % below;
+            let cut = Bounds { budget_moves: Some(number(80) as u64), ..bounds.clone() };
+            let mut search = Search::new(&cut).expect("two robots fit");
+            while search.wave() {}
+            let folder = tempfile::tempdir().expect("a folder");
+            let file = folder.path().join("hunt");
+            Saved::new(&file, SchemeName::Chain, RuleName::Published, bounds)
+                .write(&search)
+                .expect("it can be written");
+            let mut kept = fs::read(&file).expect("a kept hunt");
+            for _ in 0..number(4) {
+                let place = number(kept.len());
+                kept[place] = number(256) as u8;
+            }
+            assert!(hunt_on(bounds, &kept).is_none_or(|found| found == *whole), "it goes another way");
+        }
     }
-    let whole = search::search(&bounds, &mut search::unwatched).expect("three robots fit");
-    assert!(hunt_on(&bounds, &kept).is_none_or(|found| found == whole), "it goes another way");
 }
 
 /// What a hunt finds that goes on from a file with these bytes.

@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 /// A number of things, by the word for one of them: `1 wall`, `2 walls`, `3 topologies`.
-pub fn counted<N: Display + PartialEq + From<u8>>(count: N, one: &str) -> String {
+pub fn counted<N: Copy + Display + PartialEq + From<u8>>(count: N, one: &str) -> String {
     if count == N::from(1) {
         return format!("{count} {one}");
     }
