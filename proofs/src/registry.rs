@@ -784,12 +784,18 @@ pub static CLAUSES: [Clause; 45] = [
                 Verdict::Holds,
                 &[
                     mutant("no renewal", Subject::rescuing(rescue::Rule::REPAIRED.without(Renewal))),
-                    mutant(
-                        "late MOVEs unanswered",
-                        Subject::rescuing(rescue::Rule::REPAIRED.without(AnswersAgain).without(Repetition)),
-                    ),
                     mutant("no epoch", NO_EPOCH),
                 ],
+            ),
+            rescued(
+                Subject::REPAIRED,
+                Demand::IsServed,
+                ONE_AND_TWO,
+                Verdict::Holds,
+                &[mutant(
+                    "late MOVEs unanswered",
+                    Subject::rescuing(rescue::Rule::REPAIRED.without(AnswersAgain).without(Repetition)),
+                )],
             ),
             rescued(Subject::REPAIRED, Demand::IsServed, TWO, Verdict::Holds, &[]),
             rescued(Subject::REPAIRED, Demand::IsServed, TWO_LONGER, Verdict::Holds, &[]),
