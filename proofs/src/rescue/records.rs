@@ -2,7 +2,7 @@
 //! what follows from the list of them. Repetitions and losses are orders, too.
 
 use tautline_kernel::broadcast::NodeId;
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::{Source, one_of};
 use tautline_kernel::rescue::{
     Call, Downward, Epoch, Hop, Notice, Relay, Resb, Robot, RobotId, Served, Upward, Word,
 };
@@ -55,7 +55,7 @@ pub fn records(subject: &Subject, source: &mut dyn Source) -> Outcome {
     let mut situation = "one call";
     for _ in 0..MESSAGES {
         let (call, hops) = (call(source), source.pick(3) as u16);
-        let notice = Notice { call, hops, sender: SENDERS[source.flip() as usize] };
+        let notice = Notice { call, hops, sender: one_of(source, &SENDERS) };
         let is_other = |known: &Notice| known.call != call;
         if heard.iter().any(is_other) {
             situation = "several calls";
