@@ -79,7 +79,9 @@ impl World<'_> {
         match sent {
             Sent::Notice(_) => self.call(wfr, now_ns),
             Sent::Nothing | Sent::One(_) | Sent::All(_) => {
-                told.into_iter().for_each(|resb| self.send_down(node, resb, now_ns));
+                for resb in told {
+                    self.send_down(node, resb, now_ns);
+                }
             }
         }
         if choice(after.phase()) != choice(before.phase())
