@@ -60,6 +60,25 @@ pub enum Sabotage {
     LocalisesBadly,
     /// k = ∞ is taken for k = 1.
     FiniteForEndless,
+    /// A message of a rescue is misread.
+    Misreads(Misread),
+}
+
+/// How a message of a rescue is misread where it arrives.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Misread {
+    /// A path node takes all robots for one.
+    OneRobot,
+    /// A path node takes all calls of a WFR for one.
+    OneCall,
+    /// A robot takes any node nearer to its WFR for one that is one hop nearer.
+    AnyNearer,
+    /// A robot takes any node for the one that it has asked.
+    AnyNode,
+    /// A robot takes the tree of any WFR for that of its own.
+    AnyTree,
+    /// A robot takes a node for its own parent.
+    NoParent,
 }
 
 impl Sabotage {
@@ -76,7 +95,8 @@ impl Sabotage {
             | Self::ActsAtOnce
             | Self::CountsNothing
             | Self::LocalisesBadly
-            | Self::FiniteForEndless => byte,
+            | Self::FiniteForEndless
+            | Self::Misreads(_) => byte,
         }
     }
 }

@@ -10,6 +10,7 @@ pub mod crowd;
 pub mod decide;
 pub mod engine;
 pub mod frontier;
+pub mod homing;
 pub mod invariant;
 pub mod judge;
 pub mod links;

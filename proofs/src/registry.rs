@@ -12,16 +12,16 @@ use tautline_kernel::lattice::Circle;
 use tautline_kernel::rescue;
 use tautline_kernel::rescue::Condition::{
     AnswersAgain, ChoiceStands, Consent, Epochs, LeastIdentity, NearestCall, NearestRobot, Renewal,
-    Repetition, Window,
+    Repetition, StillAsks, Window,
 };
 
 use crate::bricks::Floors;
-use crate::clause::{Body, Check, Clause, Method, Mutant, Range, Sabotage, Subject, Verdict};
+use crate::clause::{Body, Check, Clause, Method, Misread, Mutant, Range, Sabotage, Subject, Verdict};
 use crate::invariant::Invariant;
 use crate::notice::Networks;
-use crate::rescue::{Demand, Faults, Leases, Lossy, Setting};
+use crate::rescue::{self as rescues, Demand, Faults, Leases, Lossy, Setting};
 use crate::run::Breach;
-use crate::{crowd, frontier, marking, notice, optimum, pair, small, three, walk, whole};
+use crate::{crowd, frontier, homing, marking, notice, optimum, pair, small, three, walk, whole};
 
 /// A mutant.
 const fn mutant(name: &'static str, subject: Subject) -> Mutant {
@@ -241,7 +241,7 @@ const FOUR_FEWER_WALLS: (usize, u32) = (4, 3);
 const THREE_ROBOTS: (usize, u32) = (3, 5);
 
 /// Every clause, in the order of `SPEC.md`.
-pub static CLAUSES: [Clause; 38] = [
+pub static CLAUSES: [Clause; 45] = [
     Clause {
         id: "LATTICE-1",
         sentence: "The environments derived from the radii MUST be the sets that the paper draws: E_N the cell and \
@@ -758,8 +758,7 @@ pub static CLAUSES: [Clause; 38] = [
     },
     Clause {
         id: "MRC-4",
-        sentence: "A WFR MUST count on a robot only if the robot has taken the lease of its call, and be rescued only \
-                   by one that has taken a lease of it.",
+        sentence: "A WFR MUST count on a robot only if the robot has taken the lease of its call.",
         checks: &[
             rescued(Subject::PUBLISHED, Demand::CountsOnConsent, TWO_AND_ONE, Verdict::Refuted, &[]),
             rescued(
@@ -781,17 +780,24 @@ pub static CLAUSES: [Clause; 38] = [
             rescued(
                 Subject::REPAIRED,
                 Demand::IsServed,
-                TWO,
+                TWO_AND_ONE,
                 Verdict::Holds,
                 &[
                     mutant("no renewal", Subject::rescuing(rescue::Rule::REPAIRED.without(Renewal))),
-                    mutant(
-                        "late MOVEs unanswered",
-                        Subject::rescuing(rescue::Rule::REPAIRED.without(AnswersAgain).without(Repetition)),
-                    ),
                     mutant("no epoch", NO_EPOCH),
                 ],
             ),
+            rescued(
+                Subject::REPAIRED,
+                Demand::IsServed,
+                ONE_AND_TWO,
+                Verdict::Holds,
+                &[mutant(
+                    "late MOVEs unanswered",
+                    Subject::rescuing(rescue::Rule::REPAIRED.without(AnswersAgain).without(Repetition)),
+                )],
+            ),
+            rescued(Subject::REPAIRED, Demand::IsServed, TWO, Verdict::Holds, &[]),
             rescued(Subject::REPAIRED, Demand::IsServed, TWO_LONGER, Verdict::Holds, &[]),
             rescued(Subject::REPAIRED, Demand::IsServed, THREE_AND_TWO, Verdict::Holds, &[]),
         ],
@@ -814,7 +820,8 @@ pub static CLAUSES: [Clause; 38] = [
     },
     Clause {
         id: "MRC-7",
-        sentence: "A free robot MUST ask for the nearest of the calls that it has heard and whose SBit is clear.",
+        sentence: "A free robot MUST ask for the nearest of the calls that it has heard and whose SBit is clear, until it is \
+                   set.",
         checks: &[
             rescued(
                 Subject::PUBLISHED,
@@ -853,7 +860,139 @@ pub static CLAUSES: [Clause; 38] = [
             rescued(Subject::REPAIRED, Demand::AsksNearest, THREE_AND_TWO, Verdict::Holds, &[]),
         ],
     },
+    Clause {
+        id: "MRC-8",
+        sentence: "A robot MUST take the lease of a call only when it is told, while it asks for that call, that it is \
+                   chosen.",
+        checks: &[
+            rescued(Subject::PUBLISHED, Demand::TakesWhatItAsksFor, TWO_AND_ONE, Verdict::Refuted, &[]),
+            rescued(
+                Subject::REPAIRED,
+                Demand::TakesWhatItAsksFor,
+                TWO,
+                Verdict::Holds,
+                &[
+                    mutant(
+                        "it no longer asks, and accepts",
+                        Subject::rescuing(rescue::Rule::REPAIRED.without(StillAsks)),
+                    ),
+                    mutant("no consent", NO_CONSENT),
+                ],
+            ),
+            rescued(Subject::REPAIRED, Demand::TakesWhatItAsksFor, TWO_LONGER, Verdict::Holds, &[]),
+            rescued(Subject::REPAIRED, Demand::TakesWhatItAsksFor, THREE_AND_TWO, Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-9",
+        sentence: "A WFR MUST tell its choice to every robot whose MOVE of its call it has received, and to no other.",
+        checks: &[
+            rescued(Subject::PUBLISHED, Demand::TellsWhoAsked, TWO_AND_ONE, Verdict::Refuted, &[]),
+            rescued(
+                Subject::REPAIRED,
+                Demand::TellsWhoAsked,
+                TWO,
+                Verdict::Holds,
+                &[mutant(
+                    "late MOVEs unanswered",
+                    Subject::rescuing(rescue::Rule::REPAIRED.without(AnswersAgain)),
+                )],
+            ),
+            rescued(Subject::REPAIRED, Demand::TellsWhoAsked, TWO_LONGER, Verdict::Holds, &[]),
+            rescued(Subject::REPAIRED, Demand::TellsWhoAsked, THREE_AND_TWO, Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-10",
+        sentence: "Of each WFR a robot MUST record the newest call that it has heard, one hop more than the fewest under \
+                   it and the first node that told it so, and bid by that record.",
+        checks: &[
+            Check { subject: Subject::PUBLISHED, expected: Verdict::Refuted, mutants: &[], ..RECORDS },
+            RECORDS,
+        ],
+    },
+    Clause {
+        id: "MRC-11",
+        sentence: "A path node MUST send a robot's message on to its own parent, and a RESB of the robot's newest call to \
+                   whom the robot's latest message of it came from.",
+        checks: &[WAYS_BACK],
+    },
+    Clause {
+        id: "MRC-12",
+        sentence: "A robot MUST set the SBit of a call when it is told whom the WFR has chosen or has asked in vain, and \
+                   keep it until it hears a newer call.",
+        checks: &[SERVED],
+    },
+    Clause {
+        id: "TAN-1",
+        sentence: "A robot MUST follow only the signal of the node that it has asked, one hop nearer than itself in the \
+                   tree of its WFR.",
+        checks: &[FOLLOWS],
+    },
+    Clause {
+        id: "TAN-2",
+        sentence: "A robot that has come to a node MUST have arrived if the node is its WFR, and ask the node's parent \
+                   next if it is not.",
+        checks: &[GOES_ON],
+    },
 ];
+
+/// A step of a rescue, whatever one machine hears.
+const fn heard(
+    body: Body,
+    range: Range,
+    covers: &'static [&'static str],
+    mutants: &'static [Mutant],
+) -> Check {
+    let method = Method::Exhaustive { body, range, covers };
+    Check { subject: Subject::REPAIRED, method, expected: Verdict::Holds, mutants }
+}
+
+const fn misreads(misread: Misread) -> Subject {
+    Subject::sabotaged(Sabotage::Misreads(misread))
+}
+
+const RECORDS: Check = heard(
+    rescues::records,
+    rescues::notices,
+    &["one call", "several calls"],
+    &[mutant("no epoch", NO_EPOCH)],
+);
+
+const SERVED: Check = heard(
+    rescues::served,
+    rescues::answers,
+    &["asked in vain", "no SBit", "told of a choice"],
+    &[mutant("no epoch", NO_EPOCH)],
+);
+
+const WAYS_BACK: Check = heard(
+    rescues::ways_back,
+    rescues::messages,
+    &["a way back", "no way back"],
+    &[
+        mutant("all robots are one", misreads(Misread::OneRobot)),
+        mutant("all calls are one", misreads(Misread::OneCall)),
+    ],
+);
+
+const FOLLOWS: Check = heard(
+    homing::follows,
+    homing::signals,
+    &["a signal followed", "a signal ignored"],
+    &[
+        mutant("any nearer node", misreads(Misread::AnyNearer)),
+        mutant("any node", misreads(Misread::AnyNode)),
+        mutant("any tree", misreads(Misread::AnyTree)),
+    ],
+);
+
+const GOES_ON: Check = heard(
+    homing::goes_on,
+    homing::signals,
+    &["at a node", "at the WFR", "no signal followed", "the signal lost"],
+    &[mutant("a node is its own parent", misreads(Misread::NoParent))],
+);
 
 const REDECIDE: Subject = Subject::rescuing(rescue::Rule::REPAIRED.without(ChoiceStands));
 const FIRST_OF_EQUALS: Subject = Subject::rescuing(rescue::Rule::REPAIRED.without(LeastIdentity));
@@ -994,6 +1133,13 @@ mod tests {
         assert!(!broken(&check.subject), "{}", check.method.bound());
         for mutant in check.mutants {
             assert!(broken(&mutant.subject), "{} survives", mutant.name);
+        }
+    }
+
+    #[test]
+    fn whatever_one_machine_hears_the_clauses_hold_and_their_mutants_are_rejected() {
+        for check in [&RECORDS, &SERVED, &WAYS_BACK, &FOLLOWS, &GOES_ON] {
+            decides(check);
         }
     }
 

@@ -2,12 +2,15 @@
 //! go wrong within a [`Setting`]. What is searched for all states that can be reached is in [`space`]; a run is drawn
 //! by [`chart`].
 //!
-//! A message takes any time and overtakes others. A timer runs longer than any message or robot is on its way: it goes
-//! off when nothing else is left to happen, or earlier, which is one of the [`Faults`]. Epochs are only compared: two
-//! states that differ by a renumbering that keeps their order are one, and so the states are finitely many.
+//! A message takes any time and overtakes others. A timer runs longer than what it waits for: it goes off when none of
+//! that is on its way, whatever goes on elsewhere, or earlier, which is one of the [`Faults`]. Epochs are only compared:
+//! two states that differ by a renumbering that keeps their order are one, and so the states are finitely many.
 
 pub mod chart;
+mod records;
 pub mod space;
+
+pub use records::{answers, messages, notices, records, served, ways_back};
 
 use std::hash::{Hash, Hasher};
 
@@ -31,7 +34,7 @@ pub struct Faults {
     pub losses: u8,
     /// Messages that arrive once more.
     pub duplicates: u8,
-    /// Timers that go off while a message or a robot is on its way: a delay beyond what the timers allow for.
+    /// Timers that go off while what they wait for is on its way: a delay beyond what the timers allow for.
     pub delays: u8,
     /// Robots that fail.
     pub robots: u8,
@@ -149,7 +152,7 @@ pub enum Action {
     },
 }
 
-/// What the clauses MRC-1 to MRC-7 demand.
+/// What the clauses MRC-1 to MRC-9 demand of a run.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Demand {
     /// MRC-1.
@@ -166,11 +169,15 @@ pub enum Demand {
     AsksAnew,
     /// MRC-7.
     AsksNearest,
+    /// MRC-8.
+    TakesWhatItAsksFor,
+    /// MRC-9.
+    TellsWhoAsked,
 }
 
 impl Demand {
     /// Every demand.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::OneRobotForACall,
         Self::OneCallForARobot,
         Self::BestOfTheWindow,
@@ -178,6 +185,8 @@ impl Demand {
         Self::IsServed,
         Self::AsksAnew,
         Self::AsksNearest,
+        Self::TakesWhatItAsksFor,
+        Self::TellsWhoAsked,
     ];
 
     /// The id of its clause.
@@ -190,6 +199,8 @@ impl Demand {
             Self::IsServed => "MRC-5",
             Self::AsksAnew => "MRC-6",
             Self::AsksNearest => "MRC-7",
+            Self::TakesWhatItAsksFor => "MRC-8",
+            Self::TellsWhoAsked => "MRC-9",
         }
     }
 
@@ -204,7 +215,11 @@ impl Demand {
             Self::CountsOnConsent => "a WFR counts on a robot that has not taken its lease",
             Self::IsServed => "a WFR waits for ever, and a robot lives",
             Self::AsksAnew => "a robot has heard a new call, and its SBit is set",
-            Self::AsksNearest => "a free robot has not asked for the nearest call whose SBit is clear",
+            Self::AsksNearest => "a robot does not ask for the nearest call whose SBit is clear",
+            Self::TakesWhatItAsksFor => "a robot has taken the lease of a call for which it did not ask",
+            Self::TellsWhoAsked => {
+                "a WFR has not told its choice to those that have sent MOVE, and to them alone"
+            }
         }
     }
 }
@@ -212,16 +227,23 @@ impl Demand {
 /// What an observer notes down beside the machines' own states, to see whether a demand is broken.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 struct Notes {
-    /// The best MOVE of each WFR's latest call that arrived while its window was open.
+    /// The best MOVE of each WFR's latest call that arrived while its window was open, by the hops that it is away.
     best: [Option<Bid>; WFRS],
+    /// The robots, a bit for each, whose MOVE of each WFR's latest call arrived while its window was open.
+    heard: [u8; WFRS],
     /// The WFRs whose window is open.
     open: [bool; WFRS],
     /// The latest call of each WFR whose lease each robot has taken.
     taken: [[Option<Epoch>; WFRS]; ROBOTS],
-    /// Whether a robot has heard a new call and kept its SBit.
-    kept: bool,
-    /// Whether a free robot has asked for another call than the nearest, or for none.
-    strayed: bool,
+    /// The demands, a bit for each, that something which happened has broken.
+    broken: u16,
+}
+
+impl Notes {
+    /// `demand` is not met.
+    fn tell(&mut self, demand: Demand) {
+        self.broken |= 1 << demand as u16;
+    }
 }
 
 /// Robots, WFRs and what is between them.
@@ -399,7 +421,7 @@ impl State {
             }
         }
         for robot in robots.filter(|&robot| !self.failed[robot]) {
-            if self.can_arrive(robot) {
+            if self.comes_for(robot).is_some() {
                 actions.push(Action::Arrive(robot));
             }
             if self.can_lapse(setting, robot) {
@@ -442,26 +464,36 @@ impl State {
         }
     }
 
-    /// Whether a timer that runs may go off without a fault: no message and no robot is on its way, and the window is
-    /// closed for which a robot waits.
+    /// Whether a timer that runs may go off without a fault: what it waits for is no longer on its way. A WFR waits for
+    /// its messages and for robots that come to it; a robot for the messages between it and the WFR that it asks, and
+    /// until the window of that call is closed.
     fn is_due(&self, setting: &Setting, actor: Actor) -> bool {
-        let is_window_open = match actor {
-            Actor::Wfr(_) => false,
+        match actor {
             Actor::Robot(robot) => self.robots[robot].timer().is_some_and(|timer| {
-                let wfr = &self.wfrs[place(timer.call.wfr)];
-                wfr.timer() == Some(WfrTimer::Window(timer.call.epoch))
+                let Call { wfr, epoch } = timer.call;
+                let is_between =
+                    |message: &Message| (message.robot(), message.call().wfr) == (robot_id(robot), wfr);
+                let is_window_open = self.wfrs[place(wfr)].timer() == Some(WfrTimer::Window(epoch));
+                !is_window_open && !self.network.iter().any(is_between)
             }),
-        };
-        let is_calm = self.network.is_empty() && !(0..setting.robots).any(|robot| self.can_arrive(robot));
-        is_calm && !is_window_open
+            Actor::Wfr(wfr) => {
+                let is_of_wfr = |call: Call| call.wfr == node(wfr);
+                let comes = |robot| self.comes_for(robot).is_some_and(is_of_wfr);
+                let is_on_its_way = |message: &Message| is_of_wfr(message.call());
+                !self.network.iter().any(is_on_its_way) && !(0..setting.robots).any(comes)
+            }
+        }
     }
 
-    fn can_arrive(&self, robot: usize) -> bool {
+    /// The call for which a robot is on its way, if it finds it.
+    fn comes_for(&self, robot: usize) -> Option<Call> {
         match self.robots[robot].task() {
-            Task::Leased { call } => {
-                !self.failed[robot] && self.cut[robot][place(call.wfr)] != Some(call.epoch)
+            Task::Leased { call }
+                if !self.failed[robot] && self.cut[robot][place(call.wfr)] != Some(call.epoch) =>
+            {
+                Some(call)
             }
-            Task::Free | Task::Asking { .. } => false,
+            Task::Free | Task::Asking { .. } | Task::Leased { .. } => None,
         }
     }
 
@@ -482,7 +514,7 @@ impl State {
         match action {
             Action::Raise(wfr) => {
                 next.events_left -= 1;
-                next.turn_wfr(setting, wfr, Wfr::raise);
+                next.turn_wfr(setting, wfr, None, Wfr::raise);
             }
             Action::Deliver(at) => {
                 let message = next.network.remove(at);
@@ -548,21 +580,38 @@ impl State {
                 let is_new = known.is_none_or(|known| known < notice.call.epoch);
                 let is_served =
                     self.robots[robot].request(wfr).is_some_and(|request| request.served == Served::Yes);
-                self.notes.kept |= is_new && is_served;
+                if is_new && is_served {
+                    self.notes.tell(Demand::AsksAnew);
+                }
             }
             Message::Resb(resb) => {
-                self.turn_robot(usize::from(resb.robot.0), |robot| robot.receive(Downward::Resb(resb)));
+                let (robot, before) =
+                    (usize::from(resb.robot.0), self.robots[usize::from(resb.robot.0)].task());
+                self.turn_robot(robot, |robot| robot.receive(Downward::Resb(resb)));
+                let task = self.robots[robot].task();
+                let asked = |task: Task| match task {
+                    Task::Asking { call, .. } => Some(call),
+                    Task::Free | Task::Leased { .. } => None,
+                };
+                let takes = task != before && matches!(task, Task::Leased { .. });
+                let is_wanted = task == (Task::Leased { call: resb.call })
+                    && resb.chosen == Some(resb.robot)
+                    && asked(before) == Some(resb.call);
+                if takes && !is_wanted {
+                    self.notes.tell(Demand::TakesWhatItAsksFor);
+                }
             }
             Message::Up(upward) => {
-                let wfr = place(upward.call.wfr);
-                if let Word::Move { hops } = upward.word
-                    && self.notes.open[wfr]
-                    && upward.call == self.wfrs[wfr].call()
-                {
-                    let bids = self.notes.best[wfr].into_iter().chain([Bid { hops, robot: upward.robot }]);
+                let Upward { call, robot, word, .. } = upward;
+                let wfr = place(call.wfr);
+                let is_bid = matches!(word, Word::Move { .. }) && call == self.wfrs[wfr].call();
+                if is_bid && self.notes.open[wfr] {
+                    let hops = self.hops[usize::from(robot.0)][wfr];
+                    let bids = self.notes.best[wfr].into_iter().chain([Bid { hops, robot }]);
                     self.notes.best[wfr] = bids.min_by_key(|&Bid { hops, robot: RobotId(id) }| (hops, id));
+                    self.notes.heard[wfr] |= 1 << robot.0;
                 }
-                self.turn_wfr(setting, wfr, |wfr| wfr.receive(upward));
+                self.turn_wfr(setting, wfr, is_bid.then_some(robot), |wfr| wfr.receive(upward));
             }
         }
     }
@@ -576,7 +625,7 @@ impl State {
             }
             Actor::Wfr(wfr) => {
                 if let Some(timer) = self.wfrs[wfr].timer() {
-                    self.turn_wfr(setting, wfr, |wfr| wfr.expire(timer));
+                    self.turn_wfr(setting, wfr, None, |wfr| wfr.expire(timer));
                     let has_chosen = match self.wfrs[wfr].phase() {
                         Phase::Offered { .. } | Phase::Leased { .. } => true,
                         Phase::Idle | Phase::Collecting { .. } | Phase::Rescued { .. } => false,
@@ -594,27 +643,35 @@ impl State {
         let (next, sent) = turn(self.robots[robot]);
         self.robots[robot] = next;
         let rank = |call: Call| (self.hops[robot][place(call.wfr)], call.wfr.0);
-        let open = next.requests().filter(|request| request.served == Served::No);
-        let nearest = open.map(|request| request.call).min_by_key(|&call| rank(call));
-        self.notes.strayed |= match (before, next.task()) {
-            (Task::Asking { call: before, .. }, Task::Asking { call, .. }) if before == call => false,
+        let open = || next.requests().filter(|request| request.served == Served::No);
+        let nearest = open().map(|request| request.call).min_by_key(|&call| rank(call));
+        let has_strayed = match (before, next.task()) {
+            (Task::Asking { call: before, .. }, Task::Asking { call, .. }) if before == call => {
+                open().all(|request| request.call.wfr != call.wfr)
+            }
             (_, Task::Asking { call, .. }) => nearest != Some(call),
             (_, Task::Free) => nearest.is_some(),
             (_, Task::Leased { .. }) => false,
         };
+        if has_strayed {
+            self.notes.tell(Demand::AsksNearest);
+        }
         if let Task::Leased { call } = next.task() {
             self.notes.taken[robot][place(call.wfr)] = Some(call.epoch);
         }
         self.send(sent.map(Message::Up));
     }
 
+    /// `bidder` is the robot, if one has, whose MOVE of the present call has arrived.
     fn turn_wfr(
         &mut self,
         setting: &Setting,
         wfr: usize,
+        bidder: Option<RobotId>,
         turn: impl FnOnce(Wfr<ROBOTS>) -> (Wfr<ROBOTS>, Sent<ROBOTS>),
     ) {
-        let (next, sent) = turn(self.wfrs[wfr]);
+        let before = self.wfrs[wfr];
+        let (next, sent) = turn(before);
         self.wfrs[wfr] = next;
         let sent: Vec<Message> = match sent {
             Sent::Nothing => Vec::new(),
@@ -622,7 +679,7 @@ impl State {
             Sent::All(resbs) => resbs.into_iter().flatten().map(Message::Resb).collect(),
             Sent::Notice(notice) => {
                 self.notes.open[wfr] = true;
-                self.notes.best[wfr] = None;
+                (self.notes.best[wfr], self.notes.heard[wfr]) = (None, 0);
                 let to = |robot: usize| {
                     // The last sender on the way is one hop nearer to the WFR than the robot.
                     let hops = self.hops[robot][wfr] - 1;
@@ -631,7 +688,29 @@ impl State {
                 (0..setting.robots).map(to).collect()
             }
         };
+        self.judge_telling(wfr, (before.phase(), bidder), &sent);
         self.send(sent);
+    }
+
+    /// Looks whether a WFR has told its choice, to whom it is to tell it and to nobody else.
+    fn judge_telling(&mut self, wfr: usize, (before, bidder): (Phase, Option<RobotId>), sent: &[Message]) {
+        let choice = |phase: Phase| match phase {
+            Phase::Offered { choice, .. } | Phase::Leased { choice } => Some(choice.robot),
+            Phase::Idle | Phase::Collecting { .. } | Phase::Rescued { .. } => None,
+        };
+        let bit = |robot: Option<RobotId>| robot.map_or(0, |robot| 1 << robot.0);
+        let (call, phase, heard) = (self.wfrs[wfr].call(), self.wfrs[wfr].phase(), self.notes.heard[wfr]);
+        let chosen = choice(phase);
+        let has_decided = chosen.is_some() || matches!(phase, Phase::Rescued { .. });
+        let due = if choice(before) != chosen && chosen.is_some() { heard } else { 0 }
+            | if has_decided { bit(bidder) } else { 0 };
+        let may_be_told = heard | bit(bidder) | bit(chosen);
+        let resb = |message: &Message| if let Message::Resb(resb) = message { Some(*resb) } else { None };
+        let told = sent.iter().filter_map(resb).fold(0, |told, resb| told | bit(Some(resb.robot)));
+        let is_right = sent.iter().filter_map(resb).all(|resb| (resb.call, resb.chosen) == (call, chosen));
+        if due & !told != 0 || told & !may_be_told != 0 || !is_right {
+            self.notes.tell(Demand::TellsWhoAsked);
+        }
     }
 
     fn send(&mut self, messages: impl IntoIterator<Item = Message>) {
@@ -659,11 +738,15 @@ impl State {
     fn note(&mut self, setting: &Setting) {
         for wfr in 0..setting.wfrs {
             let call = self.wfrs[wfr].call();
-            if !setting.rule.has(Condition::Window) && self.network.is_empty() {
+            let is_of_wfr = |message: &Message| message.call().wfr == node(wfr);
+            if !setting.rule.has(Condition::Window) && !self.network.iter().any(is_of_wfr) {
                 self.notes.open[wfr] = false;
             }
             if !self.wfrs[wfr].is_waiting() {
                 (self.notes.open[wfr], self.notes.best[wfr]) = (false, None);
+            }
+            if !self.notes.open[wfr] {
+                self.notes.heard[wfr] = 0;
             }
             for robot in 0..setting.robots {
                 let task = match self.robots[robot].task() {
@@ -712,12 +795,15 @@ impl State {
                 let taken = |robot: RobotId| self.notes.taken[usize::from(robot.0)][wfr];
                 match self.wfrs[wfr].phase() {
                     Phase::Leased { choice } => taken(choice.robot) != Some(self.wfrs[wfr].call().epoch),
-                    Phase::Rescued { by } => taken(by).is_none(),
-                    Phase::Idle | Phase::Collecting { .. } | Phase::Offered { .. } => false,
+                    Phase::Idle
+                    | Phase::Collecting { .. }
+                    | Phase::Offered { .. }
+                    | Phase::Rescued { .. } => false,
                 }
             }),
-            Demand::AsksAnew => self.notes.kept,
-            Demand::AsksNearest => self.notes.strayed,
+            Demand::AsksAnew | Demand::AsksNearest | Demand::TakesWhatItAsksFor | Demand::TellsWhoAsked => {
+                self.notes.broken & 1 << demand as u16 != 0
+            }
             Demand::IsServed => false,
         }
     }
@@ -730,7 +816,7 @@ impl State {
     /// This state in bytes, epochs by their order among those of the same WFR: equal for states that differ in no other
     /// way.
     pub fn key(&self) -> Box<[u8]> {
-        let mut writer = Writer::default();
+        let mut writer = Writer { bytes: Vec::with_capacity(160), epochs: Vec::with_capacity(48) };
         self.write(&mut writer);
         writer.ranked()
     }
@@ -747,7 +833,7 @@ impl State {
             for wfr in 0..WFRS {
                 out.epoch(wfr, self.cut[robot][wfr]);
                 let current = self.wfrs[wfr].call().epoch;
-                out.byte(self.notes.taken[robot][wfr].map_or(0, |taken| 1 + u8::from(taken == current)));
+                out.byte(u8::from(self.notes.taken[robot][wfr] == Some(current)));
             }
             match machine.task() {
                 Task::Free => out.byte(0),
@@ -764,7 +850,7 @@ impl State {
         let bid = |bid: Option<Bid>| bid.map_or(0, |bid| 1 + bid.robot.0 as u8);
         for (wfr, machine) in self.wfrs.iter().enumerate() {
             out.call(machine.call());
-            out.bytes([u8::from(self.notes.open[wfr]), bid(self.notes.best[wfr])]);
+            out.bytes([u8::from(self.notes.open[wfr]), bid(self.notes.best[wfr]), self.notes.heard[wfr]]);
             out.byte(machine.asked().map(|robot| 1 << robot.0).sum());
             match machine.phase() {
                 Phase::Idle => out.byte(0),
@@ -775,17 +861,8 @@ impl State {
             }
         }
         let Faults { in_all, losses, duplicates, delays, robots, nodes } = self.left;
-        out.bytes([
-            in_all,
-            losses,
-            duplicates,
-            delays,
-            robots,
-            nodes,
-            self.events_left,
-            u8::from(self.notes.kept),
-            u8::from(self.notes.strayed),
-        ]);
+        out.bytes([in_all, losses, duplicates, delays, robots, nodes, self.events_left]);
+        out.bytes(self.notes.broken.to_be_bytes());
         for message in &self.network {
             let kind = match message {
                 Message::Notice(..) => 0,
@@ -815,7 +892,6 @@ impl Hash for State {
 }
 
 /// Bytes among which the epochs stay marked until all are known.
-#[derive(Default)]
 struct Writer {
     bytes: Vec<u8>,
     epochs: Vec<(usize, usize, Epoch)>,
@@ -844,16 +920,15 @@ impl Writer {
     }
 
     fn ranked(mut self) -> Box<[u8]> {
-        for wfr in 0..WFRS {
-            let mut known: Vec<Epoch> =
-                self.epochs.iter().filter(|&&(_, of, _)| of == wfr).map(|&(_, _, epoch)| epoch).collect();
-            known.sort_unstable();
-            known.dedup();
-            for &(at, of, epoch) in &self.epochs {
-                if of == wfr {
-                    self.bytes[at] = 1 + known.partition_point(|&other| other < epoch) as u8;
-                }
-            }
+        self.epochs.sort_unstable_by_key(|&(_, wfr, epoch)| (wfr, epoch));
+        let mut last = None;
+        for &(at, wfr, epoch) in &self.epochs {
+            let rank = match last {
+                Some((of, other, rank)) if of == wfr => rank + u8::from(other < epoch),
+                Some(_) | None => 1,
+            };
+            self.bytes[at] = rank;
+            last = Some((wfr, epoch, rank));
         }
         self.bytes.into_boxed_slice()
     }

@@ -15,8 +15,8 @@ use rustc_hash::FxHashMap;
 
 use crate::engine::cover;
 
-/// A set of at most eight things, one bit each.
-pub(crate) type Bits = u8;
+/// A set of at most sixteen things, one bit each.
+pub(crate) type Bits = u16;
 
 /// A system whose states are searched.
 pub(crate) trait System {

@@ -8,6 +8,7 @@ use std::str::FromStr;
 
 use clap::Args;
 use serde::Serialize;
+use tautline_proofs::rescue::Demand;
 use tautline_proofs::words::counted;
 
 use super::output::Output;
@@ -203,6 +204,8 @@ struct Rescued<'a> {
     setting: &'a Setting,
     /// The first and the last.
     seeds: [u64; 2],
+    /// The clauses that were looked at.
+    judged: [&'static str; Demand::ALL.len()],
     #[serde(flatten)]
     summary: &'a Summary,
     /// What happened, of one rescue alone.
@@ -292,11 +295,7 @@ pub(super) fn tell(
     if let Some(mut page) = files.page {
         let served = summary.assignments.served_once + summary.assignments.served_more_often;
         let broken: Vec<&str> = summary.violations.iter().map(|broken| broken.clause).collect();
-        let broken = if broken.is_empty() {
-            "no clause is broken".to_owned()
-        } else {
-            format!("{} broken", broken.join(", "))
-        };
+        let broken = if broken.is_empty() { none_broken() } else { format!("{} broken", broken.join(", ")) };
         let (events, what) = (summary.assignments.events, counted_as(setting));
         let outcome = format!("{served} of {events} {what} served; {broken}.");
         page.draw(view::rescue::page(&title, &outcome, report).map_err(Halt::from))?;
@@ -342,6 +341,7 @@ fn print(
         Format::Json => out.json(&Rescued {
             setting,
             seeds: [*seeds.start(), *seeds.end()],
+            judged: Demand::ALL.map(Demand::clause),
             summary,
             events: report.map(|report| &report.log[..]),
         })?,
@@ -454,9 +454,15 @@ fn table(setting: &Setting, summary: &Summary) -> String {
         );
     }
     if summary.violations.is_empty() {
-        text.push_str("no clause is broken\n");
+        let _ = writeln!(text, "{}", none_broken());
     }
     text
+}
+
+/// What is said where nothing is broken: of which clauses that was looked at.
+fn none_broken() -> String {
+    let [first, .., last] = Demand::ALL.map(Demand::clause);
+    format!("none of {first} to {last} is broken")
 }
 
 /// Of so many calls of one WFR, with nothing but calls between them, all are told.

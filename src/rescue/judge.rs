@@ -1,6 +1,7 @@
-//! What the clauses MRC-1 to MRC-6 demand, looked at after every turn of a run. Each clause is told once.
+//! What the clauses MRC-1 to MRC-9 demand, looked at after every turn of a run. Each clause is told once.
 
-use tautline_kernel::rescue::{Bid, Call, Epoch, Phase, Robot, RobotId, Served, Task, Wfr};
+use tautline_kernel::broadcast::NodeId;
+use tautline_kernel::rescue::{Bid, Call, Epoch, Phase, Resb, Robot, RobotId, Served, Task, Wfr};
 use tautline_proofs::rescue::Demand;
 
 use super::{MAX_ROBOTS, MAX_WFRS};
@@ -25,6 +26,8 @@ pub(super) struct Judge {
     /// The best MOVE of each WFR's latest call that arrived while its window was open.
     best: Vec<Option<Bid>>,
     is_open: Vec<bool>,
+    /// The robots whose MOVE of each WFR's latest call arrived while its window was open.
+    heard: Vec<Vec<RobotId>>,
     /// The latest epoch of each WFR whose lease each robot has taken, robot by robot.
     taken: Vec<Vec<Option<Epoch>>>,
     pub(super) violations: Vec<Violation>,
@@ -52,6 +55,7 @@ impl Judge {
             event: vec![0; wfrs],
             best: vec![None; wfrs],
             is_open: vec![false; wfrs],
+            heard: vec![vec![]; wfrs],
             taken: vec![vec![None; wfrs]; robots],
             violations: Vec::new(),
         }
@@ -72,6 +76,7 @@ impl Judge {
     /// A WFR calls.
     pub(super) fn calls(&mut self, wfr: usize) {
         (self.best[wfr], self.is_open[wfr]) = (None, true);
+        self.heard[wfr].clear();
     }
 
     /// A MOVE of the present call arrives.
@@ -80,6 +85,7 @@ impl Judge {
             // The least (MHC, MID), said here anew: the judge does not ask the kernel which bid is the better.
             let bids = self.best[wfr].into_iter().chain([bid]);
             self.best[wfr] = bids.min_by_key(|&Bid { hops, robot: RobotId(id) }| (hops, id));
+            self.heard[wfr].push(bid.robot);
         }
     }
 
@@ -96,9 +102,68 @@ impl Judge {
         }
     }
 
-    /// A robot takes a lease.
-    pub(super) fn takes(&mut self, robot: usize, wfr: usize, epoch: Epoch) {
-        self.taken[robot][wfr] = Some(epoch);
+    /// A robot has done a turn, upon a RESB if there is one. `place` finds a WFR.
+    pub(super) fn turns(
+        &mut self,
+        robot: usize,
+        (before, after): (Task, &Robot<MAX_WFRS>),
+        resb: Option<Resb>,
+        place: impl Fn(NodeId) -> Option<usize>,
+        at_ns: u64,
+    ) {
+        // The least (HC, SN), said here anew, like the least (MHC, MID).
+        let open = || after.requests().filter(|request| request.served == Served::No);
+        let nearest =
+            open().min_by_key(|request| (request.hops, request.call.wfr)).map(|request| request.call);
+        let is_asking_on = |call: Call| matches!(before, Task::Asking { call: asked, .. } if asked == call);
+        let (call, demand) = match after.task() {
+            Task::Free => (nearest, nearest.map(|_| Demand::AsksNearest)),
+            Task::Asking { call, .. } => {
+                let is_open = open().any(|request| request.call.wfr == call.wfr);
+                let is_right = is_asking_on(call) && is_open || nearest == Some(call);
+                (Some(call), (!is_right).then_some(Demand::AsksNearest))
+            }
+            Task::Leased { call } => {
+                if let Some(wfr) = place(call.wfr) {
+                    self.taken[robot][wfr] = Some(call.epoch);
+                }
+                let is_told = resb.is_some_and(|resb| resb.call == call && resb.chosen == Some(after.id()));
+                let is_right = after.task() == before || is_told && is_asking_on(call);
+                (Some(call), (!is_right).then_some(Demand::TakesWhatItAsksFor))
+            }
+        };
+        if let (Some(wfr), Some(demand)) = (call.and_then(|call| place(call.wfr)), demand) {
+            self.tell(demand, wfr, at_ns);
+        }
+    }
+
+    /// A WFR has done a turn, upon the MOVE of its present call by `bidder` if there is one, and has sent `told`.
+    pub(super) fn tells(
+        &mut self,
+        wfr: usize,
+        (before, after): (Phase, &Wfr<MAX_ROBOTS>),
+        bidder: Option<RobotId>,
+        told: &[Resb],
+        at_ns: u64,
+    ) {
+        let choice = |phase: Phase| match phase {
+            Phase::Offered { choice, .. } | Phase::Leased { choice } => Some(choice.robot),
+            Phase::Idle | Phase::Collecting { .. } | Phase::Rescued { .. } => None,
+        };
+        let chosen = choice(after.phase());
+        let has_decided = chosen.is_some() || matches!(after.phase(), Phase::Rescued { .. });
+        let heard: &[RobotId] =
+            if chosen.is_some() && chosen != choice(before) { &self.heard[wfr] } else { &[] };
+        let mut due = heard.iter().copied().chain(bidder.filter(|_| has_decided));
+        let is_told = |robot: RobotId| told.iter().any(|resb| resb.robot == robot);
+        let may_be_told = |robot: RobotId| {
+            self.heard[wfr].contains(&robot) || bidder == Some(robot) || chosen == Some(robot)
+        };
+        let is_right =
+            |resb: &Resb| (resb.call, resb.chosen) == (after.call(), chosen) && may_be_told(resb.robot);
+        if !due.all(is_told) || !told.iter().all(is_right) {
+            self.tell(Demand::TellsWhoAsked, wfr, at_ns);
+        }
     }
 
     /// Looks at all robots and WFRs.
@@ -129,8 +194,7 @@ impl Judge {
                 Phase::Leased { choice } => {
                     (self.is_best(wfr, choice), taken(choice.robot) == Some(machine.call().epoch))
                 }
-                Phase::Rescued { by } => (true, taken(by).is_some()),
-                Phase::Idle | Phase::Collecting { .. } => (true, true),
+                Phase::Idle | Phase::Collecting { .. } | Phase::Rescued { .. } => (true, true),
             };
             if !has_best {
                 self.tell(Demand::BestOfTheWindow, wfr, at_ns);
@@ -148,8 +212,7 @@ impl Judge {
 
 #[cfg(test)]
 mod tests {
-    use tautline_kernel::broadcast::NodeId;
-    use tautline_kernel::rescue::{Rule, Upward, WfrTimer, Word};
+    use tautline_kernel::rescue::{Condition, Downward, Notice, Rule, Upward, WfrTimer, Word};
 
     use super::*;
 
@@ -173,10 +236,77 @@ mod tests {
             judge.calls(number);
             judge.bids(number, Bid { hops: 1, robot: ROBOT });
             judge.closes(number);
-            judge.takes(0, number, wfr.call().epoch);
+            judge.taken[0][number] = Some(wfr.call().epoch);
         }
         judge.look(&[Seen { machine: &machine, has_failed }], &wfrs, 5);
         judge.violations
+    }
+
+    /// What is told of a robot under `rule` that learns that it is chosen when it has heard of another choice, and asks
+    /// another WFR.
+    fn told_of_a_robot(rule: Rule) -> Vec<(Demand, usize)> {
+        let mut judge = Judge::new(1, 2);
+        let call = |wfr: u32| Call { wfr: NodeId(wfr), epoch: Epoch::FIRST };
+        let notice =
+            |wfr: u32, hops: u16| Downward::Notice(Notice { call: call(wfr), hops, sender: NodeId(wfr) });
+        let resb = |wfr: u32, chosen: RobotId| Resb { call: call(wfr), robot: ROBOT, chosen: Some(chosen) };
+        let (other, mine) = (resb(0, RobotId(1)), resb(0, ROBOT));
+        let heard = [
+            (notice(0, 2), None),
+            (notice(1, 1), None),
+            (Downward::Resb(other), Some(other)),
+            (Downward::Resb(mine), Some(mine)),
+        ];
+        let mut robot = Robot::new(rule, ROBOT);
+        for (at_ns, (message, resb)) in (0..).zip(heard) {
+            let before = robot.task();
+            robot = robot.receive(message).0;
+            judge.turns(0, (before, &robot), resb, |wfr| Some(wfr.0 as usize), at_ns);
+        }
+        judge.violations.iter().map(|violation| (violation.demand, violation.wfr)).collect()
+    }
+
+    #[test]
+    fn a_robot_that_takes_what_it_does_not_ask_for_is_told() {
+        assert_eq!(told_of_a_robot(Rule::REPAIRED), []);
+        let late = Rule::REPAIRED.without(Condition::StillAsks);
+        assert_eq!(told_of_a_robot(late), [(Demand::TakesWhatItAsksFor, 0)]);
+    }
+
+    #[test]
+    fn a_robot_that_asks_for_another_than_the_nearest_is_told() {
+        let told = |rule: Rule| {
+            let call = |wfr: u32| Call { wfr: NodeId(wfr), epoch: Epoch::FIRST };
+            let notice = |wfr: u32, hops: u16| Notice { call: call(wfr), hops, sender: NodeId(wfr) };
+            let resb = Resb { call: call(2), robot: ROBOT, chosen: None };
+            let heard = [notice(2, 1), notice(0, 5), notice(1, 3)].map(Downward::Notice);
+            let (mut judge, mut robot) = (Judge::new(1, 3), Robot::new(rule, ROBOT));
+            for message in heard.into_iter().chain([Downward::Resb(resb)]) {
+                let before = robot.task();
+                robot = robot.receive(message).0;
+                judge.turns(0, (before, &robot), None, |wfr| Some(wfr.0 as usize), 0);
+            }
+            judge.violations.iter().map(|violation| violation.demand).collect::<Vec<_>>()
+        };
+        assert_eq!(told(Rule::REPAIRED), []);
+        assert_eq!(told(Rule::REPAIRED.without(Condition::NearestCall)), [Demand::AsksNearest]);
+    }
+
+    #[test]
+    fn a_wfr_that_leaves_a_robot_without_answer_or_answers_another_is_told() {
+        let wfr = leased(4);
+        let (rescued, call) = (wfr.reach(ROBOT), wfr.call());
+        let nobody = Resb { call, robot: RobotId(1), chosen: None };
+        let told = |bidder: Option<u16>, resbs: &[Resb]| {
+            let mut judge = Judge::new(2, 1);
+            judge.tells(0, (rescued.phase(), &rescued), bidder.map(RobotId), resbs, 0);
+            judge.violations.len()
+        };
+        assert_eq!(told(Some(1), &[nobody]), 0);
+        assert_eq!(told(None, &[]), 0);
+        assert_eq!(told(Some(1), &[]), 1, "it has asked");
+        assert_eq!(told(None, &[nobody]), 1, "it has not asked");
+        assert_eq!(told(Some(1), &[Resb { chosen: Some(RobotId(1)), ..nobody }]), 1, "nobody is chosen");
     }
 
     #[test]

@@ -261,17 +261,17 @@ impl<'a> World<'a> {
                     {
                         self.judge.closes(wfr);
                     }
-                    self.turn_wfr(wfr, now_ns, |machine| machine.expire(timer));
+                    self.turn_wfr(wfr, now_ns, None, |machine| machine.expire(timer));
                 }
             }
             (Duty::Robot(timer), Some(robot)) => {
-                self.turn_robot(robot, now_ns, |machine| machine.expire(timer));
+                self.turn_robot(robot, now_ns, None, |machine| machine.expire(timer));
             }
             (Duty::Lease(call, lease), Some(robot)) => {
                 let rover = &self.rovers[robot];
                 let is_there = rover.way.as_ref().is_some_and(|way| way.has_come);
                 if rover.leases == lease && !is_there {
-                    self.turn_robot(robot, now_ns, |machine| machine.lapse(call));
+                    self.turn_robot(robot, now_ns, None, |machine| machine.lapse(call));
                 }
             }
             (Duty::NoSignal(leg), Some(robot)) => {
@@ -294,7 +294,7 @@ impl<'a> World<'a> {
             }
             (Duty::Served(call), Some(robot)) => {
                 if self.rovers[robot].machine.task() == (Task::Leased { call }) {
-                    self.turn_robot(robot, now_ns, Robot::arrive);
+                    self.turn_robot(robot, now_ns, None, Robot::arrive);
                 }
             }
             (

@@ -1,5 +1,6 @@
-//! TAN (paper 003, 3.4): the robot asks its parent for a signal, turns its antenna once round, walks towards the
-//! strongest direction, and asks the next parent when it is there, with a hop count one less each time, until it is 0.
+//! TAN (paper 003, 3.4; clauses TAN-1 and TAN-2): the robot asks its parent for a signal, turns its antenna once round,
+//! walks towards the strongest direction, and asks the next parent when it is there, with a hop count one less each time,
+//! until it is 0.
 //!
 //! What the paper leaves open: a robot that hears nothing asks again; one that walks past the node, since a direction is
 //! off by up to 7.5°, or meets an obstacle, scans again. A parent may be at the very end of what its child hears, or

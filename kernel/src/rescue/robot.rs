@@ -182,13 +182,14 @@ impl<const CALLS: usize> Robot<CALLS> {
         }
         self.set_served(call.wfr);
         let has_consent = self.rule.has(Condition::Consent);
-        let (is_asking, is_leased) = match self.task {
-            Task::Free => (false, false),
-            Task::Asking { call: asked, .. } => (asked.wfr == call.wfr, false),
-            Task::Leased { call: held } => (false, held.wfr == call.wfr),
+        let (is_asking, is_leased, is_under_way) = match self.task {
+            Task::Free => (false, false, false),
+            Task::Asking { call: asked, .. } => (asked.wfr == call.wfr, false, false),
+            Task::Leased { call: held } => (false, held.wfr == call.wfr, true),
         };
         if chosen == Some(self.id) {
-            let takes = is_asking || !has_consent;
+            let takes_late = !is_under_way && !self.rule.has(Condition::StillAsks);
+            let takes = is_asking || takes_late || !has_consent;
             if takes {
                 self.task = Task::Leased { call };
             }

@@ -22,9 +22,11 @@ pub enum Condition {
     /// Repair: what belongs to another epoch is ignored. A call under a newer one is a new call: its SBit is clear, and
     /// whatever a robot had to do with the older one is over.
     Epochs,
-    /// Repair: the robot that is chosen accepts or, where it does something else by now, declines; the WFR counts on it
-    /// when it has accepted. One that has accepted heeds no other choice.
+    /// Repair: the robot that is chosen accepts or, on its way elsewhere, declines; the WFR counts on it when it has
+    /// accepted. One that has accepted heeds no other choice.
     Consent,
+    /// Repair: a robot that no longer asks for the call declines, too.
+    StillAsks,
     /// Repair: a window without a MOVE, a choice that is declined or not answered, and a lease that lapses make the WFR
     /// call again under a new epoch.
     Renewal,
@@ -35,7 +37,7 @@ pub enum Condition {
 
 impl Condition {
     /// Every condition.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::NearestCall,
         Self::NearestRobot,
         Self::LeastIdentity,
@@ -44,6 +46,7 @@ impl Condition {
         Self::AnswersAgain,
         Self::Epochs,
         Self::Consent,
+        Self::StillAsks,
         Self::Renewal,
         Self::Repetition,
     ];

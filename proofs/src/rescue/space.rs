@@ -1,8 +1,9 @@
 //! All states of a [`Setting`], fewest actions first, and in them the shortest run that breaks each demand. That a WFR is
 //! served in the end (MRC-5) is broken by a state in which nothing more is bound to happen, or by states in which it
-//! waits and that can go round for ever, no timer that runs being left out.
+//! waits and that can go round for ever, nothing being left out that is bound to happen: no timer that runs, no robot on
+//! its way, and no message between a robot and a WFR between whom there is one throughout.
 
-use super::{Action, Actor, Demand, ROBOTS, Setting, State, WFRS};
+use super::{Action, Actor, Demand, Message, ROBOTS, Setting, State, WFRS, place};
 use crate::states::{self, Bits, Run, Step, System};
 
 /// When to stop.
@@ -80,17 +81,41 @@ const fn bit(actor: Actor) -> Bits {
     }
 }
 
+/// The bit of the messages between a robot and a WFR.
+const fn between(message: Message) -> Bits {
+    let (robot, wfr) = (message.robot().0 as usize, place(message.call().wfr));
+    1 << (ROBOTS + WFRS + robot * WFRS + wfr)
+}
+
+/// The messages of which `action` lets one arrive.
+fn arriving(state: &State, action: Action) -> Bits {
+    match action {
+        Action::Deliver(at) => between(state.network()[at]),
+        Action::Raise(_)
+        | Action::Expire(_)
+        | Action::Arrive(_)
+        | Action::Lapse(_)
+        | Action::Lose(_)
+        | Action::Duplicate(_)
+        | Action::FailRobot(_)
+        | Action::FailNode { .. } => 0,
+    }
+}
+
 /// The actors of whom that is so.
 fn actors(is: impl Fn(Actor) -> bool) -> Bits {
     let all = (0..ROBOTS).map(Actor::Robot).chain((0..WFRS).map(Actor::Wfr));
     all.filter(|&actor| is(actor)).map(bit).sum()
 }
 
-/// Whether the timer of `actor` is another one after `action`.
+/// Whether `actor` is no longer before what it was before `action`: its timer, or the end of its way.
 fn has_turned(before: &State, action: Action, after: &State, actor: Actor) -> bool {
     action == Action::Expire(actor)
         || match actor {
-            Actor::Robot(robot) => before.robots[robot].timer() != after.robots[robot].timer(),
+            Actor::Robot(robot) => {
+                before.robots[robot].timer() != after.robots[robot].timer()
+                    || before.comes_for(robot) != after.comes_for(robot)
+            }
             Actor::Wfr(wfr) => before.wfrs[wfr].timer() != after.wfrs[wfr].timer(),
         }
 }
@@ -139,7 +164,7 @@ impl System for Space {
             let after = state.after(&self.setting, action);
             Step {
                 situation: "an action",
-                acting: actors(|actor| has_turned(state, action, &after, actor)),
+                acting: actors(|actor| has_turned(state, action, &after, actor)) | arriving(state, action),
                 is_bound: state.is_bound_to_happen(&self.setting, action),
                 breaks: Demand::ALL.into_iter().filter(|&demand| after.breaks(demand)).collect(),
                 state: after,
@@ -162,9 +187,13 @@ impl System for Space {
         (0..self.setting.wfrs).filter(waits).map(|wfr| 1 << wfr).sum()
     }
 
-    /// The actors whose timer runs.
+    /// The actors whose timer runs or who are on their way, and the messages on theirs.
     fn awake(&self, state: &State) -> Bits {
-        actors(|actor| state.timer_runs(actor))
+        let is_awake = |actor: Actor| match actor {
+            Actor::Robot(robot) => state.timer_runs(actor) || state.comes_for(robot).is_some(),
+            Actor::Wfr(_) => state.timer_runs(actor),
+        };
+        state.network().iter().fold(actors(is_awake), |awake, &message| awake | between(message))
     }
 
     /// That a WFR is not served is told by the end of a run, of which another may be shorter.

@@ -91,7 +91,8 @@ where
             | Sabotage::ActsAtOnce
             | Sabotage::CountsNothing
             | Sabotage::LocalisesBadly
-            | Sabotage::FiniteForEndless => {}
+            | Sabotage::FiniteForEndless
+            | Sabotage::Misreads(_) => {}
             Sabotage::BaseFollows => {
                 let forged = &mut forged_steps[..steps.len()];
                 forged.copy_from_slice(steps);

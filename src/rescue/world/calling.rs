@@ -3,7 +3,7 @@
 
 use tautline_kernel::homing::Stage as Leg;
 use tautline_kernel::rescue::{
-    Bid, Downward, Epoch, Hop, Notice, Phase, Robot, Sent, Task, Upward, Wfr, Word,
+    Bid, Downward, Epoch, Hop, Notice, Phase, Resb, Robot, RobotId, Sent, Task, Upward, Wfr, Word,
 };
 
 use super::{Duty, Happening, Message, World};
@@ -22,7 +22,7 @@ impl World<'_> {
                 let known = |rover: &Rover| rover.machine.request(notice.call.wfr).copied();
                 let before = known(&self.rovers[robot]).map(|request| request.call.epoch);
                 let place = self.log.len();
-                self.turn_robot(robot, now_ns, |machine| machine.receive(Downward::Notice(notice)));
+                self.turn_robot(robot, now_ns, None, |machine| machine.receive(Downward::Notice(notice)));
                 let Some(after) = known(&self.rovers[robot]) else { return };
                 if before.is_none_or(|epoch| epoch < notice.call.epoch) {
                     let Epoch(epoch) = notice.call.epoch;
@@ -35,7 +35,9 @@ impl World<'_> {
             }
             Message::Letter(letter) => match self.open(station, letter) {
                 Some(Content::Down(resb)) => {
-                    self.turn_robot(robot, now_ns, |machine| machine.receive(Downward::Resb(resb)));
+                    self.turn_robot(robot, now_ns, Some(resb), |machine| {
+                        machine.receive(Downward::Resb(resb))
+                    });
                 }
                 Some(Content::Up(_)) | None => {}
             },
@@ -55,10 +57,12 @@ impl World<'_> {
         }
     }
 
+    /// `bidder` is the robot, if one has, whose MOVE of the present call has arrived.
     pub(super) fn turn_wfr(
         &mut self,
         wfr: usize,
         now_ns: u64,
+        bidder: Option<RobotId>,
         turn: impl FnOnce(Wfr<MAX_ROBOTS>) -> (Wfr<MAX_ROBOTS>, Sent<MAX_ROBOTS>),
     ) {
         let (before, node) = (self.wfrs[wfr], self.plan.wfrs[wfr].node);
@@ -66,12 +70,18 @@ impl World<'_> {
         self.wfrs[wfr] = after;
         let (Epoch(epoch), hops) =
             (after.call().epoch, choice(after.phase()).map_or(0, |choice| choice.hops));
+        let told: Vec<Resb> = match sent {
+            Sent::Nothing | Sent::Notice(_) => Vec::new(),
+            Sent::One(resb) => vec![resb],
+            Sent::All(resbs) => resbs.into_iter().flatten().collect(),
+        };
+        self.judge.tells(wfr, (before.phase(), &after), bidder, &told, now_ns);
         match sent {
-            Sent::Nothing => {}
             Sent::Notice(_) => self.call(wfr, now_ns),
-            Sent::One(resb) => self.send_down(node, resb, now_ns),
-            Sent::All(resbs) => {
-                resbs.into_iter().flatten().for_each(|resb| self.send_down(node, resb, now_ns));
+            Sent::Nothing | Sent::One(_) | Sent::All(_) => {
+                for resb in told {
+                    self.send_down(node, resb, now_ns);
+                }
             }
         }
         if choice(after.phase()) != choice(before.phase())
@@ -117,7 +127,7 @@ impl World<'_> {
             self.tell(now_ns, Event::Recurs { wfr: Ordinal(wfr), event: Ordinal(event) });
         }
         self.judge.happens(wfr, event);
-        self.turn_wfr(wfr, now_ns, Wfr::raise);
+        self.turn_wfr(wfr, now_ns, None, Wfr::raise);
         let epoch = self.wfrs[wfr].call().epoch;
         self.happenings[wfr].push(Happening { at_ns: now_ns, epoch, spread: None, visits: 0 });
     }
@@ -132,15 +142,18 @@ impl World<'_> {
         });
     }
 
+    /// `resb` is what has arrived, if it is a RESB.
     pub(super) fn turn_robot(
         &mut self,
         robot: usize,
         now_ns: u64,
+        resb: Option<Resb>,
         turn: impl FnOnce(Robot<MAX_WFRS>) -> (Robot<MAX_WFRS>, Option<Upward>),
     ) {
         let before = self.rovers[robot].machine;
         let (after, sent) = turn(before);
         self.rovers[robot].machine = after;
+        self.judge.turns(robot, (before.task(), &after), resb, |wfr| self.plan.wfr(wfr), now_ns);
         let station = self.station(robot);
         if let Some(message) = sent {
             self.say(robot, message, now_ns);

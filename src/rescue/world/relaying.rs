@@ -51,12 +51,14 @@ impl World<'_> {
         let (known, onward) = known.up(message, from, parent);
         *relay = Some(Box::new(known));
         if is_goal {
+            let mut bidder = None;
             if let Word::Move { hops } = message.word
                 && message.call == self.wfrs[wfr].call()
             {
                 self.judge.bids(wfr, Bid { hops, robot: message.robot });
+                bidder = Some(message.robot);
             }
-            self.turn_wfr(wfr, now_ns, |machine| machine.receive(message));
+            self.turn_wfr(wfr, now_ns, bidder, |machine| machine.receive(message));
         } else if let Some(message) = onward {
             self.post(at, Hop::Node(message.parent), Content::Up(message), now_ns);
         }

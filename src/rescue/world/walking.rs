@@ -23,7 +23,6 @@ impl World<'_> {
         let (start, id) = (rover.at, rover.machine.id());
         let walker = Walker::new(self.plan.equipment, start, id, call.wfr, (parent, hops));
         self.rovers[robot].way = Some(Way { call, wfr, walker, leg: 0, passed: None, has_come: false });
-        self.judge.takes(robot, wfr, call.epoch);
         self.tell(
             now_ns,
             Event::SetsOut {
