@@ -340,10 +340,14 @@ fn a_layout_shown_is_a_layout_file() {
 fn clauses_are_decided_by_name() {
     let folder = folder();
     assert_snapshot!(printed(folder.path(), &["prove", "LATTICE-1", "chain-5"], 0), @r#"
-    clause     rule       engine      bound                                cases  verdict  mutants killed
-    LATTICE-1  published  exhaustive  81 offsets                           81     holds    3/3
-    CHAIN-5    published  search      all layouts, N = 4, at most 3 walls  25742  holds    -
-    CHAIN-5    repaired   search      all layouts, N = 4, at most 3 walls  25724  holds    1/1
+    clause     rule       engine      cases  verdict  mutants killed
+               bound
+    LATTICE-1  published  exhaustive     81  holds    3/3
+               81 offsets
+    CHAIN-5    published  search      25742  holds    -
+               all layouts, N = 4, at most 3 walls
+    CHAIN-5    repaired   search      25724  holds    1/1
+               all layouts, N = 4, at most 3 walls
 
     All 3 verdicts are the registered ones.
     "#);
@@ -855,7 +859,7 @@ fn what_is_wrong_with_a_stored_run_is_said_with_its_place() {
        │ ┬
        │ ╰── here
        │
-       │ Help: name a file that `tautline explore --trace`, `tautline rescue --trace`, `tautline hunt` or `tautline minimise` wrote
+       │ Help: name a file that `tautline explore --trace`, `tautline rescue --trace`, `tautline hunt`, `tautline minimise` or `tautline prove --out` wrote
     ───╯
     "#);
 }
