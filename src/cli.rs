@@ -2,6 +2,7 @@
 //! logs to stderr. A fault ends a command with code 2, an interruption with 3, a panic, which is a bug of ours,
 //! with 70. A file that cannot be stored is left out: the rest is given all the same, and the code is 2.
 
+mod evidence;
 mod explore;
 mod hunt;
 mod interrupt;

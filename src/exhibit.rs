@@ -1,32 +1,78 @@
-//! A run written down for the judge of counterexamples, who shares no code with what made the run.
+//! A run written down for the judges of counterexamples, who share no code with what made the run.
 
 use tautline_kernel::chain::Kind;
-use tautline_kernel::lattice::Cell;
+use tautline_kernel::lattice::{Cell, Edge};
+use tautline_proofs::course::{Course, Turn};
+use tautline_proofs::floor_judge;
 use tautline_proofs::judge::{Exhibit, Move, Place, Repairs};
 use tautline_proofs::run::{Breach, Frame};
 
 use crate::explore::{RuleName, Setup};
 
 /// The run of `setup` with these frames, said to break `clause`.
-pub fn exhibit(setup: &Setup, clause: Breach, frames: &[Frame]) -> Exhibit {
+pub fn exhibit(setup: &Setup, clause: &str, frames: &[Frame]) -> Exhibit {
     let layout = &setup.layout;
     Exhibit {
-        clause: clause.clause().to_owned(),
+        clause: clause.to_owned(),
         repairs: match setup.rule {
             RuleName::Published => Repairs::Without,
             RuleName::Repaired => Repairs::With,
         },
         width: layout.width().into(),
         height: layout.height().into(),
-        walls: layout
-            .walls()
-            .map(|wall| (place(wall.cell()), place(wall.cell().beyond(wall.side()))))
-            .collect(),
+        walls: layout.walls().map(sides).collect(),
         blocked: layout.cells().filter(|&cell| !layout.is_free(cell)).map(place).collect(),
         base: place(setup.base),
         robots: setup.robots.into(),
         moves: frames.iter().map(written_down).collect(),
     }
+}
+
+/// The turns of agents on a small floor, said to break `clause`.
+pub fn of_course(clause: &str, course: &Course) -> floor_judge::Exhibit {
+    let turn = |turn: &Turn| floor_judge::Turn {
+        agent: turn.agent,
+        to: place(turn.before.cells[turn.agent].after(turn.step)),
+        is_done: turn.is_done,
+    };
+    floor_judge::Exhibit {
+        clause: clause.to_owned(),
+        width: course.width.into(),
+        height: course.height.into(),
+        walls: course.walls.iter().copied().map(sides).collect(),
+        blocked: course.blocked.iter().copied().map(place).collect(),
+        starts: course.turns.first().map_or_else(Vec::new, |first| places(&first.before.cells)),
+        turns: course.turns.iter().map(turn).collect(),
+        round: course.round,
+    }
+}
+
+/// The run of the only agent of `setup` with these frames, which is done in the last one, said to break `clause`.
+pub fn of_agent(setup: &Setup, clause: Breach, frames: &[Frame]) -> floor_judge::Exhibit {
+    let layout = &setup.layout;
+    let turn = |(number, frame): (usize, &Frame)| floor_judge::Turn {
+        agent: 0,
+        to: frame.cells.first().copied().map_or((-1, -1), place),
+        is_done: number == frames.len(),
+    };
+    floor_judge::Exhibit {
+        clause: clause.clause().to_owned(),
+        width: layout.width().into(),
+        height: layout.height().into(),
+        walls: layout.walls().map(sides).collect(),
+        blocked: layout.cells().filter(|&cell| !layout.is_free(cell)).map(place).collect(),
+        starts: places(&setup.starts()),
+        turns: (1..).zip(frames).map(turn).collect(),
+        round: 0,
+    }
+}
+
+fn sides(wall: Edge) -> (Place, Place) {
+    (place(wall.cell()), place(wall.cell().beyond(wall.side())))
+}
+
+fn places(cells: &[Cell]) -> Vec<Place> {
+    cells.iter().copied().map(place).collect()
 }
 
 /// A team move of a chain as the judge reads it.

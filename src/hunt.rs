@@ -56,8 +56,20 @@ pub fn store(
     breach: Breach,
     replaceable: &Replaceable,
 ) -> Result<(Aside, Report), Halt> {
-    let aside = Aside::late(&path(folder, setup, breach), replaceable);
-    let mut writer = trace::Writer::new(aside, setup, Some(breach));
+    store_at(&path(folder, setup, breach), setup, breach, replaceable)
+}
+
+/// The same with another name.
+///
+/// # Errors
+/// [`Halt`] if the setup does not fit its scheme.
+pub fn store_at(
+    path: &Path,
+    setup: &Setup,
+    breach: Breach,
+    replaceable: &Replaceable,
+) -> Result<(Aside, Report), Halt> {
+    let mut writer = trace::Writer::new(Aside::late(path, replaceable), setup, Some(breach));
     let report = explore(setup, &mut |made| {
         writer.add(made);
         Ok(())

@@ -10,6 +10,7 @@ pub mod hunt;
 pub mod layout;
 pub mod minimise;
 pub mod radio;
+pub mod refutation;
 pub mod reproduce;
 pub mod rescue;
 pub mod trace;

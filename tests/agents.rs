@@ -186,8 +186,13 @@ fn of_turns_that_can_go_on_for_ever_only_those_are_drawn() {
             .zip([Mark::Explored, Mark::Explored, Mark::Unexplored, Mark::Visited])
             .collect(),
     };
-    let turn =
-        |agents, agent, side| Turn { before: scene(agents), agent, step: Step::Cross(side), unseen: vec![] };
+    let turn = |agents, agent, side| Turn {
+        before: scene(agents),
+        agent,
+        step: Step::Cross(side),
+        is_done: false,
+        unseen: vec![],
+    };
     let course = Course {
         width: 3,
         height: 2,

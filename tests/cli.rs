@@ -859,7 +859,7 @@ fn what_is_wrong_with_a_stored_run_is_said_with_its_place() {
        │ ┬
        │ ╰── here
        │
-       │ Help: name a file that `tautline explore --trace`, `tautline rescue --trace`, `tautline hunt` or `tautline minimise` wrote
+       │ Help: name a file that `tautline explore --trace`, `tautline rescue --trace`, `tautline hunt`, `tautline minimise` or `tautline prove --out` wrote
     ───╯
     "#);
 }

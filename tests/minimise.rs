@@ -166,7 +166,7 @@ fn check(found: &Minimal) {
     let report = report.expect("a run");
     let stopped = if *breach == Breach::Completeness { Stopped::Exhausted } else { Stopped::Violation };
     assert_eq!((report.stopped, report.steps), (stopped, after.steps));
-    assert_eq!(judge(&exhibit(setup, *breach, &frames)), Ok(()), "{setup:?}");
+    assert_eq!(judge(&exhibit(setup, breach.clause(), &frames)), Ok(()), "{setup:?}");
     let case = Case::of(setup);
     assert_eq!((case.robots, case.columns, case.rows), (after.robots, after.columns, after.rows));
     assert_eq!((case.blocked.len(), case.walls.len()), (after.blocked, after.walls));

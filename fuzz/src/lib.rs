@@ -200,7 +200,7 @@ pub fn judge(bytes: &[u8]) {
     });
     let Some(breach) = broken else { return };
     let setup = Setup::new(SchemeName::Chain, RuleName::Published, robots as u16, layout, base);
-    let mut exhibit = exhibit(&setup, breach, &frames);
+    let mut exhibit = exhibit(&setup, breach.clause(), &frames);
     assert_eq!(judge::judge(&exhibit), Ok(()));
     if let Some(wall) = exhibit.walls.iter().nth(change[0] as usize).copied() {
         exhibit.walls.remove(&wall);

@@ -8,7 +8,10 @@ use tautline_kernel::lattice::Cell;
 
 use crate::bricks::{Misses, Small, look};
 use crate::clause::{Sabotage, Subject};
-use crate::engine::{Tally, outcomes};
+use crate::course::Explored;
+use crate::decide::Evidence;
+use crate::engine::outcomes;
+use crate::evidence::{Played, Script, Unfit};
 use crate::plans::{Area, CELLS, Plan};
 use crate::states::{Bits, Step, System};
 
@@ -112,15 +115,29 @@ impl Series {
 }
 
 /// ANTS-1 on every small floor. The choices of a violation are as those of [`look`].
-pub(crate) fn explore(subject: &Subject) -> Tally {
-    let mut tally = Tally::default();
+pub(crate) fn explore(subject: &Subject) -> Explored {
+    let mut explored = Explored::default();
     for (number, series) in (0..).zip(SERIES) {
         let colonies = series.colonies(subject);
-        if look(&mut tally, number, &colonies, |colony| colony.starts(series.ants)).is_some() {
+        let starts = |colony: &Colony| colony.starts(series.ants);
+        if let Some((_, run)) = look(&mut explored.tally, number, &colonies, starts) {
+            explored.again = run.round().to_vec();
             break;
         }
     }
-    tally
+    explored
+}
+
+/// Makes the choices of a violation again.
+pub(crate) fn replay(subject: &Subject, mut script: Script<'_>) -> Result<Played, Unfit> {
+    let series = SERIES[script.choose(SERIES.len())?];
+    let colonies = series.colonies(subject);
+    let colony = &colonies[script.choose(colonies.len())?];
+    let mut starts = colony.starts(series.ants);
+    let number = script.choose(starts.len())?;
+    let choices = script.choices();
+    let (of, run) = script.play(colony, (number, starts.swap_remove(number)), |_| true)?;
+    Ok(Played { of, evidence: Evidence::Choices(choices.clone(), run.demand) })
 }
 
 /// What [`explore`] covers.

@@ -10,9 +10,11 @@ use tautline_kernel::lattice::{Cell, Edge, Side, Step};
 
 use crate::clause::{Sabotage, Subject};
 use crate::course::{Course, Explored, Scene, Turn};
+use crate::decide::Evidence;
 use crate::engine::{Tally, cover, outcomes};
+use crate::evidence::{Played, Script, Unfit};
 use crate::plans::{Area, CELLS, Plan};
-use crate::states::{self, Bits, Ending, Found, Run, System, search};
+use crate::states::{self, Bits, Found, Run, System, search};
 
 /// The sensors of a plan.
 pub(crate) struct Small<'a> {
@@ -285,15 +287,13 @@ impl Team {
     /// What happens in `run`, which begins in `start`.
     fn course(&self, start: State, run: &Run<&str>) -> Course {
         let mut state = start;
-        let round: &[u32] = match &run.ending {
-            Ending::There | Ending::Still => &[],
-            Ending::Round(round) => round,
-        };
+        let round = run.round();
         let mut turns = Vec::new();
         for &number in run.steps.iter().chain(round) {
             let Some(turned) = self.turns(&state).nth(number as usize) else { break };
             let Turned { agent, step, unseen, .. } = turned;
-            turns.push(Turn { before: self.scene(&state), agent, step, unseen });
+            let is_done = turned.state.bodies[agent].is_done;
+            turns.push(Turn { before: self.scene(&state), agent, step, is_done, unseen });
             state = turned.state;
         }
         let Plan { width, height, .. } = self.plan;
@@ -417,22 +417,20 @@ impl Series {
     /// What it is, `who` standing for its agents.
     fn words(self, who: &str) -> String {
         let Self { area, agents, max_misses, max_streak, turns, patience, reach: _ } = self;
-        let mut words = format!("{agents}{who} to {area}");
-        if max_misses > 0 {
-            words += &format!(", {max_misses} missed");
-        }
-        if patience > 0 {
-            words += &format!(", patience {patience}");
-        }
-        match turns {
-            Turns::Whole => {}
-            Turns::Overlapping => words += ", scans and writes in every order unless scans overlap",
-            Turns::Free => words += ", scans and writes in every order",
-        }
-        if let Some(most) = max_streak.filter(|_| agents > 1) {
-            words += &format!(", at most {most} acts in a row");
-        }
-        words
+        let turns = match turns {
+            Turns::Whole => None,
+            Turns::Overlapping => Some("scans and writes in every order unless scans overlap".to_owned()),
+            Turns::Free => Some("scans and writes in every order".to_owned()),
+        };
+        let streak = max_streak.filter(|_| agents > 1);
+        let words = [
+            Some(format!("{agents}{who} to {area}")),
+            (max_misses > 0).then(|| format!("{max_misses} missed")),
+            (patience > 0).then(|| format!("patience {patience}")),
+            turns,
+            streak.map(|most| format!("at most {most} acts in a row")),
+        ];
+        words.into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
 }
 
@@ -478,10 +476,24 @@ impl Floors {
             else {
                 continue;
             };
+            explored.again = run.round().to_vec();
             explored.course = team.starts(series.agents).nth(run.start).map(|start| team.course(start, &run));
             break;
         }
         explored
+    }
+
+    /// Makes the choices of a violation again.
+    pub(crate) fn replay(self, subject: &Subject, mut script: Script<'_>) -> Result<Played, Unfit> {
+        let series = self.series[script.choose(self.series.len())?];
+        let teams = series.teams(subject, self.demand);
+        let team = &teams[script.choose(teams.len())?];
+        let mut starts: Vec<State> = team.starts(series.agents).collect();
+        let number = script.choose(starts.len())?;
+        let (choices, start) = (script.choices(), starts.swap_remove(number));
+        let (of, run) = script.play(team, (number, start.clone()), |_| true)?;
+        let course = Box::new(team.course(start, &run));
+        Ok(Played { of, evidence: Evidence::Course(course, choices.clone(), run.demand) })
     }
 
     /// What it covers, every series by its name.
@@ -578,7 +590,7 @@ mod tests {
         for demand in [Demand::Connected, Demand::Ends] {
             const FAR: [Series; 1] = [Series { reach: u8::MAX, ..Series::new(Area::blocked(4, 3), 2) }];
             let floors = Floors { series: &FAR, demand };
-            let Explored { tally, course } = floors.explore(&Subject::REPAIRED);
+            let Explored { tally, course, .. } = floors.explore(&Subject::REPAIRED);
             assert_eq!((tally.violation, course, tally.cases), (None, None, 32_566_853), "{demand:?}");
         }
     }

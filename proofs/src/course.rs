@@ -8,8 +8,10 @@ use crate::engine::Tally;
 /// What the states of small floors have shown.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Explored {
-    /// A case is a state. The choices of a violation are the numbers of the floor, the start, and the steps.
+    /// A case is a state. The choices of a violation are the numbers of the series, the plan, the start, and the steps.
     pub tally: Tally,
+    /// The steps with which it goes round for ever, if it does.
+    pub again: Vec<u32>,
     /// The run of the violation, where there is more to see in it than choices.
     pub course: Option<Course>,
 }
@@ -42,6 +44,8 @@ pub struct Turn {
     pub agent: usize,
     /// Where it goes.
     pub step: Step,
+    /// Whether it is done from then on.
+    pub is_done: bool,
     /// The cells of the sensors that it misses.
     pub unseen: Vec<Cell>,
 }

@@ -5,6 +5,7 @@ use crate::ants;
 use crate::clause::{Check, Method, Subject, Verdict};
 use crate::course::{Course, Explored};
 use crate::engine::{self, Tally};
+use crate::evidence::Choices;
 use crate::notice;
 use crate::rescue::{Setting, space};
 use crate::search::{Bounds, Counterexample, Found, Unsearchable, Until, Watch, search};
@@ -37,14 +38,34 @@ impl Decision {
 /// A counterexample.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Evidence {
-    /// The choices that lead a body to it, and the demand that is not met.
-    Choices(Vec<u32>, &'static str),
+    /// The choices that lead a body or a system to it, and the demand that is not met.
+    Choices(Choices, &'static str),
     /// A run of a chain.
     Run(Box<Counterexample>),
-    /// A run of agents on a floor, and the demand that is not met.
-    Course(Box<Course>, &'static str),
+    /// A run of agents on a floor, its choices, and the demand that is not met.
+    Course(Box<Course>, Choices, &'static str),
     /// A run of robots and WFRs.
     Rescue(Box<(Setting, space::Broken)>),
+}
+
+impl Evidence {
+    /// The choices that make it again.
+    pub fn choices(&self) -> Choices {
+        match self {
+            Self::Choices(choices, _) | Self::Course(_, choices, _) => choices.clone(),
+            Self::Run(run) => Choices { once: run.answers.clone(), again: Vec::new() },
+            Self::Rescue(run) => run.1.choices(&run.0),
+        }
+    }
+
+    /// The demand that is not met, or what is not so.
+    pub fn demand(&self) -> &'static str {
+        match self {
+            Self::Choices(_, demand) | Self::Course(_, _, demand) => demand,
+            Self::Run(run) => run.demand,
+            Self::Rescue(run) => run.1.demand.broken(),
+        }
+    }
 }
 
 /// Decides checks, and keeps what may be asked again.
@@ -93,15 +114,8 @@ impl Prover {
             Method::Sampled { body, runs, covers, .. } => {
                 Ok(of_tally(engine::sample(runs, SEED, |source| body(subject, source)), covers))
             }
-            Method::Ants => Ok(of_tally(ants::explore(subject), &[END])),
-            Method::Floors(floors) => {
-                let Explored { tally, course } = floors.explore(subject);
-                let broken = tally.violation.as_ref().map(|&(_, demand)| demand);
-                let decision = of_tally(tally, &[END]);
-                let drawn =
-                    broken.zip(course).map(|(demand, course)| Evidence::Course(Box::new(course), demand));
-                Ok(Decision { counterexample: drawn.or(decision.counterexample), ..decision })
-            }
+            Method::Ants => Ok(Decision::of_floors(ants::explore(subject), shown)),
+            Method::Floors(floors) => Ok(Decision::of_floors(floors.explore(subject), shown)),
             Method::Spread(networks) => Ok(of_tally(networks.explore(subject), &notice::EVENTS)),
             Method::Search { robots, max_walls, invariant } => {
                 let invariants = match until {
@@ -171,7 +185,20 @@ impl Decision {
             None if covers.iter().all(|situation| tally.covered.contains(situation)) => shown,
             None => Verdict::Open,
         };
-        let evidence = tally.violation.map(|(choices, demand)| Evidence::Choices(choices, demand));
+        let choices = |once| Choices { once, again: Vec::new() };
+        let evidence = tally.violation.map(|(once, demand)| Evidence::Choices(choices(once), demand));
         Self { given_up: tally.given_up, ..Self::new(verdict, tally.cases, evidence) }
+    }
+
+    fn of_floors(Explored { tally, again, course }: Explored, shown: Verdict) -> Self {
+        let decision = Self::of_tally(tally, &[END], shown);
+        let counterexample = decision.counterexample.map(|evidence| {
+            let (choices, demand) = (Choices { again, ..evidence.choices() }, evidence.demand());
+            match course {
+                Some(course) => Evidence::Course(Box::new(course), choices, demand),
+                None => Evidence::Choices(choices, demand),
+            }
+        });
+        Self { counterexample, ..decision }
     }
 }

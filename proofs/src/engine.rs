@@ -191,13 +191,19 @@ impl Source for Tape<'_> {
 #[derive(Clone, Debug)]
 pub struct Replay<'a> {
     answers: &'a [u32],
+    asked: Vec<u32>,
     matches: bool,
 }
 
 impl<'a> Replay<'a> {
     /// Replays `answers`.
     pub const fn new(answers: &'a [u32]) -> Self {
-        Self { answers, matches: true }
+        Self { answers, asked: Vec::new(), matches: true }
+    }
+
+    /// The questions so far: below what number each answer was to be.
+    pub fn asked(&self) -> &[u32] {
+        &self.asked
     }
 
     /// Whether every question was answered, and every answer used.
@@ -208,6 +214,7 @@ impl<'a> Replay<'a> {
 
 impl Source for Replay<'_> {
     fn pick(&mut self, below: u32) -> u32 {
+        self.asked.push(below);
         match self.answers.split_first() {
             Some((&answer, rest)) if answer < below => {
                 self.answers = rest;

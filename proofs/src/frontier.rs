@@ -108,7 +108,9 @@ fn mark(grid: &mut impl Grid, edges: &[(Edge, u32)], explored: &[Cell]) {
             _ => {}
         }
     }
-    explored.iter().for_each(|&cell| grid.put(CellMark::Explored, cell));
+    for &cell in explored {
+        grid.put(CellMark::Explored, cell);
+    }
 }
 
 /// Steps from `from` to the nearest cell that is not explored, counted layer by layer.

@@ -85,6 +85,10 @@ impl std::error::Error for Objection {}
 /// The first [`Objection`].
 pub fn judge(exhibit: &Exhibit) -> Result<(), Objection> {
     let whole = |what| Objection { at: 0, what };
+    #[allow(
+        clippy::redundant_closure_for_method_calls,
+        reason = "the method is less general than the closure"
+    )]
     let clause = match exhibit.clause.as_str() {
         "CHAIN-1" => Broken::ByMove(|_, made| contact_is_lost(&made.places)),
         "CHAIN-2" => Broken::ByMove(|_, made| cell_is_crowded(&made.places)),
@@ -712,7 +716,8 @@ mod tests {
             frames.push(Frame::new(plan.kind, settled.messages(), chain.cells()));
         }
         let (invariant, demand) = (Invariant::Exhausts, "nothing");
-        let run = Counterexample { invariant, runs: 1, demand, walls: Vec::new(), frames };
+        let (walls, answers) = (Vec::new(), Vec::new());
+        let run = Counterexample { invariant, runs: 1, demand, walls, frames, answers };
         Exhibit { clause: clause.to_owned(), ..exhibit(&run, &bounds) }
     }
 

@@ -1,6 +1,6 @@
 //! What Tautline claims, and how the claims are decided: the clauses of `SPEC.md` with their mutants, the engines
 //! that answer every choice, the search over all layouts, what a chain can reach and in how few team moves, and the
-//! judge of counterexamples.
+//! judges of counterexamples.
 
 mod ants;
 mod bricks;
@@ -9,6 +9,8 @@ pub mod course;
 pub mod crowd;
 pub mod decide;
 pub mod engine;
+pub mod evidence;
+pub mod floor_judge;
 pub mod frontier;
 pub mod homing;
 pub mod invariant;

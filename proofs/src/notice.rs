@@ -11,7 +11,9 @@ use tautline_kernel::broadcast::{
 use tautline_kernel::choice::Source;
 
 use crate::clause::{Sabotage, Subject};
+use crate::decide::Evidence;
 use crate::engine::{Outcome, Stop, Tally, cover, require};
+use crate::evidence::{Played, Script, Unfit};
 use crate::states::{Run, Step, System, search};
 
 /// A network: for each node a bit for each neighbour. The source is node 0.
@@ -447,6 +449,15 @@ impl Networks {
             }
         }
         tally
+    }
+
+    /// Makes the choices of a violation again.
+    pub(crate) fn replay(self, subject: &Subject, mut script: Script<'_>) -> Result<Played, Unfit> {
+        let cases: Vec<Case> = self.cases(subject).collect();
+        let case = &cases[script.choose(cases.len())?];
+        let choices = script.choices();
+        let (of, run) = script.play(case, (0, Spread::start(&case.links)), |_| true)?;
+        Ok(Played { of, evidence: Evidence::Choices(choices.clone(), run.demand) })
     }
 
     /// What happens when these choices are made, in lines.

@@ -24,9 +24,10 @@ use tautline_kernel::grid::{Area, CompactGrid, LargeGrid, MediumGrid, SmallGrid,
 use tautline_kernel::lattice::{Cell, Edge};
 
 use self::chain::ChainGame;
-use self::game::Game;
+use self::game::{Demand, Game};
 use self::lane::{Lane, Place};
 use crate::clause::Subject;
+use crate::evidence::{Choices, Unfit};
 use crate::invariant::Invariant;
 use crate::run::Frame;
 use crate::whole;
@@ -137,6 +138,17 @@ pub struct Counterexample {
     pub walls: Vec<Edge>,
     /// The team moves.
     pub frames: Vec<Frame>,
+    /// What the world answered: 1 for a wall.
+    pub answers: Vec<u32>,
+}
+
+impl Counterexample {
+    fn new(((invariant, demand), frames): (Demand, Vec<Frame>), runs: u64, answers: Vec<u32>) -> Self {
+        let mut walls: Vec<Edge> = frames.iter().flat_map(Frame::bumps).collect();
+        walls.sort_unstable();
+        walls.dedup();
+        Self { invariant, runs, demand, walls, frames, answers }
+    }
 }
 
 /// How far a search is.
@@ -260,6 +272,20 @@ pub fn search(bounds: &Bounds, watch: Watch<'_>) -> Result<Found, Unsearchable> 
     let mut search = Search::new(bounds)?;
     while search.wave() && watch(&search.progress()).is_continue() {}
     Ok(search.found())
+}
+
+/// Plays a run that breaks `invariant` again, whose choices are the answers of the world. It is one run, whatever
+/// number of runs break it.
+pub(crate) fn replay(
+    bounds: &Bounds,
+    invariant: Invariant,
+    choices: &Choices,
+) -> Result<Counterexample, Unfit> {
+    let search = Search::new(bounds).map_err(|_| Unfit::Unbroken)?;
+    if !choices.again.is_empty() {
+        return Err(Unfit::Over { at: choices.once.len() });
+    }
+    search.0.replay(invariant, &choices.once)
 }
 
 /// A search that is made wave by wave, and can be left and taken up again between two of them.
@@ -411,6 +437,7 @@ trait Waves {
     fn progress(&self) -> Progress<'_>;
     fn position(&self) -> Position;
     fn found(&self) -> Found;
+    fn replay(&self, invariant: Invariant, answers: &[u32]) -> Result<Counterexample, Unfit>;
 }
 
 /// The tree of runs of a game.
@@ -508,11 +535,8 @@ impl<G: Game> Tree<G> {
     /// The smallest run that breaks an invariant again; `None` if it does not.
     fn record(&self, broken: &Broken) -> Option<Counterexample> {
         let Violation { mishaps, steps, answers } = &broken.smallest;
-        let ((invariant, demand), frames) = lane::record(&self.game, *mishaps, *steps, answers)?;
-        let mut walls: Vec<Edge> = frames.iter().flat_map(Frame::bumps).collect();
-        walls.sort_unstable();
-        walls.dedup();
-        Some(Counterexample { invariant, runs: broken.runs, demand, walls, frames })
+        let recorded = lane::record(&self.game, *mishaps, *steps, answers)?;
+        Some(Counterexample::new(recorded, broken.runs, answers.clone()))
     }
 }
 
@@ -581,6 +605,14 @@ impl<G: Game> Waves for Tree<G> {
         let counterexamples = broken.iter().filter_map(|broken| self.record(broken)).collect();
         let complete = self.lanes.is_empty();
         Found { runs, moves, longest, levels: self.levels.clone(), complete, counterexamples }
+    }
+
+    fn replay(&self, invariant: Invariant, answers: &[u32]) -> Result<Counterexample, Unfit> {
+        let recorded = lane::replay(&self.game, self.max_walls, answers)?;
+        if recorded.0.0 != invariant {
+            return Err(Unfit::Unbroken);
+        }
+        Ok(Counterexample::new(recorded, 1, answers.to_vec()))
     }
 }
 

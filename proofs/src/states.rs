@@ -115,6 +115,16 @@ pub(crate) enum Ending {
     Round(Vec<u32>),
 }
 
+impl<D> Run<D> {
+    /// The numbers of the steps of its round; none if it ends.
+    pub(crate) fn round(&self) -> &[u32] {
+        match &self.ending {
+            Ending::There | Ending::Still => &[],
+            Ending::Round(round) => round,
+        }
+    }
+}
+
 /// Searches all states that `system` gets to from `starts`, until enough is broken or `most_steps` are made.
 pub(crate) fn search<S: System>(
     system: &S,

@@ -1,29 +1,30 @@
 //! `tautline prove`: the clauses of SPEC.md, decided.
 
 use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
 use serde::Serialize;
-use tautline_kernel::lattice::Edge;
-use tautline_proofs::clause::{Check, Clause, Method, Subject};
-use tautline_proofs::course::Course;
+use tautline_proofs::clause::{Check, Clause};
 use tautline_proofs::decide::{Decision, Evidence, Prover};
 use tautline_proofs::registry::CLAUSES;
-use tautline_proofs::rescue::chart::chart;
-use tautline_proofs::search::{Bounds, Counterexample};
 
+use super::evidence::{self, Shown, indented, shown};
+use super::hunt::keep;
 use super::output::Output;
-use super::{Exit, Format, FormatArgs, progress, usage};
-use crate::explore::agents::Way;
-use crate::explore::{Crew, RuleName, Setup};
+use super::{Exit, ForceArgs, Format, FormatArgs, progress};
+use crate::aside::Replaceable;
 use crate::fault::{Fault, Halt};
-use crate::{hunt, view};
+use crate::hunt;
+use crate::refutation::{self, rule};
 
 const EXAMPLES: &str = "\
 Examples:
   tautline prove
   tautline prove CHAIN-1 CHAIN-2
+  tautline prove BRICKS-4 --out refutations
   tautline prove --format json";
 
 /// Decide the clauses of SPEC.md within their bounds, and print the ledger.
@@ -33,6 +34,11 @@ pub(super) struct Prove {
     /// The clauses to decide, by their ids. Without one, all are.
     #[arg(value_name = "CLAUSE")]
     clauses: Vec<String>,
+    /// Store each counterexample as a file in DIR, which `tautline replay` plays. DIR is made if it is not there.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceArgs,
     #[command(flatten)]
     format: FormatArgs,
 }
@@ -43,6 +49,8 @@ struct Row {
     check: &'static Check,
     decision: Decision,
     seconds: f64,
+    /// Where its counterexample is stored.
+    file: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -58,20 +66,15 @@ struct Line {
     engine: &'static str,
     bound: String,
     cases: u64,
+    /// Cases that were given up undecided, which are not among them.
+    given_up: u64,
     verdict: &'static str,
     registered: &'static str,
     counterexample: Option<Shown>,
+    /// Where it is stored, if it is.
+    file: Option<String>,
     mutants: Mutants,
     seconds: f64,
-}
-
-#[derive(Serialize)]
-#[serde(untagged)]
-enum Shown {
-    Choices { demand: &'static str, choices: Vec<u32> },
-    Run { demand: &'static str, walls: usize, steps: usize, layout: String },
-    Course { demand: &'static str, turns: usize, drawing: String },
-    Chart { demand: &'static str, events: usize, chart: String },
 }
 
 #[derive(Serialize)]
@@ -84,6 +87,17 @@ struct Mutants {
 impl Prove {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let clauses = self.chosen()?;
+        let replaceable = self.force.replaceable([]);
+        if self.force.force && self.out.is_none() {
+            let what = "--force without a file to store";
+            return Err(Fault::usage(what, "give --out, or leave out --force").into());
+        }
+        if let Some(folder) = &self.out {
+            fs::create_dir_all(folder).map_err(|error| {
+                let what = format!("the folder cannot be made: {error}");
+                Fault::in_file(folder, what, "name a folder, or a place where one can be made")
+            })?;
+        }
         let checks: Vec<(&Clause, &Check)> = clauses
             .iter()
             .flat_map(|clause| clause.checks.iter().map(move |check| (*clause, check)))
@@ -99,13 +113,12 @@ impl Prove {
                 })?;
             bar.finish_and_clear();
             let seconds = start.elapsed().as_secs_f64();
-            tracing::info!(
-                "{} {} {}: {seconds:.1} s",
-                clause.id,
-                rule(&check.subject),
-                check.method.engine()
-            );
-            rows.push(Row { clause, check, decision, seconds });
+            tracing::info!("{} {} {}: {seconds:.1} s", clause.id, rule(check), check.method.engine());
+            let mut row = Row { clause, check, decision, seconds, file: None };
+            if let Some(folder) = &self.out {
+                row.store(folder, &replaceable, out)?;
+            }
+            rows.push(row);
         }
         let as_registered = rows.iter().all(|row| row.decision.is_as_registered(row.check));
         match self.format.format {
@@ -139,150 +152,69 @@ impl Prove {
     }
 }
 
-/// The name of the rule that a check is about.
-fn rule(subject: &Subject) -> &'static str {
-    subject.name().unwrap_or("other")
-}
-
 impl Row {
+    /// The bound, and how many of its cases were given up.
+    fn bound(&self) -> String {
+        let bound = self.check.method.bound();
+        match self.decision.given_up {
+            0 => bound,
+            given_up => format!("{bound}; {given_up} given up"),
+        }
+    }
+
     fn mutants(&self) -> Mutants {
         let Decision { killed, survived, .. } = &self.decision;
         Mutants { killed: killed.len(), of: killed.len() + survived.len(), survived: survived.clone() }
     }
 
     fn line(&self) -> Result<Line, Halt> {
-        let counterexample = match &self.decision.counterexample {
-            None => None,
-            Some(Evidence::Choices(choices, demand)) => {
-                Some(Shown::Choices { demand, choices: choices.clone() })
-            }
-            Some(Evidence::Run(run)) => {
-                let layout = self.setup(run)?.map_or_else(String::new, |setup| setup.layout.to_string());
-                Some(Shown::Run {
-                    demand: run.demand,
-                    walls: run.walls.len(),
-                    steps: run.frames.len(),
-                    layout,
-                })
-            }
-            Some(Evidence::Course(course, demand)) => {
-                Some(Shown::Course { demand, turns: course.turns.len(), drawing: self.drawn(course)? })
-            }
-            Some(Evidence::Rescue(run)) => {
-                let (setting, broken) = &**run;
-                Some(Shown::Chart {
-                    demand: broken.demand.broken(),
-                    events: broken.actions.len(),
-                    chart: chart(setting, broken),
-                })
-            }
-        };
+        let evidence = self.decision.counterexample.as_ref();
         Ok(Line {
             id: self.clause.id,
-            rule: rule(&self.check.subject),
+            rule: rule(self.check),
             engine: self.check.method.engine(),
             bound: self.check.method.bound(),
             cases: self.decision.cases,
+            given_up: self.decision.given_up,
             verdict: self.decision.verdict.word(),
             registered: self.check.expected.word(),
-            counterexample,
+            counterexample: evidence.map(|evidence| shown(self.check, evidence)).transpose()?,
+            file: self.file.clone(),
             mutants: self.mutants(),
             seconds: self.seconds,
         })
     }
 
-    /// The run of a counterexample that a search has found.
-    fn setup(&self, run: &Counterexample) -> Result<Option<Setup>, Halt> {
-        let subject = &self.check.subject;
-        let (Method::Search { robots, max_walls, .. }, Some(rule)) =
-            (self.check.method, RuleName::of(subject))
-        else {
-            return Ok(None);
+    /// Stores what refutes the clause in `folder`.
+    fn store(&mut self, folder: &Path, replaceable: &Replaceable, out: &mut Output) -> Result<(), Halt> {
+        let (clause, check) = (self.clause, self.check);
+        let Some(evidence) = &self.decision.counterexample else { return Ok(()) };
+        let path = refutation::path(folder, clause, check);
+        let run = match evidence {
+            Evidence::Run(run) => evidence::setup(check, run)?.zip(hunt::breach(run.invariant)),
+            Evidence::Choices(..) | Evidence::Course(..) | Evidence::Rescue(_) => None,
         };
-        let bounds = Bounds::new(*subject, robots, max_walls);
-        Ok(Some(hunt::setup(rule, &bounds, run).map_err(|problem| usage(&problem))?))
+        let file = match run {
+            Some((setup, breach)) => hunt::store_at(&path, &setup, breach, replaceable)?.0,
+            None => refutation::store(&path, clause, check, evidence, replaceable)?,
+        };
+        self.file = keep(file, out);
+        Ok(())
     }
 
-    /// The run of a counterexample of agents.
-    fn drawn(&self, course: &Course) -> Result<String, Halt> {
-        let crew = Crew::Agents(Way::Bricks(self.check.subject.bricks));
-        Ok(view::story::of_course(crew, course).map_err(|problem| usage(&problem))?)
-    }
-
-    /// What one sees in a counterexample.
+    /// What one sees in a counterexample, and where it is stored.
     fn story(&self) -> Result<String, Halt> {
-        let id = self.clause.id;
-        Ok(match &self.decision.counterexample {
-            None => String::new(),
-            Some(Evidence::Choices(choices, demand)) => {
-                let rule = rule(&self.check.subject);
-                match self.check.method {
-                    Method::Spread(networks) => {
-                        let story = networks.story(&self.check.subject, choices);
-                        format!("\n{id} as {rule}: not so: {demand}.\n{story}")
-                    }
-                    Method::Exhaustive { .. }
-                    | Method::Ants
-                    | Method::Floors(_)
-                    | Method::Sampled { .. }
-                    | Method::Search { .. }
-                    | Method::States { .. } => format!(
-                        "\n{id} as {rule}: not so: {demand}. The choices that lead there: {}\n",
-                        listed(choices)
-                    ),
-                }
-            }
-            Some(Evidence::Run(run)) => {
-                let walls = run.walls.len();
-                let head = format!(
-                    "\n{id} as {}: the smallest counterexample has {walls} walls ({}) and {} team moves.\n\n",
-                    rule(&self.check.subject),
-                    named(&run.walls),
-                    run.frames.len()
-                );
-                match self.setup(run)? {
-                    Some(setup) => head + &view::story::last_move(&setup)?,
-                    None => head,
-                }
-            }
-            Some(Evidence::Course(course, demand)) => {
-                let rule = rule(&self.check.subject);
-                format!("\n{id} as {rule}: not so: {demand}.\n\n{}", self.drawn(course)?)
-            }
-            Some(Evidence::Rescue(run)) => {
-                let (setting, broken) = &**run;
-                format!(
-                    "\n{id} as {}: the shortest run that breaks it has {} events.\n\n{}",
-                    rule(&self.check.subject),
-                    broken.actions.len(),
-                    chart(setting, broken)
-                )
-            }
-        })
+        let Some(evidence) = &self.decision.counterexample else { return Ok(String::new()) };
+        let story = evidence::story(self.clause, self.check, evidence)?;
+        let file = self.file.as_ref().map(|file| format!("\nreplay it with: tautline replay {file}\n"));
+        Ok(format!("\n{story}{}", file.unwrap_or_default()))
     }
-}
-
-fn named(walls: &[Edge]) -> String {
-    let between = |wall: &Edge| format!("{}|{}", wall.cell(), wall.cell().beyond(wall.side()));
-    walls.iter().map(between).collect::<Vec<_>>().join(" ")
-}
-
-/// Choices that are listed.
-const LISTED: usize = 24;
-
-fn listed(choices: &[u32]) -> String {
-    let first: Vec<String> = choices.iter().take(LISTED).map(u32::to_string).collect();
-    let rest = if choices.len() > LISTED { format!(" … {} in all", choices.len()) } else { String::new() };
-    first.join(" ") + &rest
 }
 
 const HEAD: [&str; 6] = ["clause", "rule", "engine", "cases", "verdict", "mutants killed"];
 
 /// The column of the cases, which are numbers.
 const CASES: usize = 3;
-
-/// Columns of text that a line of the ledger may take.
-const WIDTH: usize = 80;
 
 /// The ledger: a line for each check, and its bound below. What takes time is not in it, so that it is the same
 /// everywhere.
@@ -292,7 +224,7 @@ fn table(rows: &[Row]) -> String {
         let mutants = if of == 0 { "-".to_owned() } else { format!("{killed}/{of}") };
         [
             row.clause.id.to_owned(),
-            rule(&row.check.subject).to_owned(),
+            rule(row.check).to_owned(),
             row.check.method.engine().to_owned(),
             row.decision.cases.to_string(),
             row.decision.verdict.word().to_owned(),
@@ -304,7 +236,7 @@ fn table(rows: &[Row]) -> String {
     let widths: [usize; 6] = std::array::from_fn(|column| {
         lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0)
     });
-    let bounds = ["bound".to_owned()].into_iter().chain(rows.iter().map(|row| row.check.method.bound()));
+    let bounds = ["bound".to_owned()].into_iter().chain(rows.iter().map(Row::bound));
     let mut text = String::new();
     for (line, bound) in lines.iter().zip(bounds) {
         let padded: Vec<String> = (0..)
@@ -316,45 +248,17 @@ fn table(rows: &[Row]) -> String {
             .collect();
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}", padded.join("  ").trim_end());
-        let indent = widths[0] + 2;
-        for part in wrapped(&bound, WIDTH - indent) {
-            let _ = writeln!(text, "{:indent$}{part}", "");
-        }
+        text.push_str(&indented(widths[0] + 2, &bound));
     }
     text
-}
-
-/// `text` in lines of at most `width` characters, broken behind commas and semicolons.
-fn wrapped(text: &str, width: usize) -> Vec<String> {
-    let mut before = ' ';
-    let parts = text.split_inclusive(|letter: char| {
-        let is_break = letter == ' ' && matches!(before, ',' | ';');
-        before = letter;
-        is_break
-    });
-    let joined = |mut lines: Vec<String>, part: &str| {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + part.chars().count() <= width => {
-                line.push(' ');
-                line.push_str(part);
-            }
-            Some(_) | None => lines.push(part.to_owned()),
-        }
-        lines
-    };
-    parts.map(str::trim_end).fold(Vec::new(), joined)
 }
 
 fn last_line(rows: &[Row]) -> String {
     let mut text = String::from("\n");
     for row in rows.iter().filter(|row| !row.decision.is_as_registered(row.check)) {
         let (verdict, expected) = (row.decision.verdict.word(), row.check.expected.word());
-        let _ = writeln!(
-            text,
-            "{} as {}: {verdict}, registered as {expected}",
-            row.clause.id,
-            rule(&row.check.subject)
-        );
+        let _ =
+            writeln!(text, "{} as {}: {verdict}, registered as {expected}", row.clause.id, rule(row.check));
         for mutant in &row.decision.survived {
             let _ = writeln!(text, "{}: the mutant {mutant:?} survives", row.clause.id);
         }

@@ -1,5 +1,6 @@
 //! `tautline replay`: a stored run again.
 
+use std::fmt::Display;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -7,17 +8,23 @@ use std::str::FromStr;
 use clap::Args;
 use serde::ser::{Error, SerializeSeq};
 use serde::{Serialize, Serializer};
-use tautline_proofs::judge::judge;
+use tautline_proofs::clause::{Check, Clause};
+use tautline_proofs::decide::Evidence;
+use tautline_proofs::floor_judge;
+use tautline_proofs::invariant::Invariant;
+use tautline_proofs::judge::{Exhibit, judge};
 use tautline_proofs::run::Breach;
 
+use super::evidence::{Shown, indented, setup, shown, story};
 use super::explore::{Summary, among, check_panels, draw_moves, panels, play, summary};
 use super::output::Output;
 use super::rescue::{Files, tell};
 use super::{Exit, ForceArgs, Format, FormatArgs};
 use crate::aside::Aside;
-use crate::exhibit::{exhibit, written_down};
+use crate::exhibit::{exhibit, of_agent, of_course, written_down};
 use crate::explore::{Crew, Report, Setup};
 use crate::fault::{Fault, Halt};
+use crate::refutation::{self, Refutation};
 use crate::trace::{self, StoredMove, Trace, lines};
 use crate::view::svg;
 use crate::{rescue, view};
@@ -33,7 +40,7 @@ Examples:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Replay {
-    /// A file that `explore --trace`, `rescue --trace`, `hunt` or `minimise` wrote.
+    /// A file that `explore --trace`, `rescue --trace`, `hunt`, `minimise` or `prove --out` wrote.
     file: PathBuf,
     /// The team moves to show, the first and the last. Without it all are shown, or the last 100.
     #[arg(long, value_name = "A..B")]
@@ -66,8 +73,8 @@ impl FromStr for Moves {
 }
 
 /// What can be replayed.
-const REPLAYABLE: &str = "name a file that `tautline explore --trace`, `tautline rescue --trace`, `tautline hunt` or \
-                          `tautline minimise` wrote";
+const REPLAYABLE: &str = "name a file that `tautline explore --trace`, `tautline rescue --trace`, `tautline hunt`, \
+                          `tautline minimise` or `tautline prove --out` wrote";
 
 /// Team moves that are shown of a run when nobody says which.
 const SHOWN: u32 = 100;
@@ -106,11 +113,24 @@ impl Serialize for ShownMoves<'_> {
     }
 }
 
+#[derive(Serialize)]
+struct Refuted {
+    file: String,
+    counterexample_to: &'static str,
+    rule: &'static str,
+    engine: &'static str,
+    bound: String,
+    counterexample: Shown,
+    /// Whether a judge who shares no code with the rule has accepted it.
+    is_judged: bool,
+}
+
 impl Replay {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let [page, picture] = self.force.files([&self.html, &self.svg], [self.file.clone()])?;
         match lines::format(&self.file).as_deref() {
             Some(rescue::trace::FORMAT) => self.run_rescue(Files { trace: None, page, map: picture }, out),
+            Some(refutation::FORMAT) => self.run_refutation(out),
             Some(trace::FORMAT) => self.run_team(Trace::open(&self.file)?, [page, picture], out),
             Some(_) | None => {
                 let foreign = |fault: Fault| fault.with_remedy(REPLAYABLE);
@@ -126,10 +146,7 @@ impl Replay {
         out: &mut Output,
     ) -> Result<Exit, Halt> {
         let (setup, clause) = (trace.setup.clone(), trace.clause);
-        let judged = match setup.crew() {
-            Crew::Chain => clause,
-            Crew::Agents(_) => None,
-        };
+        let (is_chain, is_premature) = (setup.crew() == Crew::Chain, clause == Some(Breach::Premature));
         let is_drawn = page.is_none() && picture.is_none();
         if !is_drawn {
             svg::check_size(setup.area())?;
@@ -137,22 +154,32 @@ impl Replay {
         if let (Some(_), Some(Moves(moves))) = (&picture, &self.moves) {
             check_panels(moves)?;
         }
-        let mut exhibit = judged.map(|breach| exhibit(&setup, breach, &[]));
+        // What a judge reads: the run of a chain, or that of a single agent that is done too early.
+        let mut chain = clause.filter(|_| is_chain).map(|breach| exhibit(&setup, breach.clause(), &[]));
+        let mut agent = (!is_chain && is_premature && setup.robots == 1).then(Vec::new);
         let report = trace.replay(&mut |made| {
-            let Some(exhibit) = &mut exhibit else { return Ok(()) };
-            exhibit.moves.push(written_down(made.frame));
-            if exhibit.moves.len() * exhibit.robots <= MAX_JUDGED {
+            let read = match (&mut chain, &mut agent) {
+                (Some(exhibit), _) => {
+                    exhibit.moves.push(written_down(made.frame));
+                    exhibit.moves.len() * exhibit.robots
+                }
+                (None, Some(frames)) => {
+                    frames.push(made.frame.clone());
+                    frames.len()
+                }
+                (None, None) => 0,
+            };
+            if read <= MAX_JUDGED {
                 return Ok(());
             }
             let what = format!("the judge reads no more than {MAX_JUDGED} robots in all team moves");
             Err(Fault::in_file(&self.file, what, "shrink the run with `tautline minimise`").into())
         })?;
-        if let Some(exhibit) = exhibit {
-            judge(&exhibit).map_err(|objection| {
-                let what = format!("the judge rejects this counterexample: {objection}");
-                Fault::in_file(&self.file, what, "make it again with `tautline hunt`")
-            })?;
-        }
+        let is_judged = match (chain, agent) {
+            (Some(exhibit), _) => self.judge_chain(&exhibit)?,
+            (None, Some(frames)) => self.judge_floor(&of_agent(&setup, Breach::Premature, &frames))?,
+            (None, None) => false,
+        };
         let moves = self.moves(&report);
         if let Some(page) = page {
             let moves = self.moves.as_ref().map_or(1..=report.steps, |Moves(moves)| moves.clone());
@@ -172,11 +199,8 @@ impl Replay {
             }
             Format::Text => {
                 out.text(summary(&setup, &name, &report))?;
-                if let Some(breach) = judged {
-                    out.text(format_args!(
-                        "the judge accepts it as a counterexample to {}\n",
-                        breach.clause()
-                    ))?;
+                if let Some(breach) = clause {
+                    out.text(format_args!("{}\n", said(breach.clause(), is_judged)))?;
                 }
                 if is_drawn {
                     draw(&setup, &report, &moves, out)?;
@@ -195,11 +219,88 @@ impl Replay {
         tell(out, self.format.format, (&setting, seed, &report), files)
     }
 
+    fn run_refutation(&self, out: &mut Output) -> Result<Exit, Halt> {
+        if self.moves.is_some() || self.html.is_some() || self.svg.is_some() {
+            let what = "a refutation has no team moves to choose from, no page and no picture";
+            let remedy = "leave out --moves, --html and --svg, or name a run of a team";
+            return Err(Fault::usage(what, remedy).into());
+        }
+        let Refutation { clause, check, evidence } = refutation::replay(&self.file)?;
+        let is_judged = self.is_judged(clause, check, &evidence)?;
+        let (rule, engine, bound) = (refutation::rule(check), check.method.engine(), check.method.bound());
+        match self.format.format {
+            Format::Json => out.json(&Refuted {
+                file: self.file.display().to_string(),
+                counterexample_to: clause.id,
+                rule,
+                engine,
+                bound,
+                counterexample: shown(check, &evidence)?,
+                is_judged,
+            })?,
+            Format::Text => {
+                let judged = said(clause.id, is_judged);
+                out.text(format_args!(
+                    "{}: a counterexample to {} as {rule}, by {engine} within\n{}{judged}\n\n{}",
+                    self.file.display(),
+                    clause.id,
+                    indented(2, &bound),
+                    story(clause, check, &evidence)?
+                ))?;
+            }
+        }
+        Ok(Exit::Violation)
+    }
+
+    /// Whether a judge who shares no code with the rule accepts it; where there is none for the clause, none does.
+    fn is_judged(&self, clause: &Clause, check: &Check, evidence: &Evidence) -> Result<bool, Halt> {
+        match evidence {
+            Evidence::Run(run) => match (run.invariant, setup(check, run)?) {
+                (Invariant::Without(_) | Invariant::Exhausts, Some(setup)) => {
+                    self.judge_chain(&exhibit(&setup, clause.id, &run.frames))
+                }
+                (_, _) => Ok(false),
+            },
+            Evidence::Course(course, ..) => self.judge_floor(&of_course(clause.id, course)),
+            // A judge of rescues would be asked here.
+            Evidence::Choices(..) | Evidence::Rescue(_) => Ok(false),
+        }
+    }
+
+    /// Whether the judge of the chain accepts it.
+    fn judge_chain(&self, exhibit: &Exhibit) -> Result<bool, Halt> {
+        judge(exhibit).map_err(|objection| self.rejected(&objection))?;
+        Ok(true)
+    }
+
+    /// Whether the judge of agents sees that the clause is broken.
+    fn judge_floor(&self, exhibit: &floor_judge::Exhibit) -> Result<bool, Halt> {
+        match floor_judge::judge(exhibit) {
+            Ok(judgement) => Ok(judgement == floor_judge::Judgement::Broken),
+            Err(objection) => Err(self.rejected(&objection).into()),
+        }
+    }
+
+    /// The judge has an objection.
+    fn rejected(&self, objection: &dyn Display) -> Fault {
+        let what = format!("the judge rejects this counterexample: {objection}");
+        Fault::in_file(&self.file, what, "make it again with `tautline hunt` or `tautline prove --out`")
+    }
+
     fn moves(&self, report: &Report) -> RangeInclusive<u32> {
         match &self.moves {
             Some(Moves(moves)) => moves.clone(),
             None => report.steps.saturating_sub(SHOWN - 1).max(1)..=report.steps,
         }
+    }
+}
+
+/// Who has judged a counterexample.
+fn said(clause: &str, is_judged: bool) -> String {
+    if is_judged {
+        format!("the judge accepts it as a counterexample to {clause}")
+    } else {
+        "no independent judge for this clause: the rule itself was played again".to_owned()
     }
 }
 

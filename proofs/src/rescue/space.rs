@@ -4,6 +4,7 @@
 //! its way, and no message between a robot and a WFR between whom there is one throughout.
 
 use super::{Action, Actor, Demand, Message, ROBOTS, Setting, State, WFRS, place};
+use crate::evidence::{Choices, Script, Unfit};
 use crate::states::{self, Bits, Run, Step, System};
 
 /// When to stop.
@@ -66,6 +67,41 @@ pub fn search(setting: &Setting, until: Until, most_steps: u32) -> Found {
     let mut broken: Vec<Broken> = found.broken.into_iter().map(|run| space.broken(run)).collect();
     broken.sort_by_key(|broken| broken.demand);
     Found { states: found.states, steps: found.steps, complete: found.is_whole, broken }
+}
+
+/// Plays a run that breaks `demand` again: from how many each choice was made, and the run.
+pub(crate) fn replay(
+    setting: &Setting,
+    demand: Demand,
+    mut script: Script<'_>,
+) -> Result<(Vec<u32>, Broken), Unfit> {
+    let space = Space { setting: *setting, until: Until::Broken(demand) };
+    let mut starts = setting.starts();
+    let number = script.choose(starts.len())?;
+    let start = (number, starts.swap_remove(number));
+    let (of, run) = script.play(&space, start, |&broken| broken == demand)?;
+    Ok((of, space.broken(run)))
+}
+
+impl Broken {
+    /// The choices that make this run in `setting`.
+    pub fn choices(&self, setting: &Setting) -> Choices {
+        let mut state = setting.start(self.start as u32);
+        let mut numbers = |actions: &[Action]| -> Vec<u32> {
+            let number = |&action: &Action| {
+                let number = state.actions(setting).iter().position(|&other| other == action)?;
+                state = state.after(setting, action);
+                Some(number as u32)
+            };
+            actions.iter().map_while(number).collect()
+        };
+        let once = [&[self.start as u32], &numbers(&self.actions)[..]].concat();
+        let again = match &self.ending {
+            Ending::There | Ending::Still => Vec::new(),
+            Ending::Round(round) => numbers(round),
+        };
+        Choices { once, again }
+    }
 }
 
 /// The states of a setting.

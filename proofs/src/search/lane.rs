@@ -9,6 +9,7 @@ use tautline_kernel::choice::Source;
 
 use super::game::{Demand, Game, Turn};
 use super::{Broken, Count, Violation, WAVE};
+use crate::evidence::Unfit;
 use crate::run::Frame;
 
 /// One answer of the world.
@@ -352,6 +353,38 @@ impl<G: Game> Lane<G> {
             script: Vec::new(),
         })
     }
+}
+
+/// Makes the run with these answers, at most `most` of them mishaps, as far as it goes: what it breaks in its last team
+/// move, or by its end, and its team moves.
+pub(super) fn replay<G: Game>(game: &G, most: u32, answers: &[u32]) -> Result<(Demand, Vec<Frame>), Unfit> {
+    let mishaps = answers.iter().filter(|&&answer| answer != 0).count() as u32;
+    let mut lane = Lane::whole(game, mishaps.min(most));
+    let mut frames = Vec::new();
+    let mut broken = None;
+    while broken.is_none() {
+        let Some(fork) = lane.plan(game) else {
+            broken = game.broken_at_end(&lane.state, &lane.log);
+            break;
+        };
+        lane.script.extend_from_slice(answers.get(fork.answered..).unwrap_or_default());
+        if !lane.settle(game, &fork) {
+            let mut given = lane.answers.given.iter().zip(answers);
+            let at = given.position(|(given, &answer)| given.value != answer).unwrap_or(fork.answered);
+            return Err(Unfit::None { at, of: lane.answers.given[at].below });
+        }
+        if lane.answers.given.len() > answers.len() {
+            return Err(Unfit::Unbroken);
+        }
+        let turn = lane.turn(&fork);
+        frames.push(game.frame(&turn));
+        broken = game.broken_by(&turn).or_else(|| lane.recurs(game));
+    }
+    let used = lane.answers.given.len();
+    if used < answers.len() {
+        return Err(Unfit::Over { at: used });
+    }
+    Ok((broken.ok_or(Unfit::Unbroken)?, frames))
 }
 
 /// The team moves of the run with these answers, and what it breaks in the last of them; `None` if that is nothing, or

@@ -1,0 +1,296 @@
+//! The judge of counterexamples of agents on a sensor floor. It reads a layout, where the agents start and what they do,
+//! turn by turn, as anyone may write it down, and decides from the sentences of `SPEC.md` whether BRICKS-4, BRICKS-5 or
+//! BRICKS-6 is broken by it. It knows walls and where agents have been, and nothing of marks: it shares no code with the
+//! rules, so it does not say whether a rule makes the agents act so. Whoever asks it plays the rule, too.
+
+use std::collections::BTreeSet;
+use std::fmt;
+
+/// Column and row.
+pub type Place = (i32, i32);
+
+/// A counterexample, written down.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Exhibit {
+    /// The clause that it is said to break.
+    pub clause: String,
+    /// Columns of the layout.
+    pub width: i32,
+    /// Rows of the layout.
+    pub height: i32,
+    /// Pairs of neighbouring cells, the western or northern first, with a wall between them.
+    pub walls: BTreeSet<(Place, Place)>,
+    /// Cells that nobody can enter.
+    pub blocked: BTreeSet<Place>,
+    /// Where each agent starts.
+    pub starts: Vec<Place>,
+    /// What they do.
+    pub turns: Vec<Turn>,
+    /// The last of the turns that are said to come again for ever; 0 if the run ends.
+    pub round: usize,
+}
+
+/// What one agent does.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Turn {
+    /// Its place among the agents.
+    pub agent: usize,
+    /// Where it is then.
+    pub to: Place,
+    /// Whether it is done from then on.
+    pub is_done: bool,
+}
+
+/// What the judge says of an exhibit in which everything is possible.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Judgement {
+    /// The clause is broken.
+    Broken,
+    /// Whether it is broken is a matter of marks, which the judge does not know.
+    Unseen,
+}
+
+/// Why an exhibit is no counterexample: the sentence, and the turn that it is about, counted from 1; 0 for the exhibit
+/// as a whole.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Objection {
+    /// The turn.
+    pub at: usize,
+    /// What is wrong.
+    pub what: &'static str,
+}
+
+impl fmt::Display for Objection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.at {
+            0 => f.write_str(self.what),
+            at => write!(f, "turn {at}: {}", self.what),
+        }
+    }
+}
+
+impl std::error::Error for Objection {}
+
+/// Judges an exhibit: whether every turn is possible in its layout, and whether the last one, and no earlier one, breaks
+/// the clause; or whether it is broken by how the run ends, or by going round for ever.
+///
+/// # Errors
+/// The first [`Objection`].
+pub fn judge(exhibit: &Exhibit) -> Result<Judgement, Objection> {
+    let whole = |what| Objection { at: 0, what };
+    let Exhibit { clause, starts, turns, round, .. } = exhibit;
+    if starts.is_empty() || turns.is_empty() || *round > turns.len() {
+        return Err(whole("a counterexample needs an agent and its turns"));
+    }
+    if !starts.iter().all(|&start| exhibit.is_free(start)) {
+        return Err(whole("an agent starts where there is no free cell"));
+    }
+    let due = exhibit.connected();
+    let mut court =
+        Court { places: starts.clone(), done: vec![false; starts.len()], explored: BTreeSet::new() };
+    court.explored.extend(starts);
+    let home = turns.len() - round;
+    let (mut before, mut acting) = (None, BTreeSet::new());
+    for (index, turn) in turns.iter().enumerate() {
+        if index == home {
+            before = Some(court.clone());
+        }
+        court.hear(exhibit, turn).map_err(|what| Objection { at: index + 1, what })?;
+        acting.extend((index >= home).then_some(turn.agent));
+        let is_early = turn.is_done && !due.is_subset(&court.explored);
+        if clause == "BRICKS-4" && is_early && index + 1 < turns.len() {
+            return Err(Objection { at: index + 1, what: "the clause is broken before the last turn" });
+        }
+    }
+    let is_unexplored = !due.is_subset(&court.explored);
+    let is_over = court.done.iter().all(|&is_done| is_done);
+    let goes_round = before.is_some_and(|before| {
+        let acts = |agent: usize| before.done[agent] || acting.contains(&agent);
+        before == court && (0..starts.len()).all(acts) && !is_over
+    });
+    let last_is_done = turns.last().is_some_and(|turn| turn.is_done);
+    match (clause.as_str(), *round) {
+        ("BRICKS-4", 0) if last_is_done && is_unexplored => Ok(Judgement::Broken),
+        ("BRICKS-4", 0) if last_is_done => Ok(Judgement::Unseen),
+        ("BRICKS-4", _) => Err(whole("in the last turn no agent is done")),
+        ("BRICKS-5" | "BRICKS-6", 0) if is_over && is_unexplored => Ok(Judgement::Broken),
+        ("BRICKS-5", 0) => Err(whole("the run is not over, or every cell is explored")),
+        ("BRICKS-6", 0) if is_over => Ok(Judgement::Unseen),
+        ("BRICKS-6", 0) => Err(whole("the run is not over")),
+        ("BRICKS-5" | "BRICKS-6", _) if !goes_round => {
+            Err(whole("the last turns do not come back to where they began, or leave an agent out"))
+        }
+        ("BRICKS-5", _) if !is_unexplored => Err(whole("every cell is explored")),
+        ("BRICKS-5" | "BRICKS-6", _) => Ok(Judgement::Broken),
+        _ => Ok(Judgement::Unseen),
+    }
+}
+
+impl Exhibit {
+    fn is_free(&self, place: Place) -> bool {
+        let (x, y) = place;
+        (0..self.width).contains(&x) && (0..self.height).contains(&y) && !self.blocked.contains(&place)
+    }
+
+    /// Whether an agent can go from one cell to the other in one turn.
+    fn is_open(&self, from: Place, to: Place) -> bool {
+        let is_beside = (from.0 - to.0).abs() + (from.1 - to.1).abs() == 1;
+        is_beside
+            && self.is_free(from)
+            && self.is_free(to)
+            && !self.walls.contains(&(from.min(to), from.max(to)))
+    }
+
+    /// The cells that are connected with the start of an agent.
+    fn connected(&self) -> BTreeSet<Place> {
+        let mut found = BTreeSet::new();
+        let mut left = self.starts.clone();
+        while let Some(place) = left.pop() {
+            if found.insert(place) {
+                let (x, y) = place;
+                let beside = [(x, y - 1), (x + 1, y), (x, y + 1), (x - 1, y)];
+                left.extend(beside.into_iter().filter(|&next| self.is_open(place, next)));
+            }
+        }
+        found
+    }
+}
+
+/// What is seen of the agents.
+#[derive(Clone, PartialEq, Eq)]
+struct Court {
+    places: Vec<Place>,
+    done: Vec<bool>,
+    explored: BTreeSet<Place>,
+}
+
+impl Court {
+    fn hear(&mut self, exhibit: &Exhibit, turn: &Turn) -> Result<(), &'static str> {
+        let &Turn { agent, to, is_done } = turn;
+        let Some(&from) = self.places.get(agent) else { return Err("there is no such agent") };
+        if self.done[agent] {
+            return Err("an agent acts that is done");
+        }
+        if to != from && !exhibit.is_open(from, to) {
+            return Err("an agent goes where it cannot go");
+        }
+        if is_done && to != from {
+            return Err("an agent that goes is not done");
+        }
+        self.places[agent] = to;
+        self.done[agent] = is_done;
+        self.explored.insert(to);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tautline_kernel::lattice::Cell;
+
+    use super::*;
+    use crate::clause::Verdict;
+    use crate::course::Course;
+    use crate::decide::{Evidence, Prover};
+    use crate::registry::CLAUSES;
+    use crate::search::unwatched;
+
+    fn place(cell: Cell) -> Place {
+        (i32::from(cell.x), i32::from(cell.y))
+    }
+
+    fn written_down(clause: &str, course: &Course) -> Exhibit {
+        let turn = |turn: &crate::course::Turn| Turn {
+            agent: turn.agent,
+            to: place(turn.before.cells[turn.agent].after(turn.step)),
+            is_done: turn.is_done,
+        };
+        Exhibit {
+            clause: clause.to_owned(),
+            width: course.width.into(),
+            height: course.height.into(),
+            walls: BTreeSet::new(),
+            blocked: course.blocked.iter().copied().map(place).collect(),
+            starts: course.turns[0].before.cells.iter().copied().map(place).collect(),
+            turns: course.turns.iter().map(turn).collect(),
+            round: course.round,
+        }
+    }
+
+    /// What refutes BRICKS-5 and BRICKS-6 with sensors missed, and BRICKS-6 without: a run that ends too early, and one
+    /// that goes round.
+    fn exhibits() -> Vec<Exhibit> {
+        let mut prover = Prover::default();
+        let mut exhibits = Vec::new();
+        for clause in CLAUSES.iter().filter(|clause| ["BRICKS-5", "BRICKS-6"].contains(&clause.id)) {
+            for check in clause.checks.iter().filter(|check| check.expected == Verdict::Refuted) {
+                let decision = prover.decide(check, &mut unwatched).expect("registered checks fit");
+                match decision.counterexample {
+                    Some(Evidence::Course(course, ..)) => exhibits.push(written_down(clause.id, &course)),
+                    other => panic!("no run of agents: {other:?}"),
+                }
+            }
+        }
+        exhibits
+    }
+
+    #[test]
+    fn what_refutes_a_clause_is_accepted_and_with_one_change_is_not() {
+        let mut rounds = 0;
+        for exhibit in exhibits() {
+            assert_eq!(judge(&exhibit), Ok(Judgement::Broken), "{exhibit:?}");
+            rounds += usize::from(exhibit.round > 0);
+            let rejects = |change: &dyn Fn(&mut Exhibit), what: &str| {
+                let mut changed = exhibit.clone();
+                change(&mut changed);
+                assert!(judge(&changed) != Ok(Judgement::Broken), "{what} is accepted: {changed:?}");
+            };
+            let last = exhibit.turns.len() - 1;
+            rejects(&|changed| changed.turns.truncate(last), "a run that is cut");
+            rejects(&|changed| changed.round = changed.turns.len() + 1, "a longer round than the run");
+            rejects(&|changed| changed.turns[last].agent = 7, "nobody");
+            rejects(&|changed| changed.turns[0].to = (9, 9), "a step out of the layout");
+            rejects(&|changed| changed.turns[0].is_done = true, "an agent that is done too early");
+            rejects(&|changed| changed.starts[0] = (-1, 0), "a start outside");
+            rejects(&|changed| changed.starts.push((0, 0)), "another agent, which does nothing");
+            rejects(&|changed| changed.clause = "BRICKS-2".to_owned(), "a clause about marks");
+            if exhibit.round == 0 {
+                rejects(&|changed| changed.turns[last].is_done = false, "a run that is not over");
+                rejects(&|changed| changed.round = 1, "a round that is none");
+            } else {
+                rejects(&|changed| changed.round -= 1, "a shorter round");
+                rejects(&|changed| changed.round = 0, "a run that does not end");
+            }
+        }
+        assert!(rounds > 0, "no run goes round");
+    }
+
+    #[test]
+    fn an_agent_that_is_done_while_a_cell_is_unexplored_breaks_bricks_4() {
+        let turn = |to, is_done| Turn { agent: 0, to, is_done };
+        let exhibit = |turns: &[Turn]| Exhibit {
+            clause: "BRICKS-4".to_owned(),
+            width: 3,
+            height: 1,
+            walls: BTreeSet::new(),
+            blocked: BTreeSet::new(),
+            starts: vec![(0, 0)],
+            turns: turns.to_vec(),
+            round: 0,
+        };
+        let early = [turn((1, 0), false), turn((1, 0), true)];
+        assert_eq!(judge(&exhibit(&early)), Ok(Judgement::Broken));
+        let late = [turn((1, 0), false), turn((2, 0), false), turn((2, 0), true)];
+        assert_eq!(
+            judge(&exhibit(&late)),
+            Ok(Judgement::Unseen),
+            "what is left to go through is a matter of marks"
+        );
+        assert!(judge(&exhibit(&late[..2])).is_err(), "nobody is done");
+        let mut cut_off = exhibit(&early);
+        cut_off.walls.insert(((1, 0), (2, 0)));
+        assert_eq!(judge(&cut_off), Ok(Judgement::Unseen), "the third cell is not connected");
+        let through = [turn((2, 0), false), turn((2, 0), true)];
+        assert!(judge(&exhibit(&through)).is_err(), "two cells in one turn");
+    }
+}

@@ -1,0 +1,270 @@
+//! A refutation as a file, one JSON object a line: a header that names the check whose bound it lies in, one line for
+//! each choice that leads to what is broken, and an end with the checksum of the lines before. Reading a file is playing
+//! it again: the rule is asked at every choice, so the file is believed no farther than the rule goes along with it.
+//! A run that can go on for ever has its choices marked that come again.
+//!
+//! ```text
+//! {"format":"tautline refutation","version":1,"clause":"NOTICE-5","rule":"published","engine":"states","bound":"…","demand":"…"}
+//! {"choice":{"taken":5,"of":74}}
+//! {"again":{"taken":0,"of":2}}
+//! {"end":{"choices":1,"again":1,"crc32":1234}}
+//! ```
+//!
+//! Runs of a chain that break a clause about runs are stored as [traces](crate::trace) instead.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use tautline_proofs::clause::{Check, Clause};
+use tautline_proofs::decide::Evidence;
+use tautline_proofs::evidence::{Choices, Played, Unfit};
+use tautline_proofs::registry::CLAUSES;
+
+use crate::aside::{Aside, Replaceable};
+use crate::fault::Fault;
+use crate::trace::lines::{Lines, line_of};
+
+/// The format of the header.
+pub const FORMAT: &str = "tautline refutation";
+const VERSION: u32 = 1;
+
+const AGAIN: &str = "store it again with `tautline prove --out`";
+
+/// Longer lines are refused: no bound takes so many words.
+const MAX_LINE_BYTES: u64 = 1 << 14;
+
+/// More choices are refused: no check makes so many.
+const MAX_CHOICES: usize = 1 << 20;
+
+/// The first line.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Header {
+    format: String,
+    version: u32,
+    clause: String,
+    rule: String,
+    engine: String,
+    bound: String,
+    demand: String,
+}
+
+/// A later line.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Line {
+    Choice(Choice),
+    Again(Choice),
+    End(End),
+}
+
+/// A choice: which, and from how many.
+#[derive(Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Choice {
+    taken: u32,
+    of: u32,
+}
+
+/// The last line.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct End {
+    choices: usize,
+    again: usize,
+    crc32: u32,
+}
+
+/// The name of the rule that a check is about.
+pub fn rule(check: &Check) -> &'static str {
+    check.subject.name().unwrap_or("other")
+}
+
+/// The place in `folder` of a refutation that `check` has found: clause, rule and engine are its name, and a number where
+/// another check of the clause before has the same.
+pub fn path(folder: &Path, clause: &Clause, check: &Check) -> PathBuf {
+    let kin = |other: &&Check| (rule(other), other.method.engine()) == (rule(check), check.method.engine());
+    let before = clause.checks.iter().take_while(|other| !std::ptr::eq(*other, check)).filter(kin).count();
+    let number = if before == 0 { String::new() } else { format!("-{}", before + 1) };
+    let (clause, rule, engine) = (clause.id.to_lowercase(), rule(check), check.method.engine());
+    folder.join(format!("{clause}-{rule}-{engine}{number}.jsonl"))
+}
+
+/// Writes what refutes `clause` by `check` to a file at `path`. The file has yet to be put in its place.
+///
+/// # Errors
+/// A [`Fault`] if it does not lead where it is said to lead.
+pub fn store(
+    path: &Path,
+    clause: &Clause,
+    check: &Check,
+    evidence: &Evidence,
+    replaceable: &Replaceable,
+) -> Result<Aside, Fault> {
+    let choices = evidence.choices();
+    let Played { of, .. } = check.replay(&choices).map_err(|unfit| {
+        let what = format!("what refutes {} cannot be played again: {unfit}", clause.id);
+        Fault::in_file(path, what, "this is a bug of tautline: please report it")
+    })?;
+    let mut text = line_of(&Header {
+        format: FORMAT.to_owned(),
+        version: VERSION,
+        clause: clause.id.to_owned(),
+        rule: rule(check).to_owned(),
+        engine: check.method.engine().to_owned(),
+        bound: check.method.bound(),
+        demand: evidence.demand().to_owned(),
+    });
+    let Choices { once, again } = &choices;
+    let lines = once.iter().map(|_| Line::Choice as fn(Choice) -> Line);
+    let lines = lines.chain(again.iter().map(|_| Line::Again as fn(Choice) -> Line));
+    for ((line, &taken), of) in lines.zip(once.iter().chain(again)).zip(of) {
+        text += &line_of(&line(Choice { taken, of }));
+    }
+    let crc32 = crc32fast::hash(text.as_bytes());
+    text += &line_of(&Line::End(End { choices: once.len(), again: again.len(), crc32 }));
+    let mut file = Aside::late(path, replaceable);
+    file.append(text);
+    Ok(file)
+}
+
+/// A refutation that was read, and played again.
+#[derive(Debug)]
+pub struct Refutation {
+    /// What is refuted.
+    pub clause: &'static Clause,
+    /// The check within whose bound it lies.
+    pub check: &'static Check,
+    /// What it comes to.
+    pub evidence: Evidence,
+}
+
+/// Reads the refutation at `path`, and plays it again.
+///
+/// # Errors
+/// A [`Fault`] that names the line and what is wrong.
+pub fn replay(path: &Path) -> Result<Refutation, Fault> {
+    let mut lines = Lines::open(path, AGAIN)?;
+    let first = lines.header(FORMAT, VERSION, MAX_LINE_BYTES)?;
+    let header: Header = lines.parse(&first, AGAIN)?;
+    let (clause, checks) = find(&lines, &first, &header)?;
+    let mut seal = crc32fast::Hasher::new();
+    seal.update(format!("{first}\n").as_bytes());
+    let (mut choices, mut of) = (Choices::default(), Vec::new());
+    let end = loop {
+        let Some(text) = lines.next(MAX_LINE_BYTES)? else {
+            return Err(Fault::in_file(
+                path,
+                format_args!("the file ends after line {}", 1 + of.len()),
+                AGAIN,
+            ));
+        };
+        let choice = match lines.parse(&text, AGAIN)? {
+            Line::Choice(_) if !choices.again.is_empty() => {
+                let what = "what comes only once stands before what comes again";
+                return Err(lines.fault(&text, "\"choice\"", what, AGAIN));
+            }
+            Line::Choice(choice) => {
+                choices.once.push(choice.taken);
+                choice
+            }
+            Line::Again(choice) => {
+                choices.again.push(choice.taken);
+                choice
+            }
+            Line::End(end) => break (end, text),
+        };
+        seal.update(format!("{text}\n").as_bytes());
+        of.push(choice.of);
+        if of.len() > MAX_CHOICES {
+            return Err(lines.fault(&text, &text, format_args!("more than {MAX_CHOICES} choices"), AGAIN));
+        }
+    };
+    let (end, text) = end;
+    lines.end()?;
+    let played = play(path, &checks, &choices, &of)?;
+    let (check, evidence) = played;
+    if evidence.demand() != header.demand {
+        let what = format!("the demand that is broken is another: {:?}", evidence.demand());
+        return Err(Fault::in_line(path, 1, &first, spot(&first, "demand"), what, AGAIN));
+    }
+    if (end.choices, end.again) != (choices.once.len(), choices.again.len()) {
+        let what = format!("there are {} choices and {} again", choices.once.len(), choices.again.len());
+        return Err(Fault::in_line(path, 2 + of.len(), &text, spot(&text, "choices"), what, AGAIN));
+    }
+    if end.crc32 != seal.finalize() {
+        let what = "the lines above are not those that were written: their checksum is another";
+        return Err(Fault::in_line(path, 2 + of.len(), &text, spot(&text, "crc32"), what, AGAIN));
+    }
+    Ok(Refutation { clause, check, evidence })
+}
+
+/// Where `key` stands in a line.
+fn spot(text: &str, key: &str) -> std::ops::Range<usize> {
+    let start = text.find(&format!("\"{key}\"")).unwrap_or_default();
+    start..start + key.len() + 2
+}
+
+/// The clause of a header, and its checks that may be meant.
+fn find(lines: &Lines, text: &str, header: &Header) -> Result<(&'static Clause, Vec<&'static Check>), Fault> {
+    let Some(clause) = CLAUSES.iter().find(|clause| clause.id == header.clause) else {
+        let known: Vec<&str> = CLAUSES.iter().map(|clause| clause.id).collect();
+        let remedy = format!("the clauses are {}", known.join(", "));
+        let what = format!("there is no clause {:?}", header.clause);
+        return Err(lines.fault(text, "\"clause\"", what, remedy));
+    };
+    let fitting = |key: &str, what: &str, is: &dyn Fn(&&Check) -> bool, checks: Vec<&'static Check>| {
+        let fitting: Vec<&Check> = checks.into_iter().filter(is).collect();
+        if fitting.is_empty() {
+            let what = format!("no check of {} {what}", clause.id);
+            return Err(lines.fault(text, &format!("\"{key}\""), what, AGAIN));
+        }
+        Ok(fitting)
+    };
+    let Header { rule: name, engine, bound, .. } = header;
+    let checks = clause.checks.iter().collect();
+    let checks = fitting("rule", &format!("is about {name:?}"), &|check| rule(check) == name, checks)?;
+    let by = |check: &&Check| check.method.engine() == engine;
+    let checks = fitting("engine", &format!("about it is decided by {engine:?}"), &by, checks)?;
+    let within = |check: &&Check| check.method.bound() == *bound;
+    Ok((clause, fitting("bound", "by it has this bound", &within, checks)?))
+}
+
+/// Plays `choices` by the first of `checks` that goes along with them.
+fn play(
+    path: &Path,
+    checks: &[&'static Check],
+    choices: &Choices,
+    of: &[u32],
+) -> Result<(&'static Check, Evidence), Fault> {
+    let at = |at: usize, what: &str| {
+        let all = choices.once.iter().chain(&choices.again);
+        let text = all.zip(of).nth(at).map(|(&taken, &of)| {
+            let choice = Choice { taken, of };
+            line_of(&if at < choices.once.len() { Line::Choice(choice) } else { Line::Again(choice) })
+        });
+        let text = text.unwrap_or_default();
+        let text = text.trim_end();
+        Fault::in_line(path, 2 + at, text, 0..text.len(), what, AGAIN)
+    };
+    let refused = |unfit: Unfit| match unfit.at() {
+        Some(place) => at(place, &unfit.to_string()),
+        None => Fault::in_file(path, format_args!("this refutes nothing: {unfit}"), AGAIN),
+    };
+    let mut first = None;
+    for &check in checks {
+        match check.replay(choices) {
+            Ok(Played { of: asked, evidence }) => {
+                let misfit = (0..).zip(asked.iter().zip(of)).find(|(_, (asked, of))| asked != of);
+                return match misfit {
+                    Some((place, (asked, _))) => {
+                        Err(at(place, &format!("here there are {asked} to choose from")))
+                    }
+                    None => Ok((check, evidence)),
+                };
+            }
+            Err(unfit) => first = first.or(Some(unfit)),
+        }
+    }
+    Err(refused(first.unwrap_or(Unfit::Unbroken)))
+}

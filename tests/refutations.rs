@@ -1,0 +1,146 @@
+//! What refutes a clause is stored, and played again by whoever reads the file; a file that was changed is refused.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use tautline::aside::Replaceable;
+use tautline::refutation::{self, path, replay};
+use tautline_proofs::clause::{Check, Clause, Verdict};
+use tautline_proofs::decide::{Evidence, Prover};
+use tautline_proofs::registry::CLAUSES;
+use tautline_proofs::search::unwatched;
+
+/// What refutes the checks that are registered as refuted, but for those that take long to decide.
+fn refutations() -> Vec<(&'static Clause, &'static Check, Evidence)> {
+    let mut prover = Prover::default();
+    let checks = CLAUSES.iter().flat_map(|clause| clause.checks.iter().map(move |check| (clause, check)));
+    let is_short = |check: &Check| check.method.engine() != "sampled";
+    let refuted = checks.filter(|(_, check)| check.expected == Verdict::Refuted && is_short(check));
+    let decide = |(clause, check): (&'static Clause, &'static Check)| {
+        let decision = prover.decide(check, &mut unwatched).expect("registered checks fit");
+        assert_eq!(decision.verdict, Verdict::Refuted, "{}", clause.id);
+        (clause, check, decision.counterexample.expect("what is refuted has a counterexample"))
+    };
+    refuted.map(decide).collect()
+}
+
+/// The same file with one thing changed, and what that is.
+fn tampered(text: &str) -> Vec<(String, String)> {
+    let lines: Vec<&str> = text.lines().collect();
+    let joined = |lines: &[&str]| lines.join("\n") + "\n";
+    let mut changed = Vec::new();
+    for place in 0..lines.len() {
+        let mut cut = lines.clone();
+        cut.remove(place);
+        changed.push((format!("line {} left out", place + 1), joined(&cut)));
+        changed.push((format!("cut behind line {place}"), joined(&lines[..place])));
+        let mut twice = lines.clone();
+        twice.insert(place, lines[place]);
+        changed.push((format!("line {} twice", place + 1), joined(&twice)));
+        if let Some(taken) = taken(lines[place]) {
+            for other in [taken + 1, taken.wrapping_sub(1), 1 << 20] {
+                let line = lines[place].replace(&format!("\"taken\":{taken}"), &format!("\"taken\":{other}"));
+                let mut other_choice = lines.clone();
+                other_choice[place] = &line;
+                changed.push((format!("line {}: choice {other}", place + 1), joined(&other_choice)));
+            }
+        }
+    }
+    for (what, other) in [
+        ("\"version\":1", "\"version\":2"),
+        ("tautline refutation", "tautline run"),
+        ("\"engine\":\"", "\"engine\":\"s"),
+        ("\"bound\":\"", "\"bound\":\"all "),
+        ("\"demand\":\"", "\"demand\":\"not "),
+        ("\"rule\":\"", "\"rule\":\"un"),
+        ("\"clause\":\"", "\"clause\":\"X"),
+        ("\"of\":", "\"of\":1"),
+        ("\"crc32\":", "\"crc32\":1"),
+        ("{\"end\"", "{\"again\":{\"taken\":0,\"of\":1}}\n{\"end\""),
+    ] {
+        assert!(text.contains(what), "{what} in {text}");
+        changed.push((format!("{what} is {other}"), text.replacen(what, other, 1)));
+    }
+    changed.push(("a line more".to_owned(), text.to_owned() + lines[1] + "\n"));
+    changed.push(("nothing".to_owned(), String::new()));
+    changed
+}
+
+fn taken(line: &str) -> Option<u32> {
+    line.split_once("\"taken\":")?.1.split(',').next()?.parse().ok()
+}
+
+#[test]
+fn whatever_refutes_a_clause_is_stored_and_played_again_and_refused_when_it_was_changed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut names = Vec::new();
+    for (clause, check, evidence) in refutations() {
+        let path = path(folder.path(), clause, check);
+        let file = refutation::store(&path, clause, check, &evidence, &Replaceable::default());
+        file.expect("a refutation").keep().expect("room");
+        let again = replay(&path).expect("what was stored");
+        assert_eq!((again.clause.id, again.check.method.bound()), (clause.id, check.method.bound()));
+        assert_eq!(again.evidence.choices(), evidence.choices(), "{}", path.display());
+        assert_eq!(again.evidence.demand(), evidence.demand(), "{}", path.display());
+        let text = fs::read_to_string(&path).expect("a file");
+        for (what, changed) in tampered(&text) {
+            if changed != text {
+                fs::write(&path, changed).expect("room");
+                assert!(replay(&path).is_err(), "{}: {what} is accepted", path.display());
+            }
+        }
+        names.push(path);
+    }
+    let files = names.len();
+    names.sort();
+    names.dedup();
+    assert_eq!(names.len(), files, "two refutations have one name");
+    assert!(files > 15, "{files}");
+}
+
+fn tautline(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_tautline"));
+    command.current_dir(folder).args(arguments).env("NO_COLOR", "1").output().expect("the program runs")
+}
+
+#[test]
+fn prove_stores_what_it_refutes_and_replay_draws_it_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let clauses = ["prove", "CHAIN-14", "NOTICE-4", "NOTICE-5", "MRC-2", "--out", "new/refuted"];
+    let proved = tautline(folder.path(), &clauses);
+    assert_eq!(proved.status.code(), Some(0), "{}", String::from_utf8_lossy(&proved.stderr));
+    let told = String::from_utf8(proved.stdout).expect("text");
+    let mut stored: Vec<String> = fs::read_dir(folder.path().join("new/refuted"))
+        .expect("a folder")
+        .map(|entry| entry.expect("a file").file_name().into_string().expect("a plain name"))
+        .collect();
+    stored.sort();
+    let expected = [
+        "chain-14-published-search.jsonl",
+        "chain-14-repaired-search-2.jsonl",
+        "mrc-2-published-states.jsonl",
+        "notice-4-published-exhaustive.jsonl",
+        "notice-5-published-states-2.jsonl",
+        "notice-5-published-states.jsonl",
+    ];
+    assert_eq!(stored, expected);
+    for name in stored {
+        let file = format!("new/refuted/{name}");
+        assert!(told.contains(&format!("replay it with: tautline replay {file}\n")), "{told}");
+        let replayed = tautline(folder.path(), &["replay", &file]);
+        assert_eq!(replayed.status.code(), Some(1), "{}", String::from_utf8_lossy(&replayed.stderr));
+        let replayed = String::from_utf8(replayed.stdout).expect("text");
+        let (head, story) = replayed.split_once("\n\n").expect("a head, then a story");
+        let judged = if name.starts_with("chain") {
+            "the judge accepts it as a counterexample to CHAIN-14"
+        } else {
+            "no independent judge for this clause: the rule itself was played again"
+        };
+        assert!(head.ends_with(judged), "{head}");
+        assert!(told.contains(story), "{name}: another story:\n{story}");
+        let refused = tautline(folder.path(), &["replay", &file, "--svg", "picture.svg"]);
+        assert_eq!(refused.status.code(), Some(2));
+    }
+    assert!(!folder.path().join("picture.svg").exists());
+}
