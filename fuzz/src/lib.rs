@@ -28,7 +28,7 @@ use tautline_kernel::grid::{Area, Grid, SmallGrid};
 use tautline_kernel::lattice::{Cell, Edge};
 use tautline_proofs::engine::{Seeded, Tape};
 use tautline_proofs::judge::{self, Exhibit};
-use tautline_proofs::run::{Breach, Frame};
+use tautline_proofs::run::{Breach, CHEAP_LOOKS, Frame};
 use tautline_proofs::search::{self, Bounds, Found, Search};
 
 pub use floor::floor;
@@ -227,7 +227,7 @@ fn alter(exhibit: &mut Exhibit, [which, what, robot, by]: [u32; 4]) {
     }
 }
 
-/// A chain of 8 to 24 robots, the first edges decided by the bytes and the rest at random: no plan is dear. Only the
+/// A chain of 8 to 24 robots, the first edges decided by the bytes and the rest at random: no repaired plan is dear. Only the
 /// first moves are made, so that many inputs can be tried.
 pub fn plan_cost(bytes: &[u8]) {
     plan(bytes, [8, 12, 16, 24], |robots| 160 / robots);
@@ -256,7 +256,12 @@ fn plan(bytes: &[u8], teams: [usize; 4], moves: fn(usize) -> usize) {
     for _ in 0..moves(robots) {
         let Intent::Go(plan) = chain.plan(&log).expect("messages of the chain") else { break };
         dearest = dearest.max(chain.looked_at());
-        assert!(dearest < 100 * robots as u32, "{robots} robots: a plan looked at {dearest} candidates");
+        // As published no plan is bounded: what is dear there is only shown to the fuzzer.
+        let most = CHEAP_LOOKS * robots as u32;
+        assert!(
+            rule == Rule::PUBLISHED || dearest <= most,
+            "{robots} robots: a plan looked at {dearest} candidates"
+        );
         let answer = |_| bits.next().unwrap_or_else(|| random.pick(100) >= walls_percent);
         log.extend_from_slice(chain.settle(&plan, answer).messages());
     }

@@ -69,6 +69,8 @@ pub(crate) enum Demand {
     Explores,
     /// BRICKS-6
     Ends,
+    /// BRICKS-2, BRICKS-4 and BRICKS-6, looked at in one pass.
+    All,
 }
 
 /// An agent on the floor.
@@ -160,20 +162,25 @@ impl Team {
     /// What is broken in `state`, in which the agent in the cell `ended` has just been done.
     fn broken(&self, state: &State, ended: Option<Cell>) -> Option<&'static str> {
         match self.demand {
-            Demand::Connected => {
-                let left = self.left(state);
-                let is_one = self.plan.spread(left, |edge| is_shut(&self.plan, &state.sensors, edge)) == left;
-                (!is_one).then_some("the accessible cells stay connected")
-            }
-            Demand::Knowing => {
-                let here = self.plan.place(ended?).map_or(0, |place| 1 << place);
-                if !self.is_explored(state) {
-                    return Some("an agent is done only when every cell is explored");
-                }
-                (self.left(state) & !here != 0).then_some("an agent is done only when no other cell is left")
-            }
+            Demand::Connected => self.is_torn(state),
+            Demand::Knowing => self.is_wrong(state, ended),
+            Demand::All => self.is_torn(state).or_else(|| self.is_wrong(state, ended)),
             Demand::Explores | Demand::Ends => None,
         }
+    }
+
+    fn is_torn(&self, state: &State) -> Option<&'static str> {
+        let left = self.left(state);
+        let is_one = self.plan.spread(left, |edge| is_shut(&self.plan, &state.sensors, edge)) == left;
+        (!is_one).then_some("the accessible cells stay connected")
+    }
+
+    fn is_wrong(&self, state: &State, ended: Option<Cell>) -> Option<&'static str> {
+        let here = self.plan.place(ended?).map_or(0, |place| 1 << place);
+        if !self.is_explored(state) {
+            return Some("an agent is done only when every cell is explored");
+        }
+        (self.left(state) & !here != 0).then_some("an agent is done only when no other cell is left")
     }
 }
 
@@ -218,7 +225,7 @@ impl Team {
     fn turn(&self, state: &State, world: &mut dyn Source) -> Option<Turned> {
         let awake = self.awake(state);
         let is_over = match self.demand {
-            Demand::Connected | Demand::Knowing | Demand::Ends => false,
+            Demand::Connected | Demand::Knowing | Demand::Ends | Demand::All => false,
             Demand::Explores => self.is_explored(state),
         };
         if awake == 0 || is_over {
@@ -348,7 +355,7 @@ impl System for Team {
         match self.demand {
             Demand::Connected | Demand::Knowing => None,
             Demand::Explores => (!self.is_explored(state)).then_some("every cell is explored"),
-            Demand::Ends => {
+            Demand::Ends | Demand::All => {
                 let is_left = |mark| !matches!(mark, Mark::Visited | Mark::Sealed);
                 (self.marked(state, is_left) != 0)
                     .then_some("when all agents are done, every cell is visited")
@@ -360,7 +367,9 @@ impl System for Team {
         match self.demand {
             Demand::Connected | Demand::Knowing => None,
             Demand::Explores => Some("every cell is explored: no run goes on for ever before"),
-            Demand::Ends => Some("no run goes on for ever in which every agent acts again and again"),
+            Demand::Ends | Demand::All => {
+                Some("no run goes on for ever in which every agent acts again and again")
+            }
         }
     }
 
@@ -464,6 +473,19 @@ impl Floors {
     pub const ENDS_TWICE: Self = Self { series: &TWICE, demand: Demand::Ends };
     /// BRICKS-6, sensors missed.
     pub const ENDS_HALF_BLIND: Self = Self { series: &HALF_BLIND, demand: Demand::Ends };
+
+    /// The same floors with the demands of all clauses that are about them, if these are several.
+    pub(crate) fn together(self) -> Option<Self> {
+        let shared = [
+            Self::CONNECTED,
+            Self::KNOWING,
+            Self::ENDS,
+            Self::CONNECTED_HALF_BLIND,
+            Self::KNOWING_HALF_BLIND,
+            Self::ENDS_HALF_BLIND,
+        ];
+        shared.contains(&self).then_some(Self { demand: Demand::All, ..self })
+    }
 
     /// Looks at all states, series by series, until the first violation. Its choices are the numbers of the series, the
     /// plan and the start, then the steps.

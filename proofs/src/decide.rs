@@ -2,6 +2,7 @@
 //! one search looks for several invariants at once.
 
 use crate::ants;
+use crate::bricks::Floors;
 use crate::clause::{Check, Method, Subject, Verdict};
 use crate::course::{Course, Explored};
 use crate::engine::{self, Tally};
@@ -73,6 +74,8 @@ impl Evidence {
 pub struct Prover {
     searches: Vec<(Bounds, Found)>,
     spaces: Vec<((Setting, space::Until), space::Found)>,
+    /// Floors on which everything was looked at that several clauses demand of them.
+    floors: Vec<((Floors, Subject), Explored)>,
 }
 
 /// Steps between states at which a check is left open.
@@ -115,7 +118,7 @@ impl Prover {
                 Ok(of_tally(engine::sample(runs, SEED, |source| body(subject, source)), covers))
             }
             Method::Ants => Ok(Decision::of_floors(ants::explore(subject), shown)),
-            Method::Floors(floors) => Ok(Decision::of_floors(floors.explore(subject), shown)),
+            Method::Floors(floors) => Ok(Decision::of_floors(self.explore(floors, subject, until), shown)),
             Method::Spread(networks) => Ok(of_tally(networks.explore(subject), &notice::EVENTS)),
             Method::Search { robots, max_walls, invariant } => {
                 let invariants = match until {
@@ -150,6 +153,22 @@ impl Prover {
                 Ok(Decision::new(verdict, found.states, evidence))
             }
         }
+    }
+
+    /// What several clauses demand of the same floors is looked at in one pass. Where something is broken there, each
+    /// looks for its own first violation.
+    fn explore(&mut self, floors: Floors, subject: &Subject, until: Until) -> Explored {
+        let Some(together) = floors.together().filter(|_| until == Until::Exhausted) else {
+            return floors.explore(subject);
+        };
+        let key = (together, *subject);
+        let known = self.floors.iter().position(|(known, _)| *known == key);
+        let place = known.unwrap_or(self.floors.len());
+        if known.is_none() {
+            self.floors.push((key, together.explore(subject)));
+        }
+        let explored = &self.floors[place].1;
+        if explored.tally.violation.is_none() { explored.clone() } else { floors.explore(subject) }
     }
 
     fn search(&mut self, bounds: Bounds, watch: Watch<'_>) -> Result<&Found, Unsearchable> {

@@ -88,7 +88,7 @@ pub fn exhaust(mut body: impl FnMut(&mut dyn Source) -> Outcome) -> Tally {
 }
 
 /// Runs of [`sample`] between two looks for a violation.
-const WAVE: u64 = 64;
+const WAVE: u64 = 16;
 
 /// Runs `body` under `runs` sequences of random answers, until the first violation. The tally is the same on any
 /// number of threads.
