@@ -117,6 +117,7 @@ fn the_pictures_of_the_readme_are_drawn_by_the_commands_beside_them() {
         ("lakes.svg", "reproduce rescue-fig10 --svg", 0),
         ("rescue.svg", "reproduce rescue-fig8 --svg", 0),
         ("crowding.svg", "replay docs/chain-2-published-n4.jsonl --svg", 1),
+        ("dear.svg", "replay docs/chain-12-published-n47.jsonl --svg", 1),
         ("trap.svg", "replay docs/bricks-4-repaired-n1.jsonl --moves 1..5 --svg", 1),
     ] {
         assert!(readme.contains(&format!("tautline {arguments} docs/{picture}")), "{picture}");

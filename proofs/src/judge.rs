@@ -85,17 +85,8 @@ impl std::error::Error for Objection {}
 /// The first [`Objection`].
 pub fn judge(exhibit: &Exhibit) -> Result<(), Objection> {
     let whole = |what| Objection { at: 0, what };
-    #[allow(
-        clippy::redundant_closure_for_method_calls,
-        reason = "the method is less general than the closure"
-    )]
-    let clause = match exhibit.clause.as_str() {
-        "CHAIN-1" => Broken::ByMove(|_, made| contact_is_lost(&made.places)),
-        "CHAIN-2" => Broken::ByMove(|_, made| cell_is_crowded(&made.places)),
-        "CHAIN-3" => Broken::ByMove(|court, made| range_is_left(&court.places, &made.places)),
-        "CHAIN-13" => Broken::AtEnd(|court| Ok(court.misses_within_reach())),
-        "CHAIN-14" => Broken::AtEnd(|court| court.misses_reachable()),
-        _ => return Err(whole("there is no such clause to break in a run")),
+    let Some(clause) = broken(&exhibit.clause) else {
+        return Err(whole("there is no such clause to break in a run"));
     };
     let first = exhibit.moves.first().filter(|_| exhibit.robots >= 2);
     let Some(first) = first else { return Err(whole("a counterexample needs two robots and a move")) };
@@ -147,6 +138,23 @@ pub fn judge(exhibit: &Exhibit) -> Result<(), Objection> {
         return Err(whole("a wall was never met"));
     }
     Ok(())
+}
+
+/// Whether the judge knows this clause.
+pub fn judges(clause: &str) -> bool {
+    broken(clause).is_some()
+}
+
+/// What breaks the clause with this id, if the judge knows it.
+fn broken(clause: &str) -> Option<Broken> {
+    Some(match clause {
+        "CHAIN-1" => Broken::ByMove(|_, made| contact_is_lost(&made.places)),
+        "CHAIN-2" => Broken::ByMove(|_, made| cell_is_crowded(&made.places)),
+        "CHAIN-3" => Broken::ByMove(|court, made| range_is_left(&court.places, &made.places)),
+        "CHAIN-13" => Broken::AtEnd(|court| Ok(misses_within_reach(court))),
+        "CHAIN-14" => Broken::AtEnd(misses_reachable),
+        _ => return None,
+    })
 }
 
 /// What breaks a clause.
@@ -487,43 +495,6 @@ impl Court<'_> {
         None
     }
 
-    /// CHAIN-13: some place at most N−1 links from the base was never explored.
-    fn misses_within_reach(&self) -> bool {
-        let within_reach = self.exhibit.within_reach(|side| self.exhibit.is_open(side));
-        !within_reach.is_subset(&self.explored)
-    }
-
-    /// CHAIN-14: a team that knows the layout, and tries no wall, can bring a robot to a place that was never explored.
-    fn misses_reachable(&self) -> Result<bool, &'static str> {
-        let start = vec![self.exhibit.base; self.exhibit.robots];
-        // One who knows all sides: nobody is unsure, and no wall is planned to be crossed.
-        let mut informed = Court { open: BTreeSet::new(), walls: BTreeSet::new(), ..self.clone() };
-        for place in self.exhibit.inside() {
-            for step in [(1, 0), (0, 1)] {
-                let side = side_between(place, add(place, step));
-                let known = if self.exhibit.is_open(side) { &mut informed.open } else { &mut informed.walls };
-                known.insert(side);
-            }
-        }
-        let mut seen = HashSet::from([start.clone()]);
-        let mut left = vec![start];
-        while let Some(places) = left.pop() {
-            if places.iter().any(|place| !self.explored.contains(place)) {
-                return Ok(true);
-            }
-            informed.places = places;
-            informed.configurations(&mut vec![(0, 0)], &mut |next| {
-                if seen.insert(next.clone()) {
-                    left.push(next);
-                }
-            });
-            if seen.len() > MOST_CONFIGURATIONS {
-                return Err("the robots have too many places for the judge to say what they can reach");
-            }
-        }
-        Ok(false)
-    }
-
     /// The places of all robots after each team move that is admitted and begins with the steps `tried`, base first.
     fn configurations(&self, tried: &mut Vec<Place>, sink: &mut dyn FnMut(Vec<Place>)) {
         let robot = tried.len();
@@ -579,6 +550,43 @@ fn is_safe(centre: Place, place: Place) -> bool {
 /// E_C: E_S, and the four cells two steps straight ahead.
 fn is_covered(centre: Place, place: Place) -> bool {
     is_safe(centre, place) || (centre.0 - place.0).abs() + (centre.1 - place.1).abs() == 2
+}
+
+/// CHAIN-13: some place at most N−1 links from the base was never explored.
+fn misses_within_reach(court: &Court<'_>) -> bool {
+    let within_reach = court.exhibit.within_reach(|side| court.exhibit.is_open(side));
+    !within_reach.is_subset(&court.explored)
+}
+
+/// CHAIN-14: a team that knows the layout, and tries no wall, can bring a robot to a place that was never explored.
+fn misses_reachable(court: &Court<'_>) -> Result<bool, &'static str> {
+    let start = vec![court.exhibit.base; court.exhibit.robots];
+    // One who knows all sides: nobody is unsure, and no wall is planned to be crossed.
+    let mut informed = Court { open: BTreeSet::new(), walls: BTreeSet::new(), ..court.clone() };
+    for place in court.exhibit.inside() {
+        for step in [(1, 0), (0, 1)] {
+            let side = side_between(place, add(place, step));
+            let known = if court.exhibit.is_open(side) { &mut informed.open } else { &mut informed.walls };
+            known.insert(side);
+        }
+    }
+    let mut seen = HashSet::from([start.clone()]);
+    let mut left = vec![start];
+    while let Some(places) = left.pop() {
+        if places.iter().any(|place| !court.explored.contains(place)) {
+            return Ok(true);
+        }
+        informed.places = places;
+        informed.configurations(&mut vec![(0, 0)], &mut |next| {
+            if seen.insert(next.clone()) {
+                left.push(next);
+            }
+        });
+        if seen.len() > MOST_CONFIGURATIONS {
+            return Err("the robots have too many places for the judge to say what they can reach");
+        }
+    }
+    Ok(false)
 }
 
 /// CHAIN-1

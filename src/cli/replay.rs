@@ -12,7 +12,7 @@ use tautline_proofs::clause::{Check, Clause};
 use tautline_proofs::decide::Evidence;
 use tautline_proofs::floor_judge;
 use tautline_proofs::invariant::Invariant;
-use tautline_proofs::judge::{Exhibit, judge};
+use tautline_proofs::judge::{Exhibit, judge, judges};
 use tautline_proofs::run::Breach;
 
 use super::evidence::{Shown, indented, setup, shown, story};
@@ -155,7 +155,8 @@ impl Replay {
             check_panels(moves)?;
         }
         // What a judge reads: the run of a chain, or that of a single agent that is done too early.
-        let mut chain = clause.filter(|_| is_chain).map(|breach| exhibit(&setup, breach.clause(), &[]));
+        let judged = clause.filter(|breach| is_chain && judges(breach.clause()));
+        let mut chain = judged.map(|breach| exhibit(&setup, breach.clause(), &[]));
         let mut agent = (!is_chain && is_premature && setup.robots == 1).then(Vec::new);
         let report = trace.replay(&mut |made| {
             let read = match (&mut chain, &mut agent) {
