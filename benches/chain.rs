@@ -7,8 +7,7 @@ use criterion::{BenchmarkId, Criterion};
 use tautline::layout::{Generator, Layout};
 use tautline::wide::WideGrid;
 use tautline_kernel::chain::{Chain, Intent, Rule};
-use tautline_kernel::grid::{Area, Grid, MediumGrid, SmallGrid};
-use tautline_kernel::lattice::Cell;
+use tautline_kernel::ground::{Area, Cell, Grid, MediumGrid, SmallGrid};
 use tautline_proofs::plain::{PlainChain, PlainIntent};
 
 use self::common::{Cost, group, measure};

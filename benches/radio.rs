@@ -1,4 +1,4 @@
-//! What a flood costs, from the places of the nodes to the last reception over the ideal channel: against looking at
+//! What a flood costs, from the places of the nodes to the last heard over the ideal channel: against looking at
 //! every node for every sender, and by the number of nodes at one density. Criterion follows each figure over time; the
 //! tables at the end relate them to one another.
 
@@ -10,7 +10,8 @@ use std::num::NonZeroU32;
 
 use criterion::{BenchmarkId, Criterion};
 use tautline::radio::{Area, Channel, Faults, Field, Model, Network, Radio, broadcast};
-use tautline_kernel::broadcast::{Node, NodeId, Reaction, Reception, Rule, Scheme, Surroundings};
+use tautline_kernel::net::{Heard, NodeId};
+use tautline_kernel::notice::{Node, Reaction, Rule, Scheme, Surroundings};
 use tautline_proofs::engine::Seeded;
 
 use self::common::{Cost, Work, group, measure};
@@ -66,9 +67,8 @@ fn flood_naively(field: &Field) -> Flooded {
             let apart_m = (x * x + y * y).sqrt();
             if apart_m <= RANGE_M && to != sender {
                 flooded.receptions += 1;
-                let reception = Reception { notice, distance_um: (apart_m * 1e6) as u32, now_ns };
-                if let Reaction::Armed { at_ns } = node.receive(&rule, reception, Surroundings::none, chance)
-                {
+                let heard = Heard { message: notice, distance_um: (apart_m * 1e6) as u32, now_ns };
+                if let Reaction::Armed { at_ns } = node.receive(&rule, heard, Surroundings::none, chance) {
                     flooded.reached += 1;
                     queue.push(Reverse((at_ns, to)));
                 }
@@ -117,7 +117,7 @@ fn main() {
         println!("  {nodes:>7} {receptions:>11} {ours:>6.3} {naive:>10.3} {:>6.1}", naive / ours);
     }
 
-    println!("\nNanoseconds for each reception, as dense as 1100 nodes in 300×300 m and a range of 25 m");
+    println!("\nNanoseconds for each heard, as dense as 1100 nodes in 300×300 m and a range of 25 m");
     println!("    nodes  receptions     ns");
     for (nodes, cost) in sizes {
         println!("  {nodes:>7} {:>11} {:>6.1}", cost.work.receptions, 1e3 * cost.micros);

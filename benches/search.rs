@@ -9,7 +9,7 @@ use std::time::Instant;
 use criterion::{BenchmarkId, Criterion};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use tautline_kernel::chain::Rule;
-use tautline_kernel::lattice::{Edge, Step};
+use tautline_kernel::ground::{Edge, Step};
 use tautline_proofs::clause::Subject;
 use tautline_proofs::invariant::Invariant;
 use tautline_proofs::plain::{PlainChain, PlainIntent};

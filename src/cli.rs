@@ -27,8 +27,8 @@ use std::time::Instant;
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use tautline_kernel::broadcast::Count;
-use tautline_kernel::lattice::Cell;
+use tautline_kernel::ground::Cell;
+use tautline_kernel::notice::Count;
 use tautline_proofs::run::{Breach, NoBreach};
 
 use crate::aside::{Aside, Foreign, Replaceable};

@@ -1,7 +1,7 @@
 //! A run written down for the judges of counterexamples, who share no code with what made the run.
 
 use tautline_kernel::chain::Kind;
-use tautline_kernel::lattice::{Cell, Edge};
+use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::course::{Course, Turn};
 use tautline_proofs::floor_judge;
 use tautline_proofs::judge::{Exhibit, Move, Place, Repairs};

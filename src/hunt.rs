@@ -6,7 +6,7 @@ pub mod trap;
 
 use std::path::{Path, PathBuf};
 
-use tautline_kernel::lattice::{Cell, Edge};
+use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::invariant::Invariant;
 use tautline_proofs::run::Breach;
 use tautline_proofs::search::{Bounds, Counterexample, Search, Unsearchable};

@@ -16,7 +16,7 @@ use std::fmt;
 use std::num::NonZeroU16;
 use std::str::FromStr;
 
-use tautline_kernel::lattice::{Cell, Edge, Side};
+use tautline_kernel::ground::{Cell, Edge, Side};
 
 use plane::Plane;
 

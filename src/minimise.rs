@@ -24,8 +24,7 @@ use std::fmt;
 use std::ops::Range;
 
 use serde::Serialize;
-use tautline_kernel::grid::Area;
-use tautline_kernel::lattice::{Cell, Edge, Side};
+use tautline_kernel::ground::{Area, Cell, Edge, Side};
 use tautline_proofs::run::Breach;
 
 use crate::explore::{Crew, Limits, OnViolation, Report, Setup, Violation, explore};

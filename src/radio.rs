@@ -1,6 +1,6 @@
 //! The radio field: nodes in an area, the links between them, and what becomes of what they send. A [`Field`] has
 //! positions and obstacles; a [`Network`] the links that a [`Radio`] makes of them; [`run`] lets a [`Protocol`] send and
-//! hear over a [`Channel`]. Everything left to chance is asked of a `Source`: the same answers make the same run.
+//! hear over a [`Channel`]. Everything left to chance is asked of an `Oracle`: the same answers make the same run.
 //!
 //! Results depend on `+ − × ÷ √` and whole numbers alone, which are the same on every machine, and, where signals have a
 //! shadow or noise, on the power function of libm. Time is in nanoseconds, distances between nodes are in micrometres.
@@ -15,7 +15,7 @@ mod network;
 mod problem;
 mod queue;
 
-pub use air::{Air, Channel, Faults, Heard, Protocol, Shared, run};
+pub use air::{Air, Channel, Faults, Protocol, Shared, run};
 pub use broadcast::{Broadcast, LONGEST_WAIT_NS, Reach, Report, broadcast};
 pub use chance::Chance;
 pub(crate) use chance::{checked_deviation, deviation_db};

@@ -3,7 +3,7 @@
 //! their way from path node to path node. Robots, nodes that wait for rescue (WFRs), path nodes and guides are the kernel's;
 //! what is added here is time, places, and what goes wrong.
 //!
-//! Everything left to chance is asked of a `Source`: the same [`Setting`] and seed make the same rescue on every machine.
+//! Everything left to chance is asked of an `Oracle`: the same [`Setting`] and seed make the same rescue on every machine.
 //! While it runs, what the clauses MRC-1 to MRC-9 demand is looked at after every turn.
 
 mod agenda;
@@ -33,8 +33,9 @@ pub use world::rescue;
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
-    use tautline_kernel::broadcast::{self, NodeId, Scheme};
-    use tautline_kernel::rescue::{Condition, Rule};
+    use tautline_kernel::mrc::{Condition, Rule};
+    use tautline_kernel::net::NodeId;
+    use tautline_kernel::notice::{self, Scheme};
     use tautline_proofs::engine::Seeded;
     use tautline_proofs::rescue::Demand;
 
@@ -310,7 +311,7 @@ mod tests {
         let second = |at: u64| at * 1_000_000_000;
         Plan {
             rule,
-            broadcast: broadcast::Rule::new(Scheme::Flooding, range_um, 100_000_000),
+            broadcast: notice::Rule::new(Scheme::Flooding, range_um, 100_000_000),
             radio,
             noise_db: 0.0,
             equipment: Equipment::new(radio, 0.0).expect("an equipment"),
@@ -403,7 +404,7 @@ mod tests {
 
     #[test]
     fn without_numbers_nodes_do_not_send_the_second_event_on() {
-        let outcome = |conditions: broadcast::Conditions| {
+        let outcome = |conditions: notice::Conditions| {
             // The robot that serves the first event fails before the second; the other one is three hops off.
             let mut plan = row(Rule::REPAIRED, &ROW, &[(85.0, None), (60.0, Some(100))], &[]);
             plan.wfrs[0].pauses_ns = vec![100_000_000_000];
@@ -413,8 +414,8 @@ mod tests {
             (report.fates, spreads)
         };
         let served = |by: usize| Fate::Served { by, visits: 1 };
-        assert_eq!(outcome(broadcast::Conditions::REPAIRED), (vec![served(1), served(0)], vec![4, 4]));
-        assert_eq!(outcome(broadcast::Conditions::PUBLISHED), (vec![served(1), Fate::Unheard], vec![4, 1]));
+        assert_eq!(outcome(notice::Conditions::REPAIRED), (vec![served(1), served(0)], vec![4, 4]));
+        assert_eq!(outcome(notice::Conditions::PUBLISHED), (vec![served(1), Fate::Unheard], vec![4, 1]));
     }
 
     #[test]

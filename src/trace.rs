@@ -15,7 +15,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use tautline_kernel::chain::Kind;
-use tautline_kernel::lattice::{Cell, Side, Step};
+use tautline_kernel::ground::{Cell, Side, Step};
 use tautline_proofs::run::{Breach, Frame};
 
 use crate::aside::Aside;

@@ -14,8 +14,7 @@ use std::mem;
 
 use tautline_kernel::chain::Kind;
 use tautline_kernel::floor::Mark;
-use tautline_kernel::grid::Area;
-use tautline_kernel::lattice::{Cell, Circle, Edge, Side, Step, neighbours};
+use tautline_kernel::ground::{Area, Cell, Circle, Edge, Side, Step, neighbours};
 use tautline_proofs::course::{Scene, Turn};
 use tautline_proofs::words::counted;
 

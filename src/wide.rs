@@ -1,12 +1,11 @@
-//! The grid of areas of any size: what [`BitGrid`](tautline_kernel::grid::BitGrid) is to a small area, on the
+//! The grid of areas of any size: what [`BitGrid`](tautline_kernel::ground::BitGrid) is to a small area, on the
 //! heap. Its distances (paper 000, equation (4)) come from a search that learns. Cells become explored and edges
 //! become blocked, hardly ever the reverse, so a distance once found stays a lower bound. Every search is an A*
 //! from the asking cell with those bounds as its estimate, and leaves better bounds behind (Adaptive A*, Koenig
 //! and Likhachev 2005): a path that still stands is walked straight down, and a region without a way out is
 //! searched once.
 
-use tautline_kernel::grid::{Area, Avoid, CellMark, EdgeMark, Grid, links};
-use tautline_kernel::lattice::{Cell, Edge, Side};
+use tautline_kernel::ground::{Area, Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Side, links};
 
 /// The marks of one cell: four bits for the cell, then for each mark of edges four bits, one a side. An edge is
 /// marked in both its cells, so that one word tells a search all about a cell.

@@ -14,7 +14,7 @@ use tautline::layout::{self, Generator, Layout};
 use tautline::view::story;
 use tautline_kernel::bricks::Rule;
 use tautline_kernel::floor::Mark;
-use tautline_kernel::lattice::{Cell, Edge, Side, Step};
+use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::course::{Course, Scene, Turn};
 
 /// More team moves than any run here has.

@@ -3,7 +3,7 @@
 
 use nalgebra::Vector2;
 use proptest::prelude::*;
-use tautline_kernel::lattice::{Cell, Step};
+use tautline_kernel::ground::{Cell, Step};
 use tautline_proofs::run::stays_in_range;
 
 /// The share of its way that each of two robots has behind it.

@@ -13,7 +13,7 @@ use tautline::explore::{
 use tautline::fault::{Fault, Halt};
 use tautline::layout::{self, Generator, Layout};
 use tautline::trace::{Trace, Writer};
-use tautline_kernel::lattice::{Cell, Edge, Step};
+use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_proofs::run::{Breach, Frame};
 
 /// More team moves than any run here has.

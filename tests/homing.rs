@@ -3,8 +3,9 @@
 use proptest::prelude::*;
 use tautline::homing::{End, Equipment, Journey, Site, Tree, hops, shortest_m};
 use tautline::radio::{Area, Channel, Faults, Field, Model, Network, Obstacle, Point, Radio};
-use tautline_kernel::broadcast::{Count, NodeId, Rule, Scheme};
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::net::NodeId;
+use tautline_kernel::notice::{Count, Rule, Scheme};
 use tautline_proofs::engine::Seeded;
 
 const LAKES: [Obstacle; 2] = [

@@ -10,7 +10,7 @@ use insta::{allow_duplicates, assert_snapshot};
 use proptest::prelude::*;
 use tautline::fault::{Colour, Fault};
 use tautline::layout::{self, Generator, Layout, Problem, movingai, ros};
-use tautline_kernel::lattice::{Cell, Edge, Side};
+use tautline_kernel::ground::{Cell, Edge, Side};
 
 const DRAWING: &str = "\
 tautline layout 1

@@ -14,7 +14,7 @@ use tautline::hunt::store;
 use tautline::layout::{self, Generator, Layout};
 use tautline::minimise::{Extent, Failure, Minimal, Refused, minimise};
 use tautline::trace::Trace;
-use tautline_kernel::lattice::{Cell, Edge, Side};
+use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::judge::judge;
 use tautline_proofs::run::Breach;
 

@@ -2,7 +2,7 @@
 
 use tautline::radio::Channel;
 use tautline::reproduce::notice_fig5::{NODES, RANGE_M, SIDE_M, Setting};
-use tautline_kernel::broadcast::Count;
+use tautline_kernel::notice::Count;
 
 /// The normal distribution's 99.5 % quantile.
 const NORMAL: f64 = 2.576;

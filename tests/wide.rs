@@ -4,11 +4,10 @@
 use proptest::prelude::*;
 use tautline::wide::WideGrid;
 use tautline_kernel::chain::{Chain, End, Intent, Rule};
-use tautline_kernel::grid::{
-    Area, Avoid, BitGrid, CellMark, CompactGrid, EdgeMark, Grid, LargeGrid, MediumGrid, Plane, SmallGrid,
-    TinyGrid,
+use tautline_kernel::ground::{
+    Area, Avoid, BitGrid, Cell, CellMark, CompactGrid, Edge, EdgeMark, Grid, LargeGrid, MediumGrid, Plane,
+    Side, SmallGrid, Step, Steps, TinyGrid,
 };
-use tautline_kernel::lattice::{Cell, Edge, Side, Step, Steps};
 
 const CELL_MARKS: [CellMark; 4] = [CellMark::Explored, CellMark::Occupied, CellMark::Full, CellMark::Planned];
 const EDGE_MARKS: [EdgeMark; 3] = [EdgeMark::Wall, EdgeMark::Open, EdgeMark::Virtual];

@@ -4,9 +4,9 @@
 use tautline::layout::{Layout, Size};
 use tautline_kernel::ants;
 use tautline_kernel::bricks::{self, Agent, Condition, Next};
-use tautline_kernel::choice::{Source, one_of};
+use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::floor::{Floor, Mark, Scan, Sensor, settle};
-use tautline_kernel::lattice::{Cell, Edge, Side};
+use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::engine::Tape;
 
 use super::numbers;
@@ -123,7 +123,7 @@ struct Misses<'a, 'b> {
     left: &'a mut u32,
 }
 
-impl Source for Misses<'_, '_> {
+impl Oracle for Misses<'_, '_> {
     fn pick(&mut self, below: u32) -> u32 {
         self.bytes.pick(below)
     }

@@ -23,9 +23,8 @@ use tautline::layout::{Layout, Misread, Size, movingai, ros, text};
 use tautline::trace::Trace;
 use tautline::wide::WideGrid;
 use tautline_kernel::chain::{self, Chain, Intent, Kind, Rule};
-use tautline_kernel::choice::{Source, one_of};
-use tautline_kernel::grid::{Area, Grid, SmallGrid};
-use tautline_kernel::lattice::{Cell, Edge};
+use tautline_kernel::choice::{Oracle, one_of};
+use tautline_kernel::ground::{Area, Cell, Edge, Grid, SmallGrid};
 use tautline_proofs::engine::{Seeded, Tape};
 use tautline_proofs::judge::{self, Exhibit};
 use tautline_proofs::run::{Breach, CHEAP_LOOKS, Frame};
@@ -67,36 +66,36 @@ fn numbers(bytes: &[u8]) -> Vec<u32> {
 /// rule keeps all safety sentences, the published one that of coverage, and a small chain's run is not long.
 pub fn chain(bytes: &[u8]) {
     let numbers = numbers(bytes);
-    let mut source = Tape(&numbers);
+    let mut oracle = Tape(&numbers);
     let (rule, kept): (Rule, &[Breach]) =
-        if source.flip() { (Rule::PUBLISHED, &[Breach::Coverage]) } else { (Rule::REPAIRED, &Breach::CHAIN) };
-    let robots = source.pick(31) as usize + 2;
-    let (_, area, base) = area(robots, &mut source);
+        if oracle.flip() { (Rule::PUBLISHED, &[Breach::Coverage]) } else { (Rule::REPAIRED, &Breach::CHAIN) };
+    let robots = oracle.pick(31) as usize + 2;
+    let (_, area, base) = area(robots, &mut oracle);
     let last = if robots <= 8 {
         let grid = SmallGrid::new(area).expect("at most 15 cells a side");
         let chain = Chain::<_, 8>::new(rule, robots, base, grid).expect("it fits");
-        follow(chain, 20_000, |_| is_open(&mut source), |before, frame| check(kept, before, frame))
+        follow(chain, 20_000, |_| is_open(&mut oracle), |before, frame| check(kept, before, frame))
     } else {
         let chain = Chain::<_, 32>::new(rule, robots, base, WideGrid::new(area)).expect("it fits");
-        follow(chain, 500, |_| is_open(&mut source), |before, frame| check(kept, before, frame))
+        follow(chain, 500, |_| is_open(&mut oracle), |before, frame| check(kept, before, frame))
     };
     assert!(robots > 8 || last == Last::Ended, "a chain of {robots} is still under way");
 }
 
 /// The size of a layout that a chain of `robots` can explore from anywhere in it, what it can explore of the
 /// layout from a base, and that base.
-fn area(robots: usize, source: &mut dyn Source) -> (Size, Area, Cell) {
+fn area(robots: usize, oracle: &mut dyn Oracle) -> (Size, Area, Cell) {
     let most = 2 * robots as u32 - 1;
-    let (width, height) = (most - source.pick(most), most - source.pick(most));
-    let base = Cell::new((width - 1 - source.pick(width)) as i16, (height - 1 - source.pick(height)) as i16);
+    let (width, height) = (most - oracle.pick(most), most - oracle.pick(most));
+    let base = Cell::new((width - 1 - oracle.pick(width)) as i16, (height - 1 - oracle.pick(height)) as i16);
     let size = Size::new(width.into(), height.into()).expect("a small layout");
     let area = chain::area(size.area(), base, robots);
     (size, area.expect("the base is in it"), base)
 }
 
 /// An edge is open unless its number is in the upper quarter, so that a tape of any numbers has both.
-fn is_open(source: &mut dyn Source) -> bool {
-    source.pick(256) < 192
+fn is_open(oracle: &mut dyn Oracle) -> bool {
+    oracle.pick(256) < 192
 }
 
 fn check(kept: &[Breach], before: &[Cell], frame: &Frame) -> Next {
@@ -147,11 +146,11 @@ fn follow<G: Grid, const ROBOTS: usize>(
 pub fn chain_log(bytes: &[u8]) {
     let (head, log) = bytes.split_at(bytes.len().min(16));
     let numbers = numbers(head);
-    let mut source = Tape(&numbers);
-    let rule = one_of(&mut source, &[Rule::REPAIRED, Rule::PUBLISHED]);
-    let robots = source.pick(7) as usize + 2;
-    let good_moves = source.pick(64);
-    let (_, area, base) = area(robots, &mut source);
+    let mut oracle = Tape(&numbers);
+    let rule = one_of(&mut oracle, &[Rule::REPAIRED, Rule::PUBLISHED]);
+    let robots = oracle.pick(7) as usize + 2;
+    let good_moves = oracle.pick(64);
+    let (_, area, base) = area(robots, &mut oracle);
     let grid = SmallGrid::new(area).expect("at most 15 cells a side");
     let mut chain = Chain::<_, 8>::new(rule, robots, base, grid).expect("it fits");
     let mut good_log = Vec::new();
@@ -169,7 +168,7 @@ pub fn chain_log(bytes: &[u8]) {
             );
         }
         let Ok(Intent::Go(plan)) = chain.plan(&log) else { return };
-        let settled = chain.settle(&plan, |_| is_open(&mut source));
+        let settled = chain.settle(&plan, |_| is_open(&mut oracle));
         good_log.extend_from_slice(settled.messages());
     }
 }
@@ -178,16 +177,16 @@ pub fn chain_log(bytes: &[u8]) {
 /// and bears any change of its moves.
 pub fn judge(bytes: &[u8]) {
     let numbers = numbers(bytes);
-    let mut source = Tape(&numbers);
-    let robots = source.pick(7) as usize + 2;
-    let change = [source.pick(256), source.pick(256), source.pick(256), source.pick(256)];
-    let (size, area, base) = area(robots, &mut source);
+    let mut oracle = Tape(&numbers);
+    let robots = oracle.pick(7) as usize + 2;
+    let change = [oracle.pick(256), oracle.pick(256), oracle.pick(256), oracle.pick(256)];
+    let (size, area, base) = area(robots, &mut oracle);
     let grid = SmallGrid::new(area).expect("at most 15 cells a side");
     let chain = Chain::<_, 8>::new(Rule::PUBLISHED, robots, base, grid).expect("it fits");
     let mut layout = Layout::of(size);
     let (mut frames, mut broken) = (Vec::new(), None);
     let answer = |edge| {
-        let open = is_open(&mut source);
+        let open = is_open(&mut oracle);
         if !open {
             layout.build_wall(edge);
         }
@@ -241,11 +240,11 @@ pub fn plan_cost_far(bytes: &[u8]) {
 fn plan(bytes: &[u8], teams: [usize; 4], moves: fn(usize) -> usize) {
     let (head, answers) = bytes.split_at(bytes.len().min(8));
     let numbers = numbers(head);
-    let mut source = Tape(&numbers);
-    let rule = one_of(&mut source, &[Rule::REPAIRED, Rule::PUBLISHED]);
-    let robots = one_of(&mut source, &teams);
-    let walls_percent = source.pick(40) + 1;
-    let mut random = Seeded::new(source.pick(256).into(), source.pick(256).into());
+    let mut oracle = Tape(&numbers);
+    let rule = one_of(&mut oracle, &[Rule::REPAIRED, Rule::PUBLISHED]);
+    let robots = one_of(&mut oracle, &teams);
+    let walls_percent = oracle.pick(40) + 1;
+    let mut random = Seeded::new(oracle.pick(256).into(), oracle.pick(256).into());
     let range = robots as i16 - 1;
     let area = Area::new(Cell::new(0, 0), Cell::new(2 * range, 2 * range)).expect("it has cells");
     let grid = WideGrid::new(area);
@@ -295,8 +294,8 @@ pub fn kept_hunt(bytes: &[u8]) {
         }
         _ => {
             let numbers = numbers(bytes);
-            let mut source = Tape(&numbers);
-            let mut number = |below: usize| (256 * source.pick(256) + source.pick(256)) as usize % below;
+            let mut oracle = Tape(&numbers);
+            let mut number = |below: usize| (256 * oracle.pick(256) + oracle.pick(256)) as usize % below;
             let cut = Bounds { budget_moves: Some(number(80) as u64), ..bounds.clone() };
             let mut search = Search::new(&cut).expect("two robots fit");
             while search.wave() {}
@@ -337,27 +336,27 @@ fn hunt_on(bounds: &Bounds, bytes: &[u8]) -> Option<Found> {
 
 /// Any text as a drawing of ours.
 pub fn layout_text(bytes: &[u8]) {
-    let Ok(source) = str::from_utf8(bytes) else { return };
-    read_back(source, text::read(source));
+    let Ok(oracle) = str::from_utf8(bytes) else { return };
+    read_back(oracle, text::read(oracle));
 }
 
 /// Any text as a map of the MovingAI benchmarks.
 pub fn layout_movingai(bytes: &[u8]) {
-    let Ok(source) = str::from_utf8(bytes) else { return };
-    read_back(source, movingai::read(source));
+    let Ok(oracle) = str::from_utf8(bytes) else { return };
+    read_back(oracle, movingai::read(oracle));
 }
 
 /// Any text and, after a zero byte, any image as a map of the ROS `map_server`.
 pub fn layout_ros(bytes: &[u8]) {
     let end = bytes.iter().position(|&byte| byte == 0).unwrap_or(bytes.len());
     let (yaml, image) = bytes.split_at(end);
-    let Ok(source) = str::from_utf8(yaml) else { return };
-    match ros::describe(source) {
+    let Ok(oracle) = str::from_utf8(yaml) else { return };
+    match ros::describe(oracle) {
         Ok(description) => match ros::read(&description, image.get(1..).unwrap_or_default()) {
-            Ok(layout) => read_back(source, Ok(layout)),
+            Ok(layout) => read_back(oracle, Ok(layout)),
             Err(problem) => told(&Fault::in_file(Path::new("map.pgm"), &problem, problem.remedy())),
         },
-        Err(misread) => read_back(source, Err(misread)),
+        Err(misread) => read_back(oracle, Err(misread)),
     }
 }
 
@@ -379,7 +378,7 @@ pub fn trace(bytes: &[u8]) {
 }
 
 /// What was read and is written reads back the same; what is wrong is told in a line.
-fn read_back(source: &str, layout: Result<Layout, Misread>) {
+fn read_back(oracle: &str, layout: Result<Layout, Misread>) {
     match layout {
         Ok(layout) => {
             let drawing = layout.to_string();
@@ -389,7 +388,7 @@ fn read_back(source: &str, layout: Result<Layout, Misread>) {
         }
         Err(Misread { at, problem }) => {
             let remedy = problem.remedy();
-            told(&Fault::at(Path::new("layout"), source, at, &problem, remedy));
+            told(&Fault::at(Path::new("layout"), oracle, at, &problem, remedy));
         }
     }
 }

@@ -3,11 +3,11 @@
 
 use std::num::NonZeroU32;
 
-use tautline_kernel::broadcast::{
-    Condition, Conditions, Count, Node, NodeId, Notice, Reaction, Reception, Rule, Scheme, Stage,
-    Surroundings, words,
+use tautline_kernel::choice::{Oracle, one_of};
+use tautline_kernel::net::{Heard, NodeId, Notice};
+use tautline_kernel::notice::{
+    Condition, Conditions, Count, Node, Reaction, Rule, Scheme, Stage, Surroundings, words,
 };
-use tautline_kernel::choice::{Source, one_of};
 use tautline_proofs::engine::Tape;
 
 use super::numbers;
@@ -155,10 +155,10 @@ impl Spread {
         let ids = |near: &[(NodeId, u32)]| near.iter().map(|&(id, _)| id).collect::<Vec<_>>();
         let (neighbours, of_sender) = (ids(&self.links[to]), ids(&self.links[notice.sender.0 as usize]));
         let unreached = &mut self.unreached[to][..];
-        let reception = Reception { notice, distance_um, now_ns: bytes.pick(256).into() };
+        let heard = Heard { message: notice, distance_um, now_ns: bytes.pick(256).into() };
         let reaction = self.nodes[to].receive(
             &self.rule,
-            reception,
+            heard,
             || Surroundings { neighbours: &neighbours, of_sender: &of_sender, unreached },
             bytes,
         );
@@ -174,9 +174,9 @@ impl Spread {
             return;
         }
         let (noted, is_numbered) = (&mut self.noted[to], self.rule.has(Condition::NumberedEvents));
-        if noted.event == 0 || is_numbered && notice.event > noted.event {
-            *noted = Noted { event: notice.event, ..Noted::default() };
-        } else if is_numbered && notice.event < noted.event {
+        if noted.event == 0 || is_numbered && notice.call.epoch.0 > noted.event {
+            *noted = Noted { event: notice.call.epoch.0, ..Noted::default() };
+        } else if is_numbered && notice.call.epoch.0 < noted.event {
             return;
         }
         let is_open =

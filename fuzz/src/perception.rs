@@ -2,7 +2,7 @@
 
 use std::num::NonZeroU16;
 
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::Oracle;
 use tautline_kernel::perception::Point;
 use tautline_kernel::perception::blink::{MAX_BITS, Track, Unidentified, follow, identify, is_on};
 use tautline_kernel::perception::blob::{Thresholds, TooManySets};

@@ -8,7 +8,7 @@ use tautline::explore::RuleName;
 use tautline::fault::Fault;
 use tautline::radio::ChannelName;
 use tautline::rescue::{CallTimes, Fate, SchemeName, Setting, rescue as run, trace};
-use tautline_kernel::choice::{Source, one_of};
+use tautline_kernel::choice::{Oracle, one_of};
 use tautline_proofs::engine::Tape;
 use tautline_proofs::rescue::Demand;
 

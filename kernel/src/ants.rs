@@ -3,7 +3,7 @@
 //! that it is done. Clause: ANTS-1.
 
 use crate::floor::{COMPASS, Floor, Ring, Scan, enter, leave};
-use crate::lattice::{Cell, Side};
+use crate::ground::{Cell, Side};
 
 /// What a sensor counts from that is placed where none was, or where one was missed: an ant cannot tell which.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -1,12 +1,12 @@
 //! The one door through which the unknown enters. Whether an edge is open, a sensor is seen, a packet
-//! arrives, which agent moves next: each is a choice, and each is asked of a [`Source`].
+//! arrives, which agent moves next: each is a choice, and each is asked of an [`Oracle`].
 
 /// Answers choices. Engines differ only in how: at random, every alternative in turn, symbolically, from a
 /// list of numbers, or as a stored run answered.
-pub trait Source {
+pub trait Oracle {
     /// A number below `below`.
     ///
-    /// `below` is at least 1. A source that has run out of answers gives 0, so bodies put the plain case
+    /// `below` is at least 1. An oracle that has run out of answers gives 0, so bodies put the plain case
     /// first.
     fn pick(&mut self, below: u32) -> u32;
 
@@ -23,7 +23,7 @@ pub trait Source {
 }
 
 /// One of the `options`, which must not be empty.
-pub fn one_of<T: Copy, const OPTIONS: usize>(source: &mut dyn Source, options: &[T; OPTIONS]) -> T {
+pub fn one_of<T: Copy, const OPTIONS: usize>(oracle: &mut dyn Oracle, options: &[T; OPTIONS]) -> T {
     const { assert!(OPTIONS > 0, "a choice needs an option") };
-    options[(source.pick(OPTIONS as u32) as usize).min(OPTIONS - 1)]
+    options[(oracle.pick(OPTIONS as u32) as usize).min(OPTIONS - 1)]
 }

@@ -10,7 +10,7 @@ pub use ring::Ring;
 pub use scan::Scan;
 pub use sensor::{Claim, Mark, Sensor, Sides};
 
-use crate::lattice::{Cell, Edge, Side};
+use crate::ground::{Cell, Edge, Side};
 
 /// The sides in the order that settles every tie of paper 004: north, east, south, west.
 pub const COMPASS: [Side; 4] = [Side::North, Side::East, Side::South, Side::West];

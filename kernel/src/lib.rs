@@ -9,13 +9,13 @@
 
 pub mod ants;
 pub mod bricks;
-pub mod broadcast;
 pub mod chain;
 pub mod choice;
 mod conditions;
 pub mod floor;
-pub mod grid;
-pub mod homing;
-pub mod lattice;
+pub mod ground;
+pub mod mrc;
+pub mod net;
+pub mod notice;
 pub mod perception;
-pub mod rescue;
+pub mod tan;

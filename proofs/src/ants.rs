@@ -2,9 +2,9 @@
 //! it misses are choices. A run is over when every cell is explored, since crossings go on to grow for ever.
 
 use tautline_kernel::ants::{Rule, act};
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Mark, Scan, Sensor, settle};
-use tautline_kernel::lattice::Cell;
+use tautline_kernel::ground::Cell;
 
 use crate::bricks::{Misses, Small, look};
 use crate::clause::{Sabotage, Subject};
@@ -47,7 +47,7 @@ impl Colony {
     }
 
     /// One step from `state`; none once the run is over.
-    fn step(&self, state: &State, world: &mut dyn Source) -> Option<Step<State, &'static str>> {
+    fn step(&self, state: &State, world: &mut dyn Oracle) -> Option<Step<State, &'static str>> {
         if self.is_explored(state) {
             return None;
         }

@@ -4,9 +4,9 @@
 
 use rayon::prelude::*;
 use tautline_kernel::bricks::{Act, Agent, Condition, Next, Rule, carry_out};
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Floor, Mark, Scan, Sensor, settle};
-use tautline_kernel::lattice::{Cell, Edge, Side, Step};
+use tautline_kernel::ground::{Cell, Edge, Side, Step};
 
 use crate::clause::{Sabotage, Subject};
 use crate::course::{Course, Explored, Scene, Turn};
@@ -199,12 +199,12 @@ pub(crate) fn is_shut(plan: &Plan, sensors: &[Sensor; CELLS], edge: Edge) -> boo
 
 /// Misses sensors a bounded number of times.
 pub(crate) struct Misses<'a> {
-    pub(crate) world: &'a mut dyn Source,
+    pub(crate) world: &'a mut dyn Oracle,
     pub(crate) count: &'a mut u8,
     pub(crate) most: u8,
 }
 
-impl Source for Misses<'_> {
+impl Oracle for Misses<'_> {
     fn pick(&mut self, below: u32) -> u32 {
         self.world.pick(below)
     }
@@ -222,7 +222,7 @@ impl Team {
         outcomes(|world| self.turn(state, world)).flatten()
     }
 
-    fn turn(&self, state: &State, world: &mut dyn Source) -> Option<Turned> {
+    fn turn(&self, state: &State, world: &mut dyn Oracle) -> Option<Turned> {
         let awake = self.awake(state);
         let is_over = match self.demand {
             Demand::Connected | Demand::Knowing | Demand::Ends | Demand::All => false,

@@ -4,11 +4,11 @@
 
 use tautline_kernel::ants;
 use tautline_kernel::bricks;
-use tautline_kernel::broadcast::{self, Conditions};
 use tautline_kernel::chain::{Budget, Condition, High, Rule};
-use tautline_kernel::choice::Source;
-use tautline_kernel::lattice::Circle;
-use tautline_kernel::rescue;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::ground::Circle;
+use tautline_kernel::mrc;
+use tautline_kernel::notice::Conditions;
 
 use crate::bricks::Floors;
 use crate::engine::Outcome;
@@ -30,7 +30,7 @@ pub struct Subject {
     /// The rule of Brick&Mortar.
     pub bricks: bricks::Rule,
     /// The rule of a rescue.
-    pub rescue: rescue::Rule,
+    pub rescue: mrc::Rule,
     /// The conditions that the nodes of a network follow.
     pub notice: Conditions,
 }
@@ -109,7 +109,7 @@ impl Subject {
         sabotage: Sabotage::None,
         ants: ants::Rule::Published,
         bricks: bricks::Rule::PUBLISHED,
-        rescue: rescue::Rule::PUBLISHED,
+        rescue: mrc::Rule::PUBLISHED,
         notice: Conditions::PUBLISHED,
     };
     /// Everything repaired.
@@ -119,7 +119,7 @@ impl Subject {
         sabotage: Sabotage::None,
         ants: ants::Rule::Repaired,
         bricks: bricks::Rule::REPAIRED,
-        rescue: rescue::Rule::REPAIRED,
+        rescue: mrc::Rule::REPAIRED,
         notice: Conditions::REPAIRED,
     };
 
@@ -173,7 +173,7 @@ impl Subject {
     }
 
     /// Robots and WFRs that follow `rule`.
-    pub const fn rescuing(rule: rescue::Rule) -> Self {
+    pub const fn rescuing(rule: mrc::Rule) -> Self {
         Self { rescue: rule, ..Self::REPAIRED }
     }
 
@@ -193,7 +193,7 @@ impl Subject {
     }
 
     /// Nodes that broadcast by the repaired rule without one condition.
-    pub const fn hearing_without(condition: broadcast::Condition) -> Self {
+    pub const fn hearing_without(condition: tautline_kernel::notice::Condition) -> Self {
         Self { notice: Conditions::REPAIRED.without(condition), ..Self::REPAIRED }
     }
 
@@ -214,8 +214,8 @@ pub struct Clause {
     pub checks: &'static [Check],
 }
 
-/// A body: one case of a clause, made by the choices that the source answers.
-pub type Body = fn(&Subject, &mut dyn Source) -> Outcome;
+/// A body: one case of a clause, made by the choices that the oracle answers.
+pub type Body = fn(&Subject, &mut dyn Oracle) -> Outcome;
 
 /// One way to decide a clause for one rule.
 #[derive(Debug)]

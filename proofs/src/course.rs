@@ -1,7 +1,7 @@
 //! A run of agents on a small floor, turn by turn, as a person looks at it: the counterexample of a check of floors.
 
 use tautline_kernel::floor::Mark;
-use tautline_kernel::lattice::{Cell, Edge, Step};
+use tautline_kernel::ground::{Cell, Edge, Step};
 
 use crate::engine::Tally;
 

@@ -2,8 +2,8 @@
 //! any cell, no three are ever in one.
 
 use tautline_kernel::chain::{Condition, Role};
-use tautline_kernel::choice::{Source, one_of};
-use tautline_kernel::lattice::{Cell, Step};
+use tautline_kernel::choice::{Oracle, one_of};
+use tautline_kernel::ground::{Cell, Step};
 
 use crate::clause::Subject;
 use crate::engine::{Outcome, assume, require};
@@ -21,16 +21,16 @@ pub fn crowds() -> String {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the choices are no case, or break the clause.
-pub fn crowding(subject: &Subject, source: &mut dyn Source) -> Outcome {
+pub fn crowding(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let rule = &subject.rule;
     let cell = Cell::new(0, 0);
     // One of them may be the leader, or none.
-    let leader = source.pick(ROBOTS as u32 + 1) as usize;
-    let from = [(); ROBOTS].map(|()| cell.after(one_of(source, &Step::ALL)));
+    let leader = oracle.pick(ROBOTS as u32 + 1) as usize;
+    let from = [(); ROBOTS].map(|()| cell.after(one_of(oracle, &Step::ALL)));
     let present = from.iter().filter(|&&at| at == cell).count();
     assume(present < ROBOTS)?;
     let mut world = World::<ROBOTS>::new();
-    let tried = from.map(|at| world.pick(at, source));
+    let tried = from.map(|at| world.pick(at, oracle));
     let entering = |robot: usize| from[robot] != cell && tried[robot].plan.to() == cell;
     for robot in 0..ROBOTS {
         let role = if robot == leader { Role::Leader } else { Role::Follower };

@@ -5,7 +5,7 @@
 use std::iter;
 
 use rayon::prelude::*;
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::Oracle;
 
 /// Why a body stopped before its end.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -75,7 +75,7 @@ pub(crate) fn cover(covered: &mut Vec<&'static str>, situation: &'static str) {
 }
 
 /// Runs `body` under every combination of answers, depth first, until the first violation.
-pub fn exhaust(mut body: impl FnMut(&mut dyn Source) -> Outcome) -> Tally {
+pub fn exhaust(mut body: impl FnMut(&mut dyn Oracle) -> Outcome) -> Tally {
     let mut tally = Tally::default();
     let mut odometer = Odometer::default();
     loop {
@@ -92,7 +92,7 @@ const WAVE: u64 = 16;
 
 /// Runs `body` under `runs` sequences of random answers, until the first violation. The tally is the same on any
 /// number of threads.
-pub fn sample(runs: u64, seed: u64, body: impl Fn(&mut dyn Source) -> Outcome + Sync) -> Tally {
+pub fn sample(runs: u64, seed: u64, body: impl Fn(&mut dyn Oracle) -> Outcome + Sync) -> Tally {
     let mut tally = Tally::default();
     let mut first = 0;
     while first < runs && tally.violation.is_none() {
@@ -101,7 +101,7 @@ pub fn sample(runs: u64, seed: u64, body: impl Fn(&mut dyn Source) -> Outcome + 
         let outcomes: Vec<_> = wave
             .into_par_iter()
             .map(|run| {
-                let mut recorder = Recorder { source: Seeded::new(seed, run), choices: Vec::new() };
+                let mut recorder = Recorder { oracle: Seeded::new(seed, run), choices: Vec::new() };
                 (body(&mut recorder), recorder.choices)
             })
             .collect();
@@ -115,7 +115,7 @@ pub fn sample(runs: u64, seed: u64, body: impl Fn(&mut dyn Source) -> Outcome + 
 }
 
 /// What `body` comes to under every combination of answers, in the order of [`exhaust`].
-pub(crate) fn outcomes<T>(mut body: impl FnMut(&mut dyn Source) -> T) -> impl Iterator<Item = T> {
+pub(crate) fn outcomes<T>(mut body: impl FnMut(&mut dyn Oracle) -> T) -> impl Iterator<Item = T> {
     let mut odometer = Some(Odometer::default());
     iter::from_fn(move || {
         let world = odometer.as_mut()?;
@@ -160,7 +160,7 @@ impl Odometer {
     }
 }
 
-impl Source for Odometer {
+impl Oracle for Odometer {
     fn pick(&mut self, below: u32) -> u32 {
         if self.position == self.digits.len() {
             self.digits.push(Digit { value: 0, below });
@@ -178,7 +178,7 @@ pub struct Tape<'a>(
     pub &'a [u32],
 );
 
-impl Source for Tape<'_> {
+impl Oracle for Tape<'_> {
     fn pick(&mut self, below: u32) -> u32 {
         let Some((&first, rest)) = self.0.split_first() else { return 0 };
         self.0 = rest;
@@ -212,7 +212,7 @@ impl<'a> Replay<'a> {
     }
 }
 
-impl Source for Replay<'_> {
+impl Oracle for Replay<'_> {
     fn pick(&mut self, below: u32) -> u32 {
         self.asked.push(below);
         match self.answers.split_first() {
@@ -253,7 +253,7 @@ impl Seeded {
     }
 }
 
-impl Source for Seeded {
+impl Oracle for Seeded {
     fn pick(&mut self, below: u32) -> u32 {
         // The upper half of a 32 by 32 bit product is below `below`; its bias is under 2⁻³² times `below`.
         (((self.next() >> 32) * u64::from(below)) >> 32) as u32
@@ -262,13 +262,13 @@ impl Source for Seeded {
 
 /// Passes questions on and keeps the answers.
 struct Recorder<S> {
-    source: S,
+    oracle: S,
     choices: Vec<u32>,
 }
 
-impl<S: Source> Source for Recorder<S> {
+impl<S: Oracle> Oracle for Recorder<S> {
     fn pick(&mut self, below: u32) -> u32 {
-        let answer = self.source.pick(below);
+        let answer = self.oracle.pick(below);
         self.choices.push(answer);
         answer
     }
@@ -281,9 +281,9 @@ mod tests {
     #[test]
     fn every_combination_comes_once() {
         let mut seen = Vec::new();
-        let tally = exhaust(|source| {
-            let first = source.pick(3);
-            let second = source.pick(first + 1);
+        let tally = exhaust(|oracle| {
+            let first = oracle.pick(3);
+            let second = oracle.pick(first + 1);
             assume(first != 1)?;
             seen.push((first, second));
             Ok(if first == 0 { "none" } else { "some" })
@@ -294,8 +294,8 @@ mod tests {
 
     #[test]
     fn the_first_violation_is_kept_and_replays() {
-        let body = |source: &mut dyn Source| {
-            let (a, b) = (source.pick(4), source.pick(4));
+        let body = |oracle: &mut dyn Oracle| {
+            let (a, b) = (oracle.pick(4), oracle.pick(4));
             require(a + b < 5, "a small sum")?;
             Ok("small")
         };
@@ -319,8 +319,8 @@ mod tests {
 
     #[test]
     fn seeded_answers_are_pinned_and_in_range() {
-        let mut source = Seeded::new(1, 2);
-        let picked: Vec<u32> = (0..8).map(|_| source.pick(100)).collect();
+        let mut oracle = Seeded::new(1, 2);
+        let picked: Vec<u32> = (0..8).map(|_| oracle.pick(100)).collect();
         assert!(picked.iter().all(|&answer| answer < 100));
         let mut again = Seeded::new(1, 2);
         assert_eq!(picked, (0..8).map(|_| again.pick(100)).collect::<Vec<_>>());

@@ -186,7 +186,7 @@ impl Court {
 
 #[cfg(test)]
 mod tests {
-    use tautline_kernel::lattice::Cell;
+    use tautline_kernel::ground::Cell;
 
     use super::*;
     use crate::clause::Verdict;

@@ -3,9 +3,8 @@
 
 use std::collections::VecDeque;
 
-use tautline_kernel::choice::Source;
-use tautline_kernel::grid::{Area, Avoid, BitGrid, CellMark, EdgeMark, Grid, Plane};
-use tautline_kernel::lattice::{Cell, Edge, Side};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::ground::{Area, Avoid, BitGrid, Cell, CellMark, Edge, EdgeMark, Grid, Plane, Side};
 
 use crate::clause::{Sabotage, Subject};
 use crate::engine::{Outcome, Stop, require};
@@ -31,10 +30,10 @@ pub fn lines() -> String {
 ///
 /// # Errors
 /// [`Stop::Violated`] if one is not the fewest steps.
-pub fn in_six_cells(subject: &Subject, source: &mut dyn Source) -> Outcome {
+pub fn in_six_cells(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let area = area(SIX_CELLS.0, SIX_CELLS.1)?;
-    let edges: Vec<(Edge, u32)> = area.edges().map(|edge| (edge, source.pick(3))).collect();
-    let explored: Vec<Cell> = area.cells().filter(|_| source.flip()).collect();
+    let edges: Vec<(Edge, u32)> = area.edges().map(|edge| (edge, oracle.pick(3))).collect();
+    let explored: Vec<Cell> = area.cells().filter(|_| oracle.flip()).collect();
     // One word for all cells, and one for each row.
     let (mut tiny, mut small) = (grid::<u64>(area)?, grid::<[u16; 16]>(area)?);
     mark(&mut tiny, &edges, &explored);
@@ -65,21 +64,21 @@ const GRIDS: u32 = 5;
 ///
 /// # Errors
 /// [`Stop::Violated`] if it is not the length of the line.
-pub fn along_every_line(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    match source.pick(GRIDS) {
-        0 => along_a_line::<u64>(subject, source),
-        1 => along_a_line::<u128>(subject, source),
-        2 => along_a_line::<[u16; 16]>(subject, source),
-        3 => along_a_line::<[u64; 64]>(subject, source),
-        _ => along_a_line::<[u128; 128]>(subject, source),
+pub fn along_every_line(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    match oracle.pick(GRIDS) {
+        0 => along_a_line::<u64>(subject, oracle),
+        1 => along_a_line::<u128>(subject, oracle),
+        2 => along_a_line::<[u16; 16]>(subject, oracle),
+        3 => along_a_line::<[u64; 64]>(subject, oracle),
+        _ => along_a_line::<[u128; 128]>(subject, oracle),
     }
 }
 
-fn along_a_line<P: Plane>(subject: &Subject, source: &mut dyn Source) -> Outcome {
+fn along_a_line<P: Plane>(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let (columns, rows) = (P::COLUMNS as i16, P::ROWS as i16);
-    let (is_column, is_backwards) = (source.flip(), source.flip());
+    let (is_column, is_backwards) = (oracle.flip(), oracle.flip());
     let (lines, length) = if is_column { (columns, rows) } else { (rows, columns) };
-    let line = source.pick(lines as u32) as i16;
+    let line = oracle.pick(lines as u32) as i16;
     let cell = |place| if is_column { Cell::new(line, place) } else { Cell::new(place, line) };
     let (from, to) = if is_backwards { (cell(length - 1), cell(0)) } else { (cell(0), cell(length - 1)) };
     let mut grid = grid::<P>(area(columns, rows)?)?;

@@ -2,10 +2,9 @@
 //! it follows or of another, and then comes to that node or hears it no more. Where nodes are, and how strong they are
 //! heard, is left out: any strength may be measured.
 
-use tautline_kernel::broadcast::NodeId;
-use tautline_kernel::choice::{Source, one_of};
-use tautline_kernel::homing::{Homing, Nav, Nearness, Stage, Strength};
-use tautline_kernel::rescue::RobotId;
+use tautline_kernel::choice::{Oracle, one_of};
+use tautline_kernel::net::{NodeId, RobotId, Strength};
+use tautline_kernel::tan::{Homing, Nav, Nearness, Stage};
 
 use crate::clause::{Misread, Sabotage, Subject};
 use crate::engine::{Outcome, Stop, require};
@@ -38,8 +37,8 @@ pub fn signals() -> String {
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.
-pub fn follows(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    legs(subject, source, |leg| {
+pub fn follows(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    legs(subject, oracle, |leg| {
         let Stage::Asking { node } = leg.before.stage() else { return Ok("it does not ask") };
         let Nav { wfr, hops, .. } = leg.nav;
         let is_due = leg.nav.node == node && wfr == WFR && hops.checked_add(1) == Some(leg.before.hops());
@@ -56,8 +55,8 @@ pub fn follows(subject: &Subject, source: &mut dyn Source) -> Outcome {
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.
-pub fn goes_on(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    legs(subject, source, |leg| {
+pub fn goes_on(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    legs(subject, oracle, |leg| {
         if !matches!(leg.heard.stage(), Stage::Scanning { .. }) {
             return Ok("no signal followed");
         }
@@ -83,20 +82,20 @@ pub fn goes_on(subject: &Subject, source: &mut dyn Source) -> Outcome {
 /// Goes through legs, and returns the last situation, or whichever of them is `Err`.
 fn legs(
     subject: &Subject,
-    source: &mut dyn Source,
+    oracle: &mut dyn Oracle,
     judge: impl Fn(&Leg) -> Result<&'static str, Stop>,
 ) -> Outcome {
-    let hops = 2 + source.pick(2) as u16;
+    let hops = 2 + oracle.pick(2) as u16;
     let mut robot = Homing::new(WFR, RobotId(1), NodeId(1), hops, NEARNESS, TRIES);
     let mut situation = "no signal";
     for _ in 0..SIGNALS {
         if !matches!(robot.stage(), Stage::Asking { .. }) {
             break;
         }
-        let nav = nav(source);
+        let nav = nav(oracle);
         let heard = robot.hear(read(subject, nav, robot));
         let after = match heard.stage() {
-            Stage::Scanning { .. } => measured(heard, source.flip()),
+            Stage::Scanning { .. } => measured(heard, oracle.flip()),
             Stage::Asking { .. } | Stage::Walking { .. } | Stage::Arrived | Stage::Lost => heard.expire(),
         };
         situation = judge(&Leg { before: robot, nav, heard, after })?;
@@ -106,13 +105,13 @@ fn legs(
 }
 
 /// A signal of one of three nodes, the WFR among them. The WFR is the root of its tree, and nothing else has no hops.
-fn nav(source: &mut dyn Source) -> Nav {
-    let (wfr, node) = (one_of(source, &TREES), NodeId(source.pick(NODES)));
+fn nav(oracle: &mut dyn Oracle) -> Nav {
+    let (wfr, node) = (one_of(oracle, &TREES), NodeId(oracle.pick(NODES)));
     if node == wfr {
         return Nav { wfr, node, hops: 0, parent: node };
     }
-    let hops = one_of(source, &[1, 2, 3, u16::MAX]);
-    Nav { wfr, node, hops, parent: NodeId(source.pick(NODES)) }
+    let hops = one_of(oracle, &[1, 2, 3, u16::MAX]);
+    Nav { wfr, node, hops, parent: NodeId(oracle.pick(NODES)) }
 }
 
 /// A robot that has turned its antenna once round, and then comes to the node, or loses its signal on the way.

@@ -3,8 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 use tautline_kernel::chain::{Budget, Chain, Condition, Kind, Message, Outcome, Plan};
-use tautline_kernel::grid::{Avoid, CellMark, EdgeMark, Grid};
-use tautline_kernel::lattice::{Cell, Edge, Step};
+use tautline_kernel::ground::{Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Step};
 
 use crate::clause::Subject;
 use crate::engine::{Stop, require};

@@ -615,8 +615,7 @@ fn range_is_left(before: &[Place], after: &[Place]) -> bool {
 #[cfg(test)]
 mod tests {
     use tautline_kernel::chain::{Chain, Intent, Kind, Rule};
-    use tautline_kernel::grid::SmallGrid;
-    use tautline_kernel::lattice::{Cell, Step};
+    use tautline_kernel::ground::{Cell, SmallGrid, Step};
 
     use super::*;
     use crate::clause::Subject;

@@ -3,8 +3,7 @@
 //! ways round it has no wall. The chain can be brought there by team moves that every rule admits; the argument is that
 //! of CHAIN-13.
 
-use tautline_kernel::grid::Area;
-use tautline_kernel::lattice::{Cell, Edge, Side};
+use tautline_kernel::ground::{Area, Cell, Edge, Side};
 
 /// The cells of `area` within reach of a chain of `robots`, nearest first, where `is_open` tells the edges without a
 /// wall.

@@ -2,7 +2,7 @@
 //! connected with each other. The eight cells are gone round one by one here; of the kernel only the rule is asked.
 
 use tautline_kernel::bricks::{Rule, blocks};
-use tautline_kernel::choice::{Source, one_of};
+use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::floor::{Ring, Scan, Sensor};
 
 use crate::clause::{Sabotage, Subject};
@@ -95,8 +95,8 @@ fn decide(rule: Rule, around: &Around) -> Outcome {
 }
 
 /// All 256 neighbourhoods of accessible and inaccessible cells, without walls between them.
-pub(crate) fn neighbourhood(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let accessible = core::array::from_fn(|_| source.flip());
+pub(crate) fn neighbourhood(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    let accessible = core::array::from_fn(|_| oracle.flip());
     let explored = Ring((0..8).fold(0, |ring, place| ring | u8::from(accessible[place]) << place));
     let around = Around {
         accessible,
@@ -109,20 +109,20 @@ pub(crate) fn neighbourhood(subject: &Subject, source: &mut dyn Source) -> Outco
 }
 
 /// All neighbourhoods, and walls between any two of the nine cells.
-pub(crate) fn walled(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let accessible: [bool; AROUND] = core::array::from_fn(|_| source.flip());
+pub(crate) fn walled(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    let accessible: [bool; AROUND] = core::array::from_fn(|_| oracle.flip());
     let explored = Ring((0..8).fold(0, |ring, place| ring | u8::from(accessible[place]) << place));
     let rims =
-        core::array::from_fn(|place| accessible[place] && accessible[(place + 1) % 8] && source.flip());
-    let spokes = core::array::from_fn(|place| place.is_multiple_of(2) && accessible[place] && source.flip());
+        core::array::from_fn(|place| accessible[place] && accessible[(place + 1) % 8] && oracle.flip());
+    let spokes = core::array::from_fn(|place| place.is_multiple_of(2) && accessible[place] && oracle.flip());
     decide(subject.bricks, &Around { accessible, unexplored: Ring::default(), explored, rims, spokes })
 }
 
 /// All neighbourhoods, and any of their sensors missed: the rule of the second pass.
-pub(crate) fn half_seen(subject: &Subject, source: &mut dyn Source) -> Outcome {
+pub(crate) fn half_seen(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let (mut unexplored, mut explored) = (Ring::default(), Ring::default());
     let accessible: [bool; AROUND] = core::array::from_fn(|place| {
-        let what = source.pick(READINGS);
+        let what = oracle.pick(READINGS);
         unexplored.0 |= u8::from(what >= 2) << place;
         explored.0 |= u8::from(what == 1) << place;
         (1..4).contains(&what)
@@ -153,16 +153,16 @@ pub(crate) fn errors() -> String {
 }
 
 /// Every sensor around, localised with errors to just under half a side.
-pub(crate) fn localised(subject: &Subject, source: &mut dyn Source) -> Outcome {
+pub(crate) fn localised(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let most = match subject.sabotage {
         Sabotage::LocalisesBadly => i32::from(SIDE) * 3 / 5,
         _ => i32::from(SIDE) / 2 - 1,
     };
-    let place = source.pick(AROUND as u32);
+    let place = oracle.pick(AROUND as u32);
     let (columns, rows) = PLACES[place as usize];
-    let error = |source: &mut dyn Source| most * one_of(source, &ERRORS) / 2;
-    let east = columns * i32::from(SIDE) + error(source);
-    let south = rows * i32::from(SIDE) + error(source);
+    let error = |oracle: &mut dyn Oracle| most * one_of(oracle, &ERRORS) / 2;
+    let east = columns * i32::from(SIDE) + error(oracle);
+    let south = rows * i32::from(SIDE) + error(oracle);
     require(Ring::locate(east, south, SIDE) == Some(place), "the sensor is taken for the one of its cell")?;
     Ok("a sensor")
 }

@@ -5,10 +5,9 @@
 use core::num::NonZeroU32;
 use core::ops::RangeInclusive;
 
-use tautline_kernel::broadcast::{
-    Count, Node, NodeId, Notice, Reaction, Reception, Rule, Scheme, Stage, Surroundings,
-};
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::net::{Call, Epoch, Heard, NodeId, Notice};
+use tautline_kernel::notice::{Count, Node, Reaction, Rule, Scheme, Stage, Surroundings};
 
 use crate::clause::{Sabotage, Subject};
 use crate::decide::Evidence;
@@ -75,7 +74,7 @@ struct Spread<const NODES: usize> {
 /// A source that is never asked for more than a wait, which plays no part.
 struct AtOnce;
 
-impl Source for AtOnce {
+impl Oracle for AtOnce {
     fn pick(&mut self, _: u32) -> u32 {
         0
     }
@@ -84,15 +83,19 @@ impl Source for AtOnce {
 /// Any distance will do.
 const RANGE: NonZeroU32 = NonZeroU32::MIN;
 
+const fn call(event: u32) -> Call {
+    Call { wfr: NodeId(0), epoch: Epoch(event) }
+}
+
 /// A NOTICE of the first event.
 const fn notice(sender: usize) -> Notice {
-    Notice { source: NodeId(0), event: 1, sender: NodeId(sender as u32), hops: 0 }
+    Notice { call: call(1), sender: NodeId(sender as u32), hops: 0 }
 }
 
 /// All waits are over as soon as they begin.
 fn hear(node: &mut Node, rule: &Rule, notice: Notice) -> Reaction {
-    let reception = Reception { notice, distance_um: RANGE.get(), now_ns: 0 };
-    node.receive(rule, reception, Surroundings::none, &mut AtOnce)
+    let heard = Heard { message: notice, distance_um: RANGE.get(), now_ns: 0 };
+    node.receive(rule, heard, Surroundings::none, &mut AtOnce)
 }
 
 impl<const NODES: usize> Spread<NODES> {
@@ -526,16 +529,16 @@ fn random_nodes() -> String {
 const MOST_EVENTS: usize = 4_000;
 
 /// A random network, a random order and some k, the demand checked after every event.
-fn spread_at_random(subject: &Subject, source: &mut dyn Source, demand: Demand) -> Outcome {
+fn spread_at_random(subject: &Subject, oracle: &mut dyn Oracle, demand: Demand) -> Outcome {
     // k = ∞ is one of them, and for flooding the only one.
-    let k = if demand == Demand::Floods { 0 } else { source.pick(u32::from(Count::MOST) + 1) };
+    let k = if demand == Demand::Floods { 0 } else { oracle.pick(u32::from(Count::MOST) + 1) };
     let rule = farthest(subject, Count::new(k as u8));
-    let nodes = NODES.end() - source.pick(NODES.count() as u32) as usize;
-    let links_percent = LINKS.start() + source.pick(LINKS.count() as u32);
+    let nodes = NODES.end() - oracle.pick(NODES.count() as u32) as usize;
+    let links_percent = LINKS.start() + oracle.pick(LINKS.count() as u32);
     let mut links = Links::<LARGE>::NONE;
     for one in 0..nodes {
         for other in one + 1..nodes {
-            if source.pick(100) < links_percent {
+            if oracle.pick(100) < links_percent {
                 links.add(one, other);
             }
         }
@@ -543,7 +546,7 @@ fn spread_at_random(subject: &Subject, source: &mut dyn Source, demand: Demand) 
     let mut spread = Spread::start(&links);
     for happened in 0.. {
         let events = spread.events();
-        let choice = if happened < MOST_EVENTS { source.pick(events.len().max(1) as u32) } else { 0 };
+        let choice = if happened < MOST_EVENTS { oracle.pick(events.len().max(1) as u32) } else { 0 };
         let Some(&event) = events.get(choice as usize) else { break };
         spread = spread.after(&rule, &links, event);
         demand.check(&links, &spread, Point::OnTheWay)?;
@@ -560,32 +563,32 @@ pub const SPREADS: [&str; 2] = ["few nodes forward", "most nodes forward"];
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.
-pub fn tree_at_random(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    spread_at_random(subject, source, Demand::Tree)
+pub fn tree_at_random(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    spread_at_random(subject, oracle, Demand::Tree)
 }
 
 /// NOTICE-2: the same.
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.
-pub fn once_at_random(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    spread_at_random(subject, source, Demand::Once)
+pub fn once_at_random(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    spread_at_random(subject, oracle, Demand::Once)
 }
 
 /// NOTICE-6: the same.
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.
-pub fn nearest_parent_at_random(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    spread_at_random(subject, source, Demand::NearestParent)
+pub fn nearest_parent_at_random(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    spread_at_random(subject, oracle, Demand::NearestParent)
 }
 
 /// NOTICE-3: the same with k = ∞.
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.
-pub fn flood_at_random(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    spread_at_random(subject, source, Demand::Floods)
+pub fn flood_at_random(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    spread_at_random(subject, oracle, Demand::Floods)
 }
 
 /// What can have become of the event before.
@@ -608,10 +611,10 @@ pub fn later_events() -> String {
 ///
 /// # Errors
 /// [`Stop`] if the clause is broken.
-pub fn second_event(subject: &Subject, source: &mut dyn Source) -> Outcome {
+pub fn second_event(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let rule = farthest(subject, Some(Count::ONE));
     let mut node = Node::new(NodeId(1), NodeId(0));
-    let fate = source.pick(FATES.len() as u32);
+    let fate = oracle.pick(FATES.len() as u32);
     match fate {
         0 => {}
         1 => {
@@ -627,9 +630,9 @@ pub fn second_event(subject: &Subject, source: &mut dyn Source) -> Outcome {
         }
     }
     let [events, senders, most_hops] = LATER;
-    let (event, sender) = (2 + source.pick(events), 2 + source.pick(senders));
-    let hops = source.pick(most_hops) as u16;
-    let reaction = hear(&mut node, &rule, Notice { event, hops, ..notice(sender as usize) });
+    let (event, sender) = (2 + oracle.pick(events), 2 + oracle.pick(senders));
+    let hops = oracle.pick(most_hops) as u16;
+    let reaction = hear(&mut node, &rule, Notice { call: call(event), hops, ..notice(sender as usize) });
     require(reaction == Reaction::Armed { at_ns: 0 }, "the first NOTICE of a newer event begins a wait")?;
     require(node.parent() == Some(NodeId(sender)), "its sender is the parent")?;
     require(node.hops() == Some(hops + 1), "the node is one hop farther than its sender")?;
@@ -639,7 +642,7 @@ pub fn second_event(subject: &Subject, source: &mut dyn Source) -> Outcome {
 #[cfg(test)]
 mod tests {
     use stateright::{Checker, Model, Property};
-    use tautline_kernel::broadcast::Condition;
+    use tautline_kernel::notice::Condition;
 
     use super::*;
 

@@ -9,8 +9,8 @@ use std::fmt;
 use std::ops::RangeInclusive;
 
 use tautline_kernel::chain::Rule;
-use tautline_kernel::choice::Source;
-use tautline_kernel::lattice::Cell;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::ground::Cell;
 
 use crate::clause::Subject;
 use crate::engine::{Outcome, Stop, require};
@@ -406,8 +406,8 @@ pub fn solved() -> String {
 ///
 /// # Errors
 /// [`Stop::Violated`] if they are not 9(N−1)−1.
-pub fn least_in_the_open(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let robots = whole::within(&SOLVED, source) as usize;
+pub fn least_in_the_open(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    let robots = whole::within(&SOLVED, oracle) as usize;
     let (area, base) = whole::area(robots);
     let ground = Ground::new(area, base, robots, |_| true).ok_or(Stop::Assumed)?;
     let goals = ground.reachable(&subject.rule).map_err(|_| UNSOLVED)?;
@@ -425,8 +425,7 @@ const UNSOLVED: Stop = Stop::Violated("the fewest team moves are found within th
 #[cfg(test)]
 mod tests {
     use tautline_kernel::chain::{Condition, Move};
-    use tautline_kernel::grid::Area;
-    use tautline_kernel::lattice::{Edge, Side};
+    use tautline_kernel::ground::{Area, Edge, Side};
 
     use super::*;
     use crate::engine::Seeded;
@@ -468,11 +467,11 @@ mod tests {
 
     #[test]
     fn more_robots_need_what_plain_search_says_in_smaller_areas() {
-        let mut source = Seeded::new(0, 0);
+        let mut oracle = Seeded::new(0, 0);
         for (robots, width, height, layouts) in [(3, 5, 3, 10), (3, 4, 3, 20), (4, 4, 3, 5), (5, 3, 3, 5)] {
             let area = Area::new(Cell::new(0, 0), Cell::new(width - 1, height - 1)).expect("cells");
             for _ in 0..layouts {
-                let ground = random(robots, area, Cell::new(width / 2, 1), &mut source, 20);
+                let ground = random(robots, area, Cell::new(width / 2, 1), &mut oracle, 20);
                 agrees(&ground, &reachable(&ground));
             }
         }
@@ -480,13 +479,13 @@ mod tests {
 
     #[test]
     fn three_robots_need_what_plain_search_says_for_some_of_the_cells() {
-        let mut source = Seeded::new(1, 0);
+        let mut oracle = Seeded::new(1, 0);
         let open = ground(3, |_| false);
         for walls_percent in [5, 15, 30] {
             for _ in 0..10 {
-                let ground = random(3, open.area(), open.base(), &mut source, walls_percent);
+                let ground = random(3, open.area(), open.base(), &mut oracle, walls_percent);
                 let mut goals = CellSet::new(ground.area());
-                for cell in reachable(&ground).iter().filter(|_| source.pick(3) == 0) {
+                for cell in reachable(&ground).iter().filter(|_| oracle.pick(3) == 0) {
                     goals.insert(cell);
                 }
                 agrees(&ground, &goals);

@@ -4,8 +4,8 @@
 //! in which one may prefer the candidates.
 
 use tautline_kernel::chain::{Move, Rule};
-use tautline_kernel::choice::{Source, one_of};
-use tautline_kernel::lattice::{Cell, Circle, Edge, Step};
+use tautline_kernel::choice::{Oracle, one_of};
+use tautline_kernel::ground::{Cell, Circle, Edge, Step};
 
 use crate::clause::Subject;
 use crate::engine::{Outcome, Stop, assume, require};
@@ -29,13 +29,13 @@ impl<const ROBOTS: usize> World<ROBOTS> {
         Self { edges: [None; ROBOTS] }
     }
 
-    fn nature(&mut self, edge: Edge, source: &mut dyn Source) -> Nature {
+    fn nature(&mut self, edge: Edge, oracle: &mut dyn Oracle) -> Nature {
         for place in &mut self.edges {
             match *place {
                 Some((known, nature)) if known == edge => return nature,
                 Some(_) => {}
                 None => {
-                    let nature = one_of(source, &[Nature::KnownOpen, Nature::Open, Nature::Wall]);
+                    let nature = one_of(oracle, &[Nature::KnownOpen, Nature::Open, Nature::Wall]);
                     *place = Some((edge, nature));
                     return nature;
                 }
@@ -45,10 +45,10 @@ impl<const ROBOTS: usize> World<ROBOTS> {
     }
 
     /// A robot at `from` that plans any step, and where it ends up.
-    pub(crate) fn pick(&mut self, from: Cell, source: &mut dyn Source) -> Tried {
-        let step = one_of(source, &Step::ALL);
+    pub(crate) fn pick(&mut self, from: Cell, oracle: &mut dyn Oracle) -> Tried {
+        let step = one_of(oracle, &Step::ALL);
         let nature = match step {
-            Step::Cross(side) => self.nature(Edge::new(from, side), source),
+            Step::Cross(side) => self.nature(Edge::new(from, side), oracle),
             Step::Stay => Nature::Open,
         };
         let plan = Move { from, step, known_open: nature == Nature::KnownOpen };
@@ -89,14 +89,14 @@ impl Pair {
     fn pick(
         rule: &Rule,
         related: impl Fn(Cell, Cell) -> bool,
-        source: &mut dyn Source,
+        oracle: &mut dyn Oracle,
     ) -> Result<Self, Stop> {
         let behind = Cell::new(0, 0);
-        let mut offset = || source.pick(2 * FAR + 1) as i16 - FAR as i16;
+        let mut offset = || oracle.pick(2 * FAR + 1) as i16 - FAR as i16;
         let ahead = Cell::new(offset(), offset());
         assume(related(behind, ahead))?;
         let mut world = World::<2>::new();
-        let pair = Self { behind: world.pick(behind, source), ahead: world.pick(ahead, source) };
+        let pair = Self { behind: world.pick(behind, oracle), ahead: world.pick(ahead, oracle) };
         let to = pair.ahead.plan.to();
         assume(to == ahead || rule.admits_behind(to, behind))?;
         assume(rule.admits_ahead(pair.behind.plan, pair.ahead.plan))?;
@@ -117,8 +117,8 @@ impl Pair {
 ///
 /// # Errors
 /// [`Stop`] if the choices are no case, or break the clause.
-pub fn contact(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let pair = Pair::pick(&subject.rule, |behind, ahead| Circle::COVERED.covers(behind, ahead), source)?;
+pub fn contact(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    let pair = Pair::pick(&subject.rule, |behind, ahead| Circle::COVERED.covers(behind, ahead), oracle)?;
     require(
         Circle::COVERED.covers(pair.behind.arrived, pair.ahead.arrived),
         "each neighbour's cell is wholly covered after the move",
@@ -130,8 +130,8 @@ pub fn contact(subject: &Subject, source: &mut dyn Source) -> Outcome {
 ///
 /// # Errors
 /// [`Stop`] if the choices are no case, or break the clause.
-pub fn coverage(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let pair = Pair::pick(&subject.rule, |behind, ahead| Circle::COVERED.reaches(behind, ahead), source)?;
+pub fn coverage(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    let pair = Pair::pick(&subject.rule, |behind, ahead| Circle::COVERED.reaches(behind, ahead), oracle)?;
     // A robot that meets a wall goes part of its way, and back.
     let path = |robot: Tried| [robot.plan.from, robot.plan.to()];
     require(

@@ -7,8 +7,7 @@
 use std::collections::VecDeque;
 
 use tautline_kernel::chain::{Condition, High, Rule};
-use tautline_kernel::grid::{Area, Avoid};
-use tautline_kernel::lattice::{Cell, Edge, Side, Step};
+use tautline_kernel::ground::{Area, Avoid, Cell, Edge, Side, Step};
 
 use crate::invariant::{in_covered, in_safe};
 

@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use tautline_kernel::lattice::{Cell, Edge, Side};
+use tautline_kernel::ground::{Cell, Edge, Side};
 
 /// The most cells of a small floor.
 pub(crate) const CELLS: usize = 16;

@@ -11,8 +11,7 @@ use std::collections::VecDeque;
 use std::fmt;
 
 use tautline_kernel::chain::{self, Condition, Rule};
-use tautline_kernel::grid::Area;
-use tautline_kernel::lattice::{Cell, Edge, Side, Step};
+use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
 
 use crate::invariant::{in_covered, in_safe};
 
@@ -523,7 +522,7 @@ pub(crate) mod tests {
     use std::collections::HashSet;
 
     use tautline_kernel::chain::{Move, Role};
-    use tautline_kernel::choice::Source;
+    use tautline_kernel::choice::Oracle;
 
     use super::*;
     use crate::engine::Seeded;
@@ -551,10 +550,10 @@ pub(crate) mod tests {
         robots: usize,
         area: Area,
         base: Cell,
-        source: &mut Seeded,
+        oracle: &mut Seeded,
         walls_percent: u32,
     ) -> Ground {
-        let walls: HashSet<Edge> = area.edges().filter(|_| source.pick(100) < walls_percent).collect();
+        let walls: HashSet<Edge> = area.edges().filter(|_| oracle.pick(100) < walls_percent).collect();
         Ground::new(area, base, robots, |edge| !walls.contains(&edge)).expect("a base inside")
     }
 
@@ -683,10 +682,10 @@ pub(crate) mod tests {
 
     #[test]
     fn more_robots_reach_what_plain_search_says_in_random_layouts() {
-        let mut source = Seeded::new(0, 0);
+        let mut oracle = Seeded::new(0, 0);
         let mut next = |robots, walls_percent| {
             let (area, base) = whole::area(robots);
-            random(robots, area, base, &mut source, walls_percent)
+            random(robots, area, base, &mut oracle, walls_percent)
         };
         for (robots, layouts, rules) in [(3, 60, &RULES[..]), (4, 6, &RULES[..2])] {
             for _ in 0..layouts {

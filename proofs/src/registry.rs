@@ -2,18 +2,18 @@
 
 use tautline_kernel::bricks::Condition::{Alone, Corners, Laps, LeastCrossed, SecondPass, SeenOnly};
 use tautline_kernel::bricks::{self, Precedence};
-use tautline_kernel::broadcast::Condition::{FirstHeard, FrozenOnceForwarded, LeastHops, RememberEvent};
 use tautline_kernel::chain::Condition::{
     CoveredBehind, Distinct, EpochMustGain, FullForFollower, FullForLeader, RefusedIsVirtual, SafeAhead,
     Unfold, UnsureAhead,
 };
 use tautline_kernel::chain::{Budget, High, Rule};
-use tautline_kernel::lattice::Circle;
-use tautline_kernel::rescue;
-use tautline_kernel::rescue::Condition::{
+use tautline_kernel::ground::Circle;
+use tautline_kernel::mrc;
+use tautline_kernel::mrc::Condition::{
     AnswersAgain, ChoiceStands, Consent, Epochs, LeastIdentity, NearestCall, NearestRobot, Renewal,
     Repetition, StillAsks, Window,
 };
+use tautline_kernel::notice::Condition::{FirstHeard, FrozenOnceForwarded, LeastHops, RememberEvent};
 
 use crate::bricks::Floors;
 use crate::clause::{Body, Check, Clause, Method, Misread, Mutant, Range, Sabotage, Subject, Verdict};
@@ -736,18 +736,16 @@ pub static CLAUSES: [Clause; 45] = [
                 TWO,
                 Verdict::Holds,
                 &[
-                    mutant("no collection window", Subject::rescuing(rescue::Rule::REPAIRED.without(Window))),
+                    mutant("no collection window", Subject::rescuing(mrc::Rule::REPAIRED.without(Window))),
                     mutant("redecide on a late MOVE", REDECIDE),
                     mutant(
                         "the least MID, however far",
-                        Subject::rescuing(rescue::Rule::REPAIRED.without(NearestRobot)),
+                        Subject::rescuing(mrc::Rule::REPAIRED.without(NearestRobot)),
                     ),
                     mutant("of equal MHC the first heard", FIRST_OF_EQUALS),
                     mutant(
                         "the first MOVE heard",
-                        Subject::rescuing(
-                            rescue::Rule::REPAIRED.without(NearestRobot).without(LeastIdentity),
-                        ),
+                        Subject::rescuing(mrc::Rule::REPAIRED.without(NearestRobot).without(LeastIdentity)),
                     ),
                     mutant("no epoch", NO_EPOCH),
                 ],
@@ -783,7 +781,7 @@ pub static CLAUSES: [Clause; 45] = [
                 TWO_AND_ONE,
                 Verdict::Holds,
                 &[
-                    mutant("no renewal", Subject::rescuing(rescue::Rule::REPAIRED.without(Renewal))),
+                    mutant("no renewal", Subject::rescuing(mrc::Rule::REPAIRED.without(Renewal))),
                     mutant("no epoch", NO_EPOCH),
                 ],
             ),
@@ -794,7 +792,7 @@ pub static CLAUSES: [Clause; 45] = [
                 Verdict::Holds,
                 &[mutant(
                     "late MOVEs unanswered",
-                    Subject::rescuing(rescue::Rule::REPAIRED.without(AnswersAgain).without(Repetition)),
+                    Subject::rescuing(mrc::Rule::REPAIRED.without(AnswersAgain).without(Repetition)),
                 )],
             ),
             rescued(Subject::REPAIRED, Demand::IsServed, TWO, Verdict::Holds, &[]),
@@ -831,11 +829,11 @@ pub static CLAUSES: [Clause; 45] = [
                 &[
                     mutant(
                         "the least SN, however far",
-                        Subject::rescuing(rescue::Rule::PUBLISHED.without(NearestCall)),
+                        Subject::rescuing(mrc::Rule::PUBLISHED.without(NearestCall)),
                     ),
                     mutant(
                         "of equal HC the first heard",
-                        Subject::rescuing(rescue::Rule::PUBLISHED.without(LeastIdentity)),
+                        Subject::rescuing(mrc::Rule::PUBLISHED.without(LeastIdentity)),
                     ),
                 ],
             ),
@@ -847,12 +845,12 @@ pub static CLAUSES: [Clause; 45] = [
                 &[
                     mutant(
                         "the least SN, however far",
-                        Subject::rescuing(rescue::Rule::REPAIRED.without(NearestCall)),
+                        Subject::rescuing(mrc::Rule::REPAIRED.without(NearestCall)),
                     ),
                     mutant("of equal HC the first heard", FIRST_OF_EQUALS),
                     mutant(
                         "the first call heard",
-                        Subject::rescuing(rescue::Rule::REPAIRED.without(NearestCall).without(LeastIdentity)),
+                        Subject::rescuing(mrc::Rule::REPAIRED.without(NearestCall).without(LeastIdentity)),
                     ),
                 ],
             ),
@@ -874,7 +872,7 @@ pub static CLAUSES: [Clause; 45] = [
                 &[
                     mutant(
                         "it no longer asks, and accepts",
-                        Subject::rescuing(rescue::Rule::REPAIRED.without(StillAsks)),
+                        Subject::rescuing(mrc::Rule::REPAIRED.without(StillAsks)),
                     ),
                     mutant("no consent", NO_CONSENT),
                 ],
@@ -895,7 +893,7 @@ pub static CLAUSES: [Clause; 45] = [
                 Verdict::Holds,
                 &[mutant(
                     "late MOVEs unanswered",
-                    Subject::rescuing(rescue::Rule::REPAIRED.without(AnswersAgain)),
+                    Subject::rescuing(mrc::Rule::REPAIRED.without(AnswersAgain)),
                 )],
             ),
             rescued(Subject::REPAIRED, Demand::TellsWhoAsked, TWO_LONGER, Verdict::Holds, &[]),
@@ -994,14 +992,14 @@ const GOES_ON: Check = heard(
     &[mutant("a node is its own parent", misreads(Misread::NoParent))],
 );
 
-const REDECIDE: Subject = Subject::rescuing(rescue::Rule::REPAIRED.without(ChoiceStands));
-const FIRST_OF_EQUALS: Subject = Subject::rescuing(rescue::Rule::REPAIRED.without(LeastIdentity));
-const NO_EPOCH: Subject = Subject::rescuing(rescue::Rule::REPAIRED.without(Epochs));
-const NO_CONSENT: Subject = Subject::rescuing(rescue::Rule::REPAIRED.without(Consent));
+const REDECIDE: Subject = Subject::rescuing(mrc::Rule::REPAIRED.without(ChoiceStands));
+const FIRST_OF_EQUALS: Subject = Subject::rescuing(mrc::Rule::REPAIRED.without(LeastIdentity));
+const NO_EPOCH: Subject = Subject::rescuing(mrc::Rule::REPAIRED.without(Epochs));
+const NO_CONSENT: Subject = Subject::rescuing(mrc::Rule::REPAIRED.without(Consent));
 
 /// The settings of a rescue.
 const TWO: Setting = Setting {
-    rule: rescue::Rule::REPAIRED,
+    rule: mrc::Rule::REPAIRED,
     robots: 2,
     wfrs: 2,
     events: 2,

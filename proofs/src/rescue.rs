@@ -14,11 +14,10 @@ pub use records::{answers, messages, notices, records, served, ways_back};
 
 use std::hash::{Hash, Hasher};
 
-use tautline_kernel::broadcast::NodeId;
-use tautline_kernel::rescue::{
-    Bid, Call, Condition, Downward, Epoch, Notice, Phase, Resb, Robot, RobotId, Rule, Sent, Served, Task,
-    Upward, Wfr, WfrTimer, Word,
+use tautline_kernel::mrc::{
+    Bid, Condition, Downward, Phase, Resb, Robot, Rule, Sent, Served, Task, Upward, Wfr, WfrTimer, Word,
 };
+use tautline_kernel::net::{Call, Epoch, NodeId, Notice, RobotId};
 
 /// Most robots of a setting.
 pub const ROBOTS: usize = 3;

@@ -7,7 +7,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 use tautline_kernel::chain::{Kind, Message, Outcome};
-use tautline_kernel::lattice::{Cell, Circle, Edge, Step};
+use tautline_kernel::ground::{Cell, Circle, Edge, Step};
 
 /// One team move of robots in the order of their numbers; the base of a chain is the first.
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -20,8 +20,7 @@ use std::ops::ControlFlow;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::chain::{Refused, area};
-use tautline_kernel::grid::{Area, CompactGrid, LargeGrid, MediumGrid, SmallGrid, TinyGrid};
-use tautline_kernel::lattice::{Cell, Edge};
+use tautline_kernel::ground::{Area, Cell, CompactGrid, Edge, LargeGrid, MediumGrid, SmallGrid, TinyGrid};
 
 use self::chain::ChainGame;
 use self::game::{Demand, Game};

@@ -4,8 +4,8 @@
 use core::cmp::Ordering;
 
 use tautline_kernel::chain::{Message, Move, Outcome as StepOutcome};
-use tautline_kernel::choice::{Source, one_of};
-use tautline_kernel::lattice::{Cell, Step, neighbours};
+use tautline_kernel::choice::{Oracle, one_of};
+use tautline_kernel::ground::{Cell, Step, neighbours};
 
 use crate::clause::Subject;
 use crate::engine::{Outcome, assume, require};
@@ -22,8 +22,8 @@ pub fn offsets() -> String {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
-pub fn environments(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let mut offset = || source.pick(2 * FAR + 1) as i16 - FAR as i16;
+pub fn environments(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    let mut offset = || oracle.pick(2 * FAR + 1) as i16 - FAR as i16;
     let (dx, dy) = (offset(), offset());
     let (centre, cell) = (Cell::new(0, 0), Cell::new(dx, dy));
     let block = dx.abs() <= 1 && dy.abs() <= 1;
@@ -52,15 +52,15 @@ pub fn messages() -> String {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
-pub fn message(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    if source.flip() {
-        let byte = source.pick(BYTES) as u8;
+pub fn message(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    if oracle.flip() {
+        let byte = oracle.pick(BYTES) as u8;
         let Ok(message) = Message::decode(byte) else { return Ok("no message") };
         require(message.encode() == byte, "a message has one byte")?;
         return Ok("a byte");
     }
-    let step = one_of(source, &Step::ALL);
-    let outcome = one_of(source, &[StepOutcome::Arrived, StepOutcome::Blocked, StepOutcome::TookBack]);
+    let step = one_of(oracle, &Step::ALL);
+    let outcome = one_of(oracle, &[StepOutcome::Arrived, StepOutcome::Blocked, StepOutcome::TookBack]);
     assume(step != Step::Stay || outcome != StepOutcome::Blocked)?;
     let message = Message { step, outcome };
     let byte = subject.sabotage.carry(message.encode());
@@ -92,9 +92,9 @@ pub fn pairs_in_rings() -> String {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
-pub fn ring_of_neighbours(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let behind = Cell::new(source.pick(BEHIND) as i16, source.pick(BEHIND) as i16);
-    let mut offset = || source.pick(2 * AHEAD + 1) as i16 - AHEAD as i16;
+pub fn ring_of_neighbours(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    let behind = Cell::new(oracle.pick(BEHIND) as i16, oracle.pick(BEHIND) as i16);
+    let mut offset = || oracle.pick(2 * AHEAD + 1) as i16 - AHEAD as i16;
     let ahead = Cell::new(behind.x + offset(), behind.y + offset());
     assume(subject.rule.admits_ahead(Move::stay(behind), Move::stay(ahead)))?;
     let farther = ring(ahead).cmp(&ring(behind));
@@ -115,8 +115,8 @@ pub fn rings() -> String {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
-pub fn ring_cells(_: &Subject, source: &mut dyn Source) -> Outcome {
-    let outermost = source.pick(LONGEST - 1) as i16 + 1;
+pub fn ring_cells(_: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    let outermost = oracle.pick(LONGEST - 1) as i16 + 1;
     let coordinates = -outermost..=outermost;
     let cells = coordinates
         .clone()

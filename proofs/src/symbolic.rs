@@ -1,6 +1,6 @@
 //! Bodies under Kani: every answer at once. Compiled by `cargo kani` alone.
 
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::Oracle;
 
 use crate::clause::{Body, Subject};
 use crate::engine::Stop;
@@ -8,7 +8,7 @@ use crate::engine::Stop;
 /// Every answer at once.
 struct Symbolic;
 
-impl Source for Symbolic {
+impl Oracle for Symbolic {
     fn pick(&mut self, below: u32) -> u32 {
         kani::any_where(|&answer: &u32| answer < below)
     }

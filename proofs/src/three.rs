@@ -3,8 +3,8 @@
 //! first place is left open.
 
 use tautline_kernel::chain::{Condition, Move};
-use tautline_kernel::choice::Source;
-use tautline_kernel::lattice::{Cell, Circle};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::ground::{Cell, Circle};
 
 use crate::clause::Subject;
 use crate::engine::{Outcome, assume, require};
@@ -20,8 +20,8 @@ pub fn places() -> String {
 }
 
 /// A cell at most so many columns and rows from `cell`.
-fn near(cell: Cell, far: u32, source: &mut dyn Source) -> Cell {
-    let mut offset = || source.pick(2 * far + 1) as i16 - far as i16;
+fn near(cell: Cell, far: u32, oracle: &mut dyn Oracle) -> Cell {
+    let mut offset = || oracle.pick(2 * far + 1) as i16 - far as i16;
     Cell::new(cell.x + offset(), cell.y + offset())
 }
 
@@ -29,14 +29,14 @@ fn near(cell: Cell, far: u32, source: &mut dyn Source) -> Cell {
 ///
 /// # Errors
 /// [`Stop`](crate::engine::Stop) if the choices are no case, or break the clause.
-pub fn contact(subject: &Subject, source: &mut dyn Source) -> Outcome {
+pub fn contact(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let rule = &subject.rule;
     let base = Cell::new(0, 0);
-    let at = near(base, FAR[0], source);
-    let ahead = near(at, FAR[1], source);
+    let at = near(base, FAR[0], oracle);
+    let ahead = near(at, FAR[1], oracle);
     assume(Circle::COVERED.covers(at, ahead))?;
     let mut world = World::<2>::new();
-    let leader = world.pick(ahead, source);
+    let leader = world.pick(ahead, oracle);
     let to = leader.plan.to();
     assume(to == ahead || rule.admits_behind(to, at))?;
     let is_admitted = |own: Move| {
@@ -45,7 +45,7 @@ pub fn contact(subject: &Subject, source: &mut dyn Source) -> Outcome {
             && rule.admits_ahead(Move::stay(base), own)
             && (own.to() != to || to == base || !rule.has(Condition::Distinct))
     };
-    let follower = world.pick(at, source);
+    let follower = world.pick(at, oracle);
     let stay = Move::stay(at);
     assume(is_admitted(follower.plan))?;
     let stays_first = is_admitted(stay) && rule.is_high(at, leader.plan);

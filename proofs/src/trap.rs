@@ -13,9 +13,9 @@ use std::ops::ControlFlow;
 use rayon::prelude::*;
 use tautline_kernel::ants;
 use tautline_kernel::bricks::{Agent, Condition, Next, Rule, act};
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Mark, Scan, Sensor, settle};
-use tautline_kernel::lattice::Cell;
+use tautline_kernel::ground::Cell;
 
 use crate::bricks::{Misses, Small, is_shut, marked};
 use crate::engine::outcomes;
@@ -297,7 +297,7 @@ impl Floors {
     }
 
     /// Makes a team move; whether an agent is done in it while a cell is unexplored.
-    fn advance(&self, state: &mut State, world: &mut dyn Source) -> bool {
+    fn advance(&self, state: &mut State, world: &mut dyn Oracle) -> bool {
         let mut is_early = false;
         for number in 0..state.bodies.len() {
             let State { sensors, placed, bodies, misses: _ } = &mut *state;
@@ -383,7 +383,7 @@ struct Questions<'a> {
     missed: Vec<u32>,
 }
 
-impl Source for Questions<'_> {
+impl Oracle for Questions<'_> {
     fn pick(&mut self, below: u32) -> u32 {
         self.eyes.pick(below)
     }

@@ -3,8 +3,8 @@
 //! they are again such a pair. A wall ends the unfolding.
 
 use tautline_kernel::chain::{Move, Role, goes_on};
-use tautline_kernel::choice::{Source, one_of};
-use tautline_kernel::lattice::{Cell, Side, Step};
+use tautline_kernel::choice::{Oracle, one_of};
+use tautline_kernel::ground::{Cell, Side, Step};
 
 use crate::clause::Subject;
 use crate::engine::{Outcome, assume, require};
@@ -50,26 +50,26 @@ pub fn walks() -> String {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the choices are no case, or break the clause.
-pub fn unfolding(subject: &Subject, source: &mut dyn Source) -> Outcome {
+pub fn unfolding(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let rule = &subject.rule;
     let start = Cell::new(0, 0);
-    let sides = [one_of(source, &Side::ALL), one_of(source, &Side::ALL)];
+    let sides = [one_of(oracle, &Side::ALL), one_of(oracle, &Side::ALL)];
     // A walk comes to no cell twice.
     assume(sides[1] != sides[0].opposite())?;
     let walk = [start, start.beyond(sides[0]), start.beyond(sides[0]).beyond(sides[1])];
     // Two stops have a side between them, or a corner and the cell that the walk turns in.
-    let has_stopped = source.flip();
-    let is_corner = source.flip();
+    let has_stopped = oracle.flip();
+    let is_corner = oracle.flip();
     assume(!is_corner || sides[0] != sides[1])?;
     let last = usize::from(!has_stopped);
     let last_ahead = if has_stopped && !is_corner { 1 } else { 2 };
-    let pair = Pair { walk, is_base: source.flip(), last, last_ahead, ahead: source.pick(3) as usize };
+    let pair = Pair { walk, is_base: oracle.flip(), last, last_ahead, ahead: oracle.pick(3) as usize };
     assume(pair.is_on_the_walk(0))?;
-    let ahead_goes_on = source.flip();
+    let ahead_goes_on = oracle.flip();
     assume(!ahead_goes_on || pair.ahead < pair.last_ahead)?;
     let planned_ahead = pair.ahead + usize::from(ahead_goes_on);
     let goes_on = goes_on(0, pair.last, planned_ahead);
-    let known_open = source.flip();
+    let known_open = oracle.flip();
     let own = pair.plan(0, goes_on, known_open);
     let ahead = pair.plan(pair.ahead, ahead_goes_on, known_open);
     require(rule.admits_ahead(own, ahead), "the robot behind plans what is admitted behind the one ahead")?;

@@ -1,12 +1,11 @@
-//! Bodies that run a chain from its start to its end, each unknown edge decided by the source: the plan of the
+//! Bodies that run a chain from its start to its end, each unknown edge decided by the oracle: the plan of the
 //! plain recursion (CHAIN-11), the cost of planning (CHAIN-12) and the obstacle-free optimum (CHAIN-9).
 
 use std::ops::RangeInclusive;
 
 use tautline_kernel::chain::{Chain, End, Intent, Kind};
-use tautline_kernel::choice::{Source, one_of};
-use tautline_kernel::grid::{Area, EdgeMark, Grid, LargeGrid, MediumGrid, SmallGrid};
-use tautline_kernel::lattice::{Cell, Edge};
+use tautline_kernel::choice::{Oracle, one_of};
+use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, LargeGrid, MediumGrid, SmallGrid};
 
 use crate::clause::{Sabotage, Subject};
 use crate::engine::{Outcome, Stop, require};
@@ -30,8 +29,8 @@ fn start<G: Grid, const ROBOTS: usize>(
 }
 
 /// A number from `range`.
-pub(crate) fn within(range: &RangeInclusive<u32>, source: &mut dyn Source) -> u32 {
-    range.start() + source.pick(range.end() - range.start() + 1)
+pub(crate) fn within(range: &RangeInclusive<u32>, oracle: &mut dyn Oracle) -> u32 {
+    range.start() + oracle.pick(range.end() - range.start() + 1)
 }
 
 /// Chains of any length in `range`.
@@ -58,8 +57,8 @@ pub fn spirals() -> String {
 ///
 /// # Errors
 /// [`Stop::Violated`] if it is not.
-pub fn spiral(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let robots = within(&SPIRALS, source) as usize;
+pub fn spiral(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    let robots = within(&SPIRALS, oracle) as usize;
     let mut chain = start::<_, 32>(subject, robots, MediumGrid::new)?;
     let mut log = Vec::new();
     let optimum = 9 * (robots - 1) - 1;
@@ -87,10 +86,10 @@ pub fn layouts_with_few_walls() -> String {
 ///
 /// # Errors
 /// [`Stop::Violated`] if the plans differ.
-pub fn same_plan_in_all_layouts(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let (robots, mut walls) = one_of(source, &FEW_WALLS);
+pub fn same_plan_in_all_layouts(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    let (robots, mut walls) = one_of(oracle, &FEW_WALLS);
     same_plan(subject, robots, &mut |_| {
-        let is_wall = walls > 0 && source.flip();
+        let is_wall = walls > 0 && oracle.flip();
         walls -= u32::from(is_wall);
         !is_wall
     })
@@ -112,10 +111,10 @@ pub fn random_layouts() -> String {
 ///
 /// # Errors
 /// [`Stop::Violated`] if the plans differ.
-pub fn same_plan_in_random_layouts(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let robots = within(&RANDOM.0, source) as usize;
-    let walls_percent = within(&RANDOM.1, source);
-    same_plan(subject, robots, &mut |_| source.pick(100) >= walls_percent)
+pub fn same_plan_in_random_layouts(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    let robots = within(&RANDOM.0, oracle) as usize;
+    let walls_percent = within(&RANDOM.1, oracle);
+    same_plan(subject, robots, &mut |_| oracle.pick(100) >= walls_percent)
 }
 
 fn same_plan(subject: &Subject, robots: usize, is_open: &mut dyn FnMut(Edge) -> bool) -> Outcome {
@@ -189,10 +188,10 @@ pub fn cheap_runs() -> String {
 ///
 /// # Errors
 /// [`Stop::Violated`] if a plan looks at more than 100·N candidates.
-pub fn cheap(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let robots = one_of(source, &CHEAP_TEAMS);
-    let walls_permille = one_of(source, &CHEAP_WALLS);
-    cheap_among(subject, robots, &mut |_| source.pick(1000) >= walls_permille)
+pub fn cheap(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    let robots = one_of(oracle, &CHEAP_TEAMS);
+    let walls_permille = one_of(oracle, &CHEAP_WALLS);
+    cheap_among(subject, robots, &mut |_| oracle.pick(1000) >= walls_permille)
 }
 
 /// Robots, and walls in thousandths, where plans are dearest.
@@ -208,9 +207,9 @@ pub fn runs_among_few_walls() -> String {
 ///
 /// # Errors
 /// As of [`cheap`].
-pub fn cheap_among_few_walls(subject: &Subject, source: &mut dyn Source) -> Outcome {
-    let walls_permille = one_of(source, &DEAR_WALLS);
-    cheap_among(subject, DEAR_TEAM, &mut |_| source.pick(1000) >= walls_permille)
+pub fn cheap_among_few_walls(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
+    let walls_permille = one_of(oracle, &DEAR_WALLS);
+    cheap_among(subject, DEAR_TEAM, &mut |_| oracle.pick(1000) >= walls_permille)
 }
 
 fn first_moves(robots: &[usize], walls_permille: &[u32]) -> String {
@@ -261,7 +260,7 @@ fn plain_run(subject: &Subject, robots: usize, is_open: &mut dyn FnMut(Edge) -> 
 #[cfg(test)]
 mod tests {
     use tautline_kernel::chain::{Budget, Rule};
-    use tautline_kernel::grid::CellMark;
+    use tautline_kernel::ground::CellMark;
 
     use super::*;
     use crate::engine::Seeded;

@@ -2,7 +2,7 @@
 //! nothing in any of these settings.
 
 use insta::assert_snapshot;
-use tautline_kernel::rescue::{Condition, Rule};
+use tautline_kernel::mrc::{Condition, Rule};
 use tautline_proofs::rescue::chart::chart;
 use tautline_proofs::rescue::space::{Until, search};
 use tautline_proofs::rescue::{Demand, Faults, Leases, Lossy, Setting};

@@ -3,9 +3,8 @@
 //! are in contact and, as repaired, no three robots are in one cell.
 
 use tautline_kernel::chain::{Chain, Damaged, Intent, Kind, Message, Plan, Rule};
-use tautline_kernel::choice::Source;
-use tautline_kernel::grid::{Area, EdgeMark, Grid, SmallGrid};
-use tautline_kernel::lattice::{Cell, Circle, Edge, Step};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::ground::{Area, Cell, Circle, Edge, EdgeMark, Grid, SmallGrid, Step};
 use tautline_proofs::engine::Seeded;
 
 type Team = Chain<SmallGrid, 8>;

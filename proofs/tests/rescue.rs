@@ -7,8 +7,8 @@ use std::collections::{HashMap, HashSet, VecDeque};
 use std::hash::{Hash, Hasher};
 
 use stateright::{Checker, Model, Property};
-use tautline_kernel::choice::Source;
-use tautline_kernel::rescue::{Condition, Rule, Task};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::mrc::{Condition, Rule, Task};
 use tautline_proofs::engine::{Outcome, require, sample};
 use tautline_proofs::rescue::space::{Found, Until, search};
 use tautline_proofs::rescue::{Action, Actor, Demand, Faults, Leases, Lossy, Setting, State};
@@ -208,9 +208,9 @@ fn the_repaired_rule_holds_for_two_robots_with_three_faults() {
 }
 
 /// A run at random, as long as there are events and faults left, and then without another fault until nobody waits.
-fn long_run(setting: &Setting, source: &mut dyn Source) -> Outcome {
+fn long_run(setting: &Setting, oracle: &mut dyn Oracle) -> Outcome {
     let mut starts = setting.starts();
-    let mut state = starts.swap_remove(source.pick(starts.len() as u32) as usize);
+    let mut state = starts.swap_remove(oracle.pick(starts.len() as u32) as usize);
     let is_owed = |state: &State| (0..setting.wfrs).any(|wfr| state.is_owed_service(setting, wfr));
     for step in 0..10_000 {
         let mut actions = state.actions(setting);
@@ -220,7 +220,7 @@ fn long_run(setting: &Setting, source: &mut dyn Source) -> Outcome {
         if actions.is_empty() || step >= 300 && !is_owed(&state) {
             break;
         }
-        state = state.after(setting, actions.swap_remove(source.pick(actions.len() as u32) as usize));
+        state = state.after(setting, actions.swap_remove(oracle.pick(actions.len() as u32) as usize));
         for demand in Demand::ALL {
             require(!state.breaks(demand), demand.broken())?;
         }
@@ -235,11 +235,11 @@ fn the_repaired_rule_holds_in_long_runs_with_many_faults_and_the_mutants_do_not(
     let setting = setting((3, 2), 8, 2, faults);
     let violation = |rule: Rule| {
         let setting = Setting { rule, ..setting };
-        sample(20_000, 0, |source| long_run(&setting, source)).violation.map(|(_, demand)| demand)
+        sample(20_000, 0, |oracle| long_run(&setting, oracle)).violation.map(|(_, demand)| demand)
     };
     assert_eq!(violation(Rule::REPAIRED), None);
     let lapsing = Setting { leases: Leases::UntilOver, ..setting };
-    assert_eq!(sample(20_000, 0, |source| long_run(&lapsing, source)).violation, None);
+    assert_eq!(sample(20_000, 0, |oracle| long_run(&lapsing, oracle)).violation, None);
     for rule in [
         Rule::PUBLISHED,
         Rule::REPAIRED.without(Condition::Window),
@@ -256,11 +256,11 @@ const MOST_HOPS: u32 = 6;
 
 /// A rescue of three WFRs by three robots, each hop of a message lost with a chance of one in ten, one robot failing
 /// somewhere on the way. Timers are long enough.
-fn rescue(rule: Rule, source: &mut dyn Source) -> Outcome {
+fn rescue(rule: Rule, oracle: &mut dyn Oracle) -> Outcome {
     let faults = Faults { in_all: u8::MAX, losses: u8::MAX, robots: 1, ..Faults::any(0) };
     let setting = Setting { rule, ..setting((3, 3), 3, MOST_HOPS as u16, faults) };
-    let mut state = setting.start(source.pick(MOST_HOPS.pow(9)));
-    let (victim, fails_at) = (source.pick(3) as usize, source.pick(100));
+    let mut state = setting.start(oracle.pick(MOST_HOPS.pow(9)));
+    let (victim, fails_at) = (oracle.pick(3) as usize, oracle.pick(100));
     let (mut called, mut came) = ([false; 3], [0; 3]);
     for step in 0..20_000 {
         let actions = state.actions(&setting);
@@ -280,7 +280,7 @@ fn rescue(rule: Rule, source: &mut dyn Source) -> Outcome {
             | Action::FailNode { .. } => state.is_bound_to_happen(&setting, action),
         };
         let next: Vec<Action> = actions.iter().copied().filter(may_happen).collect();
-        let Some(&action) = next.get(source.pick(next.len().max(1) as u32) as usize) else { break };
+        let Some(&action) = next.get(oracle.pick(next.len().max(1) as u32) as usize) else { break };
         let mut happens = action;
         if let Action::Raise(wfr) = action {
             called[wfr] = true;
@@ -293,7 +293,7 @@ fn rescue(rule: Rule, source: &mut dyn Source) -> Outcome {
         if let Action::Deliver(at) = action {
             let message = state.network()[at];
             let hops = state.hops(message.robot().0.into(), message.call().wfr.0 as usize);
-            let is_lost = (0..hops).fold(false, |lost, _| lost | (source.pick(10) == 0));
+            let is_lost = (0..hops).fold(false, |lost, _| lost | (oracle.pick(10) == 0));
             if is_lost && actions.contains(&Action::Lose(at)) {
                 happens = Action::Lose(at);
             }
@@ -308,7 +308,7 @@ fn rescue(rule: Rule, source: &mut dyn Source) -> Outcome {
 #[test]
 fn of_a_thousand_rescues_with_losses_and_a_robot_failing_all_succeed_repaired_and_one_in_six_as_published() {
     let of_a_thousand = |rule: Rule| {
-        let one = |seed: u64| sample(1, seed, |source| rescue(rule, source)).violation.is_none();
+        let one = |seed: u64| sample(1, seed, |oracle| rescue(rule, oracle)).violation.is_none();
         (0..1000).filter(|&seed| one(seed)).count()
     };
     assert_eq!(of_a_thousand(Rule::REPAIRED), 1000);

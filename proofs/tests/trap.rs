@@ -6,9 +6,9 @@ use std::ops::ControlFlow;
 
 use tautline_kernel::ants;
 use tautline_kernel::bricks::{Agent, Condition, Next, Rule, act};
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Floor, Mark, Sensor, settle};
-use tautline_kernel::lattice::{Cell, Edge, Side};
+use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::trap::{Bounds, End, Found, Trap, Way, hunt};
 
 const fn bounds(way: Way, agents: u32, max_misses: u8, max_side: i16) -> Bounds {
@@ -64,7 +64,7 @@ struct Script<'a> {
     asked: u32,
 }
 
-impl Source for Script<'_> {
+impl Oracle for Script<'_> {
     fn pick(&mut self, _: u32) -> u32 {
         0
     }
@@ -232,7 +232,7 @@ struct Fading {
     left: u32,
 }
 
-impl Source for Fading {
+impl Oracle for Fading {
     fn pick(&mut self, below: u32) -> u32 {
         self.state =
             self.state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

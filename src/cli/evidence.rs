@@ -1,7 +1,7 @@
 //! What a person sees of a refutation, whoever has found it: `prove` as it decides, `replay` in a file.
 
 use serde::Serialize;
-use tautline_kernel::lattice::Edge;
+use tautline_kernel::ground::Edge;
 use tautline_proofs::clause::{Check, Clause, Method};
 use tautline_proofs::course::Course;
 use tautline_proofs::decide::Evidence;

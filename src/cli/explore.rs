@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use clap::{Args, ValueEnum};
 use serde::Serialize;
-use tautline_kernel::lattice::Cell;
+use tautline_kernel::ground::Cell;
 use tautline_proofs::words::counted;
 
 use super::output::Output;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
-use tautline_kernel::lattice::Cell;
+use tautline_kernel::ground::Cell;
 
 use super::output::Output;
 use super::{Chance, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless, usage};

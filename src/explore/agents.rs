@@ -11,10 +11,9 @@ use rand_chacha::rand_core::Rng;
 use tautline_kernel::ants;
 use tautline_kernel::bricks::{self, Agent, Condition, Next};
 use tautline_kernel::chain::Kind;
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Claim, Mark, Scan, settle};
-use tautline_kernel::grid::Area;
-use tautline_kernel::lattice::{Cell, Edge, Step};
+use tautline_kernel::ground::{Area, Cell, Edge, Step};
 use tautline_kernel::perception::time;
 use tautline_proofs::run::{Breach, Frame};
 pub use tautline_proofs::trap::Way;
@@ -46,7 +45,7 @@ impl Misses {
     }
 }
 
-impl Source for Misses {
+impl Oracle for Misses {
     fn pick(&mut self, below: u32) -> u32 {
         ((u128::from(self.generator.next_u64()) * u128::from(below)) >> 64) as u32
     }

@@ -3,8 +3,7 @@
 
 use tautline_kernel::chain::{self, Chain, Intent, MAX_ROBOTS, Refused};
 use tautline_kernel::floor::Mark;
-use tautline_kernel::grid::{Area, Grid, MediumGrid, SmallGrid};
-use tautline_kernel::lattice::{Cell, Edge};
+use tautline_kernel::ground::{Area, Cell, Edge, Grid, MediumGrid, SmallGrid};
 use tautline_proofs::run::{Breach, CHEAP_LOOKS, Frame};
 
 use super::floor::Component;

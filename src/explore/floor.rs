@@ -4,7 +4,7 @@
 use std::mem;
 
 use tautline_kernel::floor::{Claim, Floor, Mark, Sensor};
-use tautline_kernel::lattice::{Cell, Edge, Side};
+use tautline_kernel::ground::{Cell, Edge, Side};
 
 use crate::layout::{Layout, Size};
 

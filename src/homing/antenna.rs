@@ -2,7 +2,7 @@
 //! the pattern is ours: the parabola that radio standards take for the element of a sector antenna (3GPP TR 38.901,
 //! 7.3), with a floor. At half the beam width off the axis the strength is 3 dB less than on it.
 
-use tautline_kernel::homing::Heading;
+use tautline_kernel::tan::Heading;
 
 /// An antenna's gain by the angle off its axis: G − min(12·(θ/θ₃)², A).
 #[derive(Clone, Copy, PartialEq, Debug)]

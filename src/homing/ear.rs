@@ -3,9 +3,9 @@
 //! The level of a signal is that of equation (1) above what can just be heard all round, at the robot's reach, by how far
 //! off the node seems to be; the antenna adds its gain. Strengths are levels in hundredths of a dB.
 
-use tautline_kernel::broadcast::{NodeId, Propagation};
-use tautline_kernel::choice::Source;
-use tautline_kernel::homing::{Heading, Strength};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::net::{NodeId, Propagation, Strength};
+use tautline_kernel::tan::Heading;
 
 use super::Antenna;
 use super::antenna::degrees_off;
@@ -85,7 +85,7 @@ impl Ear {
         signal: Signal,
         from: Point,
         (antenna, axis): (&Antenna, Heading),
-        chance: &mut dyn Source,
+        chance: &mut dyn Oracle,
     ) -> Option<Strength> {
         let (x_m, y_m) = (signal.at.x_m - from.x_m, signal.at.y_m - from.y_m);
         let gain_db = antenna.gain_db(degrees_off(axis, x_m, y_m));

@@ -1,9 +1,8 @@
 //! A whole journey over a network in which nothing goes wrong: no packet is lost, and nothing fails.
 
-use tautline_kernel::broadcast::NodeId;
-use tautline_kernel::choice::Source;
-use tautline_kernel::homing::{Nav, Order, Stage};
-use tautline_kernel::rescue::RobotId;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::net::{NodeId, RobotId};
+use tautline_kernel::tan::{Nav, Order, Stage};
 
 use super::{Equipment, Signal, Tree, Walker};
 use crate::radio::{Field, Network, Point};
@@ -70,7 +69,7 @@ impl Site<'_> {
     }
 
     /// The journey by TAN through `tree`.
-    pub fn tan(&self, tree: &Tree, wfr: NodeId, chance: &mut dyn Source) -> Journey {
+    pub fn tan(&self, tree: &Tree, wfr: NodeId, chance: &mut dyn Oracle) -> Journey {
         let start = self.start();
         let Some(entry) = tree.entry() else { return Journey::none(start) };
         let mut walker = Walker::new(self.equipment, start, RobotId(0), wfr, entry);
@@ -84,7 +83,7 @@ impl Site<'_> {
         walker: &mut Walker,
         place: NodeId,
         nav: &dyn Fn(NodeId) -> Option<Nav>,
-        chance: &mut dyn Source,
+        chance: &mut dyn Oracle,
     ) -> (End, u64) {
         // The signals of the nodes asked so far, the last one that of the node asked last for the first time.
         let mut signals: Vec<(NodeId, Signal)> = Vec::new();

@@ -9,10 +9,9 @@
 //! - Sheu's robot follows the guide nodes from the first neighbour of least hops on, each the least neighbour one hop
 //!   nearer of the one before, with an antenna that hears the same all round.
 
-use tautline_kernel::broadcast::NodeId;
-use tautline_kernel::choice::Source;
-use tautline_kernel::homing::{BackAndForth, Gradient, Heading, Nav, Position, Station, Walk, reich, verma};
-use tautline_kernel::rescue::RobotId;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::net::{NodeId, RobotId};
+use tautline_kernel::tan::{BackAndForth, Gradient, Heading, Nav, Position, Station, Walk, reich, verma};
 
 use super::ear::apart_m;
 use super::journey::MOST_ACTS;
@@ -104,7 +103,7 @@ impl Site<'_> {
     }
 
     /// The journey by Reich's gradient.
-    pub fn reich(&self, goal: NodeId, chance: &mut dyn Source) -> Journey {
+    pub fn reich(&self, goal: NodeId, chance: &mut dyn Oracle) -> Journey {
         let hops = self.hops(goal);
         let start = self.start();
         let mut visited = vec![false; self.field.nodes().len()];
@@ -149,7 +148,7 @@ impl Site<'_> {
     }
 
     /// The journey by Sheu's back-and-forth.
-    pub fn sheu(&self, goal: NodeId, chance: &mut dyn Source) -> Journey {
+    pub fn sheu(&self, goal: NodeId, chance: &mut dyn Oracle) -> Journey {
         let hops = self.hops(goal);
         let least = |node: NodeId| {
             let neighbours = self.network.neighbours(node).iter().filter(|&&next| next != self.robot());
@@ -169,10 +168,10 @@ impl Site<'_> {
     }
 
     /// Walks to one guide node.
-    fn back_and_forth(&self, signal: Signal, trail: &mut Trail, chance: &mut dyn Source) -> End {
+    fn back_and_forth(&self, signal: Signal, trail: &mut Trail, chance: &mut dyn Oracle) -> End {
         let ear = &self.equipment.ear;
         let antenna = &Antenna::ALL_ROUND;
-        let listen = |at: Point, heading: Heading, chance: &mut dyn Source| {
+        let listen = |at: Point, heading: Heading, chance: &mut dyn Oracle| {
             ear.strength(self.field, signal, at, (antenna, heading), chance)
         };
         let first = Heading::FIRST.turned(chance.pick(u32::from(Heading::COUNT)) as u8);

@@ -3,11 +3,12 @@
 
 use std::collections::VecDeque;
 
-use tautline_kernel::broadcast::{NodeId, Notice, Rule, Stage};
-use tautline_kernel::choice::Source;
-use tautline_kernel::homing::Nav;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::net::{Heard, NodeId, Notice};
+use tautline_kernel::notice::{Rule, Stage};
+use tautline_kernel::tan::Nav;
 
-use crate::radio::{Broadcast, Channel, Faults, Heard, Network, Problem, Protocol, run};
+use crate::radio::{Broadcast, Channel, Faults, Network, Problem, Protocol, run};
 
 /// The navigation tree of one call.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -27,13 +28,13 @@ impl Tree {
         channel: Channel,
         faults: &Faults,
         (wfr, robot): (NodeId, NodeId),
-        chance: &mut dyn Source,
+        chance: &mut dyn Oracle,
     ) -> Result<Self, Problem> {
         let broadcast = Broadcast::new(network, rule, wfr);
         let mut listening = Listening { broadcast, robot, least: None };
         run(network, channel, faults, &mut listening, &[(wfr, 0)], chance)?;
         let nodes = (0..).map(NodeId).zip(listening.broadcast.nodes());
-        let nav = |(id, node): (NodeId, &tautline_kernel::broadcast::Node)| {
+        let nav = |(id, node): (NodeId, &tautline_kernel::notice::Node)| {
             let hops = node.hops().filter(|_| node.stage() == Stage::Forwarded)?;
             Some(Nav { wfr, node: id, hops, parent: node.parent().unwrap_or(id) })
         };
@@ -68,7 +69,7 @@ struct Listening<'a> {
 impl Protocol for Listening<'_> {
     type Message = Notice;
 
-    fn receive(&mut self, at: NodeId, heard: Heard<Notice>, chance: &mut dyn Source) -> Option<u64> {
+    fn receive(&mut self, at: NodeId, heard: Heard<Notice>, chance: &mut dyn Oracle) -> Option<u64> {
         if at != self.robot {
             return self.broadcast.receive(at, heard, chance);
         }
@@ -79,7 +80,7 @@ impl Protocol for Listening<'_> {
         None
     }
 
-    fn expire(&mut self, at: NodeId, now_ns: u64, chance: &mut dyn Source) -> Option<Notice> {
+    fn expire(&mut self, at: NodeId, now_ns: u64, chance: &mut dyn Oracle) -> Option<Notice> {
         self.broadcast.expire(at, now_ns, chance)
     }
 }
@@ -109,7 +110,7 @@ pub fn hops(network: &Network, goal: NodeId, forwards: impl Fn(NodeId) -> bool) 
 
 #[cfg(test)]
 mod tests {
-    use tautline_kernel::broadcast::{Count, Scheme};
+    use tautline_kernel::notice::{Count, Scheme};
     use tautline_proofs::engine::Tape;
 
     use super::*;

@@ -4,10 +4,9 @@
 //! and it scans again without it, so that it goes along the rim. A step that takes it out of hearing, behind a corner, it
 //! takes back, and bars that direction, too. Once it has gone another way no direction is barred any more.
 
-use tautline_kernel::broadcast::NodeId;
-use tautline_kernel::choice::Source;
-use tautline_kernel::homing::{Heading, Homing, Nav, Nearness, Order, Stage, Strength};
-use tautline_kernel::rescue::RobotId;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::net::{NodeId, RobotId, Strength};
+use tautline_kernel::tan::{Heading, Homing, Nav, Nearness, Order, Stage};
 
 use super::{Antenna, Ear, Signal};
 use crate::radio::{Field, Point, Problem, Radio};
@@ -205,7 +204,7 @@ impl Walker {
     /// Points the antenna or walks a step, whichever is the order, and measures the signal of its guide, `None` if that
     /// sends none. Returns how long that takes, in nanoseconds, in which the robot goes straight from where it was to where
     /// it is then.
-    pub fn act(&mut self, field: &Field, signal: Option<Signal>, chance: &mut dyn Source) -> u64 {
+    pub fn act(&mut self, field: &Field, signal: Option<Signal>, chance: &mut dyn Oracle) -> u64 {
         let gait = self.equipment.gait;
         match (self.homing.stage(), self.homing.order()) {
             (_, Order::Point(heading)) => {
@@ -226,7 +225,7 @@ impl Walker {
         field: &Field,
         signal: Option<Signal>,
         strongest: Strength,
-        chance: &mut dyn Source,
+        chance: &mut dyn Oracle,
     ) -> u64 {
         let gait = self.equipment.gait;
         let from = self.at();
@@ -267,7 +266,7 @@ impl Walker {
         u64::from(steps.min(u16::from(Heading::COUNT) - steps)) * self.equipment.gait.turn_ns
     }
 
-    fn measure(&self, field: &Field, signal: Option<Signal>, chance: &mut dyn Source) -> Option<Strength> {
+    fn measure(&self, field: &Field, signal: Option<Signal>, chance: &mut dyn Oracle) -> Option<Strength> {
         let axis = (&self.equipment.antenna, self.facing);
         self.equipment.ear.strength(field, signal?, self.at(), axis, chance)
     }

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use serde_json::json;
-use tautline_kernel::lattice::Cell;
+use tautline_kernel::ground::Cell;
 use tautline_proofs::search::{Bounds, Position, Search};
 
 use super::{remedy, start};

@@ -5,7 +5,7 @@
 //! trees, blocked. The format has no walls between cells and no base. `\r\n` and a missing last newline are
 //! read.
 
-use tautline_kernel::lattice::Cell;
+use tautline_kernel::ground::Cell;
 
 use super::lines::{Line, end, lines};
 use super::{Layout, Misread, Problem};

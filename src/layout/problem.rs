@@ -5,7 +5,7 @@ use std::fmt;
 use std::ops::Range;
 
 use tautline_kernel::chain::MAX_ROBOTS;
-use tautline_kernel::lattice::Cell;
+use tautline_kernel::ground::Cell;
 use tautline_proofs::words::counted;
 
 use super::generate::{FORMS, Form};

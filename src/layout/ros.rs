@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use image::{GenericImageView, ImageError, ImageFormat, ImageReader, Limits, Rgba};
 use serde::Deserialize;
 use serde_saphyr::{Location, Spanned};
-use tautline_kernel::lattice::Cell;
+use tautline_kernel::ground::Cell;
 
 use super::file::{at, in_file, read_bytes, read_text, usage};
 use super::{Layout, MAX_CELLS, MAX_SIDE_CELLS, Misread, Problem};

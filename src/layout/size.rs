@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-use tautline_kernel::grid::Area;
-use tautline_kernel::lattice::Cell;
+use tautline_kernel::ground::{Area, Cell};
 
 use super::Problem;
 

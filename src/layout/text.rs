@@ -16,7 +16,7 @@
 use std::fmt;
 use std::num::NonZeroU16;
 
-use tautline_kernel::lattice::{Cell, Edge, Side};
+use tautline_kernel::ground::{Cell, Edge, Side};
 
 use super::lines::{Line, end, lines};
 use super::{Layout, MAX_SIDE_CELLS, Misread, Problem};

@@ -6,8 +6,8 @@
 
 use std::collections::VecDeque;
 
-use tautline_kernel::broadcast::{NodeId, Propagation};
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::net::{Heard, NodeId, Propagation};
 
 use super::chance::{Chance, checked_deviation, deviation_db};
 use super::network::Link;
@@ -21,10 +21,10 @@ pub trait Protocol {
     type Message: Copy;
 
     /// Node `at` hears a message. If its timer is to go off: when, in nanoseconds.
-    fn receive(&mut self, at: NodeId, heard: Heard<Self::Message>, chance: &mut dyn Source) -> Option<u64>;
+    fn receive(&mut self, at: NodeId, heard: Heard<Self::Message>, chance: &mut dyn Oracle) -> Option<u64>;
 
     /// The timer of node `at` goes off: what it sends, if anything.
-    fn expire(&mut self, at: NodeId, now_ns: u64, chance: &mut dyn Source) -> Option<Self::Message>;
+    fn expire(&mut self, at: NodeId, now_ns: u64, chance: &mut dyn Oracle) -> Option<Self::Message>;
 
     /// The timer of node `at` has gone off. If it is to go off again: when, in nanoseconds.
     #[inline]
@@ -42,17 +42,6 @@ pub trait Protocol {
     /// to all that hear it.
     #[inline]
     fn roving(&self, _at: NodeId, _links: &mut Vec<Link>) {}
-}
-
-/// A message as it is heard.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Heard<M> {
-    /// The message.
-    pub message: M,
-    /// How far off the sender seems to be, in micrometres.
-    pub distance_um: u32,
-    /// When, in nanoseconds.
-    pub now_ns: u64,
 }
 
 /// What lies between a sender and those linked to it.
@@ -111,7 +100,7 @@ impl Faults {
     }
 
     #[inline]
-    fn measured_um(&self, distance_um: u32, chance: &mut dyn Source) -> u32 {
+    fn measured_um(&self, distance_um: u32, chance: &mut dyn Oracle) -> u32 {
         match self.noise {
             None => distance_um,
             Some(noise) => noisy_um(noise, distance_um, chance),
@@ -122,7 +111,7 @@ impl Faults {
 fn noisy_um(
     (standard_db, propagation): (f64, Propagation),
     distance_um: u32,
-    chance: &mut dyn Source,
+    chance: &mut dyn Oracle,
 ) -> u32 {
     (f64::from(distance_um) * propagation.times_as_far(-deviation_db(standard_db, chance))) as u32
 }
@@ -155,7 +144,7 @@ pub fn run<P: Protocol>(
     faults: &Faults,
     protocol: &mut P,
     begin: &[(NodeId, u64)],
-    chance: &mut dyn Source,
+    chance: &mut dyn Oracle,
 ) -> Result<Air, Problem> {
     let stations = network.nodes() + protocol.rovers();
     if let Some((node, _)) = begin.iter().find(|(node, _)| node.0 as usize >= stations) {
@@ -172,7 +161,7 @@ pub fn run<P: Protocol>(
 struct World<'a, P> {
     faults: &'a Faults,
     protocol: &'a mut P,
-    chance: &'a mut dyn Source,
+    chance: &'a mut dyn Oracle,
     air: Air,
 }
 
@@ -358,12 +347,12 @@ mod tests {
     impl Protocol for Talk {
         type Message = u32;
 
-        fn receive(&mut self, at: NodeId, heard: Heard<u32>, _: &mut dyn Source) -> Option<u64> {
+        fn receive(&mut self, at: NodeId, heard: Heard<u32>, _: &mut dyn Oracle) -> Option<u64> {
             self.heard.push((at.0, heard.message, heard.now_ns));
             None
         }
 
-        fn expire(&mut self, at: NodeId, _: u64, _: &mut dyn Source) -> Option<u32> {
+        fn expire(&mut self, at: NodeId, _: u64, _: &mut dyn Oracle) -> Option<u32> {
             Some(at.0)
         }
     }
@@ -435,12 +424,12 @@ mod tests {
     impl Protocol for Stroll {
         type Message = u32;
 
-        fn receive(&mut self, at: NodeId, heard: Heard<u32>, _: &mut dyn Source) -> Option<u64> {
+        fn receive(&mut self, at: NodeId, heard: Heard<u32>, _: &mut dyn Oracle) -> Option<u64> {
             self.heard.push((at.0, heard.message, heard.now_ns));
             None
         }
 
-        fn expire(&mut self, at: NodeId, _: u64, _: &mut dyn Source) -> Option<u32> {
+        fn expire(&mut self, at: NodeId, _: u64, _: &mut dyn Oracle) -> Option<u32> {
             if at == ROVER {
                 self.at += 1;
             }

@@ -1,19 +1,14 @@
 //! One event broadcast through a network by the kernel's rules (paper 003, 3.2).
 
-use tautline_kernel::broadcast::{
-    Node, NodeId, Notice, Reaction, Reception, Rule, Scheme, Stage, Surroundings, words,
-};
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::net::{Epoch, Heard, NodeId, Notice};
+use tautline_kernel::notice::{Node, Reaction, Rule, Scheme, Stage, Surroundings, words};
 
-use super::air::Heard;
 use super::{Air, Channel, Faults, Network, Problem, Protocol, run};
 
 /// B of equation (2), which the paper leaves open: a tenth of a second. Over the ideal channel the farthest-node schemes do
 /// the same for any other.
 pub const LONGEST_WAIT_NS: u32 = 100_000_000;
-
-/// The number of a source's first event.
-const FIRST_EVENT: u32 = 1;
 
 /// How far an event has come.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -45,11 +40,11 @@ pub fn broadcast(
     channel: Channel,
     faults: &Faults,
     source: NodeId,
-    chance: &mut dyn Source,
+    chance: &mut dyn Oracle,
 ) -> Result<(Report, Vec<Node>), Problem> {
     let mut broadcast = Broadcast::new(network, *rule, source);
     let air = run(network, channel, faults, &mut broadcast, &[(source, 0)], chance)?;
-    let Reach { reached, rebroadcasts } = broadcast.reach(FIRST_EVENT);
+    let Reach { reached, rebroadcasts } = broadcast.reach(Epoch::FIRST);
     Ok((Report { reached, rebroadcasts, air }, broadcast.nodes))
 }
 
@@ -109,7 +104,7 @@ impl<'a> Broadcast<'a> {
     }
 
     /// How far an event, by its number, has come: to be asked before the next.
-    pub fn reach(&self, event: u32) -> Reach {
+    pub fn reach(&self, event: Epoch) -> Reach {
         let aware = || self.nodes.iter().filter(|node| node.event() == Some(event));
         let forwarded = aware().filter(|node| node.stage() == Stage::Forwarded).count() as u32;
         Reach { reached: aware().count() as u32, rebroadcasts: forwarded.saturating_sub(1) }
@@ -125,18 +120,17 @@ impl Protocol for Broadcast<'_> {
     type Message = Notice;
 
     #[inline]
-    fn receive(&mut self, at: NodeId, heard: Heard<Notice>, chance: &mut dyn Source) -> Option<u64> {
-        let Heard { message: notice, distance_um, now_ns } = heard;
+    fn receive(&mut self, at: NodeId, heard: Heard<Notice>, chance: &mut dyn Oracle) -> Option<u64> {
         let (network, hellos) = (self.network, &mut self.hellos);
-        let reception = Reception { notice, distance_um, now_ns };
+        let sender = heard.message.sender;
         let node = &mut self.nodes[at.0 as usize];
-        match node.receive(&self.rule, reception, || hellos.around(network, at, notice.sender), chance) {
+        match node.receive(&self.rule, heard, || hellos.around(network, at, sender), chance) {
             Reaction::Armed { at_ns } => Some(at_ns),
             Reaction::Ignored | Reaction::Noted | Reaction::Silenced => None,
         }
     }
 
-    fn expire(&mut self, at: NodeId, now_ns: u64, _: &mut dyn Source) -> Option<Notice> {
+    fn expire(&mut self, at: NodeId, now_ns: u64, _: &mut dyn Oracle) -> Option<Notice> {
         let node = &mut self.nodes[at.0 as usize];
         if at == self.source { node.originate() } else { node.expire(now_ns) }
     }
@@ -147,7 +141,8 @@ mod tests {
     use std::num::NonZeroU32;
 
     use proptest::prelude::*;
-    use tautline_kernel::broadcast::{Count, Propagation};
+    use tautline_kernel::net::Propagation;
+    use tautline_kernel::notice::Count;
     use tautline_proofs::engine::Seeded;
 
     use super::*;
@@ -155,9 +150,9 @@ mod tests {
 
     fn network(nodes: usize, seed: u64) -> Network {
         let area = Area::new(300.0, 300.0).expect("an area");
-        let source = &mut Seeded::new(seed, 0);
-        let field = Field::random(area, vec![], nodes, source).expect("a field");
-        Network::new(&field, Radio::new(25.0, Model::Disc).expect("a radio"), source).expect("a network")
+        let oracle = &mut Seeded::new(seed, 0);
+        let field = Field::random(area, vec![], nodes, oracle).expect("a field");
+        Network::new(&field, Radio::new(25.0, Model::Disc).expect("a radio"), oracle).expect("a network")
     }
 
     fn rule(scheme: Scheme) -> Rule {

@@ -1,7 +1,7 @@
-//! Chances whose outcome is a choice of a `Source`. Whatever is the plain case comes first: a source without answers lets
+//! Chances whose outcome is a choice of an `Oracle`. Whatever is the plain case comes first: a source without answers lets
 //! every message arrive.
 
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::Oracle;
 
 use super::Problem;
 use super::problem::MAX_DEVIATION_DB;
@@ -31,19 +31,19 @@ impl Chance {
 
     /// Whether it happens this time. What never happens is not asked for.
     #[inline]
-    pub fn happens(self, source: &mut dyn Source) -> bool {
-        self.0 > 0 && source.pick(MILLION) >= MILLION - self.0
+    pub fn happens(self, oracle: &mut dyn Oracle) -> bool {
+        self.0 > 0 && oracle.pick(MILLION) >= MILLION - self.0
     }
 }
 
 /// A deviation in dB around 0, near to a normal one but at most three times the standard deviation: the sum of twelve
 /// uniform numbers. Where the standard deviation is 0 nothing is left to chance.
-pub(crate) fn deviation_db(standard_db: f64, source: &mut dyn Source) -> f64 {
+pub(crate) fn deviation_db(standard_db: f64, oracle: &mut dyn Oracle) -> f64 {
     if standard_db == 0.0 {
         return 0.0;
     }
     // Whole numbers, to the last step. The plain case, twelve zeros, is to be no deviation: each number is turned by half.
-    let steps: i32 = (0..12).map(|_| (source.pick(1 << 16) ^ (1 << 15)) as i32 - (1 << 15)).sum();
+    let steps: i32 = (0..12).map(|_| (oracle.pick(1 << 16) ^ (1 << 15)) as i32 - (1 << 15)).sum();
     let standard = (f64::from(steps) / 65_536.0).clamp(-MOST_DEVIATIONS, MOST_DEVIATIONS);
     standard_db * standard
 }

@@ -2,7 +2,7 @@
 //! axes, in metres: they are the paper's lakes and hills, one without width or height is a wall, so that the walls of a
 //! layout are obstacles, too, and whether a link meets one is decided by products and signs alone.
 
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::Oracle;
 
 use super::Problem;
 use super::problem::MAX_SIDE_M;
@@ -153,10 +153,10 @@ impl Field {
         area: Area,
         obstacles: Vec<Obstacle>,
         count: usize,
-        source: &mut dyn Source,
+        oracle: &mut dyn Oracle,
     ) -> Result<Self, Problem> {
         check(&obstacles, count)?;
-        let places = (0..count).map(|_| random_place(area, &obstacles, source));
+        let places = (0..count).map(|_| random_place(area, &obstacles, oracle));
         let mut nodes = places.collect::<Result<Vec<Point>, Problem>>()?;
         let strip_m = STRIP_NODES * (area.width_m * area.height_m / f64::from(count as u32)).sqrt();
         let strip = |point: &Point| (point.y_m / strip_m) as u64;
@@ -176,8 +176,8 @@ impl Field {
     ///
     /// # Errors
     /// [`Problem::NoRoom`] if the obstacles leave none.
-    pub fn place(&self, source: &mut dyn Source) -> Result<Point, Problem> {
-        random_place(self.area, &self.obstacles, source)
+    pub fn place(&self, oracle: &mut dyn Oracle) -> Result<Point, Problem> {
+        random_place(self.area, &self.obstacles, oracle)
     }
 
     /// Whether the straight way between two points meets no obstacle.
@@ -202,8 +202,8 @@ impl Field {
     }
 }
 
-fn random_place(area: Area, obstacles: &[Obstacle], source: &mut dyn Source) -> Result<Point, Problem> {
-    let mut coordinate = |side: f64| side * (f64::from(source.pick(u32::MAX)) / f64::from(u32::MAX - 1));
+fn random_place(area: Area, obstacles: &[Obstacle], oracle: &mut dyn Oracle) -> Result<Point, Problem> {
+    let mut coordinate = |side: f64| side * (f64::from(oracle.pick(u32::MAX)) / f64::from(u32::MAX - 1));
     (0..TRIES)
         .map(|_| Point { x_m: coordinate(area.width_m), y_m: coordinate(area.height_m) })
         .find(|&point| !obstacles.iter().any(|obstacle| obstacle.contains(point)))
@@ -276,8 +276,8 @@ mod tests {
         assert_eq!(new(&[fine, at(10.1, 1.0)]), Err(Problem::Outside { node: 1, x_m: 10.1, y_m: 1.0 }));
         assert!(matches!(new(&[at(1.0, f64::NAN), fine]), Err(Problem::Outside { node: 0, .. })));
         assert_eq!(new(&[fine, at(2.0, 3.0)]), Err(Problem::Blocked { node: 1 }));
-        let mut source = Tape(&[]);
-        let mut random = |obstacles, count| Field::random(area(), obstacles, count, &mut source).map(|_| ());
+        let mut oracle = Tape(&[]);
+        let mut random = |obstacles, count| Field::random(area(), obstacles, count, &mut oracle).map(|_| ());
         assert_eq!(random(vec![], MAX_NODES + 1), Err(Problem::Nodes { nodes: MAX_NODES + 1 }));
         let everything = Obstacle { west_m: 0.0, north_m: 0.0, east_m: 10.0, south_m: 5.0 };
         assert_eq!(random(vec![everything], 2), Err(Problem::NoRoom));

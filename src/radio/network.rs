@@ -7,8 +7,8 @@
 
 use std::num::NonZeroU32;
 
-use tautline_kernel::broadcast::{NodeId, Propagation};
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::net::{NodeId, Propagation};
 
 use super::chance::{MOST_DEVIATIONS, checked_deviation, deviation_db};
 use super::grid::Grid;
@@ -128,7 +128,7 @@ impl Network {
     ///
     /// # Errors
     /// [`Problem::TooDense`] if the links might not fit into memory; nothing of them is allocated then.
-    pub fn new(field: &Field, radio: Radio, source: &mut dyn Source) -> Result<Self, Problem> {
+    pub fn new(field: &Field, radio: Radio, oracle: &mut dyn Oracle) -> Result<Self, Problem> {
         let points = field.nodes();
         let reach_m = radio.reach_m();
         let grid = Grid::new(field.area(), points, reach_m);
@@ -149,7 +149,7 @@ impl Network {
                 let seems_m = match radio.model {
                     Model::Disc => apart_m,
                     Model::Shadowed { deviation_db: standard_db, .. } => {
-                        apart_m * radio.propagation.times_as_far(-deviation_db(standard_db, source))
+                        apart_m * radio.propagation.times_as_far(-deviation_db(standard_db, oracle))
                     }
                 };
                 if seems_m <= radio.range_m && field.has_way(point, points[other as usize]) {
@@ -351,9 +351,9 @@ mod tests {
             let lake = Obstacle {
                 west_m: width * 0.4, north_m: height * 0.4, east_m: width * 0.6, south_m: height * 0.5,
             };
-            let mut source = Seeded::new(seed, 0);
-            let field = Field::random(area, vec![lake], count, &mut source).expect("a field");
-            let network = Network::new(&field, disc(range), &mut source).expect("a network");
+            let mut oracle = Seeded::new(seed, 0);
+            let field = Field::random(area, vec![lake], count, &mut oracle).expect("a field");
+            let network = Network::new(&field, disc(range), &mut oracle).expect("a network");
             let (ours, naive) = (listed(&network), all_pairs(&field, range));
             prop_assert_eq!(ours.len(), naive.len());
             for (ours, naive) in ours.into_iter().zip(naive) {
@@ -364,11 +364,11 @@ mod tests {
 
         #[test]
         fn shadows_are_the_same_both_ways_and_lists_ascend(seed in any::<u64>(), deviation_db in 0.0..8.0) {
-            let mut source = Seeded::new(seed, 0);
+            let mut oracle = Seeded::new(seed, 0);
             let area = Area::new(100.0, 100.0).expect("an area");
-            let field = Field::random(area, vec![], 100, &mut source).expect("a field");
+            let field = Field::random(area, vec![], 100, &mut oracle).expect("a field");
             let radio = Radio::new(20.0, Model::Shadowed { exponent: 3.0, deviation_db }).expect("a radio");
-            let network = Network::new(&field, radio, &mut source).expect("a network");
+            let network = Network::new(&field, radio, &mut oracle).expect("a network");
             let links = listed(&network);
             prop_assert!(links.is_sorted());
             for &(one, other, distance_um) in &links {

@@ -7,7 +7,7 @@
 
 use rayon::prelude::*;
 use serde::Serialize;
-use tautline_kernel::lattice::Cell;
+use tautline_kernel::ground::Cell;
 use tautline_kernel::{ants, bricks};
 
 use super::interval::Estimate;

@@ -4,8 +4,8 @@
 //! off the node's, by the noise of the measurements, from nodes in every direction.
 
 use serde::Serialize;
-use tautline_kernel::choice::Source;
-use tautline_kernel::homing::{Heading, Scan};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::tan::{Heading, Scan};
 use tautline_proofs::engine::Seeded;
 
 use super::interval::{Estimate, rounded};
@@ -88,14 +88,14 @@ impl Stand {
         Signal::plain(Point { x_m: self.robot.x_m + x_m, y_m: self.robot.y_m + y_m })
     }
 
-    fn level_db(&self, ear: &Ear, node: Signal, heading: Heading, chance: &mut dyn Source) -> Option<f64> {
+    fn level_db(&self, ear: &Ear, node: Signal, heading: Heading, chance: &mut dyn Oracle) -> Option<f64> {
         let axis = (&Antenna::DIRECTIONAL, heading);
         let heard = ear.strength(&self.field, node, self.robot, axis, chance);
         heard.map(|strength| f64::from(strength.0) / 100.0)
     }
 
     /// How far the strongest direction of a scan is off the node's, and the nearest of the 24 directions, in degrees.
-    fn scan(&self, ear: &Ear, degrees: u32, chance: &mut dyn Source) -> (f64, f64) {
+    fn scan(&self, ear: &Ear, degrees: u32, chance: &mut dyn Oracle) -> (f64, f64) {
         let node = self.node(f64::from(degrees));
         let mut scan = Scan::START;
         while let Some(heading) = scan.heading() {

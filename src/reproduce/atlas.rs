@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use serde::Serialize;
-use tautline_kernel::lattice::{Cell, Edge};
+use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::invariant::Invariant;
 use tautline_proofs::run::Breach;
 use tautline_proofs::search::{Bounds, Counterexample, Progress};

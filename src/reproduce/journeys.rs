@@ -9,8 +9,9 @@
 
 use rayon::prelude::*;
 use serde::Serialize;
-use tautline_kernel::broadcast::{Count, NodeId, Rule, Scheme};
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::net::NodeId;
+use tautline_kernel::notice::{Count, Rule, Scheme};
 use tautline_proofs::engine::Seeded;
 
 use super::interval::{Estimate, rounded};
@@ -292,12 +293,12 @@ impl World {
         Site { field: &self.field, network: &self.network, equipment: self.equipment }
     }
 
-    fn tree(&self, chance: &mut dyn Source) -> Result<Tree, Problem> {
+    fn tree(&self, chance: &mut dyn Oracle) -> Result<Tree, Problem> {
         let ends = (self.wfr, self.robot);
         Tree::grow(&self.network, self.rule, Channel::Ideal, &Faults::NONE, ends, chance)
     }
 
-    fn journey(&self, tree: &Tree, way: Way, chance: &mut dyn Source) -> Journey {
+    fn journey(&self, tree: &Tree, way: Way, chance: &mut dyn Oracle) -> Journey {
         match way {
             Way::Tan => self.site().tan(tree, self.wfr, chance),
             Way::Verma => self.site().verma(self.wfr),

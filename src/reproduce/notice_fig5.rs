@@ -5,8 +5,9 @@
 use rayon::prelude::*;
 use serde::Serialize;
 use std::num::NonZeroU32;
-use tautline_kernel::broadcast::{Count, NodeId, Rule, Scheme};
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::net::NodeId;
+use tautline_kernel::notice::{Count, Rule, Scheme};
 use tautline_proofs::engine::Seeded;
 
 use super::interval::{Estimate, decimals, rounded};

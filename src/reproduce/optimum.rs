@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 use tautline_kernel::chain::Rule;
-use tautline_kernel::lattice::{Cell, Edge};
+use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::optimum::{Guide, Optimum, explore_all};
 use tautline_proofs::reach::{CellSet, Ground};
 
@@ -337,7 +337,7 @@ impl Sums {
 
 #[cfg(test)]
 mod tests {
-    use tautline_kernel::lattice::Side;
+    use tautline_kernel::ground::Side;
 
     use super::*;
 

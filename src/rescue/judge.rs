@@ -1,7 +1,7 @@
 //! What the clauses MRC-1 to MRC-9 demand, looked at after every turn of a run. Each clause is told once.
 
-use tautline_kernel::broadcast::NodeId;
-use tautline_kernel::rescue::{Bid, Call, Epoch, Phase, Resb, Robot, RobotId, Served, Task, Wfr};
+use tautline_kernel::mrc::{Bid, Phase, Resb, Robot, Served, Task, Wfr};
+use tautline_kernel::net::{Call, Epoch, NodeId, RobotId};
 use tautline_proofs::rescue::Demand;
 
 use super::{MAX_ROBOTS, MAX_WFRS};
@@ -212,7 +212,8 @@ impl Judge {
 
 #[cfg(test)]
 mod tests {
-    use tautline_kernel::rescue::{Condition, Downward, Notice, Rule, Upward, WfrTimer, Word};
+    use tautline_kernel::mrc::{Condition, Downward, Rule, Upward, WfrTimer, Word};
+    use tautline_kernel::net::Notice;
 
     use super::*;
 

@@ -4,7 +4,7 @@
 //! acknowledged. The paper is silent about this; without it hardly a message would come through fifteen hops that lose
 //! one in ten.
 
-use tautline_kernel::rescue::{Hop, Resb, Upward};
+use tautline_kernel::mrc::{Hop, Resb, Upward};
 
 /// A sender waits so long for an acknowledgement: over the shared channel both are on the air for 1 ms, and wait while
 /// others send.
@@ -81,8 +81,7 @@ impl Letters {
 
 #[cfg(test)]
 mod tests {
-    use tautline_kernel::broadcast::NodeId;
-    use tautline_kernel::rescue::{Call, Epoch, RobotId};
+    use tautline_kernel::net::{Call, Epoch, NodeId, RobotId};
 
     use super::*;
 

@@ -4,7 +4,7 @@
 //! long enough for three requests to be lost, and short, since the next node on the way is silent for as long after it
 //! has overheard its child's signal.
 
-use tautline_kernel::homing::Heading;
+use tautline_kernel::tan::Heading;
 
 use crate::homing::{Equipment, Gait};
 

@@ -2,9 +2,10 @@
 
 use std::num::NonZeroU32;
 
-use tautline_kernel::broadcast::{self, Count, NodeId, Scheme};
-use tautline_kernel::choice::Source;
-use tautline_kernel::rescue::Rule;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::mrc::Rule;
+use tautline_kernel::net::NodeId;
+use tautline_kernel::notice::{self, Count, Scheme};
 
 use super::problem::MAX_STATES;
 use super::{MAX_EVENTS, MAX_ROBOTS, MAX_WFRS, Problem, SchemeName, Setting};
@@ -27,7 +28,7 @@ const MILLISECOND_NS: u64 = 1_000_000;
 /// A rescue laid out.
 pub(super) struct Plan {
     pub(super) rule: Rule,
-    pub(super) broadcast: broadcast::Rule,
+    pub(super) broadcast: notice::Rule,
     pub(super) radio: Radio,
     pub(super) noise_db: f64,
     pub(super) equipment: Equipment,
@@ -67,15 +68,15 @@ pub(super) struct Place {
 
 impl Setting {
     /// Lays the rescue out. What is not given is drawn.
-    pub(super) fn plan(&self, chance: &mut dyn Source) -> Result<Plan, Problem> {
+    pub(super) fn plan(&self, chance: &mut dyn Oracle) -> Result<Plan, Problem> {
         self.check()?;
         let [width_m, height_m] = self.area_m;
         let obstacles = self.obstacles_m.iter().copied().map(Obstacle::from).collect();
         let radio = Radio::new(self.range_m, self.model())?;
         let range_um = radio.range_um();
         let (rule, conditions) = match self.rule {
-            RuleName::Published => (Rule::PUBLISHED, broadcast::Conditions::PUBLISHED),
-            RuleName::Repaired => (Rule::REPAIRED, broadcast::Conditions::REPAIRED),
+            RuleName::Published => (Rule::PUBLISHED, notice::Conditions::PUBLISHED),
+            RuleName::Repaired => (Rule::REPAIRED, notice::Conditions::REPAIRED),
         };
         let scheme = self.scheme(range_um)?;
         let faults = Faults::NONE.with_loss(Chance::new(self.loss)?);
@@ -102,10 +103,7 @@ impl Setting {
         }
         Ok(Plan {
             rule,
-            broadcast: broadcast::Rule {
-                conditions,
-                ..broadcast::Rule::new(scheme, range_um, LONGEST_WAIT_NS)
-            },
+            broadcast: notice::Rule { conditions, ..notice::Rule::new(scheme, range_um, LONGEST_WAIT_NS) },
             radio,
             noise_db: self.noise_db,
             equipment: Equipment::new(radio, self.noise_db)?,
@@ -177,7 +175,7 @@ impl Setting {
         }
     }
 
-    fn wfrs(&self, network: &Network, chance: &mut dyn Source) -> Result<Vec<Caller>, Problem> {
+    fn wfrs(&self, network: &Network, chance: &mut dyn Oracle) -> Result<Vec<Caller>, Problem> {
         let mut nodes: Vec<NodeId> = Vec::with_capacity(self.wfrs);
         for &number in &self.wfrs_at {
             let node = network.node(number)?;
@@ -198,7 +196,7 @@ impl Setting {
         Ok(nodes.into_iter().map(caller).collect())
     }
 
-    fn robots(&self, field: &Field, chance: &mut dyn Source) -> Result<Vec<Place>, Problem> {
+    fn robots(&self, field: &Field, chance: &mut dyn Oracle) -> Result<Vec<Place>, Problem> {
         let mut places = Vec::with_capacity(self.robots);
         for (robot, &[x_m, y_m]) in (1..).zip(&self.robots_at_m) {
             let at = Point { x_m, y_m };
@@ -221,11 +219,11 @@ impl Setting {
 }
 
 /// `count` of `from`, each as likely as any other.
-fn drawn<T>(count: usize, mut from: Vec<T>, chance: &mut dyn Source) -> Vec<T> {
+fn drawn<T>(count: usize, mut from: Vec<T>, chance: &mut dyn Oracle) -> Vec<T> {
     (0..count.min(from.len())).map(|_| from.swap_remove(chance.pick(from.len() as u32) as usize)).collect()
 }
 
-fn early_ns(chance: &mut dyn Source) -> u64 {
+fn early_ns(chance: &mut dyn Oracle) -> u64 {
     u64::from(chance.pick(EARLY_MS)) * MILLISECOND_NS
 }
 

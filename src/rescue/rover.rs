@@ -1,7 +1,7 @@
 //! A robot in the field: the kernel's machine, where it is, and its way.
 
-use tautline_kernel::broadcast::NodeId;
-use tautline_kernel::rescue::{Call, Robot, RobotId, Rule};
+use tautline_kernel::mrc::{Robot, Rule};
+use tautline_kernel::net::{Call, NodeId, RobotId};
 
 use super::{Fix, MAX_WFRS};
 use crate::homing::Walker;

@@ -7,7 +7,8 @@
 //! enough unless nodes have failed. If they are not, nobody is heard in the window; so each window is twice as long as
 //! the one before, up to eight times the first. That spares the air, too, where nobody can come.
 
-use tautline_kernel::rescue::{Epoch, WfrTimer};
+use tautline_kernel::mrc::WfrTimer;
+use tautline_kernel::net::Epoch;
 
 use super::letters::{ANSWER_WAIT_NS, TRIES};
 use crate::radio::LONGEST_WAIT_NS;

@@ -6,12 +6,10 @@ mod ending;
 mod relaying;
 mod walking;
 
-use tautline_kernel::broadcast::NodeId;
-use tautline_kernel::choice::Source;
-use tautline_kernel::homing::{Guide, Nav, ReqNav, Stage as Leg};
-use tautline_kernel::rescue::{
-    Call, Epoch, Hop, Phase, Relay, Robot, RobotId, RobotTimer, Task, Wfr, WfrTimer,
-};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::mrc::{Hop, Phase, Relay, Robot, RobotTimer, Task, Wfr, WfrTimer};
+use tautline_kernel::net::{Call, Epoch, Heard, NodeId, RobotId};
+use tautline_kernel::tan::{Guide, Nav, ReqNav, Stage as Leg};
 use tautline_proofs::engine::Seeded;
 
 use super::agenda::Agenda;
@@ -24,7 +22,7 @@ use super::rover::Rover;
 use super::timers::Timers;
 use super::{Event, Journey, Logged, MAX_ROBOTS, MAX_WFRS, Ordinal, Problem, Report, Setting, Spread};
 use crate::homing::Signal;
-use crate::radio::{Broadcast, Heard, Link, Protocol, run};
+use crate::radio::{Broadcast, Link, Protocol, run};
 
 /// Nothing that would happen later happens: six hours for each event. A WFR to which nobody can come calls until then.
 const HORIZON_NS: u64 = 6 * 3_600 * 1_000_000_000;
@@ -43,7 +41,7 @@ pub fn rescue(setting: &Setting, seed: u64) -> Result<Report, Problem> {
 
 impl Plan {
     /// The rescue, as it goes with these answers.
-    pub(super) fn rescue(&self, chance: &mut dyn Source) -> Result<Report, Problem> {
+    pub(super) fn rescue(&self, chance: &mut dyn Oracle) -> Result<Report, Problem> {
         let mut world = World::new(self);
         let begin = world.begin();
         let air = run(&self.network, self.channel, &self.faults, &mut world, &begin, chance)?;
@@ -55,7 +53,7 @@ impl Plan {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Message {
     /// NOTICE.
-    Notice(tautline_kernel::broadcast::Notice),
+    Notice(tautline_kernel::net::Notice),
     /// MOVE, RESB, or a robot's answer to it, for one hop.
     Letter(Letter),
     /// A letter has arrived: its sender, and its number.
@@ -222,7 +220,7 @@ impl<'a> World<'a> {
         self.judge.look(&seen, &self.wfrs, now_ns);
     }
 
-    fn perform(&mut self, at: NodeId, duty: Duty, now_ns: u64, chance: &mut dyn Source) {
+    fn perform(&mut self, at: NodeId, duty: Duty, now_ns: u64, chance: &mut dyn Oracle) {
         match (duty, self.robot(at)) {
             (Duty::Fail, None) => {
                 self.sensors[at.0 as usize].has_failed = true;
@@ -318,7 +316,7 @@ impl<'a> World<'a> {
 impl Protocol for World<'_> {
     type Message = Message;
 
-    fn receive(&mut self, at: NodeId, heard: Heard<Message>, chance: &mut dyn Source) -> Option<u64> {
+    fn receive(&mut self, at: NodeId, heard: Heard<Message>, chance: &mut dyn Oracle) -> Option<u64> {
         if self.has_failed(at) {
             return None;
         }
@@ -330,7 +328,7 @@ impl Protocol for World<'_> {
         self.agendas[at.0 as usize].wind(now_ns)
     }
 
-    fn expire(&mut self, at: NodeId, now_ns: u64, chance: &mut dyn Source) -> Option<Message> {
+    fn expire(&mut self, at: NodeId, now_ns: u64, chance: &mut dyn Oracle) -> Option<Message> {
         self.agendas[at.0 as usize].went_off(now_ns);
         while let Some(duty) = self.agendas[at.0 as usize].take(now_ns) {
             self.perform(at, duty, now_ns, chance);

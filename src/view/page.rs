@@ -7,7 +7,7 @@ use std::ops::RangeInclusive;
 
 use tautline_kernel::chain::Kind;
 use tautline_kernel::floor::Mark;
-use tautline_kernel::lattice::{Cell, Step};
+use tautline_kernel::ground::{Cell, Step};
 use tautline_proofs::run::Frame as Outcome;
 use tautline_proofs::words::counted;
 

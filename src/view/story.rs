@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use tautline_kernel::floor::Mark;
-use tautline_kernel::lattice::{Cell, Side, Step};
+use tautline_kernel::ground::{Cell, Side, Step};
 use tautline_proofs::course::Course;
 use tautline_proofs::registry::CLAUSES;
 use tautline_proofs::run::Breach;

@@ -4,8 +4,7 @@
 use std::fmt::Write;
 
 use tautline_kernel::floor::Mark;
-use tautline_kernel::grid::Area;
-use tautline_kernel::lattice::{Cell, Edge, Side, Step};
+use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
 use tautline_proofs::run::Breach;
 
 use super::{Environment, REACH, first_drawn};

@@ -5,9 +5,9 @@ use super::lap::{Hand, Lap};
 use super::marking::{blocks, is_thin};
 use super::rule::{Condition, Precedence, Rule};
 use crate::ants::least_crossed;
-use crate::choice::Source;
+use crate::choice::Oracle;
 use crate::floor::{COMPASS, Claim, Entry, Floor, Mark, Ring, Scan, Sensor, enter, leave};
-use crate::lattice::{Cell, Side};
+use crate::ground::{Cell, Side};
 
 /// What an agent remembers. It has no map and knows no place.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -336,7 +336,7 @@ pub fn act(
     floor: &mut impl Floor,
     agent: &mut Agent,
     cell: Cell,
-    world: &mut (impl Source + ?Sized),
+    world: &mut (impl Oracle + ?Sized),
 ) -> (Act, Cell) {
     let scan = Scan::new(floor, cell, world);
     let act = agent.decide(rule, &scan);

@@ -7,7 +7,7 @@
 //! the same material. It arrives with the other piece of material on its left, so the next lap goes round that one, and
 //! after two in vain the reach is doubled. So a side costs a small multiple of the way round the smaller piece.
 
-use crate::lattice::{Cell, Side};
+use crate::ground::{Cell, Side};
 
 /// The hand that an agent keeps on the material.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]

@@ -3,7 +3,7 @@
 
 use super::rule::{Condition, Rule};
 use crate::floor::{COMPASS, Scan};
-use crate::lattice::Side;
+use crate::ground::Side;
 
 /// Whether the cell blocks the way between two accessible side neighbours, judged on the eight cells around: then it
 /// is marked as explored, else as visited. It does not block if its reachable side neighbours, going round, form one

@@ -11,8 +11,7 @@ use core::cmp::Reverse;
 
 use super::plan::{Looks, Planner};
 use super::rule::Condition;
-use crate::grid::Grid;
-use crate::lattice::{Cell, Step, Steps, neighbours};
+use crate::ground::{Cell, Grid, Step, Steps, neighbours};
 
 /// The steps that are left for each robot, base first.
 pub(super) struct Choices<'a, const ROBOTS: usize> {

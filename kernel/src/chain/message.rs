@@ -4,7 +4,7 @@
 
 use core::fmt;
 
-use crate::lattice::Step;
+use crate::ground::Step;
 
 /// How a robot's step came out.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -5,8 +5,7 @@
 
 use super::choices::Choices;
 use super::rule::{Budget, Condition, Move, Role, Rule};
-use crate::grid::{Avoid, CellMark, EdgeMark, Grid};
-use crate::lattice::{Cell, Edge, Side, Step, Steps};
+use crate::ground::{Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Side, Step, Steps};
 
 /// Whether a team move seeks new cells or takes an earlier move back.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -3,7 +3,7 @@
 //! these functions alone; the planner asks them and nothing else.
 
 use crate::conditions::conditions;
-use crate::lattice::{Cell, Circle, Step, neighbours};
+use crate::ground::{Cell, Circle, Step, neighbours};
 
 /// One condition of the rule, by the sentence it stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -7,8 +7,7 @@ use super::message::{Damaged, Message, Outcome};
 use super::plan::{Kind, Looks, Plan, Planner, mark_occupied, unmark_occupied};
 use super::rule::{Condition, Rule};
 use super::unfold::unfold;
-use crate::grid::{Area, CellMark, EdgeMark, Grid};
-use crate::lattice::{Cell, Edge, Step};
+use crate::ground::{Area, Cell, CellMark, Edge, EdgeMark, Grid, Step};
 
 /// Why a chain cannot be set up.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

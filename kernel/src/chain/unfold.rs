@@ -2,8 +2,7 @@
 //! reachable cell is explored, and leaves some out). From the base, where all robots are, the leader walks to that
 //! cell by as few links as there are; the others stop one link apart behind it. Clause CHAIN-13, and CHAIN-7.
 
-use crate::grid::{Grid, Link, link};
-use crate::lattice::{Cell, Step};
+use crate::ground::{Cell, Grid, Link, Step, link};
 
 /// Whether a follower goes on along the walk: it is `own` cells along it and stops after `last`, while the robot
 /// ahead is planned to be `ahead` cells along it. It follows one cell behind, up to where it stops.

@@ -1,7 +1,7 @@
 //! The eight cells around a cell, as a ring of bits: clockwise from the northern one, so that side neighbours have
 //! even places and corners odd ones.
 
-use crate::lattice::Side;
+use crate::ground::Side;
 
 /// A set of the eight cells around a cell, or of the eight edges between each of them and the next.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]

@@ -1,8 +1,8 @@
 //! What an agent sees from a cell (paper 004, I: localisation and querying).
 
 use super::{COMPASS, Claim, Entry, Floor, Mark, Ring, Sensor};
-use crate::choice::Source;
-use crate::lattice::{Cell, Edge, Side};
+use crate::choice::Oracle;
+use crate::ground::{Cell, Edge, Side};
 
 /// One scan: the sensor underfoot, which is always found, and what was seen around. A sensor that was missed reads as
 /// an unexplored cell, as the paper has it; walls are always seen.
@@ -54,7 +54,7 @@ const fn moved(cell: Cell, columns: i16, rows: i16) -> Cell {
 impl Scan {
     /// Scans from `cell`, which has a sensor. Whether a sensor is missed is asked of `world`, once for each that an
     /// agent has been at.
-    pub fn new(floor: &impl Floor, cell: Cell, world: &mut (impl Source + ?Sized)) -> Self {
+    pub fn new(floor: &impl Floor, cell: Cell, world: &mut (impl Oracle + ?Sized)) -> Self {
         let mut scan = Self {
             here: floor.sensor(cell).unwrap_or_default(),
             unexplored: Ring::default(),

@@ -2,7 +2,7 @@
 
 use core::hash::{Hash, Hasher};
 
-use crate::lattice::Side;
+use crate::ground::Side;
 
 /// The state of a cell (paper 004, II.A). Walls have no sensor.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]

@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use tautline_kernel::rescue::{Phase, Task, Upward, WfrTimer, Word};
+use tautline_kernel::mrc::{Phase, Task, Upward, WfrTimer, Word};
 
 use super::space::{Broken, Ending};
 use super::{Action, Actor, Message, Setting, State, place};

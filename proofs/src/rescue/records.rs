@@ -1,11 +1,9 @@
 //! What robots and path nodes write down (MRC-10 to MRC-12): every order in which a few messages reach one of them, against
 //! what follows from the list of them. Repetitions and losses are orders, too.
 
-use tautline_kernel::broadcast::NodeId;
-use tautline_kernel::choice::{Source, one_of};
-use tautline_kernel::rescue::{
-    Call, Downward, Epoch, Hop, Notice, Relay, Resb, Robot, RobotId, Served, Upward, Word,
-};
+use tautline_kernel::choice::{Oracle, one_of};
+use tautline_kernel::mrc::{Downward, Hop, Relay, Resb, Robot, Served, Upward, Word};
+use tautline_kernel::net::{Call, Epoch, NodeId, Notice, RobotId};
 
 use crate::clause::{Misread, Sabotage, Subject};
 use crate::engine::{Outcome, require};
@@ -26,8 +24,8 @@ const ROBOT: RobotId = RobotId(0);
 /// Nodes that hand on a message.
 const SENDERS: [NodeId; 2] = [NodeId(5), NodeId(6)];
 
-fn call(source: &mut dyn Source) -> Call {
-    Call { wfr: NodeId(source.pick(WFRS)), epoch: Epoch(1 + source.pick(CALLS)) }
+fn call(oracle: &mut dyn Oracle) -> Call {
+    Call { wfr: NodeId(oracle.pick(WFRS)), epoch: Epoch(1 + oracle.pick(CALLS)) }
 }
 
 /// The bound of [`records`].
@@ -49,13 +47,13 @@ pub fn messages() -> String {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
-pub fn records(subject: &Subject, source: &mut dyn Source) -> Outcome {
+pub fn records(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let mut robot = Robot::<{ WFRS as usize }>::new(subject.rescue, ROBOT);
     let mut heard: Vec<Notice> = Vec::new();
     let mut situation = "one call";
     for _ in 0..MESSAGES {
-        let (call, hops) = (call(source), source.pick(3) as u16);
-        let notice = Notice { call, hops, sender: one_of(source, &SENDERS) };
+        let (call, hops) = (call(oracle), oracle.pick(3) as u16);
+        let notice = Notice { call, hops, sender: one_of(oracle, &SENDERS) };
         let is_other = |known: &Notice| known.call != call;
         if heard.iter().any(is_other) {
             situation = "several calls";
@@ -89,25 +87,25 @@ pub fn records(subject: &Subject, source: &mut dyn Source) -> Outcome {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
-pub fn served(subject: &Subject, source: &mut dyn Source) -> Outcome {
+pub fn served(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     let mut robot = Robot::<{ WFRS as usize }>::new(subject.rescue, ROBOT);
     let mut bits: [Option<(Epoch, bool)>; 2] = [None; WFRS as usize];
     let mut situation = "no SBit";
     for _ in 0..ANSWERS {
-        match source.pick(3) {
+        match oracle.pick(3) {
             0 => {
-                let call = call(source);
+                let call = call(oracle);
                 let bit = &mut bits[call.wfr.0 as usize];
                 *bit = bit.filter(|&(epoch, _)| epoch >= call.epoch).or(Some((call.epoch, false)));
                 let notice = Notice { call, hops: call.wfr.0 as u16, sender: SENDERS[0] };
                 robot = robot.receive(Downward::Notice(notice)).0;
             }
             1 => {
-                let call = call(source);
+                let call = call(oracle);
                 if let Some((epoch, is_set)) = &mut bits[call.wfr.0 as usize] {
                     *is_set |= *epoch == call.epoch;
                 }
-                let chosen = [None, Some(ROBOT), Some(RobotId(1))][source.pick(3) as usize];
+                let chosen = [None, Some(ROBOT), Some(RobotId(1))][oracle.pick(3) as usize];
                 robot = robot.receive(Downward::Resb(Resb { call, robot: ROBOT, chosen })).0;
             }
             _ => {
@@ -137,15 +135,15 @@ pub fn served(subject: &Subject, source: &mut dyn Source) -> Outcome {
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the clause is broken.
-pub fn ways_back(subject: &Subject, source: &mut dyn Source) -> Outcome {
+pub fn ways_back(subject: &Subject, oracle: &mut dyn Oracle) -> Outcome {
     const ME: NodeId = NodeId(7);
     const PARENT: NodeId = NodeId(3);
     let mut relay = Relay::<{ (WFRS * ROBOTS) as usize }>::new(ME);
     let mut carried: Vec<(Call, RobotId, Hop)> = Vec::new();
     for _ in 0..MESSAGES {
-        let (call, robot) = (call(source), RobotId(source.pick(ROBOTS) as u16));
-        let from = [Hop::Robot(robot), Hop::Node(SENDERS[0]), Hop::Node(SENDERS[1])][source.pick(3) as usize];
-        let (word, is_mine) = (Word::Move { hops: 2 }, !source.flip());
+        let (call, robot) = (call(oracle), RobotId(oracle.pick(ROBOTS) as u16));
+        let from = [Hop::Robot(robot), Hop::Node(SENDERS[0]), Hop::Node(SENDERS[1])][oracle.pick(3) as usize];
+        let (word, is_mine) = (Word::Move { hops: 2 }, !oracle.flip());
         let message = Upward { call, robot, word, parent: if is_mine { ME } else { NodeId(8) } };
         let told = read(subject, message);
         let (next, onward) = relay.up(told, from, PARENT);
@@ -171,7 +169,7 @@ pub fn ways_back(subject: &Subject, source: &mut dyn Source) -> Outcome {
         )?;
         situation = "a way back";
     }
-    let stranger = Resb { call: call(source), robot: RobotId(9), chosen: None };
+    let stranger = Resb { call: call(oracle), robot: RobotId(9), chosen: None };
     require(relay.down(stranger).is_none(), "a RESB of a robot that was not heard ends here")?;
     Ok(situation)
 }

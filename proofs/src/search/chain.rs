@@ -1,9 +1,8 @@
 //! The chain as the search plays it: its edges are decided when a robot first tries them, and a wall is a mishap.
 
 use tautline_kernel::chain::{Chain, Intent, Message, Outcome, Plan, Refused};
-use tautline_kernel::choice::Source;
-use tautline_kernel::grid::{Area, CellMark, EdgeMark, Grid};
-use tautline_kernel::lattice::Step;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::ground::{Area, CellMark, EdgeMark, Grid, Step};
 
 use super::Bounds;
 use super::game::{Demand, Game, Turn};
@@ -69,7 +68,7 @@ where
         }
     }
 
-    fn settle(&self, chain: &mut Self::State, plan: &Self::Plan, log: &mut Vec<u8>, world: &mut impl Source) {
+    fn settle(&self, chain: &mut Self::State, plan: &Self::Plan, log: &mut Vec<u8>, world: &mut impl Oracle) {
         log.extend_from_slice(chain.settle(plan, |_| !world.mishap()).messages());
     }
 

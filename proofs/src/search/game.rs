@@ -1,7 +1,7 @@
 //! What the search plays: a run against a world that answers when it is asked. The state is a plain value, so it is
 //! copied where the world has more than one answer.
 
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::Oracle;
 
 use crate::invariant::Invariant;
 use crate::run::Frame;
@@ -37,7 +37,7 @@ pub(crate) trait Game: Send + Sync + 'static {
 
     /// Carries the plan out. Whatever the team cannot know is asked of `world`; whatever it needs to remember goes
     /// to the end of `log`.
-    fn settle(&self, state: &mut Self::State, plan: &Self::Plan, log: &mut Vec<u8>, world: &mut impl Source);
+    fn settle(&self, state: &mut Self::State, plan: &Self::Plan, log: &mut Vec<u8>, world: &mut impl Oracle);
 
     /// What a team move looks like.
     fn frame(&self, turn: &Turn<'_, Self>) -> Frame;

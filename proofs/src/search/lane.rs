@@ -5,7 +5,7 @@
 use std::slice;
 
 use serde::{Deserialize, Serialize};
-use tautline_kernel::choice::Source;
+use tautline_kernel::choice::Oracle;
 
 use super::game::{Demand, Game, Turn};
 use super::{Broken, Count, Violation, WAVE};
@@ -65,7 +65,7 @@ impl World<'_> {
     }
 }
 
-impl Source for World<'_> {
+impl Oracle for World<'_> {
     fn pick(&mut self, below: u32) -> u32 {
         if below > 1 { self.answer(below, false) } else { 0 }
     }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
-use tautline_kernel::broadcast::Count;
+use tautline_kernel::notice::Count;
 use tautline_proofs::words::counted;
 
 use super::table::Table;

@@ -1,10 +1,9 @@
 //! MRC over the air: each turn of a WFR's or a robot's machine, what it sends, which timers it starts, and what is told of
 //! it.
 
-use tautline_kernel::homing::Stage as Leg;
-use tautline_kernel::rescue::{
-    Bid, Downward, Epoch, Hop, Notice, Phase, Resb, Robot, RobotId, Sent, Task, Upward, Wfr, Word,
-};
+use tautline_kernel::mrc::{Bid, Downward, Hop, Phase, Resb, Robot, Sent, Task, Upward, Wfr, Word};
+use tautline_kernel::net::{Epoch, RobotId};
+use tautline_kernel::tan::Stage as Leg;
 
 use super::{Duty, Happening, Message, World};
 use crate::radio::Reach;
@@ -17,7 +16,6 @@ impl World<'_> {
         let station = self.station(robot);
         match message {
             Message::Notice(notice) => {
-                let notice = Notice::from(notice);
                 let Some(wfr) = self.plan.wfr(notice.call.wfr) else { return };
                 let known = |rover: &Rover| rover.machine.request(notice.call.wfr).copied();
                 let before = known(&self.rovers[robot]).map(|request| request.call.epoch);
@@ -136,7 +134,7 @@ impl World<'_> {
     pub(super) fn measure_spread(&mut self, wfr: usize) {
         let Some(Happening { epoch, spread, .. }) = self.happenings[wfr].last_mut() else { return };
         spread.get_or_insert_with(|| {
-            let Reach { reached, rebroadcasts } = self.broadcasts[wfr].reach(epoch.0);
+            let Reach { reached, rebroadcasts } = self.broadcasts[wfr].reach(*epoch);
             let component = self.plan.network.component(self.plan.wfrs[wfr].node) as u32;
             Spread { reached, component, rebroadcasts }
         });

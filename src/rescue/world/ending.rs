@@ -1,7 +1,7 @@
 //! What has come of a rescue when nothing more happens.
 
-use tautline_kernel::broadcast::NodeId;
-use tautline_kernel::rescue::Request;
+use tautline_kernel::mrc::Request;
+use tautline_kernel::net::NodeId;
 use tautline_proofs::rescue::Demand;
 
 use super::{Happening, World};

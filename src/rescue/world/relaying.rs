@@ -1,22 +1,23 @@
 //! What nodes do with what they hear: they broadcast calls, carry messages up and down the tree of a call as letters from
 //! hop to hop, and guide robots.
 
-use tautline_kernel::broadcast::{NodeId, Stage};
-use tautline_kernel::choice::Source;
-use tautline_kernel::homing::{Conduct, Guide, Nav, ReqNav};
-use tautline_kernel::rescue::{Bid, Condition, Epoch, Hop, Relay, Resb, Upward, Word};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::mrc::{Bid, Condition, Hop, Relay, Resb, Upward, Word};
+use tautline_kernel::net::{Epoch, Heard, NodeId};
+use tautline_kernel::notice::Stage;
+use tautline_kernel::tan::{Conduct, Guide, Nav, ReqNav};
 
 use super::{Duty, Message, World};
-use crate::radio::{Heard, Protocol};
+use crate::radio::Protocol;
 use crate::rescue::letters::{ANSWER_WAIT_NS, Content, Letter};
 use crate::rescue::pace::SIGNAL_NS;
 
 impl World<'_> {
-    pub(super) fn node_hears(&mut self, at: NodeId, heard: Heard<Message>, chance: &mut dyn Source) {
+    pub(super) fn node_hears(&mut self, at: NodeId, heard: Heard<Message>, chance: &mut dyn Oracle) {
         let Heard { message, distance_um, now_ns } = heard;
         match message {
             Message::Notice(message) => {
-                let Some(wfr) = self.plan.wfr(message.source) else { return };
+                let Some(wfr) = self.plan.wfr(message.call.wfr) else { return };
                 let heard = Heard { message, distance_um, now_ns };
                 if let Some(at_ns) = self.broadcasts[wfr].receive(at, heard, chance) {
                     self.put(at, at_ns, Duty::Forward(wfr));
@@ -94,7 +95,7 @@ impl World<'_> {
     /// A node's place in the tree of a call, if it is one of its path nodes, or the WFR.
     fn place_in_tree(&self, at: NodeId, wfr: usize, epoch: Epoch) -> Option<Nav> {
         let node = self.broadcasts[wfr].nodes()[at.0 as usize];
-        let is_path_node = node.stage() == Stage::Forwarded && node.event() == Some(epoch.0);
+        let is_path_node = node.stage() == Stage::Forwarded && node.event() == Some(epoch);
         let hops = node.hops().filter(|_| is_path_node)?;
         Some(Nav { wfr: self.plan.wfrs[wfr].node, node: at, hops, parent: node.parent().unwrap_or(at) })
     }
@@ -114,7 +115,7 @@ impl World<'_> {
         let is_over = self.wfrs[wfr].call().wfr == at
             && !self.wfrs[wfr].is_waiting()
             && self.plan.rule.has(Condition::AnswersAgain);
-        let own = epoch.filter(|_| !is_over).and_then(|epoch| self.place_in_tree(at, wfr, Epoch(epoch)));
+        let own = epoch.filter(|_| !is_over).and_then(|epoch| self.place_in_tree(at, wfr, epoch));
         let guide = self.sensors[at.0 as usize].guide.request(request, at, own);
         match guide.conduct {
             Conduct::Signals(nav) if request.node == at => {

@@ -1,9 +1,9 @@
 //! A robot's way to a WFR by TAN over the air, leg by leg.
 
-use tautline_kernel::broadcast::NodeId;
-use tautline_kernel::choice::Source;
-use tautline_kernel::homing::{Conduct, Nav, Order, ReqNav, Stage as Leg};
-use tautline_kernel::rescue::{Call, Request};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::mrc::Request;
+use tautline_kernel::net::{Call, NodeId};
+use tautline_kernel::tan::{Conduct, Nav, Order, ReqNav, Stage as Leg};
 
 use super::{Duty, Message, World};
 use crate::homing::{Walker, shortest_m};
@@ -70,7 +70,7 @@ impl World<'_> {
     }
 
     /// Asks the node whose signal a robot waits for or follows; the paper has it do so continuously.
-    pub(super) fn ask_on(&mut self, robot: usize, now_ns: u64, chance: &mut dyn Source) {
+    pub(super) fn ask_on(&mut self, robot: usize, now_ns: u64, chance: &mut dyn Oracle) {
         let station = self.station(robot);
         let rover = &self.rovers[robot];
         let Some(way) = &rover.way else { return };
@@ -87,7 +87,7 @@ impl World<'_> {
     }
 
     /// Points the antenna or walks a step, as ordered, and comes back when that is done.
-    pub(super) fn go_on(&mut self, robot: usize, now_ns: u64, chance: &mut dyn Source) {
+    pub(super) fn go_on(&mut self, robot: usize, now_ns: u64, chance: &mut dyn Oracle) {
         let station = self.station(robot);
         let rover = &mut self.rovers[robot];
         let Some(way) = &mut rover.way else { return };

@@ -2,15 +2,7 @@
 //! the nearest unexplored cell (paper 000, equation (4)). [`Grid`] is what the rules ask for; [`BitGrid`] is
 //! its home in a few machine words, small enough to be copied at every fork of a search.
 
-mod bits;
-mod link;
-mod plane;
-
-pub use bits::{BitGrid, CompactGrid, LargeGrid, MediumGrid, SmallGrid, TinyGrid};
-pub use link::{Link, link, links};
-pub use plane::{Plane, Word};
-
-use crate::lattice::{Cell, Edge, Side, Step, Steps};
+use super::{Cell, Edge, Side, Step, Steps};
 
 /// What is marked on cells.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

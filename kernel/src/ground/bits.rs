@@ -1,8 +1,7 @@
 //! The grid in machine words: a [`Plane`] for every mark. Distances are flood fills of whole planes at a time.
 
 use super::plane::Plane;
-use super::{Area, Avoid, CellMark, EdgeMark, Grid, links};
-use crate::lattice::{Cell, Edge, Side, Step, Steps};
+use super::{Area, Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Side, Step, Steps, links};
 
 /// A grid in machine words: at most [`Plane::COLUMNS`] columns and [`Plane::ROWS`] rows.
 #[derive(Clone, Copy, PartialEq, Eq)]

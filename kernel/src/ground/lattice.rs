@@ -2,10 +2,6 @@
 //! Clause LATTICE-1 shows that the environments, derived here from the radii in whole numbers, are the
 //! sets that the paper draws.
 
-mod steps;
-
-pub use steps::Steps;
-
 use core::fmt;
 
 /// A square cell, by column and row: `x` grows eastwards, `y` grows southwards, as text and images are

@@ -12,7 +12,7 @@ mod robot;
 mod rule;
 mod wfr;
 
-pub use message::{Bid, Call, Downward, Epoch, Notice, Resb, RobotId, Upward, Word};
+pub use message::{Bid, Downward, Resb, Upward, Word};
 pub use relay::{Hop, Relay};
 pub use robot::{Request, Robot, RobotTimer, Served, Task};
 pub use rule::{Condition, Conditions, Rule};

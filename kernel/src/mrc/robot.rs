@@ -1,8 +1,8 @@
 //! A robot's part in MRC (paper 003, 3.3, steps 1, 2 and 5): the request table T_REQ, what it asks for, and where it goes.
 
-use super::message::{Call, Downward, Notice, Resb, RobotId, Upward, Word};
+use super::message::{Downward, Resb, Upward, Word};
 use super::rule::{Condition, Rule};
-use crate::broadcast::NodeId;
+use crate::net::{Call, NodeId, Notice, RobotId};
 
 /// SBit: whether a robot still has to do with a call.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -248,8 +248,8 @@ impl<const CALLS: usize> Robot<CALLS> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::message::Epoch;
     use super::*;
+    use crate::net::Epoch;
 
     const ME: RobotId = RobotId(1);
     const OTHER: RobotId = RobotId(2);

@@ -2,8 +2,7 @@
 //! ways round it is free of walls. Neighbours in a chain can stand one link apart, so a chain of N reaches the cells
 //! at most N−1 links from its base. Clause CHAIN-13.
 
-use super::{EdgeMark, Grid};
-use crate::lattice::{Cell, Edge, Side};
+use super::{Cell, Edge, EdgeMark, Grid, Side};
 
 /// How two cells are linked.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -7,10 +7,8 @@
 //! just behind a corner, so that the robot beside the child hears nothing of it: then the robot goes nearer to the
 //! child, and asks from there. It gives up after so many times.
 
-use super::Strength;
 use super::heading::{Heading, Scan};
-use crate::broadcast::NodeId;
-use crate::rescue::RobotId;
+use crate::net::{NodeId, RobotId, Strength};
 
 /// REQNAV⟨SN, MID, PID⟩.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]

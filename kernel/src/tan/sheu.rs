@@ -1,8 +1,8 @@
 //! Sheu's back-and-forth (paper 003, 2.1): without a directional antenna the robot walks a random direction to the place
 //! where a guide node's beacon is strongest, turns by 90°, walks the way on which it becomes stronger, and so on.
 
-use super::Strength;
 use super::heading::Heading;
+use crate::net::Strength;
 
 /// What the robot is to do next, a step of a length that the caller gives.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]

@@ -1,9 +1,9 @@
 //! A WFR's part in MRC (paper 003, 3.3, step 4): it calls, hears MOVEs, chooses a robot, tells all that have asked, and
 //! waits until the one chosen is there.
 
-use super::message::{Bid, Call, Epoch, Notice, Resb, RobotId, Upward, Word};
+use super::message::{Bid, Resb, Upward, Word};
 use super::rule::{Condition, Rule};
-use crate::broadcast::NodeId;
+use crate::net::{Call, Epoch, NodeId, Notice, RobotId};
 
 /// How far a rescue has come.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]

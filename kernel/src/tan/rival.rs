@@ -2,7 +2,7 @@
 //! all know their positions, and Reich's gradient, for which nobody does. Both flood the whole network once, so that every
 //! sensor knows its hops from the goal.
 
-use crate::broadcast::NodeId;
+use crate::net::NodeId;
 
 /// A place, in micrometres.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]

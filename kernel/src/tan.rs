@@ -7,15 +7,11 @@
 //! numbers of any unit that grows with the power received, lengths are in micrometres.
 
 mod heading;
+mod homing;
 mod rival;
 mod sheu;
-mod tan;
 
 pub use heading::{Heading, Scan};
+pub use homing::{Conduct, Guide, Homing, Nav, Nearness, Order, ReqNav, Stage};
 pub use rival::{Gradient, Position, Station, reich, verma};
 pub use sheu::{BackAndForth, Walk};
-pub use tan::{Conduct, Guide, Homing, Nav, Nearness, Order, ReqNav, Stage};
-
-/// How strong a signal is: a larger number is a stronger signal.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub struct Strength(pub i32);

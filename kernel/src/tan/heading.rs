@@ -1,6 +1,6 @@
 //! Directions in steps of 15° (paper 003, 3.4, step 3), and the scan of a directional antenna once round.
 
-use super::Strength;
+use crate::net::Strength;
 
 /// Parts of a unit vector.
 const UNIT: i32 = 1_000_000;
@@ -93,7 +93,7 @@ pub(super) mod tests {
     use super::*;
 
     /// The direction nearest to that of (`x`, `y`), the first of two that are equally near; the first of all for (0, 0).
-    pub(in crate::homing) fn towards(x: i32, y: i32) -> Heading {
+    pub(in crate::tan) fn towards(x: i32, y: i32) -> Heading {
         let along = |heading: &Heading| {
             let (cosine, sine) = heading.vector();
             i64::from(x) * i64::from(cosine) + i64::from(y) * i64::from(sine)

@@ -1,7 +1,7 @@
 //! What a node knows of its neighbours and theirs from hellos, and which of them no sender has reached yet: the memory
 //! of the scalable broadcast (Peng and Lu 2000). It grows with the number of neighbours, so the caller lends it.
 
-use super::NodeId;
+use crate::net::NodeId;
 
 /// The neighbours of a node and of the sender that it hears. The other schemes know of none: [`Surroundings::none`].
 #[derive(Debug)]

@@ -3,33 +3,10 @@
 //! What a protocol has to ignore is ignored: NOTICEs of another source or an older event, what the source hears of its
 //! own event, a node's own NOTICE, a sender heard before, and a hop count that cannot be counted on from.
 
+use super::Surroundings;
 use super::rule::{Condition, Count, Rule, Scheme};
-use super::{NodeId, Surroundings};
-use crate::choice::Source;
-
-/// NOTICE<RID, ID, HC>, with the number of the event, which the paper leaves out.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub struct Notice {
-    /// RID: the node that waits for rescue.
-    pub source: NodeId,
-    /// Which of its events: from 1 on, each larger than the one before.
-    pub event: u32,
-    /// ID: who sends it.
-    pub sender: NodeId,
-    /// HC: the sender's hop count.
-    pub hops: u16,
-}
-
-/// A NOTICE as it is heard.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Reception {
-    /// The NOTICE.
-    pub notice: Notice,
-    /// D: how far off the sender is, by the strength of its signal, in micrometres.
-    pub distance_um: u32,
-    /// When, in nanoseconds.
-    pub now_ns: u64,
-}
+use crate::choice::Oracle;
+use crate::net::{Call, Epoch, Heard, NodeId, Notice};
 
 /// How far a node is with an event.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -73,7 +50,7 @@ pub struct Node {
     parent: NodeId,
     hops: u16,
     phase: Phase,
-    heard: Heard,
+    heard: Senders,
     /// While it waits: when the wait is over, in nanoseconds. Else 0.
     until_ns: u64,
 }
@@ -89,7 +66,7 @@ enum Phase {
 
 /// Senders heard, as many as are counted, ascending: the same senders are the same value in whatever order they came.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-struct Heard {
+struct Senders {
     senders: [NodeId; HEARD],
     count: u8,
 }
@@ -97,7 +74,7 @@ struct Heard {
 /// The first sender, and the others that are counted.
 const HEARD: usize = Count::MOST as usize + 1;
 
-impl Heard {
+impl Senders {
     const NOBODY: Self = Self { senders: [NodeId(0); HEARD], count: 0 };
 
     const fn nobody_but(sender: NodeId) -> Self {
@@ -144,7 +121,7 @@ impl Node {
             parent: id,
             hops: 0,
             phase: Phase::Unaware,
-            heard: Heard::NOBODY,
+            heard: Senders::NOBODY,
             until_ns: 0,
         }
     }
@@ -160,8 +137,8 @@ impl Node {
     }
 
     /// The number of the latest event that it has heard of; `None` before the first.
-    pub const fn event(&self) -> Option<u32> {
-        if self.event == 0 { None } else { Some(self.event) }
+    pub const fn event(&self) -> Option<Epoch> {
+        if self.event == 0 { None } else { Some(Epoch(self.event)) }
     }
 
     /// HC: its hops to the source, once it has heard of an event.
@@ -190,14 +167,14 @@ impl Node {
     pub fn receive<'a>(
         &mut self,
         rule: &Rule,
-        reception: Reception,
+        heard: Heard<Notice>,
         around: impl FnOnce() -> Surroundings<'a>,
-        chance: &mut dyn Source,
+        chance: &mut dyn Oracle,
     ) -> Reaction {
-        if self.is_late(rule, reception.notice) {
+        if self.is_late(rule, heard.message) {
             return Reaction::Ignored;
         }
-        self.consider(rule, reception, around(), chance)
+        self.consider(rule, heard, around(), chance)
     }
 
     /// Whether a NOTICE comes too late to change anything, as most do that are heard in a dense network.
@@ -213,18 +190,18 @@ impl Node {
         let is_through = (self.phase == Phase::Silent) | (self.phase == Phase::Forwarded) & is_frozen;
         let is_no_nearer = notice.hops.saturating_add(1) >= self.hops;
         let waits_on = (self.phase == Phase::Waiting) & is_idle & is_no_nearer;
-        notice.event == self.event && notice.source == self.source && (is_through | waits_on)
+        notice.call == self.call() && (is_through | waits_on)
     }
 
     fn consider(
         &mut self,
         rule: &Rule,
-        reception: Reception,
+        heard: Heard<Notice>,
         around: Surroundings<'_>,
-        chance: &mut dyn Source,
+        chance: &mut dyn Oracle,
     ) -> Reaction {
-        let notice = reception.notice;
-        let is_foreign = notice.source != self.source
+        let notice = heard.message;
+        let is_foreign = notice.call.wfr != self.source
             || self.id == self.source
             || notice.sender == self.id
             || notice.hops == u16::MAX;
@@ -232,8 +209,8 @@ impl Node {
             return Reaction::Ignored;
         }
         match self.news(rule, notice) {
-            News::First => self.begin(rule, reception, around, chance),
-            News::Again => self.hear_again(rule, reception, around),
+            News::First => self.begin(rule, heard, around, chance),
+            News::Again => self.hear_again(rule, heard, around),
             News::None => Reaction::Ignored,
         }
     }
@@ -255,18 +232,23 @@ impl Node {
         self.until_ns = 0;
     }
 
+    const fn call(&self) -> Call {
+        Call { wfr: self.source, epoch: Epoch(self.event) }
+    }
+
     const fn notice(&self) -> Notice {
-        Notice { source: self.source, event: self.event, sender: self.id, hops: self.hops }
+        Notice { call: self.call(), hops: self.hops, sender: self.id }
     }
 
     #[inline]
     fn news(&self, rule: &Rule, notice: Notice) -> News {
-        let is_newer = notice.event > self.event && (self.event == 0 || rule.has(Condition::NumberedEvents));
-        let is_older = notice.event < self.event && rule.has(Condition::NumberedEvents);
+        let is_newer =
+            notice.call.epoch.0 > self.event && (self.event == 0 || rule.has(Condition::NumberedEvents));
+        let is_older = notice.call.epoch.0 < self.event && rule.has(Condition::NumberedEvents);
         if is_newer {
             return News::First;
         }
-        if is_older || notice.event == 0 {
+        if is_older || notice.call.epoch.0 == 0 {
             return News::None;
         }
         match self.phase {
@@ -280,17 +262,17 @@ impl Node {
     fn begin(
         &mut self,
         rule: &Rule,
-        reception: Reception,
+        heard: Heard<Notice>,
         mut around: Surroundings<'_>,
-        chance: &mut dyn Source,
+        chance: &mut dyn Oracle,
     ) -> Reaction {
-        let Reception { notice, distance_um, now_ns } = reception;
-        self.event = notice.event;
+        let Heard { message: notice, distance_um, now_ns } = heard;
+        self.event = notice.call.epoch.0;
         self.parent = notice.sender;
         self.hops = notice.hops.saturating_add(1);
-        self.heard = Heard::nobody_but(notice.sender);
+        self.heard = Senders::nobody_but(notice.sender);
         around.begin();
-        if self.is_settled(rule, reception, around) {
+        if self.is_settled(rule, heard, around) {
             return self.be_silent();
         }
         let wait_ns = match rule.scheme {
@@ -306,8 +288,8 @@ impl Node {
     }
 
     #[inline]
-    fn hear_again(&mut self, rule: &Rule, reception: Reception, around: Surroundings<'_>) -> Reaction {
-        let notice = reception.notice;
+    fn hear_again(&mut self, rule: &Rule, heard: Heard<Notice>, around: Surroundings<'_>) -> Reaction {
+        let notice = heard.message;
         if self.phase == Phase::Forwarded {
             if notice.hops > self.hops {
                 return Reaction::Ignored;
@@ -327,7 +309,7 @@ impl Node {
         if is_counted(rule.scheme) {
             self.heard.add(notice.sender);
         }
-        if self.is_settled(rule, reception, around) { self.be_silent() } else { Reaction::Noted }
+        if self.is_settled(rule, heard, around) { self.be_silent() } else { Reaction::Noted }
     }
 
     fn be_silent(&mut self) -> Reaction {
@@ -337,15 +319,15 @@ impl Node {
 
     /// Whether with this NOTICE the node has heard enough not to forward.
     #[inline]
-    fn is_settled(&self, rule: &Rule, reception: Reception, mut around: Surroundings<'_>) -> bool {
+    fn is_settled(&self, rule: &Rule, heard: Heard<Notice>, mut around: Surroundings<'_>) -> bool {
         match rule.scheme {
             // The first is not counted: k = 1 would else never forward.
             Scheme::Farthest { k } => k.is_some_and(|k| self.heard.count > k.get()),
             Scheme::Flooding => false,
             Scheme::Counter { below } => self.heard.count >= below.get(),
-            Scheme::Distance { least_um } => reception.distance_um < least_um,
+            Scheme::Distance { least_um } => heard.distance_um < least_um,
             Scheme::Scalable => {
-                around.reach(reception.notice.sender);
+                around.reach(heard.message.sender);
                 around.all_reached()
             }
         }
@@ -375,14 +357,14 @@ mod tests {
     use core::num::NonZeroU32;
 
     use super::*;
-    use crate::broadcast::{Conditions, words};
+    use crate::notice::{Conditions, words};
 
     const SOURCE: NodeId = NodeId(0);
 
     /// Waits 7 ns where it is left to chance.
     struct Seven;
 
-    impl Source for Seven {
+    impl Oracle for Seven {
         fn pick(&mut self, below: u32) -> u32 {
             7.min(below - 1)
         }
@@ -397,11 +379,16 @@ mod tests {
     }
 
     fn notice(sender: u32, hops: u16) -> Notice {
-        Notice { source: SOURCE, event: 1, sender: NodeId(sender), hops }
+        Notice { call: Call { wfr: SOURCE, epoch: Epoch(1) }, sender: NodeId(sender), hops }
     }
 
     fn hear(node: &mut Node, rule: &Rule, notice: Notice, distance_um: u32) -> Reaction {
-        node.receive(rule, Reception { notice, distance_um, now_ns: 100 }, Surroundings::none, &mut Seven)
+        node.receive(
+            rule,
+            Heard { message: notice, distance_um, now_ns: 100 },
+            Surroundings::none,
+            &mut Seven,
+        )
     }
 
     fn fresh() -> Node {
@@ -442,8 +429,8 @@ mod tests {
         let mut node = fresh();
         hear(&mut node, &rule, notice(4, 5), 0);
         let ignored = [
-            Notice { source: NodeId(8), ..notice(3, 0) },
-            Notice { event: 0, ..notice(3, 0) },
+            Notice { call: Call { wfr: NodeId(8), epoch: Epoch(1) }, ..notice(3, 0) },
+            Notice { call: Call { wfr: SOURCE, epoch: Epoch(0) }, ..notice(3, 0) },
             notice(4, 5),
             notice(9, 0),
             notice(3, u16::MAX),
@@ -461,12 +448,12 @@ mod tests {
     #[test]
     fn a_newer_event_is_a_first_one_and_an_older_one_is_ignored() {
         let rule = farthest(1);
-        let second = Notice { event: 2, ..notice(5, 1) };
+        let second = Notice { call: Call { wfr: SOURCE, epoch: Epoch(2) }, ..notice(5, 1) };
         let mut node = fresh();
         hear(&mut node, &rule, notice(4, 0), 0);
         node.expire(u64::MAX);
         assert_eq!(hear(&mut node, &rule, second, 1000), Reaction::Armed { at_ns: 100 });
-        assert_eq!((node.parent(), node.event()), (Some(NodeId(5)), Some(2)));
+        assert_eq!((node.parent(), node.event()), (Some(NodeId(5)), Some(Epoch(2))));
         assert_eq!(hear(&mut node, &rule, notice(3, 0), 0), Reaction::Ignored);
         let published = Rule { conditions: Conditions::PUBLISHED, ..rule };
         let mut deaf = fresh();
@@ -479,7 +466,7 @@ mod tests {
     fn a_source_has_as_many_events_as_numbers() {
         let mut source = Node::new(SOURCE, SOURCE);
         source.event = u32::MAX - 1;
-        assert_eq!(source.originate().map(|notice| notice.event), Some(u32::MAX));
+        assert_eq!(source.originate().map(|notice| notice.call.epoch.0), Some(u32::MAX));
         assert_eq!(source.originate(), None);
     }
 
@@ -510,7 +497,7 @@ mod tests {
         let mut unreached = [0; words(3)];
         let mut hear = |sender, of_sender: &[NodeId]| {
             let around = Surroundings { neighbours: &own, of_sender, unreached: &mut unreached };
-            let reception = Reception { notice: notice(sender, 0), distance_um: 0, now_ns: 0 };
+            let reception = Heard { message: notice(sender, 0), distance_um: 0, now_ns: 0 };
             node.receive(&rule, reception, || around, &mut Seven)
         };
         assert_eq!(hear(1, &[NodeId(2), NodeId(9)]), Reaction::Armed { at_ns: 7 });

@@ -1,8 +1,8 @@
 //! A path node's part in MRC (paper 003, 3.3, step 3): what a robot sends goes from parent to parent, and a RESB the
 //! same way back. The paper names no way back: a path node remembers, by SN and MID, who gave it the robot's message.
 
-use super::message::{Call, Resb, RobotId, Upward};
-use crate::broadcast::NodeId;
+use super::message::{Resb, Upward};
+use crate::net::{Call, NodeId, RobotId};
 
 /// Who is one hop away.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -64,8 +64,9 @@ impl<const ROUTES: usize> Relay<ROUTES> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::message::{Epoch, Word};
+    use super::super::message::Word;
     use super::*;
+    use crate::net::Epoch;
 
     const fn message(robot: u16, epoch: u32, parent: u32) -> Upward {
         let call = Call { wfr: NodeId(0), epoch: Epoch(epoch) };
