@@ -4,11 +4,11 @@
 mod common;
 
 use criterion::{BenchmarkId, Criterion};
-use tautline::layout::{Generator, Layout};
-use tautline::wide::WideGrid;
 use tautline_kernel::chain::{Chain, Intent, Rule};
 use tautline_kernel::ground::{Area, Cell, Grid, MediumGrid, SmallGrid};
 use tautline_proofs::plain::{PlainChain, PlainIntent};
+use tautline_sim::layout::{Generator, Layout};
+use tautline_sim::wide::WideGrid;
 
 use self::common::{Cost, group, measure};
 

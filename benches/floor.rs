@@ -4,11 +4,11 @@
 mod common;
 
 use criterion::{BenchmarkId, Criterion};
-use tautline::explore::agents::{Team, Way};
-use tautline::layout::Generator;
-use tautline::layout::generate::Probability;
 use tautline_kernel::ants;
 use tautline_kernel::bricks::Rule;
+use tautline_sim::explore::agents::{Team, Way};
+use tautline_sim::layout::Generator;
+use tautline_sim::layout::generate::Probability;
 
 use self::common::{group, measure};
 

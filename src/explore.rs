@@ -1,616 +1,509 @@
-//! The run loop of all exploration schemes. A [`Scheme`] sees what its team knows and makes one team move at a time;
-//! the layout answers for the edges it tries; every move becomes a [`Frame`] and is checked for the sentences of
-//! `SPEC.md` that the scheme is bound to. A run goes on after a violation, so that its cost can be compared.
-
-pub mod agents;
-pub(crate) mod chain;
-pub mod floor;
-mod misfit;
+//! `tautline explore`: one run.
 
 use std::collections::BTreeMap;
-use std::fmt;
+use std::fmt::Write;
 use std::num::NonZeroU32;
+use std::ops::RangeInclusive;
+use std::path::PathBuf;
+use std::time::Instant;
 
-use clap::ValueEnum;
-use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
-use tautline_kernel::ants;
-use tautline_kernel::bricks;
-use tautline_kernel::chain::{self as kernel, Rule};
-use tautline_kernel::floor::Mark;
-use tautline_kernel::ground::{Area, Cell, Edge};
-use tautline_proofs::clause::Subject;
-use tautline_proofs::links::within_reach;
-use tautline_proofs::run::{Breach, Frame};
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+use tautline_kernel::ground::Cell;
+use tautline_proofs::words::counted;
 
-use crate::fault::{Fault, Halt};
-use crate::layout::generate::Probability;
-use crate::layout::{Layout, Problem};
+use super::output::Output;
+use super::{
+    CellArg, Chance, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless, positive, probability,
+    progress, usage, whole,
+};
+use crate::chosen::chosen;
+use tautline_sim::aside::Aside;
+use tautline_sim::explore::agents::Way;
+use tautline_sim::explore::floor::Component;
+use tautline_sim::explore::{
+    Crew, Limits, Milestone, Misfit, OnViolation, Report, RuleName, SchemeName, Setup, Stopped, TeamMove,
+    Violation, explore,
+};
+use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::layout::generate::Probability;
+use tautline_sim::view::page::Page;
+use tautline_sim::view::svg;
+use tautline_sim::{trace, view};
 
-use self::agents::Way;
-use self::floor::Component;
-pub use self::misfit::Misfit;
+const EXAMPLES: &str = "\
+Examples:
+  tautline explore open:15x15 --robots 8 --draw order
+  tautline explore walls:15x15:0.1 --seed 7 --rule published --trace run.jsonl --replay run.html
+  tautline explore room-32-32-4.map --robots 16 --base 10,12 --format json
+  tautline explore office:30x30:4x4 --scheme bricks --robots 20 --replay run.html
+  tautline explore office:30x30:4x4 --scheme bricks-ants --robots 2 --miss 0.0556 --start 0,0 --start 29,29";
 
-/// A way for a team to explore.
-pub trait Scheme {
-    /// The cells among which it is to explore.
-    fn area(&self) -> Area;
-    /// Where the robots are; the base of a chain is the first.
-    fn cells(&self) -> &[Cell];
-    /// How many cells of `layout` it is to explore.
-    fn due(&self, layout: &Layout) -> u32;
-    /// Makes one team move. `is_open` answers for every edge that is crossed without being known.
-    ///
-    /// # Errors
-    /// [`End`] if the run is over.
-    fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End>;
-    /// What the last team move, in which the robots went on from `before`, may not be.
-    fn broken_in_move(&self, before: &[Cell], frame: &Frame) -> Vec<Breach>;
-    /// What the end of a run that has explored what is in `chart` may not be.
-    fn broken_at_end(&self, setup: &Setup, chart: &Chart, end: End) -> Vec<Breach>;
-    /// The marks of cells that the last team move has changed, in order.
-    fn marked(&self) -> &[(Cell, Mark)];
-    /// The cells of the sensors that agents missed in the last team move, agent by agent.
-    fn unseen(&self) -> &[Cell];
-    /// The parts of a sensor floor in which agents started; none for schemes without one.
-    fn components(&self) -> &[Component];
-    /// How long the run has taken its slowest robot, where that is known.
-    fn milliseconds(&self) -> Option<u64>;
+/// Explore a layout once, and check every team move.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Explore {
+    #[command(flatten)]
+    layout: LayoutArgs,
+    /// How the team explores.
+    #[arg(long, value_parser = chosen::<SchemeName>(), default_value = "chain")]
+    scheme: SchemeName,
+    /// The scheme as published, or repaired.
+    #[arg(long, value_parser = chosen::<RuleName>(), default_value = "repaired")]
+    rule: RuleName,
+    /// Robots or agents; for the chain the base is one of them. Without it the layout says, or there are 8.
+    #[arg(long, value_name = "N", value_parser = whole::<u64>)]
+    robots: Option<u64>,
+    /// Column and row of the base. Without it the layout says, or it is the free cell nearest the centre.
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    base: Option<CellArg>,
+    /// Column and row where the agents start; once for all, or once for each. Without it they start at the base.
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, conflicts_with = "base")]
+    start: Vec<CellArg>,
+    /// How likely it is that an agent misses a sensor, from 0 to 1. Without it 0.
+    #[arg(long, value_name = "PROBABILITY", value_parser = probability, allow_hyphen_values = true)]
+    miss: Option<Probability>,
+    /// Stop when a robot has entered so many cells.
+    #[arg(long, value_name = "CELLS", value_parser = positive)]
+    max_moves: Option<NonZeroU32>,
+    /// Stop when so many percent of the free cells in reach are explored.
+    #[arg(long, value_parser = chosen::<Milestone>(), value_name = "50|75|100", hide_possible_values = true)]
+    until: Option<Milestone>,
+    /// Store the run as JSON lines.
+    #[arg(long, value_name = "FILE")]
+    trace: Option<PathBuf>,
+    /// Store the run as a page that plays it.
+    #[arg(long, value_name = "FILE")]
+    replay: Option<PathBuf>,
+    /// What to draw. Without it the outcome is drawn, if the area is small.
+    #[arg(long, value_enum)]
+    draw: Option<Draw>,
+    /// Store the drawing as a picture: the order, or with `--draw moves` every team move.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceArgs,
+    #[command(flatten)]
+    format: FormatArgs,
 }
 
-/// Every scheme.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum SchemeName {
-    /// A base, a leader that seeks the frontier, and followers that keep radio contact.
-    Chain,
-    /// Agents on a sensor floor that go where they have been least; they never know that they are done.
-    Ants,
-    /// Brick&Mortar: agents on a sensor floor that mark cells as visited until none is left.
-    Bricks,
-    /// Brick&Mortar with ants' ways, robust against missed sensors.
-    BricksAnts,
+/// What is drawn of a run.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+enum Draw {
+    /// In each cell, in which team move it was explored.
+    Order,
+    /// Every team move.
+    Moves,
 }
 
-/// Who explores.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Crew {
-    /// Robots in a chain from the base, which is the first of them.
-    Chain,
-    /// Agents on a sensor floor, each for itself.
-    Agents(Way),
-}
+/// Wider areas are drawn only when asked for.
+const SMALL_COLUMNS: usize = 33;
 
-impl SchemeName {
-    /// The word on the command line.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Chain => "chain",
-            Self::Ants => "ants",
-            Self::Bricks => "bricks",
-            Self::BricksAnts => "bricks-ants",
+/// Robots of a team when nobody says how many: the team of the paper.
+const DEFAULT_ROBOTS: u16 = 8;
+
+impl Explore {
+    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        let setup = self.setup()?;
+        let files = [&self.trace, &self.replay, &self.svg];
+        let [trace, page, picture] = self.force.files(files, self.layout.inputs())?;
+        if page.is_some() || picture.is_some() {
+            svg::check_size(setup.area())?;
         }
-    }
-
-    /// Who explores by it under `rule`.
-    pub const fn crew(self, rule: RuleName) -> Crew {
-        match (self, rule) {
-            (Self::Chain, _) => Crew::Chain,
-            (Self::Ants, RuleName::Published) => Crew::Agents(Way::Ants(ants::Rule::Published)),
-            (Self::Ants, RuleName::Repaired) => Crew::Agents(Way::Ants(ants::Rule::Repaired)),
-            (Self::Bricks, RuleName::Published) => Crew::Agents(Way::Bricks(bricks::Rule::PUBLISHED)),
-            (Self::Bricks, RuleName::Repaired) => Crew::Agents(Way::Bricks(bricks::Rule::REPAIRED)),
-            (Self::BricksAnts, _) => Crew::Agents(Way::Bricks(bricks::Rule::ROBUST)),
+        let mut writer = trace.map(|aside| trace::Writer::new(aside, &setup, None));
+        let (bar, start) = (progress::spinner("exploring"), Instant::now());
+        let report = explore(&setup, &mut |made| {
+            bar.set_message(format!("team move {}", made.step));
+            if let Some(writer) = &mut writer {
+                writer.add(made);
+            }
+            Ok(())
+        })?;
+        bar.finish_and_clear();
+        tracing::info!("explored in {:.3} s", start.elapsed().as_secs_f64());
+        if let Some(writer) = writer {
+            out.keep(writer.end(&report));
         }
-    }
-}
-
-/// Whether a scheme is taken as its paper has it.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum RuleName {
-    /// As the paper publishes it.
-    Published,
-    /// With the repairs of its refuted claims.
-    Repaired,
-}
-
-impl RuleName {
-    /// Both rules.
-    pub const ALL: [Self; 2] = [Self::Published, Self::Repaired];
-
-    /// The word on the command line.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Published => "published",
-            Self::Repaired => "repaired",
+        if let Some(page) = page {
+            play(page, &setup, &report, &(1..=report.steps), out)?;
         }
-    }
-
-    /// What the clauses say of it.
-    pub const fn subject(self) -> Subject {
-        match self {
-            Self::Published => Subject::PUBLISHED,
-            Self::Repaired => Subject::REPAIRED,
+        if let Some(mut picture) = picture {
+            match self.draw {
+                Some(Draw::Moves) => picture.draw(panels(&setup, &report, &(1..=report.steps)))?,
+                Some(Draw::Order) | None => {
+                    let order = svg::order(&setup, &report.chart);
+                    picture.append(svg::picture(&view::title_of(&setup), &[order]));
+                }
+            }
+            out.keep(picture);
         }
+        match self.format.format {
+            Format::Json => out.json(&Summary::new(&setup, &self.layout.layout, &report))?,
+            Format::Text => {
+                out.text(summary(&setup, &self.layout.layout, &report))?;
+                self.draw(&setup, &report, out)?;
+            }
+        }
+        Ok(if report.violations.is_empty() { Exit::Expected } else { Exit::Violation })
     }
 
-    /// The chain's rule.
-    pub const fn chain(self) -> Rule {
-        self.subject().rule
-    }
-
-    /// The rule of this subject, if it is one of the two.
-    pub fn of(subject: &Subject) -> Option<Self> {
-        Self::ALL.into_iter().find(|rule| rule.subject() == *subject)
-    }
-}
-
-impl fmt::Display for RuleName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.word())
-    }
-}
-
-/// A run before its start: the same setup makes the same run.
-#[derive(Clone, Debug)]
-pub struct Setup {
-    /// The scheme.
-    pub scheme: SchemeName,
-    /// As published or repaired.
-    pub rule: RuleName,
-    /// Robots, the base of a chain included.
-    pub robots: u16,
-    /// The seed of whatever is left to chance.
-    pub seed: u64,
-    /// The ground truth.
-    pub layout: Layout,
-    /// Where the robots start that have no start of their own: a free cell.
-    pub base: Cell,
-    /// Where each agent starts, if not all start at the base: free cells.
-    pub starts: Option<Vec<Cell>>,
-    /// How likely it is that an agent misses a sensor that it could see.
-    pub miss: Probability,
-    /// Which sensors are missed besides: their numbers among all that agents ask about, counted from 1, in order.
-    pub missed: Vec<u32>,
-    /// When the run is stopped.
-    pub limits: Limits,
-}
-
-impl Setup {
-    /// A run of `scheme` in `layout` with a base, all robots starting there, nothing missed, and no limits.
-    pub fn new(scheme: SchemeName, rule: RuleName, robots: u16, layout: Layout, base: Cell) -> Self {
-        let (limits, miss) = (Limits::default(), Probability::NEVER);
+    fn setup(&self) -> Result<Setup, Fault> {
+        let crew = self.scheme.crew(self.rule);
+        if crew == Crew::Chain && self.miss.is_some() {
+            return Err(Fault::usage(Misfit::Miss, Misfit::Miss.remedy()));
+        }
+        if self.draw.is_some() && self.format.format == Format::Json && self.svg.is_none() {
+            return Err(needless("--draw", "JSON has no drawing, and no picture is stored"));
+        }
+        let miss = self.miss.unwrap_or(Probability::NEVER);
+        let mut layout = self.layout.load(if miss.is_never() { Chance::None } else { Chance::Some })?;
+        let robots = self.robots.unwrap_or_else(|| layout.robots().unwrap_or(DEFAULT_ROBOTS).into());
+        let robots =
+            Setup::count(self.scheme, robots).map_err(|misfit| Fault::usage(&misfit, misfit.remedy()))?;
+        let starts: Vec<Cell> = self.start.iter().map(|&CellArg(cell)| cell).collect();
+        if let Some(&first) = starts.first() {
+            layout.check_start(first).map_err(|problem| usage(&problem))?;
+        }
+        let asked = self.base.map(|CellArg(cell)| cell).or(starts.first().copied());
+        let base = Setup::choose_base(&mut layout, asked).map_err(|problem| usage(&problem))?;
+        let limits = Limits { until: self.until, max_moves: self.max_moves, violation: OnViolation::GoOn };
+        let starts = match (crew, starts.len()) {
+            (_, 0) | (Crew::Agents(_), 1) => None,
+            (Crew::Chain | Crew::Agents(_), _) => Some(starts),
+        };
+        let (scheme, rule, seed) = (self.scheme, self.rule, self.layout.seed());
         let missed = Vec::new();
-        Self { scheme, rule, robots, seed: 0, layout, base, starts: None, miss, missed, limits }
+        let setup = Setup { scheme, rule, robots, seed, layout, base, starts, miss, missed, limits };
+        setup.check().map_err(|misfit| Fault::usage(&misfit, misfit.remedy()))?;
+        Ok(setup)
     }
 
-    /// Who explores.
-    pub const fn crew(&self) -> Crew {
-        self.scheme.crew(self.rule)
-    }
-
-    /// The cells among which the team explores.
-    pub fn area(&self) -> Area {
-        let whole = self.layout.size().area();
-        match self.crew() {
-            Crew::Chain => kernel::area(whole, self.base, self.robots.into()).unwrap_or(whole),
-            Crew::Agents(_) => whole,
-        }
-    }
-
-    /// Where the robots start.
-    pub fn starts(&self) -> Vec<Cell> {
-        self.starts.clone().unwrap_or_else(|| vec![self.base; self.robots.into()])
-    }
-
-    /// The number of robots, the base counted, if a team of `most` can have so many.
-    ///
-    /// # Errors
-    /// A [`Fault`] of the command line.
-    pub fn count_robots(robots: u64, most: usize) -> Result<u16, Fault> {
-        let count = u16::try_from(robots).ok().filter(|&count| (2..=most).contains(&usize::from(count)));
-        count.ok_or_else(|| {
-            let what = match robots {
-                0 => "no robots".to_owned(),
-                1 => "the base alone".to_owned(),
-                _ => format!("{robots} robots"),
-            };
-            Fault::usage(
-                format_args!("{what} cannot be the team"),
-                format_args!("give --robots a number from 2 to {most}, the base counted"),
-            )
-        })
-    }
-
-    /// The base of a run in `layout`: the one asked for, or that of the layout, or the free cell nearest the centre.
-    ///
-    /// # Errors
-    /// [`Problem`] if it is not a free cell.
-    pub fn choose_base(layout: &mut Layout, asked: Option<Cell>) -> Result<Cell, Problem> {
-        let base = match asked.or(layout.base()) {
-            Some(base) => base,
-            None => layout.default_base()?,
-        };
-        layout.place_base(base)?;
-        Ok(base)
-    }
-}
-
-/// When a run is stopped before it ends by itself.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Limits {
-    /// When so much is explored.
-    pub until: Option<Milestone>,
-    /// When a robot has entered so many cells.
-    pub max_moves: Option<NonZeroU32>,
-    /// What a violation does.
-    pub violation: OnViolation,
-}
-
-/// What a violation does to a run.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum OnViolation {
-    /// The run goes on.
-    #[default]
-    GoOn,
-    /// It stops, as a counterexample does.
-    Stop,
-    /// It stops if this is what was broken, as a minimal run does; otherwise it goes on.
-    #[serde(serialize_with = "write_clause", deserialize_with = "read_clause")]
-    StopAt(Breach),
-}
-
-impl OnViolation {
-    /// Whether a run goes no farther when it breaks `breach`.
-    pub fn is_final(self, breach: Breach) -> bool {
-        match self {
-            Self::GoOn => false,
-            Self::Stop => true,
-            Self::StopAt(last) => last == breach,
-        }
-    }
-}
-
-#[allow(clippy::trivially_copy_pass_by_ref, reason = "so serde calls it")]
-fn write_clause<S: Serializer>(breach: &Breach, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_str(breach.clause())
-}
-
-fn read_clause<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Breach, D::Error> {
-    String::deserialize(deserializer)?.parse().map_err(de::Error::custom)
-}
-
-/// A share of the free cells of the area.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, ValueEnum, Serialize, Deserialize)]
-pub enum Milestone {
-    /// 50 %
-    #[value(name = "50")]
-    #[serde(rename = "50")]
-    Half,
-    /// 75 %
-    #[value(name = "75")]
-    #[serde(rename = "75")]
-    ThreeQuarters,
-    /// 100 %
-    #[value(name = "100")]
-    #[serde(rename = "100")]
-    Whole,
-}
-
-impl Milestone {
-    /// All, in order.
-    pub const ALL: [Self; 3] = [Self::Half, Self::ThreeQuarters, Self::Whole];
-
-    /// The share.
-    pub const fn percent(self) -> u32 {
-        match self {
-            Self::Half => 50,
-            Self::ThreeQuarters => 75,
-            Self::Whole => 100,
-        }
-    }
-
-    /// How many of `cells` it takes, rounded up.
-    pub const fn of(self, cells: u32) -> u32 {
-        (cells as u64 * self.percent() as u64).div_ceil(100) as u32
-    }
-}
-
-/// How a run ended by itself.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum End {
-    /// Every cell of the area is explored.
-    Explored,
-    /// What is left cannot be reached.
-    Exhausted,
-    /// The team goes round and round.
-    Endless,
-}
-
-/// Why a run is over.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Stopped {
-    /// Every cell of the area is explored.
-    Explored,
-    /// What is left cannot be reached.
-    Exhausted,
-    /// The team goes round and round, and would for ever.
-    Endless,
-    /// A robot has entered as many cells as it may.
-    MaxMoves,
-    /// As much is explored as was asked for.
-    Until,
-    /// A clause was broken.
-    Violation,
-}
-
-impl Stopped {
-    /// The reason in words.
-    pub const fn words(self) -> &'static str {
-        match self {
-            Self::Explored => "every cell of the area is explored",
-            Self::Exhausted => "the team can explore nothing more",
-            Self::Endless => "the team is where it was, and would go round for ever",
-            Self::MaxMoves => "a robot has entered as many cells as it may",
-            Self::Until => "as much is explored as was asked for",
-            Self::Violation => "a clause was broken",
-        }
-    }
-}
-
-/// A clause that was broken, and when.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Violation {
-    /// What was broken.
-    pub breach: Breach,
-    /// The team move, counted from 1.
-    pub step: u32,
-}
-
-/// One team move, as a watcher sees it.
-#[derive(Clone, Copy, Debug)]
-pub struct TeamMove<'a> {
-    /// Its number, counted from 1.
-    pub step: u32,
-    /// Where the robots were; the base of a chain is the first.
-    pub before: &'a [Cell],
-    /// What they did.
-    pub frame: &'a Frame,
-    /// The cells of the sensors that agents missed before they did it.
-    pub unseen: &'a [Cell],
-    /// What was broken.
-    pub breaches: &'a [Breach],
-}
-
-/// Which cell was explored when, and how it was marked.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Chart {
-    area: Area,
-    /// Row by row: the team move, or `UNEXPLORED`.
-    steps: Vec<u32>,
-    /// The marks that cells have from a team move on; a cell that has none from before is as explored as `steps` says.
-    marks: BTreeMap<(Cell, u32), Mark>,
-}
-
-const UNEXPLORED: u32 = u32::MAX;
-
-impl Chart {
-    fn new(area: Area) -> Self {
-        Self { area, steps: vec![UNEXPLORED; area.width() * area.height()], marks: BTreeMap::new() }
-    }
-
-    /// What the robots explore that are in the cells of `teams` at the start and after each team move.
-    pub fn of<'a>(area: Area, teams: impl IntoIterator<Item = &'a [Cell]>) -> Self {
-        let mut chart = Self::new(area);
-        for (step, team) in (0..).zip(teams) {
-            for &cell in team {
-                chart.enter(cell, step);
+    fn draw(&self, setup: &Setup, report: &Report, out: &mut Output) -> Result<(), Halt> {
+        match self.draw {
+            Some(Draw::Order) => out.text(format_args!("\n{}", view::order(setup, &report.chart)))?,
+            Some(Draw::Moves) => {
+                draw_moves(setup, report, &(1..=report.steps), view::Pose::Before, out)?;
             }
-        }
-        chart
-    }
-
-    /// The cells that it spans.
-    pub const fn area(&self) -> Area {
-        self.area
-    }
-
-    fn place(&self, cell: Cell) -> Option<usize> {
-        self.area.locate(cell).map(|(column, row)| row * self.area.width() + column)
-    }
-
-    /// The team move in which `cell` was first occupied, 0 for the start; `None` if it never was.
-    pub fn step(&self, cell: Cell) -> Option<u32> {
-        self.place(cell).map(|place| self.steps[place]).filter(|&step| step != UNEXPLORED)
-    }
-
-    /// The mark of `cell` after team move number `step`.
-    pub fn mark(&self, cell: Cell, step: u32) -> Mark {
-        match self.marks.range((cell, 0)..=(cell, step)).next_back() {
-            Some((_, &mark)) => mark,
-            None if self.step(cell).is_some_and(|explored| explored <= step) => Mark::Explored,
-            None => Mark::Unexplored,
-        }
-    }
-
-    /// All marks that cells got after they were explored: from which team move on, row by row and in order.
-    pub fn marks(&self) -> impl Iterator<Item = (Cell, u32, Mark)> {
-        self.marks.iter().map(|(&(cell, step), &mark)| (cell, step, mark))
-    }
-
-    /// Notes that a robot is in `cell`; whether that is new.
-    fn enter(&mut self, cell: Cell, step: u32) -> bool {
-        let Some(place) = self.place(cell).filter(|&place| self.steps[place] == UNEXPLORED) else {
-            return false;
-        };
-        self.steps[place] = step;
-        true
-    }
-}
-
-/// What came of a run.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Report {
-    /// Team moves, backtracks included.
-    pub steps: u32,
-    /// Cells that were occupied.
-    pub explored: u32,
-    /// Cells that the team is to explore.
-    pub cells: u32,
-    /// In which team move each [`Milestone`] was reached, if it was.
-    pub milestones: [Option<u32>; Milestone::ALL.len()],
-    /// Why it is over.
-    pub stopped: Stopped,
-    /// What was broken, in order.
-    pub violations: Vec<Violation>,
-    /// Which cell was explored when, and how it was marked.
-    pub chart: Chart,
-    /// Where the robots are in the end.
-    pub team: Vec<Cell>,
-    /// The parts of a sensor floor in which agents started.
-    pub components: Vec<Component>,
-    /// How long the run took its slowest robot, where that is known.
-    pub milliseconds: Option<u64>,
-}
-
-impl Report {
-    /// The team move in which `milestone` was reached, if it was.
-    pub const fn reached(&self, milestone: Milestone) -> Option<u32> {
-        self.milestones[milestone as usize]
-    }
-
-    /// All parts of a sensor floor in which agents started, taken together.
-    pub fn whole(&self) -> Component {
-        self.components.iter().fold(Component::default(), |sum, part| Component {
-            robots: sum.robots + part.robots,
-            active: sum.active + part.active,
-            cells: sum.cells + part.cells,
-            explored: sum.explored + part.explored,
-            visited: sum.visited + part.visited,
-        })
-    }
-
-    /// What is known at the start: where the robots are is explored.
-    fn new(setup: &Setup, scheme: &dyn Scheme) -> Self {
-        let area = scheme.area();
-        let mut report = Self {
-            steps: 0,
-            explored: 0,
-            cells: scheme.due(&setup.layout),
-            milestones: [None; Milestone::ALL.len()],
-            stopped: Stopped::Exhausted,
-            violations: Vec::new(),
-            chart: Chart::new(area),
-            team: scheme.cells().to_vec(),
-            components: Vec::new(),
-            milliseconds: None,
-        };
-        report.note(scheme.cells(), &[]);
-        report
-    }
-
-    /// Notes where the robots are and what they have marked.
-    fn note(&mut self, cells: &[Cell], marked: &[(Cell, Mark)]) {
-        for &cell in cells {
-            self.explored += u32::from(self.chart.enter(cell, self.steps));
-        }
-        for &(cell, mark) in marked {
-            if mark != self.chart.mark(cell, self.steps) {
-                self.chart.marks.insert((cell, self.steps), mark);
+            None if report.chart.area().width() <= SMALL_COLUMNS => {
+                out.text(format_args!("\n{}", view::outcome(setup, &report.chart, &report.team)))?;
             }
+            None => {}
         }
-        for milestone in Milestone::ALL {
-            let reached = &mut self.milestones[milestone as usize];
-            if reached.is_none() && self.explored >= milestone.of(self.cells) {
-                *reached = Some(self.steps);
-            }
-        }
-    }
-
-    /// The report of a run that is over.
-    fn ended(self, stopped: Stopped, scheme: &dyn Scheme) -> Self {
-        let (team, components) = (scheme.cells().to_vec(), scheme.components().to_vec());
-        Self { stopped, team, components, milliseconds: scheme.milliseconds(), ..self }
+        Ok(())
     }
 }
 
-/// Runs `setup`. `watch` sees every team move, and may stop the run for good.
-///
-/// # Errors
-/// [`Halt`] if the setup does not fit its scheme, or whatever `watch` returned.
-pub fn explore(
+/// Team moves that a picture can hold.
+const MAX_PANELS: u32 = 200;
+
+/// Checks that a picture can hold a panel for each of `moves`.
+pub(super) fn check_panels(moves: &RangeInclusive<u32>) -> Result<(), Fault> {
+    if moves.end().saturating_sub(*moves.start()) < MAX_PANELS {
+        return Ok(());
+    }
+    let what = format!("a picture of more than {MAX_PANELS} team moves");
+    Err(Fault::usage(
+        what,
+        format_args!("store a trace, and draw at most {MAX_PANELS} with `tautline replay --moves`"),
+    ))
+}
+
+/// Bytes of the panels that a picture can hold.
+const MAX_PANEL_BYTES: usize = 64 << 20;
+
+/// A picture of the team moves in `moves`, one panel each.
+pub(super) fn panels(setup: &Setup, report: &Report, moves: &RangeInclusive<u32>) -> Result<String, Halt> {
+    check_panels(&(*moves.start()..=report.steps.min(*moves.end())))?;
+    let (mut panels, mut bytes) = (Vec::new(), 0);
+    among(setup, moves, &mut |made| {
+        let panel = svg::team_move(setup, &report.chart, made);
+        bytes += panel.bytes();
+        if bytes > MAX_PANEL_BYTES {
+            let what = format!("a picture of more than {} MiB", MAX_PANEL_BYTES >> 20);
+            return Err(Fault::usage(what, "draw fewer team moves").into());
+        }
+        panels.push(panel);
+        Ok(())
+    })?;
+    Ok(svg::picture(&view::title_of(setup), &panels))
+}
+
+/// Stores a page that plays the team moves in `moves`.
+pub(super) fn play(
+    mut file: Aside,
     setup: &Setup,
+    report: &Report,
+    moves: &RangeInclusive<u32>,
+    out: &mut Output,
+) -> Result<(), Halt> {
+    let mut page = Page::new(&mut file, setup, report, moves);
+    among(setup, moves, &mut |made| {
+        page.add(made);
+        Ok(())
+    })?;
+    page.finish();
+    out.keep(file);
+    Ok(())
+}
+
+/// Draws the team moves in `moves`, a row at a time.
+pub(super) fn draw_moves(
+    setup: &Setup,
+    report: &Report,
+    moves: &RangeInclusive<u32>,
+    pose: view::Pose,
+    out: &mut Output,
+) -> Result<(), Halt> {
+    let drawn = view::TeamMoves::new(setup, &report.chart);
+    let mut columns = None;
+    among(setup, moves, &mut |made| {
+        columns = columns.max(Some(drawn.columns(made, pose)));
+        Ok(())
+    })?;
+    let Some(columns) = columns else { return Ok(()) };
+    out.text(format_args!("\n{}\n\n", view::legend(setup.crew())))?;
+    let mut rows = view::Rows::new(columns);
+    among(setup, moves, &mut |made| {
+        if out.is_gone() {
+            return Ok(());
+        }
+        Ok(out.text(rows.add(drawn.draw(made, pose)))?)
+    })?;
+    Ok(out.text(rows.rest())?)
+}
+
+/// Runs `setup` as far as the last of `moves`, and lets `watch` see those.
+pub(super) fn among(
+    setup: &Setup,
+    moves: &RangeInclusive<u32>,
     watch: &mut dyn FnMut(&TeamMove<'_>) -> Result<(), Halt>,
-) -> Result<Report, Halt> {
-    setup.check().map_err(|misfit| Fault::usage(&misfit, misfit.remedy()))?;
-    let mut scheme = match setup.crew() {
-        Crew::Chain => chain::start(setup)?,
-        Crew::Agents(way) => agents::start(setup, way),
-    };
-    let mut report = Report::new(setup, &*scheme);
-    let mut entered = vec![0_u32; scheme.cells().len()];
-    let mut before = scheme.cells().to_vec();
-    loop {
-        if let Some(stopped) = limit(setup.limits, &report, &entered) {
-            return Ok(report.ended(stopped, &*scheme));
+) -> Result<(), Halt> {
+    let mut is_over = false;
+    let run = explore(setup, &mut |made| {
+        is_over = made.step > *moves.end();
+        match (is_over, moves.contains(&made.step)) {
+            (true, _) => Err(Halt::Interrupted),
+            (false, true) => watch(made),
+            (false, false) => Ok(()),
         }
-        let frame = match scheme.advance(&mut |edge| setup.layout.is_open(edge)) {
-            Ok(frame) => frame,
-            Err(end) => {
-                let stopped = match end {
-                    End::Explored => Stopped::Explored,
-                    End::Exhausted => Stopped::Exhausted,
-                    End::Endless => Stopped::Endless,
-                };
-                let (step, broken) = (report.steps, scheme.broken_at_end(setup, &report.chart, end));
-                report.violations.extend(broken.into_iter().map(|breach| Violation { breach, step }));
-                return Ok(report.ended(stopped, &*scheme));
-            }
+    });
+    match run {
+        Err(Halt::Interrupted) if is_over => Ok(()),
+        run => run.map(|_| ()),
+    }
+}
+
+/// What came of a run, in a few lines.
+pub(super) fn summary(setup: &Setup, layout: &str, report: &Report) -> String {
+    let percent = report.explored * 100 / report.cells;
+    let mut text = format!(
+        "{}, {}: {layout}\n{}: {}\n{} of {} explored ({percent} %)",
+        view::title_of(setup),
+        place(setup),
+        counted(report.steps, "team move"),
+        report.stopped.words(),
+        report.explored,
+        counted(report.cells, "cell"),
+    );
+    for milestone in Milestone::ALL {
+        // Writing to a string cannot fail.
+        let _ = match report.reached(milestone) {
+            Some(step) => write!(text, ", {} % at team move {step}", milestone.percent()),
+            None => write!(text, ", {} % never", milestone.percent()),
         };
-        report.steps += 1;
-        report.note(&frame.cells, scheme.marked());
-        for (count, (from, to)) in entered.iter_mut().zip(before.iter().zip(&frame.cells)) {
-            *count += u32::from(from != to);
-        }
-        let breaches = scheme.broken_in_move(&before, &frame);
-        let step = report.steps;
-        report.violations.extend(breaches.iter().map(|&breach| Violation { breach, step }));
-        let unseen = scheme.unseen();
-        watch(&TeamMove { step, before: &before, frame: &frame, unseen, breaches: &breaches })?;
-        before = frame.cells;
     }
-}
-
-/// The cells that the run of `setup` is bound to explore, and on a sensor floor to mark as visited, before it ends, and
-/// has not, as `chart` shows.
-pub fn missed(setup: &Setup, chart: &Chart) -> Vec<Cell> {
+    text.push('\n');
+    if let Some(milliseconds) = report.milliseconds {
+        let _ = writeln!(text, "the slowest agent took {} s", milliseconds / 1000);
+    }
     match setup.crew() {
-        Crew::Chain => {
-            let is_open = |edge| setup.layout.is_open(edge);
-            let due = within_reach(chart.area(), setup.base, setup.robots.into(), is_open);
-            due.into_iter().filter(|&cell| chart.step(cell).is_none()).collect()
+        Crew::Chain => {}
+        Crew::Agents(Way::Ants(_)) => {
+            text.push_str("ants never know that they are done: whoever watches them ends the run\n");
+            text.push_str(&components(report, |_| String::new()));
         }
-        Crew::Agents(way) => {
-            let team = agents::Team::of(setup, way);
-            let due = chart.area().cells().filter(|&cell| team.floor().component(cell).is_some());
-            due.filter(|&cell| !floor::is_visited(chart.mark(cell, u32::MAX))).collect()
+        Crew::Agents(Way::Bricks(_)) => {
+            let words = |Component { active, visited, .. }: &Component| {
+                let ends =
+                    if *active == 0 { "every agent is done".to_owned() } else { format!("{active} go on") };
+                format!(", {visited} visited; {ends}")
+            };
+            let whole = report.whole();
+            let (percent, cells) = (whole.visited * 100 / whole.cells, counted(whole.cells, "cell"));
+            let ends = match (whole.active, report.stopped) {
+                (0, _) if whole.explored < whole.cells => {
+                    let left = counted(whole.cells - whole.explored, "cell");
+                    format!("every agent is done, with {left} unexplored")
+                }
+                (0, _) => "every agent knows that it is done".to_owned(),
+                (active, Stopped::Explored) => format!(
+                    "{active} of {} may never be done: whoever watches the agents ends the run",
+                    counted(whole.robots, "agent")
+                ),
+                (active, _) => format!("{active} of {} not done", counted(whole.robots, "agent")),
+            };
+            let _ = writeln!(text, "{} of {cells} visited ({percent} %); {ends}", whole.visited);
+            text.push_str(&components(report, words));
+        }
+    }
+    text + &violations(report)
+}
+
+/// Where the robots start.
+fn place(setup: &Setup) -> String {
+    match (setup.crew(), &setup.starts) {
+        (Crew::Chain, _) => format!("base {}", setup.base),
+        (Crew::Agents(_), None) => format!("start {}", setup.base),
+        (Crew::Agents(_), Some(starts)) => {
+            let starts: Vec<String> = starts.iter().map(Cell::to_string).collect();
+            format!("starts {}", starts.join(" "))
         }
     }
 }
 
-fn limit(limits: Limits, report: &Report, entered: &[u32]) -> Option<Stopped> {
-    let is_far = |most: NonZeroU32| entered.iter().any(|&count| count >= most.get());
-    let is_broken = report.violations.iter().any(|broken| limits.violation.is_final(broken.breach));
-    if is_broken {
-        Some(Stopped::Violation)
-    } else if limits.until.is_some_and(|milestone| report.reached(milestone).is_some()) {
-        Some(Stopped::Until)
-    } else if limits.max_moves.is_some_and(is_far) {
-        Some(Stopped::MaxMoves)
-    } else {
-        None
+/// The parts of the layout in which agents started, if there are several.
+fn components(report: &Report, words: impl Fn(&Component) -> String) -> String {
+    let mut text = String::new();
+    if report.components.len() < 2 {
+        return text;
+    }
+    let count = report.components.len();
+    let _ = writeln!(text, "the agents start in {count} parts of the layout that are not connected:");
+    for component in &report.components {
+        let Component { robots, cells, explored, .. } = component;
+        let (agents, cells) = (counted(*robots, "agent"), counted(*cells, "cell"));
+        let _ = writeln!(text, "  {agents}, {explored} of {cells} explored{}", words(component));
+    }
+    text
+}
+
+/// Violations that are listed; the others are counted.
+const LISTED: usize = 10;
+
+fn violations(report: &Report) -> String {
+    let mut text = String::new();
+    for violation in report.violations.iter().take(LISTED) {
+        let clause = violation.breach.clause();
+        let _ = writeln!(
+            text,
+            "{clause} is broken in team move {}: {}",
+            violation.step,
+            view::story::sentence(clause)
+        );
+    }
+    match report.violations.len() {
+        0 => text.push_str("no clause is broken\n"),
+        1..=LISTED => {}
+        more => {
+            let _ = writeln!(text, "and {} more", more - LISTED);
+        }
+    }
+    text
+}
+
+/// The JSON of a run.
+#[derive(Serialize)]
+pub(super) struct Summary<'a> {
+    scheme: SchemeName,
+    rule: RuleName,
+    robots: u16,
+    seed: u64,
+    layout: &'a str,
+    base: Cell,
+    #[serde(flatten)]
+    floor: Option<FloorSummary<'a>>,
+    steps: u32,
+    explored: u32,
+    cells: u32,
+    milestones: BTreeMap<u32, Option<u32>>,
+    stopped: Stopped,
+    violations: Vec<trace::StoredViolation>,
+}
+
+/// What there is of a sensor floor besides. Ants mark nothing and never know that they are done: of them nothing is said
+/// about that.
+#[derive(Serialize)]
+struct FloorSummary<'a> {
+    miss: Probability,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    starts: Option<&'a [Cell]>,
+    #[serde(flatten)]
+    knowledge: Option<Knowledge>,
+    /// How long the slowest agent scanned and went.
+    seconds: f64,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    components: Vec<Part>,
+}
+
+/// How long the slowest agent took; exact, since no run takes 2⁵³ milliseconds.
+#[expect(clippy::cast_precision_loss, reason = "285,000 years are fewer milliseconds than 2⁵³")]
+fn seconds(report: &Report) -> f64 {
+    report.milliseconds.unwrap_or(0) as f64 / 1000.0
+}
+
+/// What agents that mark cells have done and know.
+#[derive(Serialize)]
+struct Knowledge {
+    visited: u32,
+    terminated: bool,
+}
+
+/// A part of the layout that is not connected with the others.
+#[derive(Serialize)]
+struct Part {
+    robots: u16,
+    cells: u32,
+    explored: u32,
+    #[serde(flatten)]
+    knowledge: Option<Knowledge>,
+}
+
+impl Knowledge {
+    fn of(way: Way, component: &Component) -> Option<Self> {
+        match way {
+            Way::Ants(_) => None,
+            Way::Bricks(_) => Some(Self { visited: component.visited, terminated: component.active == 0 }),
+        }
+    }
+}
+
+impl<'a> FloorSummary<'a> {
+    fn of(way: Way, setup: &'a Setup, report: &Report) -> Self {
+        let part = |component: &Component| {
+            let Component { robots, cells, explored, .. } = *component;
+            Part { robots, cells, explored, knowledge: Knowledge::of(way, component) }
+        };
+        let parts = if report.components.len() < 2 { &[] } else { report.components.as_slice() };
+        Self {
+            miss: setup.miss,
+            starts: setup.starts.as_deref(),
+            knowledge: Knowledge::of(way, &report.whole()),
+            seconds: seconds(report),
+            components: parts.iter().map(part).collect(),
+        }
+    }
+}
+
+impl<'a> Summary<'a> {
+    pub(super) fn new(setup: &'a Setup, layout: &'a str, report: &Report) -> Self {
+        let milestones = Milestone::ALL.map(|milestone| (milestone.percent(), report.reached(milestone)));
+        Self {
+            scheme: setup.scheme,
+            rule: setup.rule,
+            robots: setup.robots,
+            seed: setup.seed,
+            layout,
+            base: setup.base,
+            floor: match setup.crew() {
+                Crew::Chain => None,
+                Crew::Agents(way) => Some(FloorSummary::of(way, setup, report)),
+            },
+            steps: report.steps,
+            explored: report.explored,
+            cells: report.cells,
+            milestones: milestones.into(),
+            stopped: report.stopped,
+            violations: report.violations.iter().map(|violation: &Violation| violation.into()).collect(),
+        }
     }
 }

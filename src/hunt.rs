@@ -1,152 +1,299 @@
-//! From the search over all layouts to files that anyone can replay: a [`Counterexample`] becomes the setup of a run
-//! in a layout that has the walls met and no others.
+//! `tautline hunt`: all layouts within a bound, until something breaks.
 
-mod saved;
-pub mod trap;
+mod trap;
 
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
-use tautline_kernel::ground::{Cell, Edge};
-use tautline_proofs::invariant::Invariant;
-use tautline_proofs::run::Breach;
-use tautline_proofs::search::{Bounds, Counterexample, Search, Unsearchable};
+use clap::Args;
+use serde::Serialize;
+use tautline_proofs::clause::Verdict;
+use tautline_proofs::search::{Bounds, Found, Progress};
+use tautline_proofs::words::counted;
 
-use self::saved::AGAIN;
-pub use self::saved::Saved;
-use crate::aside::{Aside, Replaceable};
-use crate::explore::{self, Limits, OnViolation, Report, RuleName, SchemeName, Setup, explore};
-use crate::fault::{Fault, Halt};
-use crate::layout::{Layout, Problem, Size};
-use crate::trace;
+use super::output::Output;
+use super::{Exit, ForceArgs, Format, FormatArgs, SizeArg, interrupt, number, progress, whole};
+use crate::chosen::chosen;
+use tautline_sim::aside::Aside;
+use tautline_sim::explore::{Crew, RuleName, SchemeName, Setup};
+use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::hunt::Saved;
+use tautline_sim::words::Worded;
+use tautline_sim::{hunt, view};
 
-/// The run that `found` is, in the area and with the robots of `bounds`; it stops at the violation.
+/// How often a hunt is kept in its file.
+const KEEP_EVERY: Duration = Duration::from_secs(5);
+
+/// Robots of a chain when nobody says how many.
+const DEFAULT_ROBOTS: u64 = 4;
+
+/// Walls when nobody says how many.
+const DEFAULT_WALLS: u32 = 4;
+
+const EXAMPLES: &str = "\
+Examples:
+  tautline hunt --rule published --robots 4 --max-walls 4 --out counterexamples
+  tautline hunt --rule repaired --robots 4 --max-walls 4 --format json
+  tautline hunt --robots 5 --max-walls 8 --budget 100000000 --resume hunt.json
+  tautline hunt --scheme bricks --max-misses 2
+  tautline hunt --scheme bricks-ants --max-misses 2 --size 3x3";
+
+/// Search all layouts with few walls for runs that break a clause, and store the smallest.
 ///
-/// # Errors
-/// [`Problem`] if the area is too large for a layout, or the base is outside.
-pub fn setup(rule: RuleName, bounds: &Bounds, found: &Counterexample) -> Result<Setup, Problem> {
-    let mut layout = Layout::open(bounds.area.width() as u64, bounds.area.height() as u64)?;
-    let origin = bounds.area.first();
-    let shifted = |cell: Cell| Cell::new(cell.x - origin.x, cell.y - origin.y);
-    for wall in &found.walls {
-        layout.build_wall(Edge::new(shifted(wall.cell()), wall.side()));
-    }
-    let base = shifted(bounds.base);
-    layout.place_base(base)?;
-    let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
-    Ok(Setup { limits, ..Setup::new(SchemeName::Chain, rule, bounds.robots as u16, layout, base) })
+/// Of agents on a sensor floor, search all layouts with few cells for the fewest missed sensors that trap them: one of
+/// them is done, or all go round for ever, before every cell is explored.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Hunt {
+    /// How the team explores.
+    #[arg(long, value_parser = chosen::<SchemeName>(), default_value = "chain")]
+    scheme: SchemeName,
+    /// The scheme as published, or repaired.
+    #[arg(long, value_parser = chosen::<RuleName>(), default_value = "repaired")]
+    rule: RuleName,
+    /// Robots: 4 in a chain, the base counted, or 1 agent, unless this says otherwise. Agents act in turn here; `prove`
+    /// looks at every order.
+    #[arg(long, value_name = "N", value_parser = whole::<u64>)]
+    robots: Option<u64>,
+    /// Most walls that a chain meets in one run, 4 unless this says otherwise; the border is not counted.
+    #[arg(long, value_name = "K", value_parser = whole::<u32>)]
+    max_walls: Option<u32>,
+    /// Most sensors that agents miss in one run, 1 unless this says otherwise.
+    #[arg(long, value_name = "K", value_parser = number::<u8>)]
+    max_misses: Option<u8>,
+    /// Columns and rows of a chain's layouts, the base in the middle; without it the (2N−1)x(2N−1) cells in reach. Of
+    /// agents' layouts the most columns and rows, 4x4 without it; at most 16 cells.
+    #[arg(long, value_name = "WxH")]
+    size: Option<SizeArg>,
+    /// End after so many team moves.
+    #[arg(long, value_name = "MOVES", value_parser = number::<u64>)]
+    budget: Option<u64>,
+    /// Keep the hunt in FILE while it goes on; if FILE is there, go on from it, also with more walls.
+    #[arg(long, value_name = "FILE")]
+    resume: Option<PathBuf>,
+    /// The folder for the counterexamples.
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    out: PathBuf,
+    #[command(flatten)]
+    force: ForceArgs,
+    #[command(flatten)]
+    format: FormatArgs,
 }
 
-/// The place in `folder` of a run of `setup` that breaks `breach`. The scheme is in its name unless the clause tells it.
-pub fn path(folder: &Path, setup: &Setup, breach: Breach) -> PathBuf {
-    let clause = breach.clause().to_lowercase();
-    let Setup { scheme, rule, robots, .. } = setup;
-    let is_told = clause.rsplit_once('-').is_some_and(|(family, _)| family == scheme.word());
-    let scheme = if is_told { String::new() } else { format!("-{}", scheme.word()) };
-    folder.join(format!("{clause}{scheme}-{rule}-n{robots}.jsonl"))
+#[derive(Serialize)]
+struct Hunted {
+    scheme: SchemeName,
+    rule: RuleName,
+    robots: u64,
+    runs: u64,
+    moves: u64,
+    /// Team moves of the longest run.
+    longest: u32,
+    max_walls: u32,
+    /// Whether every layout within the bound was covered.
+    complete: bool,
+    /// The most walls up to which every layout was covered.
+    walls_done: Option<u32>,
+    verdict: &'static str,
+    /// Where the hunt is kept, if that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kept: Option<String>,
+    counterexamples: Vec<Stored>,
 }
 
-/// Writes the run of `setup`, which breaks `breach`, to a file in `folder` under a name that says so. The file has yet to
-/// be put in its place.
-///
-/// # Errors
-/// [`Halt`] if the setup does not fit its scheme.
-pub fn store(
-    folder: &Path,
-    setup: &Setup,
-    breach: Breach,
-    replaceable: &Replaceable,
-) -> Result<(Aside, Report), Halt> {
-    store_at(&path(folder, setup, breach), setup, breach, replaceable)
+#[derive(Serialize)]
+struct Stored {
+    clause: &'static str,
+    /// Runs that break it.
+    runs: u64,
+    walls: usize,
+    steps: usize,
+    /// Where the smallest is stored; a run without end is not, nor one that was left out.
+    file: Option<String>,
+    #[serde(skip)]
+    is_endless: bool,
+    #[serde(skip)]
+    setup: Setup,
 }
 
-/// The same with another name.
-///
-/// # Errors
-/// [`Halt`] if the setup does not fit its scheme.
-pub fn store_at(
-    path: &Path,
-    setup: &Setup,
-    breach: Breach,
-    replaceable: &Replaceable,
-) -> Result<(Aside, Report), Halt> {
-    let mut writer = trace::Writer::new(Aside::late(path, replaceable), setup, Some(breach));
-    let report = explore(setup, &mut |made| {
-        writer.add(made);
-        Ok(())
-    })?;
-    Ok((writer.end(&report), report))
-}
-
-/// The breach that an invariant forbids, if it is one of safety.
-pub const fn breach(invariant: Invariant) -> Option<Breach> {
-    match invariant {
-        Invariant::Without(breach) => Some(breach),
-        Invariant::Admitted
-        | Invariant::Distinct
-        | Invariant::BaseStays
-        | Invariant::Progress
-        | Invariant::Ends
-        | Invariant::Heard
-        | Invariant::Cheap
-        | Invariant::Exhausts => None,
-    }
-}
-
-/// The most robots that are hunted for.
-const MAX_ROBOTS: usize = 64;
-
-/// The bounds of a hunt for `robots` in layouts of `size`, by default the (2N−1)² cells of the paper, with at most
-/// `max_walls`.
-///
-/// # Errors
-/// A [`Fault`] if there are too few or too many robots.
-pub fn bounds(rule: RuleName, robots: u64, max_walls: u32, size: Option<Size>) -> Result<Bounds, Fault> {
-    let robots = usize::from(Setup::count_robots(robots, MAX_ROBOTS)?);
-    let mut bounds = Bounds::new(rule.subject(), robots, max_walls);
-    if let Some(size) = size {
-        bounds.base = Cell::new((size.width() - 1) / 2, (size.height() - 1) / 2);
-        bounds.area = size.area();
-    }
-    Ok(bounds)
-}
-
-/// The search within `bounds`, from the start.
-///
-/// # Errors
-/// A [`Fault`] if it cannot be made.
-pub fn start(bounds: &Bounds) -> Result<Search, Fault> {
-    Search::new(bounds).map_err(|refused| Fault::usage(refused, remedy(refused)))
-}
-
-/// What would be right where a hunt is refused.
-pub fn remedy(refused: Unsearchable) -> String {
-    match refused {
-        Unsearchable::Team(refused) => explore::chain::remedy(refused),
-        Unsearchable::TooManyWalls { edges, .. } => format!("give --max-walls a number up to {edges}"),
-        Unsearchable::TooLarge { .. } => "give fewer --robots or a smaller --size".to_owned(),
-        Unsearchable::Beyond { walls } => {
-            format!("give --max-walls {walls} or more, or another --resume file")
+impl Hunt {
+    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        match self.scheme.crew(self.rule) {
+            Crew::Chain => self.run_chain(out),
+            Crew::Agents(way) => trap::run(self, way, out),
         }
-        Unsearchable::Foreign => AGAIN.to_owned(),
+    }
+
+    fn run_chain(&self, out: &mut Output) -> Result<Exit, Halt> {
+        if self.max_misses.is_some() {
+            let what = "the robots of a chain have no floor sensors to miss";
+            return Err(
+                Fault::usage(what, "give --max-walls, or --scheme ants, bricks or bricks-ants").into()
+            );
+        }
+        check_folder(&self.out)?;
+        let (robots, walls) =
+            (self.robots.unwrap_or(DEFAULT_ROBOTS), self.max_walls.unwrap_or(DEFAULT_WALLS));
+        let mut bounds = hunt::bounds(self.rule, robots, walls, self.size.map(|SizeArg(size)| size))?;
+        bounds.budget_moves = self.budget;
+        let found = self.search(&bounds, out)?;
+        let hunted = self.store(&bounds, &found, out)?;
+        match self.format.format {
+            Format::Json => out.json(&hunted)?,
+            Format::Text => out.text(tell(&hunted)?)?,
+        }
+        Ok(match (found.complete, found.counterexamples.is_empty()) {
+            (false, _) => Exit::Unfinished,
+            (true, false) => Exit::Violation,
+            (true, true) => Exit::Expected,
+        })
+    }
+
+    fn search(&self, bounds: &Bounds, out: &mut Output) -> Result<Found, Fault> {
+        let mut saved = self.resume.as_deref().map(|path| Saved::new(path, self.scheme, self.rule, bounds));
+        let mut search = match &mut saved {
+            Some(saved) => saved.search(bounds)?,
+            None => hunt::start(bounds)?,
+        };
+        // What cannot be kept is refused before it has cost anything.
+        if let Some(saved) = &mut saved {
+            saved.write(&search)?;
+        }
+        interrupt::defer();
+        let bar = progress::bar("hunting", 1);
+        let start = Instant::now();
+        let mut written = start;
+        while progress::show(&bar, &search.progress()).is_continue() && search.wave() {
+            if let Some(saved) = saved.as_mut().filter(|_| written.elapsed() > KEEP_EVERY) {
+                // There may be room again later on; the last good one stands there until then.
+                if let Err(fault) = saved.write(&search) {
+                    tracing::warn!("{fault}");
+                }
+                written = Instant::now();
+            }
+        }
+        bar.finish_and_clear();
+        let Progress { runs, moves, .. } = search.progress();
+        let (runs, moves) = (counted(runs, "run"), counted(moves, "team move"));
+        tracing::info!("hunted through {runs} and {moves} in {:.3} s", start.elapsed().as_secs_f64());
+        if let Some(Err(fault)) = saved.as_mut().map(|saved| saved.write(&search)) {
+            out.leave_out(&fault);
+        }
+        Ok(search.found())
+    }
+
+    fn store(&self, bounds: &Bounds, found: &Found, out: &mut Output) -> Result<Hunted, Halt> {
+        let replaceable = self.force.replaceable(self.resume.clone());
+        let counterexamples = found.counterexamples.iter().map(|counterexample| {
+            let setup =
+                hunt::setup(self.rule, bounds, counterexample).map_err(|problem| super::usage(&problem))?;
+            let breach = hunt::breach(counterexample.invariant);
+            let file = match breach {
+                Some(breach) => keep(hunt::store(&self.out, &setup, breach, &replaceable)?.0, out),
+                None => None,
+            };
+            Ok(Stored {
+                clause: counterexample.invariant.clause(),
+                runs: counterexample.runs,
+                walls: counterexample.walls.len(),
+                steps: counterexample.frames.len(),
+                file,
+                is_endless: breach.is_none(),
+                setup,
+            })
+        });
+        let counterexamples = counterexamples.collect::<Result<Vec<Stored>, Halt>>()?;
+        let verdict = match (counterexamples.is_empty(), found.complete) {
+            (false, _) => Verdict::Refuted,
+            (true, true) => Verdict::Holds,
+            (true, false) => Verdict::Open,
+        };
+        Ok(Hunted {
+            scheme: self.scheme,
+            rule: self.rule,
+            robots: bounds.robots as u64,
+            runs: found.runs,
+            moves: found.moves,
+            longest: found.longest,
+            max_walls: bounds.max_walls,
+            complete: found.complete,
+            walls_done: (found.levels.len() as u32).checked_sub(1),
+            verdict: verdict.word(),
+            kept: self.resume.as_deref().map(shown),
+            counterexamples,
+        })
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn runs_of_two_schemes_have_two_names() {
-        let name = |scheme, breach| {
-            let layout = Layout::open(3, 3).expect("a layout");
-            let setup = Setup::new(scheme, RuleName::Repaired, 2, layout, Cell::new(1, 1));
-            path(Path::new("a"), &setup, breach).display().to_string()
-        };
-        assert_eq!(name(SchemeName::Chain, Breach::Completeness), "a/chain-13-repaired-n2.jsonl");
-        assert_eq!(name(SchemeName::Bricks, Breach::Premature), "a/bricks-4-repaired-n2.jsonl");
-        assert_eq!(
-            name(SchemeName::BricksAnts, Breach::Premature),
-            "a/bricks-4-bricks-ants-repaired-n2.jsonl"
-        );
+/// Checks that --out names a folder.
+pub(super) fn check_folder(out: &Path) -> Result<(), Fault> {
+    if out.is_dir() {
+        return Ok(());
     }
+    let what = if out.exists() { "this is no folder" } else { "there is no such folder" };
+    Err(Fault::in_file(out, what, "give --out a folder that is there"))
+}
+
+/// Puts the file of a counterexample in its place; where it stands then.
+pub(super) fn keep(file: Aside, out: &mut Output) -> Option<String> {
+    let path = file.path().to_owned();
+    out.keep(file).then(|| shown(&path))
+}
+
+/// The path as one would type it.
+pub(super) fn shown(path: &Path) -> String {
+    path.strip_prefix(".").unwrap_or(path).display().to_string()
+}
+
+fn tell(hunted: &Hunted) -> Result<String, Halt> {
+    let Hunted {
+        scheme,
+        rule,
+        robots,
+        runs,
+        moves,
+        longest,
+        max_walls,
+        walls_done,
+        kept,
+        counterexamples,
+        ..
+    } = hunted;
+    let mut text = format!(
+        "{} ({rule}), {}, at most {}: {}, {}, {longest} the longest\n",
+        scheme.word(),
+        counted(*robots, "robot"),
+        counted(*max_walls, "wall"),
+        counted(*runs, "run"),
+        counted(*moves, "team move")
+    );
+    let bound = match walls_done {
+        Some(walls) if *walls == *max_walls => "in any layout within this bound".to_owned(),
+        Some(walls) => {
+            let walls = counted(*walls, "wall");
+            format!("in any layout with at most {walls}; the hunt was ended before its bound")
+        }
+        None => "so far; the hunt was ended before it had covered any layout".to_owned(),
+    };
+    // Writing to a string cannot fail.
+    let _ = match counterexamples[..] {
+        [] => writeln!(text, "No clause is broken {bound}."),
+        _ => writeln!(text, "The smallest counterexample to each clause that is broken {bound}:"),
+    };
+    for Stored { clause, runs, walls, steps, file, is_endless, setup } in counterexamples {
+        let (walls, steps) = (counted(*walls, "wall"), counted(*steps, "team move"));
+        let _ = writeln!(text, "\n{clause}, {walls}, {steps}; broken in {}", counted(*runs, "run"));
+        let _ = match is_endless {
+            false => writeln!(text, "\n{}", view::story::last_move(setup)?),
+            true => writeln!(text, "\nA run without end in this layout:\n\n{}", setup.layout),
+        };
+        if let Some(file) = file {
+            let _ = writeln!(text, "replay it with: tautline replay {file}");
+        }
+    }
+    if let Some(kept) = kept {
+        let _ = writeln!(text, "The hunt is kept in {kept}.");
+    }
+    Ok(text)
 }

@@ -1,7 +1,420 @@
-//! The program `tautline`.
+//! The command line: what is asked, where it goes, and with which exit code it ends. Data goes to stdout, progress and
+//! logs to stderr. A fault ends a command with code 2, an interruption with 3, a panic, which is a bug of ours,
+//! with 70. A file that cannot be stored is left out: the rest is given all the same, and the code is 2.
 
+mod chosen;
+mod evidence;
+mod explore;
+mod hunt;
+mod interrupt;
+mod manual;
+mod minimise;
+mod output;
+mod progress;
+mod prove;
+mod replay;
+mod report;
+mod reproduce;
+mod rescue;
+mod show;
+mod threads;
+
+use std::io::{self, IsTerminal, Write};
+use std::num::{IntErrorKind, NonZeroU32, ParseIntError};
+use std::panic::{self, AssertUnwindSafe};
+use std::path::PathBuf;
 use std::process::ExitCode;
+use std::str::FromStr;
+use std::time::Instant;
 
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+use tautline_kernel::ground::Cell;
+use tautline_kernel::notice::Count;
+use tautline_proofs::run::{Breach, NoBreach};
+
+use crate::report::{Colour, render};
+use output::Output;
+use tautline_sim::aside::{Aside, Foreign, Replaceable};
+use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::layout::generate::Probability;
+use tautline_sim::layout::{self, Generator, Layout, Problem, Size};
+
+/// How a command ended. Where several are so, the last of them in this order is told.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+enum Exit {
+    /// As expected.
+    Expected,
+    /// A violation was found.
+    Violation,
+    /// A budget or the user ended the work before its bound.
+    Unfinished,
+    /// Wrong usage or bad input, or a file could not be stored.
+    Fault,
+    /// A bug of ours.
+    Bug,
+}
+
+impl Exit {
+    /// The exit code of the process.
+    const fn code(self) -> u8 {
+        match self {
+            Self::Expected => 0,
+            Self::Violation => 1,
+            Self::Fault => 2,
+            Self::Unfinished => 3,
+            Self::Bug => 70,
+        }
+    }
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(exit.code())
+    }
+}
+
+/// What the exit codes say, for the help, the manual pages and the README.
+const EXIT_CODES: &str = "\
+0 as expected · 1 a violation was found · 2 wrong usage or bad input, or a file could not be stored · 3 a budget, Ctrl-C, \
+SIGTERM or SIGHUP ended the work before its bound, also if something was found by then · 70 a bug of ours. Where several \
+apply, the code is the first of 70, 2, 3, 1, 0.";
+
+/// What becomes of files.
+const FILES: &str = "\
+Files stand in their places whole or not at all. Only a process that is killed (SIGKILL) can leave a file \
+.tautline-….part behind, which nobody needs.";
+
+const LAYOUTS: &str = "\
+LAYOUT is a file (our text drawing, a MovingAI .map, a ROS .yaml) or a generator: open:15x15 · walls:15x15:0.1 · \
+rooms-a · rooms-b · office:30x30:4x4 · cells:32x32:0.2";
+
+/// Verified multi-robot coordination: bounded proofs, counterexamples and simulation.
+#[derive(Debug, Parser)]
+#[command(name = "tautline", version, about, max_term_width = 100)]
+#[command(after_help = format!("Exit codes: {EXIT_CODES}\n\n{FILES}\n\n{LAYOUTS}"))]
+struct Cli {
+    /// Tell more on stderr; twice for everything.
+    #[arg(short, long, global = true, action = clap::ArgAction::Count)]
+    verbose: u8,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Prove(prove::Prove),
+    Explore(explore::Explore),
+    Hunt(hunt::Hunt),
+    Minimise(minimise::Minimise),
+    Rescue(rescue::Rescue),
+    Replay(replay::Replay),
+    Show(show::Show),
+    Reproduce(reproduce::Reproduce),
+
+    /// Print a completion script for a shell.
+    #[command(after_help = "Example: tautline completions bash > /etc/bash_completion.d/tautline")]
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
+    Man(manual::Manual),
+}
+
+/// What stdout gets.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+enum Format {
+    /// For people.
+    Text,
+    /// One JSON object, with its schema_version.
+    Json,
+}
+
+/// The version of every JSON object on stdout.
+const SCHEMA_VERSION: u32 = 1;
+
+#[derive(Debug, Args)]
+struct FormatArgs {
+    /// What stdout gets.
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+}
+
+#[derive(Debug, Args)]
+struct LayoutArgs {
+    /// A layout file or a generator.
+    layout: String,
+    /// The seed of whatever is left to chance. Without it 0.
+    #[arg(long, value_parser = number::<u64>)]
+    seed: Option<u64>,
+    /// The image of a ROS map, in place of the one that it names.
+    #[arg(long, value_name = "FILE")]
+    image: Option<PathBuf>,
+}
+
+/// Whether a command leaves anything else than the layout to chance.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Chance {
+    None,
+    Some,
+}
+
+impl LayoutArgs {
+    fn seed(&self) -> u64 {
+        self.seed.unwrap_or(0)
+    }
+
+    /// The files that this is read from.
+    fn inputs(&self) -> Vec<PathBuf> {
+        layout::inputs(&self.layout, self.image.as_deref())
+    }
+
+    /// The layout. A seed is refused if neither that nor anything else is left to chance.
+    fn load(&self, elsewhere: Chance) -> Result<Layout, Fault> {
+        let layout = layout::load(&self.layout, self.seed(), self.image.as_deref())?;
+        let is_random = self.layout.parse::<Generator>().is_ok_and(|generator| generator.is_random());
+        if self.seed.is_some() && !is_random && elsewhere == Chance::None {
+            return Err(needless("--seed", "nothing here is left to chance"));
+        }
+        Ok(layout)
+    }
+}
+
+/// An option that can have no effect.
+fn needless(option: &str, why: &str) -> Fault {
+    Fault::usage(format_args!("{option} has no effect: {why}"), format_args!("leave {option} out"))
+}
+
+/// What is done about files that stand where others are to be stored.
+#[derive(Debug, Args)]
+struct ForceArgs {
+    /// Also replace files that tautline did not write. A file that the command reads is never replaced.
+    #[arg(long)]
+    force: bool,
+}
+
+impl ForceArgs {
+    /// What a command may replace that reads these files.
+    fn replaceable(&self, inputs: impl IntoIterator<Item = PathBuf>) -> Replaceable {
+        Replaceable::new(if self.force { Foreign::Replace } else { Foreign::Keep }, inputs)
+    }
+
+    /// The files that a command stores, where they have a place, if it reads these.
+    ///
+    /// # Errors
+    /// A [`Fault`] if one of them has none, or there is nothing to force.
+    fn files<const N: usize>(
+        &self,
+        paths: [&Option<PathBuf>; N],
+        inputs: impl IntoIterator<Item = PathBuf>,
+    ) -> Result<[Option<Aside>; N], Fault> {
+        if self.force && paths.iter().all(|path| path.is_none()) {
+            return Err(needless("--force", "no file is to be stored"));
+        }
+        Aside::several(paths.map(Option::as_deref), &self.replaceable(inputs))
+    }
+}
+
+/// A cell as `X,Y`.
+#[derive(Clone, Copy, Debug)]
+struct CellArg(Cell);
+
+impl FromStr for CellArg {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let parts = text.split_once(',').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
+        parts.map(|(x, y)| Self(Cell::new(x, y))).ok_or("write column and row as X,Y, for example 7,7")
+    }
+}
+
+/// Columns and rows as `WxH`.
+#[derive(Clone, Copy, Debug)]
+struct SizeArg(Size);
+
+impl FromStr for SizeArg {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let parts = text.split_once('x').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
+        let (width, height) = parts.ok_or("write columns and rows as WIDTHxHEIGHT, for example 7x7")?;
+        let size = Size::new(width, height);
+        size.map(Self).map_err(|problem| format!("{problem}; {}", problem.remedy()))
+    }
+}
+
+/// The id of a clause that a run can break.
+fn clause(id: &str) -> Result<Breach, String> {
+    id.to_ascii_uppercase().parse().map_err(|none: NoBreach| format!("{none}; {}", none.remedy()))
+}
+
+/// A whole number, as large as its type holds.
+fn number<T: FromStr>(text: &str) -> Result<T, String> {
+    let largest = u128::MAX >> (128 - 8 * size_of::<T>());
+    text.parse().map_err(|_| format!("write a whole number up to {largest}"))
+}
+
+/// A whole number of which something else says how large it may be.
+fn whole<T: FromStr<Err = ParseIntError>>(text: &str) -> Result<T, &'static str> {
+    text.parse().map_err(|error: ParseIntError| match error.kind() {
+        IntErrorKind::PosOverflow => "write a smaller number",
+        _ => "write a whole number",
+    })
+}
+
+/// A number that need not be whole.
+fn real(text: &str) -> Result<f64, &'static str> {
+    text.parse().map_err(|_| "write a number")
+}
+
+/// A number from 0 to 1.
+fn probability(text: &str) -> Result<Probability, String> {
+    text.parse().map_err(|problem: Problem| format!("{problem}; {}", problem.remedy()))
+}
+
+/// How often something is counted until a node is silent.
+fn count(text: &str) -> Result<Count, String> {
+    let count = text.parse().ok().and_then(Count::new);
+    count.ok_or_else(|| format!("write whole numbers from 1 to {}", Count::MOST))
+}
+
+/// A whole number above 0.
+fn positive(text: &str) -> Result<NonZeroU32, String> {
+    text.parse().map_err(|_| format!("write a whole number from 1 to {}", u32::MAX))
+}
+
+fn usage(problem: &Problem) -> Fault {
+    Fault::usage(problem, problem.remedy())
+}
+
+/// Runs the program with the arguments of this process.
 fn main() -> ExitCode {
-    tautline::cli::run()
+    panic::set_hook(Box::new(|bug| {
+        let arguments: Vec<String> = std::env::args().map(|argument| format!("{argument:?}")).collect();
+        // Nobody may be there any more to read it.
+        let _ = writeln!(
+            io::stderr(),
+            "This is a bug of tautline {}: {bug}\nPlease report it at {}/issues with this command: {}",
+            env!("CARGO_PKG_VERSION"),
+            env!("CARGO_PKG_REPOSITORY"),
+            arguments.join(" ")
+        );
+    }));
+    let arguments = with_negative_numbers(program()).get_matches();
+    let cli = Cli::from_arg_matches(&arguments).unwrap_or_else(|error| error.exit());
+    let name = arguments.subcommand_name().unwrap_or_default();
+    guarded(|| command(&cli, name)).into()
+}
+
+/// The command line, as the help, the manual pages and the completions tell of it.
+fn program() -> clap::Command {
+    Cli::command()
+}
+
+/// A negative number where a number is wanted is a wrong number, not an unknown option.
+fn with_negative_numbers(command: clap::Command) -> clap::Command {
+    let takes = |arg: clap::Arg| {
+        let takes_values = arg.get_action().takes_values();
+        arg.allow_negative_numbers(takes_values)
+    };
+    command.mut_args(takes).mut_subcommands(with_negative_numbers)
+}
+
+/// Does `work`; a panic, of which the hook has told, is a bug.
+fn guarded(work: impl FnOnce() -> Exit) -> Exit {
+    panic::catch_unwind(AssertUnwindSafe(work)).unwrap_or(Exit::Bug)
+}
+
+/// Runs a command, and tells what went wrong.
+fn command(cli: &Cli, name: &str) -> Exit {
+    start_log(cli.verbose);
+    let start = Instant::now();
+    // Without the thread that listens, Ctrl-C would be taken from the system and heard by nobody.
+    if threads::can_start() {
+        interrupt::listen();
+    } else {
+        tracing::warn!("the system starts no thread: Ctrl-C will end the work at once");
+    }
+    threads::start();
+    let mut out = Output::stdout();
+    let result = cli.command.run(&mut out).and_then(|exit| {
+        out.flush().map_err(|error| output::unwritable(&error))?;
+        Ok(exit)
+    });
+    let exit = match result {
+        Ok(exit) if out.has_left_out() => exit.max(Exit::Fault),
+        Ok(exit) => exit,
+        Err(Halt::Fault(fault)) => {
+            complain(&fault);
+            Exit::Fault
+        }
+        Err(Halt::Interrupted) => Exit::Unfinished,
+    };
+    tracing::info!("{name}: exit code {} after {:.3} s", exit.code(), start.elapsed().as_secs_f64());
+    exit
+}
+
+/// Tells on stderr what went wrong, if anybody is there to read it.
+fn complain(fault: &Fault) {
+    let _ = write!(io::stderr(), "{}", render(fault, colour()));
+}
+
+impl Command {
+    fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        match self {
+            Self::Prove(prove) => prove.run(out),
+            Self::Explore(explore) => explore.run(out),
+            Self::Hunt(hunt) => hunt.run(out),
+            Self::Minimise(minimise) => minimise.run(out),
+            Self::Rescue(rescue) => rescue.run(out),
+            Self::Replay(replay) => replay.run(out),
+            Self::Show(show) => show.run(out),
+            Self::Reproduce(reproduce) => reproduce.run(out),
+            Self::Completions { shell } => {
+                let mut script = Vec::new();
+                clap_complete::generate(*shell, &mut program(), "tautline", &mut script);
+                out.bytes(&script)?;
+                Ok(Exit::Expected)
+            }
+            Self::Man(manual) => manual.run(out),
+        }
+    }
+}
+
+fn colour() -> Colour {
+    let is_refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+    if io::stderr().is_terminal() && !is_refused { Colour::Ansi } else { Colour::Plain }
+}
+
+fn start_log(verbose: u8) {
+    let level = match verbose {
+        0 => tracing::Level::WARN,
+        1 => tracing::Level::INFO,
+        2.. => tracing::Level::DEBUG,
+    };
+    let log = tracing_subscriber::fmt()
+        .with_max_level(level)
+        .with_writer(io::stderr)
+        .with_ansi(colour() == Colour::Ansi)
+        .without_time()
+        .with_target(false);
+    // In a process that has a log already, that one serves.
+    let _ = log.try_init();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn a_panic_is_a_bug_of_ours() {
+        assert_eq!(guarded(|| Exit::Violation), Exit::Violation);
+        assert_eq!(guarded(|| panic!("on purpose")), Exit::Bug);
+        assert_eq!(Exit::Bug.code(), 70);
+    }
 }

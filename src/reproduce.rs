@@ -1,135 +1,120 @@
-//! What the papers and SPEC.md report as tables, measured again.
+//! `tautline reproduce`: tables again.
 
-pub mod agents;
-pub mod antenna_fig4;
-pub mod atlas;
-pub mod interval;
-pub mod journeys;
-pub mod notice_fig5;
-pub mod optimum;
-pub mod repair_cost;
-pub mod rescue_fig8;
+mod agents;
+mod antenna_fig4;
+mod atlas;
+mod journeys;
+mod notice_fig5;
+mod optimum;
+mod repair_cost;
+mod rescue_fig8;
+mod table;
 
-/// Every reproduction.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Reproduction {
-    /// What the chain's repairs cost in team moves, and what they prevent.
-    RepairCost,
-    /// How far the chain is from the optimum of a team that knows the walls.
-    Optimum,
-    /// What becomes of all runs in all layouts.
-    Atlas,
-    /// What agents explore by their number, with missed sensors.
-    BricksFig11,
-    /// What agents explore by the area, with missed sensors.
-    BricksFig12,
-    /// How long agents take, with none missed.
-    BricksIdeal,
-    /// Figure 4 of paper 003.
-    AntennaFig4,
-    /// Figure 5 of paper 003.
-    NoticeFig5,
-    /// Figure 6 of paper 003.
-    RescueFig6,
-    /// Figure 7 of paper 003.
-    RescueFig7,
-    /// Figure 8 of paper 003.
-    RescueFig8,
-    /// Figure 9 of paper 003.
-    RescueFig9,
-    /// Figure 10 of paper 003.
-    RescueFig10,
+use clap::{Args, Subcommand};
+use serde::Serialize;
+
+use super::output::Output;
+use super::{Exit, Format, FormatArgs};
+use tautline_sim::fault::Halt;
+use tautline_sim::reproduce::Reproduction;
+use tautline_sim::reproduce::agents::Figure;
+use tautline_sim::reproduce::journeys::Figure as Journey;
+
+const EXAMPLES: &str = "\
+Examples:
+  tautline reproduce
+  tautline reproduce repair-cost
+  tautline reproduce repair-cost --help";
+
+/// Measure a table again; without an id, list them.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES, args_conflicts_with_subcommands = true, disable_help_subcommand = true)]
+#[command(subcommand_value_name = "ID", subcommand_help_heading = "Tables")]
+pub(super) struct Reproduce {
+    #[command(subcommand)]
+    table: Option<Table>,
+    #[command(flatten)]
+    format: FormatArgs,
 }
 
-impl Reproduction {
-    /// All, in order.
-    pub const ALL: [Self; 13] = [
-        Self::RepairCost,
-        Self::Optimum,
-        Self::Atlas,
-        Self::BricksFig11,
-        Self::BricksFig12,
-        Self::BricksIdeal,
-        Self::AntennaFig4,
-        Self::NoticeFig5,
-        Self::RescueFig6,
-        Self::RescueFig7,
-        Self::RescueFig8,
-        Self::RescueFig9,
-        Self::RescueFig10,
-    ];
+#[derive(Debug, Subcommand)]
+enum Table {
+    RepairCost(repair_cost::RepairCost),
+    Optimum(optimum::Optimum),
+    Atlas(atlas::Atlas),
+    /// What agents explore by their number, with missed sensors.
+    #[command(name = "bricks-fig11")]
+    BricksFig11(agents::Agents),
+    /// What agents explore by the area, with missed sensors.
+    #[command(name = "bricks-fig12")]
+    BricksFig12(agents::Agents),
+    /// How long agents take, with none missed.
+    BricksIdeal(agents::Agents),
+    #[command(name = "antenna-fig4")]
+    AntennaFig4(antenna_fig4::AntennaFig4),
+    #[command(name = "notice-fig5")]
+    NoticeFig5(notice_fig5::NoticeFig5),
+    /// The ways of a robot by Reich's scheme, TAN and Verma's, as a picture.
+    #[command(name = "rescue-fig6")]
+    RescueFig6(journeys::Journeys),
+    /// How far a robot walks by TAN and its rivals, by the number of nodes.
+    #[command(name = "rescue-fig7")]
+    RescueFig7(journeys::Journeys),
+    #[command(name = "rescue-fig8")]
+    RescueFig8(rescue_fig8::RescueFig8),
+    /// How far a robot walks round a large obstacle.
+    #[command(name = "rescue-fig9")]
+    RescueFig9(journeys::Journeys),
+    /// How far a robot walks round four large obstacles.
+    #[command(name = "rescue-fig10")]
+    RescueFig10(journeys::Journeys),
+}
 
-    /// Its name.
-    pub const fn id(self) -> &'static str {
-        match self {
-            Self::RepairCost => "repair-cost",
-            Self::Optimum => "optimum",
-            Self::Atlas => "atlas",
-            Self::BricksFig11 => "bricks-fig11",
-            Self::BricksFig12 => "bricks-fig12",
-            Self::BricksIdeal => "bricks-ideal",
-            Self::AntennaFig4 => "antenna-fig4",
-            Self::NoticeFig5 => "notice-fig5",
-            Self::RescueFig6 => "rescue-fig6",
-            Self::RescueFig7 => "rescue-fig7",
-            Self::RescueFig8 => "rescue-fig8",
-            Self::RescueFig9 => "rescue-fig9",
-            Self::RescueFig10 => "rescue-fig10",
+#[derive(Serialize)]
+struct Listed {
+    id: &'static str,
+    shows: &'static str,
+}
+
+#[derive(Serialize)]
+struct List {
+    reproductions: Vec<Listed>,
+}
+
+impl Reproduce {
+    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        match &self.table {
+            None => self.list(out),
+            Some(Table::RepairCost(table)) => table.run(out),
+            Some(Table::Optimum(table)) => table.run(out),
+            Some(Table::Atlas(table)) => table.run(out),
+            Some(Table::BricksFig11(table)) => table.run(Reproduction::BricksFig11, Figure::Agents, out),
+            Some(Table::BricksFig12(table)) => table.run(Reproduction::BricksFig12, Figure::Area, out),
+            Some(Table::BricksIdeal(table)) => table.run(Reproduction::BricksIdeal, Figure::Ideal, out),
+            Some(Table::AntennaFig4(table)) => table.run(out),
+            Some(Table::NoticeFig5(table)) => table.run(out),
+            Some(Table::RescueFig6(table)) => table.run(Reproduction::RescueFig6, Journey::Trajectories, out),
+            Some(Table::RescueFig7(table)) => table.run(Reproduction::RescueFig7, Journey::Ratios, out),
+            Some(Table::RescueFig8(table)) => table.run(out),
+            Some(Table::RescueFig9(table)) => table.run(Reproduction::RescueFig9, Journey::OneObstacle, out),
+            Some(Table::RescueFig10(table)) => {
+                table.run(Reproduction::RescueFig10, Journey::FourObstacles, out)
+            }
         }
     }
 
-    /// What it shows.
-    pub const fn words(self) -> &'static str {
-        match self {
-            Self::RepairCost => {
-                "the chain as published against the chain repaired on the same random layouts: mean team moves to 50 % \
-                 and 75 %, and runs that break a clause"
-            }
-            Self::Optimum => {
-                "the chain against the fewest team moves of a team that knows the walls, in all layouts of small areas: \
-                 how often it takes as few, how many times as many on average and at worst, and what it misses"
-            }
-            Self::Atlas => {
-                "all runs of the chain in all layouts with few walls, by rule and number of robots: how many there are, \
-                 how long, and how many break which clause"
-            }
-            Self::BricksFig11 => {
-                "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what they explore and mark \
-                 as visited, by the number of agents"
-            }
-            Self::BricksFig12 => {
-                "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what 20 agents explore and \
-                 mark as visited, by the area"
-            }
-            Self::BricksIdeal => {
-                "Brick&Mortar, Ants and both together in offices, no sensor missed: how long until everything is explored, \
-                 and until all agents know it, by the number of agents"
-            }
-            Self::AntennaFig4 => {
-                "what a robot hears of a node all round with its directional antenna, and how far off the strongest \
-                 direction is from the node's, by the noise"
-            }
-            Self::NoticeFig5 => {
-                "k-FNF, flooding, counter, distance and scalable broadcasts in random networks: the share of all nodes and \
-                 of those connected to the source that each reaches, and how many nodes forward"
-            }
-            Self::RescueFig6 => {
-                "the ways of a robot to the node that waits for rescue by Reich's scheme, TAN and Verma's, as a picture"
-            }
-            Self::RescueFig7 => {
-                "how many metres a robot walks for each metre of the shortest way by TAN, Verma's, Reich's and Sheu's \
-                 schemes, by the number of nodes, and what becomes of the paper's words about it"
-            }
-            Self::RescueFig8 => {
-                "three robots for three that wait for rescue, MRC as published and repaired: how often each gets a robot, \
-                 and one of its own, how far they go, and how far from the best assignment that is"
-            }
-            Self::RescueFig9 => {
-                "the ways of a robot round a large obstacle: how many arrive, and how far they walk"
-            }
-            Self::RescueFig10 => {
-                "the ways of a robot round four large obstacles: how many arrive, and how far they walk"
+    fn list(&self, out: &mut Output) -> Result<Exit, Halt> {
+        let listed =
+            |reproduction: Reproduction| Listed { id: reproduction.id(), shows: reproduction.words() };
+        let reproductions: Vec<Listed> = Reproduction::ALL.into_iter().map(listed).collect();
+        match self.format.format {
+            Format::Json => out.json(&List { reproductions })?,
+            Format::Text => {
+                for Listed { id, shows } in reproductions {
+                    out.text(format_args!("{id}: {shows}\n"))?;
+                }
             }
         }
+        Ok(Exit::Expected)
     }
 }

@@ -1,520 +1,534 @@
-//! Rescues end to end over the radio field (paper 003, 3.2 to 3.4): nodes at random places call for help, each its event
-//! under its epoch, by a broadcast scheme; robots hear, ask by MOVE from parent to parent, are chosen by RESB, and find
-//! their way from path node to path node. Robots, nodes that wait for rescue (WFRs), path nodes and guides are the kernel's;
-//! what is added here is time, places, and what goes wrong.
-//!
-//! Everything left to chance is asked of an `Oracle`: the same [`Setting`] and seed make the same rescue on every machine.
-//! While it runs, what the clauses MRC-1 to MRC-9 demand is looked at after every turn.
+//! `tautline rescue`: rescues over a radio field.
 
-mod agenda;
-mod event;
-mod judge;
-mod letters;
-mod pace;
-mod plan;
-mod problem;
-mod report;
-mod rover;
-mod setting;
-mod summary;
-mod timers;
-pub mod trace;
-mod world;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::ops::RangeInclusive;
+use std::path::PathBuf;
+use std::str::FromStr;
 
-pub use event::{Event, Logged, Millimetres, Ordinal};
-pub use judge::Violation;
-pub use problem::Problem;
-pub use report::{Fate, Fix, Journey, Report, Spread};
-pub use setting::{CallTimes, MAX_EVENTS, MAX_ROBOTS, MAX_WFRS, SchemeName, Setting};
-pub(crate) use summary::seconds;
-pub use summary::{Assignments, Broken, RobotsFailed, Summary};
-pub use world::rescue;
+use clap::Args;
+use serde::Serialize;
+use tautline_proofs::rescue::Demand;
+use tautline_proofs::words::counted;
+
+use super::output::Output;
+use super::{Exit, ForceArgs, Format, FormatArgs, needless, progress, real, whole};
+use crate::chosen::chosen;
+use tautline_sim::aside::Aside;
+use tautline_sim::explore::RuleName;
+use tautline_sim::fault::{Fault, Halt, Watch};
+use tautline_sim::radio::{ChannelName, FREE_SPACE};
+use tautline_sim::reproduce::interval::Estimate;
+use tautline_sim::rescue::{
+    Assignments, CallTimes, Event, Logged, Ordinal, Report, RobotsFailed, SchemeName, Setting, Summary,
+    rescue, seconds, trace,
+};
+use tautline_sim::view;
+use tautline_sim::view::field::picture;
+use tautline_sim::words::Worded;
+
+const EXAMPLES: &str = "\
+Examples:
+  tautline rescue --seeds 0
+  tautline rescue --wfr 3 --robots 3 --loss 0.1 --failing 1 --seeds 0..999
+  tautline rescue --wfr 3 --robots 3 --loss 0.1 --failing 1 --seeds 0..999 --rule published --format json
+  tautline rescue --obstacle 100,100,200,200 --robot 20,150 --wfr-at 350 --seeds 7
+  tautline rescue --wfr 2 --robots 3 --loss 0.1 --events 3 --rule published
+  tautline rescue --nodes 300 --scheme flooding --channel shared --noise-db 2
+  tautline rescue --wfr 3 --robots 3 --seeds 8 --rule published --trace rescue.jsonl --replay rescue.html
+
+What the JSON says: reach, reach_component and rebroadcasts are means over the seeds of what becomes of the first call \
+for each event at a WFR; assignments counts all WFRs and events of all seeds, and the events that were served_once, \
+served_more_often, never (a robot that lives is connected with the WFR and has heard of the event), unheard (connected, \
+but the broadcast has not reached it), cut_off (not connected) and still_to_come (the one before was not served); robots_failed counts the robots that failed \
+on their way to a WFR, before the last arrival of all but not on their way, and after it; \
+distance_ratio is the sum of the distances moved over the sum of the shortest; wait_s the time from the first call for \
+an event to the robot; violations the clauses broken, in how many rescues, and where first. Each mean has its 95 % \
+interval.
+
+A rescue ends when nothing more happens, or after six hours for each event: who then still waits for a robot counts as \
+never served.
+
+The exit code is 1 if a clause is broken.";
+
+/// Let nodes call for help and robots come, over a radio field at random, and judge what they do.
+///
+/// Calls spread by a broadcast scheme, robots are chosen by MRC and find their way by TAN.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Rescue {
+    /// Sensor nodes, at random places.
+    #[arg(long, value_name = "N", default_value = "700", value_parser = whole::<usize>)]
+    nodes: usize,
+    /// Width and height of the area, in metres.
+    #[arg(long, value_name = "WxH", default_value = "300x300", allow_hyphen_values = true)]
+    area: AreaArg,
+    /// The radio range, in metres.
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true, default_value_t = 25.0, value_parser = real)]
+    range: f64,
+    /// West, north, east and south of an obstacle, in metres: no signal and no robot passes it. May be given repeatedly.
+    #[arg(long, value_name = "W,N,E,S", allow_hyphen_values = true)]
+    obstacle: Vec<Metres<4>>,
+    /// How calls are broadcast.
+    #[arg(long, value_parser = chosen::<SchemeName>(), default_value = "k-fnf")]
+    scheme: SchemeName,
+    /// How many senders, the first not counted, make a node silent; for k-fnf and counter. Without it 1.
+    #[arg(long, value_parser = whole::<u8>)]
+    k: Option<u8>,
+    /// How many nodes call for help. Without it as many as --wfr-at names, or one.
+    #[arg(long, value_name = "N", value_parser = whole::<usize>)]
+    wfr: Option<usize>,
+    /// A node that calls. May be given repeatedly; the others are random ones.
+    #[arg(long, value_name = "NODE", value_parser = whole::<u32>)]
+    wfr_at: Vec<u32>,
+    /// Robots. Without it as many as --robot places, or one.
+    #[arg(long, value_name = "N", value_parser = whole::<usize>)]
+    robots: Option<usize>,
+    /// Where a robot begins, in metres. May be given repeatedly; the others are at random places.
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    robot: Vec<Metres<2>>,
+    /// How often something happens at each node that calls: again at a random time of the ten minutes after it was served.
+    #[arg(long, value_name = "N", default_value = "1", value_parser = whole::<usize>)]
+    events: usize,
+    /// When nodes call for the first time.
+    #[arg(long, value_parser = chosen::<CallTimes>(), default_value = "together")]
+    calls: CallTimes,
+    /// MRC as published, or repaired.
+    #[arg(long, value_parser = chosen::<RuleName>(), default_value = "repaired")]
+    rule: RuleName,
+    /// The first and the last seed, or only one. Each is a rescue.
+    #[arg(long, value_name = "A..B", default_value = "0..99")]
+    seeds: Seeds,
+    /// What lies between a sender and those who hear it.
+    #[arg(long, value_parser = chosen::<ChannelName>(), default_value = "ideal")]
+    channel: ChannelName,
+    /// How likely it is that a message is lost, on each link anew, from 0 to 1.
+    #[arg(long, value_name = "PROBABILITY", allow_hyphen_values = true, default_value_t = 0.0, value_parser = real)]
+    loss: f64,
+    /// The standard deviation of the shadow on each link, for ever the same, in dB: it changes how far off a sender seems.
+    #[arg(long, value_name = "DB", allow_hyphen_values = true, default_value_t = 0.0, value_parser = real)]
+    shadowing_db: f64,
+    /// Power falls with the distance to the power of this, from 2 to 5: the larger, the less do shadows and noise change.
+    #[arg(long, value_name = "ALPHA", allow_hyphen_values = true, default_value_t = FREE_SPACE, value_parser = real)]
+    exponent: f64,
+    /// The standard deviation of the strength of signals, each time anew, in dB.
+    #[arg(long, value_name = "DB", allow_hyphen_values = true, default_value_t = 0.0, value_parser = real)]
+    noise_db: f64,
+    /// How many robots fail, each at a random time of the first ten minutes.
+    #[arg(long, value_name = "N", default_value = "0", value_parser = whole::<usize>)]
+    failing: usize,
+    /// How many nodes fail, likewise; none that calls.
+    #[arg(long, value_name = "N", default_value = "0", value_parser = whole::<usize>)]
+    failing_nodes: usize,
+    /// Store the rescue as JSON lines; one seed only.
+    #[arg(long, value_name = "FILE")]
+    trace: Option<PathBuf>,
+    /// Store the rescue as a page that plays it; one seed only.
+    #[arg(long, value_name = "FILE")]
+    replay: Option<PathBuf>,
+    /// Store a map of the field with the ways of the robots as a picture; one seed only.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceArgs,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+/// Metres, with commas between them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Metres<const COUNT: usize>(pub(super) [f64; COUNT]);
+
+impl<const COUNT: usize> FromStr for Metres<COUNT> {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+        let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
+        numbers.map(Self).ok_or_else(|| {
+            let example: Vec<String> = (1..=COUNT).map(|place| (place * 50).to_string()).collect();
+            format!("write {COUNT} numbers of metres, for example {}", example.join(","))
+        })
+    }
+}
+
+/// Metres as `WxH`.
+#[derive(Clone, Copy, Debug)]
+struct AreaArg([f64; 2]);
+
+impl FromStr for AreaArg {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let sides = text
+            .split_once('x')
+            .and_then(|(width, height)| Some([width.parse().ok()?, height.parse().ok()?]));
+        sides.map(Self).ok_or("write width and height in metres as WIDTHxHEIGHT, for example 300x300")
+    }
+}
+
+/// Seeds from the first to the last.
+#[derive(Clone, Debug)]
+struct Seeds(RangeInclusive<u64>);
+
+/// More rescues do not fit into memory.
+const MAX_RESCUES: u64 = 1_000_000;
+
+impl FromStr for Seeds {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let (first, last) = text.split_once("..").unwrap_or((text, text));
+        let (Ok(first), Ok(last)) = (first.parse::<u64>(), last.parse::<u64>()) else {
+            return Err(
+                "write the first and the last seed as A..B, for example 0..99, or one seed".to_owned()
+            );
+        };
+        match last.checked_sub(first) {
+            None => Err(format!("the first seed comes after the last; write {last}..{first}")),
+            Some(others) if others >= MAX_RESCUES => Err(format!("give up to {MAX_RESCUES} seeds")),
+            Some(_) => Ok(Self(first..=last)),
+        }
+    }
+}
+
+impl Seeds {
+    /// The seed, if it is the only one.
+    fn one(&self) -> Option<u64> {
+        (self.0.start() == self.0.end()).then_some(*self.0.start())
+    }
+}
+
+/// The JSON of rescues.
+#[derive(Serialize)]
+struct Rescued<'a> {
+    #[serde(flatten)]
+    setting: &'a Setting,
+    /// The first and the last.
+    seeds: [u64; 2],
+    /// The clauses that were looked at.
+    judged: [&'static str; Demand::ALL.len()],
+    #[serde(flatten)]
+    summary: &'a Summary,
+    /// What happened, of one rescue alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    events: Option<&'a [Logged]>,
+}
+
+/// How many seeds: [`Seeds`] has at most [`MAX_RESCUES`].
+fn count(seeds: &RangeInclusive<u64>) -> u64 {
+    1 + (seeds.end() - seeds.start())
+}
+
+impl Rescue {
+    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        if self.k.is_some() && !matches!(self.scheme, SchemeName::KFnf | SchemeName::Counter) {
+            let why = format!("{} does not count senders", self.scheme.word());
+            return Err(needless("--k", &why).into());
+        }
+        let setting = self.setting();
+        let seeds = &self.seeds.0;
+        if let Some(seed) = self.seeds.one() {
+            let [trace, page, map] = self.force.files([&self.trace, &self.replay, &self.svg], [])?;
+            let report = rescue(&setting, seed).map_err(Fault::from)?;
+            tracing::info!("the rescue with seed {seed} has {}", counted(report.log.len(), "event"));
+            let files = Files { trace, page, map };
+            return tell(out, self.format.format, (&setting, seed, &report), files);
+        }
+        if self.trace.is_some() || self.replay.is_some() || self.svg.is_some() {
+            let first = seeds.start();
+            let remedy = format!("give one seed, for example --seeds {first}");
+            return Err(Fault::usage("several rescues do not fit into one file", remedy).into());
+        }
+        let measure = |watch: &Watch<'_>| Summary::measure(&setting, seeds.clone(), watch);
+        let summary = progress::during("rescuing", count(seeds), measure)?;
+        print(out, self.format.format, &setting, seeds, (&summary, None))
+    }
+
+    fn setting(&self) -> Setting {
+        Setting {
+            rule: self.rule,
+            scheme: self.scheme,
+            k: self.k.unwrap_or(1),
+            nodes: self.nodes,
+            area_m: self.area.0,
+            range_m: self.range,
+            obstacles_m: self.obstacle.iter().map(|&Metres(sides)| sides).collect(),
+            wfrs: self.wfr.unwrap_or(self.wfr_at.len().max(1)),
+            wfrs_at: self.wfr_at.clone(),
+            robots: self.robots.unwrap_or(self.robot.len().max(1)),
+            robots_at_m: self.robot.iter().map(|&Metres(place)| place).collect(),
+            events_per_wfr: self.events,
+            calls: self.calls,
+            channel: self.channel,
+            loss: self.loss,
+            shadowing_db: self.shadowing_db,
+            exponent: self.exponent,
+            noise_db: self.noise_db,
+            failing: self.failing,
+            failing_nodes: self.failing_nodes,
+        }
+    }
+}
+
+/// What is stored of a rescue.
+pub(super) struct Files {
+    /// Itself.
+    pub(super) trace: Option<Aside>,
+    /// The page that plays it.
+    pub(super) page: Option<Aside>,
+    /// The map.
+    pub(super) map: Option<Aside>,
+}
+
+/// Prints what came of one rescue, and stores it and the drawings of it.
+pub(super) fn tell(
+    out: &mut Output,
+    format: Format,
+    (setting, seed, report): (&Setting, u64, &Report),
+    files: Files,
+) -> Result<Exit, Halt> {
+    let summary = Summary::of(setting, seed, report);
+    let title = format!("{}, seed {seed}", title(setting));
+    if let Some(mut trace) = files.trace {
+        trace::write(&mut trace, setting, seed, report);
+        out.keep(trace);
+    }
+    if let Some(mut page) = files.page {
+        let served = summary.assignments.served_once + summary.assignments.served_more_often;
+        let broken: Vec<&str> = summary.violations.iter().map(|broken| broken.clause).collect();
+        let broken = if broken.is_empty() { none_broken() } else { format!("{} broken", broken.join(", ")) };
+        let (events, what) = (summary.assignments.events, counted_as(setting));
+        let outcome = format!("{served} of {events} {what} served; {broken}.");
+        page.draw(view::rescue::page(&title, &outcome, report).map_err(Halt::from))?;
+        out.keep(page);
+    }
+    if let Some(mut map) = files.map {
+        map.append(picture(&title, &[view::rescue::map(String::new(), report)]));
+        out.keep(map);
+    }
+    print(out, format, setting, &(seed..=seed), (&summary, Some(report)))
+}
+
+fn title(setting: &Setting) -> String {
+    let (robots, wfrs) = (counted(setting.robots, "robot"), counted(setting.wfrs, "WFR"));
+    format!("{robots} for {wfrs}{}, MRC ({})", events_each(setting), setting.rule)
+}
+
+/// How often something happens at each WFR, unless it is once.
+fn events_each(setting: &Setting) -> String {
+    match setting.events_per_wfr {
+        1 => String::new(),
+        several => format!(", {several} events each"),
+    }
+}
+
+/// What is counted when fates are: where each WFR has one event, WFRs.
+const fn counted_as(setting: &Setting) -> &'static str {
+    match setting.events_per_wfr {
+        1 => "WFRs",
+        _ => "events",
+    }
+}
+
+/// Prints what came of rescues, and what happened in the only one.
+fn print(
+    out: &mut Output,
+    format: Format,
+    setting: &Setting,
+    seeds: &RangeInclusive<u64>,
+    (summary, report): (&Summary, Option<&Report>),
+) -> Result<Exit, Halt> {
+    match format {
+        Format::Json => out.json(&Rescued {
+            setting,
+            seeds: [*seeds.start(), *seeds.end()],
+            judged: Demand::ALL.map(Demand::clause),
+            summary,
+            events: report.map(|report| &report.log[..]),
+        })?,
+        Format::Text => {
+            out.text(heading(setting, seeds) + &table(setting, summary))?;
+            if let Some(report) = report {
+                out.text(story(&report.log))?;
+            }
+        }
+    }
+    Ok(if summary.violations.is_empty() { Exit::Expected } else { Exit::Violation })
+}
+
+fn heading(setting: &Setting, seeds: &RangeInclusive<u64>) -> String {
+    let Setting { rule, scheme, k, nodes, area_m: [width_m, height_m], range_m, channel, .. } = setting;
+    let k = match scheme {
+        SchemeName::KFnf | SchemeName::Counter => format!(", k = {k}"),
+        SchemeName::Flooding | SchemeName::Distance | SchemeName::Sba => String::new(),
+    };
+    let times = match setting.calls {
+        CallTimes::Together => "at once",
+        CallTimes::Spread => "within ten minutes",
+    };
+    let seeds = match (seeds.start(), seeds.end()) {
+        (first, last) if first == last => format!("seed {first}"),
+        (first, last) => format!("{} rescues, seeds {first}..{last}", count(seeds)),
+    };
+    let Setting { loss, noise_db, failing, failing_nodes, .. } = setting;
+    format!(
+        "{} for {}, calling {times}{}: MRC ({rule}), {}{k}\n\
+         {nodes} nodes in {width_m}×{height_m} m, range {range_m} m{}, {}, {} channel\n\
+         loss {loss}, noise {noise_db} dB, {} and {} fail; {seeds}\n\n",
+        counted(setting.robots, "robot"),
+        counted(setting.wfrs, "WFR"),
+        events_each(setting),
+        scheme.word(),
+        shadows(setting),
+        counted(setting.obstacles_m.len(), "obstacle"),
+        channel.word(),
+        counted(*failing, "robot"),
+        counted(*failing_nodes, "node"),
+    )
+}
+
+/// How signals spread, unless everything within the range is heard, and nothing else.
+fn shadows(setting: &Setting) -> String {
+    let Setting { shadowing_db, exponent, .. } = *setting;
+    let shadows = if shadowing_db == 0.0 { String::new() } else { format!(", shadows {shadowing_db} dB") };
+    let exponent = if exponent == FREE_SPACE { String::new() } else { format!(", exponent {exponent}") };
+    shadows + &exponent
+}
+
+fn table(setting: &Setting, summary: &Summary) -> String {
+    let percent = |share: Estimate| share.times(100.0).text(2);
+    let Assignments {
+        events, served_once, served_more_often, never, unheard, cut_off, still_to_come, ..
+    } = summary.assignments;
+    let of_all = |count: u32| format!("{count} of {events}");
+    let fate = |words: &str| format!("{} {words}", counted_as(setting));
+    let mut rows = vec![
+        ("reach, % of all nodes".to_owned(), percent(summary.reach)),
+        ("reach, % of the nodes connected with the WFR".to_owned(), percent(summary.reach_component)),
+        ("rebroadcasts of a first call".to_owned(), summary.rebroadcasts.text(2)),
+        ("messages in a rescue".to_owned(), summary.messages.text(0)),
+        (fate("served once"), of_all(served_once)),
+        (fate("served more often"), of_all(served_more_often)),
+        (fate("never served"), of_all(never)),
+        (fate("that no robot has heard"), of_all(unheard)),
+        (fate("with no robot connected"), of_all(cut_off)),
+    ];
+    if setting.events_per_wfr > 1 {
+        rows.push((fate("still to come"), of_all(still_to_come)));
+    }
+    if setting.failing > 0 {
+        let RobotsFailed { on_their_way, not_on_their_way, after_the_last_arrival } = summary.robots_failed;
+        let robots = on_their_way + not_on_their_way + after_the_last_arrival;
+        let failed =
+            |words: &str, count: u32| (format!("robots failed {words}"), format!("{count} of {robots}"));
+        rows.extend([
+            failed("on their way", on_their_way),
+            failed("not on their way", not_on_their_way),
+            failed("after the last arrival", after_the_last_arrival),
+        ]);
+    }
+    rows.push((
+        "distance moved / shortest distance".to_owned(),
+        Estimate::text_or_dash(summary.distance_ratio, 3),
+    ));
+    rows.push((
+        "seconds from the first call to the robot".to_owned(),
+        Estimate::text_or_dash(summary.wait_s, 1),
+    ));
+    let width = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    for (name, value) in rows {
+        let _ = writeln!(text, "{name:<width$}  {value}");
+    }
+    text.push('\n');
+    for broken in &summary.violations {
+        let rescues = counted(broken.rescues as usize, "rescue");
+        let event = match setting.events_per_wfr {
+            1 => String::new(),
+            _ => format!(", event {}", broken.event),
+        };
+        let _ = writeln!(
+            text,
+            "{} is broken in {rescues}, first with seed {} after {:.3} s, WFR {}{event}: {}",
+            broken.clause, broken.seed, broken.at_s, broken.wfr, broken.broken
+        );
+    }
+    if summary.violations.is_empty() {
+        let _ = writeln!(text, "{}", none_broken());
+    }
+    text
+}
+
+/// What is said where nothing is broken: of which clauses that was looked at.
+fn none_broken() -> String {
+    let [first, .., last] = Demand::ALL.map(Demand::clause);
+    format!("none of {first} to {last} is broken")
+}
+
+/// Of so many calls of one WFR, with nothing but calls between them, all are told.
+const CALLS_TOLD: u32 = 3;
+
+/// What happened, event by event. Of more calls that come to nothing the first and the last are told.
+fn story(log: &[Logged]) -> String {
+    let calls = |logged: &Logged| if let Event::Calls { wfr, .. } = logged.event { Some(wfr) } else { None };
+    let mut text = "\nseconds\n".to_owned();
+    for run in log.chunk_by(|one, other| calls(one).is_some() && calls(other).is_some()) {
+        let mut left = BTreeMap::<Ordinal, u32>::new();
+        for wfr in run.iter().filter_map(calls) {
+            *left.entry(wfr).or_default() += 1;
+        }
+        let all = left.clone();
+        for logged in run {
+            let place = calls(logged).and_then(|wfr| Some((wfr, left.get_mut(&wfr)?, *all.get(&wfr)?)));
+            if let Some((wfr, left, all)) = place {
+                *left -= 1;
+                let told_before = all - 1 - *left;
+                if all > CALLS_TOLD && told_before > 0 && *left > 0 {
+                    if told_before == 1 {
+                        let _ = writeln!(text, "{:>10}  WFR {wfr} calls {} times more", "…", all - 2);
+                    }
+                    continue;
+                }
+            }
+            let _ = writeln!(text, "{:>10.3}  {}", seconds(logged.at_ns), logged.event);
+        }
+    }
+    text
+}
 
 #[cfg(test)]
 mod tests {
-    use proptest::prelude::*;
-    use tautline_kernel::mrc::{Condition, Rule};
-    use tautline_kernel::net::NodeId;
-    use tautline_kernel::notice::{self, Scheme};
-    use tautline_proofs::engine::Seeded;
-    use tautline_proofs::rescue::Demand;
-
-    use super::plan::{Caller, Place, Plan};
     use super::*;
-    use crate::explore::RuleName;
-    use crate::homing::{Equipment, Signal};
-    use crate::radio::{
-        self, Area, Channel, ChannelName, FREE_SPACE, Faults, Field, Model, Network, Point, Radio,
-    };
-
-    /// Three robots, three WFRs, one message in ten lost on each link, one robot failing.
-    fn setting(rule: RuleName) -> Setting {
-        Setting {
-            rule,
-            scheme: SchemeName::KFnf,
-            k: 1,
-            nodes: 700,
-            area_m: [300.0, 300.0],
-            range_m: 25.0,
-            obstacles_m: vec![],
-            wfrs: 3,
-            wfrs_at: vec![],
-            robots: 3,
-            robots_at_m: vec![],
-            events_per_wfr: 1,
-            calls: CallTimes::Together,
-            channel: ChannelName::Ideal,
-            loss: 0.1,
-            shadowing_db: 0.0,
-            exponent: FREE_SPACE,
-            noise_db: 0.0,
-            failing: 1,
-            failing_nodes: 0,
-        }
-    }
-
-    fn is_served_once(fate: &Fate) -> bool {
-        matches!(fate, Fate::Served { visits: 1, .. })
-    }
-
-    fn breaks(report: &Report, demand: Demand) -> bool {
-        report.violations.iter().any(|violation| violation.demand == demand)
-    }
 
     #[test]
-    fn with_losses_and_a_robot_failing_every_wfr_is_served_once_repaired_and_half_the_rescues_fail_as_published()
-     {
-        let of_a_hundred = |rule: RuleName, is_counted: &dyn Fn(&Report) -> bool| {
-            let rescues = (0..100).map(|seed| rescue(&setting(rule), seed).expect("a rescue"));
-            rescues.filter(is_counted).count()
+    fn calls_that_come_to_nothing_are_folded_wfr_by_wfr() {
+        let call = |wfr: usize, epoch| Event::Calls { wfr: Ordinal(wfr - 1), node: 7, epoch };
+        let told = |events: &[Event]| {
+            let log: Vec<Logged> = (0..).zip(events).map(|(at_ns, &event)| Logged { at_ns, event }).collect();
+            let text = story(&log);
+            let words =
+                |line: &str| line.trim_start().split_once("  ").map(|(_, words)| words.trim().to_owned());
+            text.lines().filter_map(words).collect::<Vec<_>>()
         };
-        let is_good =
-            |report: &Report| report.fates.iter().all(is_served_once) && report.violations.is_empty();
-        assert_eq!(of_a_hundred(RuleName::Repaired, &is_good), 100);
-        let is_served = |report: &Report| report.fates.iter().all(is_served_once);
-        assert_eq!(of_a_hundred(RuleName::Published, &is_served), 48);
-    }
-
-    #[test]
-    fn with_losses_and_a_robot_failing_every_event_is_served_once_repaired_and_no_second_as_published() {
-        let counts = |rule: RuleName| {
-            let setting = Setting { events_per_wfr: 3, ..setting(rule) };
-            let rescues: Vec<Report> =
-                (0..30).map(|seed| rescue(&setting, seed).expect("a rescue")).collect();
-            assert!(rescues.iter().all(|report| report.fates.len() == 9));
-            let of_event = |event: usize| {
-                let fates = rescues.iter().flat_map(|report| report.fates.iter().skip(event).step_by(3));
-                fates.filter(|fate| is_served_once(fate)).count()
-            };
-            let broken = |demand: Demand| rescues.iter().filter(|report| breaks(report, demand)).count();
-            ([0, 1, 2].map(of_event), Demand::ALL.map(broken))
-        };
-        assert_eq!(counts(RuleName::Repaired), ([90, 90, 90], [0; 9]));
-        let (served, broken) = counts(RuleName::Published);
-        assert_eq!((served, broken), ([72, 0, 0], [1, 0, 0, 30, 30, 30, 0, 0, 0]));
-    }
-
-    #[test]
-    fn the_first_event_is_the_same_however_many_follow() {
-        let told = |events_per_wfr: usize| {
-            let setting = Setting { events_per_wfr, ..setting(RuleName::Repaired) };
-            rescue(&setting, 3).expect("a rescue").log
-        };
-        let (once, thrice) = (told(1), told(3));
-        let second = thrice.iter().position(|logged| matches!(logged.event, Event::Recurs { .. }));
-        let second = second.expect("a second event");
-        assert!(second > 50);
-        assert_eq!(once[..second], thrice[..second]);
-    }
-
-    #[test]
-    fn the_same_seed_makes_the_same_rescue_and_another_another() {
-        for channel in [ChannelName::Ideal, ChannelName::Shared] {
-            let setting = Setting { channel, noise_db: 1.0, ..setting(RuleName::Repaired) };
-            let rescues = [4, 4, 5].map(|seed| rescue(&setting, seed).expect("a rescue"));
-            assert_eq!(rescues[0], rescues[1]);
-            assert_ne!(rescues[0].log, rescues[2].log);
-        }
-    }
-
-    /// A rescue under a rule that is wrong in one thing.
-    fn under(rule: Rule, setting: &Setting, seed: u64) -> Report {
-        let plan = setting.plan(&mut Seeded::new(seed, 0)).expect("a plan");
-        Plan { rule, ..plan }.rescue(&mut Seeded::new(seed, 1)).expect("a rescue")
-    }
-
-    #[test]
-    fn the_judge_sees_what_conditions_are_for() {
-        let setting = Setting { calls: CallTimes::Spread, ..setting(RuleName::Repaired) };
-        let found =
-            |rule: Rule, demand: Demand| (0..60).any(|seed| breaks(&under(rule, &setting, seed), demand));
-        for (condition, demand) in [
-            (Condition::NearestRobot, Demand::BestOfTheWindow),
-            (Condition::ChoiceStands, Demand::OneRobotForACall),
-            (Condition::Epochs, Demand::AsksAnew),
-            (Condition::Consent, Demand::CountsOnConsent),
-            (Condition::Renewal, Demand::IsServed),
-            (Condition::NearestCall, Demand::AsksNearest),
-            (Condition::AnswersAgain, Demand::TellsWhoAsked),
-        ] {
-            assert!(found(Rule::REPAIRED.without(condition), demand), "{condition:?}");
-            assert!(!found(Rule::REPAIRED, demand), "{condition:?}");
-        }
-        assert!(found(Rule::PUBLISHED, Demand::OneRobotForACall));
-        assert!(!found(Rule::REPAIRED, Demand::OneRobotForACall));
-    }
-
-    /// Nothing is broken but, perhaps, that all are served in time, and nobody comes twice.
-    fn safe(report: &Report) -> Result<(), TestCaseError> {
-        for violation in &report.violations {
-            prop_assert_eq!(violation.demand, Demand::IsServed);
-        }
-        for fate in &report.fates {
-            let came_twice = matches!(fate, Fate::Served { visits: 2.., .. });
-            prop_assert!(!came_twice);
-        }
-        Ok(())
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig::with_cases(32))]
-
-        #[test]
-        fn repaired_nothing_is_broken_and_nobody_comes_twice_whatever_goes_wrong(
-            seed in any::<u64>(),
-            nodes in 40_usize..300,
-            (robots, wfrs) in (1_usize..5, 1_usize..5),
-            (loss, noise_db) in (0.0..0.3, 0.0..3.0),
-            (failing, failing_nodes, events_per_wfr) in (0_usize..2, 0_usize..30, 1_usize..4),
-            (is_shared, is_spread, has_lake) in any::<(bool, bool, bool)>(),
-            scheme in prop::sample::select(vec![
-                SchemeName::KFnf, SchemeName::Flooding, SchemeName::Counter, SchemeName::Distance, SchemeName::Sba,
-            ]),
-        ) {
-            let setting = Setting {
-                scheme,
-                nodes,
-                area_m: [120.0, 90.0],
-                obstacles_m: if has_lake { vec![[40.0, 30.0, 70.0, 50.0]] } else { vec![] },
-                wfrs,
-                robots,
-                events_per_wfr,
-                calls: if is_spread { CallTimes::Spread } else { CallTimes::Together },
-                channel: if is_shared { ChannelName::Shared } else { ChannelName::Ideal },
-                loss,
-                noise_db,
-                failing,
-                failing_nodes,
-                ..setting(RuleName::Repaired)
-            };
-            let report = rescue(&setting, seed).expect("a rescue");
-            safe(&report)?;
-            prop_assert_eq!(report.fates.len(), wfrs * events_per_wfr);
-            for fates in report.fates.chunks(events_per_wfr) {
-                // The next event comes when the one before is served.
-                let is_served = |fate: &Fate| matches!(fate, Fate::Served { .. });
-                let served = fates.iter().take_while(|fate| is_served(fate)).count();
-                prop_assert!(fates.iter().skip(served + 1).all(|&fate| fate == Fate::StillToCome));
-            }
-            prop_assert!(report.log.is_sorted_by_key(|logged| logged.at_ns));
-            for journey in &report.journeys {
-                let shortest_m = journey.shortest_m.expect("one lake is no barrier");
-                prop_assert!(journey.moved_m >= shortest_m - 2.0, "{:?}", journey);
-            }
-        }
-
-        #[test]
-        fn repaired_nothing_is_broken_and_nobody_comes_twice_under_shadows(
-            seed in any::<u64>(),
-            (robots, wfrs, failing) in (1_usize..4, 1_usize..4, 0_usize..2),
-            (loss, noise_db) in (0.0..0.2, 0.0..2.0),
-            (shadowing_db, exponent) in (0.1..8.0, 2.0..5.0),
-            (is_shared, has_lake) in any::<(bool, bool)>(),
-        ) {
-            let setting = Setting {
-                nodes: 120,
-                area_m: [120.0, 90.0],
-                obstacles_m: if has_lake { vec![[40.0, 30.0, 70.0, 50.0]] } else { vec![] },
-                wfrs,
-                robots,
-                channel: if is_shared { ChannelName::Shared } else { ChannelName::Ideal },
-                loss,
-                shadowing_db,
-                exponent,
-                noise_db,
-                failing,
-                ..setting(RuleName::Repaired)
-            };
-            let report = rescue(&setting, seed).expect("a rescue");
-            safe(&report)?;
-        }
-    }
-
-    #[test]
-    fn under_shadows_links_are_others_and_every_wfr_is_served_all_the_same() {
-        let setting = Setting { shadowing_db: 4.0, exponent: 3.0, ..setting(RuleName::Repaired) };
-        let lies_beyond = |plan: &Plan| {
-            let place = |node: NodeId| plan.field.nodes()[node.0 as usize];
-            let nodes = (0..700).map(NodeId).flat_map(|node| {
-                plan.network.neighbours(node).iter().map(move |&other| (place(node), place(other)))
-            });
-            nodes.filter(|(one, other)| (one.x_m - other.x_m).hypot(one.y_m - other.y_m) > 25.0).count()
-        };
-        let of_plan = |setting: &Setting| setting.plan(&mut Seeded::new(0, 0)).expect("a plan");
-        let plain = Setting { shadowing_db: 0.0, ..setting.clone() };
-        assert_eq!(lies_beyond(&of_plan(&plain)), 0);
-        assert!(lies_beyond(&of_plan(&setting)) > 1_000);
-        for seed in 0..20 {
-            let report = rescue(&setting, seed).expect("a rescue");
-            assert!(report.fates.iter().all(is_served_once) && report.violations.is_empty(), "seed {seed}");
-        }
-    }
-
-    #[test]
-    fn without_shadows_and_noise_the_exponent_changes_no_link_and_no_fate() {
-        let of = |exponent: f64| {
-            let report = rescue(&Setting { exponent, ..setting(RuleName::Repaired) }, 2).expect("a rescue");
-            (report.spreads, report.fates)
-        };
-        assert_eq!(of(2.0), of(3.5));
-    }
-
-    #[test]
-    fn a_robot_has_the_shadows_of_the_node_at_which_it_was_last() {
-        let setting = Setting { shadowing_db: 4.0, exponent: 3.0, ..setting(RuleName::Repaired) };
-        let plan = setting.plan(&mut Seeded::new(0, 0)).expect("a plan");
-        let place = NodeId(9);
-        let at = plan.field.nodes()[9];
-        let mut links = plan.network.links(place).peekable();
-        assert!(links.peek().is_some());
-        for link in links {
-            let heard = plan
-                .link(link.to, plan.signal(link.to, Some(place)), at)
-                .expect("it hears whom the node hears");
-            assert!(heard.distance_um.abs_diff(link.distance_um) <= 1);
-            let plain = plan.signal(link.to, None);
-            assert_eq!(plain, Signal::plain(plan.field.nodes()[link.to.0 as usize]));
-        }
-        let far = (0..700).map(NodeId).find(|&node| plan.network.distance_um(place, node).is_none());
-        let far = far.expect("a node that is not linked");
-        assert_eq!(plan.signal(far, Some(place)), plan.signal(far, None));
-    }
-
-    /// Nodes at these places, WFR the first, that flood; robots at these, some of which fail.
-    fn row(rule: Rule, nodes: &[(f64, f64)], robots: &[(f64, Option<u64>)], failing: &[(u32, u64)]) -> Plan {
-        let area = Area::new(200.0, 20.0).expect("an area");
-        let nodes = nodes.iter().map(|&(x_m, y_m)| Point { x_m, y_m }).collect();
-        let field = Field::new(area, vec![], nodes).expect("a field");
-        let radio = Radio::new(25.0, Model::Disc).expect("a radio");
-        let network = Network::new(&field, radio, &mut Seeded::new(0, 0)).expect("a network");
-        let range_um = std::num::NonZeroU32::new(25_000_000).expect("a range");
-        let second = |at: u64| at * 1_000_000_000;
-        Plan {
-            rule,
-            broadcast: notice::Rule::new(Scheme::Flooding, range_um, 100_000_000),
-            radio,
-            noise_db: 0.0,
-            equipment: Equipment::new(radio, 0.0).expect("an equipment"),
-            wfrs: vec![Caller::new(&network, NodeId(0), 0)],
-            robots: robots
-                .iter()
-                .map(|&(x_m, fails)| Place { at: Point { x_m, y_m: 10.0 }, fails_ns: fails.map(second) })
-                .collect(),
-            failing: failing.iter().map(|&(node, at)| (NodeId(node), second(at))).collect(),
-            channel: Channel::Ideal,
-            faults: Faults::NONE,
-            field,
-            network,
-        }
-    }
-
-    fn events(report: &Report) -> Vec<Event> {
-        report.log.iter().map(|logged| logged.event).collect()
-    }
-
-    const ROW: [(f64, f64); 4] = [(10.0, 10.0), (30.0, 10.0), (50.0, 10.0), (70.0, 10.0)];
-
-    #[test]
-    fn the_nearest_robot_comes_from_node_to_node_and_only_it() {
-        let report = row(Rule::REPAIRED, &ROW, &[(85.0, None), (60.0, None)], &[])
-            .rescue(&mut Seeded::new(0, 0))
-            .expect("a rescue");
-        assert_eq!(report.fates, [Fate::Served { by: 1, visits: 1 }]);
-        let who = |event: Event| {
-            if let Event::Passes { robot, node, .. } = event { Some((robot, node)) } else { None }
-        };
-        let passed: Vec<(Ordinal, u32)> = events(&report).into_iter().filter_map(who).collect();
-        assert_eq!(passed, [(Ordinal(1), 2), (Ordinal(1), 1)]);
-        let [journey] = &report.journeys[..] else { panic!("one journey") };
-        assert!((journey.moved_m - 50.0).abs() < 1.0, "{journey:?}");
-        assert_eq!(journey.shortest_m.map(f64::round), Some(50.0));
-        assert_eq!(report.spreads, [Spread { reached: 4, component: 4, rebroadcasts: 3 }]);
-    }
-
-    #[test]
-    fn when_the_robot_on_its_way_fails_the_lease_lapses_and_another_comes_but_not_as_published() {
-        let fate = |rule: Rule| {
-            let plan = row(rule, &ROW, &[(85.0, None), (60.0, Some(20))], &[]);
-            let report = plan.rescue(&mut Seeded::new(0, 0)).expect("a rescue");
-            (report.fates[0], breaks(&report, Demand::IsServed))
-        };
-        assert_eq!(fate(Rule::REPAIRED), (Fate::Served { by: 0, visits: 1 }, false));
-        assert_eq!(fate(Rule::PUBLISHED), (Fate::Abandoned, true));
-    }
-
-    #[test]
-    fn a_robot_that_has_lost_its_way_is_free_when_its_lease_has_lapsed_and_comes_another_way() {
-        // Nodes 2 and 4, side by side, connect the two ends; one of them is the guide when it fails.
-        let nodes = [&ROW[..], &[(50.0, 18.0)]].concat();
-        let served = Fate::Served { by: 0, visits: 1 };
-        let of_either = |rule: Rule, is_end: fn(&Event) -> bool| {
-            let mut fates = [[(2, 25)], [(4, 25)]].map(|failing| {
-                let plan = row(rule, &nodes, &[(85.0, None)], &failing);
-                let report = plan.rescue(&mut Seeded::new(0, 0)).expect("a rescue");
-                (report.fates[0], events(&report).iter().any(is_end))
-            });
-            fates.sort_by_key(|&(_, has_ended)| has_ended);
-            fates
-        };
-        let lets_go = |event: &Event| matches!(event, Event::LetsGo { .. });
-        assert_eq!(of_either(Rule::REPAIRED, lets_go), [(served, false), (served, true)]);
-        let is_lost = |event: &Event| matches!(event, Event::LosesItsWay { .. });
-        assert_eq!(of_either(Rule::PUBLISHED, is_lost), [(served, false), (Fate::Abandoned, true)]);
-    }
-
-    #[test]
-    fn as_published_the_robot_beside_the_wfr_stays_deaf_to_its_second_event() {
-        let outcome = |rule: Rule| {
-            let mut plan = row(rule, &ROW, &[(60.0, None)], &[]);
-            plan.wfrs[0].pauses_ns = vec![100_000_000_000];
-            let report = plan.rescue(&mut Seeded::new(0, 0)).expect("a rescue");
-            let journeys: Vec<(usize, f64)> =
-                report.journeys.iter().map(|journey| (journey.event, journey.moved_m.round())).collect();
-            let found = [Demand::AsksAnew, Demand::IsServed]
-                .map(|demand| report.violations.iter().any(|one| (one.demand, one.event) == (demand, 1)));
-            (report.fates, journeys, found)
-        };
-        let served = Fate::Served { by: 0, visits: 1 };
+        let three = [call(1, 1), call(1, 2), call(1, 3)];
+        assert_eq!(told(&three), three.map(|event| event.to_string()));
+        let both: Vec<Event> = (1..=5).flat_map(|epoch| [call(1, epoch), call(2, epoch)]).collect();
+        let fails = Event::NodeFails { node: 3 };
+        let more = "calls 3 times more";
         assert_eq!(
-            outcome(Rule::REPAIRED),
-            (vec![served, served], vec![(0, 50.0), (1, 0.0)], [false, false])
-        );
-        assert_eq!(outcome(Rule::PUBLISHED), (vec![served, Fate::Abandoned], vec![(0, 50.0)], [true, true]));
-    }
-
-    #[test]
-    fn without_numbers_nodes_do_not_send_the_second_event_on() {
-        let outcome = |conditions: notice::Conditions| {
-            // The robot that serves the first event fails before the second; the other one is three hops off.
-            let mut plan = row(Rule::REPAIRED, &ROW, &[(85.0, None), (60.0, Some(100))], &[]);
-            plan.wfrs[0].pauses_ns = vec![100_000_000_000];
-            plan.broadcast.conditions = conditions;
-            let report = plan.rescue(&mut Seeded::new(0, 0)).expect("a rescue");
-            let spreads: Vec<u32> = report.spreads.iter().map(|spread| spread.reached).collect();
-            (report.fates, spreads)
-        };
-        let served = |by: usize| Fate::Served { by, visits: 1 };
-        assert_eq!(outcome(notice::Conditions::REPAIRED), (vec![served(1), served(0)], vec![4, 4]));
-        assert_eq!(outcome(notice::Conditions::PUBLISHED), (vec![served(1), Fate::Unheard], vec![4, 1]));
-    }
-
-    #[test]
-    fn whom_nobody_can_reach_or_has_heard_of_is_told_apart() {
-        let alone = row(Rule::REPAIRED, &ROW, &[(150.0, None)], &[]);
-        let fates = |plan: Plan| plan.rescue(&mut Seeded::new(0, 0)).expect("a rescue").fates;
-        assert_eq!(fates(alone), [Fate::CutOff]);
-        let dead = row(Rule::REPAIRED, &ROW, &[(60.0, Some(0))], &[]);
-        assert_eq!(fates(dead), [Fate::CutOff]);
-        let mut deaf = row(Rule::REPAIRED, &ROW, &[(85.0, None)], &[]);
-        // Whoever hears the WFR is nearer than the threshold, and silent.
-        deaf.broadcast.scheme = Scheme::Distance { least_um: 25_000_000 };
-        assert_eq!(fates(deaf), [Fate::Unheard]);
-    }
-
-    #[test]
-    fn what_makes_no_rescue_is_refused() {
-        let good = setting(RuleName::Repaired);
-        let refusal = |setting: Setting| rescue(&setting, 0).map(|_| ());
-        let field = |problem: radio::Problem| Err(Problem::Field(problem));
-        assert_eq!(refusal(Setting { nodes: 1, ..good.clone() }), field(radio::Problem::Nodes { nodes: 1 }));
-        assert_eq!(
-            refusal(Setting { range_m: 0.0, ..good.clone() }),
-            field(radio::Problem::Range { range_m: 0.0 })
-        );
-        assert_eq!(
-            refusal(Setting { loss: 1.5, ..good.clone() }),
-            field(radio::Problem::Probability { probability: 1.5 })
-        );
-        assert_eq!(
-            refusal(Setting { noise_db: -1.0, ..good.clone() }),
-            field(radio::Problem::Deviation { deviation_db: -1.0 })
-        );
-        assert_eq!(
-            refusal(Setting { shadowing_db: 20.5, ..good.clone() }),
-            field(radio::Problem::Deviation { deviation_db: 20.5 })
-        );
-        assert_eq!(
-            refusal(Setting { exponent: 1.9, ..good.clone() }),
-            field(radio::Problem::Exponent { exponent: 1.9 })
-        );
-        assert_eq!(
-            refusal(Setting { wfrs_at: vec![700], ..good.clone() }),
-            field(radio::Problem::NoNode { node: 700, nodes: 700 })
-        );
-        let most = |scheme, k, most| Err(Problem::K { k, scheme, most });
-        assert_eq!(refusal(Setting { k: 0, ..good.clone() }), most(SchemeName::KFnf, 0, 8));
-        let counter = Setting { scheme: SchemeName::Counter, k: 8, ..good.clone() };
-        assert_eq!(refusal(counter), most(SchemeName::Counter, 8, 7));
-        assert_eq!(refusal(Setting { wfrs: 0, ..good.clone() }), Err(Problem::Wfrs { wfrs: 0, nodes: 700 }));
-        assert_eq!(
-            refusal(Setting { wfrs: 17, ..good.clone() }),
-            Err(Problem::Wfrs { wfrs: 17, nodes: 700 })
-        );
-        assert_eq!(
-            refusal(Setting { nodes: 2, ..good.clone() }),
-            Err(Problem::WfrsOfNodes { wfrs: 3, nodes: 2 })
-        );
-        assert_eq!(
-            refusal(Setting { wfrs_at: vec![5, 6, 5], ..good.clone() }),
-            Err(Problem::WfrTwice { node: 5 })
-        );
-        assert_eq!(
-            refusal(Setting { wfrs_at: vec![1, 2, 3, 4], ..good.clone() }),
-            Err(Problem::WfrPlaces { places: 4, wfrs: 3 })
-        );
-        for events in [0, 17] {
-            let refused = refusal(Setting { events_per_wfr: events, ..good.clone() });
-            assert_eq!(refused, Err(Problem::Events { events }));
-        }
-        assert_eq!(refusal(Setting { robots: 17, ..good.clone() }), Err(Problem::Robots { robots: 17 }));
-        assert_eq!(
-            refusal(Setting { robots_at_m: vec![[0.0; 2]; 4], ..good.clone() }),
-            Err(Problem::RobotPlaces { places: 4, robots: 3 })
-        );
-        assert_eq!(
-            refusal(Setting { robots_at_m: vec![[1.0, 1.0], [1.0, 301.0]], ..good.clone() }),
-            Err(Problem::RobotOutside { robot: 2, x_m: 1.0, y_m: 301.0 })
-        );
-        assert!(matches!(
-            refusal(Setting { robots_at_m: vec![[f64::NAN, 1.0]], ..good.clone() }),
-            Err(Problem::RobotOutside { robot: 1, .. })
-        ));
-        let lake = Setting { obstacles_m: vec![[0.0, 0.0, 9.0, 9.0]], ..good.clone() };
-        assert_eq!(
-            refusal(Setting { robots_at_m: vec![[1.0, 1.0]], ..lake }),
-            Err(Problem::RobotBlocked { robot: 1 })
-        );
-        assert_eq!(
-            refusal(Setting { failing: 4, ..good.clone() }),
-            Err(Problem::Failing { failing: 4, robots: 3 })
-        );
-        assert_eq!(
-            refusal(Setting { failing_nodes: 698, ..good.clone() }),
-            Err(Problem::FailingNodes { failing: 698, others: 697 })
-        );
-        assert_eq!(
-            refusal(Setting { nodes: 1_000_000, wfrs: 5, ..good }),
-            Err(Problem::TooLarge { nodes: 1_000_000, wfrs: 5 })
+            told(&[&both[..], &[fails, call(1, 6)]].concat()),
+            [
+                call(1, 1).to_string(),
+                call(2, 1).to_string(),
+                format!("WFR 1 {more}"),
+                format!("WFR 2 {more}"),
+                call(1, 5).to_string(),
+                call(2, 5).to_string(),
+                fails.to_string(),
+                call(1, 6).to_string(),
+            ]
         );
     }
 }

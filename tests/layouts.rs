@@ -8,9 +8,14 @@ use std::path::{Path, PathBuf};
 
 use insta::{allow_duplicates, assert_snapshot};
 use proptest::prelude::*;
-use tautline::fault::{Colour, Fault};
-use tautline::layout::{self, Generator, Layout, Problem, movingai, ros};
 use tautline_kernel::ground::{Cell, Edge, Side};
+use tautline_sim::fault::Fault;
+use tautline_sim::layout::{self, Generator, Layout, Problem, movingai, ros};
+
+#[path = "../src/report.rs"]
+mod report;
+
+use report::{Colour, render};
 
 const DRAWING: &str = "\
 tautline layout 1
@@ -71,7 +76,7 @@ fn plain(fault: &Fault, folder: &Path) -> String {
 
 /// The drawing of a fault without the blanks at the ends of its lines.
 fn shown(fault: &Fault) -> String {
-    fault.render(Colour::Plain).lines().map(str::trim_end).collect::<Vec<_>>().join("\n")
+    render(&fault, Colour::Plain).lines().map(str::trim_end).collect::<Vec<_>>().join("\n")
 }
 
 #[test]
@@ -182,7 +187,7 @@ proptest! {
         let _ = movingai::read(&text);
         let _ = ros::describe(&text);
         let fault = Fault::at("a.txt", &text, start..start + length, "wrong", "right");
-        prop_assert!(fault.render(Colour::Plain).contains("wrong"));
+        prop_assert!(render(&fault, Colour::Plain).contains("wrong"));
     }
 
     #[test]
@@ -616,8 +621,8 @@ fn a_fault_shows_its_spot() {
        │ Help: write `##`
     ───╯
     "##);
-    assert!(!fault.render(Colour::Plain).contains('\u{1b}'));
-    assert!(fault.render(Colour::Ansi).contains('\u{1b}'));
+    assert!(!render(&fault, Colour::Plain).contains('\u{1b}'));
+    assert!(render(&fault, Colour::Ansi).contains('\u{1b}'));
     assert_snapshot!(shown(&Fault::usage("too many robots", "give at most 9")), @r"
     Error: too many robots
      Help: give at most 9

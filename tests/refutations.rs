@@ -4,12 +4,12 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use tautline::aside::Replaceable;
-use tautline::refutation::{self, path, replay};
 use tautline_proofs::clause::{Check, Clause, Verdict};
 use tautline_proofs::decide::{Evidence, Prover};
 use tautline_proofs::registry::CLAUSES;
 use tautline_proofs::search::unwatched;
+use tautline_sim::aside::Replaceable;
+use tautline_sim::refutation::{self, path, replay};
 
 /// What refutes the checks that are registered as refuted, but for those that take long to decide.
 fn refutations() -> Vec<(&'static Clause, &'static Check, Evidence)> {

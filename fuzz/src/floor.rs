@@ -1,13 +1,13 @@
 //! Agents on a small floor: the cells, the walls, the scheme, who acts next and which sensors are missed are in the
 //! bytes. When the bytes have ended, the agents act in turn and miss nothing.
 
-use tautline::layout::{Layout, Size};
 use tautline_kernel::ants;
 use tautline_kernel::bricks::{self, Agent, Condition, Next};
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::floor::{Floor, Mark, Scan, Sensor, settle};
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::engine::Tape;
+use tautline_sim::layout::{Layout, Size};
 
 use super::numbers;
 

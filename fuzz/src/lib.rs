@@ -7,6 +7,9 @@
 mod floor;
 mod network;
 mod perception;
+#[path = "../../src/report.rs"]
+#[expect(dead_code, reason = "a fuzzer has no terminal")]
+mod report;
 mod rescue;
 
 use std::fs;
@@ -15,13 +18,6 @@ use std::io::Write;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use tautline::exhibit::exhibit;
-use tautline::explore::{RuleName, SchemeName, Setup};
-use tautline::fault::{Colour, Fault, Halt};
-use tautline::hunt::{self, Saved};
-use tautline::layout::{Layout, Misread, Size, movingai, ros, text};
-use tautline::trace::Trace;
-use tautline::wide::WideGrid;
 use tautline_kernel::chain::{self, Chain, Intent, Kind, Rule};
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::ground::{Area, Cell, Edge, Grid, SmallGrid};
@@ -29,6 +25,13 @@ use tautline_proofs::engine::{Seeded, Tape};
 use tautline_proofs::judge::{self, Exhibit};
 use tautline_proofs::run::{Breach, CHEAP_LOOKS, Frame};
 use tautline_proofs::search::{self, Bounds, Found, Search};
+use tautline_sim::exhibit::exhibit;
+use tautline_sim::explore::{RuleName, SchemeName, Setup};
+use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::hunt::{self, Saved};
+use tautline_sim::layout::{Layout, Misread, Size, movingai, ros, text};
+use tautline_sim::trace::Trace;
+use tautline_sim::wide::WideGrid;
 
 pub use floor::floor;
 pub use network::network;
@@ -396,5 +399,5 @@ fn read_back(oracle: &str, layout: Result<Layout, Misread>) {
 fn told(fault: &Fault) {
     let line = fault.to_string();
     assert!(!line.is_empty() && !line.contains('\n'), "{line}");
-    assert!(!fault.render(Colour::Plain).is_empty());
+    assert!(!report::render(fault, report::Colour::Plain).is_empty());
 }

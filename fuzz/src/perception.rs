@@ -11,7 +11,7 @@ use tautline_proofs::engine::Tape;
 
 use super::numbers;
 
-#[path = "../../tests/support/drawn.rs"]
+#[path = "../../kernel/tests/support/drawn.rs"]
 mod drawn;
 
 use drawn::{Drawn, rounded};

@@ -3,14 +3,14 @@
 use std::fs;
 use std::io::Write;
 
-use tautline::aside::{Aside, Foreign, Replaceable};
-use tautline::explore::RuleName;
-use tautline::fault::Fault;
-use tautline::radio::ChannelName;
-use tautline::rescue::{CallTimes, Fate, SchemeName, Setting, rescue as run, trace};
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_proofs::engine::Tape;
 use tautline_proofs::rescue::Demand;
+use tautline_sim::aside::{Aside, Foreign, Replaceable};
+use tautline_sim::explore::RuleName;
+use tautline_sim::fault::Fault;
+use tautline_sim::radio::ChannelName;
+use tautline_sim::rescue::{CallTimes, Fate, SchemeName, Setting, rescue as run, trace};
 
 use super::{numbers, told};
 

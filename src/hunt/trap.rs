@@ -1,50 +1,192 @@
-//! Traps as runs that anyone can replay: a [`Trap`] becomes the setup of agents in its layout, with the sensors that
-//! they miss written down.
+//! `tautline hunt` for agents on a sensor floor: the fewest missed sensors and the smallest layout that trap them.
 
-use tautline_proofs::trap::{Bounds, MAX_AGENTS, MAX_CELLS, Trap, Way};
+use std::fmt::Write;
+use std::ops::ControlFlow;
 
-use crate::explore::{Limits, OnViolation, RuleName, SchemeName, Setup};
-use crate::fault::Fault;
-use crate::layout::{Layout, Problem, Size};
+use serde::Serialize;
+use tautline_proofs::clause::Verdict;
+use tautline_proofs::run::Breach;
+use tautline_proofs::trap::{self, Bounds, End, Found, Trap, Way};
+use tautline_proofs::words::counted;
 
-/// Columns and rows of the layouts at most, if nobody says.
-pub const DEFAULT_SIDE: u64 = 4;
+use super::{Hunt, check_folder, keep};
+use crate::output::Output;
+use crate::{Exit, Format, SizeArg, interrupt, progress, usage};
+use tautline_sim::explore::{Misfit, RuleName, SchemeName, Setup};
+use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::hunt::store;
+use tautline_sim::hunt::trap::{DEFAULT_SIDE, bounds, setup};
+use tautline_sim::layout::Size;
+use tautline_sim::view;
+use tautline_sim::words::Worded;
 
-/// The bounds of a hunt for traps of so many agents that decide by `way`, in layouts of at most `size`.
-///
-/// # Errors
-/// A [`Fault`] if there are too few or too many agents or cells.
-pub fn bounds(way: Way, agents: u64, max_misses: u8, size: Size) -> Result<Bounds, Fault> {
-    let fitting = u32::try_from(agents).ok().filter(|agents| (1..=MAX_AGENTS).contains(agents));
-    let agents = fitting.ok_or_else(|| {
-        let what = format!("a hunt for traps of {agents} agents");
-        Fault::usage(what, format_args!("give --robots a number from 1 to {MAX_AGENTS}"))
-    })?;
-    if size.cells() > MAX_CELLS {
-        let what = format!("{size} cells are {}, too many to search all their layouts", size.cells());
-        let remedy = format!("give --size at most {MAX_CELLS} cells, for example 4x4 or 8x2");
-        return Err(Fault::usage(what, remedy));
-    }
-    let (max_width, max_height) = (size.width(), size.height());
-    Ok(Bounds { way, agents, max_misses, max_width, max_height, budget_steps: None })
+/// Agents when nobody says how many.
+const DEFAULT_AGENTS: u64 = 1;
+
+/// Sensors that are missed at most when nobody says how many.
+const DEFAULT_MISSES: u8 = 1;
+
+#[derive(Serialize)]
+struct Hunted {
+    scheme: SchemeName,
+    rule: RuleName,
+    robots: u32,
+    /// Columns and rows of the largest layouts.
+    size: String,
+    /// Layouts, anew for each number of misses; states of agents and floors; team moves between them.
+    layouts: u64,
+    states: u64,
+    steps: u64,
+    max_misses: u8,
+    /// Whether the search came to its end: the smallest trap, or all layouts within the bound.
+    complete: bool,
+    /// The most misses up to which every layout was covered.
+    misses_done: Option<u8>,
+    verdict: &'static str,
+    counterexamples: Vec<Stored>,
 }
 
-/// The run that `trap` is; it stops at the violation.
-///
-/// # Errors
-/// [`Problem`] if the trap does not fit into a layout.
-pub fn setup(scheme: SchemeName, rule: RuleName, trap: &Trap) -> Result<Setup, Problem> {
-    let mut layout = Layout::open(trap.width as u64, trap.height as u64)?;
-    for &cell in &trap.blocked {
-        layout.block(cell);
-    }
-    let base = match trap.starts.first() {
-        Some(&start) => start,
-        None => layout.default_base()?,
+#[derive(Serialize)]
+struct Stored {
+    clause: &'static str,
+    misses: usize,
+    columns: i16,
+    rows: i16,
+    steps: u32,
+    /// Where it is stored; a run without end is not, nor one that was left out.
+    file: Option<String>,
+    #[serde(skip)]
+    is_endless: bool,
+    #[serde(skip)]
+    setup: Setup,
+}
+
+/// Hunts for traps of agents that decide by `way`.
+pub(super) fn run(hunt: &Hunt, way: Way, out: &mut Output) -> Result<Exit, Halt> {
+    refuse(hunt)?;
+    check_folder(&hunt.out)?;
+    let size = match hunt.size {
+        Some(SizeArg(size)) => size,
+        None => Size::new(DEFAULT_SIDE, DEFAULT_SIDE).map_err(|problem| usage(&problem))?,
     };
-    layout.place_base(base)?;
-    let starts = Some(trap.starts.clone()).filter(|starts| starts.iter().any(|&start| start != base));
-    let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
-    let setup = Setup::new(scheme, rule, trap.starts.len() as u16, layout, base);
-    Ok(Setup { starts, missed: trap.missed.clone(), limits, ..setup })
+    let (agents, misses) = (hunt.robots.unwrap_or(DEFAULT_AGENTS), hunt.max_misses.unwrap_or(DEFAULT_MISSES));
+    let bounds = Bounds { budget_steps: hunt.budget, ..bounds(way, agents, misses, size)? };
+    interrupt::defer();
+    let found = search(&bounds);
+    let hunted = Hunted {
+        scheme: hunt.scheme,
+        rule: hunt.rule,
+        robots: bounds.agents,
+        size: size.to_string(),
+        layouts: found.layouts,
+        states: found.states,
+        steps: found.steps,
+        max_misses: bounds.max_misses,
+        complete: found.is_complete,
+        misses_done: found.levels.checked_sub(1),
+        verdict: verdict(&found).word(),
+        counterexamples: found.trap.iter().map(|trap| stored(hunt, trap, out)).collect::<Result<_, _>>()?,
+    };
+    match hunt.format.format {
+        Format::Json => out.json(&hunted)?,
+        Format::Text => out.text(tell(&hunted)?)?,
+    }
+    Ok(match (found.is_complete, &found.trap) {
+        (false, _) => Exit::Unfinished,
+        (true, Some(_)) => Exit::Violation,
+        (true, None) => Exit::Expected,
+    })
+}
+
+/// Refuses what is not asked of agents.
+fn refuse(hunt: &Hunt) -> Result<(), Fault> {
+    if (hunt.scheme, hunt.rule) == (SchemeName::BricksAnts, RuleName::Published) {
+        let misfit = Misfit::Rule(hunt.scheme);
+        return Err(Fault::usage(&misfit, misfit.remedy()));
+    }
+    if hunt.max_walls.is_some() {
+        let what = "agents know every wall: no number of walls bounds their search";
+        return Err(Fault::usage(what, "give --max-misses for the sensors, and --size for the layouts"));
+    }
+    if hunt.resume.is_some() {
+        let what = "a hunt for traps is not kept in a file";
+        return Err(Fault::usage(what, "leave --resume out; a smaller --size or --budget makes it shorter"));
+    }
+    Ok(())
+}
+
+fn search(bounds: &Bounds) -> Found {
+    let spinner = progress::spinner("hunting");
+    let found = trap::hunt(bounds, &mut |found| {
+        let Found { layouts, states, levels, .. } = found;
+        spinner.set_message(format!(
+            "misses {levels} of {}, layouts {layouts}, states {states}",
+            bounds.max_misses
+        ));
+        if interrupt::is_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    spinner.finish_and_clear();
+    found
+}
+
+const fn verdict(found: &Found) -> Verdict {
+    match (&found.trap, found.is_complete) {
+        (Some(_), _) => Verdict::Refuted,
+        (None, true) => Verdict::Holds,
+        (None, false) => Verdict::Open,
+    }
+}
+
+fn stored(hunt: &Hunt, trap: &Trap, out: &mut Output) -> Result<Stored, Halt> {
+    let setup = setup(hunt.scheme, hunt.rule, trap).map_err(|problem| usage(&problem))?;
+    let (clause, file) = match trap.end {
+        End::Done => {
+            let (file, _) = store(&hunt.out, &setup, Breach::Premature, &hunt.force.replaceable([]))?;
+            (Breach::Premature.clause(), keep(file, out))
+        }
+        End::Endless => (ENDLESS, None),
+    };
+    let (columns, rows) = (trap.width, trap.height);
+    let (misses, steps, is_endless) = (trap.missed.len(), trap.moves, trap.end == End::Endless);
+    Ok(Stored { clause, misses, columns, rows, steps, file, is_endless, setup })
+}
+
+/// The clause that a run without end breaks.
+const ENDLESS: &str = "BRICKS-5";
+
+fn tell(hunted: &Hunted) -> Result<String, Halt> {
+    let Hunted { scheme, rule, robots, size, layouts, states, steps, max_misses, misses_done, .. } = hunted;
+    let order = if *robots == 1 { "" } else { " that act in turn" };
+    let mut text = format!(
+        "{} ({rule}), {}{order}, at most {max_misses} missed, layouts up to {size}: {}, {}, {}\n",
+        scheme.word(),
+        counted(*robots, "agent"),
+        counted(*layouts, "layout"),
+        counted(*states, "state"),
+        counted(*steps, "team move"),
+    );
+    let bound = match misses_done {
+        Some(misses) if misses == max_misses => "in any layout within this bound".to_owned(),
+        Some(misses) => format!("with at most {misses} missed; the hunt was ended before its bound"),
+        None => "so far; the hunt was ended before it had covered all layouts".to_owned(),
+    };
+    // Writing to a string cannot fail.
+    let _ = match hunted.counterexamples[..] {
+        [] => writeln!(text, "No agent is trapped {bound}."),
+        _ => {
+            writeln!(text, "The fewest missed sensors and the smallest layout with which agents are trapped:")
+        }
+    };
+    for Stored { clause, misses, columns, rows, steps, file, is_endless, setup } in &hunted.counterexamples {
+        let steps = counted(*steps, "team move");
+        let _ = writeln!(text, "\n{clause}, {misses} missed, {columns}x{rows} cells, {steps}");
+        let _ = match is_endless {
+            false => writeln!(text, "\n{}", view::story::of_trap(setup)?),
+            true => writeln!(text, "\nA run without end in this layout:\n\n{}", setup.layout),
+        };
+        if let Some(file) = file {
+            let _ = writeln!(text, "replay it with: tautline replay {file}");
+        }
+    }
+    Ok(text)
 }

@@ -1,239 +1,243 @@
-//! Agents on the floors of offices (paper 004, V.B): how much is explored and marked as visited by Brick&Mortar, Ants and
-//! Brick&Mortar with ants' ways where sensors are missed, by the number of agents (Fig. 11) and by the area (Fig. 12); and
-//! how long they take where none is (the idealized conditions that the paper takes from its reference 2).
-//!
-//! Layouts are `office:SIDExSIDE:4x4`, all agents start at the cell nearest the centre, and all teams get the same
-//! layouts and seeds. A run that goes on is ended after a number of agents' steps, and counted.
+//! `tautline reproduce bricks-fig11`, `bricks-fig12` and `bricks-ideal`: agents on the floors of offices.
 
-use rayon::prelude::*;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
 use serde::Serialize;
-use tautline_kernel::ground::Cell;
-use tautline_kernel::{ants, bricks};
+use tautline_proofs::words::counted;
 
-use super::interval::Estimate;
-use crate::explore::agents::{self as explore, Way};
-use crate::explore::{RuleName, SchemeName};
-use crate::fault::{Fault, Halt, Watch};
-use crate::layout::generate::Probability;
-use crate::layout::{Generator, Layout, Problem};
+use crate::output::Output;
+use crate::{Exit, ForceArgs, Format, FormatArgs, number, progress};
+use tautline_sim::explore::SchemeName;
+use tautline_sim::fault::Halt;
+use tautline_sim::reproduce::Reproduction;
+use tautline_sim::reproduce::agents::{self, Duration, Extent, Figure, Line, TEAMS, Team};
+use tautline_sim::reproduce::interval::Estimate;
+use tautline_sim::view::chart::{Axis, LineChart, Point, Series, Stroke};
 
-/// A scheme under one of its rules.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
-pub struct Team {
-    /// The scheme.
-    pub scheme: SchemeName,
-    /// Its rule.
-    pub rule: RuleName,
-    #[serde(skip)]
-    way: Way,
-}
-
-/// The teams that are compared.
-pub const TEAMS: [Team; 4] = [
-    Team { scheme: SchemeName::Bricks, rule: RuleName::Repaired, way: Way::Bricks(bricks::Rule::REPAIRED) },
-    Team { scheme: SchemeName::BricksAnts, rule: RuleName::Repaired, way: Way::Bricks(bricks::Rule::ROBUST) },
-    Team { scheme: SchemeName::Ants, rule: RuleName::Repaired, way: Way::Ants(ants::Rule::Repaired) },
-    Team { scheme: SchemeName::Ants, rule: RuleName::Published, way: Way::Ants(ants::Rule::Published) },
-];
-
-/// The sensors that the paper's agents miss, of all.
-pub const MISS: Probability = Probability::new(0.0556).expect("a probability");
-
-/// The paper's area, and its team where it varies the area.
-const SIDE: u16 = 30;
-const AGENTS: u16 = 20;
-
-/// What is varied.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Figure {
-    /// The number of agents, with missed sensors.
-    Agents,
-    /// The area, with missed sensors.
-    Area,
-    /// The number of agents, nothing missed.
-    Ideal,
-}
-
-impl Figure {
-    /// Cells on a side, and agents, of each of its points.
-    pub fn points(self) -> Vec<(u16, u16)> {
-        match self {
-            Self::Agents => [1, 2, 5, 10, 15, 20, 25, 30, 35, 40].map(|agents| (SIDE, agents)).into(),
-            Self::Area => [10, 15, 20, 25, 30, 40, 50, 60].map(|side| (side, AGENTS)).into(),
-            Self::Ideal => [1, 2, 5, 10, 20, 40].map(|agents| (SIDE, agents)).into(),
-        }
-    }
-
-    /// How likely a sensor is missed.
-    pub const fn miss(self) -> Probability {
-        match self {
-            Self::Agents | Self::Area => MISS,
-            Self::Ideal => Probability::NEVER,
-        }
-    }
-}
-
-/// How much is measured.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Extent {
-    /// Layouts at each point.
-    pub layouts: u32,
-    /// The seed of the first one.
-    pub seed: u64,
-    /// Steps of all agents after which a run is ended.
-    pub max_steps: u32,
-}
-
-/// A team at a point.
-#[derive(Clone, PartialEq, Debug, Serialize)]
-pub struct Line {
-    /// Who explores.
-    #[serde(flatten)]
-    pub team: Team,
-    /// Cells on a side.
-    pub side: u16,
-    /// Agents.
-    pub agents: u16,
-    /// Cells explored, in percent.
-    pub explored: Estimate,
-    /// Cells visited in the end, in percent; ants mark none.
-    pub visited: Option<Estimate>,
-    /// Of the runs that explored every cell: how long until then.
-    pub exploration: Option<Duration>,
-    /// Of the runs in which all agents were done: how long until then.
-    pub termination: Option<Duration>,
-    /// Runs that were ended after too many steps.
-    pub ended: u32,
-}
-
-/// How long something took; of how many runs, says the count.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
-pub struct Duration {
-    /// In team moves.
-    pub team_moves: Estimate,
-    /// In seconds of the slowest agent.
-    pub seconds: Estimate,
-}
-
-/// When something was so.
-#[derive(Clone, Copy)]
-struct Moment {
-    team_moves: u32,
-    milliseconds: u64,
-}
-
-/// What came of one run.
-#[derive(Clone, Copy)]
-struct Outcome {
-    cells: u32,
-    explored: u32,
-    visited: u32,
-    exploration: Option<Moment>,
-    termination: Option<Moment>,
-    is_ended: bool,
-}
-
-/// Measures every point of `figure`. `watch` is called after each run.
-///
-/// # Errors
-/// [`Halt`], as `watch` returned it.
-pub fn measure(figure: Figure, extent: Extent, watch: &Watch<'_>) -> Result<Vec<Line>, Halt> {
-    let miss = figure.miss();
-    let mut lines = Vec::new();
-    for (side, agents) in figure.points() {
-        let description = format!("office:{side}x{side}:4x4");
-        let generator: Generator = description.parse().map_err(|problem| fault(&problem))?;
-        let runs = (0..u64::from(extent.layouts)).into_par_iter().map(|index| {
-            let seed = extent.seed.wrapping_add(index);
-            let layout = generator.generate(seed).map_err(|problem| fault(&problem))?;
-            let start = layout.default_base().map_err(|problem| fault(&problem))?;
-            let run = |team: Team| {
-                let outcome = follow(team.way, &layout, start, agents, miss, seed, extent.max_steps);
-                watch().map(|()| outcome)
-            };
-            TEAMS.into_iter().map(run).collect()
-        });
-        let runs: Vec<Vec<Outcome>> = runs.collect::<Result<_, Halt>>()?;
-        for (place, team) in TEAMS.into_iter().enumerate() {
-            let outcomes: Vec<Outcome> = runs.iter().map(|run| run[place]).collect();
-            lines.extend(Line::of(team, side, agents, &outcomes));
-        }
-    }
-    Ok(lines)
-}
-
-fn fault(problem: &Problem) -> Fault {
-    Fault::usage(problem, problem.remedy())
-}
-
-fn follow(
-    way: Way,
-    layout: &Layout,
-    start: Cell,
-    agents: u16,
-    miss: Probability,
+/// Agents on the floors of offices: what they explore and mark, and how long they take.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  tautline reproduce bricks-fig11 --svg fig11.svg
+  tautline reproduce bricks-ideal --layouts 20 --format json")]
+pub(super) struct Agents {
+    /// Random layouts at each point.
+    #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    layouts: u32,
+    /// The seed of the first layout and its runs; the others have the seeds after it.
+    #[arg(long, default_value = "0", value_parser = number::<u64>)]
     seed: u64,
+    /// Steps of all agents together after which a run is ended.
+    #[arg(long, value_name = "STEPS", default_value_t = 200_000, value_parser = clap::value_parser!(u32).range(1..))]
     max_steps: u32,
-) -> Outcome {
-    let mut team = explore::Team::new(way, layout, &vec![start; agents.into()], miss, seed);
-    let (mut team_moves, mut steps, mut exploration) = (0, 0, None);
-    let now = |team: &explore::Team, team_moves| Moment { team_moves, milliseconds: team.milliseconds() };
-    while !team.is_over() && steps < max_steps {
-        team_moves += 1;
-        steps += team.active();
-        team.advance();
-        if exploration.is_none() && team.explored() == team.due() {
-            exploration = Some(now(&team, team_moves));
+    /// Store a chart.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceArgs,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+#[derive(Serialize)]
+struct Measured<'a> {
+    id: &'static str,
+    layouts: u32,
+    seed: u64,
+    miss: f64,
+    max_steps: u32,
+    lines: &'a [Line],
+    paper: &'a [Printed],
+}
+
+/// A figure that the paper prints, and ours.
+#[derive(Serialize)]
+struct Printed {
+    what: &'static str,
+    paper: f64,
+    ours: Estimate,
+    difference: f64,
+}
+
+impl Agents {
+    pub(super) fn run(
+        &self,
+        reproduction: Reproduction,
+        figure: Figure,
+        out: &mut Output,
+    ) -> Result<Exit, Halt> {
+        let [file] = self.force.files([&self.svg], [])?;
+        let runs = u64::from(self.layouts) * (figure.points().len() * TEAMS.len()) as u64;
+        let extent = Extent { layouts: self.layouts, seed: self.seed, max_steps: self.max_steps };
+        let lines = progress::during("exploring", runs, |watch| agents::measure(figure, extent, watch))?;
+        let printed = printed(figure, &lines);
+        if let Some(mut file) = file {
+            file.append(chart(figure, &lines).svg());
+            out.keep(file);
+        }
+        match self.format.format {
+            Format::Json => out.json(&Measured {
+                id: reproduction.id(),
+                layouts: self.layouts,
+                seed: self.seed,
+                miss: figure.miss().into(),
+                max_steps: self.max_steps,
+                lines: &lines,
+                paper: &printed,
+            })?,
+            Format::Text => out.text(self.text(figure, &lines, &printed))?,
+        }
+        Ok(Exit::Expected)
+    }
+
+    fn text(&self, figure: Figure, lines: &[Line], printed: &[Printed]) -> String {
+        let missed = match figure {
+            Figure::Agents | Figure::Area => "5.56 % of the sensors missed",
+            Figure::Ideal => "no sensor missed",
+        };
+        let mut text = format!(
+            "Offices of 4x4 rooms, {missed}, {} at each point, seeds from {}; means with 95 % intervals\n\n",
+            counted(self.layouts, "layout"),
+            self.seed
+        );
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{:7} {:>6}  {:16} {:>15} {:>15} {:>26} {:>26} {:>5}",
+            "area",
+            "agents",
+            "team",
+            "% explored",
+            "% visited",
+            "moves until explored",
+            "moves until done",
+            "ended"
+        );
+        for line in lines {
+            let area = format!("{0}x{0}", line.side);
+            let visited = line.visited.map_or_else(|| "-".to_owned(), |visited| visited.text(1));
+            let _ = writeln!(
+                text,
+                "{area:7} {:>6}  {:16} {:>15} {visited:>15} {:>26} {:>26} {:>5}",
+                line.agents,
+                line.team.name(),
+                line.explored.text(1),
+                self.of_runs(line.exploration, |duration| duration.team_moves.text(0)),
+                self.of_runs(line.termination, |duration| duration.team_moves.text(0)),
+                line.ended
+            );
+        }
+        let _ = writeln!(
+            text,
+            "\nended: runs that were stopped after {} of all agents. Where fewer than all runs explored every cell, or \
+             were\ndone, their number follows.",
+            counted(self.max_steps, "step")
+        );
+        match figure {
+            Figure::Agents | Figure::Area => {}
+            Figure::Ideal => text.push_str(&self.seconds(lines)),
+        }
+        let _ = writeln!(text, "\n{:40}  paper           ours  difference", "");
+        for Printed { what, paper, ours, difference } in printed {
+            let _ = writeln!(text, "{what:40}  {paper:>5.1}  {:>13}  {difference:>+10.1}", ours.text(1));
+        }
+        text
+    }
+
+    /// How long something took, and in how many runs if not in all.
+    fn of_runs(&self, duration: Option<Duration>, text: impl Fn(Duration) -> String) -> String {
+        match duration {
+            None => "never".to_owned(),
+            Some(duration) if duration.seconds.count < self.layouts => {
+                format!("{} ({})", text(duration), duration.seconds.count)
+            }
+            Some(duration) => text(duration),
         }
     }
-    Outcome {
-        cells: team.due(),
-        explored: team.explored(),
-        visited: team.visited(),
-        exploration,
-        termination: (team.active() == 0).then(|| now(&team, team_moves)),
-        is_ended: !team.is_over(),
+
+    fn seconds(&self, lines: &[Line]) -> String {
+        let mut text = format!(
+            "\nHours of the slowest agent\n{:>6}  {:16} {:>20} {:>20}\n",
+            "agents", "team", "until explored", "until done"
+        );
+        let hours = |duration: Duration| duration.seconds.times(1.0 / 3600.0).text(1);
+        for line in lines {
+            let (explored, done) =
+                (self.of_runs(line.exploration, hours), self.of_runs(line.termination, hours));
+            let _ = writeln!(text, "{:>6}  {:16} {explored:>20} {done:>20}", line.agents, line.team.name());
+        }
+        text
     }
 }
 
-impl Team {
-    /// Its name: the scheme, with its rule where that is the published one.
-    pub fn name(self) -> String {
-        match self.rule {
-            RuleName::Repaired => self.scheme.word().to_owned(),
-            RuleName::Published => format!("{} ({})", self.scheme.word(), self.rule),
+/// What the paper says in numbers: of Brick&Mortar in Fig. 11, and that Ants explore everything.
+fn printed(figure: Figure, lines: &[Line]) -> Vec<Printed> {
+    let [bricks, _, ants, ants_published] = TEAMS;
+    let one = lines.iter().find(|line| (line.team, line.agents) == (bricks, 1));
+    let one = one.filter(|_| figure == Figure::Agents);
+    let least = |team: Team| {
+        let explored = lines.iter().filter(|line| line.team == team).map(|line| line.explored);
+        explored.min_by(|one, other| one.mean.total_cmp(&other.mean))
+    };
+    let claims = [
+        ("% explored by one agent of bricks", 50.0, one.map(|line| line.explored)),
+        ("% visited by one agent of bricks", 40.0, one.and_then(|line| line.visited)),
+        ("% explored by ants, at least", 100.0, least(ants)),
+        ("% explored by ants (published), at least", 100.0, least(ants_published)),
+    ];
+    let printed = claims.into_iter().filter_map(|(what, paper, ours)| {
+        ours.map(|ours| Printed { what, paper, ours, difference: ours.mean - paper })
+    });
+    printed.collect()
+}
+
+fn chart(figure: Figure, lines: &[Line]) -> LineChart {
+    let along = |line: &Line| match figure {
+        Figure::Agents | Figure::Ideal => f64::from(line.agents),
+        Figure::Area => f64::from(line.side) * f64::from(line.side),
+    };
+    let series = |name: String, team: Team, of: &dyn Fn(&Line) -> Option<Estimate>| {
+        let lines = lines.iter().filter(|line| line.team == team);
+        let points: Vec<Point> =
+            lines.filter_map(|line| of(line).map(|estimate| estimate.at(along(line)))).collect();
+        Series { name, stroke: Stroke::Solid, points }
+    };
+    let mut drawn = Vec::new();
+    for team in TEAMS {
+        let word = team.name();
+        match figure {
+            Figure::Agents | Figure::Area => {
+                drawn.push(series(format!("{word}: explored"), team, &|line| Some(line.explored)));
+                drawn.push(series(format!("{word}: visited"), team, &|line| line.visited));
+            }
+            Figure::Ideal => {
+                let explored = |line: &Line| line.exploration.map(|duration| duration.team_moves);
+                let done = |line: &Line| line.termination.map(|duration| duration.team_moves);
+                drawn.push(series(format!("{word}: until explored"), team, &explored));
+                drawn.push(series(format!("{word}: until done"), team, &done));
+            }
+        }
+        let printed: &[(&str, f64)] = match (figure, team.scheme) {
+            (Figure::Agents, SchemeName::Bricks) => &[("explored", 50.0), ("visited", 40.0)],
+            (Figure::Agents | Figure::Area | Figure::Ideal, _) => &[],
+        };
+        for (what, percent) in printed {
+            let points = vec![Point { x: 1.0, y: *percent, interval: None }];
+            drawn.push(Series { name: format!("{word}: {what}, paper"), stroke: Stroke::Dashed, points });
         }
     }
-}
-
-impl Line {
-    fn of(team: Team, side: u16, agents: u16, outcomes: &[Outcome]) -> Option<Self> {
-        let percent = |number: fn(&Outcome) -> u32| {
-            let share = |outcome: &Outcome| 100.0 * f64::from(number(outcome)) / f64::from(outcome.cells);
-            Estimate::of_values(&outcomes.iter().map(share).collect::<Vec<_>>())
-        };
-        let visited = match team.way {
-            Way::Ants(_) => None,
-            Way::Bricks(_) => percent(|outcome| outcome.visited),
-        };
-        Some(Self {
-            team,
-            side,
-            agents,
-            explored: percent(|outcome| outcome.explored)?,
-            visited,
-            exploration: Duration::of(outcomes.iter().filter_map(|outcome| outcome.exploration)),
-            termination: Duration::of(outcomes.iter().filter_map(|outcome| outcome.termination)),
-            ended: outcomes.iter().filter(|outcome| outcome.is_ended).count() as u32,
-        })
-    }
-}
-
-impl Duration {
-    #[expect(clippy::cast_precision_loss, reason = "no run takes 2⁵³ milliseconds")]
-    fn of(moments: impl Iterator<Item = Moment>) -> Option<Self> {
-        let (moves, seconds): (Vec<f64>, Vec<f64>) =
-            moments.map(|moment| (f64::from(moment.team_moves), moment.milliseconds as f64 / 1000.0)).unzip();
-        Some(Self { team_moves: Estimate::of_values(&moves)?, seconds: Estimate::of_values(&seconds)? })
-    }
+    drawn.retain(|series| !series.points.is_empty());
+    let (x, y) = match figure {
+        Figure::Agents => (Axis::new("agents", ""), Axis::new("cells", "%").showing([0.0, 100.0])),
+        Figure::Area => (Axis::new("area", "cells"), Axis::new("cells", "%").showing([0.0, 100.0])),
+        Figure::Ideal => (Axis::new("agents", ""), Axis::new("team moves", "").showing([0.0, 0.0])),
+    };
+    let title = match figure {
+        Figure::Agents => "Offices of 30x30 cells, 5.56 % of the sensors missed",
+        Figure::Area => "Offices, 20 agents, 5.56 % of the sensors missed",
+        Figure::Ideal => "Offices of 30x30 cells, no sensor missed",
+    };
+    LineChart { title: title.to_owned(), x, y, series: drawn }
 }

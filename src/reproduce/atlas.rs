@@ -1,183 +1,117 @@
-//! The atlas of the chain: for each rule and number of robots, what becomes of all runs in all layouts within a bound
-//! on the walls met. All counts are exact.
+//! `tautline reproduce atlas`: what becomes of all runs in all layouts.
 
-use std::ops::ControlFlow;
+use std::fmt::Write;
 
+use clap::Args;
 use serde::Serialize;
-use tautline_kernel::ground::{Cell, Edge};
-use tautline_proofs::invariant::Invariant;
-use tautline_proofs::run::Breach;
-use tautline_proofs::search::{Bounds, Counterexample, Progress};
+use tautline_proofs::words::counted;
 
-use crate::explore::RuleName;
-use crate::fault::Halt;
-use crate::hunt;
+use crate::output::Output;
+use crate::{Exit, Format, FormatArgs, progress};
+use tautline_sim::explore::RuleName;
+use tautline_sim::fault::Halt;
+use tautline_sim::reproduce::Reproduction;
+use tautline_sim::reproduce::atlas::{self, BEYOND, Broken, CLAUSES, DEEP, Line, QUICK};
 
-/// A number of robots, and the bound on the walls that one run meets.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Sheet {
-    /// Robots, base included.
-    pub robots: u16,
-    /// Most walls that are met in one run.
-    pub max_walls: u32,
-    /// Whether it is asked what a chain could have reached by any team moves at all.
-    pub reach: Reach,
+const EXAMPLES: &str = "\
+Examples:
+  tautline reproduce atlas
+  tautline reproduce atlas --deep --format json";
+
+/// What becomes of all runs in all layouts with few walls, by rule and number of robots.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Atlas {
+    /// More walls: many minutes instead of seconds.
+    #[arg(long)]
+    deep: bool,
+    #[command(flatten)]
+    format: FormatArgs,
 }
 
-/// Whether runs are counted that miss a cell which is not within reach but which a chain could reach all the same: that
-/// takes long.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Reach {
-    /// They are.
-    Counted,
-    /// They are not.
-    LeftOut,
+#[derive(Serialize)]
+struct Drawn {
+    id: &'static str,
+    lines: Vec<Line>,
 }
 
-const fn sheet(robots: u16, max_walls: u32, reach: Reach) -> Sheet {
-    Sheet { robots, max_walls, reach }
+impl Atlas {
+    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        let sheets = if self.deep { DEEP } else { QUICK };
+        let mut lines = Vec::new();
+        for sheet in sheets {
+            for rule in RuleName::ALL {
+                let bar = progress::bar(format!("{} robots, {rule}", sheet.robots), 1);
+                lines.push(atlas::line(sheet, rule, &mut |now| progress::show(&bar, now))?);
+                bar.finish_and_clear();
+            }
+        }
+        // That some chain-reachable cells are missed is registered; all else the repaired rule must keep to.
+        let is_broken = |line: &Line| {
+            line.rule == RuleName::Repaired && line.broken.iter().any(|broken| broken.clause != BEYOND)
+        };
+        let exit = if lines.iter().any(is_broken) { Exit::Violation } else { Exit::Expected };
+        match self.format.format {
+            Format::Json => out.json(&Drawn { id: Reproduction::Atlas.id(), lines })?,
+            Format::Text => out.text(text(&lines))?,
+        }
+        Ok(exit)
+    }
 }
 
-/// What takes seconds. All 12 edges of two robots can be walls: nothing is left out.
-pub const QUICK: [Sheet; 6] = [
-    sheet(2, 12, Reach::Counted),
-    sheet(3, 5, Reach::Counted),
-    sheet(4, 4, Reach::Counted),
-    sheet(5, 3, Reach::Counted),
-    sheet(6, 2, Reach::LeftOut),
-    sheet(8, 1, Reach::LeftOut),
-];
-
-/// What takes the better part of an hour.
-pub const DEEP: [Sheet; 6] = [
-    sheet(2, 12, Reach::Counted),
-    sheet(3, 8, Reach::LeftOut),
-    sheet(4, 6, Reach::LeftOut),
-    sheet(5, 5, Reach::LeftOut),
-    sheet(6, 3, Reach::LeftOut),
-    sheet(8, 2, Reach::LeftOut),
-];
-
-/// One rule on one sheet.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
-pub struct Line {
-    /// As published or repaired.
-    pub rule: RuleName,
-    /// Robots, base included.
-    pub robots: u16,
-    /// Most walls that are met in one run.
-    pub max_walls: u32,
-    /// Edges that can be walls.
-    pub edges: u32,
-    /// Layouts with at most so many walls: all of them are covered, and those with more of which no run meets more.
-    #[serde(serialize_with = "as_string")]
-    pub layouts: u128,
-    /// Leaves of the tree of runs.
-    pub runs: u64,
-    /// Its edges.
-    pub moves: u64,
-    /// Team moves of the longest run.
-    pub longest: u32,
-    /// What the runs break.
-    pub broken: Vec<Broken>,
-    /// Whether it was looked for runs that break CHAIN-14 and not CHAIN-13.
-    pub looked_beyond: bool,
-}
-
-fn as_string<S: serde::Serializer>(number: &u128, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_str(number)
-}
-
-/// The runs that break a clause.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
-pub struct Broken {
-    /// Its id.
-    pub clause: &'static str,
-    /// How many.
-    pub runs: u64,
-    /// Walls of the smallest.
-    pub walls: Vec<[Cell; 2]>,
-    /// Its team moves.
-    pub steps: usize,
-}
-
-impl Broken {
-    fn of(found: &Counterexample) -> Self {
-        let between = |wall: &Edge| [wall.cell(), wall.cell().beyond(wall.side())];
-        Self {
-            clause: found.invariant.clause(),
-            runs: found.runs,
-            walls: found.walls.iter().map(between).collect(),
-            steps: found.frames.len(),
+fn text(lines: &[Line]) -> String {
+    let mut text = String::from(
+        "All runs in all layouts of (2N−1)² cells, the base in the middle, by the walls that a run meets at most\n\n",
+    );
+    let heads = ["N", "walls", "rule", "layouts", "runs", "team moves", "longest"].map(str::to_owned);
+    let head = heads.into_iter().chain(CLAUSES.map(str::to_owned)).collect();
+    let row = |line: &Line| {
+        let Line { rule, robots, max_walls, layouts, runs, moves, longest, .. } = line;
+        let counts = CLAUSES.map(|clause| match line.broken.iter().find(|broken| broken.clause == clause) {
+            Some(broken) => broken.runs.to_string(),
+            None if clause == BEYOND && !line.looked_beyond => "-".to_owned(),
+            None => "0".to_owned(),
+        });
+        [
+            robots.to_string(),
+            max_walls.to_string(),
+            rule.to_string(),
+            layouts.to_string(),
+            runs.to_string(),
+            moves.to_string(),
+            longest.to_string(),
+        ]
+        .into_iter()
+        .chain(counts)
+        .collect()
+    };
+    let rows: Vec<Vec<String>> = [head].into_iter().chain(lines.iter().map(row)).collect();
+    let width = |column: usize| rows.iter().map(|row| row[column].len()).max().unwrap_or(0);
+    for row in &rows {
+        let cells: Vec<String> =
+            row.iter().enumerate().map(|(column, cell)| format!("{cell:>0$}", width(column))).collect();
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{}", cells.join("  "));
+    }
+    text.push_str(
+        "\nlayouts: with at most so many walls, all covered · runs, team moves: leaves and edges of the tree of runs ·\n\
+         longest: team moves of the longest run · CHAIN-…: runs that break the clause and none before it; they end\n\
+         there · -: not looked for\n\
+         \nThe smallest counterexamples\n",
+    );
+    for line in lines {
+        for Broken { clause, walls, steps, .. } in &line.broken {
+            let walls: Vec<String> = walls.iter().map(|[one, other]| format!("{one}|{other}")).collect();
+            let _ = writeln!(
+                text,
+                "{} robots, {}: {clause}, {}, {}: {}",
+                line.robots,
+                line.rule,
+                counted(walls.len(), "wall"),
+                counted(*steps, "team move"),
+                walls.join(" ")
+            );
         }
     }
-}
-
-/// The clauses of the atlas, in order.
-pub const CLAUSES: [&str; 6] = [
-    Breach::Contact.clause(),
-    Breach::Crowding.clause(),
-    Breach::Coverage.clause(),
-    Invariant::Ends.clause(),
-    Breach::Completeness.clause(),
-    BEYOND,
-];
-
-/// The clause that is looked for only where it is quickly decided.
-pub const BEYOND: &str = Invariant::Exhausts.clause();
-
-/// Searches all layouts of `sheet` under `rule`. `watch` hears how far the search is, and may stop the work.
-///
-/// # Errors
-/// [`Halt`] if it was stopped.
-pub fn line(
-    sheet: Sheet,
-    rule: RuleName,
-    watch: &mut dyn FnMut(&Progress<'_>) -> ControlFlow<()>,
-) -> Result<Line, Halt> {
-    let mut bounds = Bounds::new(rule.subject(), sheet.robots.into(), sheet.max_walls);
-    if sheet.reach == Reach::Counted {
-        bounds.invariants.push(Invariant::Exhausts);
-    }
-    let mut search = hunt::start(&bounds)?;
-    while search.wave() {
-        if watch(&search.progress()).is_break() {
-            return Err(Halt::Interrupted);
-        }
-    }
-    let edges = search.progress().edges;
-    let found = search.found();
-    Ok(Line {
-        rule,
-        robots: sheet.robots,
-        max_walls: sheet.max_walls,
-        edges,
-        layouts: layouts(edges, sheet.max_walls),
-        runs: found.runs,
-        moves: found.moves,
-        longest: found.longest,
-        broken: found.counterexamples.iter().map(Broken::of).collect(),
-        looked_beyond: sheet.reach == Reach::Counted,
-    })
-}
-
-/// The number of sets of at most `most` of `edges`.
-fn layouts(edges: u32, most: u32) -> u128 {
-    let sets = (0..u128::from(most)).scan(1_u128, |sets, less| {
-        *sets = *sets * u128::from(edges).saturating_sub(less) / (less + 1);
-        Some(*sets)
-    });
-    1 + sets.sum::<u128>()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn layouts_are_counted_as_sets_of_walls() {
-        assert_eq!(layouts(12, 12), 1 << 12);
-        assert_eq!(layouts(84, 0), 1);
-        assert_eq!(layouts(84, 2), 1 + 84 + 84 * 83 / 2);
-    }
+    text
 }

@@ -1,229 +1,153 @@
-//! Figure 5 of paper 003: how many nodes of a random network a broadcast reaches, and how many forward it, by scheme and
-//! density. The paper counts all nodes; those that no link connects to the source nothing can reach, so the reach within
-//! the source's component stands beside it. Every scheme broadcasts over the same topologies, from the same sources.
+//! `tautline reproduce notice-fig5`: how far broadcasts reach, and how many nodes forward them.
 
-use rayon::prelude::*;
+use std::path::PathBuf;
+
+use clap::Args;
 use serde::Serialize;
-use std::num::NonZeroU32;
-use tautline_kernel::choice::Oracle;
-use tautline_kernel::net::NodeId;
-use tautline_kernel::notice::{Count, Rule, Scheme};
-use tautline_proofs::engine::Seeded;
+use tautline_kernel::notice::Count;
+use tautline_proofs::words::counted;
 
-use super::interval::{Estimate, decimals, rounded};
-use crate::fault::{Fault, Halt, Watch};
-use crate::radio::{
-    Area, Channel, Faults, Field, LONGEST_WAIT_NS, Model, Network, Problem, Radio, broadcast,
-};
-use crate::view::chart::{Axis, LineChart, Series, Stroke};
+use super::table::Table;
+use crate::chosen::chosen;
+use crate::output::Output;
+use crate::{Exit, ForceArgs, Format, FormatArgs, count, number, progress, real, whole};
+use tautline_sim::fault::Halt;
+use tautline_sim::radio::ChannelName;
+use tautline_sim::reproduce::Reproduction;
+use tautline_sim::reproduce::interval::Estimate;
+use tautline_sim::reproduce::notice_fig5::{self, Density, NODES, Part, RANGE_M, SIDE_M, Setting};
+use tautline_sim::words::Worded;
 
-/// The numbers of nodes of the paper.
-pub const NODES: [usize; 5] = [300, 500, 700, 900, 1100];
+const EXAMPLES: &str = "\
+Examples:
+  tautline reproduce notice-fig5
+  tautline reproduce notice-fig5 --svg-reach reach.svg --svg-rebroadcasts rebroadcasts.svg
+  tautline reproduce notice-fig5 --nodes 300 --k 1,2,4,8 --topologies 1000 --format json
+  tautline reproduce notice-fig5 --channel shared";
 
-/// The side of the paper's square, in metres.
-pub const SIDE_M: f64 = 300.0;
-
-/// The paper's radio range, in metres.
-pub const RANGE_M: f64 = 25.0;
-
-/// The k of the paper's figure, and what it has k-FNF reach there: “near 100 %”, at every density. All else it draws
-/// only.
-const PAPER: (Count, f64) = (Count::ONE, 1.0);
-
-/// What is measured.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Setting {
+/// How many nodes a broadcast reaches, and how many forward it, by scheme and density.
+///
+/// Nodes at random places in a square, from a random source: of all nodes, and of those that links connect to the
+/// source.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct NoticeFig5 {
     /// Numbers of nodes.
-    pub nodes: Vec<usize>,
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_values_t = NODES, value_parser = whole::<usize>)]
+    nodes: Vec<usize>,
     /// The side of the square, in metres.
-    pub side_m: f64,
+    #[arg(long, value_name = "METRES", default_value_t = SIDE_M, value_parser = real)]
+    side: f64,
     /// The radio range, in metres.
-    pub range_m: f64,
-    /// The k of k-FNF.
-    pub ks: Vec<Count>,
+    #[arg(long, value_name = "METRES", default_value_t = RANGE_M, value_parser = real)]
+    range: f64,
+    /// The k of k-FNF: how many senders, the first not counted, make a node silent.
+    #[arg(long, value_name = "LIST", value_delimiter = ',', default_value = "1,2,3", value_parser = count)]
+    k: Vec<Count>,
     /// Topologies for each number of nodes.
-    pub topologies: u32,
-    /// The seed of all of them.
-    pub seed: u64,
-    /// The channel.
-    pub channel: Channel,
+    #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    topologies: u32,
+    /// The seed of all topologies.
+    #[arg(long, default_value = "0", value_parser = number::<u64>)]
+    seed: u64,
+    /// What lies between the nodes.
+    #[arg(long, value_parser = chosen::<ChannelName>(), default_value = "ideal")]
+    channel: ChannelName,
+    /// Store the reach as a picture.
+    #[arg(long, value_name = "FILE")]
+    svg_reach: Option<PathBuf>,
+    /// Store the rebroadcasts as a picture.
+    #[arg(long, value_name = "FILE")]
+    svg_rebroadcasts: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceArgs,
+    #[command(flatten)]
+    format: FormatArgs,
 }
 
-/// All schemes at one number of nodes.
-#[derive(Clone, PartialEq, Debug, Serialize)]
-pub struct Density {
-    /// The number of nodes.
-    pub nodes: usize,
-    /// The share of the topologies in which links connect all nodes.
-    pub connected: Estimate,
-    /// The share of the nodes that links connect to the source, the source included.
-    pub component: Estimate,
-    /// Scheme by scheme.
-    pub schemes: Vec<Line>,
+#[derive(Serialize)]
+struct Measured<'a> {
+    id: &'static str,
+    side_m: f64,
+    range_m: f64,
+    topologies: u32,
+    seed: u64,
+    channel: ChannelName,
+    densities: &'a [Density],
 }
 
-/// One scheme at one number of nodes.
-#[derive(Clone, PartialEq, Debug, Serialize)]
-pub struct Line {
-    /// The scheme.
-    pub scheme: String,
-    /// The share of all nodes that know of the event in the end, the source included.
-    pub reach: Estimate,
-    /// What the paper says of it.
-    pub paper: Option<f64>,
-    /// Ours less the paper's.
-    pub difference: Option<f64>,
-    /// The share of the nodes of the source's component that do.
-    pub reach_component: Estimate,
-    /// Nodes that forward, the source not included.
-    pub rebroadcasts: Estimate,
-}
-
-/// One topology: the nodes that links connect to the source, and scheme by scheme the nodes reached and the
-/// rebroadcasts.
-struct Sample {
-    component: u32,
-    schemes: Vec<(u32, u32)>,
-}
-
-impl Setting {
-    /// The schemes of the figure by name, k-FNF for each k.
-    fn schemes(&self, range_um: u32) -> Vec<(String, Scheme)> {
-        let farthest = |&k: &Count| (format!("k-fnf k={}", k.get()), Scheme::Farthest { k: Some(k) });
-        let counter = |below: Count| (format!("counter C={}", below.get()), Scheme::Counter { below });
-        let distance = |tenths: u32| {
-            let least_um = (u64::from(range_um) * u64::from(tenths) / 10) as u32;
-            (format!("distance 0.{tenths}"), Scheme::Distance { least_um })
+impl NoticeFig5 {
+    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        let charts = self.force.files([&self.svg_reach, &self.svg_rebroadcasts], [])?;
+        let setting = Setting {
+            nodes: self.nodes.clone(),
+            side_m: self.side,
+            range_m: self.range,
+            ks: self.k.clone(),
+            topologies: self.topologies,
+            seed: self.seed,
+            channel: self.channel.channel(),
         };
-        let rivals = [2, 3].into_iter().filter_map(Count::new).map(counter).chain([8, 5].map(distance));
-        let plain = [("sba".to_owned(), Scheme::Scalable), ("flooding".to_owned(), Scheme::Flooding)];
-        self.ks.iter().map(farthest).chain(rivals).chain(plain).collect()
-    }
-
-    /// Measures everything. `watch` is called after each topology. The result is the same on any number of
-    /// threads.
-    ///
-    /// # Errors
-    /// [`Halt`], as `watch` returned it, or if the setting makes no network.
-    pub fn measure(&self, watch: &Watch<'_>) -> Result<Vec<Density>, Halt> {
-        let area = Area::new(self.side_m, self.side_m).map_err(usage)?;
-        let radio = Radio::new(self.range_m, Model::Disc).map_err(usage)?;
-        let range_um = radio.range_um();
-        let schemes = self.schemes(range_um.get());
-        let density = |&nodes: &usize| {
-            // What is wrong with all is to be the same fault each time, not that of whichever thread is first.
-            self.sample(area, radio, range_um, nodes, 0, &[]).map_err(usage)?;
-            let topologies = (0..u64::from(self.topologies)).into_par_iter();
-            let samples = topologies.map(|topology| {
-                let sample = self.sample(area, radio, range_um, nodes, topology, &schemes).map_err(usage)?;
-                watch()?;
-                Ok(sample)
-            });
-            let samples: Vec<Sample> = samples.collect::<Result<_, Halt>>()?;
-            Ok(self.density(nodes, &samples, &schemes))
-        };
-        self.nodes.iter().map(density).collect()
-    }
-
-    /// The topology has a stream of answers to itself; each scheme draws its waits from another.
-    fn sample(
-        &self,
-        area: Area,
-        radio: Radio,
-        range_um: NonZeroU32,
-        nodes: usize,
-        topology: u64,
-        schemes: &[(String, Scheme)],
-    ) -> Result<Sample, Problem> {
-        let chance = &mut Seeded::new(self.seed, 2 * topology);
-        let field = Field::random(area, Vec::new(), nodes, chance)?;
-        let network = Network::new(&field, radio, chance)?;
-        let source = NodeId(chance.pick(nodes as u32));
-        let schemes = schemes.iter().map(|&(_, scheme)| {
-            let rule = Rule::new(scheme, range_um, LONGEST_WAIT_NS);
-            let chance = &mut Seeded::new(self.seed, 2 * topology + 1);
-            let (report, _) = broadcast(&network, &rule, self.channel, &Faults::NONE, source, chance)?;
-            Ok((report.reached, report.rebroadcasts))
-        });
-        let schemes = schemes.collect::<Result<_, Problem>>()?;
-        Ok(Sample { component: network.component(source) as u32, schemes })
-    }
-
-    fn density(&self, nodes: usize, samples: &[Sample], schemes: &[(String, Scheme)]) -> Density {
-        let all = f64::from(nodes as u32);
-        let mean = |value: &dyn Fn(&Sample) -> f64| {
-            Estimate::of_values(&samples.iter().map(value).collect::<Vec<_>>()).unwrap_or(Estimate::NOTHING)
-        };
-        let connected = samples.iter().filter(|sample| sample.component as usize == nodes).count() as u32;
-        let is_papers = self.side_m == SIDE_M && self.range_m == RANGE_M && NODES.contains(&nodes);
-        let line = |(place, (name, scheme)): (usize, &(String, Scheme))| {
-            let (paper_k, paper_reach) = PAPER;
-            let reach = mean(&|sample| f64::from(sample.schemes[place].0) / all);
-            let is_paper = is_papers && *scheme == Scheme::Farthest { k: Some(paper_k) };
-            let paper = is_paper.then_some(paper_reach);
-            Line {
-                scheme: name.clone(),
-                reach: rounded(reach, 1e4),
-                paper,
-                difference: paper.map(|paper| decimals(reach.mean - paper, 1e4)),
-                reach_component: rounded(
-                    mean(&|sample| f64::from(sample.schemes[place].0) / f64::from(sample.component)),
-                    1e4,
-                ),
-                rebroadcasts: rounded(mean(&|sample| f64::from(sample.schemes[place].1)), 1e2),
+        let topologies = u64::from(self.topologies) * self.nodes.len() as u64;
+        let densities = progress::during("broadcasting", topologies, |watch| setting.measure(watch))?;
+        for (chart, part) in charts.into_iter().zip([Part::Reach, Part::Rebroadcasts]) {
+            if let Some(mut chart) = chart {
+                chart.append(notice_fig5::chart(part, &densities).svg());
+                out.keep(chart);
             }
-        };
-        Density {
-            nodes,
-            connected: rounded(Estimate::share(connected, self.topologies).unwrap_or(Estimate::NOTHING), 1e4),
-            component: rounded(mean(&|sample| f64::from(sample.component) / all), 1e4),
-            schemes: schemes.iter().enumerate().map(line).collect(),
         }
+        match self.format.format {
+            Format::Json => out.json(&Measured {
+                id: Reproduction::NoticeFig5.id(),
+                side_m: self.side,
+                range_m: self.range,
+                topologies: self.topologies,
+                seed: self.seed,
+                channel: self.channel,
+                densities: &densities,
+            })?,
+            Format::Text => out.text(self.table(&densities))?,
+        }
+        Ok(Exit::Expected)
     }
-}
 
-pub(super) fn usage(problem: Problem) -> Halt {
-    Fault::usage(problem, problem.remedy()).into()
-}
-
-/// The two parts of the figure.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Part {
-    /// (a): the reach of all nodes, in percent.
-    Reach,
-    /// (b): the rebroadcasts.
-    Rebroadcasts,
-}
-
-/// A part of the figure as a chart.
-pub fn chart(part: Part, densities: &[Density]) -> LineChart {
-    let names = densities.first().map_or(&[][..], |density| &density.schemes);
-    let points = |place: usize| {
-        let point = |density: &Density| {
-            let line = density.schemes.get(place)?;
-            let estimate = match part {
-                Part::Reach => line.reach.times(100.0),
-                Part::Rebroadcasts => line.rebroadcasts,
-            };
-            Some(estimate.at(f64::from(density.nodes as u32)))
-        };
-        densities.iter().filter_map(point).collect()
-    };
-    let series = |(place, line): (usize, &Line)| Series {
-        name: line.scheme.clone(),
-        stroke: Stroke::Solid,
-        points: points(place),
-    };
-    let (title, y) = match part {
-        Part::Reach => ("Nodes that a broadcast reaches", Axis::new("reach", "%").showing([0.0, 100.0])),
-        Part::Rebroadcasts => {
-            ("Nodes that forward a broadcast", Axis::new("rebroadcasts", "").showing([0.0, 0.0]))
+    fn table(&self, densities: &[Density]) -> String {
+        let heading = format!(
+            "{side}×{side} m, range {} m, {} for each number of nodes, seed {}, {} channel",
+            self.range,
+            counted(self.topologies, "topology"),
+            self.seed,
+            self.channel.word(),
+            side = self.side,
+        );
+        let percent = |estimate: Estimate| estimate.times(100.0).text(2);
+        let mut table = Table::new(heading, densities);
+        table.row("nodes", |density| density.nodes.to_string());
+        table.row("connected", |density| density.connected.times(100.0).text(1));
+        table.row("component", |density| percent(density.component));
+        let schemes = densities.first().map_or(&[][..], |density| &density.schemes);
+        table.title("Reach, % of all nodes");
+        for (place, line) in schemes.iter().enumerate() {
+            table.row(line.scheme.as_str(), |density| percent(density.schemes[place].reach));
+            if densities.iter().any(|density| density.schemes[place].paper.is_some()) {
+                let said =
+                    |part: Option<f64>| part.map_or("-".to_owned(), |part| format!("{:.2}", 100.0 * part));
+                table.row("  paper", |density| said(density.schemes[place].paper));
+                table.row("  difference", |density| said(density.schemes[place].difference));
+            }
         }
-    };
-    LineChart {
-        title: title.to_owned(),
-        x: Axis::new("nodes", ""),
-        y,
-        series: names.iter().enumerate().map(series).collect(),
+        table.title("Reach, % of the nodes connected to the source");
+        for (place, line) in schemes.iter().enumerate() {
+            table.row(line.scheme.as_str(), |density| percent(density.schemes[place].reach_component));
+        }
+        table.title("Rebroadcasts");
+        for (place, line) in schemes.iter().enumerate() {
+            table.row(line.scheme.as_str(), |density| density.schemes[place].rebroadcasts.text(2));
+        }
+        table.with_notes(
+            "connected: % of the networks in which links connect all nodes · component: % of the nodes that they \
+               connect to the\nsource · ±, […]: the 95 % interval · paper: “near 100 %” at every density; all \
+               else it draws only",
+        )
     }
 }

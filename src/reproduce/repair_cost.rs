@@ -1,207 +1,103 @@
-//! What the repairs of the chain cost: team moves to 50 % and to 75 % of the cells and of whole runs, as published and
-//! repaired, on the same random layouts; and what they give: how many cells are explored, and in how many runs each
-//! rule breaks a clause. Sums are whole numbers, so that the result is
-//! the same on any number of threads.
+//! `tautline reproduce repair-cost`: what the repairs of the chain cost.
 
-use rayon::prelude::*;
+use std::fmt::Write;
+
+use clap::Args;
 use serde::Serialize;
-use tautline_proofs::run::Breach;
+use tautline_proofs::words::counted;
 
-use super::interval::{Estimate, Moments, hundredths};
-use crate::explore::{Milestone, Report, RuleName, SchemeName, Setup, explore};
-use crate::fault::{Fault, Halt, Watch};
-use crate::layout::Generator;
+use crate::output::Output;
+use crate::{Exit, Format, FormatArgs, number, progress};
+use tautline_sim::fault::{Halt, Watch};
+use tautline_sim::reproduce::Reproduction;
+use tautline_sim::reproduce::repair_cost::{self, Comparison, DENSITIES, Line, ROBOTS};
 
-/// The team of the paper.
-pub const ROBOTS: u16 = 8;
+const EXAMPLES: &str = "\
+Examples:
+  tautline reproduce repair-cost
+  tautline reproduce repair-cost --layouts 10000 --format json";
 
-/// The probabilities of a wall.
-pub const DENSITIES: [&str; 7] = ["0.01", "0.05", "0.1", "0.15", "0.2", "0.3", "0.4"];
-
-/// The milestones that are compared.
-pub const MILESTONES: [Milestone; 2] = [Milestone::Half, Milestone::ThreeQuarters];
-
-/// The same layouts under both rules.
-#[derive(Clone, PartialEq, Debug, Serialize)]
-pub struct Line {
-    /// The probability of a wall.
-    pub density: &'static str,
-    /// How many layouts: those of the seeds from the first one on.
-    pub layouts: u32,
-    /// For each of [`MILESTONES`].
-    pub milestones: [Reached; MILESTONES.len()],
-    /// Team moves of whole runs.
-    pub moves: Comparison,
-    /// Cells explored when a run ends.
-    pub explored: Comparison,
-    /// For each of [`Breach::CHAIN`]: runs that break it.
-    pub violations: [Violations; Breach::CHAIN.len()],
+/// What the chain's repairs cost in team moves, and what they prevent.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct RepairCost {
+    /// Random layouts at each density.
+    #[arg(long, value_name = "COUNT", default_value_t = 300, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    layouts: u32,
+    /// The seed of the first layout; the others have the seeds after it.
+    #[arg(long, default_value = "0", value_parser = number::<u64>)]
+    seed: u64,
+    #[command(flatten)]
+    format: FormatArgs,
 }
 
-/// Team moves to a milestone, where both rules reach it.
-#[derive(Clone, PartialEq, Debug, Serialize)]
-pub struct Reached {
-    /// The milestone.
-    pub percent: u32,
-    /// The team moves.
-    #[serde(flatten)]
-    pub moves: Comparison,
+#[derive(Serialize)]
+struct Measured {
+    id: &'static str,
+    robots: u16,
+    seed: u64,
+    densities: Vec<Line>,
 }
 
-/// One number of both rules.
-#[derive(Clone, PartialEq, Debug, Serialize)]
-pub struct Comparison {
-    /// Layouts in which there is one under both.
-    pub pairs: u32,
-    /// Layouts in which there is not.
-    pub left_out: u32,
-    /// The mean as published, over the pairs.
-    pub published: f64,
-    /// The mean repaired, over the pairs.
-    pub repaired: f64,
-    /// The mean of repaired less published.
-    pub difference: f64,
-    /// Half the width of its 95 % interval.
-    pub margin: f64,
-}
-
-/// Runs that break a clause.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
-pub struct Violations {
-    /// Its id.
-    pub clause: &'static str,
-    /// As published.
-    pub published: u32,
-    /// Repaired.
-    pub repaired: u32,
-}
-
-/// Sums over layouts.
-#[derive(Clone, Copy, Default)]
-struct Sums {
-    milestones: [Paired; MILESTONES.len()],
-    moves: Paired,
-    explored: Paired,
-    violations: [[u32; Breach::CHAIN.len()]; RuleName::ALL.len()],
-}
-
-#[derive(Clone, Copy, Default)]
-struct Paired {
-    published: Moments,
-    repaired: Moments,
-    difference: Moments,
-}
-
-/// Compares the rules at every density in the layouts of `layouts` seeds from `seed` on. `watch` is called after each
-/// layout.
-///
-/// # Errors
-/// [`Halt`], as `watch` returned it.
-pub fn compare(layouts: u32, seed: u64, watch: &Watch<'_>) -> Result<Vec<Line>, Halt> {
-    let compare_at = |density: &'static str| {
-        let description = format!("walls:15x15:{density}");
-        let generator: Generator = description
-            .parse()
-            .map_err(|problem: crate::layout::Problem| Fault::usage(&problem, problem.remedy()))?;
-        let sums = (0..u64::from(layouts)).into_par_iter().map(|index| {
-            let sums = Sums::of(&generator, seed.wrapping_add(index))?;
-            watch()?;
-            Ok(sums)
-        });
-        let sums = sums.try_reduce(Sums::default, |one, other| Ok::<_, Halt>(one.and(other)))?;
-        Ok(sums.line(density, layouts))
-    };
-    DENSITIES.into_iter().map(compare_at).collect()
-}
-
-impl Sums {
-    fn of(generator: &Generator, seed: u64) -> Result<Self, Halt> {
-        let mut layout =
-            generator.generate(seed).map_err(|problem| Fault::usage(&problem, problem.remedy()))?;
-        let base = Setup::choose_base(&mut layout, None)
-            .map_err(|problem| Fault::usage(&problem, problem.remedy()))?;
-        let run = |rule| {
-            let layout = layout.clone();
-            let setup = Setup { seed, ..Setup::new(SchemeName::Chain, rule, ROBOTS, layout, base) };
-            explore(&setup, &mut |_| Ok(()))
-        };
-        let (published, repaired) = (run(RuleName::Published)?, run(RuleName::Repaired)?);
-        let breaks = |report: &Report| {
-            Breach::CHAIN
-                .map(|breach| u32::from(report.violations.iter().any(|violation| violation.breach == breach)))
-        };
-        Ok(Self {
-            milestones: MILESTONES.map(|milestone| {
-                match (published.reached(milestone), repaired.reached(milestone)) {
-                    (Some(published), Some(repaired)) => Paired::of(published, repaired),
-                    (Some(_) | None, _) => Paired::default(),
-                }
-            }),
-            moves: Paired::of(published.steps, repaired.steps),
-            explored: Paired::of(published.explored, repaired.explored),
-            violations: [breaks(&published), breaks(&repaired)],
-        })
-    }
-
-    fn and(self, other: Self) -> Self {
-        Self {
-            milestones: std::array::from_fn(|place| self.milestones[place].and(other.milestones[place])),
-            moves: self.moves.and(other.moves),
-            explored: self.explored.and(other.explored),
-            violations: std::array::from_fn(|rule| {
-                std::array::from_fn(|breach| self.violations[rule][breach] + other.violations[rule][breach])
-            }),
+impl RepairCost {
+    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        let layouts = u64::from(self.layouts) * DENSITIES.len() as u64;
+        let compare = |watch: &Watch<'_>| repair_cost::compare(self.layouts, self.seed, watch);
+        let lines = progress::during("comparing", layouts, compare)?;
+        match self.format.format {
+            Format::Json => out.json(&Measured {
+                id: Reproduction::RepairCost.id(),
+                robots: ROBOTS,
+                seed: self.seed,
+                densities: lines.clone(),
+            })?,
+            Format::Text => out.text(self.table(&lines))?,
         }
+        let is_safe = lines.iter().all(|line| line.violations.iter().all(|runs| runs.repaired == 0));
+        Ok(if is_safe { Exit::Expected } else { Exit::Violation })
     }
 
-    fn line(&self, density: &'static str, layouts: u32) -> Line {
-        Line {
-            density,
-            layouts,
-            milestones: std::array::from_fn(|place| Reached {
-                percent: MILESTONES[place].percent(),
-                moves: self.milestones[place].comparison(layouts),
-            }),
-            moves: self.moves.comparison(layouts),
-            explored: self.explored.comparison(layouts),
-            violations: std::array::from_fn(|breach| Violations {
-                clause: Breach::CHAIN[breach].clause(),
-                published: self.violations[RuleName::Published as usize][breach],
-                repaired: self.violations[RuleName::Repaired as usize][breach],
-            }),
+    fn table(&self, lines: &[Line]) -> String {
+        let mut text = format!(
+            "{ROBOTS} robots in walls:15x15:DENSITY, {} at each density, seeds from {}\n",
+            counted(self.layouts, "layout"),
+            self.seed
+        );
+        for (place, milestone) in repair_cost::MILESTONES.iter().enumerate() {
+            let title = format!("Mean team moves to {} %, where both reach it", milestone.percent());
+            text.push_str(&compared(&title, lines, |line| &line.milestones[place].moves));
         }
+        text.push_str(&compared("Mean team moves of whole runs", lines, |line| &line.moves));
+        text.push_str(&compared("Mean cells explored when a run ends", lines, |line| &line.explored));
+        text.push_str("\nRuns that break a clause, published / repaired\ndensity ");
+        for violations in lines.first().map_or(&[][..], |line| &line.violations) {
+            let _ = write!(text, "  {:>12}", violations.clause);
+        }
+        for line in lines {
+            let _ = write!(text, "\n{:<7} ", line.density);
+            for runs in line.violations {
+                let _ = write!(text, "  {:>12}", format!("{} / {}", runs.published, runs.repaired));
+            }
+        }
+        text + "\n"
     }
 }
 
-impl Paired {
-    fn of(published: u32, repaired: u32) -> Self {
-        let (published, repaired) = (i64::from(published), i64::from(repaired));
-        Self {
-            published: Moments::of(published),
-            repaired: Moments::of(repaired),
-            difference: Moments::of(repaired - published),
-        }
+/// A table of one number of both rules.
+fn compared<'a>(title: &str, lines: &'a [Line], number: impl Fn(&'a Line) -> &'a Comparison) -> String {
+    let mut text = format!(
+        "\n{title}; the difference with its 95 % interval\n\
+         density  published   repaired       difference  layouts  left out\n"
+    );
+    for line in lines {
+        let Comparison { pairs, left_out, published, repaired, difference, margin } = number(line);
+        let difference = format!("{difference:+.2} ± {margin:.2}");
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{:<7}  {published:>9.2}  {repaired:>9.2}  {difference:>15}  {pairs:>7}  {left_out:>8}",
+            line.density
+        );
     }
-
-    const fn and(self, other: Self) -> Self {
-        Self {
-            published: self.published.and(other.published),
-            repaired: self.repaired.and(other.repaired),
-            difference: self.difference.and(other.difference),
-        }
-    }
-
-    /// Without pairs everything is 0, and of one pair the margin.
-    fn comparison(self, layouts: u32) -> Comparison {
-        let mean = |moments: Moments| hundredths(moments.estimate().map_or(0.0, |estimate| estimate.mean));
-        let margin = self.difference.estimate().and_then(Estimate::margin);
-        Comparison {
-            pairs: self.difference.count(),
-            left_out: layouts - self.difference.count(),
-            published: mean(self.published),
-            repaired: mean(self.repaired),
-            difference: mean(self.difference),
-            margin: hundredths(margin.unwrap_or(0.0)),
-        }
-    }
+    text
 }

@@ -1,0 +1,437 @@
+//! Files that are there whole or not at all: written beside their place under another name, then renamed. A file that
+//! cannot be written to its end is left out, and nothing else suffers: whoever writes it goes on, and is told by
+//! [`Aside::keep`]. What a command reads, and what this program did not write, is not overwritten.
+
+use std::ffi::OsStr;
+use std::fs::{self, File, TryLockError};
+use std::io::{self, BufWriter, Read, Write};
+use std::mem;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use tempfile::NamedTempFile;
+
+use crate::fault::{Fault, Halt};
+
+/// How the files begin that this program writes: stored runs and kept hunts, pictures, pages, manual pages.
+const OURS: [&str; 4] = ["{\"format\":\"tautline ", SVG_HEAD, HTML_HEAD, MAN_HEAD];
+
+/// The beginning of a picture.
+pub(crate) const SVG_HEAD: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" data-generator=\"tautline\" ";
+
+/// The beginning of a page.
+pub(crate) const HTML_HEAD: &str = "<!doctype html>
+<html lang=\"en\">
+<head>
+<meta charset=\"utf-8\">
+<meta name=\"generator\" content=\"tautline\">
+";
+
+/// The beginning of a manual page: a comment.
+/// How a manual page begins.
+pub const MAN_HEAD: &str = ".\\\" Written by tautline.\n";
+
+/// Which files a command may replace: empty ones and those that this program wrote, but none that the command reads.
+#[derive(Clone, Debug, Default)]
+pub struct Replaceable {
+    foreign: Foreign,
+    inputs: Vec<PathBuf>,
+}
+
+/// What is done about a file that this program did not write.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Foreign {
+    /// It stays.
+    #[default]
+    Keep,
+    /// It is replaced.
+    Replace,
+}
+
+impl Replaceable {
+    /// What a command may replace that does so with foreign files and reads these.
+    pub fn new(foreign: Foreign, inputs: impl IntoIterator<Item = PathBuf>) -> Self {
+        Self { foreign, inputs: inputs.into_iter().collect() }
+    }
+
+    /// Checks that a file may stand at `target`, which the user calls `path`.
+    fn check(&self, path: &Path, target: &Path) -> Result<(), Fault> {
+        if target.is_dir() {
+            return Err(Fault::in_file(path, "this is a folder", "name a file in it"));
+        }
+        if !target.exists() {
+            return Ok(());
+        }
+        if !target.is_file() {
+            return Err(Fault::in_file(path, "this is a device or a pipe", "name a file"));
+        }
+        if self.inputs.iter().any(|input| is_same(input, target)) {
+            let what = "this command reads this file, and does not overwrite it";
+            return Err(Fault::in_file(path, what, "store it elsewhere"));
+        }
+        if self.foreign == Foreign::Keep && !is_ours(target) {
+            let what = "tautline did not write this file, and does not overwrite it";
+            return Err(Fault::in_file(path, what, "store it elsewhere, or replace it with --force"));
+        }
+        Ok(())
+    }
+}
+
+/// Whether the file is empty or begins as the files of this program do.
+fn is_ours(file: &Path) -> bool {
+    let longest = OURS.iter().map(|head| head.len()).max().unwrap_or(0);
+    let mut bytes = Vec::new();
+    let read = File::open(file).and_then(|file| file.take(longest as u64).read_to_end(&mut bytes));
+    read.is_ok() && (bytes.is_empty() || OURS.iter().any(|head| bytes.starts_with(head.as_bytes())))
+}
+
+/// Whether two paths lead to the same file, by whatever names.
+#[cfg(unix)]
+pub(crate) fn is_same(one: &Path, other: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let place = |path: &Path| fs::metadata(path).map(|data| (data.dev(), data.ino()));
+    matches!((place(one), place(other)), (Ok(one), Ok(other)) if one == other)
+}
+
+/// Whether two paths lead to the same file.
+#[cfg(not(unix))]
+pub(crate) fn is_same(one: &Path, other: &Path) -> bool {
+    matches!((one.canonicalize(), other.canonicalize()), (Ok(one), Ok(other)) if one == other)
+}
+
+/// Links that lead from one to the next are followed so far.
+const MAX_LINKS: usize = 40;
+
+/// Where the file is to stand that the user calls `path`: where the symbolic link leads, if it is one.
+fn target(path: &Path) -> Result<PathBuf, Fault> {
+    let mut target = path.to_owned();
+    for _ in 0..MAX_LINKS {
+        match fs::read_link(&target) {
+            Ok(link) => target = folder(&target).join(link),
+            Err(_) => return Ok(target),
+        }
+    }
+    Err(Fault::in_file(path, "the symbolic links lead to no end", "name a file"))
+}
+
+fn folder(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        Some(_) | None => Path::new("."),
+    }
+}
+
+/// A file in the making. Dropped before [`Aside::keep`], it leaves nothing behind.
+#[derive(Debug)]
+pub struct Aside {
+    path: PathBuf,
+    target: PathBuf,
+    replaceable: Replaceable,
+    /// What is written so far, or why the file is left out.
+    file: Result<BufWriter<Part>, Fault>,
+}
+
+impl Aside {
+    /// A file that is to stand at `path`; one that stands there now is replaced in the end, and a symbolic link followed.
+    ///
+    /// # Errors
+    /// A [`Fault`] if nothing can be written in its folder, or what stands at `path` is not to be replaced.
+    pub fn new(path: &Path, replaceable: &Replaceable) -> Result<Self, Fault> {
+        let target = target(path)?;
+        replaceable.check(path, &target)?;
+        let part = Part::new(folder(&target)).map_err(|error| unwritable(path, &error))?;
+        let file = Ok(BufWriter::new(part));
+        Ok(Self { path: path.to_owned(), target, replaceable: replaceable.clone(), file })
+    }
+
+    /// A file of which the place is known only when the work is done: what is wrong with it is told by [`Aside::keep`].
+    pub fn late(path: &Path, replaceable: &Replaceable) -> Self {
+        Self::new(path, replaceable).unwrap_or_else(|fault| Self {
+            path: path.to_owned(),
+            target: path.to_owned(),
+            replaceable: replaceable.clone(),
+            file: Err(fault),
+        })
+    }
+
+    /// The files that a command stores, where they have a place.
+    ///
+    /// # Errors
+    /// A [`Fault`] as of [`Aside::new`], or if two of them are the same.
+    pub fn several<const N: usize>(
+        paths: [Option<&Path>; N],
+        replaceable: &Replaceable,
+    ) -> Result<[Option<Self>; N], Fault> {
+        let mut asides = [const { None::<Self> }; N];
+        for (place, path) in paths.into_iter().enumerate() {
+            let Some(path) = path else { continue };
+            let (aside, taken) = (Self::new(path, replaceable)?, asides[..place].iter().flatten());
+            if taken.into_iter().any(|other| other.place() == aside.place()) {
+                let what = "two files are to stand here";
+                return Err(Fault::in_file(path, what, "give each a name of its own"));
+            }
+            asides[place] = Some(aside);
+        }
+        Ok(asides)
+    }
+
+    /// The path as the user gave it.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The same for each file, however it is written.
+    fn place(&self) -> (Option<PathBuf>, Option<&OsStr>) {
+        (folder(&self.target).canonicalize().ok(), self.target.file_name())
+    }
+
+    /// Adds `content` at the end.
+    pub fn append(&mut self, content: impl AsRef<[u8]>) {
+        if let Ok(file) = &mut self.file
+            && let Err(error) = file.write_all(content.as_ref())
+        {
+            self.leave_out(unwritable(&self.path, &error));
+        }
+    }
+
+    /// Adds what was drawn at the end, or leaves the file out for the fault in it.
+    ///
+    /// # Errors
+    /// [`Halt`] if the user asked to stop.
+    pub fn draw(&mut self, drawn: Result<impl AsRef<[u8]>, Halt>) -> Result<(), Halt> {
+        match drawn {
+            Ok(content) => self.append(content),
+            Err(Halt::Fault(fault)) => self.leave_out(fault),
+            Err(halt @ Halt::Interrupted) => return Err(halt),
+        }
+        Ok(())
+    }
+
+    /// Gives the file up, and makes room for others.
+    pub fn leave_out(&mut self, fault: Fault) {
+        if let Ok(file) = mem::replace(&mut self.file, Err(fault)) {
+            // What is still buffered is not to be written when dropped.
+            let _ = file.into_parts();
+        }
+    }
+
+    /// Puts the file in its place.
+    ///
+    /// # Errors
+    /// A [`Fault`] if that is not possible, or if the file was left out; then nothing of it is left.
+    pub fn keep(self) -> Result<(), Fault> {
+        let (path, target, part) = self.finished()?;
+        part.file.persist(&target).map_err(|refused| unwritable(&path, &refused.error))?;
+        Ok(())
+    }
+
+    /// Puts the file in its place, locked until what is returned is closed.
+    ///
+    /// # Errors
+    /// A [`Fault`] as of [`Aside::keep`], or if another process has put a file there.
+    pub(crate) fn keep_locked(self, standing: Standing) -> Result<File, Fault> {
+        let (path, target, part) = self.finished()?;
+        lock(&path, part.file.as_file())?;
+        let kept = match standing {
+            Standing::Held => part.file.persist(&target),
+            Standing::Nothing => part.file.persist_noclobber(&target),
+        };
+        kept.map_err(|refused| match refused.error.kind() {
+            io::ErrorKind::AlreadyExists => {
+                let what = "another process has put a file here meanwhile";
+                Fault::in_file(&path, what, "wait until it has ended, or name another file")
+            }
+            _ => unwritable(&path, &refused.error),
+        })
+    }
+
+    /// The path, the target and the whole content.
+    fn finished(self) -> Result<(PathBuf, PathBuf, Part), Fault> {
+        let Self { path, target, replaceable, file } = self;
+        let part = file?.into_inner().map_err(|error| {
+            let (error, file) = error.into_parts();
+            let _ = file.into_parts();
+            unwritable(&path, &error)
+        })?;
+        // Meanwhile something else may have come there.
+        replaceable.check(&path, &target)?;
+        Ok((path, target, part))
+    }
+}
+
+/// What stands in the place of a file that processes lock.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Standing {
+    /// Nothing: what another process puts there is not replaced.
+    Nothing,
+    /// A file that this process has locked.
+    Held,
+}
+
+/// Locks an open file, called `path`, against other processes, until it is closed. Where files cannot be locked, this is
+/// logged as a warning.
+///
+/// # Errors
+/// A [`Fault`] if another process has locked it.
+pub(crate) fn lock(path: &Path, file: &File) -> Result<(), Fault> {
+    match file.try_lock() {
+        Ok(()) => Ok(()),
+        Err(TryLockError::WouldBlock) => {
+            let what = "another process is at work with this file";
+            Err(Fault::in_file(path, what, "wait until it has ended, or name another file"))
+        }
+        Err(TryLockError::Error(error)) => {
+            tracing::warn!("{} cannot be locked against other processes: {error}", path.display());
+            Ok(())
+        }
+    }
+}
+
+/// The unfinished files of this process.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes all unfinished files, for a process that ends at once: it can begin no other one.
+pub fn abandon() {
+    let mut unfinished = unfinished();
+    for path in unfinished.drain(..) {
+        let _ = fs::remove_file(path);
+    }
+    mem::forget(unfinished);
+}
+
+/// A file under another name.
+#[derive(Debug)]
+struct Part {
+    file: NamedTempFile,
+    _entry: Entry,
+}
+
+/// The place of a file among the unfinished ones.
+#[derive(Debug)]
+struct Entry(PathBuf);
+
+impl Part {
+    fn new(folder: &Path) -> io::Result<Self> {
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".tautline-").suffix(".part");
+        open_to_others(&mut builder);
+        let mut unfinished = unfinished();
+        let file = builder.tempfile_in(folder)?;
+        unfinished.push(file.path().to_owned());
+        let entry = Entry(file.path().to_owned());
+        Ok(Self { file, _entry: entry })
+    }
+}
+
+impl Write for Part {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Drop for Entry {
+    fn drop(&mut self) {
+        unfinished().retain(|path| *path != self.0);
+    }
+}
+
+/// Temporary files are private by default; results are files like others.
+#[cfg(unix)]
+fn open_to_others(builder: &mut tempfile::Builder<'_, '_>) {
+    use std::os::unix::fs::PermissionsExt;
+    builder.permissions(std::fs::Permissions::from_mode(0o666));
+}
+
+#[cfg(not(unix))]
+fn open_to_others(_: &mut tempfile::Builder<'_, '_>) {}
+
+fn unwritable(path: &Path, error: &io::Error) -> Fault {
+    match error.kind() {
+        io::ErrorKind::NotFound => {
+            Fault::in_file(path, "there is no such folder", "make it first, or name another")
+        }
+        io::ErrorKind::NotADirectory => {
+            Fault::in_file(path, "what should be its folder is none", "name a file in a folder")
+        }
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
+            let what = format_args!("it is left out, there is no room for it: {}", error.kind());
+            Fault::in_file(path, what, "make room, or store it elsewhere")
+        }
+        _ => Fault::in_file(
+            path,
+            format_args!("it cannot be written: {error}"),
+            "name a file in a folder that you can write to",
+        ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn several<const N: usize>(paths: [Option<&Path>; N]) -> Result<[Option<Aside>; N], Fault> {
+        Aside::several(paths, &Replaceable::default())
+    }
+
+    #[test]
+    fn of_several_files_none_is_begun_if_one_cannot_be() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (one, other) = (folder.path().join("one"), folder.path().join("other"));
+        let files = || folder.path().read_dir().expect("a folder").count();
+        let [mut aside, none, _] = several([Some(&*one), None, Some(&*other)]).expect("places");
+        assert!(none.is_none());
+        aside.as_mut().expect("a place").append("text");
+        drop(aside);
+        assert!(several([Some(&*one), Some(&folder.path().join("nowhere").join("other"))]).is_err());
+        let again = folder.path().join(".").join("one");
+        assert!(several([Some(&*one), Some(&*again)]).is_err());
+        assert_eq!(files(), 0);
+        let asides = several([Some(&*one), Some(&*other)]).expect("places");
+        for aside in asides.into_iter().flatten() {
+            aside.keep().expect("room");
+        }
+        assert_eq!(files(), 2);
+    }
+
+    #[test]
+    fn a_file_that_is_left_out_leaves_nothing_and_says_why() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("one");
+        let mut aside = Aside::new(&path, &Replaceable::default()).expect("a place");
+        aside.append("text");
+        let fault = Fault::in_file(&path, "it is too large", "take less");
+        aside.leave_out(fault.clone());
+        assert_eq!(folder.path().read_dir().expect("a folder").count(), 0);
+        aside.append("more");
+        assert_eq!(aside.keep(), Err(fault));
+        assert_eq!(folder.path().read_dir().expect("a folder").count(), 0);
+    }
+
+    #[test]
+    fn a_file_that_came_meanwhile_is_not_overwritten() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("one");
+        let aside = Aside::new(&path, &Replaceable::default()).expect("a place");
+        fs::write(&path, "something else").expect("a file");
+        assert!(aside.keep().is_err());
+        assert_eq!(fs::read_to_string(&path).expect("text"), "something else");
+        assert_eq!(folder.path().read_dir().expect("a folder").count(), 1);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_device_is_not_replaced() {
+        let replaceable = Replaceable::new(Foreign::Replace, []);
+        let refused = Aside::new(Path::new("/dev/null"), &replaceable).map(|_| ());
+        let fault = Fault::in_file(Path::new("/dev/null"), "this is a device or a pipe", "name a file");
+        assert_eq!(refused, Err(fault));
+    }
+}

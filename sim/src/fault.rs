@@ -1,0 +1,223 @@
+//! What went wrong with something the user gave, where, and what would be right: the one error type of this crate, as
+//! data. How it is shown is the caller's business. A fault in a text keeps only the line it points at, clipped, however large the file.
+
+use std::fmt;
+use std::ops::Range;
+use std::path::Path;
+
+/// Characters of the offending line kept on each side of the spot.
+const CLIP_CHARS: usize = 32;
+
+/// Longer names and messages are clipped: they may quote the input.
+const MAX_MESSAGE_CHARS: usize = 1_000;
+
+/// What some editors put before a text; it is no part of it.
+pub(crate) const BOM: char = '\u{feff}';
+
+/// A place, what is wrong there, and the remedy. `Display` is one plain line,
+/// `file:line:column: what; remedy`.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Fault(Box<Parts>);
+
+#[derive(Clone, PartialEq, Eq, Debug)]
+struct Parts {
+    place: Place,
+    what: String,
+    remedy: String,
+}
+
+/// Where a fault is. Its `Display` ends with a colon and a blank, or is empty.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Place {
+    /// In what was asked for.
+    Request,
+    /// In a file as a whole.
+    File(String),
+    /// In a text.
+    Spot {
+        /// The file's name.
+        file: String,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1, in characters.
+        column: usize,
+        /// What is there.
+        excerpt: Excerpt,
+    },
+}
+
+/// The neighbourhood of a spot: one line without control characters, clipped, and the bytes of it that are meant.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Excerpt {
+    /// The line.
+    pub text: String,
+    /// The bytes that are meant, between characters.
+    pub mark: Range<usize>,
+}
+
+/// Why a piece of work ended before its end.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Halt {
+    /// Something was wrong with what the user gave.
+    Fault(Fault),
+    /// The user asked it to stop.
+    Interrupted,
+}
+
+impl From<Fault> for Halt {
+    fn from(fault: Fault) -> Self {
+        Self::Fault(fault)
+    }
+}
+
+/// Is called after each part of a work, from any thread, and may stop the work.
+pub type Watch<'a> = dyn Fn() -> Result<(), Halt> + Sync + 'a;
+
+impl Fault {
+    /// A fault in the bytes `range` of `text`, the content of `file`. A range that ends beyond its first line
+    /// is cut there; one that lies outside the text, or inside a character, is moved to the nearest
+    /// character.
+    pub fn at(
+        file: impl AsRef<Path>,
+        text: &str,
+        range: Range<usize>,
+        what: impl fmt::Display,
+        remedy: impl fmt::Display,
+    ) -> Self {
+        let begin = text.len() - text.strip_prefix(BOM).unwrap_or(text).len();
+        let start = text.floor_char_boundary(range.start).max(begin);
+        let line_start = text[..start].rfind('\n').map_or(begin, |newline| newline + 1);
+        let line_end = text[start..].find('\n').map_or(text.len(), |newline| start + newline);
+        let end = text.ceil_char_boundary(range.end).clamp(start, line_end);
+        let place = Place::Spot {
+            file: name(file.as_ref()),
+            line: 1 + text[..start].matches('\n').count(),
+            column: 1 + text[line_start..start].chars().count(),
+            excerpt: Excerpt::of(&text[line_start..line_end], start - line_start..end - line_start),
+        };
+        Self::new(place, what, remedy)
+    }
+
+    /// A fault in the bytes `range` of `text`, which is line number `line`, counted from 1, of `file`.
+    pub fn in_line(
+        file: impl AsRef<Path>,
+        line: usize,
+        text: &str,
+        range: Range<usize>,
+        what: impl fmt::Display,
+        remedy: impl fmt::Display,
+    ) -> Self {
+        let mut fault = Self::at(file, text, range, what, remedy);
+        if let Place::Spot { line: first, .. } = &mut fault.0.place {
+            *first += line - 1;
+        }
+        fault
+    }
+
+    /// A fault of a file as a whole.
+    pub fn in_file(file: impl AsRef<Path>, what: impl fmt::Display, remedy: impl fmt::Display) -> Self {
+        Self::new(Place::File(name(file.as_ref())), what, remedy)
+    }
+
+    /// A fault of what was asked for.
+    pub fn usage(what: impl fmt::Display, remedy: impl fmt::Display) -> Self {
+        Self::new(Place::Request, what, remedy)
+    }
+
+    fn new(place: Place, what: impl fmt::Display, remedy: impl fmt::Display) -> Self {
+        Self(Box::new(Parts {
+            place,
+            what: one_line(&what.to_string()),
+            remedy: one_line(&remedy.to_string()),
+        }))
+    }
+
+    /// Where it is.
+    pub const fn place(&self) -> &Place {
+        &self.0.place
+    }
+
+    /// What is wrong, without the place.
+    pub fn what(&self) -> &str {
+        &self.0.what
+    }
+
+    /// What would be right.
+    pub fn remedy(&self) -> &str {
+        &self.0.remedy
+    }
+
+    /// The same fault with another remedy.
+    #[must_use]
+    pub fn with_remedy(mut self, remedy: impl fmt::Display) -> Self {
+        self.0.remedy = one_line(&remedy.to_string());
+        self
+    }
+}
+
+impl Excerpt {
+    /// `line` round the bytes `mark`, which begin and end between characters. At least one character is
+    /// marked, if need be the blank after the line.
+    fn of(line: &str, mark: Range<usize>) -> Self {
+        let before: Vec<char> = line[..mark.start].chars().rev().take(CLIP_CHARS + 1).collect();
+        let mut text = String::new();
+        if before.len() > CLIP_CHARS {
+            text.push('…');
+        }
+        text.extend(before.into_iter().take(CLIP_CHARS).rev().map(printable));
+        let start = text.len();
+        text.extend(line[mark.clone()].chars().take(CLIP_CHARS).map(printable));
+        if text.len() == start {
+            text.push(line[mark.end..].chars().next().map_or(' ', printable));
+        }
+        let end = text.len();
+        let marked = text[start..end].chars().count().max(1);
+        let rest = line[mark.start..].chars().skip(marked);
+        text.extend(rest.clone().take(CLIP_CHARS).map(printable));
+        if rest.clone().nth(CLIP_CHARS).is_some() {
+            text.push('…');
+        }
+        Self { text, mark: start..end }
+    }
+}
+
+/// Control characters and the Unicode line ends would break the drawing or steer the terminal.
+fn printable(character: char) -> char {
+    match character {
+        '\t' | '\n' | '\r' | '\u{2028}' | '\u{2029}' => ' ',
+        control if control.is_control() => char::REPLACEMENT_CHARACTER,
+        other => other,
+    }
+}
+
+fn name(file: &Path) -> String {
+    one_line(&file.to_string_lossy())
+}
+
+/// `text` as it may stand in a message, clipped if it is very long.
+fn one_line(text: &str) -> String {
+    let mut characters = text.chars();
+    let mut line: String = characters.by_ref().take(MAX_MESSAGE_CHARS).map(printable).collect();
+    if characters.next().is_some() {
+        line.push('…');
+    }
+    line
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Request => Ok(()),
+            Self::File(file) => write!(f, "{file}: "),
+            Self::Spot { file, line, column, excerpt: _ } => write!(f, "{file}:{line}:{column}: "),
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}{}; {}", self.0.place, self.0.what, self.0.remedy)
+    }
+}
+
+impl std::error::Error for Fault {}

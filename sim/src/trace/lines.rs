@@ -1,0 +1,214 @@
+//! Stored runs as lines of JSON, read one at a time and compared with what their header makes. A line that is not as it
+//! should be is a fault with its place.
+
+use std::fmt::Display;
+use std::fs::File;
+use std::io::{BufRead, BufReader, Read};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Serialize};
+use tautline_proofs::words::counted;
+
+use crate::fault::{BOM, Fault};
+use crate::layout::MAX_FILE_BYTES;
+
+/// Longer lines than those of the longest chain are refused; the header with its drawing may be longer.
+const MAX_LINE_BYTES: u64 = 1 << 16;
+
+/// What every version of the header begins with.
+#[derive(Deserialize)]
+struct Magic {
+    format: String,
+    version: u32,
+}
+
+/// A line of a file: `value`, and its end.
+pub(crate) fn line_of(value: &impl Serialize) -> String {
+    // Strings, numbers and lists of them can always be written.
+    serde_json::to_string(value).unwrap_or_default() + "\n"
+}
+
+/// The format that the first line of a file names, if it names one.
+pub fn format(path: &Path) -> Option<String> {
+    let mut bytes = Vec::new();
+    let file = File::open(path).ok()?;
+    BufReader::new(file).take(MAX_FILE_BYTES).read_until(b'\n', &mut bytes).ok()?;
+    let text = str::from_utf8(&bytes).ok()?;
+    serde_json::from_str(text.strip_prefix(BOM).unwrap_or(text)).ok().map(|magic: Magic| magic.format)
+}
+
+/// The lines of a file, one at a time.
+#[derive(Debug)]
+pub(crate) struct Lines {
+    path: PathBuf,
+    input: BufReader<File>,
+    /// How many were read.
+    count: usize,
+    /// How to make such a file again.
+    again: &'static str,
+}
+
+impl Lines {
+    /// The lines of the file at `path`; `again` says how to make such a file.
+    ///
+    /// # Errors
+    /// A [`Fault`] if it cannot be opened.
+    pub(crate) fn open(path: &Path, again: &'static str) -> Result<Self, Fault> {
+        let unreadable =
+            |what: String| Fault::in_file(path, what, "name a file that --trace or `tautline hunt` wrote");
+        if path.is_dir() {
+            return Err(unreadable("this is a folder".to_owned()));
+        }
+        let file = File::open(path).map_err(|error| match error.kind() {
+            std::io::ErrorKind::NotFound => unreadable("there is no such file".to_owned()),
+            _ => unreadable(format!("the file cannot be read: {error}")),
+        })?;
+        if let Ok(about) = file.metadata() {
+            tracing::info!("reading {}: {}", path.display(), counted(about.len(), "byte"));
+        }
+        Ok(Self { path: path.to_owned(), input: BufReader::new(file), count: 0, again })
+    }
+
+    /// The file.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The first line, of at most `most` bytes, if it is the header of a `format` of this `version`.
+    ///
+    /// # Errors
+    /// A [`Fault`] that says what it is instead.
+    pub(crate) fn header(&mut self, format: &str, version: u32, most: u64) -> Result<String, Fault> {
+        let text = self.next(most)?.ok_or_else(|| {
+            let remedy = format!("a trace begins with its header; {}", self.again);
+            Fault::in_file(&self.path, "the file is empty", remedy)
+        })?;
+        let magic: Magic =
+            self.parse(&text, "a trace begins with its header; name a file that --trace wrote")?;
+        if magic.format != format {
+            let what = format!("the format is {:?}", magic.format);
+            return Err(self.fault(&text, "\"format\"", what, format_args!("name a {format:?}")));
+        }
+        if magic.version != version {
+            let what = format!("this is version {}, this program reads version {version}", magic.version);
+            return Err(self.fault(&text, "\"version\"", what, self.again));
+        }
+        Ok(text)
+    }
+
+    /// The next line without its end, at most `most` bytes; `None` after the last.
+    ///
+    /// # Errors
+    /// A [`Fault`] if it cannot be read, is longer, or no text.
+    pub(crate) fn next(&mut self, most: u64) -> Result<Option<String>, Fault> {
+        if self.count == 0 {
+            self.skip_bom();
+        }
+        let mut bytes = Vec::new();
+        let read = self.input.by_ref().take(most + 1).read_until(b'\n', &mut bytes);
+        let read = read.map_err(|error| {
+            Fault::in_file(&self.path, format_args!("the file cannot be read: {error}"), "make it readable")
+        })?;
+        if read == 0 {
+            return Ok(None);
+        }
+        self.count += 1;
+        let is_long = bytes.len() as u64 > most;
+        let not_text = |bytes: &[u8]| {
+            let line = String::from_utf8_lossy(bytes);
+            let at = line.find(char::REPLACEMENT_CHARACTER).unwrap_or_default();
+            Fault::in_line(&self.path, self.count, &line, at..at + 1, "this is not UTF-8 text", self.again)
+        };
+        let mut text = String::from_utf8(bytes).map_err(|error| not_text(error.as_bytes()))?;
+        if is_long {
+            return Err(self.whole(&text, format_args!("this line has more than {most} bytes"), self.again));
+        }
+        text.truncate(text.trim_end_matches(['\n', '\r']).len());
+        Ok(Some(text))
+    }
+
+    /// Leaves out a byte order mark. What cannot be read is told by whoever reads on.
+    fn skip_bom(&mut self) {
+        let mut bom = [0; BOM.len_utf8()];
+        let bom = BOM.encode_utf8(&mut bom).as_bytes();
+        if self.input.fill_buf().is_ok_and(|text| text.starts_with(bom)) {
+            self.input.consume(bom.len());
+        }
+    }
+
+    /// Checks that the next line is `expected`.
+    ///
+    /// # Errors
+    /// A [`Fault`] where it first differs.
+    pub(crate) fn expect<T>(&mut self, expected: &T) -> Result<(), Fault>
+    where
+        T: Serialize + PartialEq + for<'a> Deserialize<'a>,
+    {
+        let wanted = line_of(expected);
+        let Some(text) = self.next(MAX_LINE_BYTES)? else {
+            let what =
+                format!("the trace ends after line {}; here the run has {}", self.count, wanted.trim_end());
+            return Err(Fault::in_file(&self.path, what, self.again));
+        };
+        let found: T = self.parse(&text, self.again)?;
+        if found == *expected {
+            return Ok(());
+        }
+        let same = text.bytes().zip(wanted.bytes()).take_while(|(one, other)| one == other).count();
+        let what = format!("the rule does not make this run; here it has {}", wanted.trim_end());
+        Err(self.at(&text, same..same + 1, what, self.again))
+    }
+
+    /// Checks that there is no line left.
+    ///
+    /// # Errors
+    /// A [`Fault`] if there is one.
+    pub(crate) fn end(&mut self) -> Result<(), Fault> {
+        match self.next(MAX_LINE_BYTES)? {
+            Some(text) if !text.trim().is_empty() => {
+                Err(self.whole(&text, "a line after the end", "leave it out"))
+            }
+            Some(_) | None => Ok(()),
+        }
+    }
+
+    /// What the line says.
+    ///
+    /// # Errors
+    /// A [`Fault`] where it is no such thing.
+    pub(crate) fn parse<'a, T: Deserialize<'a>>(&self, text: &'a str, remedy: &str) -> Result<T, Fault> {
+        serde_json::from_str(text).map_err(|error| {
+            let message = error.to_string();
+            let message = message.split(" at line ").next().unwrap_or_default();
+            let message = format!("this is no line of a stored run: {message}");
+            let column = error.column().saturating_sub(1);
+            self.at(text, column..column + 1, message, remedy)
+        })
+    }
+
+    /// A fault where `key` stands in the line.
+    pub(crate) fn fault(&self, text: &str, key: &str, what: impl Display, remedy: impl Display) -> Fault {
+        let start = text.find(key).unwrap_or_default();
+        self.at(text, start..start + key.len(), what, remedy)
+    }
+
+    /// A fault in the value that `key` has in the line.
+    pub(crate) fn fault_in(&self, text: &str, key: &str, what: impl Display, remedy: impl Display) -> Fault {
+        let name = format!("\"{key}\"");
+        let rest = text.find(&name).map_or(text, |start| &text[start + name.len()..]);
+        let start = text.len() - rest.trim_start_matches([' ', ':']).len();
+        let mut values = serde_json::Deserializer::from_str(&text[start..]).into_iter::<IgnoredAny>();
+        let _ = values.next();
+        self.at(text, start..start + values.byte_offset(), what, remedy)
+    }
+
+    fn whole(&self, text: &str, what: impl Display, remedy: impl Display) -> Fault {
+        self.at(text, 0..text.len(), what, remedy)
+    }
+
+    fn at(&self, text: &str, range: Range<usize>, what: impl Display, remedy: impl Display) -> Fault {
+        Fault::in_line(&self.path, self.count, text, range, what, remedy)
+    }
+}

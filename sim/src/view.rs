@@ -1,0 +1,490 @@
+//! Drawings in text that a person can judge: layouts, team moves, the order of exploration, the environments of a
+//! cell. Walls are drawn as in our layout format. Pictures for pages are in [`svg`] and [`chart`], the words that go with a
+//! counterexample in [`story`].
+
+pub mod chart;
+pub mod field;
+pub mod page;
+pub mod rescue;
+pub mod story;
+pub mod svg;
+
+use std::fmt::Write;
+use std::mem;
+
+use tautline_kernel::chain::Kind;
+use tautline_kernel::floor::Mark;
+use tautline_kernel::ground::{Area, Cell, Circle, Edge, Side, Step, neighbours};
+use tautline_proofs::course::{Scene, Turn};
+use tautline_proofs::words::counted;
+
+use crate::explore::{Chart, Crew, Setup, TeamMove};
+use crate::layout::Layout;
+use crate::words::Worded;
+
+/// Drawings beside each other take up at most so many columns.
+const PAGE_COLUMNS: usize = 100;
+
+/// What a drawing of team moves means.
+pub const fn legend(crew: Crew) -> &'static str {
+    match crew {
+        Crew::Chain => {
+            "B is the base, with the robots beside it or +K for K of them; 2, 3, … are the robots, the last one leads; \
+             · is explored, ## blocked; x stands where a robot met a wall."
+        }
+        Crew::Agents(_) => {
+            "1, 2, … are the agents, K× stands for K of them in one cell; · is explored, : explored and entered by \
+             nobody any more, ░░░ visited, ▒▒▒ sealed, ## blocked; ? is a sensor that an agent missed."
+        }
+    }
+}
+
+/// What a picture of the run of `setup` is called.
+pub fn title_of(setup: &Setup) -> String {
+    let Setup { scheme, rule, robots, .. } = setup;
+    let team = match setup.crew() {
+        Crew::Chain => counted(*robots, "robot"),
+        Crew::Agents(_) => counted(*robots, "agent"),
+    };
+    format!("{} ({rule}), {team}", scheme.word())
+}
+
+/// Lines of text with a title above them.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Block {
+    /// One line.
+    pub title: String,
+    /// The drawing.
+    pub lines: Vec<String>,
+}
+
+impl Block {
+    /// Columns of its longest line.
+    fn width(&self) -> usize {
+        self.lines.iter().chain([&self.title]).map(|line| line.chars().count()).max().unwrap_or(0)
+    }
+}
+
+/// Blocks beside each other, as many in a row as the page holds.
+pub fn beside(blocks: Vec<Block>) -> String {
+    let mut rows = Rows::new(blocks.iter().map(Block::width).max().unwrap_or(0));
+    let text: String = blocks.into_iter().map(|block| rows.add(block)).collect();
+    text + &rows.rest()
+}
+
+/// Blocks of at most so many columns beside each other, as many in a row as the page holds, and no more than a row at a
+/// time.
+#[derive(Debug)]
+pub struct Rows {
+    width: usize,
+    row: Vec<Block>,
+    is_first: bool,
+}
+
+impl Rows {
+    /// No block yet.
+    pub const fn new(width: usize) -> Self {
+        Self { width, row: Vec::new(), is_first: true }
+    }
+
+    /// Adds a block: the row that it fills, or nothing.
+    pub fn add(&mut self, block: Block) -> String {
+        self.row.push(block);
+        let across = ((PAGE_COLUMNS + 3) / (self.width + 3)).max(1);
+        if self.row.len() < across { String::new() } else { self.rest() }
+    }
+
+    /// What stands in the row that is not full.
+    pub fn rest(&mut self) -> String {
+        let (row, width) = (mem::take(&mut self.row), self.width);
+        if row.is_empty() {
+            return String::new();
+        }
+        let mut text = if mem::take(&mut self.is_first) { String::new() } else { "\n".to_owned() };
+        let height = row.iter().map(|block| block.lines.len()).max().unwrap_or(0);
+        for line in 0..=height {
+            let parts: Vec<String> = row
+                .iter()
+                .map(|block| match line.checked_sub(1) {
+                    None => format!("{:width$}", block.title),
+                    Some(line) => format!("{:width$}", block.lines.get(line).map_or("", String::as_str)),
+                })
+                .collect();
+            text.push_str(parts.join("   ").trim_end());
+            text.push('\n');
+        }
+        text
+    }
+}
+
+/// The cells of `area`, with a label of at most `width` characters in each. `is_marked` says which edges show an x.
+fn grid(
+    layout: &Layout,
+    area: Area,
+    width: usize,
+    label: impl Fn(Cell) -> String,
+    is_marked: impl Fn(Edge) -> bool,
+) -> Vec<String> {
+    let is_closed =
+        |edge: Edge| layout.has_wall(edge) || !area.contains(edge.cell()) || !area.contains(beyond(edge));
+    let (first, last) = (area.first(), area.last());
+    let mut lines = Vec::with_capacity(2 * area.height() + 1);
+    for y in first.y..=last.y.saturating_add(1) {
+        let mut walls = String::new();
+        for x in first.x..=last.x {
+            let edge = Edge::new(Cell::new(x, y), Side::North);
+            walls.push('+');
+            let side = match (is_marked(edge), is_closed(edge)) {
+                (true, _) => "x",
+                (false, true) => "-",
+                (false, false) => " ",
+            };
+            walls.push_str(&side.repeat(width));
+        }
+        walls.push('+');
+        lines.push(walls);
+        if y > last.y {
+            break;
+        }
+        let mut cells = String::new();
+        for x in first.x..=last.x.saturating_add(1) {
+            let cell = Cell::new(x, y);
+            let edge = Edge::new(cell, Side::West);
+            cells.push(match (is_marked(edge), is_closed(edge)) {
+                (true, _) => 'x',
+                (false, true) => '|',
+                (false, false) => ' ',
+            });
+            if x <= last.x {
+                let inside = if layout.is_free(cell) { label(cell) } else { "#".repeat(width) };
+                // Writing to a string cannot fail.
+                let _ = write!(cells, "{inside:^width$}");
+            }
+        }
+        lines.push(cells);
+    }
+    lines
+}
+
+fn beyond(edge: Edge) -> Cell {
+    edge.cell().beyond(edge.side())
+}
+
+/// What a drawing of a team move shows.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Pose {
+    /// The robots where they were, each with the arrow of what it tries.
+    Before,
+    /// The robots where they are.
+    After,
+}
+
+/// One team move of the run of `setup`. `chart` knows the explored cells.
+pub fn team_move(setup: &Setup, chart: &Chart, made: &TeamMove<'_>, pose: Pose) -> Block {
+    TeamMoves::new(setup, chart).draw(made, pose)
+}
+
+/// The team moves of a run, drawn one by one.
+#[derive(Debug)]
+pub struct TeamMoves<'a> {
+    setup: &'a Setup,
+    chart: &'a Chart,
+    is_bare: bool,
+}
+
+impl<'a> TeamMoves<'a> {
+    /// Those of the run of `setup`. `chart` knows the explored cells.
+    pub fn new(setup: &'a Setup, chart: &'a Chart) -> Self {
+        Self { setup, chart, is_bare: is_bare(setup, chart.area()) }
+    }
+
+    /// Whether one character for each cell is enough to draw a team move.
+    fn is_bare(&self, made: &TeamMove<'_>, pose: Pose) -> bool {
+        self.is_bare && made.unseen.is_empty() && pose == Pose::After
+    }
+
+    fn labels<'b>(&self, made: &'b TeamMove<'_>, pose: Pose) -> Labels<'b> {
+        let (cells, steps) = match pose {
+            Pose::Before => (made.before, Some(&made.frame.steps)),
+            Pose::After => (made.frame.cells.as_slice(), None),
+        };
+        Labels { crew: self.setup.crew(), cells, steps, unseen: made.unseen }
+    }
+
+    /// Columns of the drawing of a team move.
+    pub fn columns(&self, made: &TeamMove<'_>, pose: Pose) -> usize {
+        let width = self.chart.area().width();
+        let columns = if self.is_bare(made, pose) {
+            width + 2
+        } else {
+            width * (self.labels(made, pose).width() + 1) + 1
+        };
+        columns.max(title(made).chars().count())
+    }
+
+    /// A team move.
+    pub fn draw(&self, made: &TeamMove<'_>, pose: Pose) -> Block {
+        let Self { setup, chart, .. } = self;
+        let step = match pose {
+            Pose::Before => made.step - 1,
+            Pose::After => made.step,
+        };
+        let labels = self.labels(made, pose);
+        let bumps: Vec<Edge> = made.frame.bumps().collect();
+        let lines = if self.is_bare(made, pose) {
+            bare(setup.crew(), chart.area(), labels.cells, |cell| chart.mark(cell, step))
+        } else {
+            let label = |cell| labels.label(cell, chart.mark(cell, step));
+            grid(&setup.layout, chart.area(), labels.width(), label, |edge| bumps.contains(&edge))
+        };
+        Block { title: title(made), lines }
+    }
+}
+
+/// Agents on a floor with such marks, one of them with the arrow of what it tries if that is given, with the sensors that
+/// it misses.
+fn agents(crew: Crew, layout: &Layout, scene: &Scene, tries: Option<&Turn>) -> Vec<String> {
+    let steps = tries.map(|turn| {
+        let step = |agent| if agent == turn.agent { turn.step } else { Step::Stay };
+        (0..scene.cells.len()).map(step).collect()
+    });
+    let unseen = tries.map_or(&[][..], |turn| &turn.unseen);
+    let labels = Labels { crew, cells: &scene.cells, steps: steps.as_ref(), unseen };
+    let mark =
+        |cell| scene.marks.iter().find(|(at, _)| *at == cell).map_or(Mark::Unexplored, |&(_, mark)| mark);
+    grid(layout, layout.size().area(), labels.width(), |cell| labels.label(cell, mark(cell)), |_| false)
+}
+
+fn title(made: &TeamMove<'_>) -> String {
+    let kind = match made.frame.kind {
+        Kind::Advance => "",
+        Kind::Backtrack => " (back)",
+    };
+    let broken: Vec<&str> = made.breaches.iter().map(|breach| breach.clause()).collect();
+    let broken = if broken.is_empty() { String::new() } else { format!(" breaks {}", broken.join(", ")) };
+    format!("move {}{kind}{broken}", made.step)
+}
+
+/// The place of the first robot that is drawn as one: the first of a chain is the base.
+const fn first_drawn(crew: Crew) -> usize {
+    match crew {
+        Crew::Chain => 1,
+        Crew::Agents(_) => 0,
+    }
+}
+
+/// The labels of the cells in a drawing of a team.
+struct Labels<'a> {
+    crew: Crew,
+    cells: &'a [Cell],
+    /// What each robot tries, if arrows are to be drawn.
+    steps: Option<&'a Vec<Step>>,
+    /// Cells of sensors that were missed.
+    unseen: &'a [Cell],
+}
+
+impl Labels<'_> {
+    fn label(&self, cell: Cell, mark: Mark) -> String {
+        let first = first_drawn(self.crew);
+        let here: Vec<usize> = (first..self.cells.len()).filter(|&robot| self.cells[robot] == cell).collect();
+        if self.crew == Crew::Chain && self.cells[0] == cell {
+            let rests = |&robot: &usize| self.steps.is_none_or(|steps| steps[robot] == Step::Stay);
+            let (resting, leaving): (Vec<usize>, Vec<usize>) = here.into_iter().partition(rests);
+            return match (resting.len(), leaving.len()) {
+                (0 | 1, _) => format!("B{}{}", self.names(&resting), self.names(&leaving)),
+                (many, 0) => format!("B+{many}"),
+                (many, _) => format!("B+{many} {}", self.names(&leaving)),
+            };
+        }
+        match (self.crew, here.as_slice()) {
+            (_, []) if self.unseen.contains(&cell) => match mark {
+                Mark::Unexplored | Mark::Explored => "·?".to_owned(),
+                Mark::Closing => ":?".to_owned(),
+                Mark::Visited => "░?░".to_owned(),
+                Mark::Sealed => "▒?▒".to_owned(),
+            },
+            (_, []) => match mark {
+                Mark::Unexplored => String::new(),
+                Mark::Explored => "·".to_owned(),
+                Mark::Closing => ":".to_owned(),
+                Mark::Visited => "░░░".to_owned(),
+                Mark::Sealed => "▒▒▒".to_owned(),
+            },
+            (Crew::Agents(_), here) if self.unseen.contains(&cell) => format!("{}?", self.team(here)),
+            (Crew::Agents(_), here) => self.team(here),
+            (Crew::Chain, here) => self.names(here),
+        }
+    }
+
+    /// Agents in one cell.
+    fn team(&self, agents: &[usize]) -> String {
+        if agents.len() > 2 { format!("{}×", agents.len()) } else { self.names(agents) }
+    }
+
+    fn names(&self, robots: &[usize]) -> String {
+        let names: Vec<String> = robots.iter().map(|&robot| self.name(robot)).collect();
+        names.join(if self.cells.len() > 9 && self.steps.is_none() { "," } else { "" })
+    }
+
+    fn name(&self, robot: usize) -> String {
+        let arrow = self.steps.map_or("", |steps| arrow(steps[robot]));
+        format!("{}{arrow}", robot + 1)
+    }
+
+    /// Columns of the widest label.
+    fn width(&self) -> usize {
+        let least = if self.cells.len() > 9 { 4 } else { 3 };
+        self.cells
+            .iter()
+            .map(|&cell| self.label(cell, Mark::Unexplored).chars().count())
+            .max()
+            .unwrap_or(0)
+            .max(least)
+    }
+}
+
+/// The arrow of a step; a robot that stays has a dot.
+const fn arrow(step: Step) -> &'static str {
+    match step {
+        Step::Cross(Side::East) => "→",
+        Step::Cross(Side::South) => "↓",
+        Step::Cross(Side::West) => "←",
+        Step::Cross(Side::North) => "↑",
+        Step::Stay => "·",
+    }
+}
+
+/// Digits and letters: the robots that have a character of their own.
+const SYMBOLS: &str = "123456789abcdefghijklmnopqrstuvwxyz";
+
+/// Whether one character for each cell is enough to draw the run: nothing is in the way.
+fn is_bare(setup: &Setup, area: Area) -> bool {
+    usize::from(setup.robots) <= SYMBOLS.len() && area.edges().all(|edge| setup.layout.is_open(edge))
+}
+
+/// A drawing with one character for each cell, of a team in an area with nothing in the way.
+fn bare(crew: Crew, area: Area, team: &[Cell], mark: impl Fn(Cell) -> Mark) -> Vec<String> {
+    let symbol = |cell: Cell| {
+        let mut here = (first_drawn(crew)..team.len()).filter(|&robot| team[robot] == cell);
+        match (here.next(), here.next(), mark(cell)) {
+            _ if crew == Crew::Chain && cell == team[0] => 'B',
+            (Some(robot), None, _) => SYMBOLS.chars().nth(robot).unwrap_or('*'),
+            (Some(_), Some(_), _) => '*',
+            (None, _, Mark::Unexplored) => ' ',
+            (None, _, Mark::Explored) => '·',
+            (None, _, Mark::Closing) => ':',
+            (None, _, Mark::Visited) => '░',
+            (None, _, Mark::Sealed) => '▒',
+        }
+    };
+    let rim = format!("+{}+", "-".repeat(area.width()));
+    let (first, last) = (area.first(), area.last());
+    let rows = (first.y..=last.y).map(|y| {
+        let row: String = (first.x..=last.x).map(|x| symbol(Cell::new(x, y))).collect();
+        format!("|{row}|")
+    });
+    std::iter::once(rim.clone()).chain(rows).chain([rim.clone()]).collect()
+}
+
+/// The order of exploration: in each cell the team move in which it was explored.
+pub fn order(setup: &Setup, chart: &Chart) -> String {
+    let label = |cell| match (chart.step(cell), setup.crew()) {
+        (Some(0), Crew::Chain) => "B".to_owned(),
+        (Some(step), _) => step.to_string(),
+        (None, _) => String::new(),
+    };
+    let width = chart.area().cells().map(|cell| label(cell).len()).max().unwrap_or(0).max(2);
+    grid(&setup.layout, chart.area(), width, label, |_| false).join("\n") + "\n"
+}
+
+/// What was explored, and where the team is in the end.
+pub fn outcome(setup: &Setup, chart: &Chart, team: &[Cell]) -> String {
+    let labels = Labels { crew: setup.crew(), cells: team, steps: None, unseen: &[] };
+    let label = |cell| labels.label(cell, chart.mark(cell, u32::MAX));
+    grid(&setup.layout, chart.area(), labels.width(), label, |_| false).join("\n") + "\n"
+}
+
+/// A set of cells round one cell.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Environment {
+    /// E_N: where a robot can be after one step.
+    Neighbours,
+    /// E_S: the cells wholly within r_safe.
+    Safe,
+    /// E_C: the cells wholly within r_cov.
+    Covered,
+}
+
+impl Environment {
+    /// All three, the smallest first.
+    pub const ALL: [Self; 3] = [Self::Neighbours, Self::Safe, Self::Covered];
+
+    /// Its symbol in the paper.
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::Neighbours => "E_N",
+            Self::Safe => "E_S",
+            Self::Covered => "E_C",
+        }
+    }
+
+    /// What it is.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Neighbours => "one step or none",
+            Self::Safe => "wholly within r_safe",
+            Self::Covered => "wholly within r_cov",
+        }
+    }
+
+    /// The circle that decides it, if one does.
+    pub const fn circle(self) -> Option<Circle> {
+        match self {
+            Self::Neighbours => None,
+            Self::Safe => Some(Circle::SAFE),
+            Self::Covered => Some(Circle::COVERED),
+        }
+    }
+
+    /// The radius of that circle in sides of a cell.
+    pub fn radius(self) -> Option<f64> {
+        match self {
+            Self::Neighbours => None,
+            Self::Safe => Some(1.5 * 2_f64.sqrt()),
+            Self::Covered => Some(26_f64.sqrt() / 2.0),
+        }
+    }
+
+    /// Columns and rows from the centre to its cells, row by row.
+    pub fn offsets(self) -> impl Iterator<Item = Cell> {
+        let centre = Cell::new(0, 0);
+        let square = (-REACH..=REACH).flat_map(|y| (-REACH..=REACH).map(move |x| Cell::new(x, y)));
+        square.filter(move |&cell| self.has(centre, cell))
+    }
+
+    /// Whether `cell` is in it.
+    pub fn has(self, centre: Cell, cell: Cell) -> bool {
+        self.circle().map_or_else(|| neighbours(centre, cell), |circle| circle.covers(centre, cell))
+    }
+}
+
+/// Cells shown on each side of the centre of an environment.
+const REACH: i16 = 3;
+
+/// The three environments of the cell R.
+pub fn environments() -> String {
+    let centre = Cell::new(0, 0);
+    let blocks = Environment::ALL.map(|environment| {
+        let symbol = |cell| match (cell == centre, environment.has(centre, cell)) {
+            (true, _) => "R",
+            (false, true) => "#",
+            (false, false) => "·",
+        };
+        let rows = (-REACH..=REACH).map(|y| {
+            let row: Vec<&str> = (-REACH..=REACH).map(|x| symbol(Cell::new(x, y))).collect();
+            row.join(" ")
+        });
+        Block { title: format!("{}, {}", environment.symbol(), environment.words()), lines: rows.collect() }
+    });
+    beside(blocks.into())
+}

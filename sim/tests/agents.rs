@@ -1,0 +1,223 @@
+//! Runs of agents on sensor floors: without missed sensors every cell that they can get to is visited and every agent
+//! knows that it is done, in random layouts and on published maps; ants and robust agents explore everything.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::{env, fs};
+
+use insta::assert_snapshot;
+use proptest::prelude::*;
+use tautline_kernel::bricks::Rule;
+use tautline_kernel::floor::Mark;
+use tautline_kernel::ground::{Cell, Edge, Side, Step};
+use tautline_proofs::course::{Course, Scene, Turn};
+use tautline_sim::explore::agents::{Team, Way};
+use tautline_sim::explore::{Crew, Report, RuleName, SchemeName, Setup, Stopped, explore};
+use tautline_sim::layout::generate::Probability;
+use tautline_sim::layout::{self, Generator, Layout};
+use tautline_sim::view::story;
+
+/// More team moves than any run here has.
+const MANY: u32 = 300_000;
+
+/// Layouts with more cells than this are visited by one team only, since all of them take minutes.
+const MOST_CELLS: u32 = 20_000;
+
+fn run(setup: &Setup) -> Report {
+    let report = explore(setup, &mut |made| {
+        assert!(made.step < MANY, "the run does not end: {setup:?}");
+        Ok(())
+    });
+    report.expect("a run")
+}
+
+/// Random layouts of every generator that has chance in it, and up to eight agents anywhere in them.
+fn setups() -> impl Strategy<Value = Setup> {
+    let size = (1_u64..=12, 1_u64..=12);
+    let described = prop_oneof![
+        (size.clone(), 0.0..0.5_f64).prop_map(|((width, height), p)| format!("walls:{width}x{height}:{p}")),
+        (size.clone(), 0.0..0.5_f64).prop_map(|((width, height), p)| format!("cells:{width}x{height}:{p}")),
+        (size, 1_u64..=4, 1_u64..=4).prop_map(|((width, height), across, down)| {
+            format!("office:{width}x{height}:{}x{}", across.min(width), down.min(height))
+        }),
+    ];
+    (described, 0_u64..1000, prop::collection::vec(any::<prop::sample::Index>(), 1..=8)).prop_filter_map(
+        "every cell is blocked",
+        |(described, seed, places)| {
+            let generator: Generator = described.parse().expect("a generator");
+            let mut layout = generator.generate(seed).ok()?;
+            let free: Vec<Cell> = layout.cells().filter(|&cell| layout.is_free(cell)).collect();
+            let starts: Vec<Cell> = places.iter().map(|place| *place.get(&free)).collect();
+            let base = Setup::choose_base(&mut layout, None).ok()?;
+            let robots = starts.len() as u16;
+            let setup = Setup::new(SchemeName::Bricks, RuleName::Repaired, robots, layout, base);
+            Some(Setup { seed, starts: Some(starts), ..setup })
+        },
+    )
+}
+
+/// The cells that can be reached from `start`.
+fn connected(layout: &Layout, start: Cell) -> BTreeSet<Cell> {
+    let (mut reached, mut left) = (BTreeSet::from([start]), vec![start]);
+    while let Some(cell) = left.pop() {
+        for side in Side::ALL {
+            if layout.is_open(Edge::new(cell, side)) && reached.insert(cell.beyond(side)) {
+                left.push(cell.beyond(side));
+            }
+        }
+    }
+    reached
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_cell_is_visited_and_every_agent_knows_it(
+        setup in setups(),
+        scheme in prop::sample::select(vec![SchemeName::Bricks, SchemeName::BricksAnts]),
+    ) {
+        let report = run(&Setup { scheme, ..setup.clone() });
+        prop_assert_eq!(&report.violations, &[]);
+        prop_assert_eq!(report.stopped, Stopped::Explored);
+        let due: BTreeSet<Cell> = setup.starts().iter().flat_map(|&start| connected(&setup.layout, start)).collect();
+        let whole = report.whole();
+        prop_assert_eq!(due.len() as u32, report.cells);
+        prop_assert_eq!((whole.visited, whole.explored, whole.active), (report.cells, report.cells, 0));
+        for component in &report.components {
+            prop_assert_eq!((component.visited, component.active), (component.cells, 0));
+        }
+        prop_assert!(due.iter().all(|&cell| report.chart.step(cell).is_some()));
+    }
+
+    #[test]
+    fn ants_explore_everything(setup in setups(), rule in prop::sample::select(RuleName::ALL.to_vec())) {
+        let report = run(&Setup { scheme: SchemeName::Ants, rule, ..setup });
+        prop_assert_eq!((report.stopped, report.explored), (Stopped::Explored, report.cells));
+        prop_assert_eq!(report.violations, []);
+    }
+
+    #[test]
+    fn repaired_ants_and_robust_agents_explore_everything_although_sensors_are_missed(
+        setup in setups(),
+        miss in 0.0..0.1_f64,
+        scheme in prop::sample::select(vec![SchemeName::Ants, SchemeName::BricksAnts]),
+    ) {
+        let miss = Probability::new(miss).expect("a probability");
+        let report = run(&Setup { scheme, miss, ..setup });
+        prop_assert_eq!(&report.violations, &[]);
+        prop_assert_eq!((report.stopped, report.explored), (Stopped::Explored, report.cells));
+    }
+}
+
+/// The end of a team in `layout`, all agents starting in `start`: cells, visited cells, and agents that are not done.
+fn ended(rule: Rule, layout: &Layout, start: Cell, agents: usize) -> (u32, u32, u32) {
+    let starts = vec![start; agents];
+    let mut team = Team::new(Way::Bricks(rule), layout, &starts, Probability::NEVER, 0);
+    while !team.is_over() {
+        team.advance();
+    }
+    (team.due(), team.visited(), team.active())
+}
+
+/// A free cell of the largest part of `layout`, and how many cells the part has.
+fn largest_part(layout: &Layout) -> (Cell, u32) {
+    let mut seen = BTreeSet::new();
+    let mut largest = None;
+    for cell in layout.cells().filter(|&cell| layout.is_free(cell)) {
+        if seen.contains(&cell) {
+            continue;
+        }
+        let part = connected(layout, cell);
+        if largest.is_none_or(|(_, cells)| cells < part.len() as u32) {
+            largest = Some((cell, part.len() as u32));
+        }
+        seen.extend(part);
+    }
+    largest.expect("a free cell")
+}
+
+/// Every team visits the whole of the part of `layout` that `start` is in, which has so many cells, and knows it.
+fn is_visited(name: &str, layout: &Layout, (start, cells): (Cell, u32)) {
+    let teams = if cells <= MOST_CELLS {
+        [Rule::REPAIRED, Rule::ROBUST].map(|rule| [1, 4, 20].map(|agents| (rule, agents))).concat()
+    } else {
+        vec![(Rule::REPAIRED, 4)]
+    };
+    for (rule, agents) in teams {
+        assert_eq!(
+            ended(rule, layout, start, agents),
+            (cells, cells, 0),
+            "{name}, {agents} agents, {rule:?}"
+        );
+    }
+}
+
+#[test]
+fn built_in_layouts_are_visited() {
+    for described in
+        ["rooms-a", "rooms-b", "open:20x7", "office:30x30:4x4", "cells:24x24:0.3", "walls:24x24:0.3"]
+    {
+        let generator: Generator = described.parse().expect("a generator");
+        let layout = generator.generate(1).expect("a layout");
+        is_visited(described, &layout, largest_part(&layout));
+    }
+}
+
+#[test]
+fn published_maps_are_visited_if_they_are_there() {
+    let Some(folder) = env::var_os("TAUTLINE_MAPS") else { return };
+    let files = fs::read_dir(folder).expect("a folder").map(|file| file.expect("a file").path());
+    let maps: BTreeSet<_> = files.filter(|path| path.extension().is_some_and(|end| end == "map")).collect();
+    for path in maps {
+        let name = path.display().to_string();
+        let layout = layout::load(&name, 0, None::<&Path>).expect("a map");
+        is_visited(&name, &layout, largest_part(&layout));
+    }
+}
+
+#[test]
+fn of_turns_that_can_go_on_for_ever_only_those_are_drawn() {
+    let cells = [(0, 0), (1, 0), (2, 0), (0, 1)].map(|(x, y)| Cell::new(x, y));
+    let scene = |agents: [usize; 2]| Scene {
+        cells: agents.map(|agent| cells[agent]).to_vec(),
+        marks: cells
+            .into_iter()
+            .zip([Mark::Explored, Mark::Explored, Mark::Unexplored, Mark::Visited])
+            .collect(),
+    };
+    let turn = |agents, agent, side| Turn {
+        before: scene(agents),
+        agent,
+        step: Step::Cross(side),
+        is_done: false,
+        unseen: vec![],
+    };
+    let course = Course {
+        width: 3,
+        height: 2,
+        blocked: vec![Cell::new(1, 1), Cell::new(2, 1)],
+        walls: vec![Edge::new(cells[1], Side::East)],
+        turns: vec![
+            turn([3, 0], 0, Side::North),
+            Turn { unseen: vec![cells[3]], ..turn([0, 0], 1, Side::East) },
+            turn([0, 1], 1, Side::West),
+        ],
+        round: 2,
+        end: scene([0, 0]),
+    };
+    let drawn = story::of_course(Crew::Agents(Way::Bricks(Rule::PUBLISHED)), &course).expect("a layout");
+    assert_snapshot!(drawn, @"
+    1, 2, … are the agents, K× stands for K of them in one cell; · is explored, : explored and entered by nobody any more, ░░░ visited, ▒▒▒ sealed, ## blocked; ? is a sensor that an agent missed.
+
+      In turn 2 agent 2 misses the sensor of 0,1.
+      The last 2 of 3 turns can go on for ever.
+
+    before turn 2      before turn 3      the end
+    +----+----+----+   +---+---+---+      +---+---+---+
+    |1·2→  ·  |    |   |1·  2← |   |      |12   · |   |
+    +    +    +    +   +   +   +   +      +   +   +   +
+    |░?░  #### ####|   |░░░ ### ###|      |░░░ ### ###|
+    +----+----+----+   +---+---+---+      +---+---+---+
+    ");
+}

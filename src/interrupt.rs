@@ -1,0 +1,86 @@
+//! Signals that end the work: Ctrl-C, SIGTERM and, unless the process was started to ignore it, SIGHUP. The first ends the
+//! process at once, unless the work in hand has results to keep; then it ends the work, and the second the process. No
+//! unfinished file stays.
+
+use std::io::{self, IsTerminal, Write};
+use std::process;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::Exit;
+use tautline_sim::aside;
+
+static REQUESTED: AtomicBool = AtomicBool::new(false);
+static DEFERRED: AtomicBool = AtomicBool::new(false);
+
+/// Listens from now on.
+pub(super) fn listen() {
+    if let Err(error) = system::on_signals(heard) {
+        tracing::warn!("Ctrl-C will end the work at once, and may leave unfinished files: {error}");
+    }
+}
+
+fn heard() {
+    let is_first = !REQUESTED.swap(true, Ordering::Relaxed);
+    if is_first && DEFERRED.load(Ordering::Relaxed) {
+        return;
+    }
+    aside::abandon();
+    if is_first {
+        // A bar may stand on the line; and who reads may have gone, which is what the signal may have told.
+        let line = if io::stderr().is_terminal() { "\n" } else { "" };
+        let _ = writeln!(io::stderr(), "{line}Interrupted before the end: nothing is claimed.");
+    }
+    process::exit(Exit::Unfinished.code().into());
+}
+
+/// From now on the first signal ends the work and not the process: what was found by then is to be kept.
+pub(super) fn defer() {
+    DEFERRED.store(true, Ordering::Relaxed);
+}
+
+/// Whether the user wants the work to stop.
+pub(super) fn is_requested() -> bool {
+    REQUESTED.load(Ordering::Relaxed)
+}
+
+#[cfg(unix)]
+mod system {
+    use std::io;
+    use std::sync::atomic::AtomicBool;
+    use std::sync::{Arc, mpsc};
+    use std::{fs, thread};
+
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
+    use signal_hook::{flag, iterator::Signals};
+
+    /// Calls `heard` for each signal, one after the other.
+    pub(super) fn on_signals(heard: fn()) -> io::Result<()> {
+        // No signal is taken from the system before there is a thread that hears it.
+        let (give, take) = mpsc::channel::<Signals>();
+        let hear = move || take.iter().for_each(|mut signals| signals.forever().for_each(|_| heard()));
+        thread::Builder::new().spawn(hear)?;
+        // A file that may grow no more is a fault of its own, and no reason to die.
+        flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false)))?;
+        let signals = Signals::new([SIGINT, SIGTERM])?;
+        if !is_hangup_ignored() {
+            signals.add_signal(SIGHUP)?;
+        }
+        give.send(signals).map_err(|_| io::Error::other("nobody hears them"))
+    }
+
+    /// Whether the process was started to outlive its terminal, as by nohup.
+    fn is_hangup_ignored() -> bool {
+        let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+        let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+        let ignored = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+        ignored.is_some_and(|mask| mask >> (SIGHUP - 1) & 1 == 1)
+    }
+}
+
+#[cfg(not(unix))]
+mod system {
+    /// Calls `heard` for each signal, one after the other.
+    pub(super) fn on_signals(heard: fn()) -> Result<(), ctrlc::Error> {
+        ctrlc::set_handler(heard)
+    }
+}

@@ -1,0 +1,84 @@
+//! `tautline man`: a manual page of the program and of each command, from the words of their help.
+
+use std::path::PathBuf;
+
+use clap::{Args, Command};
+use clap_mangen::Man;
+use clap_mangen::roff::{Roff, roman};
+
+use super::output::{self, Output};
+use super::{EXIT_CODES, Exit, ForceArgs, hunt, needless, program};
+use tautline_sim::aside::{Aside, MAN_HEAD};
+use tautline_sim::fault::{Fault, Halt};
+
+const EXAMPLES: &str = "\
+Examples:
+  tautline man | man -l -
+  tautline man reproduce atlas | man -l -
+  tautline man --out /usr/local/share/man/man1";
+
+/// Print the manual page of the program or of a command, or store the pages of all.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Manual {
+    /// The command, for example `explore` or `reproduce atlas`. Without it the page is that of the program.
+    #[arg(value_name = "COMMAND")]
+    command: Vec<String>,
+    /// Store the pages of the program and of all commands in this folder, as tautline.1, tautline-explore.1 and so on.
+    #[arg(long, value_name = "DIR", conflicts_with = "command")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceArgs,
+}
+
+impl Manual {
+    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        if self.force.force && self.out.is_none() {
+            return Err(needless("--force", "no file is to be stored").into());
+        }
+        let mut program = program().disable_help_subcommand(true);
+        program.build();
+        if let Some(folder) = &self.out {
+            hunt::check_folder(folder)?;
+            let replaceable = self.force.replaceable([]);
+            for command in all(&program) {
+                let man = Man::new(command.clone());
+                let mut file = Aside::late(&folder.join(man.get_filename()), &replaceable);
+                file.append(page(&man)?);
+                out.keep(file);
+            }
+            return Ok(Exit::Expected);
+        }
+        let mut command = &program;
+        for name in &self.command {
+            command = command.find_subcommand(name).ok_or_else(|| unknown(command, name))?;
+        }
+        out.bytes(&page(&Man::new(command.clone()))?)?;
+        Ok(Exit::Expected)
+    }
+}
+
+/// A command and those in it.
+fn all(command: &Command) -> Vec<&Command> {
+    let mut all = vec![command];
+    all.extend(command.get_subcommands().flat_map(self::all));
+    all
+}
+
+fn page(man: &Man) -> Result<Vec<u8>, Fault> {
+    let mut page = MAN_HEAD.as_bytes().to_vec();
+    let mut exit_status = Roff::new();
+    exit_status.control("SH", ["EXIT STATUS"]).text([roman(EXIT_CODES)]);
+    man.render(&mut page).map_err(|error| output::unwritable(&error))?;
+    page.extend(exit_status.to_roff().into_bytes());
+    Ok(page)
+}
+
+fn unknown(command: &Command, name: &str) -> Fault {
+    let what = format!("there is no command {name:?}");
+    let names: Vec<&str> = command.get_subcommands().map(Command::get_name).collect();
+    if names.is_empty() {
+        return Fault::usage(what, format_args!("{} has no commands of its own", command.get_name()));
+    }
+    Fault::usage(what, format_args!("the commands are {}", names.join(", ")))
+}

@@ -1,0 +1,102 @@
+//! What a command gives: text on stdout, and files. A reader that has gone away, as in `tautline … | head`, ends the
+//! printing and not the work, so that the exit code is that of the whole. A file that cannot be stored is left out, and
+//! nothing else.
+
+use std::fmt;
+use std::io::{self, BufWriter, ErrorKind, StdoutLock, Write};
+
+use serde::Serialize;
+
+use super::{SCHEMA_VERSION, complain};
+use tautline_sim::aside::Aside;
+use tautline_sim::fault::Fault;
+
+pub(super) struct Output {
+    /// Unless its reader has gone away.
+    stdout: Option<BufWriter<StdoutLock<'static>>>,
+    has_left_out: bool,
+}
+
+/// What every JSON object begins with.
+#[derive(Serialize)]
+struct Versioned<'a, T> {
+    schema_version: u32,
+    #[serde(flatten)]
+    content: &'a T,
+}
+
+impl Output {
+    pub(super) fn stdout() -> Self {
+        Self { stdout: Some(BufWriter::new(io::stdout().lock())), has_left_out: false }
+    }
+
+    /// Puts a file in its place. Whether it stands there now; otherwise it is left out.
+    pub(super) fn keep(&mut self, file: Aside) -> bool {
+        file.keep().map_err(|fault| self.leave_out(&fault)).is_ok()
+    }
+
+    /// Tells why a file is left out. The command goes on, and ends as one with a fault.
+    pub(super) fn leave_out(&mut self, fault: &Fault) {
+        complain(fault);
+        self.has_left_out = true;
+    }
+
+    /// Whether a file was left out.
+    pub(super) const fn has_left_out(&self) -> bool {
+        self.has_left_out
+    }
+
+    /// Whether nobody reads any more what is printed.
+    pub(super) const fn is_gone(&self) -> bool {
+        self.stdout.is_none()
+    }
+
+    /// Prints `text` as it is.
+    pub(super) fn text(&mut self, text: impl fmt::Display) -> Result<(), Fault> {
+        write!(self, "{text}").map_err(|error| unwritable(&error))
+    }
+
+    /// Prints bytes as they are.
+    pub(super) fn bytes(&mut self, bytes: &[u8]) -> Result<(), Fault> {
+        self.write_all(bytes).map_err(|error| unwritable(&error))
+    }
+
+    /// Prints `content` as one JSON object on one line.
+    pub(super) fn json(&mut self, content: &impl Serialize) -> Result<(), Fault> {
+        let versioned = Versioned { schema_version: SCHEMA_VERSION, content };
+        let written = serde_json::to_writer(&mut *self, &versioned).map_err(io::Error::from);
+        written.and_then(|()| writeln!(self)).map_err(|error| unwritable(&error))
+    }
+
+    fn unless_gone<T>(
+        &mut self,
+        done: T,
+        act: impl FnOnce(&mut BufWriter<StdoutLock<'static>>) -> io::Result<T>,
+    ) -> io::Result<T> {
+        let Some(stdout) = &mut self.stdout else { return Ok(done) };
+        match act(stdout) {
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => {
+                // What is still buffered has no reader: it is not to be written when dropped.
+                if let Some(stdout) = self.stdout.take() {
+                    let _ = stdout.into_parts();
+                }
+                Ok(done)
+            }
+            result => result,
+        }
+    }
+}
+
+impl Write for Output {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.unless_gone(bytes.len(), |stdout| stdout.write(bytes))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.unless_gone((), Write::flush)
+    }
+}
+
+pub(super) fn unwritable(error: &io::Error) -> Fault {
+    Fault::in_file("standard output", error, "make room, or send it elsewhere")
+}

@@ -1,0 +1,329 @@
+//! `tautline replay`: a stored run again.
+
+use std::fmt::Display;
+use std::ops::RangeInclusive;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::Args;
+use serde::ser::{Error, SerializeSeq};
+use serde::{Serialize, Serializer};
+use tautline_proofs::clause::{Check, Clause};
+use tautline_proofs::decide::Evidence;
+use tautline_proofs::floor_judge;
+use tautline_proofs::invariant::Invariant;
+use tautline_proofs::judge::{Exhibit, judge, judges};
+use tautline_proofs::run::Breach;
+
+use super::evidence::{Shown, indented, setup, shown, story};
+use super::explore::{Summary, among, check_panels, draw_moves, panels, play, summary};
+use super::output::Output;
+use super::rescue::{Files, tell};
+use super::{Exit, ForceArgs, Format, FormatArgs};
+use tautline_sim::aside::Aside;
+use tautline_sim::exhibit::{exhibit, of_agent, of_course, written_down};
+use tautline_sim::explore::{Crew, Report, Setup};
+use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::refutation::{self, Refutation};
+use tautline_sim::trace::{self, StoredMove, Trace, lines};
+use tautline_sim::view::svg;
+use tautline_sim::{rescue, view};
+
+const EXAMPLES: &str = "\
+Examples:
+  tautline replay chain-1-published-n4.jsonl
+  tautline replay run.jsonl --moves 10..20
+  tautline replay run.jsonl --html run.html
+  tautline replay rescue.jsonl --svg map.svg";
+
+/// Play a stored run, counterexample or rescue, and check that it is what its rule makes.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Replay {
+    /// A file that `explore --trace`, `rescue --trace`, `hunt`, `minimise` or `prove --out` wrote.
+    file: PathBuf,
+    /// The team moves to show, the first and the last. Without it all are shown, or the last 100.
+    #[arg(long, value_name = "A..B")]
+    moves: Option<Moves>,
+    /// Store the run as a page that plays it.
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Store the team moves as a picture, by default the last one; of a rescue the map.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceArgs,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+/// Team moves from the first to the last.
+#[derive(Clone, Debug)]
+struct Moves(RangeInclusive<u32>);
+
+impl FromStr for Moves {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let parts = text.split_once("..").and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
+        let (first, last) =
+            parts.ok_or("write the first and the last team move as A..B, for example 10..20")?;
+        if first <= last { Ok(Self(first..=last)) } else { Err("the first team move comes after the last") }
+    }
+}
+
+/// What can be replayed.
+const REPLAYABLE: &str = "name a file that `tautline explore --trace`, `tautline rescue --trace`, `tautline hunt`, \
+                          `tautline minimise` or `tautline prove --out` wrote";
+
+/// Team moves that are shown of a run when nobody says which.
+const SHOWN: u32 = 100;
+
+/// Robots that the judge can judge, over all team moves of a counterexample: all of them are held.
+const MAX_JUDGED: usize = 1 << 22;
+
+#[derive(Serialize)]
+struct Replayed<'a> {
+    #[serde(flatten)]
+    run: Summary<'a>,
+    /// The clause that the file says it is a counterexample to; for a chain the judge agrees.
+    counterexample_to: Option<&'static str>,
+    moves: ShownMoves<'a>,
+}
+
+/// Team moves of a run, made one by one as they are written.
+struct ShownMoves<'a> {
+    setup: &'a Setup,
+    moves: &'a RangeInclusive<u32>,
+}
+
+impl Serialize for ShownMoves<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut list = serializer.serialize_seq(None)?;
+        let mut written = Ok(());
+        among(self.setup, self.moves, &mut |made| {
+            if written.is_ok() {
+                written = list.serialize_element(&StoredMove::new(made.step, made.frame));
+            }
+            Ok(())
+        })
+        .map_err(|_| S::Error::custom("the run cannot be made again"))?;
+        written?;
+        list.end()
+    }
+}
+
+#[derive(Serialize)]
+struct Refuted {
+    file: String,
+    counterexample_to: &'static str,
+    rule: &'static str,
+    engine: &'static str,
+    bound: String,
+    counterexample: Shown,
+    /// Whether a judge who shares no code with the rule has accepted it.
+    is_judged: bool,
+}
+
+impl Replay {
+    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        let [page, picture] = self.force.files([&self.html, &self.svg], [self.file.clone()])?;
+        match lines::format(&self.file).as_deref() {
+            Some(rescue::trace::FORMAT) => self.run_rescue(Files { trace: None, page, map: picture }, out),
+            Some(refutation::FORMAT) => self.run_refutation(out),
+            Some(trace::FORMAT) => self.run_team(Trace::open(&self.file)?, [page, picture], out),
+            Some(_) | None => {
+                let foreign = |fault: Fault| fault.with_remedy(REPLAYABLE);
+                self.run_team(Trace::open(&self.file).map_err(foreign)?, [page, picture], out)
+            }
+        }
+    }
+
+    fn run_team(
+        &self,
+        trace: Trace,
+        [page, picture]: [Option<Aside>; 2],
+        out: &mut Output,
+    ) -> Result<Exit, Halt> {
+        let (setup, clause) = (trace.setup.clone(), trace.clause);
+        let (is_chain, is_premature) = (setup.crew() == Crew::Chain, clause == Some(Breach::Premature));
+        let is_drawn = page.is_none() && picture.is_none();
+        if !is_drawn {
+            svg::check_size(setup.area())?;
+        }
+        if let (Some(_), Some(Moves(moves))) = (&picture, &self.moves) {
+            check_panels(moves)?;
+        }
+        // What a judge reads: the run of a chain, or that of a single agent that is done too early.
+        let judged = clause.filter(|breach| is_chain && judges(breach.clause()));
+        let mut chain = judged.map(|breach| exhibit(&setup, breach.clause(), &[]));
+        let mut agent = (!is_chain && is_premature && setup.robots == 1).then(Vec::new);
+        let report = trace.replay(&mut |made| {
+            let read = match (&mut chain, &mut agent) {
+                (Some(exhibit), _) => {
+                    exhibit.moves.push(written_down(made.frame));
+                    exhibit.moves.len() * exhibit.robots
+                }
+                (None, Some(frames)) => {
+                    frames.push(made.frame.clone());
+                    frames.len()
+                }
+                (None, None) => 0,
+            };
+            if read <= MAX_JUDGED {
+                return Ok(());
+            }
+            let what = format!("the judge reads no more than {MAX_JUDGED} robots in all team moves");
+            Err(Fault::in_file(&self.file, what, "shrink the run with `tautline minimise`").into())
+        })?;
+        let is_judged = match (chain, agent) {
+            (Some(exhibit), _) => self.judge_chain(&exhibit)?,
+            (None, Some(frames)) => self.judge_floor(&of_agent(&setup, Breach::Premature, &frames))?,
+            (None, None) => false,
+        };
+        let moves = self.moves(&report);
+        if let Some(page) = page {
+            let moves = self.moves.as_ref().map_or(1..=report.steps, |Moves(moves)| moves.clone());
+            play(page, &setup, &report, &moves, out)?;
+        }
+        if let Some(mut picture) = picture {
+            let moves = self.moves.as_ref().map_or(report.steps..=report.steps, |Moves(moves)| moves.clone());
+            picture.draw(panels(&setup, &report, &moves))?;
+            out.keep(picture);
+        }
+        let name = self.file.display().to_string();
+        match self.format.format {
+            Format::Json => {
+                let run = Summary::new(&setup, &name, &report);
+                let moves = ShownMoves { setup: &setup, moves: &moves };
+                out.json(&Replayed { run, counterexample_to: clause.map(Breach::clause), moves })?;
+            }
+            Format::Text => {
+                out.text(summary(&setup, &name, &report))?;
+                if let Some(breach) = clause {
+                    out.text(format_args!("{}\n", said(breach.clause(), is_judged)))?;
+                }
+                if is_drawn {
+                    draw(&setup, &report, &moves, out)?;
+                }
+            }
+        }
+        Ok(if report.violations.is_empty() { Exit::Expected } else { Exit::Violation })
+    }
+
+    fn run_rescue(&self, files: Files, out: &mut Output) -> Result<Exit, Halt> {
+        if self.moves.is_some() {
+            let what = "a rescue has no team moves";
+            return Err(Fault::usage(what, "leave out --moves, or name a run of a team").into());
+        }
+        let (setting, seed, report) = rescue::trace::replay(&self.file)?;
+        tell(out, self.format.format, (&setting, seed, &report), files)
+    }
+
+    fn run_refutation(&self, out: &mut Output) -> Result<Exit, Halt> {
+        if self.moves.is_some() || self.html.is_some() || self.svg.is_some() {
+            let what = "a refutation has no team moves to choose from, no page and no picture";
+            let remedy = "leave out --moves, --html and --svg, or name a run of a team";
+            return Err(Fault::usage(what, remedy).into());
+        }
+        let Refutation { clause, check, evidence } = refutation::replay(&self.file)?;
+        let is_judged = self.is_judged(clause, check, &evidence)?;
+        let (rule, engine, bound) = (refutation::rule(check), check.method.engine(), check.method.bound());
+        match self.format.format {
+            Format::Json => out.json(&Refuted {
+                file: self.file.display().to_string(),
+                counterexample_to: clause.id,
+                rule,
+                engine,
+                bound,
+                counterexample: shown(check, &evidence)?,
+                is_judged,
+            })?,
+            Format::Text => {
+                let judged = said(clause.id, is_judged);
+                out.text(format_args!(
+                    "{}: a counterexample to {} as {rule}, by {engine} within\n{}{judged}\n\n{}",
+                    self.file.display(),
+                    clause.id,
+                    indented(2, &bound),
+                    story(clause, check, &evidence)?
+                ))?;
+            }
+        }
+        Ok(Exit::Violation)
+    }
+
+    /// Whether a judge who shares no code with the rule accepts it; where there is none for the clause, none does.
+    fn is_judged(&self, clause: &Clause, check: &Check, evidence: &Evidence) -> Result<bool, Halt> {
+        match evidence {
+            Evidence::Run(run) => match (run.invariant, setup(check, run)?) {
+                (Invariant::Without(_) | Invariant::Exhausts, Some(setup)) => {
+                    self.judge_chain(&exhibit(&setup, clause.id, &run.frames))
+                }
+                (_, _) => Ok(false),
+            },
+            Evidence::Course(course, ..) => self.judge_floor(&of_course(clause.id, course)),
+            // A judge of rescues would be asked here.
+            Evidence::Choices(..) | Evidence::Rescue(_) => Ok(false),
+        }
+    }
+
+    /// Whether the judge of the chain accepts it.
+    fn judge_chain(&self, exhibit: &Exhibit) -> Result<bool, Halt> {
+        judge(exhibit).map_err(|objection| self.rejected(&objection))?;
+        Ok(true)
+    }
+
+    /// Whether the judge of agents sees that the clause is broken.
+    fn judge_floor(&self, exhibit: &floor_judge::Exhibit) -> Result<bool, Halt> {
+        match floor_judge::judge(exhibit) {
+            Ok(judgement) => Ok(judgement == floor_judge::Judgement::Broken),
+            Err(objection) => Err(self.rejected(&objection).into()),
+        }
+    }
+
+    /// The judge has an objection.
+    fn rejected(&self, objection: &dyn Display) -> Fault {
+        let what = format!("the judge rejects this counterexample: {objection}");
+        Fault::in_file(&self.file, what, "make it again with `tautline hunt` or `tautline prove --out`")
+    }
+
+    fn moves(&self, report: &Report) -> RangeInclusive<u32> {
+        match &self.moves {
+            Some(Moves(moves)) => moves.clone(),
+            None => report.steps.saturating_sub(SHOWN - 1).max(1)..=report.steps,
+        }
+    }
+}
+
+/// Who has judged a counterexample.
+fn said(clause: &str, is_judged: bool) -> String {
+    if is_judged {
+        format!("the judge accepts it as a counterexample to {clause}")
+    } else {
+        "no independent judge for this clause: the rule itself was played again".to_owned()
+    }
+}
+
+/// Draws the team moves, and tells the story of every violation among them.
+pub(super) fn draw(
+    setup: &Setup,
+    report: &Report,
+    moves: &RangeInclusive<u32>,
+    out: &mut Output,
+) -> Result<(), Halt> {
+    draw_moves(setup, report, moves, view::Pose::After, out)?;
+    if report.violations.iter().any(|violation| moves.contains(&violation.step)) {
+        among(setup, moves, &mut |made| {
+            if made.breaches.is_empty() || out.is_gone() {
+                return Ok(());
+            }
+            Ok(out.text(format_args!("\n{}", view::story::of(setup, &report.chart, made)))?)
+        })?;
+    }
+    let end = view::story::of_end(setup, report);
+    if moves.contains(&report.steps) && !end.is_empty() {
+        out.text(format_args!("\n{end}"))?;
+    }
+    Ok(())
+}

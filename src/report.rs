@@ -1,0 +1,64 @@
+//! A fault as a person sees it: one line, or the spot drawn.
+
+use ariadne::{Color, Config, Fmt, IndexType, Label, Report, ReportKind, Source};
+use tautline_sim::fault::{Excerpt, Fault, Place};
+
+/// Beyond this line the spot is not drawn: the drawing counts lines from the first.
+const MAX_DRAWN_LINE: usize = 1 << 20;
+
+/// Whether a report may use terminal colours.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Colour {
+    /// ANSI escapes.
+    Ansi,
+    /// Plain characters.
+    Plain,
+}
+
+/// The fault over several lines, with the spot drawn where there is one. Ends with a newline.
+pub(crate) fn render(fault: &Fault, colour: Colour) -> String {
+    match fault.place() {
+        Place::Spot { file, line, column, excerpt } if *line <= MAX_DRAWN_LINE => {
+            draw(fault, file, (*line, *column), excerpt, colour).unwrap_or_else(|| headline(fault, colour))
+        }
+        Place::Spot { .. } | Place::File(_) | Place::Request => headline(fault, colour),
+    }
+}
+
+fn headline(fault: &Fault, colour: Colour) -> String {
+    let (error, help) = match colour {
+        Colour::Ansi => ("Error:".fg(Color::Red).to_string(), "Help:".fg(Color::Fixed(115)).to_string()),
+        Colour::Plain => ("Error:".to_owned(), "Help:".to_owned()),
+    };
+    format!("{error} {}{}\n {help} {}\n", fault.place(), fault.what(), fault.remedy())
+}
+
+/// Empty lines stand for those before the excerpt, so that the margin numbers are those of the file. The heading counts
+/// columns in the clipped line, hence the replacement.
+fn draw(
+    fault: &Fault,
+    file: &str,
+    (line, column): (usize, usize),
+    excerpt: &Excerpt,
+    colour: Colour,
+) -> Option<String> {
+    let skipped = line - 1;
+    let mark = skipped + excerpt.mark.start..skipped + excerpt.mark.end;
+    let config = Config::new().with_index_type(IndexType::Byte);
+    let (config, label) = match colour {
+        Colour::Ansi => (config, Label::new((file, mark.clone())).with_color(Color::Red)),
+        Colour::Plain => (config.with_color(false), Label::new((file, mark.clone()))),
+    };
+    let mut drawing = Vec::new();
+    Report::build(ReportKind::Error, (file, mark))
+        .with_config(config)
+        .with_message(fault.what())
+        .with_label(label.with_message("here"))
+        .with_help(fault.remedy())
+        .finish()
+        .write((file, Source::from("\n".repeat(skipped) + &excerpt.text)), &mut drawing)
+        .ok()?;
+    let shown_column = 1 + excerpt.text[..excerpt.mark.start].chars().count();
+    let heading = |column| format!("{file}:{line}:{column} ");
+    Some(String::from_utf8(drawing).ok()?.replacen(&heading(shown_column), &heading(column), 1))
+}

@@ -1,0 +1,119 @@
+//! `tautline show`: a layout or the environments of a cell, drawn.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use serde::Serialize;
+use tautline_kernel::ground::Cell;
+
+use super::output::Output;
+use super::{Chance, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless, usage};
+use tautline_sim::aside::Aside;
+use tautline_sim::fault::Halt;
+use tautline_sim::view::svg::{self, Panel};
+use tautline_sim::view::{self, Environment};
+
+const EXAMPLES: &str = "\
+Examples:
+  tautline show rooms-a
+  tautline show office:30x30:4x4 --seed 3 > office.txt
+  tautline show environments";
+
+/// The word that stands for the environments of a cell, in place of a layout.
+const ENVIRONMENTS: &str = "environments";
+
+/// Draw a layout, or with `environments` E_N, E_S and E_C of a cell.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Show {
+    #[command(flatten)]
+    layout: LayoutArgs,
+    /// Store the drawing as a picture.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceArgs,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+#[derive(Serialize)]
+struct Shown<'a> {
+    layout: &'a str,
+    width: i16,
+    height: i16,
+    free_cells: usize,
+    walls: usize,
+    base: Cell,
+    robots: Option<u16>,
+    drawing: String,
+}
+
+#[derive(Serialize)]
+struct ShownEnvironment {
+    symbol: &'static str,
+    /// Columns and rows from the centre.
+    offsets: Vec<Cell>,
+}
+
+#[derive(Serialize)]
+struct ShownEnvironments {
+    environments: [ShownEnvironment; 3],
+}
+
+impl Show {
+    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        if self.layout.layout == ENVIRONMENTS {
+            let why = "the environments are the same in every layout";
+            if self.layout.seed.is_some() {
+                return Err(needless("--seed", why).into());
+            }
+            if self.layout.image.is_some() {
+                return Err(needless("--image", why).into());
+            }
+            let [file] = self.force.files([&self.svg], [])?;
+            store(out, file, "The environments of a cell", &svg::environments());
+            match self.format.format {
+                Format::Text => out.text(view::environments())?,
+                Format::Json => out.json(&ShownEnvironments { environments: Environment::ALL.map(shown) })?,
+            }
+            return Ok(Exit::Expected);
+        }
+        let layout = self.layout.load(Chance::None)?;
+        let [file] = self.force.files([&self.svg], self.layout.inputs())?;
+        if file.is_some() {
+            svg::check_size(layout.size().area())?;
+        }
+        store(out, file, "A layout", &[svg::layout(&layout)]);
+        let drawing = layout.to_string();
+        match self.format.format {
+            Format::Text => out.text(drawing)?,
+            Format::Json => out.json(&Shown {
+                layout: &self.layout.layout,
+                width: layout.width(),
+                height: layout.height(),
+                free_cells: layout.free_cells(),
+                walls: layout.walls().count(),
+                base: layout
+                    .base()
+                    .map_or_else(|| layout.default_base(), Ok)
+                    .map_err(|problem| usage(&problem))?,
+                robots: layout.robots(),
+                drawing,
+            })?,
+        }
+        Ok(Exit::Expected)
+    }
+}
+
+/// Stores a picture of `panels` where the user wants one.
+fn store(out: &mut Output, file: Option<Aside>, title: &str, panels: &[Panel]) {
+    if let Some(mut file) = file {
+        file.append(svg::picture(title, panels));
+        out.keep(file);
+    }
+}
+
+fn shown(environment: Environment) -> ShownEnvironment {
+    ShownEnvironment { symbol: environment.symbol(), offsets: environment.offsets().collect() }
+}
