@@ -76,7 +76,7 @@ fn plain(fault: &Fault, folder: &Path) -> String {
 
 /// The drawing of a fault without the blanks at the ends of its lines.
 fn shown(fault: &Fault) -> String {
-    render(&fault, Colour::Plain).lines().map(str::trim_end).collect::<Vec<_>>().join("\n")
+    render(fault, Colour::Plain).lines().map(str::trim_end).collect::<Vec<_>>().join("\n")
 }
 
 #[test]
