@@ -6,7 +6,7 @@ mod common;
 use criterion::{BenchmarkId, Criterion};
 use tautline_kernel::chain::{Chain, Intent, Rule};
 use tautline_kernel::ground::{Area, Cell, Grid, MediumGrid, SmallGrid};
-use tautline_proofs::plain::{PlainChain, PlainIntent};
+use tautline_proofs::chain::plain::{PlainChain, PlainIntent};
 use tautline_sim::layout::{Generator, Layout};
 use tautline_sim::wide::WideGrid;
 

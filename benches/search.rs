@@ -10,11 +10,12 @@ use criterion::{BenchmarkId, Criterion};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use tautline_kernel::chain::Rule;
 use tautline_kernel::ground::{Edge, Step};
-use tautline_proofs::clause::Subject;
-use tautline_proofs::invariant::Invariant;
-use tautline_proofs::plain::{PlainChain, PlainIntent};
-use tautline_proofs::run::Breach;
-use tautline_proofs::search::{Bounds, search, unwatched};
+use tautline_proofs::chain::Observed;
+use tautline_proofs::chain::breach::Breach;
+use tautline_proofs::chain::invariant::Invariant;
+use tautline_proofs::chain::plain::{PlainChain, PlainIntent};
+use tautline_proofs::chain::search::{Bounds, search};
+use tautline_proofs::engine::tree::unwatched;
 
 use self::common::{Cost, Work, group, measure};
 
@@ -37,7 +38,7 @@ impl Work for Searched {
 /// The published rule in the paper's area, with the breaches of [`BREACHES`] looked for.
 fn bounds(robots: usize, max_walls: u32) -> Bounds {
     let invariants = BREACHES.map(Invariant::Without).to_vec();
-    Bounds { invariants, ..Bounds::new(Subject::PUBLISHED, robots, max_walls) }
+    Bounds { invariants, ..Bounds::new(Observed::PUBLISHED, robots, max_walls) }
 }
 
 fn search_within(bounds: &Bounds, threads: &ThreadPool) -> Searched {
@@ -138,7 +139,7 @@ fn against_a_naive_search(criterion: &mut Criterion, thread: &ThreadPool) -> [(u
 fn hunts(criterion: &mut Criterion, thread: &ThreadPool) -> [(usize, u32, Cost<Searched>); 7] {
     let mut group = group(criterion, "hunt");
     [(2, 12), (3, 4), (4, 3), (5, 2), (6, 2), (7, 1), (8, 1)].map(|(robots, max_walls)| {
-        let bounds = Bounds::new(Subject::PUBLISHED, robots, max_walls);
+        let bounds = Bounds::new(Observed::PUBLISHED, robots, max_walls);
         let id = BenchmarkId::new(robots.to_string(), max_walls);
         (robots, max_walls, measure(&mut group, id, || search_within(&bounds, thread)))
     })
@@ -146,7 +147,7 @@ fn hunts(criterion: &mut Criterion, thread: &ThreadPool) -> [(usize, u32, Cost<S
 
 /// Four robots and at most 4 walls, on one thread and on two.
 fn on_more_threads() -> [(usize, Cost<Searched>); 2] {
-    let bounds = Bounds::new(Subject::PUBLISHED, 4, 4);
+    let bounds = Bounds::new(Observed::PUBLISHED, 4, 4);
     let costs = [1, 2].map(|count| {
         let threads = threads(count);
         (count, fastest(|| search_within(&bounds, &threads)))

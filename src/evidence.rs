@@ -1,18 +1,19 @@
 //! What a person sees of a refutation, whoever has found it: `prove` as it decides, `replay` in a file.
 
 use serde::Serialize;
+use tautline_kernel::bricks;
 use tautline_kernel::ground::Edge;
-use tautline_proofs::clause::{Check, Clause, Method};
+use tautline_proofs::chain::breach::Breach;
+use tautline_proofs::clause::{AnyCheck, Clause};
 use tautline_proofs::course::Course;
-use tautline_proofs::decide::Evidence;
-use tautline_proofs::rescue::chart::chart;
-use tautline_proofs::search::{Bounds, Counterexample};
+use tautline_proofs::decide::{Evidence, Seen};
+use tautline_proofs::run::Run;
 
 use super::usage;
 use tautline_sim::explore::agents::Way;
 use tautline_sim::explore::{Crew, RuleName, Setup};
 use tautline_sim::fault::Halt;
-use tautline_sim::refutation::rule;
+use tautline_sim::words::Worded;
 use tautline_sim::{hunt, view};
 
 /// A refutation as JSON.
@@ -44,63 +45,50 @@ pub(super) enum Shown {
     },
 }
 
-/// The run of a chain that a search has found.
-pub(super) fn setup(check: &Check, run: &Counterexample) -> Result<Option<Setup>, Halt> {
-    let (Method::Search { robots, max_walls, .. }, Some(rule)) = (check.method, RuleName::of(&check.subject))
-    else {
-        return Ok(None);
-    };
-    let bounds = Bounds::new(check.subject, robots, max_walls);
-    Ok(Some(hunt::setup(rule, &bounds, run).map_err(|problem| usage(&problem))?))
+/// The run of robots that a search has found, if the program can make it again.
+pub(super) fn setup(check: &dyn AnyCheck, run: &Run) -> Result<Option<Setup>, Halt> {
+    let Some(rule) = RuleName::of(check.rule()) else { return Ok(None) };
+    Ok(Some(hunt::setup(rule, run).map_err(|problem| usage(&problem))?))
+}
+
+/// What anyone sees that a run breaks.
+pub(super) fn breach(run: &Run) -> Option<Breach> {
+    run.breaks.and_then(|id| id.parse().ok())
 }
 
 /// A run of agents.
-fn drawn(check: &Check, course: &Course) -> Result<String, Halt> {
-    let crew = Crew::Agents(Way::Bricks(check.subject.bricks));
+fn drawn(course: &Course) -> Result<String, Halt> {
+    let crew = Crew::Agents(Way::Bricks(bricks::Rule::PUBLISHED));
     Ok(view::story::of_course(crew, course).map_err(|problem| usage(&problem))?)
 }
 
 /// What refutes a clause, as data.
-pub(super) fn shown(check: &Check, evidence: &Evidence) -> Result<Shown, Halt> {
-    let demand = evidence.demand();
-    Ok(match evidence {
-        Evidence::Choices(choices, _) => {
+pub(super) fn shown(check: &dyn AnyCheck, evidence: &Evidence) -> Result<Shown, Halt> {
+    let Evidence { choices, demand, seen } = evidence;
+    let demand = *demand;
+    Ok(match seen {
+        Seen::Choices | Seen::Story(_) => {
             Shown::Choices { demand, choices: choices.once.clone(), again: choices.again.clone() }
         }
-        Evidence::Run(run) => {
+        Seen::Robots(run) => {
             let layout = setup(check, run)?.map_or_else(String::new, |setup| setup.layout.to_string());
             Shown::Run { demand, walls: run.walls.len(), steps: run.frames.len(), layout }
         }
-        Evidence::Course(course, ..) => {
-            Shown::Course { demand, turns: course.turns.len(), drawing: drawn(check, course)? }
-        }
-        Evidence::Rescue(run) => {
-            let (setting, broken) = &**run;
-            Shown::Chart { demand, events: broken.actions.len(), chart: chart(setting, broken) }
-        }
+        Seen::Agents(course) => Shown::Course { demand, turns: course.turns.len(), drawing: drawn(course)? },
+        Seen::Messages { events, chart } => Shown::Chart { demand, events: *events, chart: chart.clone() },
     })
 }
 
 /// What refutes a clause, drawn.
-pub(super) fn story(clause: &Clause, check: &Check, evidence: &Evidence) -> Result<String, Halt> {
-    let (id, rule, demand) = (clause.id, rule(check), evidence.demand());
-    Ok(match evidence {
-        Evidence::Choices(choices, _) => match check.method {
-            Method::Spread(networks) => {
-                let story = networks.story(&check.subject, &choices.once);
-                format!("{id} as {rule}: not so: {demand}.\n{story}")
-            }
-            Method::Exhaustive { .. }
-            | Method::Ants
-            | Method::Floors(_)
-            | Method::Sampled { .. }
-            | Method::Search { .. }
-            | Method::States { .. } => format!(
-                "{id} as {rule}: not so: {demand}. The choices that lead there: {}\n",
-                listed(&choices.once)
-            ),
-        },
-        Evidence::Run(run) => {
+pub(super) fn story(clause: &Clause, check: &dyn AnyCheck, evidence: &Evidence) -> Result<String, Halt> {
+    let (id, rule, demand) = (clause.id, check.rule(), evidence.demand);
+    Ok(match &evidence.seen {
+        Seen::Story(story) => format!("{id} as {rule}: not so: {demand}.\n{story}"),
+        Seen::Choices => {
+            let choices = listed(&evidence.choices.once);
+            format!("{id} as {rule}: not so: {demand}. The choices that lead there: {choices}\n")
+        }
+        Seen::Robots(run) => {
             let walls = run.walls.len();
             let head = format!(
                 "{id} as {rule}: the smallest counterexample has {walls} walls ({}) and {} team moves.\n\n",
@@ -112,16 +100,9 @@ pub(super) fn story(clause: &Clause, check: &Check, evidence: &Evidence) -> Resu
                 None => head,
             }
         }
-        Evidence::Course(course, ..) => {
-            format!("{id} as {rule}: not so: {demand}.\n\n{}", drawn(check, course)?)
-        }
-        Evidence::Rescue(run) => {
-            let (setting, broken) = &**run;
-            format!(
-                "{id} as {rule}: the shortest run that breaks it has {} events.\n\n{}",
-                broken.actions.len(),
-                chart(setting, broken)
-            )
+        Seen::Agents(course) => format!("{id} as {rule}: not so: {demand}.\n\n{}", drawn(course)?),
+        Seen::Messages { events, chart } => {
+            format!("{id} as {rule}: the shortest run that breaks it has {events} events.\n\n{chart}")
         }
     })
 }

@@ -8,8 +8,9 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use serde::Serialize;
-use tautline_proofs::clause::Verdict;
-use tautline_proofs::search::{Bounds, Found, Progress};
+use tautline_proofs::chain::search::{Bounds, Found};
+use tautline_proofs::decide::Verdict;
+use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::words::counted;
 
 use super::output::Output;
@@ -186,17 +187,17 @@ impl Hunt {
     fn store(&self, bounds: &Bounds, found: &Found, out: &mut Output) -> Result<Hunted, Halt> {
         let replaceable = self.force.replaceable(self.resume.clone());
         let counterexamples = found.counterexamples.iter().map(|counterexample| {
-            let setup =
-                hunt::setup(self.rule, bounds, counterexample).map_err(|problem| super::usage(&problem))?;
-            let breach = hunt::breach(counterexample.invariant);
+            let run = bounds.run(counterexample);
+            let setup = hunt::setup(self.rule, &run).map_err(|problem| super::usage(&problem))?;
+            let breach = counterexample.broken.breach();
             let file = match breach {
                 Some(breach) => keep(hunt::store(&self.out, &setup, breach, &replaceable)?.0, out),
                 None => None,
             };
             Ok(Stored {
-                clause: counterexample.invariant.clause(),
+                clause: counterexample.broken.clause(),
                 runs: counterexample.runs,
-                walls: counterexample.walls.len(),
+                walls: run.walls.len(),
                 steps: counterexample.frames.len(),
                 file,
                 is_endless: breach.is_none(),

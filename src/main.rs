@@ -31,7 +31,7 @@ use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use tautline_kernel::ground::Cell;
 use tautline_kernel::notice::Count;
-use tautline_proofs::run::{Breach, NoBreach};
+use tautline_proofs::chain::breach::{Breach, NoBreach};
 
 use crate::report::{Colour, render};
 use output::Output;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
-use tautline_proofs::run::Breach;
+use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::words::counted;
 
 use super::output::Output;

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
-use tautline_proofs::search::Progress;
+use tautline_proofs::engine::tree::Progress;
 
 use super::interrupt;
 use tautline_sim::fault::{Halt, Watch};

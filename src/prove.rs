@@ -7,9 +7,9 @@ use std::time::Instant;
 
 use clap::Args;
 use serde::Serialize;
-use tautline_proofs::clause::{Check, Clause};
-use tautline_proofs::decide::{Decision, Evidence, Prover};
-use tautline_proofs::registry::CLAUSES;
+use tautline_proofs::clause::{AnyCheck, Clause, Decision};
+use tautline_proofs::decide::{Memory, Seen};
+use tautline_proofs::ledger;
 
 use super::evidence::{self, Shown, indented, shown};
 use super::hunt::keep;
@@ -18,7 +18,7 @@ use super::{Exit, ForceArgs, Format, FormatArgs, progress};
 use tautline_sim::aside::Replaceable;
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::hunt;
-use tautline_sim::refutation::{self, rule};
+use tautline_sim::refutation;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -46,7 +46,9 @@ pub(super) struct Prove {
 /// A check that was decided.
 struct Row {
     clause: &'static Clause,
-    check: &'static Check,
+    /// The number of the check among those of the clause.
+    number: usize,
+    check: &'static dyn AnyCheck,
     decision: Decision,
     seconds: f64,
     /// Where its counterexample is stored.
@@ -98,23 +100,23 @@ impl Prove {
                 Fault::in_file(folder, what, "name a folder, or a place where one can be made")
             })?;
         }
-        let checks: Vec<(&Clause, &Check)> = clauses
+        let checks: Vec<(&Clause, usize, &dyn AnyCheck)> = clauses
             .iter()
-            .flat_map(|clause| clause.checks.iter().map(move |check| (*clause, check)))
+            .flat_map(|clause| (0..).zip(clause.checks).map(|(number, check)| (*clause, number, *check)))
             .collect();
-        let mut prover = Prover::default();
+        let mut memory = Memory::default();
         let mut rows = Vec::new();
-        for (place, (clause, check)) in (1..).zip(&checks) {
+        for (place, &(clause, number, check)) in (1..).zip(&checks) {
             let bar = progress::bar(format!("{place}/{} {}", checks.len(), clause.id), 1);
             let start = Instant::now();
             let decision =
-                prover.decide(check, &mut |progress| progress::show(&bar, progress)).map_err(|refused| {
-                    Fault::usage(refused, "this is a bug in the registry: please report it")
-                })?;
+                check.decide(&mut memory, &mut |progress| progress::show(&bar, progress)).map_err(
+                    |refused| Fault::usage(refused, "this is a bug in the registry: please report it"),
+                )?;
             bar.finish_and_clear();
             let seconds = start.elapsed().as_secs_f64();
-            tracing::info!("{} {} {}: {seconds:.1} s", clause.id, rule(check), check.method.engine());
-            let mut row = Row { clause, check, decision, seconds, file: None };
+            tracing::info!("{} {} {}: {seconds:.1} s", clause.id, check.rule(), check.engine());
+            let mut row = Row { clause, number, check, decision, seconds, file: None };
             if let Some(folder) = &self.out {
                 row.store(folder, &replaceable, out)?;
             }
@@ -139,11 +141,11 @@ impl Prove {
 
     fn chosen(&self) -> Result<Vec<&'static Clause>, Fault> {
         if self.clauses.is_empty() {
-            return Ok(CLAUSES.iter().collect());
+            return Ok(ledger::clauses().collect());
         }
         let find = |id: &String| {
-            CLAUSES.iter().find(|clause| clause.id.eq_ignore_ascii_case(id)).ok_or_else(|| {
-                let known: Vec<&str> = CLAUSES.iter().map(|clause| clause.id).collect();
+            ledger::clauses().find(|clause| clause.id.eq_ignore_ascii_case(id)).ok_or_else(|| {
+                let known: Vec<&str> = ledger::clauses().map(|clause| clause.id).collect();
                 let remedy = format!("the clauses are {}", known.join(", "));
                 Fault::usage(format_args!("there is no clause {id:?}"), remedy)
             })
@@ -155,7 +157,7 @@ impl Prove {
 impl Row {
     /// The bound, and how many of its cases were given up.
     fn bound(&self) -> String {
-        let bound = self.check.method.bound();
+        let bound = self.check.bound();
         match self.decision.given_up {
             0 => bound,
             given_up => format!("{bound}; {given_up} given up"),
@@ -171,13 +173,13 @@ impl Row {
         let evidence = self.decision.counterexample.as_ref();
         Ok(Line {
             id: self.clause.id,
-            rule: rule(self.check),
-            engine: self.check.method.engine(),
-            bound: self.check.method.bound(),
+            rule: self.check.rule(),
+            engine: self.check.engine(),
+            bound: self.check.bound(),
             cases: self.decision.cases,
             given_up: self.decision.given_up,
             verdict: self.decision.verdict.word(),
-            registered: self.check.expected.word(),
+            registered: self.check.expected().word(),
             counterexample: evidence.map(|evidence| shown(self.check, evidence)).transpose()?,
             file: self.file.clone(),
             mutants: self.mutants(),
@@ -189,10 +191,10 @@ impl Row {
     fn store(&mut self, folder: &Path, replaceable: &Replaceable, out: &mut Output) -> Result<(), Halt> {
         let (clause, check) = (self.clause, self.check);
         let Some(evidence) = &self.decision.counterexample else { return Ok(()) };
-        let path = refutation::path(folder, clause, check);
-        let run = match evidence {
-            Evidence::Run(run) => evidence::setup(check, run)?.zip(hunt::breach(run.invariant)),
-            Evidence::Choices(..) | Evidence::Course(..) | Evidence::Rescue(_) => None,
+        let path = refutation::path(folder, clause, self.number);
+        let run = match &evidence.seen {
+            Seen::Robots(run) => evidence::setup(check, run)?.zip(evidence::breach(run)),
+            Seen::Choices | Seen::Story(_) | Seen::Agents(_) | Seen::Messages { .. } => None,
         };
         let file = match run {
             Some((setup, breach)) => hunt::store_at(&path, &setup, breach, replaceable)?.0,
@@ -224,8 +226,8 @@ fn table(rows: &[Row]) -> String {
         let mutants = if of == 0 { "-".to_owned() } else { format!("{killed}/{of}") };
         [
             row.clause.id.to_owned(),
-            rule(row.check).to_owned(),
-            row.check.method.engine().to_owned(),
+            row.check.rule().to_owned(),
+            row.check.engine().to_owned(),
             row.decision.cases.to_string(),
             row.decision.verdict.word().to_owned(),
             mutants,
@@ -256,9 +258,9 @@ fn table(rows: &[Row]) -> String {
 fn last_line(rows: &[Row]) -> String {
     let mut text = String::from("\n");
     for row in rows.iter().filter(|row| !row.decision.is_as_registered(row.check)) {
-        let (verdict, expected) = (row.decision.verdict.word(), row.check.expected.word());
+        let (verdict, expected) = (row.decision.verdict.word(), row.check.expected().word());
         let _ =
-            writeln!(text, "{} as {}: {verdict}, registered as {expected}", row.clause.id, rule(row.check));
+            writeln!(text, "{} as {}: {verdict}, registered as {expected}", row.clause.id, row.check.rule());
         for mutant in &row.decision.survived {
             let _ = writeln!(text, "{}: the mutant {mutant:?} survives", row.clause.id);
         }

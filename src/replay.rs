@@ -8,12 +8,11 @@ use std::str::FromStr;
 use clap::Args;
 use serde::ser::{Error, SerializeSeq};
 use serde::{Serialize, Serializer};
-use tautline_proofs::clause::{Check, Clause};
-use tautline_proofs::decide::Evidence;
-use tautline_proofs::floor_judge;
-use tautline_proofs::invariant::Invariant;
-use tautline_proofs::judge::{Exhibit, judge, judges};
-use tautline_proofs::run::Breach;
+use tautline_proofs::chain::breach::Breach;
+use tautline_proofs::clause::{AnyCheck, Clause};
+use tautline_proofs::decide::{Evidence, Seen};
+use tautline_proofs::judge::chain::{Exhibit, judge, judges};
+use tautline_proofs::judge::floor;
 
 use super::evidence::{Shown, indented, setup, shown, story};
 use super::explore::{Summary, among, check_panels, draw_moves, panels, play, summary};
@@ -228,7 +227,7 @@ impl Replay {
         }
         let Refutation { clause, check, evidence } = refutation::replay(&self.file)?;
         let is_judged = self.is_judged(clause, check, &evidence)?;
-        let (rule, engine, bound) = (refutation::rule(check), check.method.engine(), check.method.bound());
+        let (rule, engine, bound) = (check.rule(), check.engine(), check.bound());
         match self.format.format {
             Format::Json => out.json(&Refuted {
                 file: self.file.display().to_string(),
@@ -254,17 +253,17 @@ impl Replay {
     }
 
     /// Whether a judge who shares no code with the rule accepts it; where there is none for the clause, none does.
-    fn is_judged(&self, clause: &Clause, check: &Check, evidence: &Evidence) -> Result<bool, Halt> {
-        match evidence {
-            Evidence::Run(run) => match (run.invariant, setup(check, run)?) {
-                (Invariant::Without(_) | Invariant::Exhausts, Some(setup)) => {
+    fn is_judged(&self, clause: &Clause, check: &dyn AnyCheck, evidence: &Evidence) -> Result<bool, Halt> {
+        match &evidence.seen {
+            Seen::Robots(run) => match setup(check, run)? {
+                Some(setup) if judges(clause.id) => {
                     self.judge_chain(&exhibit(&setup, clause.id, &run.frames))
                 }
-                (_, _) => Ok(false),
+                Some(_) | None => Ok(false),
             },
-            Evidence::Course(course, ..) => self.judge_floor(&of_course(clause.id, course)),
+            Seen::Agents(course) => self.judge_floor(&of_course(clause.id, course)),
             // A judge of rescues would be asked here.
-            Evidence::Choices(..) | Evidence::Rescue(_) => Ok(false),
+            Seen::Choices | Seen::Story(_) | Seen::Messages { .. } => Ok(false),
         }
     }
 
@@ -275,9 +274,9 @@ impl Replay {
     }
 
     /// Whether the judge of agents sees that the clause is broken.
-    fn judge_floor(&self, exhibit: &floor_judge::Exhibit) -> Result<bool, Halt> {
-        match floor_judge::judge(exhibit) {
-            Ok(judgement) => Ok(judgement == floor_judge::Judgement::Broken),
+    fn judge_floor(&self, exhibit: &floor::Exhibit) -> Result<bool, Halt> {
+        match floor::judge(exhibit) {
+            Ok(judgement) => Ok(judgement == floor::Judgement::Broken),
             Err(objection) => Err(self.rejected(&objection).into()),
         }
     }

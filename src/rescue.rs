@@ -8,7 +8,7 @@ use std::str::FromStr;
 
 use clap::Args;
 use serde::Serialize;
-use tautline_proofs::rescue::Demand;
+use tautline_proofs::mrc::Demand;
 use tautline_proofs::words::counted;
 
 use super::output::Output;

@@ -4,21 +4,26 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use tautline_proofs::clause::{Check, Clause, Verdict};
-use tautline_proofs::decide::{Evidence, Prover};
-use tautline_proofs::registry::CLAUSES;
-use tautline_proofs::search::unwatched;
+use tautline_proofs::clause::Clause;
+use tautline_proofs::decide::{Evidence, Memory, Verdict};
+use tautline_proofs::engine::tree::unwatched;
+use tautline_proofs::ledger;
 use tautline_sim::aside::Replaceable;
 use tautline_sim::refutation::{self, path, replay};
 
-/// What refutes the checks that are registered as refuted, but for those that take long to decide.
-fn refutations() -> Vec<(&'static Clause, &'static Check, Evidence)> {
-    let mut prover = Prover::default();
-    let checks = CLAUSES.iter().flat_map(|clause| clause.checks.iter().map(move |check| (clause, check)));
-    let is_short = |check: &Check| check.method.engine() != "sampled";
-    let refuted = checks.filter(|(_, check)| check.expected == Verdict::Refuted && is_short(check));
-    let decide = |(clause, check): (&'static Clause, &'static Check)| {
-        let decision = prover.decide(check, &mut unwatched).expect("registered checks fit");
+/// What refutes the checks that are registered as refuted, but for those that take long to decide: the clause, the number of
+/// its check, and the counterexample.
+fn refutations() -> Vec<(&'static Clause, usize, Evidence)> {
+    let mut memory = Memory::default();
+    let checks =
+        ledger::clauses().flat_map(|clause| (0..clause.checks.len()).map(move |check| (clause, check)));
+    let refuted = checks.filter(|&(clause, check)| {
+        let check = clause.checks[check];
+        check.expected() == Verdict::Refuted && check.engine() != "sampled"
+    });
+    let decide = |(clause, check): (&'static Clause, usize)| {
+        let decision =
+            clause.checks[check].decide(&mut memory, &mut unwatched).expect("registered checks fit");
         assert_eq!(decision.verdict, Verdict::Refuted, "{}", clause.id);
         (clause, check, decision.counterexample.expect("what is refuted has a counterexample"))
     };
@@ -77,12 +82,13 @@ fn whatever_refutes_a_clause_is_stored_and_played_again_and_refused_when_it_was_
     let mut names = Vec::new();
     for (clause, check, evidence) in refutations() {
         let path = path(folder.path(), clause, check);
+        let check = clause.checks[check];
         let file = refutation::store(&path, clause, check, &evidence, &Replaceable::default());
         file.expect("a refutation").keep().expect("room");
         let again = replay(&path).expect("what was stored");
-        assert_eq!((again.clause.id, again.check.method.bound()), (clause.id, check.method.bound()));
-        assert_eq!(again.evidence.choices(), evidence.choices(), "{}", path.display());
-        assert_eq!(again.evidence.demand(), evidence.demand(), "{}", path.display());
+        assert_eq!((again.clause.id, again.check.bound()), (clause.id, check.bound()));
+        assert_eq!(again.evidence.choices, evidence.choices, "{}", path.display());
+        assert_eq!(again.evidence.demand, evidence.demand, "{}", path.display());
         let text = fs::read_to_string(&path).expect("a file");
         for (what, changed) in tampered(&text) {
             if changed != text {

@@ -21,10 +21,12 @@ use std::sync::LazyLock;
 use tautline_kernel::chain::{self, Chain, Intent, Kind, Rule};
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::ground::{Area, Cell, Edge, Grid, SmallGrid};
+use tautline_proofs::chain::breach::{Breach, CHEAP_LOOKS, frame as frame_of};
+use tautline_proofs::chain::search::{Bounds, Found, Search, search};
+use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::engine::{Seeded, Tape};
-use tautline_proofs::judge::{self, Exhibit};
-use tautline_proofs::run::{Breach, CHEAP_LOOKS, Frame};
-use tautline_proofs::search::{self, Bounds, Found, Search};
+use tautline_proofs::judge::chain::{Exhibit, judge as judged};
+use tautline_proofs::run::Frame;
 use tautline_sim::exhibit::exhibit;
 use tautline_sim::explore::{RuleName, SchemeName, Setup};
 use tautline_sim::fault::{Fault, Halt};
@@ -137,7 +139,7 @@ fn follow<G: Grid, const ROBOTS: usize>(
         let before = chain.cells().to_vec();
         let settled = chain.settle(&plan, &mut is_open);
         log.extend_from_slice(settled.messages());
-        if show(&before, &Frame::new(plan.kind, settled.messages(), chain.cells())) == Next::Stop {
+        if show(&before, &frame_of(plan.kind, settled.messages(), chain.cells())) == Next::Stop {
             return Last::Cut;
         }
     }
@@ -203,14 +205,14 @@ pub fn judge(bytes: &[u8]) {
     let Some(breach) = broken else { return };
     let setup = Setup::new(SchemeName::Chain, RuleName::Published, robots as u16, layout, base);
     let mut exhibit = exhibit(&setup, breach.clause(), &frames);
-    assert_eq!(judge::judge(&exhibit), Ok(()));
+    assert_eq!(judged(&exhibit), Ok(()));
     if let Some(wall) = exhibit.walls.iter().nth(change[0] as usize).copied() {
         exhibit.walls.remove(&wall);
-        assert!(judge::judge(&exhibit).is_err(), "it does not need {wall:?}: {exhibit:?}");
+        assert!(judged(&exhibit).is_err(), "it does not need {wall:?}: {exhibit:?}");
         exhibit.walls.insert(wall);
     }
     alter(&mut exhibit, change);
-    let _ = black_box(judge::judge(&exhibit));
+    let _ = black_box(judged(&exhibit));
 }
 
 /// Changes one thing of one team move.
@@ -276,7 +278,7 @@ fn plan(bytes: &[u8], teams: [usize; 4], moves: fn(usize) -> usize) {
 /// The hunt of the target: two robots are the smallest team, and the whole hunt takes less than reading a file.
 static HUNT: LazyLock<(Bounds, Found)> = LazyLock::new(|| {
     let bounds = hunt::bounds(RuleName::Published, 2, 1, None).expect("two robots fit");
-    let whole = search::search(&bounds, &mut search::unwatched).expect("two robots fit");
+    let whole = search(&bounds, &mut unwatched).expect("two robots fit");
     (bounds, whole)
 });
 

@@ -5,7 +5,7 @@ use std::io::Write;
 
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_proofs::engine::Tape;
-use tautline_proofs::rescue::Demand;
+use tautline_proofs::mrc::Demand;
 use tautline_sim::aside::{Aside, Foreign, Replaceable};
 use tautline_sim::explore::RuleName;
 use tautline_sim::fault::Fault;

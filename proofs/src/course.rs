@@ -3,19 +3,6 @@
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Edge, Step};
 
-use crate::engine::Tally;
-
-/// What the states of small floors have shown.
-#[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct Explored {
-    /// A case is a state. The choices of a violation are the numbers of the series, the plan, the start, and the steps.
-    pub tally: Tally,
-    /// The steps with which it goes round for ever, if it does.
-    pub again: Vec<u32>,
-    /// The run of the violation, where there is more to see in it than choices.
-    pub course: Option<Course>,
-}
-
 /// A run of agents on a small floor.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Course {

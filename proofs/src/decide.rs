@@ -1,21 +1,85 @@
-//! Deciding a check: its verdict, and whether its mutants are rejected. A verdict of a search is remembered, since
-//! one search looks for several invariants at once.
+//! How a check is decided: a [`Method`] asks an engine, remembers what may be asked again, and answers with a verdict and
+//! what refutes the clause. What is here knows engines and no scheme.
 
-use crate::ants;
-use crate::bricks::Floors;
-use crate::clause::{Check, Method, Subject, Verdict};
-use crate::course::{Course, Explored};
-use crate::engine::{self, Tally};
-use crate::evidence::Choices;
-use crate::notice;
-use crate::rescue::{Setting, space};
-use crate::search::{Bounds, Counterexample, Found, Unsearchable, Until, Watch, search};
-use crate::states::END;
+use std::any::Any;
+use std::fmt;
 
-/// What came of a check.
+use tautline_kernel::choice::Oracle;
+
+use crate::course::Course;
+use crate::engine::tree::Watch;
+use crate::engine::{self, Choices, Outcome, Replay, Stop, Tally, Unfit, Until};
+use crate::run::Run;
+
+/// What a check found.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Verdict {
+    /// Every case within the bound was looked at, and none breaks the clause.
+    Holds,
+    /// Cases were sampled, and none of them breaks the clause.
+    Unrefuted,
+    /// There is a counterexample.
+    Refuted,
+    /// Neither: the check ended before its bound, or did not cover what it claims to.
+    Open,
+}
+
+impl Verdict {
+    /// The word in the ledger.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::Unrefuted => "unrefuted",
+            Self::Refuted => "refuted",
+            Self::Open => "open",
+        }
+    }
+}
+
+/// What refutes a clause.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Decision {
-    /// What it found.
+pub struct Evidence {
+    /// The choices that make it again.
+    pub choices: Choices,
+    /// The demand that is not met, or what is not so.
+    pub demand: &'static str,
+    /// What a person sees of it.
+    pub seen: Seen,
+}
+
+/// What a person sees of a counterexample.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Seen {
+    /// Its choices alone.
+    Choices,
+    /// What happens, in lines.
+    Story(String),
+    /// Robots that move together.
+    Robots(Box<Run>),
+    /// Agents that act in turns.
+    Agents(Box<Course>),
+    /// Messages, drawn as a chart.
+    Messages {
+        /// How much happens.
+        events: usize,
+        /// The chart.
+        chart: String,
+    },
+}
+
+/// A refutation that was played.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Played {
+    /// From how many each choice was made, in the order of the choices.
+    pub of: Vec<u32>,
+    /// What it comes to.
+    pub evidence: Evidence,
+}
+
+/// What came of a rule.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Answer {
+    /// What was found.
     pub verdict: Verdict,
     /// Cases of a body that met its assumptions, runs of a search, or states.
     pub cases: u64,
@@ -23,201 +87,208 @@ pub struct Decision {
     pub given_up: u64,
     /// The counterexample, if it is refuted.
     pub counterexample: Option<Evidence>,
-    /// Mutants that were rejected.
-    pub killed: Vec<&'static str>,
-    /// Mutants that were not: the check is too weak.
-    pub survived: Vec<&'static str>,
 }
 
-impl Decision {
-    /// Whether `check` came out as it is registered.
-    pub fn is_as_registered(&self, check: &Check) -> bool {
-        self.verdict == check.expected && self.survived.is_empty()
-    }
-}
-
-/// A counterexample.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Evidence {
-    /// The choices that lead a body or a system to it, and the demand that is not met.
-    Choices(Choices, &'static str),
-    /// A run of a chain.
-    Run(Box<Counterexample>),
-    /// A run of agents on a floor, its choices, and the demand that is not met.
-    Course(Box<Course>, Choices, &'static str),
-    /// A run of robots and WFRs.
-    Rescue(Box<(Setting, space::Broken)>),
-}
-
-impl Evidence {
-    /// The choices that make it again.
-    pub fn choices(&self) -> Choices {
-        match self {
-            Self::Choices(choices, _) | Self::Course(_, choices, _) => choices.clone(),
-            Self::Run(run) => Choices { once: run.answers.clone(), again: Vec::new() },
-            Self::Rescue(run) => run.1.choices(&run.0),
-        }
-    }
-
-    /// The demand that is not met, or what is not so.
-    pub fn demand(&self) -> &'static str {
-        match self {
-            Self::Choices(_, demand) | Self::Course(_, _, demand) => demand,
-            Self::Run(run) => run.demand,
-            Self::Rescue(run) => run.1.demand.broken(),
-        }
-    }
-}
-
-/// Decides checks, and keeps what may be asked again.
-#[derive(Default, Debug)]
-pub struct Prover {
-    searches: Vec<(Bounds, Found)>,
-    spaces: Vec<((Setting, space::Until), space::Found)>,
-    /// Floors on which everything was looked at that several clauses demand of them.
-    floors: Vec<((Floors, Subject), Explored)>,
-}
-
-/// Steps between states at which a check is left open.
-const MOST_STEPS: u32 = 20_000_000;
-
-/// The seed of every sampled check.
-const SEED: u64 = 0;
-
-impl Prover {
-    /// Decides `check`. `watch` hears of searches only; a search that it ends leaves the check open.
-    ///
-    /// # Errors
-    /// [`Unsearchable`] if a registered search has too many robots.
-    pub fn decide(&mut self, check: &Check, watch: Watch<'_>) -> Result<Decision, Unsearchable> {
-        let mut decision = self.settle(check, &check.subject, Until::Exhausted, watch)?;
-        for mutant in check.mutants {
-            let verdict = self.settle(check, &mutant.subject, Until::Violation, watch)?.verdict;
-            match verdict {
-                Verdict::Refuted => decision.killed.push(mutant.name),
-                Verdict::Holds | Verdict::Unrefuted | Verdict::Open => decision.survived.push(mutant.name),
-            }
-        }
-        Ok(decision)
-    }
-
-    fn settle(
-        &mut self,
-        check: &Check,
-        subject: &Subject,
-        until: Until,
-        watch: Watch<'_>,
-    ) -> Result<Decision, Unsearchable> {
-        let shown = check.method.shows();
-        let of_tally = |tally, covers: &[&str]| Decision::of_tally(tally, covers, shown);
-        match check.method {
-            Method::Exhaustive { body, covers, .. } => {
-                Ok(of_tally(engine::exhaust(|source| body(subject, source)), covers))
-            }
-            Method::Sampled { body, runs, covers, .. } => {
-                Ok(of_tally(engine::sample(runs, SEED, |source| body(subject, source)), covers))
-            }
-            Method::Ants => Ok(Decision::of_floors(ants::explore(subject), shown)),
-            Method::Floors(floors) => Ok(Decision::of_floors(self.explore(floors, subject, until), shown)),
-            Method::Spread(networks) => Ok(of_tally(networks.explore(subject), &notice::EVENTS)),
-            Method::Search { robots, max_walls, invariant } => {
-                let invariants = match until {
-                    Until::Exhausted => invariant.family().to_vec(),
-                    Until::Violation => vec![invariant],
-                };
-                let bounds = Bounds { invariants, until, ..Bounds::new(*subject, robots, max_walls) };
-                let found = self.search(bounds, watch)?;
-                let counterexample = found.counterexamples.iter().find(|found| found.invariant == invariant);
-                let verdict = match counterexample {
-                    Some(_) => Verdict::Refuted,
-                    None if found.complete => shown,
-                    None => Verdict::Open,
-                };
-                let counterexample = counterexample.map(|run| Evidence::Run(Box::new(run.clone())));
-                Ok(Decision::new(verdict, found.runs, counterexample))
-            }
-            Method::States { setting, demand } => {
-                let setting = Setting { rule: subject.rescue, ..setting };
-                let until = match until {
-                    Until::Exhausted => space::Until::Exhausted,
-                    Until::Violation => space::Until::Broken(demand),
-                };
-                let found = self.states(setting, until);
-                let broken = found.broken(demand).cloned();
-                let verdict = match broken {
-                    Some(_) => Verdict::Refuted,
-                    None if found.complete => shown,
-                    None => Verdict::Open,
-                };
-                let evidence = broken.map(|broken| Evidence::Rescue(Box::new((setting, broken))));
-                Ok(Decision::new(verdict, found.states, evidence))
-            }
-        }
-    }
-
-    /// What several clauses demand of the same floors is looked at in one pass. Where something is broken there, each
-    /// looks for its own first violation.
-    fn explore(&mut self, floors: Floors, subject: &Subject, until: Until) -> Explored {
-        let Some(together) = floors.together().filter(|_| until == Until::Exhausted) else {
-            return floors.explore(subject);
+impl Answer {
+    /// A counterexample, or `shown` if everything was looked at; else the question is open.
+    pub fn new(counterexample: Option<Evidence>, is_whole: bool, shown: Verdict, cases: u64) -> Self {
+        let verdict = match counterexample {
+            Some(_) => Verdict::Refuted,
+            None if is_whole => shown,
+            None => Verdict::Open,
         };
-        let key = (together, *subject);
-        let known = self.floors.iter().position(|(known, _)| *known == key);
-        let place = known.unwrap_or(self.floors.len());
-        if known.is_none() {
-            self.floors.push((key, together.explore(subject)));
-        }
-        let explored = &self.floors[place].1;
-        if explored.tally.violation.is_none() { explored.clone() } else { floors.explore(subject) }
-    }
-
-    fn search(&mut self, bounds: Bounds, watch: Watch<'_>) -> Result<&Found, Unsearchable> {
-        let known = self.searches.iter().position(|(known, _)| *known == bounds);
-        let place = known.unwrap_or(self.searches.len());
-        if known.is_none() {
-            let found = search(&bounds, watch)?;
-            self.searches.push((bounds, found));
-        }
-        Ok(&self.searches[place].1)
-    }
-
-    fn states(&mut self, setting: Setting, until: space::Until) -> &space::Found {
-        let known = self.spaces.iter().position(|(known, _)| *known == (setting, until));
-        let place = known.unwrap_or(self.spaces.len());
-        if known.is_none() {
-            self.spaces.push(((setting, until), space::search(&setting, until, MOST_STEPS)));
-        }
-        &self.spaces[place].1
-    }
-}
-
-impl Decision {
-    const fn new(verdict: Verdict, cases: u64, counterexample: Option<Evidence>) -> Self {
-        Self { verdict, cases, given_up: 0, counterexample, killed: Vec::new(), survived: Vec::new() }
+        Self { verdict, cases, given_up: 0, counterexample }
     }
 
     /// A tally without a violation shows `shown`, but not for want of cases: one that did not cover what it claims to
     /// gives no verdict.
-    fn of_tally(tally: Tally, covers: &[&str], shown: Verdict) -> Self {
-        let verdict = match tally.violation {
-            Some(_) => Verdict::Refuted,
-            None if covers.iter().all(|situation| tally.covered.contains(situation)) => shown,
-            None => Verdict::Open,
-        };
-        let choices = |once| Choices { once, again: Vec::new() };
-        let evidence = tally.violation.map(|(once, demand)| Evidence::Choices(choices(once), demand));
-        Self { given_up: tally.given_up, ..Self::new(verdict, tally.cases, evidence) }
+    pub fn of_tally(tally: Tally, covers: &[&str], shown: Verdict) -> Self {
+        let is_covered = covers.iter().all(|situation| tally.covered.contains(situation));
+        let evidence = tally.violation.map(|(once, demand)| Evidence {
+            choices: Choices { once, again: Vec::new() },
+            demand,
+            seen: Seen::Choices,
+        });
+        Self { given_up: tally.given_up, ..Self::new(evidence, is_covered, shown, tally.cases) }
+    }
+}
+
+/// Why a method cannot begin.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Refused(String);
+
+impl Refused {
+    /// With this reason.
+    pub fn new(reason: impl fmt::Display) -> Self {
+        Self(reason.to_string())
+    }
+}
+
+impl fmt::Display for Refused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Refused {}
+
+/// What was found, by what was asked: one search may answer several checks.
+#[derive(Default)]
+pub struct Memory(Vec<Box<dyn Any>>);
+
+impl Memory {
+    /// What was found for `key`; if nothing was, what `find` finds, which is kept.
+    ///
+    /// # Errors
+    /// Whatever `find` returns.
+    #[expect(clippy::missing_panics_doc, reason = "it does not")]
+    pub fn recall<K: PartialEq + 'static, V: 'static, E>(
+        &mut self,
+        key: K,
+        find: impl FnOnce(&K) -> Result<V, E>,
+    ) -> Result<&V, E> {
+        let is_known =
+            |entry: &Box<dyn Any>| entry.downcast_ref::<(K, V)>().is_some_and(|(known, _)| *known == key);
+        let known = self.0.iter().position(is_known);
+        let place = known.unwrap_or(self.0.len());
+        if known.is_none() {
+            let found = find(&key)?;
+            self.0.push(Box::new((key, found)));
+        }
+        let entry = self.0[place].downcast_ref::<(K, V)>();
+        Ok(entry.map(|(_, found)| found).expect("an entry of this type was found or made"))
+    }
+}
+
+impl fmt::Debug for Memory {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Memory of {} answers", self.0.len())
+    }
+}
+
+/// What a method has at hand.
+pub struct Desk<'a, 'w> {
+    /// What was found before.
+    pub memory: &'a mut Memory,
+    /// Hears of searches, and may end them: the check is left open then.
+    pub watch: Watch<'w>,
+}
+
+/// A way to decide a clause about rules of type `R`: a scheme's own, or a stranger's.
+pub trait Method<R>: Sync {
+    /// The engine's name.
+    fn engine(&self) -> &'static str;
+
+    /// What it covers, in words that are made from the data that runs.
+    fn bound(&self) -> String;
+
+    /// What is shown when it finds no counterexample within its bound.
+    fn shows(&self) -> Verdict {
+        Verdict::Holds
     }
 
-    fn of_floors(Explored { tally, again, course }: Explored, shown: Verdict) -> Self {
-        let decision = Self::of_tally(tally, &[END], shown);
-        let counterexample = decision.counterexample.map(|evidence| {
-            let (choices, demand) = (Choices { again, ..evidence.choices() }, evidence.demand());
-            match course {
-                Some(course) => Evidence::Course(Box::new(course), choices, demand),
-                None => Evidence::Choices(choices, demand),
-            }
-        });
-        Self { counterexample, ..decision }
+    /// Looks for a counterexample to `rule`.
+    ///
+    /// # Errors
+    /// [`Refused`] if it cannot begin.
+    fn decide(&self, rule: &R, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused>;
+
+    /// Makes the choices of a counterexample to `rule` again.
+    ///
+    /// # Errors
+    /// [`Unfit`] if they are none.
+    fn replay(&self, rule: &R, choices: &Choices) -> Result<Played, Unfit>;
+}
+
+/// A body: one case of a clause about `rule`, made by the choices that the oracle answers.
+pub type Body<R> = fn(rule: &R, oracle: &mut dyn Oracle) -> Outcome;
+
+/// The bound of a body in words, made from the numbers that its choices range over.
+pub type Range = fn() -> String;
+
+/// Every answer to every choice of a body.
+pub struct Exhaustive<R> {
+    /// The body.
+    pub body: Body<R>,
+    /// What its choices range over.
+    pub range: Range,
+    /// The situations that must occur.
+    pub covers: &'static [&'static str],
+}
+
+/// Many random answers to the choices of a body.
+pub struct Sampled<R> {
+    /// The body.
+    pub body: Body<R>,
+    /// How many times.
+    pub runs: u64,
+    /// What its choices range over: what so many of are drawn.
+    pub range: Range,
+    /// The situations that must occur.
+    pub covers: &'static [&'static str],
+}
+
+/// The seed of every sampled check.
+const SEED: u64 = 0;
+
+impl<R: Sync> Method<R> for Exhaustive<R> {
+    fn engine(&self) -> &'static str {
+        "exhaustive"
     }
+
+    fn bound(&self) -> String {
+        (self.range)()
+    }
+
+    fn decide(&self, rule: &R, _: Until, _: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+        let tally = engine::exhaust(|oracle| (self.body)(rule, oracle));
+        Ok(Answer::of_tally(tally, self.covers, self.shows()))
+    }
+
+    fn replay(&self, rule: &R, choices: &Choices) -> Result<Played, Unfit> {
+        replay(self.body, rule, choices)
+    }
+}
+
+impl<R: Sync> Method<R> for Sampled<R> {
+    fn engine(&self) -> &'static str {
+        "sampled"
+    }
+
+    fn bound(&self) -> String {
+        format!("{} {}", self.runs, (self.range)())
+    }
+
+    fn shows(&self) -> Verdict {
+        Verdict::Unrefuted
+    }
+
+    fn decide(&self, rule: &R, _: Until, _: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+        let tally = engine::sample(self.runs, SEED, |oracle| (self.body)(rule, oracle));
+        Ok(Answer::of_tally(tally, self.covers, self.shows()))
+    }
+
+    fn replay(&self, rule: &R, choices: &Choices) -> Result<Played, Unfit> {
+        replay(self.body, rule, choices)
+    }
+}
+
+/// Makes the choices of a violation of a body again.
+fn replay<R>(body: Body<R>, rule: &R, choices: &Choices) -> Result<Played, Unfit> {
+    let answers: Vec<u32> = choices.all().collect();
+    let mut replay = Replay::new(&answers);
+    let outcome = body(rule, &mut replay);
+    let of = replay.asked().to_vec();
+    let misfit = (0..).zip(of.iter().zip(&answers)).find(|&(_, (of, answer))| answer >= of);
+    if let Some((at, (&of, _))) = misfit {
+        return Err(Unfit::None { at, of });
+    }
+    let Err(Stop::Violated(demand)) = outcome else { return Err(Unfit::Unbroken) };
+    if of.len() < answers.len() {
+        return Err(Unfit::Over { at: of.len() });
+    }
+    if !replay.matches() {
+        return Err(Unfit::Unbroken);
+    }
+    Ok(Played { of, evidence: Evidence { choices: choices.clone(), demand, seen: Seen::Choices } })
 }

@@ -1,13 +1,8 @@
-//! A run as plain data: the team moves, one [`Frame`] each, and what a run may never break: the chain's safety sentences
-//! that every frame is checked against (CHAIN-1, CHAIN-2, CHAIN-3), and those about the ends of runs and of agents.
-//! Simulation, search and proofs all use these.
+//! A run of robots as plain data: where they start, and one [`Frame`] for each team move. Simulation, search and proofs all
+//! use it.
 
-use std::fmt;
-use std::str::FromStr;
-
-use serde::{Deserialize, Serialize};
-use tautline_kernel::chain::{Kind, Message, Outcome};
-use tautline_kernel::ground::{Cell, Circle, Edge, Step};
+use tautline_kernel::chain::Kind;
+use tautline_kernel::ground::{Area, Cell, Edge, Step};
 
 /// One team move of robots in the order of their numbers; the base of a chain is the first.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -23,17 +18,6 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The frame of a team move after which the messages of R_2 … R_N were sent and the team was in `cells`.
-    pub fn new(kind: Kind, messages: &[u8], cells: &[Cell]) -> Self {
-        let base = Message { step: Step::Stay, outcome: Outcome::Arrived };
-        let messages = messages.iter().filter_map(|&byte| Message::decode(byte).ok());
-        let (steps, blocked) = std::iter::once(base)
-            .chain(messages)
-            .map(|message| (message.step, message.outcome == Outcome::Blocked))
-            .unzip();
-        Self { kind, steps, blocked, cells: cells.to_vec() }
-    }
-
     /// The edges where robots met a wall or a blocked cell: they stand where they stood.
     pub fn bumps(&self) -> impl Iterator<Item = Edge> {
         let tried = self.cells.iter().zip(self.steps.iter().zip(&self.blocked));
@@ -44,105 +28,27 @@ impl Frame {
     }
 }
 
-/// What no robot team may do, whatever the layout.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Breach {
-    /// The whole cell of a neighbour in the chain is not covered: CHAIN-1, E_C membership.
-    Contact,
-    /// Three robots or more are in one cell outside the base: CHAIN-2.
-    Crowding,
-    /// The centres of two neighbours in the chain were, perhaps only on the way, out of range: CHAIN-3.
-    Coverage,
-    /// A plan looked at more than [`CHEAP_LOOKS`] candidates of followers for each robot: CHAIN-12.
-    Costly,
-    /// The run has ended, and a cell within reach is unexplored: CHAIN-13.
-    Completeness,
-    /// An agent is done, and a cell that it could get to is unexplored: BRICKS-4.
-    Premature,
-    /// The run has ended, or goes on for ever, and a cell that an agent could get to is not visited: BRICKS-6.
-    Unvisited,
-}
-
-impl Breach {
-    /// Every breach.
-    pub const ALL: [Self; 7] = [
-        Self::Contact,
-        Self::Crowding,
-        Self::Coverage,
-        Self::Costly,
-        Self::Completeness,
-        Self::Premature,
-        Self::Unvisited,
-    ];
-
-    /// Those of the chain that are seen in where its robots are.
-    pub const CHAIN: [Self; 4] = [Self::Contact, Self::Crowding, Self::Coverage, Self::Completeness];
-
-    /// The id of the clause that is broken.
-    pub const fn clause(self) -> &'static str {
-        match self {
-            Self::Contact => "CHAIN-1",
-            Self::Crowding => "CHAIN-2",
-            Self::Coverage => "CHAIN-3",
-            Self::Costly => "CHAIN-12",
-            Self::Completeness => "CHAIN-13",
-            Self::Premature => "BRICKS-4",
-            Self::Unvisited => "BRICKS-6",
-        }
-    }
-
-    /// Whether the team move from `before` to `after` commits it; the base stands first in both. Completeness is of
-    /// the end of a run, and in no team move; where robots are does not tell what they know, or what a plan has cost.
-    pub fn is_in(self, before: &[Cell], after: &[Cell]) -> bool {
-        match self {
-            Self::Contact => after.windows(2).any(|pair| !Circle::COVERED.covers(pair[0], pair[1])),
-            Self::Crowding => after.iter().enumerate().any(|(robot, &cell)| {
-                cell != after[0] && after[..robot].iter().filter(|&&other| other == cell).count() >= 2
-            }),
-            Self::Coverage => before
-                .windows(2)
-                .zip(after.windows(2))
-                .any(|(from, to)| !stays_in_range([from[0], to[0]], [from[1], to[1]])),
-            Self::Costly | Self::Completeness | Self::Premature | Self::Unvisited => false,
-        }
-    }
-}
-
-/// Candidates of followers for each robot of a chain, the base counted, that a plan may look at by CHAIN-12.
-pub const CHEAP_LOOKS: u32 = 100;
-
-/// An id that is of no clause about runs.
+/// A run of robots in a layout, as a search finds it.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct NoBreach(String);
-
-impl NoBreach {
-    /// What would be right.
-    pub fn remedy(&self) -> String {
-        format!("the clauses are {}", Breach::ALL.map(Breach::clause).join(", "))
-    }
+pub struct Run {
+    /// The scheme's name.
+    pub scheme: &'static str,
+    /// The cells that all layouts of the search have in common.
+    pub area: Area,
+    /// Where the robots start; the base of a chain is the first.
+    pub starts: Vec<Cell>,
+    /// The walls that they met.
+    pub walls: Vec<Edge>,
+    /// The team moves.
+    pub frames: Vec<Frame>,
+    /// The id of the clause that the run breaks as anyone sees who watches it, if it is one of these.
+    pub breaks: Option<&'static str>,
 }
 
-impl fmt::Display for NoBreach {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "no run can break the clause {:?}", self.0)
-    }
-}
-
-impl std::error::Error for NoBreach {}
-
-/// The breach of the clause with this id.
-impl FromStr for Breach {
-    type Err = NoBreach;
-
-    fn from_str(id: &str) -> Result<Self, NoBreach> {
-        Self::ALL.into_iter().find(|breach| breach.clause() == id).ok_or_else(|| NoBreach(id.to_owned()))
-    }
-}
-
-/// Whether two robots that go from the first to the second of their cells, each at any speeds and with any
-/// pauses, keep their centres within r_cov of each other. Their offset moves inside the parallelogram of the
-/// four differences, and distance is convex, so its corners decide.
-pub fn stays_in_range(one: [Cell; 2], other: [Cell; 2]) -> bool {
-    one.iter().all(|&a| other.iter().all(|&b| Circle::COVERED.reaches(a, b)))
+/// The walls that `frames` met, each once.
+pub fn walls(frames: &[Frame]) -> Vec<Edge> {
+    let mut walls: Vec<Edge> = frames.iter().flat_map(Frame::bumps).collect();
+    walls.sort_unstable();
+    walls.dedup();
+    walls
 }

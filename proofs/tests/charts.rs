@@ -3,9 +3,9 @@
 
 use insta::assert_snapshot;
 use tautline_kernel::mrc::{Condition, Rule};
-use tautline_proofs::rescue::chart::chart;
-use tautline_proofs::rescue::space::{Until, search};
-use tautline_proofs::rescue::{Demand, Faults, Leases, Lossy, Setting};
+use tautline_proofs::mrc::chart::chart;
+use tautline_proofs::mrc::space::{Until, search};
+use tautline_proofs::mrc::{Demand, Faults, Leases, Lossy, Setting};
 
 const NO_FAULT: Faults = Faults::any(0);
 

@@ -4,7 +4,7 @@
 use nalgebra::Vector2;
 use proptest::prelude::*;
 use tautline_kernel::ground::{Cell, Step};
-use tautline_proofs::run::stays_in_range;
+use tautline_proofs::chain::breach::stays_in_range;
 
 /// The share of its way that each of two robots has behind it.
 type Progress = Vector2<f64>;

@@ -10,8 +10,8 @@ use stateright::{Checker, Model, Property};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::mrc::{Condition, Rule, Task};
 use tautline_proofs::engine::{Outcome, require, sample};
-use tautline_proofs::rescue::space::{Found, Until, search};
-use tautline_proofs::rescue::{Action, Actor, Demand, Faults, Leases, Lossy, Setting, State};
+use tautline_proofs::mrc::space::{Found, Until, search};
+use tautline_proofs::mrc::{Action, Actor, Demand, Faults, Leases, Lossy, Setting, State};
 
 /// A setting, and the demands that no state may break.
 struct Rescue(Setting, Vec<Demand>);

@@ -9,7 +9,7 @@ use tautline_kernel::bricks::{Agent, Condition, Next, Rule, act};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Floor, Mark, Sensor, settle};
 use tautline_kernel::ground::{Cell, Edge, Side};
-use tautline_proofs::trap::{Bounds, End, Found, Trap, Way, hunt};
+use tautline_proofs::floor::trap::{Bounds, End, Found, Trap, Way, hunt};
 
 const fn bounds(way: Way, agents: u32, max_misses: u8, max_side: i16) -> Bounds {
     Bounds { way, agents, max_misses, max_width: max_side, max_height: max_side, budget_steps: None }

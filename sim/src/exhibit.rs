@@ -2,10 +2,11 @@
 
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge};
+use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::course::{Course, Turn};
-use tautline_proofs::floor_judge;
-use tautline_proofs::judge::{Exhibit, Move, Place, Repairs};
-use tautline_proofs::run::{Breach, Frame};
+use tautline_proofs::judge::chain::{Exhibit, Move, Place, Repairs};
+use tautline_proofs::judge::floor;
+use tautline_proofs::run::Frame;
 
 use crate::explore::{RuleName, Setup};
 
@@ -29,13 +30,13 @@ pub fn exhibit(setup: &Setup, clause: &str, frames: &[Frame]) -> Exhibit {
 }
 
 /// The turns of agents on a small floor, said to break `clause`.
-pub fn of_course(clause: &str, course: &Course) -> floor_judge::Exhibit {
-    let turn = |turn: &Turn| floor_judge::Turn {
+pub fn of_course(clause: &str, course: &Course) -> floor::Exhibit {
+    let turn = |turn: &Turn| floor::Turn {
         agent: turn.agent,
         to: place(turn.before.cells[turn.agent].after(turn.step)),
         is_done: turn.is_done,
     };
-    floor_judge::Exhibit {
+    floor::Exhibit {
         clause: clause.to_owned(),
         width: course.width.into(),
         height: course.height.into(),
@@ -48,14 +49,14 @@ pub fn of_course(clause: &str, course: &Course) -> floor_judge::Exhibit {
 }
 
 /// The run of the only agent of `setup` with these frames, which is done in the last one, said to break `clause`.
-pub fn of_agent(setup: &Setup, clause: Breach, frames: &[Frame]) -> floor_judge::Exhibit {
+pub fn of_agent(setup: &Setup, clause: Breach, frames: &[Frame]) -> floor::Exhibit {
     let layout = &setup.layout;
-    let turn = |(number, frame): (usize, &Frame)| floor_judge::Turn {
+    let turn = |(number, frame): (usize, &Frame)| floor::Turn {
         agent: 0,
         to: frame.cells.first().copied().map_or((-1, -1), place),
         is_done: number == frames.len(),
     };
-    floor_judge::Exhibit {
+    floor::Exhibit {
         clause: clause.clause().to_owned(),
         width: layout.width().into(),
         height: layout.height().into(),

@@ -17,9 +17,9 @@ use tautline_kernel::bricks;
 use tautline_kernel::chain::{self as kernel, Rule};
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Area, Cell, Edge};
-use tautline_proofs::clause::Subject;
-use tautline_proofs::links::within_reach;
-use tautline_proofs::run::{Breach, Frame};
+use tautline_proofs::chain::breach::Breach;
+use tautline_proofs::chain::links::within_reach;
+use tautline_proofs::run::Frame;
 
 use crate::fault::{Fault, Halt};
 use crate::layout::generate::Probability;
@@ -136,22 +136,12 @@ impl RuleName {
     /// Both rules.
     pub const ALL: [Self; 2] = [Self::Published, Self::Repaired];
 
-    /// What the clauses say of it.
-    pub const fn subject(self) -> Subject {
-        match self {
-            Self::Published => Subject::PUBLISHED,
-            Self::Repaired => Subject::REPAIRED,
-        }
-    }
-
     /// The chain's rule.
     pub const fn chain(self) -> Rule {
-        self.subject().rule
-    }
-
-    /// The rule of this subject, if it is one of the two.
-    pub fn of(subject: &Subject) -> Option<Self> {
-        Self::ALL.into_iter().find(|rule| rule.subject() == *subject)
+        match self {
+            Self::Published => Rule::PUBLISHED,
+            Self::Repaired => Rule::REPAIRED,
+        }
     }
 }
 

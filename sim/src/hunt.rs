@@ -7,9 +7,12 @@ pub mod trap;
 use std::path::{Path, PathBuf};
 
 use tautline_kernel::ground::{Cell, Edge};
-use tautline_proofs::invariant::Invariant;
-use tautline_proofs::run::Breach;
-use tautline_proofs::search::{Bounds, Counterexample, Search, Unsearchable};
+use tautline_proofs::chain::Observed;
+use tautline_proofs::chain::breach::Breach;
+use tautline_proofs::chain::search::{Bounds, Search, Unsearchable};
+
+use tautline_proofs::engine::tree;
+use tautline_proofs::run::Run;
 
 use self::saved::AGAIN;
 pub use self::saved::Saved;
@@ -20,21 +23,21 @@ use crate::layout::{Layout, Problem, Size};
 use crate::trace;
 use crate::words::Worded;
 
-/// The run that `found` is, in the area and with the robots of `bounds`; it stops at the violation.
+/// The run of a chain that `found` is, in the area of its search; it stops at the violation.
 ///
 /// # Errors
 /// [`Problem`] if the area is too large for a layout, or the base is outside.
-pub fn setup(rule: RuleName, bounds: &Bounds, found: &Counterexample) -> Result<Setup, Problem> {
-    let mut layout = Layout::open(bounds.area.width() as u64, bounds.area.height() as u64)?;
-    let origin = bounds.area.first();
+pub fn setup(rule: RuleName, found: &Run) -> Result<Setup, Problem> {
+    let mut layout = Layout::open(found.area.width() as u64, found.area.height() as u64)?;
+    let origin = found.area.first();
     let shifted = |cell: Cell| Cell::new(cell.x - origin.x, cell.y - origin.y);
     for wall in &found.walls {
         layout.build_wall(Edge::new(shifted(wall.cell()), wall.side()));
     }
-    let base = shifted(bounds.base);
+    let base = shifted(found.starts.first().copied().unwrap_or(origin));
     layout.place_base(base)?;
     let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
-    Ok(Setup { limits, ..Setup::new(SchemeName::Chain, rule, bounds.robots as u16, layout, base) })
+    Ok(Setup { limits, ..Setup::new(SchemeName::Chain, rule, found.starts.len() as u16, layout, base) })
 }
 
 /// The place in `folder` of a run of `setup` that breaks `breach`. The scheme is in its name unless the clause tells it.
@@ -78,21 +81,6 @@ pub fn store_at(
     Ok((writer.end(&report), report))
 }
 
-/// The breach that an invariant forbids, if it is one of safety.
-pub const fn breach(invariant: Invariant) -> Option<Breach> {
-    match invariant {
-        Invariant::Without(breach) => Some(breach),
-        Invariant::Admitted
-        | Invariant::Distinct
-        | Invariant::BaseStays
-        | Invariant::Progress
-        | Invariant::Ends
-        | Invariant::Heard
-        | Invariant::Cheap
-        | Invariant::Exhausts => None,
-    }
-}
-
 /// The most robots that are hunted for.
 const MAX_ROBOTS: usize = 64;
 
@@ -103,7 +91,7 @@ const MAX_ROBOTS: usize = 64;
 /// A [`Fault`] if there are too few or too many robots.
 pub fn bounds(rule: RuleName, robots: u64, max_walls: u32, size: Option<Size>) -> Result<Bounds, Fault> {
     let robots = usize::from(Setup::count_robots(robots, MAX_ROBOTS)?);
-    let mut bounds = Bounds::new(rule.subject(), robots, max_walls);
+    let mut bounds = Bounds::new(Observed::honest(rule.chain()), robots, max_walls);
     if let Some(size) = size {
         bounds.base = Cell::new((size.width() - 1) / 2, (size.height() - 1) / 2);
         bounds.area = size.area();
@@ -121,14 +109,17 @@ pub fn start(bounds: &Bounds) -> Result<Search, Fault> {
 
 /// What would be right where a hunt is refused.
 pub fn remedy(refused: Unsearchable) -> String {
+    let refused = match refused {
+        Unsearchable::Team(refused) => return explore::chain::remedy(refused),
+        Unsearchable::Search(refused) => refused,
+    };
     match refused {
-        Unsearchable::Team(refused) => explore::chain::remedy(refused),
-        Unsearchable::TooManyWalls { edges, .. } => format!("give --max-walls a number up to {edges}"),
-        Unsearchable::TooLarge { .. } => "give fewer --robots or a smaller --size".to_owned(),
-        Unsearchable::Beyond { walls } => {
+        tree::Unsearchable::TooManyWalls { edges, .. } => format!("give --max-walls a number up to {edges}"),
+        tree::Unsearchable::TooLarge { .. } => "give fewer --robots or a smaller --size".to_owned(),
+        tree::Unsearchable::Beyond { walls } => {
             format!("give --max-walls {walls} or more, or another --resume file")
         }
-        Unsearchable::Foreign => AGAIN.to_owned(),
+        tree::Unsearchable::Foreign => AGAIN.to_owned(),
     }
 }
 

@@ -25,7 +25,7 @@ use std::ops::Range;
 
 use serde::Serialize;
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
-use tautline_proofs::run::Breach;
+use tautline_proofs::chain::breach::Breach;
 
 use crate::explore::{Crew, Limits, OnViolation, Report, Setup, Violation, explore};
 use crate::fault::{Fault, Halt};

@@ -15,10 +15,10 @@
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use tautline_proofs::clause::{Check, Clause};
-use tautline_proofs::decide::Evidence;
-use tautline_proofs::evidence::{Choices, Played, Unfit};
-use tautline_proofs::registry::CLAUSES;
+use tautline_proofs::clause::{AnyCheck, Clause};
+use tautline_proofs::decide::{Evidence, Played};
+use tautline_proofs::engine::{Choices, Unfit};
+use tautline_proofs::ledger;
 
 use crate::aside::{Aside, Replaceable};
 use crate::fault::Fault;
@@ -75,19 +75,15 @@ struct End {
     crc32: u32,
 }
 
-/// The name of the rule that a check is about.
-pub fn rule(check: &Check) -> &'static str {
-    check.subject.name().unwrap_or("other")
-}
-
-/// The place in `folder` of a refutation that `check` has found: clause, rule and engine are its name, and a number where
-/// another check of the clause before has the same.
-pub fn path(folder: &Path, clause: &Clause, check: &Check) -> PathBuf {
-    let kin = |other: &&Check| (rule(other), other.method.engine()) == (rule(check), check.method.engine());
-    let before = clause.checks.iter().take_while(|other| !std::ptr::eq(*other, check)).filter(kin).count();
+/// The place in `folder` of a refutation that the check of `clause` with this number has found: clause, rule and engine are
+/// its name, and a number where another check of the clause before has the same.
+pub fn path(folder: &Path, clause: &Clause, check: usize) -> PathBuf {
+    let name = |check: &&dyn AnyCheck| (check.rule(), check.engine());
+    let checks = || clause.checks.iter().map(name);
+    let (rule, engine) = checks().nth(check).unwrap_or_default();
+    let before = checks().take(check).filter(|&other| other == (rule, engine)).count();
     let number = if before == 0 { String::new() } else { format!("-{}", before + 1) };
-    let (clause, rule, engine) = (clause.id.to_lowercase(), rule(check), check.method.engine());
-    folder.join(format!("{clause}-{rule}-{engine}{number}.jsonl"))
+    folder.join(format!("{}-{rule}-{engine}{number}.jsonl", clause.id.to_lowercase()))
 }
 
 /// Writes what refutes `clause` by `check` to a file at `path`. The file has yet to be put in its place.
@@ -97,12 +93,12 @@ pub fn path(folder: &Path, clause: &Clause, check: &Check) -> PathBuf {
 pub fn store(
     path: &Path,
     clause: &Clause,
-    check: &Check,
+    check: &dyn AnyCheck,
     evidence: &Evidence,
     replaceable: &Replaceable,
 ) -> Result<Aside, Fault> {
-    let choices = evidence.choices();
-    let Played { of, .. } = check.replay(&choices).map_err(|unfit| {
+    let choices = &evidence.choices;
+    let Played { of, .. } = check.replay(choices).map_err(|unfit| {
         let what = format!("what refutes {} cannot be played again: {unfit}", clause.id);
         Fault::in_file(path, what, "this is a bug of tautline: please report it")
     })?;
@@ -110,12 +106,12 @@ pub fn store(
         format: FORMAT.to_owned(),
         version: VERSION,
         clause: clause.id.to_owned(),
-        rule: rule(check).to_owned(),
-        engine: check.method.engine().to_owned(),
-        bound: check.method.bound(),
-        demand: evidence.demand().to_owned(),
+        rule: check.rule().to_owned(),
+        engine: check.engine().to_owned(),
+        bound: check.bound(),
+        demand: evidence.demand.to_owned(),
     });
-    let Choices { once, again } = &choices;
+    let Choices { once, again } = choices;
     let lines = once.iter().map(|_| Line::Choice as fn(Choice) -> Line);
     let lines = lines.chain(again.iter().map(|_| Line::Again as fn(Choice) -> Line));
     for ((line, &taken), of) in lines.zip(once.iter().chain(again)).zip(of) {
@@ -134,7 +130,7 @@ pub struct Refutation {
     /// What is refuted.
     pub clause: &'static Clause,
     /// The check within whose bound it lies.
-    pub check: &'static Check,
+    pub check: &'static dyn AnyCheck,
     /// What it comes to.
     pub evidence: Evidence,
 }
@@ -184,8 +180,8 @@ pub fn replay(path: &Path) -> Result<Refutation, Fault> {
     lines.end()?;
     let played = play(path, &checks, &choices, &of)?;
     let (check, evidence) = played;
-    if evidence.demand() != header.demand {
-        let what = format!("the demand that is broken is another: {:?}", evidence.demand());
+    if evidence.demand != header.demand {
+        let what = format!("the demand that is broken is another: {:?}", evidence.demand);
         return Err(Fault::in_line(path, 1, &first, spot(&first, "demand"), what, AGAIN));
     }
     if (end.choices, end.again) != (choices.once.len(), choices.again.len()) {
@@ -206,37 +202,42 @@ fn spot(text: &str, key: &str) -> std::ops::Range<usize> {
 }
 
 /// The clause of a header, and its checks that may be meant.
-fn find(lines: &Lines, text: &str, header: &Header) -> Result<(&'static Clause, Vec<&'static Check>), Fault> {
-    let Some(clause) = CLAUSES.iter().find(|clause| clause.id == header.clause) else {
-        let known: Vec<&str> = CLAUSES.iter().map(|clause| clause.id).collect();
+fn find(
+    lines: &Lines,
+    text: &str,
+    header: &Header,
+) -> Result<(&'static Clause, Vec<&'static dyn AnyCheck>), Fault> {
+    let Some(clause) = ledger::clauses().find(|clause| clause.id == header.clause) else {
+        let known: Vec<&str> = ledger::clauses().map(|clause| clause.id).collect();
         let remedy = format!("the clauses are {}", known.join(", "));
         let what = format!("there is no clause {:?}", header.clause);
         return Err(lines.fault(text, "\"clause\"", what, remedy));
     };
-    let fitting = |key: &str, what: &str, is: &dyn Fn(&&Check) -> bool, checks: Vec<&'static Check>| {
-        let fitting: Vec<&Check> = checks.into_iter().filter(is).collect();
-        if fitting.is_empty() {
-            let what = format!("no check of {} {what}", clause.id);
-            return Err(lines.fault(text, &format!("\"{key}\""), what, AGAIN));
-        }
-        Ok(fitting)
-    };
+    let fitting =
+        |key: &str, what: &str, is: &dyn Fn(&&dyn AnyCheck) -> bool, checks: Vec<&'static dyn AnyCheck>| {
+            let fitting: Vec<&dyn AnyCheck> = checks.into_iter().filter(is).collect();
+            if fitting.is_empty() {
+                let what = format!("no check of {} {what}", clause.id);
+                return Err(lines.fault(text, &format!("\"{key}\""), what, AGAIN));
+            }
+            Ok(fitting)
+        };
     let Header { rule: name, engine, bound, .. } = header;
-    let checks = clause.checks.iter().collect();
-    let checks = fitting("rule", &format!("is about {name:?}"), &|check| rule(check) == name, checks)?;
-    let by = |check: &&Check| check.method.engine() == engine;
+    let checks = clause.checks.to_vec();
+    let checks = fitting("rule", &format!("is about {name:?}"), &|check| check.rule() == name, checks)?;
+    let by = |check: &&dyn AnyCheck| check.engine() == engine;
     let checks = fitting("engine", &format!("about it is decided by {engine:?}"), &by, checks)?;
-    let within = |check: &&Check| check.method.bound() == *bound;
+    let within = |check: &&dyn AnyCheck| check.bound() == *bound;
     Ok((clause, fitting("bound", "by it has this bound", &within, checks)?))
 }
 
 /// Plays `choices` by the first of `checks` that goes along with them.
 fn play(
     path: &Path,
-    checks: &[&'static Check],
+    checks: &[&'static dyn AnyCheck],
     choices: &Choices,
     of: &[u32],
-) -> Result<(&'static Check, Evidence), Fault> {
+) -> Result<(&'static dyn AnyCheck, Evidence), Fault> {
     let at = |at: usize, what: &str| {
         let all = choices.once.iter().chain(&choices.again);
         let text = all.zip(of).nth(at).map(|(&taken, &of)| {

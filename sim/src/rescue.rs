@@ -37,7 +37,7 @@ mod tests {
     use tautline_kernel::net::NodeId;
     use tautline_kernel::notice::{self, Scheme};
     use tautline_proofs::engine::Seeded;
-    use tautline_proofs::rescue::Demand;
+    use tautline_proofs::mrc::Demand;
 
     use super::plan::{Caller, Place, Plan};
     use super::*;

@@ -16,7 +16,8 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Side, Step};
-use tautline_proofs::run::{Breach, Frame};
+use tautline_proofs::chain::breach::Breach;
+use tautline_proofs::run::Frame;
 
 use crate::aside::Aside;
 use crate::explore::{Limits, Report, RuleName, SchemeName, Setup, Stopped, TeamMove, Violation, explore};

@@ -7,7 +7,8 @@ use std::{env, fs};
 
 use proptest::prelude::*;
 use tautline_kernel::ground::{Cell, Edge, Step};
-use tautline_proofs::run::{Breach, Frame};
+use tautline_proofs::chain::breach::Breach;
+use tautline_proofs::run::Frame;
 use tautline_sim::aside::{Aside, Replaceable};
 use tautline_sim::explore::{
     Limits, Milestone, OnViolation, Report, RuleName, SchemeName, Setup, Stopped, TeamMove, explore,

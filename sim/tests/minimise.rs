@@ -7,8 +7,8 @@ use std::num::NonZeroU32;
 use std::path::Path;
 
 use tautline_kernel::ground::{Cell, Edge, Side};
-use tautline_proofs::judge::judge;
-use tautline_proofs::run::Breach;
+use tautline_proofs::chain::breach::Breach;
+use tautline_proofs::judge::chain::judge;
 use tautline_sim::aside::Replaceable;
 use tautline_sim::exhibit::exhibit;
 use tautline_sim::explore::{Limits, OnViolation, RuleName, SchemeName, Setup, Stopped, explore};

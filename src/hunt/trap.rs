@@ -4,9 +4,9 @@ use std::fmt::Write;
 use std::ops::ControlFlow;
 
 use serde::Serialize;
-use tautline_proofs::clause::Verdict;
-use tautline_proofs::run::Breach;
-use tautline_proofs::trap::{self, Bounds, End, Found, Trap, Way};
+use tautline_proofs::chain::breach::Breach;
+use tautline_proofs::decide::Verdict;
+use tautline_proofs::floor::trap::{self, Bounds, End, Found, Trap, Way};
 use tautline_proofs::words::counted;
 
 use super::{Hunt, check_folder, keep};

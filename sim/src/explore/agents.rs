@@ -15,8 +15,9 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Claim, Mark, Scan, settle};
 use tautline_kernel::ground::{Area, Cell, Edge, Step};
 use tautline_kernel::perception::time;
-use tautline_proofs::run::{Breach, Frame};
-pub use tautline_proofs::trap::Way;
+use tautline_proofs::chain::breach::Breach;
+pub use tautline_proofs::floor::trap::Way;
+use tautline_proofs::run::Frame;
 
 use super::floor::{Component, SensorFloor};
 use super::{Chart, End, Scheme, Setup};

@@ -4,7 +4,9 @@
 use tautline_kernel::chain::{self, Chain, Intent, MAX_ROBOTS, Refused};
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Area, Cell, Edge, Grid, MediumGrid, SmallGrid};
-use tautline_proofs::run::{Breach, CHEAP_LOOKS, Frame};
+use tautline_proofs::chain::breach::frame;
+use tautline_proofs::chain::breach::{Breach, CHEAP_LOOKS};
+use tautline_proofs::run::Frame;
 
 use super::floor::Component;
 use super::{Chart, End, Scheme, Setup, missed};
@@ -66,7 +68,7 @@ impl<G: Grid, const ROBOTS: usize> Scheme for ChainScheme<G, ROBOTS> {
             Ok(Intent::Go(plan)) => {
                 let settled = self.chain.settle(&plan, is_open);
                 self.log.extend_from_slice(settled.messages());
-                Ok(Frame::new(plan.kind, settled.messages(), self.chain.cells()))
+                Ok(frame(plan.kind, settled.messages(), self.chain.cells()))
             }
             Ok(Intent::Done(chain::End::Explored)) => Err(End::Explored),
             Ok(Intent::Done(chain::End::Exhausted)) => Err(End::Exhausted),

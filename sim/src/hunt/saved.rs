@@ -9,7 +9,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use tautline_kernel::ground::Cell;
-use tautline_proofs::search::{Bounds, Position, Search};
+use tautline_proofs::chain::search::{Bounds, Position, Search};
 
 use super::{remedy, start};
 use crate::aside::{Aside, Replaceable, Standing, lock};

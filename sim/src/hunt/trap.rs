@@ -1,7 +1,7 @@
 //! Traps as runs that anyone can replay: a [`Trap`] becomes the setup of agents in its layout, with the sensors that
 //! they miss written down.
 
-use tautline_proofs::trap::{Bounds, MAX_AGENTS, MAX_CELLS, Trap, Way};
+use tautline_proofs::floor::trap::{Bounds, MAX_AGENTS, MAX_CELLS, Trap, Way};
 
 use crate::explore::{Limits, OnViolation, RuleName, SchemeName, Setup};
 use crate::fault::Fault;

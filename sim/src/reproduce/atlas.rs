@@ -5,9 +5,12 @@ use std::ops::ControlFlow;
 
 use serde::Serialize;
 use tautline_kernel::ground::{Cell, Edge};
-use tautline_proofs::invariant::Invariant;
-use tautline_proofs::run::Breach;
-use tautline_proofs::search::{Bounds, Counterexample, Progress};
+use tautline_proofs::chain::Observed;
+use tautline_proofs::chain::breach::Breach;
+use tautline_proofs::chain::invariant::Invariant;
+use tautline_proofs::chain::search::{Bounds, Counterexample};
+use tautline_proofs::engine::tree::Progress;
+use tautline_proofs::run::walls;
 
 use crate::explore::RuleName;
 use crate::fault::Halt;
@@ -105,9 +108,9 @@ impl Broken {
     fn of(found: &Counterexample) -> Self {
         let between = |wall: &Edge| [wall.cell(), wall.cell().beyond(wall.side())];
         Self {
-            clause: found.invariant.clause(),
+            clause: found.broken.clause(),
             runs: found.runs,
-            walls: found.walls.iter().map(between).collect(),
+            walls: walls(&found.frames).iter().map(between).collect(),
             steps: found.frames.len(),
         }
     }
@@ -135,7 +138,7 @@ pub fn line(
     rule: RuleName,
     watch: &mut dyn FnMut(&Progress<'_>) -> ControlFlow<()>,
 ) -> Result<Line, Halt> {
-    let mut bounds = Bounds::new(rule.subject(), sheet.robots.into(), sheet.max_walls);
+    let mut bounds = Bounds::new(Observed::honest(rule.chain()), sheet.robots.into(), sheet.max_walls);
     if sheet.reach == Reach::Counted {
         bounds.invariants.push(Invariant::Exhausts);
     }

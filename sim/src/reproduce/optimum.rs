@@ -11,8 +11,8 @@ use rayon::prelude::*;
 use serde::{Serialize, Serializer};
 use tautline_kernel::chain::Rule;
 use tautline_kernel::ground::{Cell, Edge};
-use tautline_proofs::optimum::{Guide, Optimum, explore_all};
-use tautline_proofs::reach::{CellSet, Ground};
+use tautline_proofs::chain::optimum::{Guide, Optimum, explore_all};
+use tautline_proofs::chain::reach::{CellSet, Ground};
 
 use super::interval::hundredths;
 use crate::explore::{Chart, RuleName, SchemeName, Setup, explore};

@@ -5,7 +5,7 @@
 
 use rayon::prelude::*;
 use serde::Serialize;
-use tautline_proofs::run::Breach;
+use tautline_proofs::chain::breach::Breach;
 
 use super::interval::{Estimate, Moments, hundredths};
 use crate::explore::{Milestone, Report, RuleName, SchemeName, Setup, explore};

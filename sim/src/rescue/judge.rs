@@ -2,7 +2,7 @@
 
 use tautline_kernel::mrc::{Bid, Phase, Resb, Robot, Served, Task, Wfr};
 use tautline_kernel::net::{Call, Epoch, NodeId, RobotId};
-use tautline_proofs::rescue::Demand;
+use tautline_proofs::mrc::Demand;
 
 use super::{MAX_ROBOTS, MAX_WFRS};
 

@@ -7,7 +7,7 @@ use std::ops::RangeInclusive;
 use rayon::prelude::*;
 use serde::Serialize;
 use tautline_proofs::engine::Seeded;
-use tautline_proofs::rescue::Demand;
+use tautline_proofs::mrc::Demand;
 
 use super::{Event, Fate, Logged, Ordinal, Report, Setting, Violation, rescue};
 use crate::fault::{Fault, Halt, Watch};

@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Side, Step};
+use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::course::Course;
-use tautline_proofs::registry::CLAUSES;
-use tautline_proofs::run::Breach;
+use tautline_proofs::ledger;
 use tautline_proofs::words::counted;
 
 use super::{Block, Pose, agents, beside, first_drawn, legend, outcome, team_move};
@@ -16,7 +16,7 @@ use crate::layout::{Layout, Problem};
 
 /// The sentence of the clause `id`.
 pub fn sentence(id: &str) -> &'static str {
-    CLAUSES.iter().find(|clause| clause.id == id).map_or("", |clause| clause.sentence)
+    ledger::clauses().find(|clause| clause.id == id).map_or("", |clause| clause.sentence)
 }
 
 /// How the team move `made` breaks its clauses: the sentences, what each robot did, and the move drawn.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
-use tautline_proofs::run::Breach;
+use tautline_proofs::chain::breach::Breach;
 
 use super::{Environment, REACH, first_drawn};
 use crate::aside::SVG_HEAD;

@@ -2,7 +2,7 @@
 
 use tautline_kernel::mrc::Request;
 use tautline_kernel::net::NodeId;
-use tautline_proofs::rescue::Demand;
+use tautline_proofs::mrc::Demand;
 
 use super::{Happening, World};
 use crate::radio::Air;

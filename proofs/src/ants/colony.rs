@@ -1,0 +1,165 @@
+//! Ants on small floors, as systems whose states are all looked at (ANTS-1): which agent acts next and which sensors
+//! it misses are choices. A run is over when every cell is explored, since crossings go on to grow for ever.
+
+use tautline_kernel::ants::{Rule, act};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::floor::{Mark, Scan, Sensor, settle};
+use tautline_kernel::ground::Cell;
+
+use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
+use crate::engine::states::{Bits, Step, System};
+use crate::engine::{Choices, Script, Unfit, Until, outcomes};
+use crate::floor::look::{Explored, look};
+use crate::floor::plans::{Area, CELLS, FloorPlan};
+use crate::floor::small::{Misses, Small};
+
+/// Ants that are observed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Observed {
+    /// The rule that they follow.
+    pub rule: Rule,
+    /// Whether sensors count crossings; a mutant's do not.
+    pub counts: bool,
+}
+
+/// Every state of ants on small floors.
+pub(super) struct SmallFloors;
+
+struct Colony {
+    plan: FloorPlan,
+    observed: Observed,
+    max_misses: u8,
+}
+
+#[derive(Clone, PartialEq, Eq, Hash)]
+struct State {
+    sensors: [Sensor; CELLS],
+    ants: Vec<Cell>,
+    misses: u8,
+}
+
+impl Colony {
+    fn starts(&self, ants: u32) -> Vec<State> {
+        let start = |ants| {
+            let mut state = State { sensors: [Sensor::default(); CELLS], ants, misses: 0 };
+            let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors, placed: &mut [0; CELLS] };
+            settle(&mut floor, &state.ants);
+            state
+        };
+        self.plan.starts(ants).map(start).collect()
+    }
+
+    fn is_explored(&self, state: &State) -> bool {
+        self.plan.cells().all(|cell| {
+            self.plan.place(cell).is_none_or(|place| state.sensors[place].mark != Mark::Unexplored)
+        })
+    }
+
+    /// One step from `state`; none once the run is over.
+    fn step(&self, state: &State, world: &mut dyn Oracle) -> Option<Step<State, &'static str>> {
+        if self.is_explored(state) {
+            return None;
+        }
+        let mut state = state.clone();
+        let ant = if state.ants.len() > 1 { world.pick(state.ants.len() as u32) } else { 0 };
+        let cell = state.ants[ant as usize];
+        let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors, placed: &mut [0; CELLS] };
+        let mut world = Misses { world, count: &mut state.misses, most: self.max_misses };
+        let scan = Scan::new(&floor, cell, &mut world);
+        if let Some(side) = act(self.observed.rule, &mut floor, cell, &scan) {
+            state.ants[ant as usize] = cell.beyond(side);
+        }
+        for sensor in &mut state.sensors {
+            sensor.serial = 0;
+            if !self.observed.counts {
+                sensor.crossings = sensor.crossings.min(1);
+            }
+        }
+        Some(Step { state, situation: "a step", acting: 1 << ant, is_bound: true, breaks: Vec::new() })
+    }
+}
+
+impl System for Colony {
+    type State = State;
+    type Key = State;
+    type Demand = &'static str;
+
+    fn key(&self, state: &State) -> State {
+        state.clone()
+    }
+
+    fn steps(&self, state: &State) -> impl Iterator<Item = Step<State, &'static str>> {
+        outcomes(|world| self.step(state, world)).flatten()
+    }
+
+    fn broken_by_endless_runs(&self) -> Option<&'static str> {
+        Some("every cell is explored: no run goes on for ever before")
+    }
+
+    fn awake(&self, state: &State) -> Bits {
+        (1 << state.ants.len()) - 1
+    }
+}
+
+/// Ants on all plans of an area, in any of their cells.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Series {
+    area: Area,
+    ants: u32,
+    max_misses: u8,
+}
+
+const SERIES: [Series; 3] = [
+    Series { area: Area::blocked(4, 4), ants: 1, max_misses: 0 },
+    Series { area: Area::blocked(3, 3), ants: 1, max_misses: 2 },
+    Series { area: Area::blocked(3, 2), ants: 2, max_misses: 0 },
+];
+
+impl Series {
+    fn colonies(self, observed: Observed) -> Vec<Colony> {
+        let Self { area, ants: _, max_misses } = self;
+        let colony = |plan| Colony { plan, observed, max_misses };
+        area.plans().map(colony).collect()
+    }
+}
+
+impl Method<Observed> for SmallFloors {
+    fn engine(&self) -> &'static str {
+        "states"
+    }
+
+    fn bound(&self) -> String {
+        let words = |Series { area, ants, max_misses }: Series| {
+            let missed = if max_misses > 0 { format!(", {max_misses} missed") } else { String::new() };
+            let who = if ants == 1 { "ant" } else { "ants" };
+            format!("{ants} {who} to {area}{missed}")
+        };
+        SERIES.map(words).join("; ")
+    }
+
+    /// The choices of a violation are as those of [`look`].
+    fn decide(&self, observed: &Observed, _: Until, _: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+        let mut explored = Explored::default();
+        for (number, series) in (0..).zip(SERIES) {
+            let colonies = series.colonies(*observed);
+            let starts = |colony: &Colony| colony.starts(series.ants);
+            if let Some((_, run)) = look(&mut explored.tally, number, &colonies, starts) {
+                explored.again = run.round().to_vec();
+                break;
+            }
+        }
+        Ok(explored.answer(self.shows()))
+    }
+
+    fn replay(&self, observed: &Observed, choices: &Choices) -> Result<Played, Unfit> {
+        let mut script = Script::new(choices);
+        let series = SERIES[script.choose(SERIES.len())?];
+        let colonies = series.colonies(*observed);
+        let colony = &colonies[script.choose(colonies.len())?];
+        let mut starts = colony.starts(series.ants);
+        let number = script.choose(starts.len())?;
+        let (of, run) = script.play(colony, (number, starts.swap_remove(number)), |_| true)?;
+        let evidence = Evidence { choices: choices.clone(), demand: run.demand, seen: Seen::Choices };
+        Ok(Played { of, evidence })
+    }
+}

@@ -1,0 +1,157 @@
+//! The clauses of Brick&Mortar, in the order of `SPEC.md`.
+
+use tautline_kernel::bricks::Condition::{Alone, Corners, Laps, LeastCrossed, SecondPass, SeenOnly};
+use tautline_kernel::bricks::{Precedence, Rule};
+
+use super::floors::Floors;
+use super::{Deception, Observed, marking};
+use crate::clause::{Check, Clause, Named};
+use crate::decide::Verdict;
+use crate::step_checks;
+
+const PUBLISHED: Named<Observed> = Named::new("published", Observed::marking(Rule::PUBLISHED));
+const REPAIRED: Named<Observed> = Named::new("repaired", Observed::marking(Rule::REPAIRED));
+const ROBUST: Named<Observed> = Named::new("robust", Observed::marking(Rule::ROBUST));
+
+/// Agents that do not look at corners.
+const NO_CORNERS: Observed = Observed::marking(Rule::REPAIRED.without(Corners));
+
+/// Agents that mark cells in which others are.
+const NOT_ALONE: Observed = Observed::marking(Rule::REPAIRED.without(Alone));
+
+/// Agents that walk no laps.
+const NO_LAPS: Observed = Observed::marking(Rule::REPAIRED.without(Laps));
+
+/// Agents that are robust against missed sensors but for one thing.
+const TRUSTING: Named<Observed> =
+    Named::new("ways through what reads as unexplored", Observed::marking_twice_without(SeenOnly));
+const ONCE_OVER: Named<Observed> =
+    Named::new("nothing gone over twice", Observed::marking_twice_without(SecondPass));
+const EARLY_LAPS: Named<Observed> =
+    Named::new("laps in the first pass", Observed::marking_twice_without(LeastCrossed));
+
+/// Agents whose laps are told apart in another way.
+const fn laps(precedence: Precedence) -> Observed {
+    Observed::marking(Rule { precedence, ..Rule::REPAIRED })
+}
+
+step_checks! { Observed;
+    neighbourhood: marking::neighbourhood, PUBLISHED, marking::neighbourhoods,
+        covers ["explored", "visited"], unwind 17, mutants {
+            without_corners: "without corners" => NO_CORNERS,
+        };
+    walled: marking::walled, REPAIRED, marking::walled_neighbourhoods,
+        covers ["explored", "visited"], unwind 17, mutants {
+            without_corners: "without corners" => NO_CORNERS,
+        };
+    localised: marking::localised, PUBLISHED, marking::errors,
+        covers ["a sensor"], unwind 9, mutants {
+            badly: "errors of more than half a cell" => Observed::deceiving(Deception::LocalisesBadly),
+        };
+    half_seen: marking::half_seen, ROBUST, marking::readings,
+        covers ["explored", "visited"], unwind 17, mutants {
+            without_seen_only: "ways through what reads as unexplored" => Observed::marking_twice_without(SeenOnly),
+        };
+}
+
+/// The clauses.
+pub static CLAUSES: [Clause; 7] = [
+    Clause {
+        id: "BRICKS-1",
+        sentence: "Marking a cell MUST leave its accessible side neighbours connected with each other through the \
+                   eight cells around it.",
+        checks: &[&neighbourhood::CHECK, &walled::CHECK, &half_seen::CHECK],
+    },
+    Clause {
+        id: "BRICKS-2",
+        sentence: "The accessible cells MUST stay connected.",
+        checks: &[
+            &Check::new(
+                PUBLISHED,
+                &Floors::CONNECTED_ALONE,
+                Verdict::Holds,
+                &[Named::new("without corners", NO_CORNERS)],
+            ),
+            &Check::new(
+                REPAIRED,
+                &Floors::CONNECTED,
+                Verdict::Holds,
+                &[
+                    Named::new("without corners", NO_CORNERS),
+                    Named::new("no lap gives way to another", laps(Precedence::Nobody)),
+                ],
+            ),
+            &Check::new(ROBUST, &Floors::CONNECTED_HALF_BLIND, Verdict::Holds, &[TRUSTING, ONCE_OVER]),
+        ],
+    },
+    Clause {
+        id: "BRICKS-3",
+        sentence: "It MUST be enough for BRICKS-2 that two agents take turns whose scans overlap.",
+        checks: &[&Check::new(
+            REPAIRED,
+            &Floors::CONNECTED_IN_TURNS,
+            Verdict::Holds,
+            &[Named::new("agents beside each other act at once", Observed::deceiving(Deception::ActsAtOnce))],
+        )],
+    },
+    Clause {
+        id: "BRICKS-4",
+        sentence: "An agent MUST be done only when every cell is explored and no other cell is left to go through.",
+        checks: &[
+            &Check::new(PUBLISHED, &Floors::KNOWING, Verdict::Refuted, &[]),
+            &Check::new(
+                REPAIRED,
+                &Floors::KNOWING,
+                Verdict::Holds,
+                &[Named::new("marks cells in which others are", NOT_ALONE)],
+            ),
+            &Check::new(PUBLISHED, &Floors::KNOWING_HALF_BLIND, Verdict::Refuted, &[]),
+            &Check::new(
+                ROBUST,
+                &Floors::KNOWING_HALF_BLIND,
+                Verdict::Holds,
+                &[TRUSTING, ONCE_OVER, EARLY_LAPS],
+            ),
+        ],
+    },
+    Clause {
+        id: "BRICKS-5",
+        sentence: "Every cell MUST be explored, whatever sensors are missed a finite number of times.",
+        checks: &[
+            &Check::new(PUBLISHED, &Floors::EXPLORES_HALF_BLIND, Verdict::Refuted, &[]),
+            &Check::new(ROBUST, &Floors::EXPLORES_HALF_BLIND, Verdict::Holds, &[TRUSTING, ONCE_OVER]),
+        ],
+    },
+    Clause {
+        id: "BRICKS-6",
+        sentence: "Every run in which every agent acts again and again MUST end with every cell visited, whatever \
+                   sensors are missed a finite number of times.",
+        checks: &[
+            &Check::new(PUBLISHED, &Floors::ENDS_ALONE, Verdict::Refuted, &[]),
+            &Check::new(
+                REPAIRED,
+                &Floors::ENDS,
+                Verdict::Holds,
+                &[
+                    Named::new("both laps give way", laps(Precedence::Everybody)),
+                    Named::new("marks cells in which others are", NOT_ALONE),
+                    Named::new("walks no laps", NO_LAPS),
+                ],
+            ),
+            &Check::new(
+                ROBUST,
+                &Floors::ENDS_TWICE,
+                Verdict::Holds,
+                &[Named::new("walks no laps", Observed::marking_twice_without(Laps))],
+            ),
+            &Check::new(PUBLISHED, &Floors::ENDS_HALF_BLIND, Verdict::Refuted, &[]),
+            &Check::new(ROBUST, &Floors::ENDS_HALF_BLIND, Verdict::Holds, &[TRUSTING, ONCE_OVER, EARLY_LAPS]),
+        ],
+    },
+    Clause {
+        id: "BRICKS-7",
+        sentence: "A sensor that is localised with an error of less than half a cell MUST be taken for the one of its \
+                   cell.",
+        checks: &[&localised::CHECK],
+    },
+];

@@ -1,0 +1,168 @@
+//! The local rule of Brick&Mortar (BRICKS-1): whatever is around a cell, marking it leaves its side neighbours
+//! connected with each other. The eight cells are gone round one by one here; of the kernel only the rule is asked.
+
+use tautline_kernel::bricks::{Rule, blocks};
+use tautline_kernel::choice::{Oracle, one_of};
+use tautline_kernel::floor::{Ring, Scan, Sensor};
+
+use super::{Deception, Observed};
+use crate::engine::{Outcome, require};
+
+/// Cells around a cell.
+const AROUND: usize = 8;
+
+/// What [`neighbourhood`] looks at.
+pub(crate) fn neighbourhoods() -> String {
+    format!("all {} neighbourhoods", 1 << AROUND)
+}
+
+/// What [`walled`] looks at.
+pub(crate) fn walled_neighbourhoods() -> String {
+    format!("{}, walls between cells in every way", neighbourhoods())
+}
+
+/// What a cell around can be and be read as: inaccessible, explored, unexplored, explored but missed, inaccessible but
+/// missed.
+const READINGS: u32 = 5;
+
+/// What [`half_seen`] looks at.
+pub(crate) fn readings() -> String {
+    format!("all neighbourhoods, any of {AROUND} sensors missed: {} readings", READINGS.pow(AROUND as u32))
+}
+
+/// What is around a cell, and what is seen of it.
+struct Around {
+    /// Accessible cells, clockwise from the northern one.
+    accessible: [bool; AROUND],
+    /// What an agent makes of them: unexplored, explored or inaccessible.
+    unexplored: Ring,
+    explored: Ring,
+    /// Whether one can go from each to the next, and from the cell to each side neighbour.
+    rims: [bool; 8],
+    spokes: [bool; 8],
+}
+
+impl Around {
+    fn scan(&self) -> Scan {
+        let ring =
+            |bits: &[bool; 8]| Ring((0..8).fold(0, |ring, place| ring | u8::from(bits[place]) << place));
+        Scan {
+            here: Sensor::default(),
+            unexplored: self.unexplored,
+            explored: self.explored,
+            closing: Ring::default(),
+            visited: Ring::default(),
+            open: ring(&self.spokes),
+            rims: ring(&self.rims),
+            detected: 0,
+            beside: Ring::default(),
+            crossings: [0; 4],
+            claims: [None; 4],
+            serials: [0; 8],
+        }
+    }
+
+    fn is_neighbour(&self, place: usize) -> bool {
+        place.is_multiple_of(2) && self.accessible[place] && self.spokes[place]
+    }
+
+    /// Whether all accessible side neighbours can be reached from the first one along the ring.
+    fn is_connected(&self) -> bool {
+        let Some(first) = (0..8).find(|&place| self.is_neighbour(place)) else { return true };
+        let mut reached = [false; 8];
+        reached[first] = true;
+        // Once round in each direction reaches all that can be reached.
+        for step in 0..16 {
+            let place = (first + step) % 8;
+            let next = (place + 1) % 8;
+            reached[next] |= reached[place] && self.rims[place] && self.accessible[next];
+            let (place, next) = ((first + 16 - step) % 8, (first + 15 - step) % 8);
+            reached[next] |= reached[place] && self.rims[next] && self.accessible[next];
+        }
+        (0..8).all(|place| !self.is_neighbour(place) || reached[place])
+    }
+}
+
+fn decide(rule: Rule, around: &Around) -> Outcome {
+    if blocks(rule, &around.scan()) {
+        return Ok("explored");
+    }
+    require(
+        around.is_connected(),
+        "a marked cell leaves its accessible side neighbours connected with each other",
+    )?;
+    Ok("visited")
+}
+
+/// All 256 neighbourhoods of accessible and inaccessible cells, without walls between them.
+pub(crate) fn neighbourhood(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    let accessible = core::array::from_fn(|_| oracle.flip());
+    let explored = Ring((0..8).fold(0, |ring, place| ring | u8::from(accessible[place]) << place));
+    let around = Around {
+        accessible,
+        unexplored: Ring::default(),
+        explored,
+        rims: core::array::from_fn(|place| accessible[place] && accessible[(place + 1) % 8]),
+        spokes: core::array::from_fn(|place| place % 2 == 0),
+    };
+    decide(observed.rule, &around)
+}
+
+/// All neighbourhoods, and walls between any two of the nine cells.
+pub(crate) fn walled(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    let accessible: [bool; AROUND] = core::array::from_fn(|_| oracle.flip());
+    let explored = Ring((0..8).fold(0, |ring, place| ring | u8::from(accessible[place]) << place));
+    let rims =
+        core::array::from_fn(|place| accessible[place] && accessible[(place + 1) % 8] && oracle.flip());
+    let spokes = core::array::from_fn(|place| place.is_multiple_of(2) && accessible[place] && oracle.flip());
+    decide(observed.rule, &Around { accessible, unexplored: Ring::default(), explored, rims, spokes })
+}
+
+/// All neighbourhoods, and any of their sensors missed: the rule of the second pass.
+pub(crate) fn half_seen(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    let (mut unexplored, mut explored) = (Ring::default(), Ring::default());
+    let accessible: [bool; AROUND] = core::array::from_fn(|place| {
+        let what = oracle.pick(READINGS);
+        unexplored.0 |= u8::from(what >= 2) << place;
+        explored.0 |= u8::from(what == 1) << place;
+        (1..4).contains(&what)
+    });
+    let is_read = |place: usize| (unexplored.0 | explored.0) >> place & 1 == 1;
+    let around = Around {
+        accessible,
+        unexplored,
+        explored,
+        rims: core::array::from_fn(|place| is_read(place) && is_read((place + 1) % 8)),
+        spokes: core::array::from_fn(|place| place % 2 == 0),
+    };
+    decide(observed.rule, &around)
+}
+
+/// The side of a cell in millimetres (paper 004, V.A).
+const SIDE: u16 = 480;
+
+/// Where the sensors around are, in columns and rows, clockwise from the northern one.
+const PLACES: [(i32, i32); AROUND] = [(0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1)];
+
+/// Errors of each coordinate, in halves of the largest.
+const ERRORS: [i32; 5] = [0, -2, -1, 1, 2];
+
+/// What [`localised`] looks at.
+pub(crate) fn errors() -> String {
+    format!("{AROUND} sensors, {} errors each, a cell of {} cm", ERRORS.len().pow(2), SIDE / 10)
+}
+
+/// Every sensor around, localised with errors to just under half a side.
+pub(crate) fn localised(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    let most = match observed.deception {
+        Deception::LocalisesBadly => i32::from(SIDE) * 3 / 5,
+        Deception::None | Deception::ActsAtOnce => i32::from(SIDE) / 2 - 1,
+    };
+    let place = oracle.pick(AROUND as u32);
+    let (columns, rows) = PLACES[place as usize];
+    let error = |oracle: &mut dyn Oracle| most * one_of(oracle, &ERRORS) / 2;
+    let east = columns * i32::from(SIDE) + error(oracle);
+    let south = rows * i32::from(SIDE) + error(oracle);
+    require(Ring::locate(east, south, SIDE) == Some(place), "the sensor is taken for the one of its cell")?;
+    Ok("a sensor")
+}

@@ -1,0 +1,313 @@
+//! Agents on small floors, as systems whose states are all looked at: which agent acts next and which sensors it
+//! misses are choices. What BRICKS-2 to BRICKS-6 demand is in plain arithmetic here; of the kernel's rule only the
+//! agents' actions are used.
+
+use tautline_kernel::bricks::{Act, Agent, Condition, Next, Rule, carry_out};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::floor::{Mark, Scan, Sensor, settle};
+use tautline_kernel::ground::{Cell, Edge, Side, Step};
+
+use crate::course::{Course, Scene, Turn};
+use crate::engine::outcomes;
+use crate::engine::states::{self, Bits, Run, System};
+use crate::floor::plans::{CELLS, FloorPlan};
+use crate::floor::small::{Misses, Small, is_shut, marked};
+
+/// What two agents may do at once.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Turns {
+    /// Nothing: every action is one step.
+    Whole,
+    /// Scanning and writing are two steps, but no agent scans while another whose scan overlaps has yet to write.
+    Overlapping,
+    /// Scanning and writing are two steps.
+    Free,
+}
+
+/// What a team is looked at for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Demand {
+    /// BRICKS-2, BRICKS-3
+    Connected,
+    /// BRICKS-4
+    Knowing,
+    /// BRICKS-5: the run is over when every cell is explored.
+    Explores,
+    /// BRICKS-6
+    Ends,
+    /// BRICKS-2, BRICKS-4 and BRICKS-6, looked at in one pass.
+    All,
+}
+
+/// An agent on the floor.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(crate) struct Body {
+    pub(crate) agent: Agent,
+    pub(crate) cell: Cell,
+    pub(crate) is_done: bool,
+    /// What it has decided and has yet to carry out.
+    pub(crate) pending: Option<Act>,
+}
+
+/// The state of a floor and its agents.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub(crate) struct State {
+    pub(crate) sensors: [Sensor; CELLS],
+    pub(crate) placed: [u8; CELLS],
+    pub(crate) bodies: Vec<Body>,
+    /// Sensors missed so far.
+    pub(crate) misses: u8,
+    /// Who acted last, and how many times in a row; kept only where that is bounded.
+    pub(crate) streak: (u8, u8),
+}
+
+/// Agents that follow a rule on a plan.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Team {
+    pub(crate) plan: FloorPlan,
+    pub(crate) rule: Rule,
+    pub(crate) turns: Turns,
+    /// Sensors that are missed in one run at most.
+    pub(crate) max_misses: u8,
+    /// How many times in a row an agent may act while another waits.
+    pub(crate) max_streak: Option<u8>,
+    pub(crate) demand: Demand,
+}
+
+impl Team {
+    /// The start with the agents in these cells.
+    pub(crate) fn start(&self, cells: &[Cell]) -> State {
+        let (mut sensors, mut placed) = ([Sensor::default(); CELLS], [0; CELLS]);
+        let mut floor = Small { plan: &self.plan, sensors: &mut sensors, placed: &mut placed };
+        settle(&mut floor, cells);
+        let bodies = (0..)
+            .zip(cells)
+            .map(|(id, &cell)| Body { agent: Agent::new(id), cell, is_done: false, pending: None })
+            .collect();
+        let mut state = State { sensors, placed, bodies, misses: 0, streak: (0, 0) };
+        self.forget(&mut state);
+        state
+    }
+
+    /// The starts of `agents`, each in any free cell.
+    pub(crate) fn starts(&self, agents: u32) -> impl Iterator<Item = State> {
+        self.plan.starts(agents).map(|cells| self.start(&cells))
+    }
+
+    /// What no agent ever reads is left out of the state: crossings if it goes round at once and is never lost,
+    /// identifiers if no sensor is missed.
+    fn forget(&self, state: &mut State) {
+        let is_ideal = self.max_misses == 0;
+        if is_ideal && self.rule.patience == 0 || !self.rule.has(Condition::LeastCrossed) {
+            state.sensors.iter_mut().for_each(|sensor| sensor.crossings = 0);
+        }
+        if is_ideal || !self.rule.has(Condition::SeenOnly) {
+            state.placed = [0; CELLS];
+            state.sensors.iter_mut().for_each(|sensor| sensor.serial = 0);
+        }
+    }
+
+    fn marked(&self, state: &State, is: impl Fn(Mark) -> bool) -> u16 {
+        marked(&self.plan, &state.sensors, is)
+    }
+
+    /// The cells that are left to go through: all but visited ones, or where there is a second pass, but sealed ones.
+    fn left(&self, state: &State) -> u16 {
+        let is_twofold = self.rule.has(Condition::SecondPass);
+        self.marked(state, |mark| match mark {
+            Mark::Unexplored | Mark::Explored | Mark::Closing => true,
+            Mark::Visited => is_twofold,
+            Mark::Sealed => false,
+        })
+    }
+
+    fn is_explored(&self, state: &State) -> bool {
+        self.marked(state, |mark| mark == Mark::Unexplored) == 0
+    }
+
+    /// What is broken in `state`, in which the agent in the cell `ended` has just been done.
+    fn broken(&self, state: &State, ended: Option<Cell>) -> Option<&'static str> {
+        match self.demand {
+            Demand::Connected => self.is_torn(state),
+            Demand::Knowing => self.is_wrong(state, ended),
+            Demand::All => self.is_torn(state).or_else(|| self.is_wrong(state, ended)),
+            Demand::Explores | Demand::Ends => None,
+        }
+    }
+
+    fn is_torn(&self, state: &State) -> Option<&'static str> {
+        let left = self.left(state);
+        let is_one = self.plan.spread(left, |edge| is_shut(&self.plan, &state.sensors, edge)) == left;
+        (!is_one).then_some("the accessible cells stay connected")
+    }
+
+    fn is_wrong(&self, state: &State, ended: Option<Cell>) -> Option<&'static str> {
+        let here = self.plan.place(ended?).map_or(0, |place| 1 << place);
+        if !self.is_explored(state) {
+            return Some("an agent is done only when every cell is explored");
+        }
+        (self.left(state) & !here != 0).then_some("an agent is done only when no other cell is left")
+    }
+}
+
+impl Team {
+    /// Every turn from `state`; none once the run is over.
+    fn turns(&self, state: &State) -> impl Iterator<Item = Turned> {
+        outcomes(|world| self.turn(state, world)).flatten()
+    }
+
+    fn turn(&self, state: &State, world: &mut dyn Oracle) -> Option<Turned> {
+        let awake = self.awake(state);
+        let is_over = match self.demand {
+            Demand::Connected | Demand::Knowing | Demand::Ends | Demand::All => false,
+            Demand::Explores => self.is_explored(state),
+        };
+        if awake == 0 || is_over {
+            return None;
+        }
+        let is_awake = |agent: usize| awake >> agent & 1 == 1;
+        let is_locked = |agent: usize| {
+            let Body { pending, cell, .. } = state.bodies[agent];
+            self.turns == Turns::Overlapping
+                && pending.is_none()
+                && state.bodies.iter().any(|other| {
+                    let (dx, dy) = cell.apart(other.cell);
+                    other.pending.is_some() && dx.max(dy) <= 2
+                })
+        };
+        let is_tired = |agent: usize| {
+            awake.count_ones() > 1 && self.max_streak.is_some_and(|most| state.streak == (agent as u8, most))
+        };
+        let ready: Vec<usize> = (0..state.bodies.len())
+            .filter(|&agent| is_awake(agent) && !is_locked(agent) && !is_tired(agent))
+            .collect();
+        let agent = ready[if ready.len() > 1 { world.pick(ready.len() as u32) as usize } else { 0 }];
+        let mut state = state.clone();
+        if let Some(most) = self.max_streak {
+            let again = if state.streak.0 == agent as u8 { state.streak.1 } else { 0 };
+            state.streak = (agent as u8, most.min(again + 1));
+        }
+        let body = &mut state.bodies[agent];
+        let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors, placed: &mut state.placed };
+        let mut unseen = Vec::new();
+        let (act, is_due) = if let Some(act) = body.pending.take() {
+            (act, true)
+        } else {
+            let missed = state.misses;
+            let mut world = Misses { world, count: &mut state.misses, most: self.max_misses };
+            let scan = Scan::new(&floor, body.cell, &mut world);
+            if state.misses > missed {
+                unseen = scan.misread(&floor, body.cell).collect();
+            }
+            (body.agent.decide(self.rule, &scan), self.turns == Turns::Whole)
+        };
+        let mut step = Step::Stay;
+        if is_due {
+            body.cell = carry_out(&mut floor, body.cell, &act);
+            body.is_done = act.next == Next::Done;
+            if let Next::Goes(side, ..) = act.next {
+                step = Step::Cross(side);
+            }
+        } else {
+            body.pending = Some(act);
+        }
+        let ended = Some(body.cell).filter(|_| body.is_done);
+        self.forget(&mut state);
+        let breaks = self.broken(&state, ended);
+        Some(Turned { state, agent, step, unseen, breaks })
+    }
+
+    fn scene(&self, state: &State) -> Scene {
+        let mark = |cell| Some((cell, state.sensors[self.plan.place(cell)?].mark));
+        Scene {
+            cells: state.bodies.iter().map(|body| body.cell).collect(),
+            marks: self.plan.cells().filter_map(mark).collect(),
+        }
+    }
+
+    /// What happens in `run`, which begins in `start`.
+    pub(super) fn course(&self, start: State, run: &Run<&str>) -> Course {
+        let mut state = start;
+        let round = run.round();
+        let mut turns = Vec::new();
+        for &number in run.steps.iter().chain(round) {
+            let Some(turned) = self.turns(&state).nth(number as usize) else { break };
+            let Turned { agent, step, unseen, .. } = turned;
+            let is_done = turned.state.bodies[agent].is_done;
+            turns.push(Turn { before: self.scene(&state), agent, step, is_done, unseen });
+            state = turned.state;
+        }
+        let FloorPlan { width, height, .. } = self.plan;
+        let area = (0..width * height).map(|place| self.plan.cell(place as usize));
+        let sides = |cell| [Side::East, Side::South].map(|side| Edge::new(cell, side));
+        let is_wall = |edge: &Edge| {
+            self.plan.place(edge.cell().beyond(edge.side())).is_some() && !self.plan.is_open(*edge)
+        };
+        Course {
+            width,
+            height,
+            blocked: area.filter(|&cell| self.plan.place(cell).is_none()).collect(),
+            walls: self.plan.cells().flat_map(sides).filter(is_wall).collect(),
+            turns,
+            round: round.len(),
+            end: self.scene(&state),
+        }
+    }
+}
+
+/// What a turn leads to.
+struct Turned {
+    state: State,
+    /// Whose turn it is, and where it goes.
+    agent: usize,
+    step: Step,
+    /// The cells of the sensors that it misses.
+    unseen: Vec<Cell>,
+    breaks: Option<&'static str>,
+}
+
+impl System for Team {
+    type State = State;
+    type Key = State;
+    type Demand = &'static str;
+
+    fn key(&self, state: &State) -> State {
+        state.clone()
+    }
+
+    fn steps(&self, state: &State) -> impl Iterator<Item = states::Step<State, &'static str>> {
+        self.turns(state).map(|Turned { state, agent, breaks, .. }| states::Step {
+            state,
+            situation: "a step",
+            acting: 1 << agent,
+            is_bound: true,
+            breaks: breaks.into_iter().collect(),
+        })
+    }
+
+    fn broken_at_end(&self, state: &State) -> Option<&'static str> {
+        match self.demand {
+            Demand::Connected | Demand::Knowing => None,
+            Demand::Explores => (!self.is_explored(state)).then_some("every cell is explored"),
+            Demand::Ends | Demand::All => {
+                let is_left = |mark| !matches!(mark, Mark::Visited | Mark::Sealed);
+                (self.marked(state, is_left) != 0)
+                    .then_some("when all agents are done, every cell is visited")
+            }
+        }
+    }
+
+    fn broken_by_endless_runs(&self) -> Option<&'static str> {
+        match self.demand {
+            Demand::Connected | Demand::Knowing => None,
+            Demand::Explores => Some("every cell is explored: no run goes on for ever before"),
+            Demand::Ends | Demand::All => {
+                Some("no run goes on for ever in which every agent acts again and again")
+            }
+        }
+    }
+
+    fn awake(&self, state: &State) -> Bits {
+        (0..).zip(&state.bodies).filter(|(_, body)| !body.is_done).fold(0, |set, (agent, _)| set | 1 << agent)
+    }
+}

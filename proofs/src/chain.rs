@@ -1,0 +1,21 @@
+//! The chain (CHAIN): what is promised of it, the search over all layouts that it is played in, what it can reach, and in how
+//! few team moves.
+
+pub mod breach;
+pub mod clauses;
+mod crowd;
+mod game;
+pub mod invariant;
+pub mod links;
+mod observed;
+pub mod optimum;
+mod pair;
+pub mod plain;
+pub mod reach;
+pub mod search;
+mod small;
+mod three;
+mod walk;
+mod whole;
+
+pub use observed::{Deception, Observed};

@@ -1,0 +1,173 @@
+//! The chain as the search plays it: its edges are decided when a robot first tries them, and a wall is a mishap.
+
+use tautline_kernel::chain::{Chain, Intent, Message, Outcome, Plan, Refused};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::ground::{Area, CellMark, EdgeMark, Grid, Step};
+
+use super::breach::{Breach, frame};
+use super::invariant::{Invariant, Moment};
+use super::links::within_reach;
+use super::observed::Deception;
+use super::reach::{CellSet, Ground};
+use super::search::Bounds;
+use crate::engine::Stop;
+use crate::engine::tree::{Broken, Game, Turn};
+use crate::run::Frame;
+
+/// Robots for which it can be said what they could reach at all.
+const MOST_EXHAUSTING: usize = 5;
+
+/// A chain within bounds.
+pub(super) struct ChainGame<G, const ROBOTS: usize> {
+    bounds: Bounds,
+    start: Chain<G, ROBOTS>,
+}
+
+impl<G: Grid, const ROBOTS: usize> ChainGame<G, ROBOTS> {
+    pub(super) fn new(bounds: &Bounds, grid: impl Fn(Area) -> Option<G>) -> Result<Self, Refused> {
+        let Bounds { robots, base, .. } = *bounds;
+        let most = if bounds.invariants.contains(&Invariant::Exhausts) { MOST_EXHAUSTING } else { ROBOTS };
+        let too_many = Refused::TooManyRobots { robots, most };
+        let grid = grid(bounds.reach()?).filter(|_| robots <= most).ok_or(too_many)?;
+        Ok(Self { bounds: bounds.clone(), start: Chain::new(bounds.observed.rule, robots, base, grid)? })
+    }
+
+    fn looks_for(&self, invariant: Invariant) -> bool {
+        self.bounds.invariants.contains(&invariant)
+    }
+
+    /// The open moves of a log, the latest first: their messages.
+    fn open_moves<'a>(&self, log: &'a [u8]) -> impl Iterator<Item = &'a [u8]> + use<'a, G, ROBOTS> {
+        let mut taken_back = 0_u32;
+        log.chunks_exact(self.bounds.robots - 1).rev().filter(move |messages| {
+            let is_open = !is_backtrack(messages) && taken_back == 0;
+            if is_backtrack(messages) {
+                taken_back += 1;
+            } else {
+                taken_back = taken_back.saturating_sub(1);
+            }
+            is_open
+        })
+    }
+}
+
+impl<G, const ROBOTS: usize> Game for ChainGame<G, ROBOTS>
+where
+    G: Grid + Copy + Eq + Send + Sync + 'static,
+{
+    type State = Chain<G, ROBOTS>;
+    type Plan = Plan<ROBOTS>;
+    type Demand = Invariant;
+    type Frame = Frame;
+
+    fn edges(&self) -> u32 {
+        self.start.grid().area().edges().count() as u32
+    }
+
+    fn start(&self) -> Self::State {
+        self.start
+    }
+
+    fn plan(&self, chain: &mut Self::State, log: &[u8]) -> Option<Self::Plan> {
+        match chain.plan(log) {
+            Ok(Intent::Go(plan)) => Some(plan),
+            Ok(Intent::Done(_)) | Err(_) => None,
+        }
+    }
+
+    fn settle(&self, chain: &mut Self::State, plan: &Self::Plan, log: &mut Vec<u8>, world: &mut impl Oracle) {
+        log.extend_from_slice(chain.settle(plan, |_| !world.mishap()).messages());
+    }
+
+    fn frame(&self, turn: &Turn<'_, Self>) -> Frame {
+        frame(turn.plan.kind, turn.sent, turn.after.cells())
+    }
+
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Option<Broken<Self>> {
+        let Turn { before, planned, after, plan, sent } = *turn;
+        let observed = &self.bounds.observed;
+        let (mut forged_steps, mut forged_messages) = ([Step::Stay; ROBOTS], [0; ROBOTS]);
+        let (mut steps, mut messages) = (plan.steps(), sent);
+        match observed.deception {
+            Deception::None | Deception::PlainRecursion | Deception::DoubtsAll => {}
+            Deception::BaseFollows => {
+                let forged = &mut forged_steps[..steps.len()];
+                forged.copy_from_slice(steps);
+                forged[0] = forged[1];
+                steps = forged;
+            }
+            Deception::SwappedBits => {
+                let forged = &mut forged_messages[..sent.len()];
+                forged
+                    .iter_mut()
+                    .zip(sent)
+                    .for_each(|(heard, &sent)| *heard = observed.deception.carry(sent));
+                messages = forged;
+            }
+        }
+        let moment = Moment { observed, before, planned, after, plan, steps, messages };
+        self.bounds.invariants.iter().find_map(|&invariant| match invariant.check(&moment) {
+            Err(Stop::Violated(demand)) => Some((invariant, demand)),
+            Err(Stop::Assumed | Stop::GivenUp) | Ok(()) => None,
+        })
+    }
+
+    fn broken_at_end(&self, chain: &Self::State, log: &[u8]) -> Option<Broken<Self>> {
+        if self.looks_for(Invariant::Heard) && chain.clone().plan(log).is_err() {
+            return Some((Invariant::Heard, "no message of a team is refused by it"));
+        }
+        let grid = chain.grid();
+        if grid.is_explored() {
+            return None;
+        }
+        let is_open = |edge| !grid.edge_has(EdgeMark::Wall, edge);
+        let is_missed = |cell| !grid.has(CellMark::Explored, cell);
+        let Bounds { base, robots, .. } = self.bounds;
+        let (complete, exhausts) = (Invariant::Without(Breach::Completeness), Invariant::Exhausts);
+        if self.looks_for(complete)
+            && within_reach(grid.area(), base, robots, is_open).into_iter().any(is_missed)
+        {
+            return Some((complete, "at the end every cell within reach is explored"));
+        }
+        if !self.looks_for(exhausts) {
+            return None;
+        }
+        let ground = Ground::new(grid.area(), base, robots, is_open)?;
+        let mut missed = CellSet::new(grid.area());
+        grid.area().cells().filter(|&cell| is_missed(cell)).for_each(|cell| missed.insert(cell));
+        let is_reachable = ground.reaches_any(chain.rule(), &missed).unwrap_or(false);
+        is_reachable.then_some((exhausts, "at the end every cell that a chain can reach is explored"))
+    }
+
+    /// The chain is where it was, and what it took back since then, it has done again: so it goes on as it did. If it
+    /// took back everything, it must have as much to take back as then.
+    fn broken_by_recurring(
+        &self,
+        then: &Self::State,
+        sent: usize,
+        now: &Self::State,
+        log: &[u8],
+    ) -> Option<Broken<Self>> {
+        let is_back = then.cells() == now.cells()
+            && (then.gained(), then.is_unfolding()) == (now.gained(), now.is_unfolding())
+            && then.grid() == now.grid();
+        if !is_back {
+            return None;
+        }
+        let (mut height, mut lowest) = (0_i64, 0_i64);
+        for messages in log[sent..].chunks_exact(self.bounds.robots - 1) {
+            height += if is_backtrack(messages) { -1 } else { 1 };
+            lowest = lowest.min(height);
+        }
+        let undone = lowest.unsigned_abs() as usize;
+        let was_home = self.open_moves(&log[..sent]).nth(undone).is_none();
+        let recurs = (height == 0 || height > 0 && !was_home)
+            && self.open_moves(&log[..sent]).take(undone).eq(self.open_moves(log).take(undone));
+        recurs.then_some((Invariant::Ends, "a run never comes back to where it was"))
+    }
+}
+
+fn is_backtrack(messages: &[u8]) -> bool {
+    let first = messages.first().and_then(|&byte| Message::decode(byte).ok());
+    first.is_some_and(|message| message.outcome == Outcome::TookBack)
+}

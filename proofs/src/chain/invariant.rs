@@ -1,0 +1,310 @@
+//! What every team move of a run is checked for. The sentences are those of `SPEC.md`, in plain arithmetic of
+//! their own: of the kernel's rule only the names of its conditions are used.
+
+use serde::{Deserialize, Serialize};
+use tautline_kernel::chain::{Budget, Chain, Condition, Kind, Message, Outcome, Plan};
+use tautline_kernel::ground::{Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Step};
+
+use super::breach::Breach;
+use super::observed::Observed;
+use super::plain::walk;
+use crate::engine::{Stop, require};
+
+/// One team move, with the chain in its three states.
+pub(crate) struct Moment<'a, G, const ROBOTS: usize> {
+    pub(crate) observed: &'a Observed,
+    /// When it was asked for a plan.
+    pub(crate) before: &'a Chain<G, ROBOTS>,
+    /// When it had planned: new virtual obstacles, perhaps a new epoch.
+    pub(crate) planned: &'a Chain<G, ROBOTS>,
+    /// When it had moved.
+    pub(crate) after: &'a Chain<G, ROBOTS>,
+    pub(crate) plan: &'a Plan<ROBOTS>,
+    /// What is taken for the plan's steps, base first.
+    pub(crate) steps: &'a [Step],
+    /// Of R_2 … R_N, as they arrived.
+    pub(crate) messages: &'a [u8],
+}
+
+/// A demand on every team move.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Invariant {
+    /// CHAIN-1, CHAIN-2, CHAIN-3, and at the end of a run CHAIN-13.
+    Without(Breach),
+    /// CHAIN-4: only admitted plans.
+    Admitted,
+    /// CHAIN-5: no shared planned cell outside the base.
+    Distinct,
+    /// CHAIN-6: the base stays.
+    BaseStays,
+    /// CHAIN-7: the measure that makes every run end.
+    Progress,
+    /// CHAIN-7, by another way: no run comes back to where it was.
+    Ends,
+    /// CHAIN-8: who hears the bytes knows the state.
+    Heard,
+    /// CHAIN-12: no plan costs more than the budget of the rule.
+    Cheap,
+    /// CHAIN-14: at the end of a run, every cell that a chain can reach at all is explored.
+    Exhausts,
+}
+
+impl Invariant {
+    /// Those that a run can be seen to break from outside.
+    pub const OF_RUNS: [Self; 5] = [
+        Self::Without(Breach::Contact),
+        Self::Without(Breach::Crowding),
+        Self::Without(Breach::Coverage),
+        Self::Without(Breach::Completeness),
+        Self::Ends,
+    ];
+
+    /// Those of plans and what is said of them.
+    const OF_PLANS: [Self; 6] =
+        [Self::Admitted, Self::Distinct, Self::BaseStays, Self::Progress, Self::Heard, Self::Cheap];
+
+    /// Those that are looked for in one search with this one.
+    pub const fn family(self) -> &'static [Self] {
+        match self {
+            Self::Without(_) | Self::Ends => &Self::OF_RUNS,
+            Self::Exhausts => &[Self::Exhausts],
+            Self::Admitted
+            | Self::Distinct
+            | Self::BaseStays
+            | Self::Progress
+            | Self::Heard
+            | Self::Cheap => &Self::OF_PLANS,
+        }
+    }
+
+    /// The breach that it forbids, if anyone sees one who watches the run.
+    pub const fn breach(self) -> Option<Breach> {
+        match self {
+            Self::Without(breach) => Some(breach),
+            Self::Admitted
+            | Self::Distinct
+            | Self::BaseStays
+            | Self::Progress
+            | Self::Ends
+            | Self::Heard
+            | Self::Cheap
+            | Self::Exhausts => None,
+        }
+    }
+
+    /// The id of its clause.
+    pub const fn clause(self) -> &'static str {
+        match self {
+            Self::Without(breach) => breach.clause(),
+            Self::Admitted => "CHAIN-4",
+            Self::Distinct => "CHAIN-5",
+            Self::BaseStays => "CHAIN-6",
+            Self::Progress | Self::Ends => "CHAIN-7",
+            Self::Heard => "CHAIN-8",
+            Self::Cheap => "CHAIN-12",
+            Self::Exhausts => "CHAIN-14",
+        }
+    }
+
+    /// Whether the team move meets the demand.
+    pub(crate) fn check<G: Grid + Copy + Eq, const ROBOTS: usize>(
+        self,
+        moment: &Moment<'_, G, ROBOTS>,
+    ) -> Result<(), Stop> {
+        match self {
+            Self::Without(breach) => {
+                let safe = !breach.is_in(moment.before.cells(), moment.after.cells());
+                require(
+                    safe,
+                    match breach {
+                        Breach::Contact => "each neighbour's cell is wholly covered",
+                        Breach::Crowding => "no three robots are in one cell outside the base",
+                        Breach::Coverage => "the neighbours' centres stay within r_cov",
+                        Breach::Costly | Breach::Completeness | Breach::Premature | Breach::Unvisited => {
+                            "this is seen in no team move"
+                        }
+                    },
+                )
+            }
+            Self::Admitted => moment.is_admitted(),
+            Self::Distinct => moment.is_distinct(),
+            Self::BaseStays => {
+                let stays = moment.steps.first() == Some(&Step::Stay);
+                let is_there = moment.after.cells().first() == moment.before.cells().first();
+                require(stays && is_there, "the base neither plans to move nor moves")
+            }
+            Self::Progress => moment.progresses(),
+            // Of the end of a run, or of its never coming.
+            Self::Ends | Self::Exhausts => Ok(()),
+            Self::Heard => moment.is_heard(),
+            Self::Cheap => moment.is_cheap(),
+        }
+    }
+}
+
+impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
+    fn planned_cells(&self) -> impl Iterator<Item = Cell> {
+        self.before.cells().iter().zip(self.steps).map(|(cell, &step)| cell.after(step))
+    }
+
+    fn is_admitted(&self) -> Result<(), Stop> {
+        if self.plan.kind == Kind::Backtrack {
+            return Ok(());
+        }
+        let demanded = |condition| self.observed.intended.has(condition);
+        let present = self.before.cells();
+        let planned: Vec<Cell> = self.planned_cells().collect();
+        let grid = self.planned.grid();
+        let known = |robot: usize, mark| match self.steps[robot] {
+            Step::Cross(side) => grid.edge_has(mark, Edge::new(present[robot], side)),
+            Step::Stay => false,
+        };
+        let leader = present.len() - 1;
+        for robot in 0..=leader {
+            let stays = self.steps[robot] == Step::Stay;
+            require(!known(robot, EdgeMark::Wall), "no robot plans to cross a known wall")?;
+            if robot < leader {
+                require(
+                    in_safe(planned[robot + 1], planned[robot]),
+                    "a follower plans to be in E_S of the planned position ahead",
+                )?;
+                let sure = self.steps[robot + 1] == Step::Stay || known(robot + 1, EdgeMark::Open);
+                require(
+                    sure || !demanded(Condition::UnsureAhead)
+                        || in_covered(present[robot + 1], planned[robot]),
+                    "behind an unsure neighbour a follower plans to be in E_C of its present position",
+                )?;
+            }
+            if robot > 0 {
+                // The leader may always fall back on the null move.
+                let null = robot == leader && stays;
+                require(
+                    null || in_covered(present[robot - 1], planned[robot]),
+                    "a robot plans to be in E_C of the present position behind",
+                )?;
+                let guard =
+                    if robot == leader { Condition::FullForLeader } else { Condition::FullForFollower };
+                let others = present.iter().filter(|&&cell| cell == planned[robot]).count();
+                require(
+                    stays || !demanded(guard) || planned[robot] == present[0] || others < 2,
+                    "no robot enters a cell that two others occupy",
+                )?;
+            }
+        }
+        let all_virtual = known(leader, EdgeMark::Virtual);
+        require(!all_virtual, "the leader does not cross a virtual obstacle")
+    }
+
+    fn is_distinct(&self) -> Result<(), Stop> {
+        if self.plan.kind == Kind::Backtrack {
+            return Ok(());
+        }
+        let planned: Vec<Cell> = self.planned_cells().collect();
+        let shared = (1..planned.len())
+            .any(|robot| planned[robot] != planned[0] && planned[1..robot].contains(&planned[robot]));
+        require(!shared, "no two robots plan to be in one cell outside the base")
+    }
+
+    /// Between two gains (a cell explored, a wall found) and two new virtual obstacles, an advance brings the leader
+    /// nearer to the frontier, or while the chain unfolds one cell farther along the walk, and a backtrack makes the
+    /// history shorter: all of these end.
+    fn progresses(&self) -> Result<(), Stop> {
+        let leader = |chain: &Chain<G, ROBOTS>| chain.cells()[chain.cells().len() - 1];
+        let to_frontier = |chain: &Chain<G, ROBOTS>| {
+            let mut grid = *chain.grid();
+            grid.distance(leader(chain), Avoid::WallsAndVirtual)
+        };
+        let turned = self.planned.epochs() > self.before.epochs();
+        let unfolds = self.planned.is_unfolding();
+        require(
+            !turned || self.before.gained() || unfolds,
+            "an epoch without gain is the last, or the next unfolds the chain",
+        )?;
+        let explores =
+            self.after.cells().iter().any(|&cell| !self.planned.grid().has(CellMark::Explored, cell));
+        let finds_wall = self
+            .messages
+            .iter()
+            .any(|&byte| Message::decode(byte).is_ok_and(|message| message.outcome == Outcome::Blocked));
+        let gains = explores || finds_wall;
+        require(
+            self.after.gained() == (self.planned.gained() || gains),
+            "a cell explored and a wall found are gains, and nothing else is",
+        )?;
+        match self.plan.kind {
+            Kind::Backtrack => {
+                require(!unfolds, "an epoch that unfolds the chain gains before it takes anything back")?;
+                require(
+                    self.after.last_open() < self.before.last_open(),
+                    "a backtrack shortens the history",
+                )?;
+                require(
+                    to_frontier(self.planned).is_none(),
+                    "a backtrack leaves a place without a way to the frontier",
+                )
+            }
+            Kind::Advance if unfolds => {
+                let walk = self.walk();
+                let along = |chain| walk.iter().position(|&cell| cell == leader(chain));
+                let farther =
+                    along(self.after).zip(along(self.planned)).is_some_and(|(then, now)| then == now + 1);
+                require(
+                    gains || farther,
+                    "while the chain unfolds, it explores, finds a wall, or the leader goes on along the walk",
+                )
+            }
+            Kind::Advance => {
+                let new_obstacle = self.planned.grid() != self.before.grid();
+                let nearer = || {
+                    let (now, then) = (to_frontier(self.after), to_frontier(self.before));
+                    now.is_some_and(|now| then == Some(now + 1))
+                };
+                require(
+                    gains || new_obstacle || nearer(),
+                    "an advance explores, finds a wall, adds a virtual obstacle or brings the leader nearer",
+                )
+            }
+        }
+    }
+
+    /// The cells of the walk from the base to the nearest unexplored cell, by links; none if it is out of reach. It
+    /// stays as it is until something is gained.
+    fn walk(&self) -> Vec<Cell> {
+        let (grid, team) = (self.planned.grid(), self.planned.cells());
+        let is_open = |edge| !grid.edge_has(EdgeMark::Wall, edge);
+        let is_explored = |cell| grid.has(CellMark::Explored, cell);
+        walk(grid.area(), team[0], team.len() - 1, is_open, is_explored)
+            .map_or(Vec::new(), |(cells, _)| cells)
+    }
+
+    /// The budget of the rule that the team claims to follow.
+    fn is_cheap(&self) -> Result<(), Stop> {
+        let most = match self.observed.intended.budget {
+            Budget::Unlimited => u32::MAX,
+            Budget::LooksPerRobot(looks) => u32::from(looks) * self.planned.cells().len() as u32,
+        };
+        require(self.planned.looked_at() <= most, "a plan looks at no more candidates than its budget allows")
+    }
+
+    /// One who had the state before, planned the same and hears the bytes, has the state after: so a second chain that
+    /// is fed with bytes alone is at every time what the first one is.
+    fn is_heard(&self) -> Result<(), Stop> {
+        let mut listener = *self.planned;
+        let understood = listener.hear(self.plan, self.messages).is_ok();
+        require(understood, "every byte is a message that fits the plan")?;
+        require(listener == *self.after, "one who hears the bytes has the state of the whole team")
+    }
+}
+
+/// E_S: at most one column and one row apart.
+pub(crate) fn in_safe(centre: Cell, cell: Cell) -> bool {
+    let (dx, dy) = centre.apart(cell);
+    dx <= 1 && dy <= 1
+}
+
+/// E_C: E_S, and two straight ahead.
+pub(crate) fn in_covered(centre: Cell, cell: Cell) -> bool {
+    let (dx, dy) = centre.apart(cell);
+    in_safe(centre, cell) || u32::from(dx) + u32::from(dy) <= 2
+}

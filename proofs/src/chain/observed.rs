@@ -1,0 +1,90 @@
+//! A chain as a check observes it: the rule that it follows, the rule that it claims to follow, and what no set of
+//! conditions can express, done to a mutant on the way from the rule to the check.
+
+use tautline_kernel::chain::{Budget, Condition, High, Rule};
+use tautline_kernel::ground::Circle;
+
+/// How the observer of a mutant is deceived.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Deception {
+    /// Not at all.
+    None,
+    /// Bits 0 and 3 of every message are swapped.
+    SwappedBits,
+    /// The plan sends the base along with R_2.
+    BaseFollows,
+    /// The planner is the plain recursion.
+    PlainRecursion,
+    /// The plain recursion takes nobody ahead for sure to arrive.
+    DoubtsAll,
+}
+
+impl Deception {
+    /// The byte that arrives when `byte` is sent.
+    pub const fn carry(self, byte: u8) -> u8 {
+        match self {
+            Self::SwappedBits => byte & !0b1001 | (byte & 1) << 3 | byte >> 3 & 1,
+            Self::None | Self::BaseFollows | Self::PlainRecursion | Self::DoubtsAll => byte,
+        }
+    }
+}
+
+/// A chain that is observed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Observed {
+    /// The rule that it follows.
+    pub rule: Rule,
+    /// The rule that it claims to follow.
+    pub intended: Rule,
+    /// What is done to it behind its back.
+    pub deception: Deception,
+}
+
+impl Observed {
+    /// As published.
+    pub const PUBLISHED: Self = Self::honest(Rule::PUBLISHED);
+
+    /// Repaired.
+    pub const REPAIRED: Self = Self::honest(Rule::REPAIRED);
+
+    /// As published, without *CoveredBehind*: CHAIN-3 does not need it.
+    pub const UNCOVERED: Self = Self::honest(Rule::PUBLISHED.without(Condition::CoveredBehind));
+
+    /// Repaired, with so small a budget that many plans use it up, also in small areas.
+    pub const SPARING: Self = Self::honest(Rule { budget: Budget::LooksPerRobot(4), ..Rule::REPAIRED });
+
+    /// A chain that follows the rule that it claims to follow.
+    pub const fn honest(rule: Rule) -> Self {
+        Self { rule, intended: rule, deception: Deception::None }
+    }
+
+    /// A chain that claims to follow the repaired rule, but follows `rule`.
+    pub const fn following(rule: Rule) -> Self {
+        Self { rule, ..Self::REPAIRED }
+    }
+
+    /// The repaired chain without one condition.
+    pub const fn without(condition: Condition) -> Self {
+        Self::following(Rule::REPAIRED.without(condition))
+    }
+
+    /// The repaired chain, deceiving.
+    pub const fn deceiving(deception: Deception) -> Self {
+        Self { deception, ..Self::REPAIRED }
+    }
+
+    /// The repaired chain with another circle of E_S.
+    pub const fn with_safe(safe: Circle) -> Self {
+        Self::following(Rule { safe, ..Rule::REPAIRED })
+    }
+
+    /// The repaired chain with another circle of E_C.
+    pub const fn with_covered(covered: Circle) -> Self {
+        Self::following(Rule { covered, ..Rule::REPAIRED })
+    }
+
+    /// The repaired chain that reads P_high from present positions.
+    pub const fn high_from_present() -> Self {
+        Self::following(Rule { high: High::Present, ..Rule::REPAIRED })
+    }
+}

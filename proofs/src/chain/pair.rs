@@ -1,0 +1,142 @@
+//! One pair of neighbours in the chain during one team move: the inductive steps of CHAIN-1 (E_C membership)
+//! and CHAIN-3 (centre-to-centre coverage). They speak of every state of the pair, every admitted plan and every
+//! answer of the world, not of the planner, so they hold for every robot, every N, every layout and every order
+//! in which one may prefer the candidates.
+
+use tautline_kernel::chain::{Move, Rule};
+use tautline_kernel::choice::{Oracle, one_of};
+use tautline_kernel::ground::{Cell, Circle, Edge, Step};
+
+use super::breach::stays_in_range;
+use super::observed::Observed;
+use crate::engine::{Outcome, Stop, assume, require};
+
+/// What is true of an edge that a robot plans to cross.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Nature {
+    KnownOpen,
+    Open,
+    Wall,
+}
+
+/// The edges that one team move crosses, by as many robots as there are places: an edge is asked for once.
+pub(crate) struct World<const ROBOTS: usize> {
+    edges: [Option<(Edge, Nature)>; ROBOTS],
+}
+
+impl<const ROBOTS: usize> World<ROBOTS> {
+    pub(crate) const fn new() -> Self {
+        Self { edges: [None; ROBOTS] }
+    }
+
+    fn nature(&mut self, edge: Edge, oracle: &mut dyn Oracle) -> Nature {
+        for place in &mut self.edges {
+            match *place {
+                Some((known, nature)) if known == edge => return nature,
+                Some(_) => {}
+                None => {
+                    let nature = one_of(oracle, &[Nature::KnownOpen, Nature::Open, Nature::Wall]);
+                    *place = Some((edge, nature));
+                    return nature;
+                }
+            }
+        }
+        Nature::Wall
+    }
+
+    /// A robot at `from` that plans any step, and where it ends up.
+    pub(crate) fn pick(&mut self, from: Cell, oracle: &mut dyn Oracle) -> Tried {
+        let step = one_of(oracle, &Step::ALL);
+        let nature = match step {
+            Step::Cross(side) => self.nature(Edge::new(from, side), oracle),
+            Step::Stay => Nature::Open,
+        };
+        let plan = Move { from, step, known_open: nature == Nature::KnownOpen };
+        Tried { plan, arrived: if nature == Nature::Wall { from } else { plan.to() } }
+    }
+}
+
+/// A robot's planned move and where it ended.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tried {
+    pub(crate) plan: Move,
+    pub(crate) arrived: Cell,
+}
+
+impl Tried {
+    fn is_blocked(self) -> bool {
+        self.arrived != self.plan.to()
+    }
+}
+
+/// How many columns and rows the robot ahead is looked at from the one behind. E_C reaches no farther.
+const FAR: u32 = 2;
+
+/// What [`contact`] and [`coverage`] look at.
+pub(super) fn neighbours() -> String {
+    format!("every pair of neighbours up to {FAR} apart, every plan and answer")
+}
+
+/// R_i and R_{i+1}, i ≥ 1.
+struct Pair {
+    behind: Tried,
+    ahead: Tried,
+}
+
+impl Pair {
+    /// Any two robots that are `related` now and plan what `rule` admits. A null move is always admitted to
+    /// the robot ahead: the leader may fall back on it.
+    fn pick(
+        rule: &Rule,
+        related: impl Fn(Cell, Cell) -> bool,
+        oracle: &mut dyn Oracle,
+    ) -> Result<Self, Stop> {
+        let behind = Cell::new(0, 0);
+        let mut offset = || oracle.pick(2 * FAR + 1) as i16 - FAR as i16;
+        let ahead = Cell::new(offset(), offset());
+        assume(related(behind, ahead))?;
+        let mut world = World::<2>::new();
+        let pair = Self { behind: world.pick(behind, oracle), ahead: world.pick(ahead, oracle) };
+        let to = pair.ahead.plan.to();
+        assume(to == ahead || rule.admits_behind(to, behind))?;
+        assume(rule.admits_ahead(pair.behind.plan, pair.ahead.plan))?;
+        Ok(pair)
+    }
+
+    fn situation(&self) -> &'static str {
+        match (self.behind.is_blocked(), self.ahead.is_blocked()) {
+            (false, false) => "both arrive",
+            (true, false) => "the robot behind is blocked",
+            (false, true) => "the robot ahead is blocked",
+            (true, true) => "both are blocked",
+        }
+    }
+}
+
+/// CHAIN-1, inductive step: neighbours in E_C of each other are so after the move.
+///
+/// # Errors
+/// [`Stop`] if the choices are no case, or break the clause.
+pub(super) fn contact(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    let pair = Pair::pick(&observed.rule, |behind, ahead| Circle::COVERED.covers(behind, ahead), oracle)?;
+    require(
+        Circle::COVERED.covers(pair.behind.arrived, pair.ahead.arrived),
+        "each neighbour's cell is wholly covered after the move",
+    )?;
+    Ok(pair.situation())
+}
+
+/// CHAIN-3, inductive step: neighbours whose centres are within r_cov are so during the whole move.
+///
+/// # Errors
+/// [`Stop`] if the choices are no case, or break the clause.
+pub(super) fn coverage(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    let pair = Pair::pick(&observed.rule, |behind, ahead| Circle::COVERED.reaches(behind, ahead), oracle)?;
+    // A robot that meets a wall goes part of its way, and back.
+    let path = |robot: Tried| [robot.plan.from, robot.plan.to()];
+    require(
+        stays_in_range(path(pair.behind), path(pair.ahead)),
+        "the neighbours' centres stay within r_cov, at whatever speeds they move",
+    )?;
+    Ok(pair.situation())
+}

@@ -1,0 +1,452 @@
+//! The chain as the paper writes it down, without any of the kernel's machinery: growing lists, the plain recursion
+//! of Algorithms 1 to 3, a flood fill for every candidate, the history as a list of team moves. It shares no
+//! search, flood fill or bookkeeping with the planner, and says the conditions in its own words: of the kernel's [`Rule`]
+//! it uses only the names of the conditions and the reading of P_high. What the repair *Unfold* adds is written down here
+//! once more, too; a budget it does not know. CHAIN-11 compares the two; the benchmarks measure the one by the other.
+
+use std::collections::VecDeque;
+
+use tautline_kernel::chain::{Condition, High, Rule};
+use tautline_kernel::ground::{Area, Avoid, Cell, Edge, Side, Step};
+
+use super::invariant::{in_covered, in_safe};
+
+/// A chain on an area of its own.
+#[derive(Clone, Debug)]
+pub struct PlainChain {
+    rule: Rule,
+    area: Area,
+    cells: Vec<Cell>,
+    explored: Vec<bool>,
+    east: Vec<Marks>,
+    south: Vec<Marks>,
+    /// The steps that were really made and not taken back.
+    history: Vec<Vec<Step>>,
+    gained: bool,
+    /// Whether this epoch began by unfolding the chain.
+    unfolds: bool,
+    /// Whether it takes nobody for sure to arrive.
+    doubts_all: bool,
+}
+
+/// What is known of an edge.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Marks {
+    wall: bool,
+    open: bool,
+    virtual_obstacle: bool,
+}
+
+/// What the team is about to do, base first.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum PlainIntent {
+    /// A planned exploration move.
+    Advance(Vec<Step>),
+    /// The last move that can be, taken back.
+    Backtrack(Vec<Step>),
+    /// Every cell is explored.
+    Explored,
+    /// An epoch gained nothing.
+    Exhausted,
+}
+
+/// The recursion was stopped: it had looked at too many candidates.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct TooMany;
+
+/// The making of one plan.
+struct Recursion<'a> {
+    chain: &'a PlainChain,
+    /// P′, from the leader backwards; the rest still to come.
+    planned: Vec<Option<Step>>,
+    looked_at: u64,
+    most: u64,
+}
+
+impl PlainChain {
+    /// `robots`, at least two, base included, in the `base` cell of an `area` of which only the border is known.
+    pub fn new(rule: Rule, robots: usize, base: Cell, area: Area) -> Self {
+        let cells = area.width() * area.height();
+        let mut chain = Self {
+            rule,
+            area,
+            cells: vec![base; robots],
+            explored: vec![false; cells],
+            east: vec![Marks::default(); cells],
+            south: vec![Marks::default(); cells],
+            history: Vec::new(),
+            gained: true,
+            unfolds: false,
+            doubts_all: false,
+        };
+        for cell in area.cells() {
+            for side in Side::ALL {
+                if !area.contains(cell.beyond(side)) {
+                    chain.mark(Edge::new(cell, side), |marks| marks.wall = true);
+                }
+            }
+        }
+        chain.explore(base);
+        chain
+    }
+
+    /// The same chain, wrong in one thing: *UnsureAhead* binds it also behind a robot that is sure to arrive.
+    #[must_use]
+    pub fn that_doubts_all(self) -> Self {
+        Self { doubts_all: true, ..self }
+    }
+
+    /// Where the robots are, base first.
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// Whether the team knows if `edge` is open.
+    pub fn is_known(&self, edge: Edge) -> bool {
+        let marks = self.marks(edge);
+        marks.open || marks.wall
+    }
+
+    /// Whether the leader may not cross `edge` in this epoch.
+    pub fn is_virtual(&self, edge: Edge) -> bool {
+        self.marks(edge).virtual_obstacle
+    }
+
+    /// What the team intends, and how many candidates of followers it looked at.
+    ///
+    /// # Errors
+    /// [`TooMany`] if these are more than `most`; the chain is of no use then.
+    pub fn plan(&mut self, most: u64) -> Result<(PlainIntent, u64), TooMany> {
+        if self.explored.iter().all(|&explored| explored) {
+            return Ok((PlainIntent::Explored, 0));
+        }
+        let mut looked_at = 0;
+        for fresh_epoch in [false, true] {
+            if self.unfolds
+                && !self.gained
+                && let Some(steps) = self.unfold()
+            {
+                return Ok((PlainIntent::Advance(steps), looked_at));
+            }
+            if let Some(steps) = self.lead(most, &mut looked_at)? {
+                return Ok((PlainIntent::Advance(steps), looked_at));
+            }
+            if let Some(steps) = self.history.last() {
+                let back = steps.iter().map(|step| step.reverse()).collect();
+                return Ok((PlainIntent::Backtrack(back), looked_at));
+            }
+            self.unfolds = self.rule.has(Condition::Unfold) && self.walk().is_some();
+            let gainless = !self.gained && self.rule.has(Condition::EpochMustGain);
+            if fresh_epoch || (gainless && !self.unfolds) {
+                break;
+            }
+            self.gained = false;
+            for marks in self.east.iter_mut().chain(&mut self.south) {
+                marks.virtual_obstacle = false;
+            }
+        }
+        Ok((PlainIntent::Exhausted, looked_at))
+    }
+
+    /// Carries `intent` out; `is_open` answers for every edge that is crossed without being known.
+    pub fn settle(&mut self, intent: &PlainIntent, mut is_open: impl FnMut(Edge) -> bool) {
+        let made = match intent {
+            PlainIntent::Advance(steps) => {
+                let made: Vec<Step> = (0..steps.len())
+                    .map(|robot| {
+                        let Step::Cross(side) = steps[robot] else { return Step::Stay };
+                        let edge = Edge::new(self.cells[robot], side);
+                        let marks = self.marks(edge);
+                        if marks.open {
+                            return steps[robot];
+                        }
+                        if !marks.wall && is_open(edge) {
+                            self.mark(edge, |marks| marks.open = true);
+                            return steps[robot];
+                        }
+                        self.gained |= !marks.wall;
+                        self.mark(edge, |marks| marks.wall = true);
+                        Step::Stay
+                    })
+                    .collect();
+                self.history.push(made.clone());
+                made
+            }
+            PlainIntent::Backtrack(steps) => {
+                self.history.pop();
+                steps.clone()
+            }
+            PlainIntent::Explored | PlainIntent::Exhausted => return,
+        };
+        for (robot, step) in made.into_iter().enumerate() {
+            self.cells[robot] = self.cells[robot].after(step);
+            self.explore(self.cells[robot]);
+        }
+    }
+
+    /// Algorithm 2.
+    fn lead(&mut self, most: u64, looked_at: &mut u64) -> Result<Option<Vec<Step>>, TooMany> {
+        let leader = self.cells.len() - 1;
+        let (at, base) = (self.cells[leader], self.cells[0]);
+        let mut list: Vec<(Side, Step)> = Side::ALL
+            .into_iter()
+            .filter(|&side| !self.marks(Edge::new(at, side)).wall && !self.is_virtual(Edge::new(at, side)))
+            .filter(|&side| self.distance(at.beyond(side), Avoid::WallsAndVirtual).is_some())
+            .map(|side| (side, Step::Cross(side)))
+            .collect();
+        list.sort_by_key(|&(side, _)| {
+            let to = at.beyond(side);
+            let outward = i32::from(to.x - at.x) * i32::from(at.x - base.x)
+                + i32::from(to.y - at.y) * i32::from(at.y - base.y);
+            (self.distance(to, Avoid::WallsAndVirtual), -outward)
+        });
+        for (side, step) in &mut list {
+            if !self.admits_behind(at.after(*step), self.cells[leader - 1]) {
+                self.mark(Edge::new(at, *side), |marks| marks.virtual_obstacle = true);
+                *step = Step::Stay;
+            }
+        }
+        for (side, step) in list {
+            let to = at.after(step);
+            let may_enter =
+                !self.rule.has(Condition::FullForLeader) || step == Step::Stay || !self.is_full(to);
+            if may_enter {
+                let mut planned = vec![None; self.cells.len()];
+                planned[leader] = Some(step);
+                let mut recursion = Recursion { chain: self, planned, looked_at: *looked_at, most };
+                let found = recursion.follow(leader - 1)?;
+                *looked_at = recursion.looked_at;
+                if found {
+                    return Ok(recursion.planned.into_iter().collect());
+                }
+            }
+            if self.rule.has(Condition::RefusedIsVirtual) {
+                self.mark(Edge::new(at, side), |marks| marks.virtual_obstacle = true);
+            }
+        }
+        Ok(None)
+    }
+
+    /// The walk on which the chain unfolds, if it is to: its cells, and which of them are stops.
+    fn walk(&self) -> Option<(Vec<Cell>, Vec<usize>)> {
+        let is_open = |edge| !self.marks(edge).wall;
+        let is_explored = |cell| self.index(cell).is_none_or(|index| self.explored[index]);
+        walk(self.area, self.cells[0], self.cells.len() - 1, is_open, is_explored)
+    }
+
+    /// The steps of all robots that unfold the chain further.
+    fn unfold(&self) -> Option<Vec<Step>> {
+        let (walk, stops) = self.walk()?;
+        let leader = self.cells.len() - 1;
+        let at = |robot: usize| walk.iter().position(|&cell| cell == self.cells[robot]).unwrap_or(0);
+        // Where on the walk each robot is to be, the leader first.
+        let mut planned = vec![at(leader) + 1];
+        for robot in (0..leader).rev() {
+            let behind = leader - robot;
+            let last = if behind < stops.len() { stops[stops.len() - 1 - behind] } else { 0 };
+            let waits = at(robot) == last || planned[behind - 1] <= at(robot) + 1;
+            planned.push(if waits { at(robot) } else { at(robot) + 1 });
+        }
+        let steps = self.cells.iter().zip(planned.into_iter().rev()).map(|(&cell, planned)| {
+            Step::ALL.into_iter().find(|&step| Some(cell.after(step)) == walk.get(planned).copied())
+        });
+        steps.collect()
+    }
+
+    /// P′_i ∈ E_C(P_{i−1}).
+    fn admits_behind(&self, to: Cell, behind: Cell) -> bool {
+        !self.rule.has(Condition::CoveredBehind) || in_covered(behind, to)
+    }
+
+    /// P′_i ∈ E_S(P′_{i+1}), and unless R_{i+1} is sure to arrive P′_i ∈ E_C(P_{i+1}).
+    fn admits_ahead(&self, to: Cell, (from, step): (Cell, Step)) -> bool {
+        let is_sure = match step {
+            Step::Stay => true,
+            Step::Cross(side) => !self.doubts_all && self.marks(Edge::new(from, side)).open,
+        };
+        let is_safe = !self.rule.has(Condition::SafeAhead) || in_safe(from.after(step), to);
+        is_safe && (is_sure || !self.rule.has(Condition::UnsureAhead) || in_covered(from, to))
+    }
+
+    fn is_full(&self, cell: Cell) -> bool {
+        cell != self.cells[0] && self.cells.iter().filter(|&&other| other == cell).count() >= 2
+    }
+
+    /// Steps from `from` to the nearest unexplored cell.
+    fn distance(&self, from: Cell, avoid: Avoid) -> Option<u32> {
+        let mut seen = vec![false; self.explored.len()];
+        let mut queue = VecDeque::from([(from, 0)]);
+        seen[self.index(from)?] = true;
+        while let Some((cell, steps)) = queue.pop_front() {
+            if !self.explored[self.index(cell)?] {
+                return Some(steps);
+            }
+            for side in Side::ALL {
+                let marks = self.marks(Edge::new(cell, side));
+                let is_blocked = marks.wall || (avoid == Avoid::WallsAndVirtual && marks.virtual_obstacle);
+                if let (false, Some(index)) = (is_blocked, self.index(cell.beyond(side)))
+                    && !std::mem::replace(&mut seen[index], true)
+                {
+                    queue.push_back((cell.beyond(side), steps + 1));
+                }
+            }
+        }
+        None
+    }
+
+    fn explore(&mut self, cell: Cell) {
+        if let Some(index) = self.index(cell) {
+            self.gained |= !std::mem::replace(&mut self.explored[index], true);
+        }
+    }
+
+    fn index(&self, cell: Cell) -> Option<usize> {
+        self.area.locate(cell).map(|(column, row)| row * self.area.width() + column)
+    }
+
+    /// Beyond the border there are walls only.
+    fn marks(&self, edge: Edge) -> Marks {
+        let wall = Marks { wall: true, ..Marks::default() };
+        self.index(edge.cell()).map_or(wall, |index| match edge.side() {
+            Side::East | Side::West => self.east[index],
+            Side::South | Side::North => self.south[index],
+        })
+    }
+
+    fn mark(&mut self, edge: Edge, change: impl FnOnce(&mut Marks)) {
+        if let Some(index) = self.index(edge.cell()) {
+            change(match edge.side() {
+                Side::East | Side::West => &mut self.east[index],
+                Side::South | Side::North => &mut self.south[index],
+            });
+        }
+    }
+}
+
+/// The walk of fewest links, at most `most`, from `base` to an unexplored cell of `area`, as a list of its cells and
+/// the places of its stops among them. Of equally near cells the first in row order; going back from it, stops beyond
+/// a side before those beyond a corner, in direction order.
+pub(crate) fn walk(
+    area: Area,
+    base: Cell,
+    most: usize,
+    is_open: impl Fn(Edge) -> bool,
+    is_explored: impl Fn(Cell) -> bool,
+) -> Option<(Vec<Cell>, Vec<usize>)> {
+    // East, south, west, north, and the corners between them, from east over south round to east again.
+    let around = [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)];
+    // The cells from one to another that is linked to it, the first left out.
+    let way = |from: Cell, (dx, dy): (i16, i16)| -> Option<Vec<Cell>> {
+        let horizontal = if dx > 0 { Side::East } else { Side::West };
+        let vertical = if dy > 0 { Side::South } else { Side::North };
+        let mut ways = match (dx, dy) {
+            (_, 0) => vec![vec![horizontal]],
+            (0, _) => vec![vec![vertical]],
+            (_, _) => vec![vec![horizontal, vertical], vec![vertical, horizontal]],
+        };
+        ways.sort();
+        ways.into_iter().find_map(|sides| {
+            let mut cell = from;
+            let mut cells = Vec::new();
+            for side in sides {
+                if !is_open(Edge::new(cell, side)) {
+                    return None;
+                }
+                cell = cell.beyond(side);
+                cells.push(cell);
+            }
+            Some(cells)
+        })
+    };
+    let mut layers = vec![vec![base]];
+    let target = loop {
+        let nearest = layers.last()?;
+        let target = area.cells().find(|cell| nearest.contains(cell) && !is_explored(*cell));
+        if let Some(target) = target {
+            break target;
+        }
+        if layers.len() > most || nearest.is_empty() {
+            return None;
+        }
+        let next = area.cells().filter(|&cell| {
+            let is_new = layers.iter().all(|layer| !layer.contains(&cell));
+            let is_near = |&(dx, dy): &(i16, i16)| {
+                nearest.contains(&Cell::new(cell.x + dx, cell.y + dy)) && way(cell, (dx, dy)).is_some()
+            };
+            is_new && around.iter().any(is_near)
+        });
+        layers.push(next.collect());
+    };
+    let mut stops = vec![target];
+    for nearer in layers.iter().rev().skip(1) {
+        let stop = stops[stops.len() - 1];
+        let linked = around.iter().filter(|&&offset| way(stop, offset).is_some());
+        let back =
+            linked.map(|&(dx, dy)| Cell::new(stop.x + dx, stop.y + dy)).find(|cell| nearer.contains(cell));
+        stops.push(back?);
+    }
+    stops.reverse();
+    let (mut cells, mut places) = (vec![base], vec![0]);
+    for pair in stops.windows(2) {
+        cells.extend(way(pair[0], (pair[1].x - pair[0].x, pair[1].y - pair[0].y))?);
+        places.push(cells.len() - 1);
+    }
+    Some((cells, places))
+}
+
+impl Recursion<'_> {
+    /// Algorithm 1: whether R_i, and all behind it, can follow.
+    fn follow(&mut self, robot: usize) -> Result<bool, TooMany> {
+        let chain = self.chain;
+        let ahead = (chain.cells[robot + 1], self.planned[robot + 1].unwrap_or(Step::Stay));
+        if robot == 0 {
+            self.planned[0] = Some(Step::Stay);
+            return Ok(chain.admits_ahead(chain.cells[0], ahead));
+        }
+        let at = chain.cells[robot];
+        let mut list = Vec::new();
+        for step in Step::ALL {
+            self.looked_at += 1;
+            if self.looked_at > self.most {
+                return Err(TooMany);
+            }
+            let to = at.after(step);
+            let is_wall = matches!(step, Step::Cross(side) if chain.marks(Edge::new(at, side)).wall);
+            let is_full =
+                step != Step::Stay && chain.rule.has(Condition::FullForFollower) && chain.is_full(to);
+            if is_wall
+                || is_full
+                || self.is_taken(robot, to)
+                || !chain.admits_behind(to, chain.cells[robot - 1])
+                || !chain.admits_ahead(to, ahead)
+            {
+                continue;
+            }
+            let target = match chain.rule.high {
+                High::Planned => ahead.0.after(ahead.1),
+                High::Present => ahead.0,
+            };
+            let (dx, dy) = target.apart(to);
+            let is_high = dx + dy <= 1;
+            let distance = chain.distance(to, Avoid::Walls).unwrap_or(u32::MAX);
+            list.push(((!(is_high && step == Step::Stay), !is_high, distance), step));
+        }
+        list.sort_by_key(|&(key, _)| key);
+        for (_, step) in list {
+            self.planned[robot] = Some(step);
+            if self.follow(robot - 1)? {
+                return Ok(true);
+            }
+        }
+        self.planned[robot] = None;
+        Ok(false)
+    }
+
+    fn is_taken(&self, robot: usize, cell: Cell) -> bool {
+        self.chain.rule.has(Condition::Distinct)
+            && cell != self.chain.cells[0]
+            && (robot + 1..self.planned.len()).any(|ahead| {
+                self.planned[ahead].is_some_and(|step| self.chain.cells[ahead].after(step) == cell)
+            })
+    }
+}

@@ -1,0 +1,263 @@
+//! The chain as the search over all layouts plays it: its bounds, and a check of what no run may break.
+
+use std::fmt;
+
+use tautline_kernel::chain::{Refused, area};
+use tautline_kernel::ground::{Area, Cell, CompactGrid, LargeGrid, MediumGrid, SmallGrid, TinyGrid};
+
+use super::breach::Breach;
+use super::game::ChainGame;
+use super::invariant::Invariant;
+use super::observed::Observed;
+use super::whole;
+use crate::decide::{self, Answer, Desk, Evidence, Method, Played, Seen};
+use crate::engine::tree::{self, Limits, Progress, Tree, Watch, Waves};
+use crate::engine::{Choices, Unfit, Until};
+use crate::run::{Frame, Run, walls};
+
+/// What a search found.
+pub type Found = tree::Found<Invariant, Frame>;
+
+/// A run that breaks an invariant.
+pub type Counterexample = tree::Counterexample<Invariant, Frame>;
+
+/// Where a search is.
+pub type Position = tree::Position<Invariant>;
+
+/// What to search for, and how far.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Bounds {
+    /// The chain, and how it is deceived.
+    pub observed: Observed,
+    /// Robots, base included: at most 64.
+    pub robots: usize,
+    /// The cells that the layouts have in common; the chain's range cuts them to size.
+    pub area: Area,
+    /// The base.
+    pub base: Cell,
+    /// Most walls that are met in one run; the border is not counted.
+    pub max_walls: u32,
+    /// The search stops when it has made about as many team moves as this, at the next answer.
+    pub budget_moves: Option<u64>,
+    /// What is looked for. A run without end is always found, since it would never be left.
+    pub invariants: Vec<Invariant>,
+    /// When to stop.
+    pub until: Until,
+}
+
+impl Bounds {
+    /// The area of the paper for `robots`: (2N−1)² cells, the base in the middle, everything looked for that a run of
+    /// its own can break.
+    pub fn new(observed: Observed, robots: usize, max_walls: u32) -> Self {
+        let (area, base) = whole::area(robots);
+        Self {
+            observed,
+            robots,
+            area,
+            base,
+            max_walls,
+            budget_moves: None,
+            invariants: Invariant::OF_RUNS.to_vec(),
+            until: Until::Exhausted,
+        }
+    }
+
+    /// The run that was found within these bounds.
+    pub fn run(&self, found: &Counterexample) -> Run {
+        Run {
+            scheme: "chain",
+            area: self.area,
+            starts: vec![self.base; self.robots],
+            walls: walls(&found.frames),
+            frames: found.frames.clone(),
+            breaks: found.broken.breach().map(Breach::clause),
+        }
+    }
+
+    /// The limits of the search.
+    fn limits(&self) -> Limits<Invariant> {
+        let Self { max_walls, budget_moves, until, .. } = *self;
+        Limits { max_walls, budget_moves, wanted: self.invariants.clone(), until }
+    }
+
+    /// The area as the chain's range cuts it.
+    ///
+    /// # Errors
+    /// [`Refused`] if the base is outside.
+    pub fn reach(&self) -> Result<Area, Refused> {
+        let base = self.base;
+        area(self.area, base, self.robots).ok_or(Refused::BaseOutside { base })
+    }
+
+    /// How many edges can be walls.
+    ///
+    /// # Errors
+    /// [`Refused`] if the base is outside.
+    pub fn edges(&self) -> Result<u32, Refused> {
+        Ok(self.reach()?.edges().count() as u32)
+    }
+}
+
+/// Why there is no search.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Unsearchable {
+    /// The team cannot be set up.
+    Team(Refused),
+    /// The bounds are beyond what can be searched.
+    Search(tree::Unsearchable),
+}
+
+impl fmt::Display for Unsearchable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Team(refused) => refused.fmt(f),
+            Self::Search(refused) => refused.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for Unsearchable {}
+
+impl From<Refused> for Unsearchable {
+    fn from(refused: Refused) -> Self {
+        Self::Team(refused)
+    }
+}
+
+impl From<tree::Unsearchable> for Unsearchable {
+    fn from(refused: tree::Unsearchable) -> Self {
+        Self::Search(refused)
+    }
+}
+
+/// Searches all layouts within `bounds`. The result is the same on any number of threads, unless `watch` ends the
+/// search.
+///
+/// # Errors
+/// [`Unsearchable`] if the bounds are beyond what can be searched.
+pub fn search(bounds: &Bounds, watch: Watch<'_>) -> Result<Found, Unsearchable> {
+    let mut search = Search::new(bounds)?;
+    while search.wave() && watch(&search.progress()).is_continue() {}
+    Ok(search.found())
+}
+
+/// Plays a run that breaks `invariant` again, whose choices are the answers of the world. It is one run, whatever
+/// number of runs break it.
+fn replay(bounds: &Bounds, invariant: Invariant, choices: &Choices) -> Result<Counterexample, Unfit> {
+    let search = Search::new(bounds).map_err(|_| Unfit::Unbroken)?;
+    if !choices.again.is_empty() {
+        return Err(Unfit::Over { at: choices.once.len() });
+    }
+    search.0.replay(invariant, &choices.once)
+}
+
+/// A search that is made wave by wave, and can be left and taken up again between two of them.
+pub struct Search(Box<dyn Waves<Invariant, Frame>>);
+
+impl Search {
+    /// The search within `bounds`, at its start.
+    ///
+    /// # Errors
+    /// [`Unsearchable`] if the bounds are beyond what can be searched.
+    pub fn new(bounds: &Bounds) -> Result<Self, Unsearchable> {
+        let limits = &bounds.limits();
+        Ok(match bounds.robots {
+            0..=4 => Self(Box::new(Tree::new(ChainGame::<_, 4>::new(bounds, TinyGrid::new)?, limits)?)),
+            5..=6 => Self(Box::new(Tree::new(ChainGame::<_, 6>::new(bounds, CompactGrid::new)?, limits)?)),
+            7..=8 => Self(Box::new(Tree::new(ChainGame::<_, 8>::new(bounds, SmallGrid::new)?, limits)?)),
+            9..=32 => Self(Box::new(Tree::new(ChainGame::<_, 32>::new(bounds, MediumGrid::new)?, limits)?)),
+            _ => Self(Box::new(Tree::new(ChainGame::<_, 64>::new(bounds, LargeGrid::new)?, limits)?)),
+        })
+    }
+
+    /// The search within `bounds` at `position`, where a search with the same bounds was; more walls may be asked for
+    /// than then.
+    ///
+    /// # Errors
+    /// [`Unsearchable`] if the bounds are beyond what can be searched, or the position is none of this search.
+    pub fn at(bounds: &Bounds, position: &Position) -> Result<Self, Unsearchable> {
+        let mut search = Self::new(bounds)?;
+        search.0.go_to(position)?;
+        Ok(search)
+    }
+
+    /// Searches a little further. Returns whether there is more to do, and to spend.
+    pub fn wave(&mut self) -> bool {
+        self.0.wave()
+    }
+
+    /// How far it is.
+    pub fn progress(&self) -> Progress<'_> {
+        self.0.progress()
+    }
+
+    /// Where it is: enough to go on from here.
+    pub fn position(&self) -> Position {
+        self.0.position()
+    }
+
+    /// What it has found so far.
+    pub fn found(&self) -> Found {
+        self.0.found()
+    }
+}
+
+impl fmt::Debug for Search {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Search").field(&self.progress()).finish()
+    }
+}
+
+/// A check that no run of so many robots breaks an invariant, in any layout of the paper's area with at most so many
+/// walls.
+pub struct EveryLayout(pub Invariant, pub (usize, u32));
+
+impl EveryLayout {
+    fn bounds(&self, observed: &Observed) -> Bounds {
+        let (robots, max_walls) = self.1;
+        Bounds { invariants: self.0.family().to_vec(), ..Bounds::new(*observed, robots, max_walls) }
+    }
+
+    /// What `found` shows, within `bounds`.
+    fn evidence(bounds: &Bounds, found: &Counterexample) -> Evidence {
+        let seen = Seen::Robots(Box::new(bounds.run(found)));
+        let choices = Choices { once: found.answers.clone(), again: Vec::new() };
+        Evidence { choices, demand: found.demand, seen }
+    }
+}
+
+impl Method<Observed> for EveryLayout {
+    fn engine(&self) -> &'static str {
+        "search"
+    }
+
+    fn bound(&self) -> String {
+        let (robots, max_walls) = self.1;
+        format!("all layouts, N = {robots}, at most {max_walls} walls")
+    }
+
+    fn decide(
+        &self,
+        observed: &Observed,
+        until: Until,
+        desk: &mut Desk<'_, '_>,
+    ) -> Result<Answer, decide::Refused> {
+        let all = self.bounds(observed);
+        let bounds = match until {
+            Until::Exhausted => all,
+            Until::Violation => Bounds { invariants: vec![self.0], until, ..all },
+        };
+        let Desk { memory, watch } = desk;
+        let found = memory.recall(bounds.clone(), |bounds| search(bounds, *watch));
+        let found = found.map_err(decide::Refused::new)?;
+        let broken = found.counterexamples.iter().find(|found| found.broken == self.0);
+        let evidence = broken.map(|found| Self::evidence(&bounds, found));
+        Ok(Answer::new(evidence, found.complete, self.shows(), found.runs))
+    }
+
+    fn replay(&self, observed: &Observed, choices: &Choices) -> Result<Played, Unfit> {
+        let bounds = self.bounds(observed);
+        let run = replay(&bounds, self.0, choices)?;
+        Ok(Played { of: vec![2; run.answers.len()], evidence: Self::evidence(&bounds, &run) })
+    }
+}

@@ -1,0 +1,103 @@
+//! Small clauses over every value of their arguments: the message (CHAIN-8) and the ring argument (CHAIN-10).
+
+use core::cmp::Ordering;
+
+use tautline_kernel::chain::{Message, Move, Outcome as StepOutcome};
+use tautline_kernel::choice::{Oracle, one_of};
+use tautline_kernel::ground::{Cell, Step};
+
+use super::observed::Observed;
+use crate::engine::{Outcome, assume, require};
+
+/// Values of a byte.
+const BYTES: u32 = 1 << u8::BITS;
+
+/// What [`message`] looks at.
+pub(super) fn messages() -> String {
+    format!("every message, all {BYTES} bytes")
+}
+
+/// CHAIN-8: a message survives its byte, and a byte that is no message is refused.
+///
+/// # Errors
+/// [`crate::engine::Stop`] if the clause is broken.
+pub(super) fn message(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    if oracle.flip() {
+        let byte = oracle.pick(BYTES) as u8;
+        let Ok(message) = Message::decode(byte) else { return Ok("no message") };
+        require(message.encode() == byte, "a message has one byte")?;
+        return Ok("a byte");
+    }
+    let step = one_of(oracle, &Step::ALL);
+    let outcome = one_of(oracle, &[StepOutcome::Arrived, StepOutcome::Blocked, StepOutcome::TookBack]);
+    assume(step != Step::Stay || outcome != StepOutcome::Blocked)?;
+    let message = Message { step, outcome };
+    let byte = observed.deception.carry(message.encode());
+    require(
+        byte < 1 << 5,
+        "a message is five bits: three for the step, one for a wall, one for a backtrack",
+    )?;
+    require(Message::decode(byte) == Ok(message), "a message is read as it was sent")?;
+    Ok("a message")
+}
+
+/// The longest chain that the ring argument is checked for. The step of the argument does not depend on N.
+const LONGEST: u32 = 32;
+
+/// Columns and rows in which the robot behind is looked at, from the base on.
+const BEHIND: u32 = 4;
+
+/// How many columns and rows the robot ahead may be from the one behind.
+const AHEAD: u32 = 3;
+
+/// What [`ring_of_neighbours`] looks at.
+pub(super) fn pairs_in_rings() -> String {
+    let last = BEHIND - 1;
+    format!("every pair up to {AHEAD} apart, the robot behind in 0…{last} by 0…{last}")
+}
+
+/// CHAIN-10, first fact: a robot is at most one ring farther out than the one behind it, so that R_N alone comes
+/// to ring N−1.
+///
+/// # Errors
+/// [`crate::engine::Stop`] if the clause is broken.
+pub(super) fn ring_of_neighbours(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    let behind = Cell::new(oracle.pick(BEHIND) as i16, oracle.pick(BEHIND) as i16);
+    let mut offset = || oracle.pick(2 * AHEAD + 1) as i16 - AHEAD as i16;
+    let ahead = Cell::new(behind.x + offset(), behind.y + offset());
+    assume(observed.rule.admits_ahead(Move::stay(behind), Move::stay(ahead)))?;
+    let farther = ring(ahead).cmp(&ring(behind));
+    require(ring(ahead) <= ring(behind) + 1, "a robot is at most one ring farther out than the one behind")?;
+    Ok(match farther {
+        Ordering::Less => "farther in",
+        Ordering::Equal => "in the same ring",
+        Ordering::Greater => "farther out",
+    })
+}
+
+/// What [`ring_cells`] looks at.
+pub(super) fn rings() -> String {
+    format!("N = 2 … {LONGEST}")
+}
+
+/// CHAIN-10, second fact: ring N−1 has 8(N−1) cells.
+///
+/// # Errors
+/// [`crate::engine::Stop`] if the clause is broken.
+pub(super) fn ring_cells(_: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    let outermost = oracle.pick(LONGEST - 1) as i16 + 1;
+    let coordinates = -outermost..=outermost;
+    let cells = coordinates
+        .clone()
+        .flat_map(|x| coordinates.clone().map(move |y| Cell::new(x, y)))
+        .filter(|&cell| ring(cell) == outermost as u16)
+        .count();
+    require(cells == 8 * outermost as usize, "ring N−1 has 8(N−1) cells")?;
+    Ok("a ring")
+}
+
+/// Which ring round the base in 0,0 a cell is in.
+fn ring(cell: Cell) -> u16 {
+    let (dx, dy) = Cell::new(0, 0).apart(cell);
+    dx.max(dy)
+}

@@ -1,0 +1,59 @@
+//! The chain of three as published, during one team move: the inductive step of CHAIN-15. The base stands still, so
+//! R_2 can stay wherever it is; and it prefers to, unless that costs R_3 a way. The order of preference beyond that
+//! first place is left open.
+
+use tautline_kernel::chain::{Condition, Move};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::ground::{Cell, Circle};
+
+use super::observed::Observed;
+use super::pair::World;
+use crate::engine::{Outcome, assume, require};
+
+/// How many columns and rows R_2 is looked at from the base, and R_3 from R_2.
+const FAR: [u32; 2] = [1, 2];
+
+/// What [`contact`] looks at.
+pub(super) fn places() -> String {
+    let [second, third] = FAR;
+    format!("R_2 up to {second} from the base, R_3 up to {third} from R_2, every plan and answer")
+}
+
+/// A cell at most so many columns and rows from `cell`.
+fn near(cell: Cell, far: u32, oracle: &mut dyn Oracle) -> Cell {
+    let mut offset = || oracle.pick(2 * far + 1) as i16 - far as i16;
+    Cell::new(cell.x + offset(), cell.y + offset())
+}
+
+/// CHAIN-15, inductive step: a base, R_2 in E_S of it, and R_3 in E_C of R_2.
+///
+/// # Errors
+/// [`Stop`](crate::engine::Stop) if the choices are no case, or break the clause.
+pub(super) fn contact(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    let rule = &observed.rule;
+    let base = Cell::new(0, 0);
+    let at = near(base, FAR[0], oracle);
+    let ahead = near(at, FAR[1], oracle);
+    assume(Circle::COVERED.covers(at, ahead))?;
+    let mut world = World::<2>::new();
+    let leader = world.pick(ahead, oracle);
+    let to = leader.plan.to();
+    assume(to == ahead || rule.admits_behind(to, at))?;
+    let is_admitted = |own: Move| {
+        rule.admits_ahead(own, leader.plan)
+            && rule.admits_behind(own.to(), base)
+            && rule.admits_ahead(Move::stay(base), own)
+            && (own.to() != to || to == base || !rule.has(Condition::Distinct))
+    };
+    let follower = world.pick(at, oracle);
+    let stay = Move::stay(at);
+    assume(is_admitted(follower.plan))?;
+    let stays_first = is_admitted(stay) && rule.is_high(at, leader.plan);
+    assume(!stays_first || follower.plan == stay)?;
+    require(
+        Circle::COVERED.covers(follower.arrived, leader.arrived),
+        "R_3 is in E_C of R_2 after the move, and R_2 of it",
+    )?;
+    require(Circle::SAFE.covers(base, follower.arrived), "R_2 is in E_S of the base after the move")?;
+    Ok(if stays_first { "R_2 stays" } else { "R_2 may do anything else" })
+}

@@ -1,0 +1,258 @@
+//! The search over all layouts. Walls are not drawn in advance: the world decides an edge when a robot first tries
+//! it, both ways, so one tree of runs covers every layout. A run is a leaf; it ends by itself or at its first
+//! violation. A team move is an edge of the tree and is counted once. States never merge, since branches differ
+//! for ever in a revealed edge.
+//!
+//! The tree is searched by levels: first the runs that meet no wall, then those that meet one, and so on, so that the
+//! first counterexample has the fewest walls. On the way to its runs a level goes the ways of the levels before it
+//! again, which costs a few per cent and saves the memory that a list of all the places left for later would take.
+//! A level is shared out among *lanes*, each a depth-first search that knows only the answers on its way. The lanes
+//! are searched in waves of a fixed number of team moves and then share their work anew, in their order: so a search
+//! comes out the same on any number of threads, and its [`Position`], a list of answer prefixes, is small.
+//!
+//! Whoever implements [`Game`] has all of this: levels, threads, resuming, replaying. What is here knows no scheme.
+
+mod count;
+mod lane;
+mod search;
+
+use std::fmt;
+use std::ops::ControlFlow;
+
+use serde::{Deserialize, Serialize};
+use tautline_kernel::choice::Oracle;
+
+pub use self::search::{Position, Tree, Waves, search};
+use super::Until;
+use crate::words::counted;
+
+/// One team move between its states.
+pub struct Turn<'a, G: Game + ?Sized> {
+    /// When the team was asked for a plan.
+    pub before: &'a G::State,
+    /// When it had planned.
+    pub planned: &'a G::State,
+    /// When it had moved.
+    pub after: &'a G::State,
+    /// What it intended.
+    pub plan: &'a G::Plan,
+    /// What the log grew by.
+    pub sent: &'a [u8],
+}
+
+/// A demand that is not met, and in words what is not so.
+pub type Broken<G> = (<G as Game>::Demand, &'static str);
+
+/// A team that moves in a world that answers when it is asked: what is searched. The state is a plain value, so it is
+/// copied where the world has more than one answer.
+pub trait Game: Send + Sync + 'static {
+    /// All that the team is and knows, but for the log.
+    type State: Copy + Send + Sync;
+    /// What the team intends to do in one team move.
+    type Plan: Copy + Send + Sync;
+    /// What can be broken. Counterexamples are told in this order.
+    type Demand: Copy + Ord + Send + Sync + fmt::Debug;
+    /// What a team move looks like.
+    type Frame;
+
+    /// The state before the first team move.
+    fn start(&self) -> Self::State;
+
+    /// What the team does next; `None` if the run is over.
+    fn plan(&self, state: &mut Self::State, log: &[u8]) -> Option<Self::Plan>;
+
+    /// Carries the plan out. Whatever the team cannot know is asked of `world`: whether it meets a wall is a
+    /// [mishap](Oracle::mishap). Whatever the team needs to remember goes to the end of `log`.
+    fn settle(&self, state: &mut Self::State, plan: &Self::Plan, log: &mut Vec<u8>, world: &mut impl Oracle);
+
+    /// What a team move looks like.
+    fn frame(&self, turn: &Turn<'_, Self>) -> Self::Frame;
+
+    /// What a team move breaks.
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Option<Broken<Self>>;
+
+    /// What a run breaks that ends in `state`, with all that it remembers in `log`.
+    fn broken_at_end(&self, state: &Self::State, log: &[u8]) -> Option<Broken<Self>>;
+
+    /// What a run breaks that goes on for ever: it was in the state `then` when the log had `sent` bytes, and is in
+    /// `now` without an answer in between.
+    fn broken_by_recurring(
+        &self,
+        then: &Self::State,
+        sent: usize,
+        now: &Self::State,
+        log: &[u8],
+    ) -> Option<Broken<Self>>;
+
+    /// How many edges can be walls: a run asks for no more answers than this.
+    fn edges(&self) -> u32;
+
+    /// Team moves after which a run is given up. A run that comes back to a state is never so long; one that neither ends
+    /// nor comes back needs such a budget.
+    fn longest_run(&self) -> u32 {
+        u32::MAX
+    }
+
+    /// The situations that must occur, at most 64 of them.
+    fn covers(&self) -> &'static [&'static str] {
+        &[]
+    }
+
+    /// Which of them a team move is.
+    fn situation(&self, _: &Turn<'_, Self>) -> Option<&'static str> {
+        None
+    }
+}
+
+/// What to search for, and how far.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Limits<D> {
+    /// Most walls that are met in one run; the border is not counted.
+    pub max_walls: u32,
+    /// The search stops when it has made about as many team moves as this, at the next answer.
+    pub budget_moves: Option<u64>,
+    /// What is looked for, where it matters: at which demand a search ends that looks for any violation.
+    pub wanted: Vec<D>,
+    /// When to stop.
+    pub until: Until,
+}
+
+/// What a search found.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Found<D, F> {
+    /// Leaves of the tree.
+    pub runs: u64,
+    /// Edges of the tree, backtracks included.
+    pub moves: u64,
+    /// Team moves of the longest run.
+    pub longest: u32,
+    /// Runs that were given up, since they grew too long. They are among the leaves.
+    pub given_up: u64,
+    /// The situations that occurred, in the order of [`Game::covers`].
+    pub covered: Vec<&'static str>,
+    /// For each number of walls, from none on, the runs that meet so many and were all covered.
+    pub levels: Vec<Level>,
+    /// Whether the whole tree was covered.
+    pub complete: bool,
+    /// The smallest for each demand broken, by demand.
+    pub counterexamples: Vec<Counterexample<D, F>>,
+}
+
+/// The runs that meet one number of walls.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Level {
+    /// Leaves of the tree.
+    pub runs: u64,
+    /// Edges of the tree that have so many walls on the way to their end.
+    pub moves: u64,
+}
+
+/// A run that breaks a demand in its last move, or by having ended, or by never ending.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Counterexample<D, F> {
+    /// What is broken.
+    pub broken: D,
+    /// How many runs break it.
+    pub runs: u64,
+    /// What is not so, in words.
+    pub demand: &'static str,
+    /// The team moves.
+    pub frames: Vec<F>,
+    /// What the world answered: 1 for a wall.
+    pub answers: Vec<u32>,
+}
+
+/// How far a search is.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress<'a> {
+    /// Leaves so far.
+    pub runs: u64,
+    /// Team moves so far.
+    pub moves: u64,
+    /// The numbers of walls that are done.
+    pub levels: &'a [Level],
+    /// The number of walls that the search goes to.
+    pub max_walls: u32,
+    /// Edges that can be walls.
+    pub edges: u32,
+}
+
+impl Progress<'_> {
+    /// Team moves in all, if the numbers of walls grow on as they have so far. The runs that meet *k* walls are
+    /// about as many as sets of *k* edges, so their growth falls as that of the sets does.
+    #[expect(clippy::cast_precision_loss, reason = "an estimate")]
+    pub fn expected_moves(&self) -> Option<f64> {
+        let [.., before, last] = self.levels else { return None };
+        let growth_of_sets = |walls: f64| (f64::from(self.edges) - walls + 1.0) / walls;
+        let done = self.levels.len() as f64 - 1.0;
+        let excess = last.moves as f64 / before.moves as f64 / growth_of_sets(done);
+        let mut level = last.moves as f64;
+        let mut sum = self.levels.iter().map(|level| level.moves as f64).sum::<f64>();
+        for walls in self.levels.len()..=self.max_walls as usize {
+            level *= excess * growth_of_sets(walls as f64);
+            sum += level;
+        }
+        Some(sum)
+    }
+}
+
+/// Hears between two waves how far a search is, and may end it there.
+pub type Watch<'a> = &'a mut dyn FnMut(&Progress<'_>) -> ControlFlow<()>;
+
+/// A watch that lets every search go on.
+pub const fn unwatched(_: &Progress<'_>) -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}
+
+/// Why there is no search.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Unsearchable {
+    /// There are not so many edges that could be walls.
+    TooManyWalls {
+        /// Walls asked for.
+        max_walls: u32,
+        /// Edges there are.
+        edges: u32,
+    },
+    /// The search would need more memory than it may have.
+    TooLarge {
+        /// What it may need.
+        bytes: u64,
+        /// What it may have.
+        most: u64,
+    },
+    /// A position with more walls than are asked for now.
+    Beyond {
+        /// Numbers of walls that are done.
+        walls: u32,
+    },
+    /// A position that the runs of this rule do not get to.
+    Foreign,
+}
+
+impl fmt::Display for Unsearchable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooManyWalls { max_walls, edges } => {
+                write!(f, "there are more walls ({max_walls}) than edges that can be walls ({edges})")
+            }
+            Self::TooLarge { bytes, most } => {
+                write!(
+                    f,
+                    "the search may need {} MiB of memory, and {} MiB is the most",
+                    bytes >> 20,
+                    most >> 20
+                )
+            }
+            Self::Beyond { walls } => {
+                write!(f, "this search has already gone on to {}", counted(*walls, "wall"))
+            }
+            Self::Foreign => {
+                f.write_str("the runs of this rule do not get to where this search is said to be")
+            }
+        }
+    }
+}
+
+impl std::error::Error for Unsearchable {}

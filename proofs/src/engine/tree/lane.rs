@@ -1,0 +1,428 @@
+//! One part of the tree of runs, searched depth first: a run, the places on its way where the world has more answers,
+//! and the answers that it gave so far. The answers alone say where a lane is, so a list of them is all that a search
+//! needs to be resumed.
+
+use std::slice;
+
+use serde::{Deserialize, Serialize};
+use tautline_kernel::choice::Oracle;
+
+use super::count::{self, Count, Violation};
+use super::{Broken, Game, Turn};
+use crate::engine::Unfit;
+
+/// One answer of the world.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Answer {
+    value: u32,
+    below: u32,
+    /// Whether 1 counts as a mishap.
+    is_mishap: bool,
+}
+
+/// The answers on the way, with at most `most` mishaps. Where all mishaps are spent, nothing is asked.
+#[derive(Clone, Debug)]
+struct Answers {
+    given: Vec<Answer>,
+    mishaps: u32,
+    most: u32,
+}
+
+impl Answers {
+    fn give(&mut self, answer: Answer) -> u32 {
+        self.mishaps += u32::from(answer.is_mishap && answer.value == 1);
+        self.given.push(answer);
+        answer.value
+    }
+
+    /// Takes the last answer back, if it is not one of the first `kept`.
+    fn take(&mut self, kept: usize) -> Option<Answer> {
+        let answer = (self.given.len() > kept).then(|| self.given.pop()).flatten()?;
+        self.mishaps -= u32::from(answer.is_mishap && answer.value == 1);
+        Some(answer)
+    }
+
+    /// The values from place `from` on.
+    fn values(&self, from: usize) -> impl Iterator<Item = u32> {
+        self.given[from..].iter().map(|answer| answer.value)
+    }
+}
+
+/// Answers as a script says, and plainly where it has ended.
+struct World<'a> {
+    answers: &'a mut Answers,
+    script: slice::Iter<'a, u32>,
+    /// Whether every line of the script was an answer to its question.
+    fits: bool,
+}
+
+impl World<'_> {
+    fn answer(&mut self, below: u32, is_mishap: bool) -> u32 {
+        let value = self.script.next().copied().unwrap_or(0);
+        self.fits &= value < below;
+        self.answers.give(Answer { value: value.min(below - 1), below, is_mishap })
+    }
+}
+
+impl Oracle for World<'_> {
+    fn pick(&mut self, below: u32) -> u32 {
+        if below > 1 { self.answer(below, false) } else { 0 }
+    }
+
+    fn mishap(&mut self) -> bool {
+        self.answers.mishaps < self.answers.most && self.answer(2, true) == 1
+    }
+}
+
+/// A team move whose outcome was asked for.
+struct Fork<G: Game> {
+    before: G::State,
+    planned: G::State,
+    plan: G::Plan,
+    /// Team moves, bytes of the log and answers before it.
+    steps: u32,
+    sent: usize,
+    answered: usize,
+}
+
+impl<G: Game> Clone for Fork<G> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<G: Game> Copy for Fork<G> {}
+
+/// Where a lane is.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Place {
+    /// The answers of its run.
+    answers: Vec<u32>,
+    /// How many of them, from the first on, are not its own to change.
+    fixed: usize,
+    next: Next,
+}
+
+/// What a lane does next.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Next {
+    /// The run goes on.
+    #[default]
+    Advance,
+    /// The run is over, or another lane's: back to the last other answer.
+    Retreat,
+}
+
+/// A part of the tree.
+pub(super) struct Lane<G: Game> {
+    state: G::State,
+    log: Vec<u8>,
+    steps: u32,
+    answers: Answers,
+    forks: Vec<Fork<G>>,
+    /// The forks before this one belong to other lanes.
+    floor: usize,
+    next: Next,
+    mark: Mark<G::State>,
+    /// The first answers to the next team move.
+    script: Vec<u32>,
+}
+
+/// A state that the run may come back to, and the bytes of the log before it, moved on at powers of two (Brent's search
+/// for cycles). An answer reveals something that was not known, so no state comes again after it, and the search begins
+/// anew.
+struct Mark<S> {
+    at: Option<(S, usize)>,
+    /// Team moves since the last answer, and at how many the mark is moved.
+    moved: u32,
+    due: u32,
+}
+
+impl<S> Mark<S> {
+    /// Team moves without an answer from which on a run is watched.
+    const FIRST: u32 = 32;
+
+    const NONE: Self = Self { at: None, moved: 0, due: Self::FIRST };
+}
+
+impl<G: Game> Lane<G> {
+    /// The memory that one answer on the way takes at most.
+    pub(super) const FORK_BYTES: usize = size_of::<Fork<G>>() + size_of::<Answer>();
+
+    /// The whole tree of runs with at most `mishaps`.
+    pub(super) fn whole(game: &G, mishaps: u32) -> Self {
+        Self {
+            state: game.start(),
+            log: Vec::new(),
+            steps: 0,
+            answers: Answers { given: Vec::new(), mishaps: 0, most: mishaps },
+            forks: Vec::new(),
+            floor: 0,
+            next: Next::Advance,
+            mark: Mark::NONE,
+            script: Vec::new(),
+        }
+    }
+
+    /// The lane that was at `place`; `None` if no run gets there.
+    pub(super) fn at(game: &G, mishaps: u32, place: &Place) -> Option<Self> {
+        let mut lane = Self::whole(game, mishaps);
+        while lane.answers.given.len() < place.answers.len() {
+            let fork = lane.plan(game)?;
+            lane.follow(game, &fork, &place.answers)?;
+            if lane.recurs(game).is_some() {
+                return None;
+            }
+        }
+        lane.next = place.next;
+        lane.floor = lane.forks.iter().filter(|fork| fork.answered < place.fixed).count();
+        (lane.place() == *place).then_some(lane)
+    }
+
+    /// Where it is.
+    pub(super) fn place(&self) -> Place {
+        let fixed = self.forks.get(self.floor).map_or(self.answers.given.len(), |fork| fork.answered);
+        Place { answers: self.answers.values(0).collect(), fixed, next: self.next }
+    }
+
+    /// Plans the next team move of the run; `None` if it is over.
+    fn plan(&mut self, game: &G) -> Option<Fork<G>> {
+        let before = self.state;
+        let plan = game.plan(&mut self.state, &self.log)?;
+        let (steps, sent, answered) = (self.steps, self.log.len(), self.answers.given.len());
+        Some(Fork { before, planned: self.state, plan, steps, sent, answered })
+    }
+
+    /// Makes the team move of `fork` in a run of which all answers are known; `None` if they do not fit.
+    fn follow(&mut self, game: &G, fork: &Fork<G>, answers: &[u32]) -> Option<()> {
+        self.script.extend_from_slice(answers.get(fork.answered..)?);
+        self.settle(game, fork).then_some(())
+    }
+
+    /// Makes the team move of `fork`, which is planned, with the answers of the script first; whether they fit its
+    /// questions.
+    fn settle(&mut self, game: &G, fork: &Fork<G>) -> bool {
+        self.steps += 1;
+        let mut world = World { answers: &mut self.answers, script: self.script.iter(), fits: true };
+        game.settle(&mut self.state, &fork.plan, &mut self.log, &mut world);
+        let fits = world.fits;
+        self.script.clear();
+        if self.answers.given.len() > fork.answered {
+            self.mark = Mark::NONE;
+            self.forks.push(*fork);
+        } else {
+            self.mark.moved += 1;
+        }
+        fits
+    }
+
+    /// Searches on, at most a wave or about `most` team moves that are new, and then to the next answer. Returns whether
+    /// something is left.
+    pub(super) fn search(&mut self, game: &G, wave: u64, most: u64, count: &mut Count<G::Demand>) -> bool {
+        loop {
+            let answered = match self.next {
+                Next::Advance => {
+                    let Some(fork) = self.plan(game) else {
+                        self.end(game.broken_at_end(&self.state, &self.log), count);
+                        continue;
+                    };
+                    self.make(game, &fork, count)
+                }
+                Next::Retreat => {
+                    let Some(fork) = self.retreat() else { return false };
+                    self.make(game, &fork, count)
+                }
+            };
+            let is_far = count.made >= wave || count.moves >= most;
+            if is_far && self.answers.given.len() > answered && self.has_more() {
+                return true;
+            }
+        }
+    }
+
+    /// Makes the team move of `fork` and checks it; how many answers there were before.
+    fn make(&mut self, game: &G, fork: &Fork<G>, count: &mut Count<G::Demand>) -> usize {
+        self.settle(game, fork);
+        self.next = Next::Advance;
+        count.made += 1;
+        count.moves += u64::from(self.is_new());
+        let turn = self.turn(fork);
+        if let Some(situation) = game.situation(&turn) {
+            let place = game.covers().iter().position(|&cover| cover == situation);
+            count.covered |= place.map_or(0, |place| 1 << place);
+        }
+        if let Some(broken) = game.broken_by(&turn).or_else(|| self.recurs(game)) {
+            self.end(Some(broken), count);
+        } else if self.steps >= game.longest_run() {
+            count.given_up += u64::from(self.is_new());
+            self.end(None, count);
+        }
+        fork.answered
+    }
+
+    /// The team move of `fork`, which is the latest.
+    fn turn<'a>(&'a self, fork: &'a Fork<G>) -> Turn<'a, G> {
+        let Fork { before, planned, plan, sent, .. } = fork;
+        Turn { before, planned, after: &self.state, plan, sent: &self.log[*sent..] }
+    }
+
+    /// What is broken if the run comes back to where it was, and so never ends.
+    fn recurs(&mut self, game: &G) -> Option<Broken<G>> {
+        let Mark { at, moved, due } = &self.mark;
+        if moved < due {
+            let (state, sent) = at.as_ref()?;
+            return game.broken_by_recurring(state, *sent, &self.state, &self.log);
+        }
+        self.mark = Mark { at: Some((self.state, self.log.len())), moved: *moved, due: 2 * due };
+        None
+    }
+
+    /// The run is over, perhaps since it breaks something.
+    fn end(&mut self, broken: Option<Broken<G>>, count: &mut Count<G::Demand>) {
+        self.next = Next::Retreat;
+        if !self.is_new() {
+            return;
+        }
+        count.runs += 1;
+        count.longest = count.longest.max(self.steps);
+        if let Some((demand, _)) = broken {
+            let answers = self.answers.values(0).collect();
+            let smallest = Violation { mishaps: self.answers.mishaps, steps: self.steps, answers };
+            count.add_broken(count::Broken { demand, runs: 1, smallest });
+        }
+    }
+
+    /// Whether a search with one mishap less did not come here.
+    const fn is_new(&self) -> bool {
+        self.answers.mishaps == self.answers.most
+    }
+
+    /// Goes back to the last team move that can come out otherwise, as it was when it was planned, and puts the next
+    /// answers to it into the script.
+    fn retreat(&mut self) -> Option<Fork<G>> {
+        while self.forks.len() > self.floor {
+            let fork = self.forks.pop()?;
+            while let Some(answer) = self.answers.take(fork.answered) {
+                if answer.value + 1 < answer.below {
+                    self.script.extend(self.answers.values(fork.answered));
+                    self.script.push(answer.value + 1);
+                    while self.answers.take(fork.answered).is_some() {}
+                    self.state = fork.planned;
+                    self.steps = fork.steps;
+                    self.log.truncate(fork.sent);
+                    return Some(fork);
+                }
+            }
+        }
+        None
+    }
+
+    /// The first fork from this place on with another outcome left, and where the answers to it end.
+    fn first_open(&self, from: usize) -> Option<(usize, usize)> {
+        (from..self.forks.len()).find_map(|place| {
+            let from = self.forks[place].answered;
+            let to = self.forks.get(place + 1).map_or(self.answers.given.len(), |next| next.answered);
+            let is_open = self.answers.given[from..to].iter().any(|answer| answer.value + 1 < answer.below);
+            is_open.then_some((place, to))
+        })
+    }
+
+    /// Whether something is left of it.
+    fn has_more(&self) -> bool {
+        self.next == Next::Advance || self.first_open(self.floor).is_some()
+    }
+
+    /// The fork whose other outcomes can be split off so that something is left: the first of its own that has any, unless
+    /// these are all that the lane has.
+    fn divisible(&self) -> Option<(usize, usize)> {
+        let (place, answered) = self.first_open(self.floor)?;
+        let is_all = self.next == Next::Retreat && self.first_open(place + 1).is_none();
+        (!is_all).then_some((place, answered))
+    }
+
+    /// The team moves before the fork that it can be split at; `None` if it cannot be split.
+    pub(super) fn depth(&self) -> Option<u32> {
+        self.divisible().map(|(place, _)| self.forks[place].steps)
+    }
+
+    /// Splits off the other outcomes of its first fork.
+    pub(super) fn split(&mut self) -> Option<Self> {
+        let (place, answered) = self.divisible()?;
+        self.floor = place + 1;
+        let mut answers = self.answers.clone();
+        while answers.take(answered).is_some() {}
+        Some(Self {
+            state: self.state,
+            log: self.log[..self.forks[place].sent].to_vec(),
+            steps: self.steps,
+            answers,
+            forks: self.forks[..=place].to_vec(),
+            floor: place,
+            next: Next::Retreat,
+            mark: Mark::NONE,
+            script: Vec::new(),
+        })
+    }
+}
+
+/// Makes the run with these answers, at most `most` of them mishaps, as far as it goes: what it breaks in its last team
+/// move, or by its end, and its team moves.
+pub(super) fn replay<G: Game>(
+    game: &G,
+    most: u32,
+    answers: &[u32],
+) -> Result<(Broken<G>, Vec<G::Frame>), Unfit> {
+    let mishaps = answers.iter().filter(|&&answer| answer != 0).count() as u32;
+    let mut lane = Lane::whole(game, mishaps.min(most));
+    let mut frames = Vec::new();
+    let mut broken = None;
+    while broken.is_none() {
+        let Some(fork) = lane.plan(game) else {
+            broken = game.broken_at_end(&lane.state, &lane.log);
+            break;
+        };
+        lane.script.extend_from_slice(answers.get(fork.answered..).unwrap_or_default());
+        if !lane.settle(game, &fork) {
+            let mut given = lane.answers.given.iter().zip(answers);
+            let at = given.position(|(given, &answer)| given.value != answer).unwrap_or(fork.answered);
+            return Err(Unfit::None { at, of: lane.answers.given[at].below });
+        }
+        if lane.answers.given.len() > answers.len() {
+            return Err(Unfit::Unbroken);
+        }
+        let turn = lane.turn(&fork);
+        frames.push(game.frame(&turn));
+        broken = game.broken_by(&turn).or_else(|| lane.recurs(game));
+    }
+    let used = lane.answers.given.len();
+    if used < answers.len() {
+        return Err(Unfit::Over { at: used });
+    }
+    Ok((broken.ok_or(Unfit::Unbroken)?, frames))
+}
+
+/// The team moves of the run with these answers, and what it breaks in the last of them; `None` if that is nothing, or
+/// there is no such run.
+pub(super) fn record<G: Game>(
+    game: &G,
+    mishaps: u32,
+    steps: u32,
+    answers: &[u32],
+) -> Option<(Broken<G>, Vec<G::Frame>)> {
+    let mut lane = Lane::whole(game, mishaps);
+    let mut frames = Vec::new();
+    let mut broken = None;
+    while lane.steps < steps {
+        let fork = lane.plan(game)?;
+        lane.follow(game, &fork, answers)?;
+        let turn = lane.turn(&fork);
+        frames.push(game.frame(&turn));
+        broken = game.broken_by(&turn).or_else(|| lane.recurs(game));
+    }
+    if broken.is_none() && lane.plan(game).is_none() {
+        broken = game.broken_at_end(&lane.state, &lane.log);
+    }
+    Some((broken?, frames))
+}

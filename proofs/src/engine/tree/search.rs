@@ -1,0 +1,287 @@
+//! A search, level by level and wave by wave.
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::count::{Broken, Count, Violation};
+use super::lane::{self, Lane, Place};
+use super::{Counterexample, Found, Game, Level, Limits, Progress, Unsearchable, Watch};
+use crate::engine::{Unfit, Until};
+
+/// Where a search is. Read back, it goes on from here and comes out as if it had never been interrupted.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Position<D> {
+    levels: Vec<Level>,
+    count: Count<D>,
+    lanes: Vec<Place>,
+}
+
+impl<D> Position<D> {
+    /// The numbers of walls that are done.
+    pub fn levels(&self) -> &[Level] {
+        &self.levels
+    }
+}
+
+/// A search that is made wave by wave, and can be left and taken up again between two of them.
+pub trait Waves<D, F> {
+    /// Goes to `position`, where a search with the same limits was; more walls may be asked for than then.
+    ///
+    /// # Errors
+    /// [`Unsearchable`] if the position is none of this search.
+    fn go_to(&mut self, position: &Position<D>) -> Result<(), Unsearchable>;
+    /// Searches a little further. Returns whether there is more to do, and to spend.
+    fn wave(&mut self) -> bool;
+    /// How far it is.
+    fn progress(&self) -> Progress<'_>;
+    /// Where it is: enough to go on from here.
+    fn position(&self) -> Position<D>;
+    /// What it has found so far.
+    fn found(&self) -> Found<D, F>;
+    /// Plays a run that breaks `demand` again, whose answers these are. It is one run, whatever number of runs break it.
+    ///
+    /// # Errors
+    /// [`Unfit`] if there is no such run.
+    fn replay(&self, demand: D, answers: &[u32]) -> Result<Counterexample<D, F>, Unfit>;
+}
+
+/// Searches all layouts within `limits`. The result is the same on any number of threads, unless `watch` ends the search.
+///
+/// # Errors
+/// [`Unsearchable`] if the limits are beyond what can be searched.
+pub fn search<G: Game>(
+    game: G,
+    limits: &Limits<G::Demand>,
+    watch: Watch<'_>,
+) -> Result<Found<G::Demand, G::Frame>, Unsearchable> {
+    let mut tree = Tree::new(game, limits)?;
+    while tree.wave() && watch(&tree.progress()).is_continue() {}
+    Ok(tree.found())
+}
+
+/// Lanes of a search, if they have room: many more than threads, so that none is idle for long.
+const LANES: u64 = 64;
+
+/// Team moves of a lane in one wave, once there are as many lanes as there may be; fewer before, so that a level is soon
+/// shared out.
+pub(super) const WAVE: u64 = 1 << 14;
+
+/// Where the budget leaves less than so many team moves to each lane, they are left to the first one.
+const SHARE: u64 = 1 << 8;
+
+/// Bytes that the lanes may need.
+const MEMORY: u64 = 1 << 30;
+
+/// Numbers of walls, from none on, whose runs a resumed search counts again, to see that it is of the same rule.
+const COUNTED_AGAIN: usize = 2;
+
+/// The tree of runs of a game.
+pub struct Tree<G: Game> {
+    game: G,
+    limits: Limits<G::Demand>,
+    most_lanes: usize,
+    /// The levels that are done.
+    levels: Vec<Level>,
+    count: Count<G::Demand>,
+    /// What is left of this level.
+    lanes: Vec<Lane<G>>,
+}
+
+impl<G: Game> Tree<G> {
+    /// The search of `game` within `limits`, at its start.
+    ///
+    /// # Errors
+    /// [`Unsearchable`] if the limits are beyond what can be searched.
+    pub fn new(game: G, limits: &Limits<G::Demand>) -> Result<Self, Unsearchable> {
+        let (edges, max_walls) = (game.edges(), limits.max_walls);
+        if max_walls > edges {
+            return Err(Unsearchable::TooManyWalls { max_walls, edges });
+        }
+        // Every fork of a run reveals an edge.
+        let bytes = u64::from(edges.max(1)) * Lane::<G>::FORK_BYTES as u64;
+        if bytes > MEMORY {
+            return Err(Unsearchable::TooLarge { bytes, most: MEMORY });
+        }
+        let lanes = vec![Lane::whole(&game, 0)];
+        Ok(Self {
+            game,
+            limits: limits.clone(),
+            most_lanes: (MEMORY / bytes).min(LANES) as usize,
+            levels: Vec::new(),
+            count: Count::default(),
+            lanes,
+        })
+    }
+
+    /// Begins the next level, if there is one.
+    fn begin(&mut self) {
+        let walls = self.levels.len() as u32;
+        if walls <= self.limits.max_walls {
+            self.lanes.push(Lane::whole(&self.game, walls));
+        }
+    }
+
+    /// Whether the runs of the first levels are as many as `position` says: whether it is of the same rule.
+    fn counts_again(&mut self, position: &Position<G::Demand>) -> bool {
+        let Some(max_walls) = (position.levels.len().min(COUNTED_AGAIN) as u32).checked_sub(1) else {
+            return true;
+        };
+        let first = Limits { max_walls, budget_moves: None, until: Until::Exhausted, ..self.limits.clone() };
+        let limits = std::mem::replace(&mut self.limits, first);
+        self.levels.clear();
+        self.count = Count::default();
+        self.lanes = vec![Lane::whole(&self.game, 0)];
+        while self.wave() {}
+        self.limits = limits;
+        position.levels.starts_with(&self.levels)
+    }
+
+    fn is_over(&self) -> bool {
+        let is_wanted = |broken: &Broken<_>| self.limits.wanted.contains(&broken.demand);
+        let is_settled = self.limits.until == Until::Violation && self.count.broken.iter().any(is_wanted);
+        is_settled || self.lanes.is_empty() || self.count.moves >= self.budget_moves()
+    }
+
+    fn budget_moves(&self) -> u64 {
+        self.limits.budget_moves.unwrap_or(u64::MAX)
+    }
+
+    /// Searches all lanes a little further, forgets those that are done, and splits others.
+    fn search(&mut self) {
+        let left = self.budget_moves() - self.count.moves;
+        let share = left / self.lanes.len() as u64;
+        let is_scarce = share < SHARE;
+        let (active, most) = if is_scarce { (1, left) } else { (self.lanes.len(), share) };
+        let game = &self.game;
+        let wave = (WAVE * self.lanes.len() as u64 / self.most_lanes as u64).max(SHARE);
+        let counts: Vec<(Count<_>, bool)> = self.lanes[..active]
+            .par_iter_mut()
+            .with_max_len(1)
+            .map(|lane| {
+                let mut count = Count::default();
+                let is_left = lane.search(game, wave, most, &mut count);
+                (count, is_left)
+            })
+            .collect();
+        let mut is_left = counts.iter().map(|&(_, is_left)| is_left).collect::<Vec<_>>().into_iter();
+        self.lanes.retain(|_| is_left.next().unwrap_or(true));
+        for (count, _) in counts {
+            self.count.add(count);
+        }
+        if !is_scarce {
+            self.split();
+        }
+    }
+
+    /// Splits the lanes with most left, those that have it nearest to the root, until there are as many as there may be.
+    fn split(&mut self) {
+        while self.lanes.len() < self.most_lanes {
+            let divisible = self.lanes.iter_mut().filter(|lane| lane.depth().is_some());
+            let Some(part) = divisible.min_by_key(|lane| lane.depth()).and_then(Lane::split) else { return };
+            self.lanes.push(part);
+        }
+    }
+
+    /// The smallest run that breaks a demand again; `None` if it does not.
+    fn record(&self, broken: &Broken<G::Demand>) -> Option<Counterexample<G::Demand, G::Frame>> {
+        let Violation { mishaps, steps, answers } = &broken.smallest;
+        let ((demand, words), frames) = lane::record(&self.game, *mishaps, *steps, answers)?;
+        let (runs, answers) = (broken.runs, answers.clone());
+        Some(Counterexample { broken: demand, runs, demand: words, frames, answers })
+    }
+}
+
+impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
+    fn go_to(&mut self, position: &Position<G::Demand>) -> Result<(), Unsearchable> {
+        let walls = position.levels.len() as u32;
+        let is_done = position.lanes.is_empty();
+        let last = if is_done { walls.saturating_sub(1) } else { walls };
+        if last > self.limits.max_walls {
+            return Err(Unsearchable::Beyond { walls: last });
+        }
+        if !self.counts_again(position) {
+            return Err(Unsearchable::Foreign);
+        }
+        let lane = |place| Lane::at(&self.game, walls, place).ok_or(Unsearchable::Foreign);
+        let lanes = position.lanes.iter().map(lane).collect::<Result<_, _>>()?;
+        let is_recorded =
+            |broken: &Broken<_>| self.record(broken).is_some_and(|found| found.broken == broken.demand);
+        if !position.count.follows(&position.levels) || !position.count.broken.iter().all(is_recorded) {
+            return Err(Unsearchable::Foreign);
+        }
+        self.levels.clone_from(&position.levels);
+        self.count = position.count.clone();
+        self.lanes = lanes;
+        if is_done {
+            self.begin();
+        }
+        Ok(())
+    }
+
+    fn wave(&mut self) -> bool {
+        if self.is_over() {
+            return false;
+        }
+        self.search();
+        if self.lanes.is_empty() {
+            let done = |of: fn(&Level) -> u64| self.levels.iter().map(of).sum::<u64>();
+            self.levels.push(Level {
+                runs: self.count.runs - done(|level| level.runs),
+                moves: self.count.moves - done(|level| level.moves),
+            });
+            self.begin();
+        }
+        !self.is_over()
+    }
+
+    fn progress(&self) -> Progress<'_> {
+        Progress {
+            runs: self.count.runs,
+            moves: self.count.moves,
+            levels: &self.levels,
+            max_walls: self.limits.max_walls,
+            edges: self.game.edges(),
+        }
+    }
+
+    fn position(&self) -> Position<G::Demand> {
+        Position {
+            levels: self.levels.clone(),
+            count: self.count.clone(),
+            lanes: self.lanes.iter().map(Lane::place).collect(),
+        }
+    }
+
+    fn found(&self) -> Found<G::Demand, G::Frame> {
+        let Count { runs, moves, longest, given_up, ref broken, .. } = self.count;
+        let mut broken = broken.clone();
+        broken.sort_unstable();
+        let situations = self.game.covers().iter().zip(0..);
+        let covered = situations.filter(|(_, bit)| self.count.covered >> bit & 1 == 1);
+        let counterexamples = broken.iter().filter_map(|broken| self.record(broken)).collect();
+        let complete = self.lanes.is_empty();
+        Found {
+            runs,
+            moves,
+            longest,
+            given_up,
+            covered: covered.map(|(&situation, _)| situation).collect(),
+            levels: self.levels.clone(),
+            complete,
+            counterexamples,
+        }
+    }
+
+    fn replay(
+        &self,
+        demand: G::Demand,
+        answers: &[u32],
+    ) -> Result<Counterexample<G::Demand, G::Frame>, Unfit> {
+        let ((broken, words), frames) = lane::replay(&self.game, self.limits.max_walls, answers)?;
+        if broken != demand {
+            return Err(Unfit::Unbroken);
+        }
+        Ok(Counterexample { broken, runs: 1, demand: words, frames, answers: answers.to_vec() })
+    }
+}

@@ -1,0 +1,168 @@
+//! Small areas for the searches over all layouts of agents on a floor: which cells are free, and the walls between
+//! them.
+
+use std::fmt;
+
+use tautline_kernel::ground::{Cell, Edge, Side};
+
+/// The most cells of a small floor.
+pub(crate) const CELLS: usize = 16;
+
+/// A small area: which cells are free, and the walls between them.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct FloorPlan {
+    pub(crate) width: i16,
+    pub(crate) height: i16,
+    /// Row by row.
+    pub(crate) free: u16,
+    /// Walls on the eastern and on the southern sides of cells.
+    pub(crate) east: u16,
+    pub(crate) south: u16,
+}
+
+impl FloorPlan {
+    pub(crate) fn place(&self, cell: Cell) -> Option<usize> {
+        let is_inside = (0..self.width).contains(&cell.x) && (0..self.height).contains(&cell.y);
+        is_inside
+            .then_some((cell.y * self.width + cell.x) as usize)
+            .filter(|place| self.free >> place & 1 == 1)
+    }
+
+    pub(crate) fn cell(&self, place: usize) -> Cell {
+        Cell::new(place as i16 % self.width, place as i16 / self.width)
+    }
+
+    pub(crate) fn is_open(&self, edge: Edge) -> bool {
+        let walls = match edge.side() {
+            Side::East | Side::West => self.east,
+            Side::South | Side::North => self.south,
+        };
+        let (one, other) = (self.place(edge.cell()), self.place(edge.cell().beyond(edge.side())));
+        one.zip(other).is_some_and(|(one, _)| walls >> one & 1 == 0)
+    }
+
+    /// The free cells.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = Cell> + use<> {
+        let plan = *self;
+        (0..CELLS).filter(move |place| plan.free >> place & 1 == 1).map(move |place| plan.cell(place))
+    }
+
+    /// Every way to put so many agents into free cells.
+    pub(crate) fn starts(&self, agents: u32) -> impl Iterator<Item = Vec<Cell>> + use<> {
+        let cells: Vec<Cell> = self.cells().collect();
+        (0..cells.len().pow(agents)).map(move |start| {
+            (0..agents).map(|agent| cells[start / cells.len().pow(agent) % cells.len()]).collect()
+        })
+    }
+
+    /// Those of `cells` that can be reached from its first one through `cells` and edges that are not `shut`.
+    pub(crate) fn spread(&self, cells: u16, is_shut: impl Fn(Edge) -> bool) -> u16 {
+        let mut reached = cells & cells.wrapping_neg();
+        let mut left: Vec<usize> = (0..CELLS).filter(|place| reached >> place & 1 == 1).collect();
+        while let Some(place) = left.pop() {
+            for side in Side::ALL {
+                let cell = self.cell(place);
+                let edge = Edge::new(cell, side);
+                let Some(next) =
+                    self.place(cell.beyond(side)).filter(|_| self.is_open(edge) && !is_shut(edge))
+                else {
+                    continue;
+                };
+                if cells >> next & 1 == 1 && reached >> next & 1 == 0 {
+                    reached |= 1 << next;
+                    left.push(next);
+                }
+            }
+        }
+        reached
+    }
+
+    /// Whether there are free cells, and all of them are connected.
+    pub(crate) fn is_one(&self) -> bool {
+        self.free != 0 && self.spread(self.free, |_| false) == self.free
+    }
+}
+
+/// All plans of so many columns and rows.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Area {
+    width: i16,
+    height: i16,
+    drawn: Drawn,
+}
+
+/// What is drawn in every way.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Drawn {
+    BlockedCells,
+    Walls,
+}
+
+impl Area {
+    /// Blocked cells are drawn in every way.
+    pub(crate) const fn blocked(width: i16, height: i16) -> Self {
+        Self { width, height, drawn: Drawn::BlockedCells }
+    }
+
+    /// Walls between free cells are drawn in every way.
+    pub(crate) const fn walled(width: i16, height: i16) -> Self {
+        Self { width, height, drawn: Drawn::Walls }
+    }
+
+    /// Every plan of which all free cells are connected.
+    pub(crate) fn plans(self) -> Box<dyn Iterator<Item = FloorPlan>> {
+        match self.drawn {
+            Drawn::BlockedCells => Box::new(blocked(self.width, self.height)),
+            Drawn::Walls => Box::new(walled(self.width, self.height)),
+        }
+    }
+}
+
+impl fmt::Display for Area {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}×{}", self.width, self.height)?;
+        match self.drawn {
+            Drawn::BlockedCells => Ok(()),
+            Drawn::Walls => f.write_str(" with walls"),
+        }
+    }
+}
+
+/// Every plan of `width` by `height` cells, blocked cells drawn in every way, of which all free cells are connected.
+pub(crate) fn blocked(width: i16, height: i16) -> impl Iterator<Item = FloorPlan> {
+    let all = open(width, height);
+    (0..=all.free)
+        .map(move |blocked| FloorPlan { free: all.free & !blocked, ..all })
+        .filter(FloorPlan::is_one)
+}
+
+/// Every plan of `width` by `height` free cells, walls drawn between them in every way, that is connected.
+fn walled(width: i16, height: i16) -> impl Iterator<Item = FloorPlan> {
+    let all = open(width, height);
+    let edges: Vec<Edge> = all
+        .cells()
+        .flat_map(|cell| [Side::East, Side::South].map(|side| Edge::new(cell, side)))
+        .filter(|&edge| all.is_open(edge))
+        .collect();
+    (0_u32..1 << edges.len())
+        .map(move |walls| {
+            let mut plan = all;
+            for edge in
+                edges.iter().enumerate().filter(|&(bit, _)| walls >> bit & 1 == 1).map(|(_, edge)| edge)
+            {
+                let place = plan.place(edge.cell()).unwrap_or_default();
+                match edge.side() {
+                    Side::East | Side::West => plan.east |= 1 << place,
+                    Side::South | Side::North => plan.south |= 1 << place,
+                }
+            }
+            plan
+        })
+        .filter(FloorPlan::is_one)
+}
+
+/// The plan of `width` by `height` free cells without walls; at most [`CELLS`] cells.
+fn open(width: i16, height: i16) -> FloorPlan {
+    let free = ((1_u32 << (width * height)) - 1) as u16;
+    FloorPlan { width, height, free, east: 0, south: 0 }
+}

@@ -1,0 +1,424 @@
+//! The search for traps (paper 004, Fig. 8): the smallest layout and the fewest missed sensors with which agents on a
+//! floor are done, or go round for ever, before every cell is explored (BRICKS-4, BRICKS-5). The agents act in the
+//! order of their ids, once each in a team move, as in a simulation; which sensors they miss is open.
+//!
+//! No miss comes before one, one before two; then areas go by their number of cells, narrow ones first, and within an
+//! area every layout of blocked cells and free cells that are all connected, every start. Of the traps in the first
+//! area that has one, the one with the fewest team moves is taken, then that of the first layout, blocked cells read
+//! as a binary number with the north-western one last. Layouts are looked at in waves of a fixed number, so that all
+//! comes out the same on any number of threads.
+
+use std::ops::ControlFlow;
+
+use rayon::prelude::*;
+use tautline_kernel::ants;
+use tautline_kernel::bricks::{Agent, Condition, Next, Rule, act};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::floor::{Mark, Scan, Sensor, settle};
+use tautline_kernel::ground::Cell;
+
+use super::plans::{CELLS, FloorPlan, blocked};
+use super::small::{Misses, Small, is_shut, marked};
+use crate::engine::outcomes;
+use crate::engine::states::{Bits, Run, Step, System, search};
+
+/// How agents decide.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Way {
+    /// By the crossings of the cells around.
+    Ants(ants::Rule),
+    /// By marking cells.
+    Bricks(Rule),
+}
+
+/// What to search for, and how far.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Bounds {
+    /// How the agents decide.
+    pub way: Way,
+    /// How many they are: one or two.
+    pub agents: u32,
+    /// Sensors that are missed in a run at most.
+    pub max_misses: u8,
+    /// Columns of the layouts at most.
+    pub max_width: i16,
+    /// Rows of the layouts at most. No area has more than [`MAX_CELLS`] cells.
+    pub max_height: i16,
+    /// The search stops after the wave of layouts in which it has made so many steps.
+    pub budget_steps: Option<u64>,
+}
+
+/// The most cells of an area.
+pub const MAX_CELLS: usize = CELLS;
+
+/// The most agents.
+pub const MAX_AGENTS: u32 = 2;
+
+/// Steps that are made in one layout before it is given up: its states then take about a gigabyte.
+const MAX_STEPS: u32 = 1 << 20;
+
+/// Layouts that are looked at together.
+const WAVE: usize = 64;
+
+/// What a search found.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Found {
+    /// Layouts that were looked at, anew for each number of misses.
+    pub layouts: u64,
+    /// States of agents and floors.
+    pub states: u64,
+    /// Team moves between them.
+    pub steps: u64,
+    /// Numbers of misses, from none on, with which every layout was covered.
+    pub levels: u8,
+    /// Whether the search came to its end: the smallest trap, or all there is within the bounds.
+    pub is_complete: bool,
+    /// The smallest trap.
+    pub trap: Option<Trap>,
+}
+
+/// A run that ends, or never ends, before every cell is explored.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Trap {
+    /// Columns.
+    pub width: i16,
+    /// Rows.
+    pub height: i16,
+    /// Cells that are blocked, row by row.
+    pub blocked: Vec<Cell>,
+    /// Where each agent starts.
+    pub starts: Vec<Cell>,
+    /// Which sensors are missed: the numbers of the questions, counted from 1, that are answered yes. An agent asks once
+    /// for each sensor around it that is not that of an unexplored cell, clockwise from the northern one.
+    pub missed: Vec<u32>,
+    /// Team moves, up to the one in which an agent is done or from which on they go round.
+    pub moves: u32,
+    /// How they are trapped.
+    pub end: End,
+}
+
+/// How agents are trapped.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum End {
+    /// One of them is done.
+    Done,
+    /// They go round for ever.
+    Endless,
+}
+
+const DONE: &str = "an agent is done only when every cell is explored";
+const ENDLESS: &str = "every cell is explored in the end";
+
+/// The smallest trap within `bounds`. `watch` hears after each wave what has been found, and may end the search.
+pub fn hunt(bounds: &Bounds, watch: &mut dyn FnMut(&Found) -> ControlFlow<()>) -> Found {
+    let mut found = Found::default();
+    for misses in 0..=bounds.max_misses {
+        for (width, height) in areas(bounds) {
+            if found.look(bounds, misses, (width, height), watch).is_break() {
+                return Found { trap: None, ..found };
+            }
+            if found.trap.is_some() {
+                found.is_complete = true;
+                return found;
+            }
+        }
+        found.levels += 1;
+    }
+    found.is_complete = true;
+    found
+}
+
+/// The areas, the smallest first.
+fn areas(bounds: &Bounds) -> Vec<(i16, i16)> {
+    let mut areas: Vec<(i16, i16)> = (1..=bounds.max_width)
+        .flat_map(|width| (1..=bounds.max_height).map(move |height| (width, height)))
+        .filter(|&(width, height)| width as usize * height as usize <= MAX_CELLS)
+        .collect();
+    areas.sort_unstable_by_key(|&(width, height)| (width * height, width));
+    areas
+}
+
+impl Found {
+    /// Looks at all layouts of an area, if it may get to their end.
+    fn look(
+        &mut self,
+        bounds: &Bounds,
+        misses: u8,
+        (width, height): (i16, i16),
+        watch: &mut dyn FnMut(&Self) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let mut plans = blocked(width, height).peekable();
+        while plans.peek().is_some() {
+            let left = bounds.budget_steps.map_or(u64::MAX, |budget| budget.saturating_sub(self.steps));
+            let most_steps = left.min(MAX_STEPS.into()) as u32;
+            if left == 0 {
+                return ControlFlow::Break(());
+            }
+            let wave: Vec<FloorPlan> = plans.by_ref().take(WAVE).collect();
+            let looks: Vec<Look> = wave
+                .into_par_iter()
+                .map(|plan| Floors { way: bounds.way, plan, misses }.look(bounds.agents, most_steps))
+                .collect();
+            let mut is_whole = true;
+            for look in looks {
+                self.layouts += 1;
+                self.states += look.states;
+                self.steps += look.steps;
+                is_whole &= look.is_whole;
+                let is_smaller =
+                    |trap: &Trap| self.trap.as_ref().is_none_or(|smallest| trap.moves < smallest.moves);
+                self.trap = look.trap.filter(is_smaller).or(self.trap.take());
+            }
+            if !is_whole {
+                return ControlFlow::Break(());
+            }
+            watch(self)?;
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+/// What was found in one layout.
+struct Look {
+    states: u64,
+    steps: u64,
+    is_whole: bool,
+    trap: Option<Trap>,
+}
+
+/// An agent on the floor.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+struct Body {
+    agent: Agent,
+    cell: Cell,
+    is_done: bool,
+}
+
+/// A floor and its agents.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+struct State {
+    sensors: [Sensor; CELLS],
+    placed: [u8; CELLS],
+    bodies: Vec<Body>,
+    misses: u8,
+}
+
+/// The floors of one plan: a system whose steps are team moves.
+struct Floors {
+    way: Way,
+    plan: FloorPlan,
+    misses: u8,
+}
+
+impl Floors {
+    /// Looks at every start.
+    fn look(&self, agents: u32, most_steps: u32) -> Look {
+        let starts: Vec<Vec<Cell>> = self.plan.starts(agents).collect();
+        let found = search(self, starts.iter().map(|cells| self.start(cells)), most_steps);
+        let trap = found.broken.first().map(|run| self.trap(&starts, run));
+        Look { states: found.states, steps: found.steps, is_whole: found.is_whole, trap }
+    }
+
+    fn start(&self, cells: &[Cell]) -> State {
+        let (mut sensors, mut placed) = ([Sensor::default(); CELLS], [0; CELLS]);
+        let mut floor = Small { plan: &self.plan, sensors: &mut sensors, placed: &mut placed };
+        settle(&mut floor, cells);
+        let bodies = (0..).zip(cells).map(|(id, &cell)| Body { agent: Agent::new(id), cell, is_done: false });
+        let mut state = State { sensors, placed, bodies: bodies.collect(), misses: 0 };
+        self.forget(&mut state);
+        state
+    }
+
+    fn has(&self, condition: Condition) -> bool {
+        match self.way {
+            Way::Ants(_) => false,
+            Way::Bricks(rule) => rule.has(condition),
+        }
+    }
+
+    /// What no agent ever reads is left out of the state.
+    fn forget(&self, state: &mut State) {
+        if !self.has(Condition::SeenOnly) {
+            state.placed = [0; CELLS];
+            state.sensors.iter_mut().for_each(|sensor| sensor.serial = 0);
+        }
+        let are_crossings_read = match self.way {
+            Way::Ants(_) => true,
+            Way::Bricks(rule) => rule.has(Condition::LeastCrossed),
+        };
+        if !are_crossings_read {
+            state.sensors.iter_mut().for_each(|sensor| sensor.crossings = 0);
+        } else if state.misses == self.misses {
+            self.forget_in_trap(state);
+        }
+    }
+
+    /// Where agents can get to no unexplored cell any more no sensor is placed any more, so that only the differences
+    /// between crossings count.
+    fn forget_in_trap(&self, state: &mut State) {
+        let awake = state.bodies.iter().filter(|body| !body.is_done);
+        let under =
+            awake.filter_map(|body| self.plan.place(body.cell)).fold(0, |set, place| set | 1 << place);
+        let mut rest = under | self.marked(state, |mark| self.is_passable(mark));
+        let unexplored = self.marked(state, |mark| mark == Mark::Unexplored);
+        let mut least = [0; CELLS];
+        while rest != 0 {
+            let part = self.plan.spread(rest, |edge| is_shut(&self.plan, &state.sensors, edge));
+            rest &= !part;
+            if part & under == 0 {
+                continue;
+            }
+            if part & unexplored != 0 {
+                return;
+            }
+            let places = || (0..CELLS).filter(|place| part >> place & 1 == 1);
+            let fewest = places().map(|place| state.sensors[place].crossings).min().unwrap_or(0);
+            places().for_each(|place| least[place] = fewest);
+        }
+        for (sensor, least) in state.sensors.iter_mut().zip(least) {
+            sensor.crossings -= least;
+        }
+    }
+
+    const fn is_passable(&self, mark: Mark) -> bool {
+        match (mark, self.way) {
+            (Mark::Unexplored | Mark::Explored | Mark::Closing, _) | (Mark::Visited, Way::Ants(_)) => true,
+            (Mark::Visited, Way::Bricks(rule)) => rule.has(Condition::SecondPass),
+            (Mark::Sealed, _) => false,
+        }
+    }
+
+    fn marked(&self, state: &State, is: impl Fn(Mark) -> bool) -> u16 {
+        marked(&self.plan, &state.sensors, is)
+    }
+
+    fn is_explored(&self, state: &State) -> bool {
+        self.marked(state, |mark| mark == Mark::Unexplored) == 0
+    }
+
+    /// Makes a team move; whether an agent is done in it while a cell is unexplored.
+    fn advance(&self, state: &mut State, world: &mut dyn Oracle) -> bool {
+        let mut is_early = false;
+        for number in 0..state.bodies.len() {
+            let State { sensors, placed, bodies, misses: _ } = &mut *state;
+            let body = &mut bodies[number];
+            if body.is_done {
+                continue;
+            }
+            let mut floor = Small { plan: &self.plan, sensors, placed };
+            match self.way {
+                Way::Ants(rule) => {
+                    let scan = Scan::new(&floor, body.cell, world);
+                    if let Some(side) = ants::act(rule, &mut floor, body.cell, &scan) {
+                        body.cell = body.cell.beyond(side);
+                    }
+                }
+                Way::Bricks(rule) => {
+                    let (act, cell) = act(rule, &mut floor, &mut body.agent, body.cell, world);
+                    (body.cell, body.is_done) = (cell, act.next == Next::Done);
+                    is_early |= body.is_done && !self.is_explored(state);
+                }
+            }
+        }
+        is_early
+    }
+
+    /// Every team move from `state`; none once the run is over.
+    fn moves(&self, state: &State) -> impl Iterator<Item = Moved> {
+        outcomes(|world| {
+            if self.awake(state) == 0 || self.is_explored(state) {
+                return None;
+            }
+            let (mut next, mut misses) = (state.clone(), state.misses);
+            let eyes = Misses { world, count: &mut misses, most: self.misses };
+            let mut questions = Questions { eyes, asked: 0, missed: Vec::new() };
+            let is_early = self.advance(&mut next, &mut questions);
+            let Questions { asked, missed, .. } = questions;
+            next.misses = misses;
+            self.forget(&mut next);
+            Some(Moved { state: next, is_early, asked, missed })
+        })
+        .flatten()
+    }
+
+    /// The trap that `run` is, from one of `starts`.
+    fn trap(&self, starts: &[Vec<Cell>], run: &Run<&str>) -> Trap {
+        let starts = starts[run.start].clone();
+        let mut state = self.start(&starts);
+        let (mut asked, mut missed) = (0, Vec::new());
+        for &number in &run.steps {
+            let Some(moved) = self.moves(&state).nth(number as usize) else { break };
+            missed.extend(moved.missed.iter().map(|question| asked + question));
+            asked += moved.asked;
+            state = moved.state;
+        }
+        let area = (0..self.plan.width * self.plan.height).map(|place| self.plan.cell(place as usize));
+        Trap {
+            width: self.plan.width,
+            height: self.plan.height,
+            blocked: area.filter(|&cell| self.plan.place(cell).is_none()).collect(),
+            starts,
+            missed,
+            moves: run.steps.len() as u32,
+            end: if run.demand == ENDLESS { End::Endless } else { End::Done },
+        }
+    }
+}
+
+/// What a team move leads to.
+struct Moved {
+    state: State,
+    /// Whether an agent is done in it while a cell is unexplored.
+    is_early: bool,
+    /// Questions that were asked in it.
+    asked: u32,
+    /// The numbers of those that were answered yes, counted from 1.
+    missed: Vec<u32>,
+}
+
+/// Counts the questions, and notes which are answered yes.
+struct Questions<'a> {
+    eyes: Misses<'a>,
+    asked: u32,
+    missed: Vec<u32>,
+}
+
+impl Oracle for Questions<'_> {
+    fn pick(&mut self, below: u32) -> u32 {
+        self.eyes.pick(below)
+    }
+
+    fn mishap(&mut self) -> bool {
+        self.asked += 1;
+        let is_missed = self.eyes.mishap();
+        self.missed.extend(is_missed.then_some(self.asked));
+        is_missed
+    }
+}
+
+impl System for Floors {
+    type State = State;
+    type Key = State;
+    type Demand = &'static str;
+
+    fn key(&self, state: &State) -> State {
+        state.clone()
+    }
+
+    fn steps(&self, state: &State) -> impl Iterator<Item = Step<State, &'static str>> {
+        let step = |Moved { state, is_early, .. }: Moved| {
+            let breaks = if is_early { vec![DONE] } else { Vec::new() };
+            Step { state, situation: "a team move", acting: 1, is_bound: true, breaks }
+        };
+        self.moves(state).map(step)
+    }
+
+    fn broken_by_endless_runs(&self) -> Option<&'static str> {
+        Some(ENDLESS)
+    }
+
+    /// The team as a whole: all that are not done act in every step.
+    fn awake(&self, state: &State) -> Bits {
+        state.bodies.iter().any(|body| !body.is_done).into()
+    }
+}

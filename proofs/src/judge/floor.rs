@@ -1,0 +1,185 @@
+//! The judge of counterexamples of agents on a sensor floor. It reads a layout, where the agents start and what they do,
+//! turn by turn, as anyone may write it down, and decides from the sentences of `SPEC.md` whether BRICKS-4, BRICKS-5 or
+//! BRICKS-6 is broken by it. It knows walls and where agents have been, and nothing of marks: it shares no code with the
+//! rules, so it does not say whether a rule makes the agents act so. Whoever asks it plays the rule, too.
+
+use std::collections::BTreeSet;
+use std::fmt;
+
+/// Column and row.
+pub type Place = (i32, i32);
+
+/// A counterexample, written down.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Exhibit {
+    /// The clause that it is said to break.
+    pub clause: String,
+    /// Columns of the layout.
+    pub width: i32,
+    /// Rows of the layout.
+    pub height: i32,
+    /// Pairs of neighbouring cells, the western or northern first, with a wall between them.
+    pub walls: BTreeSet<(Place, Place)>,
+    /// Cells that nobody can enter.
+    pub blocked: BTreeSet<Place>,
+    /// Where each agent starts.
+    pub starts: Vec<Place>,
+    /// What they do.
+    pub turns: Vec<Turn>,
+    /// The last of the turns that are said to come again for ever; 0 if the run ends.
+    pub round: usize,
+}
+
+/// What one agent does.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Turn {
+    /// Its place among the agents.
+    pub agent: usize,
+    /// Where it is then.
+    pub to: Place,
+    /// Whether it is done from then on.
+    pub is_done: bool,
+}
+
+/// What the judge says of an exhibit in which everything is possible.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Judgement {
+    /// The clause is broken.
+    Broken,
+    /// Whether it is broken is a matter of marks, which the judge does not know.
+    Unseen,
+}
+
+/// Why an exhibit is no counterexample: the sentence, and the turn that it is about, counted from 1; 0 for the exhibit
+/// as a whole.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Objection {
+    /// The turn.
+    pub at: usize,
+    /// What is wrong.
+    pub what: &'static str,
+}
+
+impl fmt::Display for Objection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.at {
+            0 => f.write_str(self.what),
+            at => write!(f, "turn {at}: {}", self.what),
+        }
+    }
+}
+
+impl std::error::Error for Objection {}
+
+/// Judges an exhibit: whether every turn is possible in its layout, and whether the last one, and no earlier one, breaks
+/// the clause; or whether it is broken by how the run ends, or by going round for ever.
+///
+/// # Errors
+/// The first [`Objection`].
+pub fn judge(exhibit: &Exhibit) -> Result<Judgement, Objection> {
+    let whole = |what| Objection { at: 0, what };
+    let Exhibit { clause, starts, turns, round, .. } = exhibit;
+    if starts.is_empty() || turns.is_empty() || *round > turns.len() {
+        return Err(whole("a counterexample needs an agent and its turns"));
+    }
+    if !starts.iter().all(|&start| exhibit.is_free(start)) {
+        return Err(whole("an agent starts where there is no free cell"));
+    }
+    let due = exhibit.connected();
+    let mut court =
+        Court { places: starts.clone(), done: vec![false; starts.len()], explored: BTreeSet::new() };
+    court.explored.extend(starts);
+    let home = turns.len() - round;
+    let (mut before, mut acting) = (None, BTreeSet::new());
+    for (index, turn) in turns.iter().enumerate() {
+        if index == home {
+            before = Some(court.clone());
+        }
+        court.hear(exhibit, turn).map_err(|what| Objection { at: index + 1, what })?;
+        acting.extend((index >= home).then_some(turn.agent));
+        let is_early = turn.is_done && !due.is_subset(&court.explored);
+        if clause == "BRICKS-4" && is_early && index + 1 < turns.len() {
+            return Err(Objection { at: index + 1, what: "the clause is broken before the last turn" });
+        }
+    }
+    let is_unexplored = !due.is_subset(&court.explored);
+    let is_over = court.done.iter().all(|&is_done| is_done);
+    let goes_round = before.is_some_and(|before| {
+        let acts = |agent: usize| before.done[agent] || acting.contains(&agent);
+        before == court && (0..starts.len()).all(acts) && !is_over
+    });
+    let last_is_done = turns.last().is_some_and(|turn| turn.is_done);
+    match (clause.as_str(), *round) {
+        ("BRICKS-4", 0) if last_is_done && is_unexplored => Ok(Judgement::Broken),
+        ("BRICKS-4", 0) if last_is_done => Ok(Judgement::Unseen),
+        ("BRICKS-4", _) => Err(whole("in the last turn no agent is done")),
+        ("BRICKS-5" | "BRICKS-6", 0) if is_over && is_unexplored => Ok(Judgement::Broken),
+        ("BRICKS-5", 0) => Err(whole("the run is not over, or every cell is explored")),
+        ("BRICKS-6", 0) if is_over => Ok(Judgement::Unseen),
+        ("BRICKS-6", 0) => Err(whole("the run is not over")),
+        ("BRICKS-5" | "BRICKS-6", _) if !goes_round => {
+            Err(whole("the last turns do not come back to where they began, or leave an agent out"))
+        }
+        ("BRICKS-5", _) if !is_unexplored => Err(whole("every cell is explored")),
+        ("BRICKS-5" | "BRICKS-6", _) => Ok(Judgement::Broken),
+        _ => Ok(Judgement::Unseen),
+    }
+}
+
+impl Exhibit {
+    fn is_free(&self, place: Place) -> bool {
+        let (x, y) = place;
+        (0..self.width).contains(&x) && (0..self.height).contains(&y) && !self.blocked.contains(&place)
+    }
+
+    /// Whether an agent can go from one cell to the other in one turn.
+    fn is_open(&self, from: Place, to: Place) -> bool {
+        let is_beside = (from.0 - to.0).abs() + (from.1 - to.1).abs() == 1;
+        is_beside
+            && self.is_free(from)
+            && self.is_free(to)
+            && !self.walls.contains(&(from.min(to), from.max(to)))
+    }
+
+    /// The cells that are connected with the start of an agent.
+    fn connected(&self) -> BTreeSet<Place> {
+        let mut found = BTreeSet::new();
+        let mut left = self.starts.clone();
+        while let Some(place) = left.pop() {
+            if found.insert(place) {
+                let (x, y) = place;
+                let beside = [(x, y - 1), (x + 1, y), (x, y + 1), (x - 1, y)];
+                left.extend(beside.into_iter().filter(|&next| self.is_open(place, next)));
+            }
+        }
+        found
+    }
+}
+
+/// What is seen of the agents.
+#[derive(Clone, PartialEq, Eq)]
+struct Court {
+    places: Vec<Place>,
+    done: Vec<bool>,
+    explored: BTreeSet<Place>,
+}
+
+impl Court {
+    fn hear(&mut self, exhibit: &Exhibit, turn: &Turn) -> Result<(), &'static str> {
+        let &Turn { agent, to, is_done } = turn;
+        let Some(&from) = self.places.get(agent) else { return Err("there is no such agent") };
+        if self.done[agent] {
+            return Err("an agent acts that is done");
+        }
+        if to != from && !exhibit.is_open(from, to) {
+            return Err("an agent goes where it cannot go");
+        }
+        if is_done && to != from {
+            return Err("an agent that goes is not done");
+        }
+        self.places[agent] = to;
+        self.done[agent] = is_done;
+        self.explored.insert(to);
+        Ok(())
+    }
+}

@@ -1,0 +1,304 @@
+//! The clauses of MRC, in the order of `SPEC.md`.
+
+use tautline_kernel::mrc::Condition::{
+    AnswersAgain, ChoiceStands, Consent, Epochs, LeastIdentity, NearestCall, NearestRobot, Renewal,
+    Repetition, StillAsks, Window,
+};
+use tautline_kernel::mrc::Rule;
+
+use super::within::Within;
+use super::{Demand, Faults, Leases, Lossy, Misread, Observed, Setting, records};
+use crate::clause::{Check, Clause, Named};
+use crate::decide::{Exhaustive, Verdict};
+
+const PUBLISHED: Named<Observed> = Named::new("published", Observed::rescuing(Rule::PUBLISHED));
+const REPAIRED: Named<Observed> = Named::new("repaired", Observed::rescuing(Rule::REPAIRED));
+
+const RECORDS: Check<Observed> = Check::new(
+    REPAIRED,
+    &Exhaustive { body: records::records, range: records::notices, covers: &["one call", "several calls"] },
+    Verdict::Holds,
+    &[Named::new("no epoch", NO_EPOCH)],
+);
+
+const SERVED: Check<Observed> = Check::new(
+    REPAIRED,
+    &Exhaustive {
+        body: records::served,
+        range: records::answers,
+        covers: &["asked in vain", "no SBit", "told of a choice"],
+    },
+    Verdict::Holds,
+    &[Named::new("no epoch", NO_EPOCH)],
+);
+
+const WAYS_BACK: Check<Observed> = Check::new(
+    REPAIRED,
+    &Exhaustive {
+        body: records::ways_back,
+        range: records::messages,
+        covers: &["a way back", "no way back"],
+    },
+    Verdict::Holds,
+    &[
+        Named::new("all robots are one", Observed::misreading(Misread::OneRobot)),
+        Named::new("all calls are one", Observed::misreading(Misread::OneCall)),
+    ],
+);
+
+const REDECIDE: Observed = Observed::rescuing(Rule::REPAIRED.without(ChoiceStands));
+const FIRST_OF_EQUALS: Observed = Observed::rescuing(Rule::REPAIRED.without(LeastIdentity));
+const NO_EPOCH: Observed = Observed::rescuing(Rule::REPAIRED.without(Epochs));
+const NO_CONSENT: Observed = Observed::rescuing(Rule::REPAIRED.without(Consent));
+
+/// The settings of a rescue.
+const TWO: Setting = Setting {
+    rule: Rule::REPAIRED,
+    robots: 2,
+    wfrs: 2,
+    events: 2,
+    max_hops: 2,
+    faults: Faults::any(1),
+    lossy: Lossy::All,
+    leases: Leases::UntilCalled,
+};
+const TWO_LONGER: Setting = Setting { events: 3, max_hops: 1, ..TWO };
+const THREE_AND_TWO: Setting = Setting { robots: 3, max_hops: 1, ..TWO };
+const TWO_AND_ONE: Setting = Setting { wfrs: 1, ..TWO };
+const ONE_AND_TWO: Setting = Setting { robots: 1, events: 3, ..TWO };
+const ONE_AND_THREE: Setting = Setting { robots: 1, wfrs: 3, events: 3, ..TWO };
+
+/// The clauses.
+pub static CLAUSES: [Clause; 12] = [
+    Clause {
+        id: "MRC-1",
+        sentence: "Two robots MUST never be on their way for the same call of a WFR.",
+        checks: &[
+            &Check::new(PUBLISHED, &Within(Demand::OneRobotForACall, TWO_AND_ONE), Verdict::Refuted, &[]),
+            &Check::new(
+                REPAIRED,
+                &Within(Demand::OneRobotForACall, TWO),
+                Verdict::Holds,
+                &[Named::new("redecide on a late MOVE", REDECIDE)],
+            ),
+            &Check::new(REPAIRED, &Within(Demand::OneRobotForACall, TWO_LONGER), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &Within(Demand::OneRobotForACall, THREE_AND_TWO), Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-2",
+        sentence: "Two WFRs MUST never count on the same robot.",
+        checks: &[
+            &Check::new(PUBLISHED, &Within(Demand::OneCallForARobot, ONE_AND_TWO), Verdict::Refuted, &[]),
+            &Check::new(
+                REPAIRED,
+                &Within(Demand::OneCallForARobot, TWO),
+                Verdict::Holds,
+                &[Named::new("no consent", NO_CONSENT)],
+            ),
+            &Check::new(REPAIRED, &Within(Demand::OneCallForARobot, TWO_LONGER), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &Within(Demand::OneCallForARobot, THREE_AND_TWO), Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-3",
+        sentence: "A WFR MUST choose the best of the MOVEs that it has received when its window closes.",
+        checks: &[
+            &Check::new(PUBLISHED, &Within(Demand::BestOfTheWindow, TWO_AND_ONE), Verdict::Refuted, &[]),
+            &Check::new(
+                REPAIRED,
+                &Within(Demand::BestOfTheWindow, TWO),
+                Verdict::Holds,
+                &[
+                    Named::new("no collection window", Observed::rescuing(Rule::REPAIRED.without(Window))),
+                    Named::new("redecide on a late MOVE", REDECIDE),
+                    Named::new(
+                        "the least MID, however far",
+                        Observed::rescuing(Rule::REPAIRED.without(NearestRobot)),
+                    ),
+                    Named::new("of equal MHC the first heard", FIRST_OF_EQUALS),
+                    Named::new(
+                        "the first MOVE heard",
+                        Observed::rescuing(Rule::REPAIRED.without(NearestRobot).without(LeastIdentity)),
+                    ),
+                    Named::new("no epoch", NO_EPOCH),
+                ],
+            ),
+            &Check::new(REPAIRED, &Within(Demand::BestOfTheWindow, TWO_LONGER), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &Within(Demand::BestOfTheWindow, THREE_AND_TWO), Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-4",
+        sentence: "A WFR MUST count on a robot only if the robot has taken the lease of its call.",
+        checks: &[
+            &Check::new(PUBLISHED, &Within(Demand::CountsOnConsent, TWO_AND_ONE), Verdict::Refuted, &[]),
+            &Check::new(
+                REPAIRED,
+                &Within(Demand::CountsOnConsent, TWO),
+                Verdict::Holds,
+                &[Named::new("no consent", NO_CONSENT)],
+            ),
+            &Check::new(REPAIRED, &Within(Demand::CountsOnConsent, TWO_LONGER), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &Within(Demand::CountsOnConsent, THREE_AND_TWO), Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-5",
+        sentence: "A WFR that waits MUST be rescued in the end, as long as a robot lives that its calls reach.",
+        checks: &[
+            &Check::new(PUBLISHED, &Within(Demand::IsServed, TWO_AND_ONE), Verdict::Refuted, &[]),
+            &Check::new(
+                REPAIRED,
+                &Within(Demand::IsServed, TWO_AND_ONE),
+                Verdict::Holds,
+                &[
+                    Named::new("no renewal", Observed::rescuing(Rule::REPAIRED.without(Renewal))),
+                    Named::new("no epoch", NO_EPOCH),
+                ],
+            ),
+            &Check::new(
+                REPAIRED,
+                &Within(Demand::IsServed, ONE_AND_TWO),
+                Verdict::Holds,
+                &[Named::new(
+                    "late MOVEs unanswered",
+                    Observed::rescuing(Rule::REPAIRED.without(AnswersAgain).without(Repetition)),
+                )],
+            ),
+            &Check::new(REPAIRED, &Within(Demand::IsServed, TWO), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &Within(Demand::IsServed, TWO_LONGER), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &Within(Demand::IsServed, THREE_AND_TWO), Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-6",
+        sentence: "A robot that hears a call under a new epoch MUST have its SBit clear.",
+        checks: &[
+            &Check::new(PUBLISHED, &Within(Demand::AsksAnew, TWO_AND_ONE), Verdict::Refuted, &[]),
+            &Check::new(
+                REPAIRED,
+                &Within(Demand::AsksAnew, TWO),
+                Verdict::Holds,
+                &[Named::new("no epoch", NO_EPOCH)],
+            ),
+            &Check::new(REPAIRED, &Within(Demand::AsksAnew, TWO_LONGER), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &Within(Demand::AsksAnew, THREE_AND_TWO), Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-7",
+        sentence: "A free robot MUST ask for the nearest of the calls that it has heard and whose SBit is clear, until it is \
+                   set.",
+        checks: &[
+            &Check::new(
+                PUBLISHED,
+                &Within(Demand::AsksNearest, ONE_AND_THREE),
+                Verdict::Holds,
+                &[
+                    Named::new(
+                        "the least SN, however far",
+                        Observed::rescuing(Rule::PUBLISHED.without(NearestCall)),
+                    ),
+                    Named::new(
+                        "of equal HC the first heard",
+                        Observed::rescuing(Rule::PUBLISHED.without(LeastIdentity)),
+                    ),
+                ],
+            ),
+            &Check::new(
+                REPAIRED,
+                &Within(Demand::AsksNearest, TWO),
+                Verdict::Holds,
+                &[
+                    Named::new(
+                        "the least SN, however far",
+                        Observed::rescuing(Rule::REPAIRED.without(NearestCall)),
+                    ),
+                    Named::new("of equal HC the first heard", FIRST_OF_EQUALS),
+                    Named::new(
+                        "the first call heard",
+                        Observed::rescuing(Rule::REPAIRED.without(NearestCall).without(LeastIdentity)),
+                    ),
+                ],
+            ),
+            &Check::new(REPAIRED, &Within(Demand::AsksNearest, ONE_AND_THREE), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &Within(Demand::AsksNearest, THREE_AND_TWO), Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-8",
+        sentence: "A robot MUST take the lease of a call only when it is told, while it asks for that call, that it is \
+                   chosen.",
+        checks: &[
+            &Check::new(PUBLISHED, &Within(Demand::TakesWhatItAsksFor, TWO_AND_ONE), Verdict::Refuted, &[]),
+            &Check::new(
+                REPAIRED,
+                &Within(Demand::TakesWhatItAsksFor, TWO),
+                Verdict::Holds,
+                &[
+                    Named::new(
+                        "it no longer asks, and accepts",
+                        Observed::rescuing(Rule::REPAIRED.without(StillAsks)),
+                    ),
+                    Named::new("no consent", NO_CONSENT),
+                ],
+            ),
+            &Check::new(REPAIRED, &Within(Demand::TakesWhatItAsksFor, TWO_LONGER), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &Within(Demand::TakesWhatItAsksFor, THREE_AND_TWO), Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-9",
+        sentence: "A WFR MUST tell its choice to every robot whose MOVE of its call it has received, and to no other.",
+        checks: &[
+            &Check::new(PUBLISHED, &Within(Demand::TellsWhoAsked, TWO_AND_ONE), Verdict::Refuted, &[]),
+            &Check::new(
+                REPAIRED,
+                &Within(Demand::TellsWhoAsked, TWO),
+                Verdict::Holds,
+                &[Named::new(
+                    "late MOVEs unanswered",
+                    Observed::rescuing(Rule::REPAIRED.without(AnswersAgain)),
+                )],
+            ),
+            &Check::new(REPAIRED, &Within(Demand::TellsWhoAsked, TWO_LONGER), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &Within(Demand::TellsWhoAsked, THREE_AND_TWO), Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "MRC-10",
+        sentence: "Of each WFR a robot MUST record the newest call that it has heard, one hop more than the fewest under \
+                   it and the first node that told it so, and bid by that record.",
+        checks: &[&Check { about: PUBLISHED, expected: Verdict::Refuted, mutants: &[], ..RECORDS }, &RECORDS],
+    },
+    Clause {
+        id: "MRC-11",
+        sentence: "A path node MUST send a robot's message on to its own parent, and a RESB of the robot's newest call to \
+                   whom the robot's latest message of it came from.",
+        checks: &[&WAYS_BACK],
+    },
+    Clause {
+        id: "MRC-12",
+        sentence: "A robot MUST set the SBit of a call when it is told whom the WFR has chosen or has asked in vain, and \
+                   keep it until it hears a newer call.",
+        checks: &[&SERVED],
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::clause::AnyCheck;
+    use crate::decide::Memory;
+    use crate::engine::tree::unwatched;
+
+    #[test]
+    fn whatever_one_machine_hears_the_clauses_hold_and_their_mutants_are_rejected() {
+        for check in [&RECORDS, &SERVED, &WAYS_BACK] {
+            let decision =
+                check.decide(&mut Memory::default(), &mut unwatched).expect("a body can be decided");
+            assert!(decision.is_as_registered(check), "{}: {decision:?}", check.bound());
+        }
+    }
+}

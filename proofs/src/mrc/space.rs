@@ -1,0 +1,239 @@
+//! All states of a [`Setting`], fewest actions first, and in them the shortest run that breaks each demand. That a WFR is
+//! served in the end (MRC-5) is broken by a state in which nothing more is bound to happen, or by states in which it
+//! waits and that can go round for ever, nothing being left out that is bound to happen: no timer that runs, no robot on
+//! its way, and no message between a robot and a WFR between whom there is one throughout.
+
+use super::state::{Action, Actor, Demand, Message, ROBOTS, Setting, State, WFRS, place};
+use crate::engine::states::{self, Bits, Run, Step, System};
+use crate::engine::{Choices, Script, Unfit};
+
+/// When to stop.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Until {
+    /// When all states are known.
+    Exhausted,
+    /// When this demand is broken; whether a WFR is served in the end is told by all states.
+    Broken(Demand),
+}
+
+/// How a run breaks a demand.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Ending {
+    /// Its last state does.
+    There,
+    /// Nothing more is bound to happen.
+    Still,
+    /// These actions lead from its last state back to it.
+    Round(Vec<Action>),
+}
+
+/// The shortest run that breaks a demand.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Broken {
+    /// Which.
+    pub demand: Demand,
+    /// Which of [`Setting::starts`] it starts from.
+    pub start: usize,
+    /// What happens.
+    pub actions: Vec<Action>,
+    /// How it ends.
+    pub ending: Ending,
+}
+
+/// What the states have shown.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Found {
+    /// States.
+    pub states: u64,
+    /// Steps from state to state.
+    pub steps: u64,
+    /// Whether the search came to its end, and not to the most steps that it may make.
+    pub complete: bool,
+    /// The demands that are broken, each by its shortest run.
+    pub broken: Vec<Broken>,
+}
+
+impl Found {
+    /// The shortest run that breaks `demand`.
+    pub fn broken(&self, demand: Demand) -> Option<&Broken> {
+        self.broken.iter().find(|broken| broken.demand == demand)
+    }
+}
+
+/// Searches all states of `setting`, until `most_steps` are made.
+pub fn search(setting: &Setting, until: Until, most_steps: u32) -> Found {
+    let space = Space { setting: *setting, until };
+    let found = states::search(&space, setting.starts(), most_steps);
+    let mut broken: Vec<Broken> = found.broken.into_iter().map(|run| space.broken(run)).collect();
+    broken.sort_by_key(|broken| broken.demand);
+    Found { states: found.states, steps: found.steps, complete: found.is_whole, broken }
+}
+
+/// Plays a run that breaks `demand` again: from how many each choice was made, and the run.
+pub(crate) fn replay(
+    setting: &Setting,
+    demand: Demand,
+    mut script: Script<'_>,
+) -> Result<(Vec<u32>, Broken), Unfit> {
+    let space = Space { setting: *setting, until: Until::Broken(demand) };
+    let mut starts = setting.starts();
+    let number = script.choose(starts.len())?;
+    let start = (number, starts.swap_remove(number));
+    let (of, run) = script.play(&space, start, |&broken| broken == demand)?;
+    Ok((of, space.broken(run)))
+}
+
+impl Broken {
+    /// The choices that make this run in `setting`.
+    pub fn choices(&self, setting: &Setting) -> Choices {
+        let mut state = setting.start(self.start as u32);
+        let mut numbers = |actions: &[Action]| -> Vec<u32> {
+            let number = |&action: &Action| {
+                let number = state.actions(setting).iter().position(|&other| other == action)?;
+                state = state.after(setting, action);
+                Some(number as u32)
+            };
+            actions.iter().map_while(number).collect()
+        };
+        let once = [&[self.start as u32], &numbers(&self.actions)[..]].concat();
+        let again = match &self.ending {
+            Ending::There | Ending::Still => Vec::new(),
+            Ending::Round(round) => numbers(round),
+        };
+        Choices { once, again }
+    }
+}
+
+/// The states of a setting.
+struct Space {
+    setting: Setting,
+    until: Until,
+}
+
+const fn bit(actor: Actor) -> Bits {
+    match actor {
+        Actor::Robot(robot) => 1 << robot,
+        Actor::Wfr(wfr) => 1 << (ROBOTS + wfr),
+    }
+}
+
+/// The bit of the messages between a robot and a WFR.
+const fn between(message: Message) -> Bits {
+    let (robot, wfr) = (message.robot().0 as usize, place(message.call().wfr));
+    1 << (ROBOTS + WFRS + robot * WFRS + wfr)
+}
+
+/// The messages of which `action` lets one arrive.
+fn arriving(state: &State, action: Action) -> Bits {
+    match action {
+        Action::Deliver(at) => between(state.network()[at]),
+        Action::Raise(_)
+        | Action::Expire(_)
+        | Action::Arrive(_)
+        | Action::Lapse(_)
+        | Action::Lose(_)
+        | Action::Duplicate(_)
+        | Action::FailRobot(_)
+        | Action::FailNode { .. } => 0,
+    }
+}
+
+/// The actors of whom that is so.
+fn actors(is: impl Fn(Actor) -> bool) -> Bits {
+    let all = (0..ROBOTS).map(Actor::Robot).chain((0..WFRS).map(Actor::Wfr));
+    all.filter(|&actor| is(actor)).map(bit).sum()
+}
+
+/// Whether `actor` is no longer before what it was before `action`: its timer, or the end of its way.
+fn has_turned(before: &State, action: Action, after: &State, actor: Actor) -> bool {
+    action == Action::Expire(actor)
+        || match actor {
+            Actor::Robot(robot) => {
+                before.robots[robot].timer() != after.robots[robot].timer()
+                    || before.comes_for(robot) != after.comes_for(robot)
+            }
+            Actor::Wfr(wfr) => before.wfrs[wfr].timer() != after.wfrs[wfr].timer(),
+        }
+}
+
+impl Space {
+    /// Whether it is looked for WFRs that wait for ever.
+    fn looks_for_service(&self) -> bool {
+        match self.until {
+            Until::Exhausted => true,
+            Until::Broken(demand) => demand == Demand::IsServed,
+        }
+    }
+
+    /// What happens in a run.
+    fn broken(&self, run: Run<Demand>) -> Broken {
+        let mut state = self.setting.start(run.start as u32);
+        let mut played = |numbers: Vec<u32>| -> Vec<Action> {
+            let play = |number: u32| {
+                let action = *state.actions(&self.setting).get(number as usize)?;
+                state = state.after(&self.setting, action);
+                Some(action)
+            };
+            numbers.into_iter().map_while(play).collect()
+        };
+        let actions = played(run.steps);
+        let ending = match run.ending {
+            states::Ending::There => Ending::There,
+            states::Ending::Still => Ending::Still,
+            states::Ending::Round(round) => Ending::Round(played(round)),
+        };
+        Broken { demand: run.demand, start: run.start, actions, ending }
+    }
+}
+
+impl System for Space {
+    type State = State;
+    type Key = Box<[u8]>;
+    type Demand = Demand;
+
+    fn key(&self, state: &State) -> Box<[u8]> {
+        state.key()
+    }
+
+    fn steps(&self, state: &State) -> impl Iterator<Item = Step<State, Demand>> {
+        let step = |action| {
+            let after = state.after(&self.setting, action);
+            Step {
+                situation: "an action",
+                acting: actors(|actor| has_turned(state, action, &after, actor)) | arriving(state, action),
+                is_bound: state.is_bound_to_happen(&self.setting, action),
+                breaks: Demand::ALL.into_iter().filter(|&demand| after.breaks(demand)).collect(),
+                state: after,
+            }
+        };
+        state.actions(&self.setting).into_iter().map(step)
+    }
+
+    fn broken_at_end(&self, state: &State) -> Option<Demand> {
+        (self.looks_for_service() && self.owed(state) != 0).then_some(Demand::IsServed)
+    }
+
+    fn broken_by_endless_runs(&self) -> Option<Demand> {
+        self.looks_for_service().then_some(Demand::IsServed)
+    }
+
+    /// The WFRs that wait while a robot lives.
+    fn owed(&self, state: &State) -> Bits {
+        let waits = |&wfr: &usize| state.is_owed_service(&self.setting, wfr);
+        (0..self.setting.wfrs).filter(waits).map(|wfr| 1 << wfr).sum()
+    }
+
+    /// The actors whose timer runs or who are on their way, and the messages on theirs.
+    fn awake(&self, state: &State) -> Bits {
+        let is_awake = |actor: Actor| match actor {
+            Actor::Robot(robot) => state.timer_runs(actor) || state.comes_for(robot).is_some(),
+            Actor::Wfr(_) => state.timer_runs(actor),
+        };
+        state.network().iter().fold(actors(is_awake), |awake, &message| awake | between(message))
+    }
+
+    /// That a WFR is not served is told by the end of a run, of which another may be shorter.
+    fn is_enough(&self, broken: Demand) -> bool {
+        self.until == Until::Broken(broken) && broken != Demand::IsServed
+    }
+}

@@ -1,0 +1,54 @@
+//! A check that no state, and no run, breaks a demand within a setting.
+
+use super::chart::chart;
+use super::space::{self, Broken};
+use super::{Demand, Observed, Setting};
+use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
+use crate::engine::{Choices, Script, Unfit, Until};
+
+/// Every state within a setting is checked for a demand.
+pub(super) struct Within(pub Demand, pub Setting);
+
+/// Steps between states at which a check is left open.
+const MOST_STEPS: u32 = 20_000_000;
+
+impl Within {
+    fn setting(&self, observed: &Observed) -> Setting {
+        Setting { rule: observed.rule, ..self.1 }
+    }
+
+    fn evidence(setting: &Setting, broken: &Broken) -> Evidence {
+        let seen = Seen::Messages { events: broken.actions.len(), chart: chart(setting, broken) };
+        Evidence { choices: broken.choices(setting), demand: broken.demand.broken(), seen }
+    }
+}
+
+impl Method<Observed> for Within {
+    fn engine(&self) -> &'static str {
+        "states"
+    }
+
+    fn bound(&self) -> String {
+        self.1.bound()
+    }
+
+    fn decide(&self, observed: &Observed, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+        let (demand, setting) = (self.0, self.setting(observed));
+        let until = match until {
+            Until::Exhausted => space::Until::Exhausted,
+            Until::Violation => space::Until::Broken(demand),
+        };
+        let found: Result<&space::Found, Refused> = desk
+            .memory
+            .recall((setting, until), |(setting, until)| Ok(space::search(setting, *until, MOST_STEPS)));
+        let found = found?;
+        let evidence = found.broken(demand).map(|broken| Self::evidence(&setting, broken));
+        Ok(Answer::new(evidence, found.complete, self.shows(), found.states))
+    }
+
+    fn replay(&self, observed: &Observed, choices: &Choices) -> Result<Played, Unfit> {
+        let setting = self.setting(observed);
+        let (of, broken) = space::replay(&setting, self.0, Script::new(choices))?;
+        Ok(Played { of, evidence: Self::evidence(&setting, &broken) })
+    }
+}

@@ -1,0 +1,138 @@
+//! The clauses of NOTICE, in the order of `SPEC.md`.
+
+use tautline_kernel::notice::Condition::{FirstHeard, FrozenOnceForwarded, LeastHops, RememberEvent};
+
+use super::{Observed, networks, random};
+use crate::clause::{Check, Clause, Named};
+use crate::decide::{Sampled, Verdict};
+use crate::step_checks;
+
+const PUBLISHED: Named<Observed> = Named::new("published", Observed::PUBLISHED);
+const REPAIRED: Named<Observed> = Named::new("repaired", Observed::REPAIRED);
+
+/// Runs of random networks.
+const RUNS: u64 = 500;
+
+const LATER: Named<Observed> = Named::new(
+    "a later NOTICE with HC ≤ own changes the parent",
+    Observed::hearing_without(FrozenOnceForwarded),
+);
+
+const UNFROZEN: [Named<Observed>; 1] = [LATER];
+
+const ANOTHER_PARENT: [Named<Observed>; 3] = [
+    LATER,
+    Named::new("the parent is the last heard", Observed::hearing_without(LeastHops)),
+    Named::new("of equal HC the last heard", Observed::hearing_without(FirstHeard)),
+];
+
+const FORGETFUL: [Named<Observed>; 1] =
+    [Named::new("who has forwarded an event forgets it", Observed::hearing_without(RememberEvent))];
+
+const FINITE: [Named<Observed>; 1] =
+    [Named::new("k = ∞ is taken for 1", Observed { takes_endless_for_one: true, ..Observed::REPAIRED })];
+
+step_checks! { Observed;
+    second_event: random::second_event, REPAIRED, random::later_events,
+        covers ["silent about the first", "through with the first", "unaware of the first", "waiting with the first"],
+        unwind 12, mutants {
+            published: "as published" => Observed::PUBLISHED,
+        };
+}
+
+/// The clauses.
+pub static CLAUSES: [Clause; 6] = [
+    Clause {
+        id: "NOTICE-1",
+        sentence: "At every moment the parent pointers MUST form a tree rooted at the source, each node one hop \
+                   farther from it than its parent.",
+        checks: &[
+            &Check::new(PUBLISHED, &networks::TREE, Verdict::Holds, &UNFROZEN),
+            &Check::new(
+                PUBLISHED,
+                &Sampled {
+                    body: random::tree_at_random,
+                    runs: RUNS,
+                    range: random::random_networks,
+                    covers: &random::SPREADS,
+                },
+                Verdict::Unrefuted,
+                &UNFROZEN,
+            ),
+        ],
+    },
+    Clause {
+        id: "NOTICE-2",
+        sentence: "A node MUST forward an event at most once.",
+        checks: &[
+            &Check::new(PUBLISHED, &networks::ONCE, Verdict::Holds, &FORGETFUL),
+            &Check::new(
+                PUBLISHED,
+                &Sampled {
+                    body: random::once_at_random,
+                    runs: RUNS,
+                    range: random::random_networks,
+                    covers: &random::SPREADS,
+                },
+                Verdict::Unrefuted,
+                &FORGETFUL,
+            ),
+        ],
+    },
+    Clause {
+        id: "NOTICE-3",
+        sentence: "With k = ∞ every node that links connect to the source MUST receive the event and forward it, as \
+                   under flooding.",
+        checks: &[
+            &Check::new(PUBLISHED, &networks::FLOOD, Verdict::Holds, &FINITE),
+            &Check::new(
+                PUBLISHED,
+                &Sampled {
+                    body: random::flood_at_random,
+                    runs: RUNS,
+                    range: random::random_floods,
+                    covers: &["most nodes forward"],
+                },
+                Verdict::Unrefuted,
+                &FINITE,
+            ),
+        ],
+    },
+    Clause {
+        id: "NOTICE-4",
+        sentence: "A node MUST take the first NOTICE of a newer event of a source as a first one, whatever it has \
+                   made of the events before.",
+        checks: &[
+            &Check { about: PUBLISHED, expected: Verdict::Refuted, mutants: &[], ..second_event::CHECK },
+            &second_event::CHECK,
+        ],
+    },
+    Clause {
+        id: "NOTICE-5",
+        sentence: "Every node that links connect to the source MUST receive the event.",
+        checks: &[
+            &Check::new(PUBLISHED, &networks::REACH_WITH_ONE, Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &networks::REACH_WITH_TWO, Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &networks::REACH_WITH_ALL, Verdict::Holds, &FINITE),
+        ],
+    },
+    Clause {
+        id: "NOTICE-6",
+        sentence: "Of the senders that a node has heard before it forwards or falls silent, its parent MUST be one with \
+                   the least hop count, and of several the first heard.",
+        checks: &[
+            &Check::new(PUBLISHED, &networks::NEAREST_PARENT, Verdict::Holds, &ANOTHER_PARENT),
+            &Check::new(
+                PUBLISHED,
+                &Sampled {
+                    body: random::nearest_parent_at_random,
+                    runs: RUNS,
+                    range: random::random_networks,
+                    covers: &random::SPREADS,
+                },
+                Verdict::Unrefuted,
+                &ANOTHER_PARENT,
+            ),
+        ],
+    },
+];

@@ -1,0 +1,364 @@
+//! Every small network, and every state that it can come to (NOTICE-1 to NOTICE-6).
+
+use tautline_kernel::notice::{Count, Rule, Scheme, Stage};
+
+use super::Observed;
+use super::spread::{Demand, Event, Links, Point, Spread, ones};
+use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
+use crate::engine::states::{Run, Step, System, search};
+use crate::engine::{Choices, Script, Stop, Tally, Unfit, Until, cover};
+
+/// The largest network of which every state is looked at.
+pub(super) const SMALL: usize = 5;
+
+/// A network, the rule of its nodes, and what is demanded of them.
+struct Case {
+    links: Links<SMALL>,
+    rule: Rule,
+    demand: Demand,
+}
+
+/// Among five nodes nobody hears more than three senders besides the first: all k there are.
+fn every_k() -> [Option<Count>; 4] {
+    [Some(Count::ONE), Count::new(2), Count::new(3), None]
+}
+
+/// Every connected network of at most [`SMALL`] nodes, one of each shape as seen from the source, the smallest first.
+fn shapes() -> Vec<Links<SMALL>> {
+    let mut shapes = Vec::new();
+    for nodes in 1..=SMALL {
+        let pairs: Vec<(usize, usize)> =
+            (0..nodes).flat_map(|one| (one + 1..nodes).map(move |other| (one, other))).collect();
+        let orders = orders(nodes);
+        let drawn = |set: u32, order: &[usize]| {
+            let mut links = Links::NONE;
+            for (_, &(one, other)) in pairs.iter().enumerate().filter(|(place, _)| set >> place & 1 == 1) {
+                links.add(order[one], order[other]);
+            }
+            links
+        };
+        let mut sets: Vec<u32> = (0..1 << pairs.len()).collect();
+        sets.sort_by_key(|set| set.count_ones());
+        let all = (1 << nodes) - 1;
+        let shape = |set: u32| {
+            let links = drawn(set, &orders[0]);
+            let is_first = || orders.iter().all(|order| links <= drawn(set, order));
+            (links.component() == all && is_first()).then_some(links)
+        };
+        shapes.extend(sets.into_iter().filter_map(shape));
+    }
+    shapes
+}
+
+/// Every order of `nodes` that leaves the source in its place.
+fn orders(nodes: usize) -> Vec<Vec<usize>> {
+    let mut orders = vec![vec![0]];
+    for node in 1..nodes {
+        let longer = |order: Vec<usize>| {
+            (1..=node).map(move |place| {
+                let mut longer = order.clone();
+                longer.insert(place, node);
+                longer
+            })
+        };
+        orders = orders.into_iter().flat_map(longer).collect();
+    }
+    orders
+}
+
+/// The rules under which it is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Rules {
+    /// Every k that makes a difference.
+    EveryK,
+    /// k = ∞, and flooding.
+    Endless,
+    /// One k; 0 is ∞.
+    Only(u8),
+}
+
+/// Every small network, and every state that it can come to. The choices of a violation are the network with its rule,
+/// then event by event.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Networks {
+    demand: Demand,
+    rules: Rules,
+}
+
+/// NOTICE-1
+pub(super) const TREE: Networks = Networks { demand: Demand::Tree, rules: Rules::EveryK };
+/// NOTICE-2
+pub(super) const ONCE: Networks = Networks { demand: Demand::Once, rules: Rules::EveryK };
+/// NOTICE-3
+pub(super) const FLOOD: Networks = Networks { demand: Demand::Floods, rules: Rules::Endless };
+/// NOTICE-5, k = 1
+pub(super) const REACH_WITH_ONE: Networks = Networks { demand: Demand::Reaches, rules: Rules::Only(1) };
+/// NOTICE-5, k = 2
+pub(super) const REACH_WITH_TWO: Networks = Networks { demand: Demand::Reaches, rules: Rules::Only(2) };
+/// NOTICE-5, k = ∞
+pub(super) const REACH_WITH_ALL: Networks = Networks { demand: Demand::Reaches, rules: Rules::Only(0) };
+/// NOTICE-6
+pub(super) const NEAREST_PARENT: Networks = Networks { demand: Demand::NearestParent, rules: Rules::EveryK };
+
+/// What is covered by going through every state.
+const EVENTS: [&str; 4] = ["a NOTICE arrives", "a copy arrives", "a node forwards", "an end"];
+
+impl Case {
+    /// What is broken at some point of a run.
+    fn broken(&self, spread: &Spread<SMALL>, point: Point) -> Option<&'static str> {
+        match self.demand.check(&self.links, spread, point) {
+            Err(Stop::Violated(demand)) => Some(demand),
+            Ok(()) | Err(Stop::Assumed | Stop::GivenUp) => None,
+        }
+    }
+}
+
+impl System for Case {
+    type State = Spread<SMALL>;
+    type Key = Spread<SMALL>;
+    type Demand = &'static str;
+
+    fn key(&self, spread: &Spread<SMALL>) -> Spread<SMALL> {
+        *spread
+    }
+
+    fn steps(&self, spread: &Spread<SMALL>) -> impl Iterator<Item = Step<Spread<SMALL>, &'static str>> {
+        let step = |event| {
+            let state = spread.after(&self.rule, &self.links, event);
+            let situation = match event {
+                Event::Arrives { .. } => "a NOTICE arrives",
+                Event::ArrivesAgain { .. } => "a copy arrives",
+                Event::Expires { .. } => "a node forwards",
+            };
+            let breaks = self.broken(&state, Point::OnTheWay).into_iter().collect();
+            Step { state, situation, acting: 0, is_bound: true, breaks }
+        };
+        spread.events().into_iter().map(step)
+    }
+
+    fn broken_at_end(&self, spread: &Spread<SMALL>) -> Option<&'static str> {
+        self.broken(spread, Point::End)
+    }
+}
+
+impl Networks {
+    fn cases(self, observed: &Observed) -> impl Iterator<Item = Case> {
+        let rules = match self.rules {
+            Rules::EveryK => every_k().map(|k| observed.farthest(k)).to_vec(),
+            Rules::Endless => vec![observed.farthest(None), observed.rule(Scheme::Flooding)],
+            Rules::Only(k) => vec![observed.farthest(Count::new(k))],
+        };
+        shapes().into_iter().flat_map(move |links| {
+            let rules = rules.clone();
+            rules.into_iter().map(move |rule| Case { links, rule, demand: self.demand })
+        })
+    }
+}
+
+impl Networks {
+    /// Goes through all states, until the first violation. A case is a state.
+    fn explore(self, observed: &Observed) -> Tally {
+        let mut tally = Tally::default();
+        for (place, case) in (0..).zip(self.cases(observed)) {
+            let found = search(&case, [Spread::start(&case.links)], u32::MAX);
+            tally.cases += found.looked_at;
+            for situation in found.covered {
+                cover(&mut tally.covered, situation);
+            }
+            if let Some(Run { steps, demand, .. }) = found.broken.into_iter().next() {
+                tally.violation = Some(([&[place], &steps[..]].concat(), demand));
+                break;
+            }
+        }
+        tally
+    }
+
+    /// What happens when these choices are made, in lines.
+    fn story(self, observed: &Observed, choices: &[u32]) -> String {
+        let (&place, choices) = choices.split_first().unwrap_or((&0, &[]));
+        let Some(Case { links, rule, .. }) = self.cases(observed).nth(place as usize) else {
+            return String::new();
+        };
+        let pairs =
+            (0..SMALL).flat_map(|one| ones(links.0[one] >> one).map(move |beyond| (one, one + beyond)));
+        let pairs: Vec<String> = pairs.map(|(one, other)| format!("{one}-{other}")).collect();
+        let mut lines = vec![format!("The source is 0, the links are {}.", pairs.join(" "))];
+        let mut spread = Spread::start(&links);
+        for &choice in choices {
+            let Some(&event) = spread.events().get(choice as usize) else { break };
+            spread = spread.after(&rule, &links, event);
+            let became = |node: usize| match spread.nodes[node].stage() {
+                Stage::Unaware => "knows nothing",
+                Stage::Waiting { .. } => "waits",
+                Stage::Silent => "is silent",
+                Stage::Forwarded => "has forwarded",
+            };
+            lines.push(match event {
+                Event::Arrives { from, to } => format!("{to} hears {from} and {}.", became(to)),
+                Event::ArrivesAgain { from, to } => {
+                    format!("{to} hears {from}, not for the last time, and {}.", became(to))
+                }
+                Event::Expires { at } => format!("{at} forwards."),
+            });
+        }
+        let unaware = ones(links.component()).filter(|&node| spread.nodes[node].event().is_none());
+        let unaware: Vec<String> = unaware.map(|node| node.to_string()).collect();
+        if spread.events().is_empty() && !unaware.is_empty() {
+            lines.push(format!("Nothing more happens; {} has not heard of the event.", unaware.join(" ")));
+        }
+        lines.join("\n") + "\n"
+    }
+}
+
+impl Method<Observed> for Networks {
+    fn engine(&self) -> &'static str {
+        "states"
+    }
+
+    fn bound(&self) -> String {
+        let rules = match self.rules {
+            Rules::EveryK => "every k".to_owned(),
+            Rules::Endless => "k = ∞ and flooding".to_owned(),
+            Rules::Only(0) => "k = ∞".to_owned(),
+            Rules::Only(k) => format!("k = {k}"),
+        };
+        format!("all networks of up to {SMALL} nodes, {rules}, every order")
+    }
+
+    fn decide(&self, observed: &Observed, _: Until, _: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+        let mut answer = Answer::of_tally(self.explore(observed), &EVENTS, self.shows());
+        if let Some(evidence) = &mut answer.counterexample {
+            evidence.seen = Seen::Story(self.story(observed, &evidence.choices.once));
+        }
+        Ok(answer)
+    }
+
+    fn replay(&self, observed: &Observed, choices: &Choices) -> Result<Played, Unfit> {
+        let mut script = Script::new(choices);
+        let cases: Vec<Case> = self.cases(observed).collect();
+        let case = &cases[script.choose(cases.len())?];
+        let (of, run) = script.play(case, (0, Spread::start(&case.links)), |_| true)?;
+        let seen = Seen::Story(self.story(observed, &choices.once));
+        Ok(Played { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use stateright::{Checker, Model, Property};
+    use tautline_kernel::notice::Condition;
+
+    use super::super::spread::Event;
+
+    use super::*;
+
+    #[test]
+    fn there_is_one_network_of_each_shape() {
+        let shapes = shapes();
+        let of_size =
+            |nodes: u32| shapes.iter().filter(|links| links.component().count_ones() == nodes).count();
+        assert_eq!([1, 2, 3, 4, 5].map(of_size), [1, 1, 3, 11, 58]);
+    }
+
+    /// The demand that a observed breaks first, and how.
+    fn broken(networks: Networks, observed: Observed) -> (&'static str, String) {
+        let (choices, demand) = networks.explore(&observed).violation.expect("it is broken");
+        (demand, networks.story(&observed, &choices))
+    }
+
+    #[test]
+    fn a_parent_that_changes_after_forwarding_closes_a_circle() {
+        let (demand, _) = broken(TREE, Observed::hearing_without(Condition::FrozenOnceForwarded));
+        assert_eq!(demand, "parent by parent every node comes to the source");
+    }
+
+    #[test]
+    fn a_parent_that_is_the_last_heard_makes_a_tree_all_the_same_but_another() {
+        for condition in [Condition::LeastHops, Condition::FirstHeard] {
+            let observed = Observed::hearing_without(condition);
+            assert_eq!(TREE.explore(&observed).violation, None);
+            let (demand, _) = broken(NEAREST_PARENT, observed);
+            assert_eq!(demand, "the parent is the first heard of those with the least hop count");
+        }
+    }
+
+    /// Everything that can happen in a small network, nothing left out.
+    impl Model for Case {
+        type State = Spread<SMALL>;
+        type Action = Event;
+
+        fn init_states(&self) -> Vec<Spread<SMALL>> {
+            vec![Spread::start(&self.links)]
+        }
+
+        fn actions(&self, spread: &Spread<SMALL>, events: &mut Vec<Event>) {
+            events.extend(spread.events());
+        }
+
+        fn next_state(&self, spread: &Spread<SMALL>, event: Event) -> Option<Spread<SMALL>> {
+            Some(spread.happens(&self.rule, &self.links, event))
+        }
+
+        fn properties(&self) -> Vec<Property<Self>> {
+            let keeps = |case: &Self, spread: &Spread<SMALL>| {
+                let is_end = spread.events().is_empty();
+                case.broken(spread, if is_end { Point::End } else { Point::OnTheWay }).is_none()
+            };
+            vec![Property::always("keeps", keeps)]
+        }
+    }
+
+    /// The search leaves out what is under way to a node that it no longer changes. Stateright, which is not told to, finds
+    /// more states and the same verdicts: what is left out plays no part.
+    #[test]
+    fn stateright_comes_to_the_same_verdicts_where_nothing_is_left_out() {
+        let demands = [Demand::Tree, Demand::Once, Demand::Reaches, Demand::NearestParent];
+        let compared = |pairs: &[(usize, usize)], observed: Observed, k: Option<Count>| {
+            let mut links = Links::NONE;
+            for &(one, other) in pairs {
+                links.add(one, other);
+            }
+            let rule = observed.farthest(k);
+            let broken = demands.into_iter().filter(|&demand| {
+                let case = Case { links, rule, demand };
+                let found = search(&case, [Spread::start(&links)], u32::MAX);
+                let theirs = case.checker().threads(1).spawn_bfs().join();
+                assert_eq!(theirs.discovery("keeps").is_some(), !found.broken.is_empty(), "{demand:?}");
+                !found.broken.is_empty()
+            });
+            let broken: Vec<Demand> = broken.collect();
+            let case = Case { links, rule, demand: Demand::Once };
+            let ours = search(&case, [Spread::start(&links)], u32::MAX).states;
+            let theirs = case.checker().threads(1).spawn_bfs().join().unique_state_count();
+            (ours, theirs, broken)
+        };
+        let tail = [(0, 1), (0, 2), (1, 2), (2, 3)];
+        let round = [(0, 1), (0, 2), (1, 3), (2, 3)];
+        let (one, all) = (Some(Count::ONE), None);
+        assert_eq!(compared(&tail, Observed::PUBLISHED, one), (51, 1641, vec![Demand::Reaches]));
+        assert_eq!(compared(&tail, Observed::PUBLISHED, all), (84, 2601, vec![]));
+        assert_eq!(compared(&round, Observed::PUBLISHED, one), (50, 1601, vec![]));
+        let unfrozen = Observed::hearing_without(Condition::FrozenOnceForwarded);
+        let broken = vec![Demand::Tree, Demand::NearestParent];
+        assert_eq!(compared(&tail, unfrozen, all), (176, 9065, broken));
+        let last = Observed::hearing_without(Condition::LeastHops);
+        assert_eq!(compared(&tail, last, all), (102, 3561, vec![Demand::NearestParent]));
+        let last_of_equals = Observed::hearing_without(Condition::FirstHeard);
+        assert_eq!(compared(&round, last_of_equals, all), (70, 2689, vec![Demand::NearestParent]));
+    }
+
+    #[test]
+    fn who_is_silenced_may_be_the_only_one_on_the_way() {
+        let (_, story) = broken(REACH_WITH_ONE, Observed::PUBLISHED);
+        let lines: Vec<&str> = story.lines().collect();
+        let expected = [
+            "The source is 0, the links are 0-1 0-2 1-2 2-3.",
+            "1 hears 0 and waits.",
+            "2 hears 0 and waits.",
+            "1 forwards.",
+            "2 hears 1 and is silent.",
+            "Nothing more happens; 3 has not heard of the event.",
+        ];
+        assert_eq!(lines, expected);
+    }
+}

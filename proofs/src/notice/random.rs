@@ -1,0 +1,151 @@
+//! Larger networks, at random, and the events after the first one.
+
+use core::ops::RangeInclusive;
+
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::net::{NodeId, Notice};
+use tautline_kernel::notice::{Count, Node, Reaction};
+
+use super::Observed;
+use super::networks::SMALL;
+use super::spread::{Demand, Links, Point, Spread, call, hear, notice};
+use crate::engine::{Outcome, require};
+
+/// The largest of the random networks.
+const LARGE: usize = 40;
+
+/// Nodes of a random network.
+const NODES: RangeInclusive<usize> = SMALL + 1..=LARGE;
+
+/// Links of a random network, in percent of all pairs of nodes.
+const LINKS: RangeInclusive<u32> = 5..=44;
+
+/// What [`tree_at_random`] and its like draw.
+pub(super) fn random_networks() -> String {
+    format!("{}, k = 1 … {} or ∞", random_nodes(), Count::MOST)
+}
+
+/// What [`flood_at_random`] draws.
+pub(super) fn random_floods() -> String {
+    format!("{}, k = ∞", random_nodes())
+}
+
+fn random_nodes() -> String {
+    let (nodes, links) = (NODES, LINKS);
+    let (fewest, most, thin, dense) = (nodes.start(), nodes.end(), links.start(), links.end());
+    format!("random networks of {fewest} to {most} nodes with {thin} to {dense} % links")
+}
+
+/// Events after which nothing more is left to chance, so that copies do not go on arriving for ever.
+const MOST_EVENTS: usize = 4_000;
+
+/// A random network, a random order and some k, the demand checked after every event.
+fn spread_at_random(observed: &Observed, oracle: &mut dyn Oracle, demand: Demand) -> Outcome {
+    // k = ∞ is one of them, and for flooding the only one.
+    let k = if demand == Demand::Floods { 0 } else { oracle.pick(u32::from(Count::MOST) + 1) };
+    let rule = observed.farthest(Count::new(k as u8));
+    let nodes = NODES.end() - oracle.pick(NODES.count() as u32) as usize;
+    let links_percent = LINKS.start() + oracle.pick(LINKS.count() as u32);
+    let mut links = Links::<LARGE>::NONE;
+    for one in 0..nodes {
+        for other in one + 1..nodes {
+            if oracle.pick(100) < links_percent {
+                links.add(one, other);
+            }
+        }
+    }
+    let mut spread = Spread::start(&links);
+    for happened in 0.. {
+        let events = spread.events();
+        let choice = if happened < MOST_EVENTS { oracle.pick(events.len().max(1) as u32) } else { 0 };
+        let Some(&event) = events.get(choice as usize) else { break };
+        spread = spread.after(&rule, &links, event);
+        demand.check(&links, &spread, Point::OnTheWay)?;
+    }
+    demand.check(&links, &spread, Point::End)?;
+    let forwarded = spread.forwards.iter().filter(|&&forwards| forwards > 0).count();
+    Ok(if forwarded * 2 > nodes { "most nodes forward" } else { "few nodes forward" })
+}
+
+/// What the random runs cover.
+pub(super) const SPREADS: [&str; 2] = ["few nodes forward", "most nodes forward"];
+
+/// NOTICE-1: larger networks, at random.
+///
+/// # Errors
+/// [`Stop`] if the clause is broken.
+pub(super) fn tree_at_random(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    spread_at_random(observed, oracle, Demand::Tree)
+}
+
+/// NOTICE-2: the same.
+///
+/// # Errors
+/// [`Stop`] if the clause is broken.
+pub(super) fn once_at_random(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    spread_at_random(observed, oracle, Demand::Once)
+}
+
+/// NOTICE-6: the same.
+///
+/// # Errors
+/// [`Stop`] if the clause is broken.
+pub(super) fn nearest_parent_at_random(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    spread_at_random(observed, oracle, Demand::NearestParent)
+}
+
+/// NOTICE-3: the same with k = ∞.
+///
+/// # Errors
+/// [`Stop`] if the clause is broken.
+pub(super) fn flood_at_random(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    spread_at_random(observed, oracle, Demand::Floods)
+}
+
+/// What can have become of the event before.
+const FATES: [&str; 4] =
+    ["unaware of the first", "waiting with the first", "silent about the first", "through with the first"];
+
+/// Later events, their senders and their hop counts.
+const LATER: [u32; 3] = [2, 3, 3];
+
+/// What [`second_event`] looks at.
+pub(super) fn later_events() -> String {
+    let [events, senders, hops] = LATER;
+    format!(
+        "{} fates of an event, {events} later ones by {senders} senders with {hops} hop counts",
+        FATES.len()
+    )
+}
+
+/// NOTICE-4: whatever a node has made of one event, the next one is new to it.
+///
+/// # Errors
+/// [`Stop`] if the clause is broken.
+pub(super) fn second_event(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    let rule = observed.farthest(Some(Count::ONE));
+    let mut node = Node::new(NodeId(1), NodeId(0));
+    let fate = oracle.pick(FATES.len() as u32);
+    match fate {
+        0 => {}
+        1 => {
+            hear(&mut node, &rule, notice(2));
+        }
+        2 => {
+            hear(&mut node, &rule, notice(2));
+            hear(&mut node, &rule, notice(3));
+        }
+        _ => {
+            hear(&mut node, &rule, notice(2));
+            node.expire(0);
+        }
+    }
+    let [events, senders, most_hops] = LATER;
+    let (event, sender) = (2 + oracle.pick(events), 2 + oracle.pick(senders));
+    let hops = oracle.pick(most_hops) as u16;
+    let reaction = hear(&mut node, &rule, Notice { call: call(event), hops, ..notice(sender as usize) });
+    require(reaction == Reaction::Armed { at_ns: 0 }, "the first NOTICE of a newer event begins a wait")?;
+    require(node.parent() == Some(NodeId(sender)), "its sender is the parent")?;
+    require(node.hops() == Some(hops + 1), "the node is one hop farther than its sender")?;
+    Ok(FATES[fate as usize])
+}

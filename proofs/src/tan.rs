@@ -1,0 +1,4 @@
+//! TAN (TAN): what is promised of a robot on its way from node to node.
+
+pub mod clauses;
+mod legs;

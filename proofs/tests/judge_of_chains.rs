@@ -1,0 +1,205 @@
+//! The judge of chains accepts the smallest counterexamples, and none with one change.
+
+use std::collections::BTreeSet;
+
+use tautline_kernel::chain::{Chain, Intent, Kind, Rule};
+use tautline_kernel::ground::{Cell, SmallGrid, Step};
+use tautline_proofs::chain::Observed;
+use tautline_proofs::chain::breach::frame;
+use tautline_proofs::chain::invariant::Invariant;
+use tautline_proofs::chain::search::{Bounds, Counterexample, search};
+use tautline_proofs::engine::tree::unwatched;
+use tautline_proofs::judge::chain::{Exhibit, Move, Objection, Place, Repairs, judge};
+use tautline_proofs::run::walls;
+
+fn place(cell: Cell) -> Place {
+    (i32::from(cell.x), i32::from(cell.y))
+}
+
+fn exhibit(found: &Counterexample, bounds: &Bounds) -> Exhibit {
+    let tried = |step: &Step| place(Cell::new(0, 0).after(*step));
+    let side = 2 * bounds.robots as i32 - 1;
+    let repairs = if bounds.observed.rule == Rule::REPAIRED { Repairs::With } else { Repairs::Without };
+    Exhibit {
+        clause: found.broken.clause().to_owned(),
+        repairs,
+        width: side,
+        height: side,
+        walls: walls(&found.frames)
+            .iter()
+            .map(|wall| (place(wall.cell()), place(wall.cell().beyond(wall.side()))))
+            .collect(),
+        blocked: BTreeSet::new(),
+        base: place(bounds.base),
+        robots: bounds.robots,
+        moves: found
+            .frames
+            .iter()
+            .map(|frame| Move {
+                is_backtrack: frame.kind == Kind::Backtrack,
+                tried: frame.steps.iter().map(tried).collect(),
+                blocked: frame.blocked.clone(),
+                places: frame.cells.iter().copied().map(place).collect(),
+            })
+            .collect(),
+    }
+}
+
+fn found(bounds: &Bounds) -> Vec<Exhibit> {
+    let found = search(bounds, &mut unwatched).expect("so few robots fit");
+    found.counterexamples.iter().map(|found| exhibit(found, bounds)).collect()
+}
+
+/// The smallest counterexample to each clause that the judge knows and a rule breaks.
+fn counterexamples() -> Vec<Exhibit> {
+    let exhausting =
+        |observed| Bounds { invariants: vec![Invariant::Exhausts], ..Bounds::new(observed, 3, 3) };
+    let bounds = [
+        Bounds::new(Observed::PUBLISHED, 4, 4),
+        exhausting(Observed::PUBLISHED),
+        exhausting(Observed::REPAIRED),
+    ];
+    bounds.iter().flat_map(found).collect()
+}
+
+/// A move of the whole team in the open.
+fn step(tried: [Place; 2], places: [Place; 2], is_backtrack: bool) -> Move {
+    let base = (2, 2);
+    Move {
+        is_backtrack,
+        tried: [vec![(0, 0)], tried.to_vec()].concat(),
+        blocked: vec![false; 3],
+        places: [vec![base], places.to_vec()].concat(),
+    }
+}
+
+#[test]
+fn a_step_and_back_is_not_the_end_of_a_run() {
+    let out = step([(0, 0), (1, 0)], [(2, 2), (3, 2)], false);
+    let back = step([(0, 0), (-1, 0)], [(2, 2), (2, 2)], true);
+    for clause in ["CHAIN-13", "CHAIN-14"] {
+        for repairs in [Repairs::Without, Repairs::With] {
+            let mut exhibit = Exhibit {
+                clause: clause.to_owned(),
+                repairs,
+                width: 5,
+                height: 5,
+                walls: BTreeSet::new(),
+                blocked: BTreeSet::new(),
+                base: (2, 2),
+                robots: 3,
+                moves: vec![out.clone()],
+            };
+            let goes_on = Objection { at: 0, what: "the run goes on after the last move" };
+            assert_eq!(judge(&exhibit), Err(goes_on));
+            exhibit.moves.push(back.clone());
+            let has_a_way = "the leader has a way on: the team takes no move back";
+            assert_eq!(judge(&exhibit), Err(Objection { at: 2, what: has_a_way }));
+        }
+    }
+}
+
+/// The whole run of three robots in the open, as a counterexample to `clause`.
+fn open_run(observed: Observed, clause: &str) -> Exhibit {
+    let bounds = Bounds::new(observed, 3, 0);
+    let grid = SmallGrid::new(bounds.area).expect("five cells wide");
+    let mut chain = Chain::<_, 3>::new(observed.rule, 3, bounds.base, grid).expect("it fits");
+    let (mut log, mut frames) = (Vec::new(), Vec::new());
+    while let Intent::Go(plan) = chain.plan(&log).expect("its own log") {
+        let settled = chain.settle(&plan, |_| true);
+        log.extend_from_slice(settled.messages());
+        frames.push(frame(plan.kind, settled.messages(), chain.cells()));
+    }
+    let (broken, demand, answers) = (Invariant::Exhausts, "nothing", Vec::new());
+    let run = Counterexample { broken, runs: 1, demand, frames, answers };
+    Exhibit { clause: clause.to_owned(), ..exhibit(&run, &bounds) }
+}
+
+#[test]
+fn a_run_that_ends_with_everything_explored_breaks_nothing() {
+    for (observed, clause) in [(Observed::PUBLISHED, "CHAIN-13"), (Observed::REPAIRED, "CHAIN-14")] {
+        let mut exhibit = open_run(observed, clause);
+        let what = "the end of the run does not break the clause";
+        assert_eq!(judge(&exhibit), Err(Objection { at: 0, what }));
+        let last = exhibit.moves.pop().expect("it has moves");
+        let what = "the run goes on after the last move";
+        assert_eq!(judge(&exhibit), Err(Objection { at: 0, what }));
+        exhibit.moves.extend([last.clone(), last]);
+        let what = "the run is over before this move";
+        assert_eq!(judge(&exhibit), Err(Objection { at: exhibit.moves.len(), what }));
+    }
+}
+
+#[test]
+fn the_minimal_counterexamples_are_accepted_and_none_with_one_change() {
+    let exhibits = counterexamples();
+    assert_eq!(
+        exhibits.iter().map(|exhibit| (exhibit.clause.as_str(), exhibit.repairs)).collect::<Vec<_>>(),
+        [
+            ("CHAIN-1", Repairs::Without),
+            ("CHAIN-2", Repairs::Without),
+            ("CHAIN-13", Repairs::Without),
+            ("CHAIN-14", Repairs::Without),
+            ("CHAIN-14", Repairs::With),
+        ]
+    );
+    for exhibit in exhibits {
+        assert_eq!(judge(&exhibit), Ok(()), "{}", exhibit.clause);
+        let rejects = |change: &dyn Fn(&mut Exhibit), what: &str| {
+            let mut changed = exhibit.clone();
+            change(&mut changed);
+            assert!(judge(&changed).is_err(), "{}: {what} is accepted", exhibit.clause);
+        };
+        let (width, height) = (exhibit.width, exhibit.height);
+        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+            for wall in [((x, y), (x + 1, y)), ((x, y), (x, y + 1))] {
+                if wall.1.0 < width && wall.1.1 < height {
+                    rejects(
+                        &|changed| {
+                            if !changed.walls.remove(&wall) {
+                                changed.walls.insert(wall);
+                            }
+                        },
+                        &format!("a changed wall {wall:?}"),
+                    );
+                }
+            }
+        }
+        for index in 0..exhibit.moves.len() {
+            rejects(&|changed| drop(changed.moves.remove(index)), &format!("move {index} left out"));
+            let twice = |changed: &mut Exhibit| changed.moves.insert(index, changed.moves[index].clone());
+            rejects(&twice, &format!("move {index} twice: {:?}", exhibit.moves[index]));
+            rejects(&|changed| changed.moves.truncate(index), &format!("nothing from move {index} on"));
+            rejects(
+                &|changed| changed.moves[index].is_backtrack ^= true,
+                &format!("move {index} as the other kind: {:?}", exhibit.moves[index]),
+            );
+            for robot in 0..exhibit.robots {
+                let flip = |changed: &mut Exhibit| changed.moves[index].blocked[robot] ^= true;
+                rejects(&flip, "another outcome");
+                for step in [(1, 0), (0, 1), (-1, 0), (0, -1), (0, 0)] {
+                    if exhibit.moves[index].tried[robot] != step {
+                        let change = |changed: &mut Exhibit| changed.moves[index].tried[robot] = step;
+                        rejects(&change, &format!("step {step:?} of robot {robot} in move {index}"));
+                    }
+                    let shift = |changed: &mut Exhibit| {
+                        let place = &mut changed.moves[index].places[robot];
+                        *place = (place.0 + step.0, place.1 + step.1);
+                    };
+                    if step != (0, 0) {
+                        rejects(&shift, "another place");
+                    }
+                }
+            }
+        }
+        // The run that breaks CHAIN-14 as repaired is one that the published rule makes, too.
+        if exhibit.repairs == Repairs::Without {
+            rejects(&|changed| changed.repairs = Repairs::With, "the repaired rule");
+        }
+        rejects(&|changed| changed.clause = "CHAIN-3".to_owned(), "another clause");
+        rejects(&|changed| changed.robots += 1, "another robot");
+        rejects(&|changed| changed.base.0 -= 1, "another base");
+        rejects(&|changed| changed.blocked = BTreeSet::from([changed.base]), "a blocked base");
+        rejects(&|changed| changed.robots = usize::MAX, "more robots than there can be");
+    }
+}

@@ -1,0 +1,150 @@
+//! The search over all layouts comes out the same on any number of threads, and wherever it is left and taken up again.
+
+use std::collections::BTreeSet;
+
+use serde_json::{Value, json};
+use tautline_kernel::chain::Refused;
+use tautline_proofs::chain::Observed;
+use tautline_proofs::chain::search::{Bounds, Found, Position, Search, Unsearchable, search};
+use tautline_proofs::engine::tree::{self, unwatched};
+
+fn on_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads").install(work)
+}
+
+fn found(bounds: &Bounds) -> Found {
+    search(bounds, &mut unwatched).expect("four robots fit")
+}
+
+#[test]
+fn a_search_comes_out_the_same_on_any_number_of_threads() {
+    let bounds = Bounds::new(Observed::PUBLISHED, 4, 3);
+    let whole = found(&bounds);
+    assert!(whole.complete);
+    assert_eq!(whole.levels.len(), 4);
+    assert_eq!(whole.levels.iter().map(|level| level.moves).sum::<u64>(), whole.moves);
+    for threads in [1, 2, 3, 7] {
+        assert_eq!(on_threads(threads, || found(&bounds)), whole, "{threads} threads");
+    }
+}
+
+#[test]
+fn a_budget_cuts_the_same_runs_off_on_any_number_of_threads() {
+    let bounds = |budget_moves| Bounds { budget_moves, ..Bounds::new(Observed::PUBLISHED, 4, 3) };
+    let whole = found(&bounds(None));
+    for budget in [0, 1, 100, 20_000, whole.moves - 1000] {
+        let cut = on_threads(1, || found(&bounds(Some(budget))));
+        assert!(!cut.complete && cut.moves < budget + 300, "{budget}: {} moves", cut.moves);
+        assert_eq!(cut, on_threads(3, || found(&bounds(Some(budget)))), "{budget}");
+    }
+    assert_eq!(found(&bounds(Some(whole.moves + 1))), whole);
+}
+
+#[test]
+fn a_search_left_anywhere_and_taken_up_again_comes_out_the_same() {
+    let bounds = Bounds::new(Observed::PUBLISHED, 4, 3);
+    let whole = found(&bounds);
+    let mut positions = Vec::new();
+    let mut undisturbed = Search::new(&bounds).expect("four robots fit");
+    positions.push(undisturbed.position());
+    while undisturbed.wave() {
+        positions.push(undisturbed.position());
+    }
+    positions.push(undisturbed.position());
+    assert!(positions.len() > 4, "{} waves", positions.len());
+    for position in positions.iter().step_by(7).chain(positions.last()) {
+        let mut again = Search::at(&bounds, position).expect("a position of its own");
+        assert_eq!(again.position(), *position);
+        while again.wave() {}
+        assert_eq!(again.found(), whole);
+    }
+}
+
+#[test]
+fn a_finished_search_goes_on_with_more_walls() {
+    let (few, more) = (Bounds::new(Observed::REPAIRED, 3, 2), Bounds::new(Observed::REPAIRED, 3, 4));
+    let mut search = Search::new(&few).expect("three robots fit");
+    while search.wave() {}
+    let position = search.position();
+    let mut again = Search::at(&more, &position).expect("more walls");
+    while again.wave() {}
+    assert_eq!(again.found(), found(&more));
+    let fewer = Search::at(&Bounds::new(Observed::REPAIRED, 3, 1), &position);
+    assert_eq!(fewer.err(), Some(Unsearchable::Search(tree::Unsearchable::Beyond { walls: 2 })));
+}
+
+/// The lanes of a position, as it is stored.
+fn lanes(position: &Position) -> Vec<Value> {
+    serde_json::to_value(position).expect("JSON")["lanes"].as_array().expect("a list").clone()
+}
+
+/// `position` with other lanes.
+fn with_lanes(position: &Position, lanes: Vec<Value>) -> Position {
+    let mut value = serde_json::to_value(position).expect("JSON");
+    value["lanes"] = Value::Array(lanes);
+    serde_json::from_value(value).expect("a position")
+}
+
+#[test]
+fn a_position_of_another_search_is_refused() {
+    let bounds = Bounds::new(Observed::PUBLISHED, 4, 2);
+    let mut search = Search::new(&bounds).expect("four robots fit");
+    while lanes(&search.position()).len() < 3 {
+        assert!(search.wave(), "a search has many lanes somewhere");
+    }
+    let position = search.position();
+    let foreign = |bounds: &Bounds, position: &Position| {
+        let refused = Search::at(bounds, position).err();
+        refused == Some(Unsearchable::Search(tree::Unsearchable::Foreign))
+    };
+    assert!(foreign(&Bounds::new(Observed::PUBLISHED, 5, 2), &position));
+    let mut start = lanes(&position);
+    start[0] = json!({"answers": [], "fixed": 0, "next": "advance"});
+    assert!(!foreign(&bounds, &with_lanes(&position, start)), "the start is a place in every tree");
+    for place in 0..lanes(&position).len() {
+        let mut damaged = lanes(&position);
+        damaged[place]["answers"].as_array_mut().expect("a list").push(json!(7));
+        assert!(foreign(&bounds, &with_lanes(&position, damaged)), "lane {place}");
+    }
+}
+
+#[test]
+fn every_lane_is_another_part_of_the_tree_and_none_is_empty() {
+    let bounds = Bounds::new(Observed::PUBLISHED, 4, 3);
+    let whole = found(&bounds);
+    let mut search = Search::new(&bounds).expect("four robots fit");
+    let mut most = 0;
+    while search.wave() {
+        let position = search.position();
+        let all = lanes(&position);
+        let places: BTreeSet<String> = all.iter().map(Value::to_string).collect();
+        assert_eq!(places.len(), all.len(), "two lanes are one");
+        if all.len() <= most {
+            continue;
+        }
+        most = all.len();
+        // The parts add up to the whole, and each has runs of its own.
+        let at = |lanes| {
+            let mut part = Search::at(&bounds, &with_lanes(&position, lanes)).expect("a position of its own");
+            let (levels, before) = (part.progress().levels.len(), part.progress().runs);
+            while part.progress().levels.len() == levels && part.wave() {}
+            part.progress().levels.get(levels).map_or(0, |_| part.progress().runs) - before
+        };
+        let parts: Vec<u64> = all.iter().map(|lane| at(vec![lane.clone()])).collect();
+        assert!(parts.iter().all(|&runs| runs > 0), "{parts:?}");
+        assert_eq!(parts.iter().sum::<u64>(), at(all), "{most} lanes");
+    }
+    assert_eq!((most, search.found()), (64, whole));
+}
+
+#[test]
+fn bounds_that_cannot_be_searched_are_refused() {
+    let refused = |robots, max_walls| Search::new(&Bounds::new(Observed::REPAIRED, robots, max_walls)).err();
+    assert_eq!(
+        refused(2, 13),
+        Some(Unsearchable::Search(tree::Unsearchable::TooManyWalls { max_walls: 13, edges: 12 }))
+    );
+    assert_eq!(refused(2, 12), None);
+    assert!(matches!(refused(1, 0), Some(Unsearchable::Team(Refused::TooFewRobots { robots: 1 }))));
+    assert!(matches!(refused(65, 0), Some(Unsearchable::Team(Refused::TooManyRobots { .. }))));
+}
