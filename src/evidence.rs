@@ -120,30 +120,3 @@ fn listed(choices: &[u32]) -> String {
     let rest = if choices.len() > LISTED { format!(" … {} in all", choices.len()) } else { String::new() };
     first.join(" ") + &rest
 }
-
-/// Columns of text that a line with a bound may take.
-const WIDTH: usize = 80;
-
-/// `text` in lines that begin after `indent` columns and are broken behind commas and semicolons.
-pub(super) fn indented(indent: usize, text: &str) -> String {
-    let width = WIDTH - indent;
-    let mut before = ' ';
-    let parts = text.split_inclusive(|letter: char| {
-        let is_break = letter == ' ' && matches!(before, ',' | ';');
-        before = letter;
-        is_break
-    });
-    let joined = |mut lines: Vec<String>, part: &str| {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + part.chars().count() <= width => {
-                line.push(' ');
-                line.push_str(part);
-            }
-            Some(_) | None => lines.push(part.to_owned()),
-        }
-        lines
-    };
-    let margin = " ".repeat(indent);
-    let lines = parts.map(str::trim_end).fold(Vec::new(), joined).into_iter();
-    lines.map(|line| [margin.as_str(), &line, "\n"].concat()).collect()
-}

@@ -7,11 +7,12 @@ use std::time::Instant;
 
 use clap::Args;
 use serde::Serialize;
-use tautline_proofs::clause::{AnyCheck, Clause, Decision};
+use tautline_proofs::clause::Clause;
 use tautline_proofs::decide::{Memory, Seen};
-use tautline_proofs::ledger;
+use tautline_proofs::engine::tree::Progress;
+use tautline_proofs::ledger::{self, Row, table};
 
-use super::evidence::{self, Shown, indented, shown};
+use super::evidence::{self, Shown, shown};
 use super::hunt::keep;
 use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, progress};
@@ -43,13 +44,8 @@ pub(super) struct Prove {
     format: FormatArgs,
 }
 
-/// A check that was decided.
-struct Row {
-    clause: &'static Clause,
-    /// The number of the check among those of the clause.
-    number: usize,
-    check: &'static dyn AnyCheck,
-    decision: Decision,
+/// What becomes of a row besides.
+struct Told {
     seconds: f64,
     /// Where its counterexample is stored.
     file: Option<String>,
@@ -100,38 +96,37 @@ impl Prove {
                 Fault::in_file(folder, what, "name a folder, or a place where one can be made")
             })?;
         }
-        let checks: Vec<(&Clause, usize, &dyn AnyCheck)> = clauses
-            .iter()
-            .flat_map(|clause| (0..).zip(clause.checks).map(|(number, check)| (*clause, number, *check)))
-            .collect();
+        let checks = ledger::checks(&clauses);
         let mut memory = Memory::default();
-        let mut rows = Vec::new();
-        for (place, &(clause, number, check)) in (1..).zip(&checks) {
+        let (mut rows, mut told) = (Vec::new(), Vec::new());
+        for (place, &(clause, number)) in (1..).zip(&checks) {
             let bar = progress::bar(format!("{place}/{} {}", checks.len(), clause.id), 1);
             let start = Instant::now();
-            let decision =
-                check.decide(&mut memory, &mut |progress| progress::show(&bar, progress)).map_err(
-                    |refused| Fault::usage(refused, "this is a bug in the registry: please report it"),
-                )?;
+            let watch = &mut |progress: &Progress<'_>| progress::show(&bar, progress);
+            let row = ledger::decide(clause, number, &mut memory, watch).map_err(|refused| {
+                Fault::usage(refused, "this is a bug in the registry: please report it")
+            })?;
             bar.finish_and_clear();
             let seconds = start.elapsed().as_secs_f64();
-            tracing::info!("{} {} {}: {seconds:.1} s", clause.id, check.rule(), check.engine());
-            let mut row = Row { clause, number, check, decision, seconds, file: None };
-            if let Some(folder) = &self.out {
-                row.store(folder, &replaceable, out)?;
-            }
+            let (rule, engine) = (row.check.rule(), row.check.engine());
+            tracing::info!("{} {rule} {engine}: {seconds:.1} s", clause.id);
+            let file = match &self.out {
+                Some(folder) => stored(&row, folder, &replaceable, out)?,
+                None => None,
+            };
             rows.push(row);
+            told.push(Told { seconds, file });
         }
-        let as_registered = rows.iter().all(|row| row.decision.is_as_registered(row.check));
+        let as_registered = rows.iter().all(Row::is_as_registered);
         match self.format.format {
             Format::Json => {
-                let clauses = rows.iter().map(Row::line).collect::<Result<_, Halt>>()?;
+                let clauses = rows.iter().zip(&told).map(line).collect::<Result<_, Halt>>()?;
                 out.json(&Ledger { clauses, as_registered })?;
             }
             Format::Text => {
                 out.text(table(&rows))?;
-                for row in &rows {
-                    out.text(row.story()?)?;
+                for (row, told) in rows.iter().zip(&told) {
+                    out.text(story(row, told)?)?;
                 }
                 out.text(last_line(&rows))?;
             }
@@ -154,110 +149,61 @@ impl Prove {
     }
 }
 
-impl Row {
-    /// The bound, and how many of its cases were given up.
-    fn bound(&self) -> String {
-        let bound = self.check.bound();
-        match self.decision.given_up {
-            0 => bound,
-            given_up => format!("{bound}; {given_up} given up"),
-        }
-    }
-
-    fn mutants(&self) -> Mutants {
-        let Decision { killed, survived, .. } = &self.decision;
-        Mutants { killed: killed.len(), of: killed.len() + survived.len(), survived: survived.clone() }
-    }
-
-    fn line(&self) -> Result<Line, Halt> {
-        let evidence = self.decision.counterexample.as_ref();
-        Ok(Line {
-            id: self.clause.id,
-            rule: self.check.rule(),
-            engine: self.check.engine(),
-            bound: self.check.bound(),
-            cases: self.decision.cases,
-            given_up: self.decision.given_up,
-            verdict: self.decision.verdict.word(),
-            registered: self.check.expected().word(),
-            counterexample: evidence.map(|evidence| shown(self.check, evidence)).transpose()?,
-            file: self.file.clone(),
-            mutants: self.mutants(),
-            seconds: self.seconds,
-        })
-    }
-
-    /// Stores what refutes the clause in `folder`.
-    fn store(&mut self, folder: &Path, replaceable: &Replaceable, out: &mut Output) -> Result<(), Halt> {
-        let (clause, check) = (self.clause, self.check);
-        let Some(evidence) = &self.decision.counterexample else { return Ok(()) };
-        let path = refutation::path(folder, clause, self.number);
-        let run = match &evidence.seen {
-            Seen::Robots(run) => evidence::setup(check, run)?.zip(evidence::breach(run)),
-            Seen::Choices | Seen::Story(_) | Seen::Agents(_) | Seen::Messages { .. } => None,
-        };
-        let file = match run {
-            Some((setup, breach)) => hunt::store_at(&path, &setup, breach, replaceable)?.0,
-            None => refutation::store(&path, clause, check, evidence, replaceable)?,
-        };
-        self.file = keep(file, out);
-        Ok(())
-    }
-
-    /// What one sees in a counterexample, and where it is stored.
-    fn story(&self) -> Result<String, Halt> {
-        let Some(evidence) = &self.decision.counterexample else { return Ok(String::new()) };
-        let story = evidence::story(self.clause, self.check, evidence)?;
-        let file = self.file.as_ref().map(|file| format!("\nreplay it with: tautline replay {file}\n"));
-        Ok(format!("\n{story}{}", file.unwrap_or_default()))
-    }
+fn line((row, told): (&Row, &Told)) -> Result<Line, Halt> {
+    let Row { clause, check, ref decision, .. } = *row;
+    let evidence = decision.counterexample.as_ref();
+    Ok(Line {
+        id: clause.id,
+        rule: check.rule(),
+        engine: check.engine(),
+        bound: check.bound(),
+        cases: decision.cases,
+        given_up: decision.given_up,
+        verdict: decision.verdict.word(),
+        registered: check.expected().word(),
+        counterexample: evidence.map(|evidence| shown(check, evidence)).transpose()?,
+        file: told.file.clone(),
+        mutants: Mutants {
+            killed: decision.killed.len(),
+            of: decision.killed.len() + decision.survived.len(),
+            survived: decision.survived.clone(),
+        },
+        seconds: told.seconds,
+    })
 }
 
-const HEAD: [&str; 6] = ["clause", "rule", "engine", "cases", "verdict", "mutants killed"];
-
-/// The column of the cases, which are numbers.
-const CASES: usize = 3;
-
-/// The ledger: a line for each check, and its bound below. What takes time is not in it, so that it is the same
-/// everywhere.
-fn table(rows: &[Row]) -> String {
-    let cells = |row: &Row| {
-        let Mutants { killed, of, .. } = row.mutants();
-        let mutants = if of == 0 { "-".to_owned() } else { format!("{killed}/{of}") };
-        [
-            row.clause.id.to_owned(),
-            row.check.rule().to_owned(),
-            row.check.engine().to_owned(),
-            row.decision.cases.to_string(),
-            row.decision.verdict.word().to_owned(),
-            mutants,
-        ]
+/// Stores what refutes the clause of a row in `folder`: the place of the file.
+fn stored(
+    row: &Row,
+    folder: &Path,
+    replaceable: &Replaceable,
+    out: &mut Output,
+) -> Result<Option<String>, Halt> {
+    let Row { clause, number, check, ref decision } = *row;
+    let Some(evidence) = &decision.counterexample else { return Ok(None) };
+    let path = refutation::path(folder, clause, number);
+    let run = match &evidence.seen {
+        Seen::Robots(run) => evidence::setup(check, run)?.zip(evidence::breach(run)),
+        Seen::Choices | Seen::Story(_) | Seen::Agents(_) | Seen::Messages { .. } => None,
     };
-    let lines: Vec<[String; 6]> =
-        [HEAD.map(str::to_owned)].into_iter().chain(rows.iter().map(cells)).collect();
-    let widths: [usize; 6] = std::array::from_fn(|column| {
-        lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0)
-    });
-    let bounds = ["bound".to_owned()].into_iter().chain(rows.iter().map(Row::bound));
-    let mut text = String::new();
-    for (line, bound) in lines.iter().zip(bounds) {
-        let padded: Vec<String> = (0..)
-            .zip(line.iter().zip(widths))
-            .map(|(column, (cell, width))| match column {
-                CASES => format!("{cell:>width$}"),
-                _ => format!("{cell:width$}"),
-            })
-            .collect();
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "{}", padded.join("  ").trim_end());
-        text.push_str(&indented(widths[0] + 2, &bound));
-    }
-    text
+    let file = match run {
+        Some((setup, breach)) => hunt::store_at(&path, &setup, breach, replaceable)?.0,
+        None => refutation::store(&path, clause, check, evidence, replaceable)?,
+    };
+    Ok(keep(file, out))
+}
+
+/// What one sees in a counterexample, and where it is stored.
+fn story(row: &Row, told: &Told) -> Result<String, Halt> {
+    let Some(evidence) = &row.decision.counterexample else { return Ok(String::new()) };
+    let story = evidence::story(row.clause, row.check, evidence)?;
+    let file = told.file.as_ref().map(|file| format!("\nreplay it with: tautline replay {file}\n"));
+    Ok(format!("\n{story}{}", file.unwrap_or_default()))
 }
 
 fn last_line(rows: &[Row]) -> String {
     let mut text = String::from("\n");
-    for row in rows.iter().filter(|row| !row.decision.is_as_registered(row.check)) {
+    for row in rows.iter().filter(|row| !row.is_as_registered()) {
         let (verdict, expected) = (row.decision.verdict.word(), row.check.expected().word());
         let _ =
             writeln!(text, "{} as {}: {verdict}, registered as {expected}", row.clause.id, row.check.rule());
@@ -265,7 +211,7 @@ fn last_line(rows: &[Row]) -> String {
             let _ = writeln!(text, "{}: the mutant {mutant:?} survives", row.clause.id);
         }
     }
-    let differ = rows.iter().filter(|row| !row.decision.is_as_registered(row.check)).count();
+    let differ = rows.iter().filter(|row| !row.is_as_registered()).count();
     let _ = match differ {
         0 => writeln!(text, "All {} verdicts are the registered ones.", rows.len()),
         _ => writeln!(text, "{differ} of {} verdicts are not the registered ones.", rows.len()),

@@ -13,8 +13,9 @@ use tautline_proofs::clause::{AnyCheck, Clause};
 use tautline_proofs::decide::{Evidence, Seen};
 use tautline_proofs::judge::chain::{Exhibit, judge, judges};
 use tautline_proofs::judge::floor;
+use tautline_proofs::ledger::indented;
 
-use super::evidence::{Shown, indented, setup, shown, story};
+use super::evidence::{Shown, setup, shown, story};
 use super::explore::{Summary, among, check_panels, draw_moves, panels, play, summary};
 use super::output::Output;
 use super::rescue::{Files, tell};

@@ -7,8 +7,9 @@ use std::fmt;
 use tautline_kernel::choice::Oracle;
 
 use crate::course::Course;
+use crate::engine::states::{self, System};
 use crate::engine::tree::Watch;
-use crate::engine::{self, Choices, Outcome, Replay, Stop, Tally, Unfit, Until};
+use crate::engine::{self, Choices, Outcome, Replay, Script, Stop, Tally, Unfit, Until};
 use crate::run::Run;
 
 /// What a check found.
@@ -291,4 +292,75 @@ fn replay<R>(body: Body<R>, rule: &R, choices: &Choices) -> Result<Played, Unfit
         return Err(Unfit::Unbroken);
     }
     Ok(Played { of, evidence: Evidence { choices: choices.clone(), demand, seen: Seen::Choices } })
+}
+
+/// Every state of a system, in every order: what happens is found by an engine, and what is demanded stands in the system.
+pub struct EveryState<R: 'static, S: System> {
+    /// The bound in words.
+    pub range: Range,
+    /// The system in which all follow a rule.
+    pub system: fn(&R) -> S,
+    /// Where its runs begin.
+    pub starts: fn(&S) -> Vec<S::State>,
+    /// Steps between states at which the question is left open.
+    pub most_steps: u32,
+    /// The situations that must occur.
+    pub covers: &'static [&'static str],
+    /// What a step is, in words.
+    pub tell: fn(before: &S::State, after: &S::State) -> String,
+}
+
+impl<R, S: System<Demand = &'static str>> EveryState<R, S> {
+    /// What happens in `run` of `system`, in lines.
+    fn story(&self, system: &S, run: &states::Run<&'static str>) -> Seen {
+        let Some(mut state) = (self.starts)(system).into_iter().nth(run.start) else { return Seen::Choices };
+        let mut lines = String::new();
+        for &number in run.steps.iter().chain(run.round()) {
+            let Some(step) = system.steps(&state).nth(number as usize) else { break };
+            lines += &(self.tell)(&state, &step.state);
+            lines.push('\n');
+            state = step.state;
+        }
+        Seen::Story(lines)
+    }
+}
+
+impl<R, S> Method<R> for EveryState<R, S>
+where
+    R: Sync,
+    S: System<Demand = &'static str>,
+{
+    fn engine(&self) -> &'static str {
+        "states"
+    }
+
+    fn bound(&self) -> String {
+        (self.range)()
+    }
+
+    /// The choices are the number of the start, and those of the steps.
+    fn decide(&self, rule: &R, _: Until, _: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+        let system = (self.system)(rule);
+        let found = states::search(&system, (self.starts)(&system), self.most_steps);
+        let evidence = found.broken.first().map(|run| Evidence {
+            choices: Choices {
+                once: [&[run.start as u32], &run.steps[..]].concat(),
+                again: run.round().to_vec(),
+            },
+            demand: run.demand,
+            seen: self.story(&system, run),
+        });
+        let is_covered = self.covers.iter().all(|situation| found.covered.contains(situation));
+        Ok(Answer::new(evidence, found.is_whole && is_covered, self.shows(), found.states))
+    }
+
+    fn replay(&self, rule: &R, choices: &Choices) -> Result<Played, Unfit> {
+        let system = (self.system)(rule);
+        let mut script = Script::new(choices);
+        let mut starts = (self.starts)(&system);
+        let number = script.choose(starts.len())?;
+        let (of, run) = script.play(&system, (number, starts.swap_remove(number)), |_| true)?;
+        let seen = self.story(&system, &run);
+        Ok(Played { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })
+    }
 }

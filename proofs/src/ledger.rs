@@ -1,8 +1,10 @@
-//! The ledger: the clauses of all rooms, in the order of `SPEC.md`.
+//! The ledger: the clauses of all rooms, in the order of `SPEC.md`, and what came of clauses, whosever they are.
 
-use std::fmt;
+use std::fmt::{self, Write};
 
-use crate::clause::Clause;
+use crate::clause::{AnyCheck, Clause, Decision};
+use crate::decide::{Memory, Refused};
+use crate::engine::tree::{Watch, unwatched};
 use crate::{ants, bricks, chain, ground, mrc, notice, tan};
 
 /// The clauses of each room.
@@ -45,6 +47,136 @@ pub fn register(rooms: &[&'static [Clause]]) -> Result<Vec<&'static Clause>, Twi
         }
     }
     Ok(clauses)
+}
+
+/// A check that was decided.
+#[derive(Debug)]
+pub struct Row {
+    /// The clause.
+    pub clause: &'static Clause,
+    /// The number of the check among those of the clause.
+    pub number: usize,
+    /// The check.
+    pub check: &'static dyn AnyCheck,
+    /// What came of it.
+    pub decision: Decision,
+}
+
+impl Row {
+    /// Whether it came out as it is registered.
+    pub fn is_as_registered(&self) -> bool {
+        self.decision.is_as_registered(self.check)
+    }
+
+    /// The bound, and how many of its cases were given up.
+    fn bound(&self) -> String {
+        let bound = self.check.bound();
+        match self.decision.given_up {
+            0 => bound,
+            given_up => format!("{bound}; {given_up} given up"),
+        }
+    }
+}
+
+/// The checks of `clauses`, in order: the clause, and the number of the check.
+pub fn checks(clauses: &[&'static Clause]) -> Vec<(&'static Clause, usize)> {
+    clauses.iter().flat_map(|&clause| (0..clause.checks.len()).map(move |number| (clause, number))).collect()
+}
+
+/// Decides a check of `clause`, the one with this number.
+///
+/// # Errors
+/// [`Refused`] if its method cannot begin.
+pub fn decide(
+    clause: &'static Clause,
+    number: usize,
+    memory: &mut Memory,
+    watch: Watch<'_>,
+) -> Result<Row, Refused> {
+    let check = clause.checks[number];
+    Ok(Row { clause, number, check, decision: check.decide(memory, watch)? })
+}
+
+/// Decides all checks of `clauses`, one after the other.
+///
+/// # Errors
+/// [`Refused`] if a method cannot begin.
+pub fn decide_all(clauses: &[&'static Clause]) -> Result<Vec<Row>, Refused> {
+    let mut memory = Memory::default();
+    let decided = |(clause, number)| decide(clause, number, &mut memory, &mut unwatched);
+    checks(clauses).into_iter().map(decided).collect()
+}
+
+const HEAD: [&str; 6] = ["clause", "rule", "engine", "cases", "verdict", "mutants killed"];
+
+/// The column of the cases, which are numbers.
+const CASES: usize = 3;
+
+/// The ledger: a line for each check, and its bound below. What takes time is not in it, so that it is the same
+/// everywhere.
+pub fn table(rows: &[Row]) -> String {
+    let cells = |row: &Row| {
+        let Decision { killed, survived, .. } = &row.decision;
+        let mutants = match killed.len() + survived.len() {
+            0 => "-".to_owned(),
+            of => format!("{}/{of}", killed.len()),
+        };
+        [
+            row.clause.id.to_owned(),
+            row.check.rule().to_owned(),
+            row.check.engine().to_owned(),
+            row.decision.cases.to_string(),
+            row.decision.verdict.word().to_owned(),
+            mutants,
+        ]
+    };
+    let lines: Vec<[String; 6]> =
+        [HEAD.map(str::to_owned)].into_iter().chain(rows.iter().map(cells)).collect();
+    let widths: [usize; 6] = std::array::from_fn(|column| {
+        lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0)
+    });
+    let bounds = ["bound".to_owned()].into_iter().chain(rows.iter().map(Row::bound));
+    let mut text = String::new();
+    for (line, bound) in lines.iter().zip(bounds) {
+        let padded: Vec<String> = (0..)
+            .zip(line.iter().zip(widths))
+            .map(|(column, (cell, width))| match column {
+                CASES => format!("{cell:>width$}"),
+                _ => format!("{cell:width$}"),
+            })
+            .collect();
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{}", padded.join("  ").trim_end());
+        text.push_str(&indented(widths[0] + 2, &bound));
+    }
+    text
+}
+
+/// Columns of text that a line with a bound may take.
+const WIDTH: usize = 80;
+
+/// `text` in lines that begin after `indent` columns and are broken behind commas and semicolons.
+pub fn indented(indent: usize, text: &str) -> String {
+    let width = WIDTH - indent;
+    let mut before = ' ';
+    let parts = text.split_inclusive(|letter: char| {
+        let is_break = letter == ' ' && matches!(before, ',' | ';');
+        before = letter;
+        is_break
+    });
+    let joined = |mut lines: Vec<String>, part: &str| {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + part.chars().count() <= width => {
+                line.push(' ');
+                line.push_str(part);
+            }
+            Some(_) | None => lines.push(part.to_owned()),
+        }
+        lines
+    };
+    let margin = " ".repeat(indent);
+    let lines = parts.map(str::trim_end).fold(Vec::new(), joined).into_iter();
+    lines.map(|line| [margin.as_str(), &line, "\n"].concat()).collect()
 }
 
 #[cfg(test)]

@@ -17,4 +17,5 @@ pub mod notice;
 pub mod run;
 mod step_check;
 pub mod tan;
+pub mod team;
 pub mod words;

@@ -1,5 +1,7 @@
 //! The chain as the search plays it: its edges are decided when a robot first tries them, and a wall is a mishap.
 
+use std::ops::ControlFlow;
+
 use tautline_kernel::chain::{Chain, Intent, Message, Outcome, Plan, Refused};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, CellMark, EdgeMark, Grid, Step};
@@ -141,18 +143,18 @@ where
 
     /// The chain is where it was, and what it took back since then, it has done again: so it goes on as it did. If it
     /// took back everything, it must have as much to take back as then.
-    fn broken_by_recurring(
+    fn recurs(
         &self,
         then: &Self::State,
         sent: usize,
         now: &Self::State,
         log: &[u8],
-    ) -> Option<Broken<Self>> {
+    ) -> ControlFlow<Option<Broken<Self>>> {
         let is_back = then.cells() == now.cells()
             && (then.gained(), then.is_unfolding()) == (now.gained(), now.is_unfolding())
             && then.grid() == now.grid();
         if !is_back {
-            return None;
+            return ControlFlow::Continue(());
         }
         let (mut height, mut lowest) = (0_i64, 0_i64);
         for messages in log[sent..].chunks_exact(self.bounds.robots - 1) {
@@ -163,7 +165,11 @@ where
         let was_home = self.open_moves(&log[..sent]).nth(undone).is_none();
         let recurs = (height == 0 || height > 0 && !was_home)
             && self.open_moves(&log[..sent]).take(undone).eq(self.open_moves(log).take(undone));
-        recurs.then_some((Invariant::Ends, "a run never comes back to where it was"))
+        if recurs {
+            ControlFlow::Break(Some((Invariant::Ends, "a run never comes back to where it was")))
+        } else {
+            ControlFlow::Continue(())
+        }
     }
 }
 

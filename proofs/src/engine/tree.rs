@@ -74,15 +74,15 @@ pub trait Game: Send + Sync + 'static {
     /// What a run breaks that ends in `state`, with all that it remembers in `log`.
     fn broken_at_end(&self, state: &Self::State, log: &[u8]) -> Option<Broken<Self>>;
 
-    /// What a run breaks that goes on for ever: it was in the state `then` when the log had `sent` bytes, and is in
-    /// `now` without an answer in between.
-    fn broken_by_recurring(
+    /// Whether a run goes on for ever, and what it breaks by that: it was in the state `then` when the log had `sent` bytes,
+    /// and is in `now` without an answer in between. A run that breaks nothing by coming back is over.
+    fn recurs(
         &self,
         then: &Self::State,
         sent: usize,
         now: &Self::State,
         log: &[u8],
-    ) -> Option<Broken<Self>>;
+    ) -> ControlFlow<Option<Broken<Self>>>;
 
     /// How many edges can be walls: a run asks for no more answers than this.
     fn edges(&self) -> u32;
@@ -94,13 +94,13 @@ pub trait Game: Send + Sync + 'static {
     }
 
     /// The situations that must occur, at most 64 of them.
-    fn covers(&self) -> &'static [&'static str] {
-        &[]
+    fn covers(&self) -> impl Iterator<Item = &'static str> {
+        std::iter::empty()
     }
 
-    /// Which of them a team move is.
-    fn situation(&self, _: &Turn<'_, Self>) -> Option<&'static str> {
-        None
+    /// Which of them a team move is: a bit for each, in their order.
+    fn occurs(&self, _: &Turn<'_, Self>) -> u64 {
+        0
     }
 }
 

@@ -2,6 +2,7 @@
 //! and the answers that it gave so far. The answers alone say where a lane is, so a list of them is all that a search
 //! needs to be resumed.
 
+use std::ops::ControlFlow;
 use std::slice;
 
 use serde::{Deserialize, Serialize};
@@ -172,7 +173,7 @@ impl<G: Game> Lane<G> {
         while lane.answers.given.len() < place.answers.len() {
             let fork = lane.plan(game)?;
             lane.follow(game, &fork, &place.answers)?;
-            if lane.recurs(game).is_some() {
+            if lane.recurs(game).is_break() {
                 return None;
             }
         }
@@ -249,12 +250,12 @@ impl<G: Game> Lane<G> {
         count.made += 1;
         count.moves += u64::from(self.is_new());
         let turn = self.turn(fork);
-        if let Some(situation) = game.situation(&turn) {
-            let place = game.covers().iter().position(|&cover| cover == situation);
-            count.covered |= place.map_or(0, |place| 1 << place);
-        }
-        if let Some(broken) = game.broken_by(&turn).or_else(|| self.recurs(game)) {
+        count.covered |= game.occurs(&turn);
+        let broken = game.broken_by(&turn);
+        if let Some(broken) = broken {
             self.end(Some(broken), count);
+        } else if let ControlFlow::Break(broken) = self.recurs(game) {
+            self.end(broken, count);
         } else if self.steps >= game.longest_run() {
             count.given_up += u64::from(self.is_new());
             self.end(None, count);
@@ -268,15 +269,17 @@ impl<G: Game> Lane<G> {
         Turn { before, planned, after: &self.state, plan, sent: &self.log[*sent..] }
     }
 
-    /// What is broken if the run comes back to where it was, and so never ends.
-    fn recurs(&mut self, game: &G) -> Option<Broken<G>> {
+    /// Whether the run comes back to where it was, and so never ends, and what is broken by that.
+    fn recurs(&mut self, game: &G) -> ControlFlow<Option<Broken<G>>> {
         let Mark { at, moved, due } = &self.mark;
         if moved < due {
-            let (state, sent) = at.as_ref()?;
-            return game.broken_by_recurring(state, *sent, &self.state, &self.log);
+            return match at {
+                Some((state, sent)) => game.recurs(state, *sent, &self.state, &self.log),
+                None => ControlFlow::Continue(()),
+            };
         }
         self.mark = Mark { at: Some((self.state, self.log.len())), moved: *moved, due: 2 * due };
-        None
+        ControlFlow::Continue(())
     }
 
     /// The run is over, perhaps since it breaks something.
@@ -394,7 +397,7 @@ pub(super) fn replay<G: Game>(
         }
         let turn = lane.turn(&fork);
         frames.push(game.frame(&turn));
-        broken = game.broken_by(&turn).or_else(|| lane.recurs(game));
+        broken = game.broken_by(&turn).or_else(|| lane.recurs(game).break_value().flatten());
     }
     let used = lane.answers.given.len();
     if used < answers.len() {
@@ -419,7 +422,7 @@ pub(super) fn record<G: Game>(
         lane.follow(game, &fork, answers)?;
         let turn = lane.turn(&fork);
         frames.push(game.frame(&turn));
-        broken = game.broken_by(&turn).or_else(|| lane.recurs(game));
+        broken = game.broken_by(&turn).or_else(|| lane.recurs(game).break_value().flatten());
     }
     if broken.is_none() && lane.plan(game).is_none() {
         broken = game.broken_at_end(&lane.state, &lane.log);

@@ -257,7 +257,7 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
         let Count { runs, moves, longest, given_up, ref broken, .. } = self.count;
         let mut broken = broken.clone();
         broken.sort_unstable();
-        let situations = self.game.covers().iter().zip(0..);
+        let situations = self.game.covers().zip(0..);
         let covered = situations.filter(|(_, bit)| self.count.covered >> bit & 1 == 1);
         let counterexamples = broken.iter().filter_map(|broken| self.record(broken)).collect();
         let complete = self.lanes.is_empty();
@@ -266,7 +266,7 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
             moves,
             longest,
             given_up,
-            covered: covered.map(|(&situation, _)| situation).collect(),
+            covered: covered.map(|(situation, _)| situation).collect(),
             levels: self.levels.clone(),
             complete,
             counterexamples,

@@ -1,0 +1,105 @@
+//! A message protocol over all states and all orders: three robots in a ring elect a leader (Chang and Roberts, 1979). A robot
+//! passes on a larger number than its own, swallows a smaller one, and leads when its own comes back. Which message
+//! arrives next is open at every step.
+
+use tautline_proofs::clause::{Check, Clause, Named};
+use tautline_proofs::decide::Verdict::{Holds, Refuted};
+use tautline_proofs::decide::{EveryState, Refused, Seen};
+use tautline_proofs::engine::states::{Step, System};
+use tautline_proofs::ledger;
+
+const ROBOTS: usize = 3;
+
+/// What a robot does with a smaller number than its own.
+#[derive(Clone, Copy)]
+enum Smaller {
+    Swallow,
+    PassOn,
+}
+
+/// The numbers on their way to each robot, the one sent last at the end, and who takes itself for the leader.
+#[derive(Clone, PartialEq, Eq, Hash, Default)]
+struct Ring {
+    under_way: [Vec<usize>; ROBOTS],
+    leads: [bool; ROBOTS],
+}
+
+struct Election(Smaller);
+
+impl System for Election {
+    type State = Ring;
+    type Key = Ring;
+    type Demand = &'static str;
+
+    fn key(&self, ring: &Ring) -> Ring {
+        ring.clone()
+    }
+
+    fn steps(&self, ring: &Ring) -> impl Iterator<Item = Step<Ring, &'static str>> {
+        let arrives = |robot: usize| {
+            let mut state = ring.clone();
+            let number = (!state.under_way[robot].is_empty()).then(|| state.under_way[robot].remove(0))?;
+            let passes_on = number > robot || number < robot && matches!(self.0, Smaller::PassOn);
+            if passes_on {
+                state.under_way[(robot + 1) % ROBOTS].push(number);
+            }
+            state.leads[robot] |= number == robot;
+            let leaders = state.leads.iter().filter(|&&leads| leads).count();
+            let breaks = if leaders > 1 { vec!["two robots lead"] } else { Vec::new() };
+            let situation = if passes_on { "a number goes on" } else { "a number stops" };
+            Some(Step { state, situation, acting: 1 << robot, is_bound: true, breaks })
+        };
+        (0..ROBOTS).filter_map(arrives)
+    }
+
+    fn broken_at_end(&self, ring: &Ring) -> Option<&'static str> {
+        (!ring.leads.contains(&true)).then_some("nobody leads")
+    }
+}
+
+static ORDERS: EveryState<Smaller, Election> = EveryState {
+    range: || format!("{ROBOTS} robots, every order of their messages"),
+    system: |&smaller| Election(smaller),
+    starts: |_| vec![Ring { under_way: [vec![2], vec![0], vec![1]], leads: [false; ROBOTS] }],
+    most_steps: 10_000,
+    covers: &["a number goes on", "a number stops", "an end"],
+    tell: |before, after| {
+        let robot = (0..ROBOTS).find(|&robot| before.under_way[robot].len() > after.under_way[robot].len());
+        let robot = robot.unwrap_or_default();
+        let now = if after.leads[robot] { ", and leads" } else { "" };
+        format!("{robot} hears {}{now}.", before.under_way[robot][0])
+    },
+};
+
+const OURS: Named<Smaller> = Named::new("swallows", Smaller::Swallow);
+const POLITE: Named<Smaller> = Named::new("passes everything on", Smaller::PassOn);
+
+/// What is promised.
+static CLAUSES: [Clause; 1] = [Clause {
+    id: "ELECT-1",
+    sentence: "Exactly one robot MUST lead in the end, and never two.",
+    checks: &[&Check::new(OURS, &ORDERS, Holds, &[POLITE]), &Check::new(POLITE, &ORDERS, Refuted, &[])],
+}];
+
+fn main() -> Result<(), Refused> {
+    let rows = ledger::decide_all(&ledger::register(&[&CLAUSES]).map_err(Refused::new)?)?;
+    print!("{}", ledger::table(&rows));
+    for evidence in rows.iter().filter_map(|row| row.decision.counterexample.as_ref()) {
+        if let Seen::Story(story) = &evidence.seen {
+            print!("\n{}:\n{story}", evidence.demand);
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_check_comes_out_as_it_is_registered() {
+        for row in ledger::decide_all(&[&CLAUSES[0]]).expect("it can be searched") {
+            assert!(row.is_as_registered(), "{}: {:?}", row.clause.id, row.decision);
+        }
+    }
+}

@@ -1,0 +1,3 @@
+//! A team of one's own, simulated.
+
+fn main() {}
