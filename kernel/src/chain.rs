@@ -8,6 +8,7 @@
 mod choices;
 mod message;
 mod plan;
+mod planner;
 mod rule;
 mod team;
 mod unfold;

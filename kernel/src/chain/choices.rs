@@ -9,7 +9,7 @@
 
 use core::cmp::Reverse;
 
-use super::plan::{Looks, Planner};
+use super::planner::{Looks, Planner};
 use super::rule::Condition;
 use crate::ground::{Cell, Grid, Step, Steps, neighbours};
 
@@ -183,8 +183,8 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
     }
 
     /// The robot to try a step for, as long as there are some that are undecided and that the witness does not help:
-    /// the culprit, even if the witness helps it, or else that one of them that failed most often for each step it has left; in doubt the
-    /// nearest to the leader.
+    /// the culprit, even if the witness helps it, or else that one of them that failed most often for each step it has
+    /// left; in doubt the nearest to the leader.
     fn next(&self) -> Option<(usize, Turn)> {
         let mut lost = (1..self.team.len()).rev().filter(|&robot| {
             self.left[robot].len() > 1 && self.left[robot].and(self.witness[robot]).is_empty()

@@ -4,7 +4,8 @@ use core::fmt;
 
 use super::MAX_ROBOTS;
 use super::message::{Damaged, Message, Outcome};
-use super::plan::{Kind, Looks, Plan, Planner, mark_occupied, unmark_occupied};
+use super::plan::{Kind, Plan, mark_occupied, unmark_occupied};
+use super::planner::{Looks, Planner};
 use super::rule::{Condition, Rule};
 use super::unfold::unfold;
 use crate::ground::{Area, Cell, CellMark, Edge, EdgeMark, Grid, Step};

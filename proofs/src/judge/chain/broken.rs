@@ -1,0 +1,112 @@
+//! What breaks each clause: a move, or the end of a run.
+
+use std::collections::{BTreeSet, HashSet};
+
+use super::court::Court;
+use super::exhibit::Move;
+use super::place::{Place, SIDES, add, is_covered, side_between};
+
+/// What breaks the clause with this id, if the judge knows it.
+pub(super) fn broken(clause: &str) -> Option<Broken> {
+    Some(match clause {
+        "CHAIN-1" => Broken::ByMove(|_, made| contact_is_lost(&made.places)),
+        "CHAIN-2" => Broken::ByMove(|_, made| cell_is_crowded(&made.places)),
+        "CHAIN-3" => Broken::ByMove(|court, made| range_is_left(&court.places, &made.places)),
+        "CHAIN-13" => Broken::AtEnd(|court| Ok(misses_within_reach(court))),
+        "CHAIN-14" => Broken::AtEnd(misses_reachable),
+        _ => return None,
+    })
+}
+
+/// What breaks a clause.
+#[derive(Clone, Copy)]
+pub(super) enum Broken {
+    ByMove(fn(&Court<'_>, &Move) -> bool),
+    AtEnd(fn(&Court<'_>) -> Result<bool, &'static str>),
+}
+
+/// Places of all robots that the judge looks at to say what a chain can reach.
+const MOST_CONFIGURATIONS: usize = 1_000_000;
+
+/// CHAIN-1
+fn contact_is_lost(after: &[Place]) -> bool {
+    after.windows(2).any(|pair| !is_covered(pair[0], pair[1]))
+}
+
+/// CHAIN-2
+fn cell_is_crowded(after: &[Place]) -> bool {
+    after.iter().any(|place| *place != after[0] && after.iter().filter(|other| *other == place).count() > 2)
+}
+
+/// CHAIN-3: four times the squared distance is above 26 for some pair of ends.
+fn range_is_left(before: &[Place], after: &[Place]) -> bool {
+    let is_far = |one: Place, other: Place| {
+        let (dx, dy) = (one.0 - other.0, one.1 - other.1);
+        4 * (dx * dx + dy * dy) > 26
+    };
+    (1..after.len()).any(|robot| {
+        [before[robot], after[robot]].into_iter().any(|ahead| {
+            [before[robot - 1], after[robot - 1]].into_iter().any(|behind| is_far(ahead, behind))
+        })
+    })
+}
+
+/// CHAIN-13: some place at most N−1 links from the base was never explored.
+fn misses_within_reach(court: &Court<'_>) -> bool {
+    let within_reach = court.exhibit.within_reach(|side| court.exhibit.is_open(side));
+    !within_reach.is_subset(&court.explored)
+}
+
+/// CHAIN-14: a team that knows the layout, and tries no wall, can bring a robot to a place that was never explored.
+fn misses_reachable(court: &Court<'_>) -> Result<bool, &'static str> {
+    let start = vec![court.exhibit.base; court.exhibit.robots];
+    // One who knows all sides: nobody is unsure, and no wall is planned to be crossed.
+    let mut informed = Court { open: BTreeSet::new(), walls: BTreeSet::new(), ..court.clone() };
+    for place in court.exhibit.inside() {
+        for step in [(1, 0), (0, 1)] {
+            let side = side_between(place, add(place, step));
+            let known = if court.exhibit.is_open(side) { &mut informed.open } else { &mut informed.walls };
+            known.insert(side);
+        }
+    }
+    let mut seen = HashSet::from([start.clone()]);
+    let mut left = vec![start];
+    while let Some(places) = left.pop() {
+        if places.iter().any(|place| !court.explored.contains(place)) {
+            return Ok(true);
+        }
+        informed.places = places;
+        informed.configurations(&mut vec![(0, 0)], &mut |next| {
+            if seen.insert(next.clone()) {
+                left.push(next);
+            }
+        });
+        if seen.len() > MOST_CONFIGURATIONS {
+            return Err("the robots have too many places for the judge to say what they can reach");
+        }
+    }
+    Ok(false)
+}
+
+impl Court<'_> {
+    /// The places of all robots after each team move that is admitted and begins with the steps `tried`, base first.
+    fn configurations(&self, tried: &mut Vec<Place>, sink: &mut dyn FnMut(Vec<Place>)) {
+        let robot = tried.len();
+        let planned: Vec<Place> = tried.iter().zip(&self.places).map(|(&step, &at)| add(at, step)).collect();
+        if robot == self.exhibit.robots {
+            return sink(planned);
+        }
+        for step in SIDES.into_iter().chain([(0, 0)]) {
+            let to = add(self.places[robot], step);
+            let is_taken = to != self.exhibit.base && planned[1..].contains(&to);
+            if !is_taken
+                && self.admits_step(robot, step).is_ok()
+                && self.admits_pair(robot, step, planned[robot - 1]).is_ok()
+            {
+                tried.push(step);
+                self.configurations(tried, sink);
+                tried.pop();
+            }
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! What the team knows, and what its rule says about a planned move: the judge hears one move after the other.
+
+use std::collections::BTreeSet;
+
+use super::exhibit::{Exhibit, Move, Repairs};
+use super::place::{Place, add, is_covered, is_safe, side_between};
+
+/// What the team knows, kept by the judge.
+#[derive(Clone)]
+pub(super) struct Court<'a> {
+    pub(super) exhibit: &'a Exhibit,
+    pub(super) places: Vec<Place>,
+    /// Displacements of the advances that are not taken back.
+    pub(super) history: Vec<Vec<Place>>,
+    pub(super) walls: BTreeSet<(Place, Place)>,
+    pub(super) open: BTreeSet<(Place, Place)>,
+    pub(super) explored: BTreeSet<Place>,
+    /// The sides with a virtual obstacle.
+    pub(super) refused: BTreeSet<(Place, Place)>,
+    /// Whether this epoch has explored a cell or found a wall; the first begins with one explored.
+    pub(super) gained: bool,
+    /// Whether this epoch began by unfolding the chain.
+    pub(super) unfolds: bool,
+}
+
+impl<'a> Court<'a> {
+    /// Before the first move. The number of robots is checked with each move, and may be any before.
+    pub(super) fn new(exhibit: &'a Exhibit, robots: usize) -> Self {
+        Self {
+            exhibit,
+            places: vec![exhibit.base; robots],
+            history: Vec::new(),
+            walls: BTreeSet::new(),
+            open: BTreeSet::new(),
+            explored: BTreeSet::from([exhibit.base]),
+            refused: BTreeSet::new(),
+            gained: true,
+            unfolds: false,
+        }
+    }
+
+    pub(super) fn are_all_there(&self, made: &Move) -> Result<(), &'static str> {
+        let robots = self.exhibit.robots;
+        if [made.tried.len(), made.blocked.len(), made.places.len(), self.places.len()] != [robots; 4] {
+            return Err("every robot has a step, an outcome and a place");
+        }
+        Ok(())
+    }
+
+    pub(super) fn hear(&mut self, made: &Move) -> Result<(), &'static str> {
+        if made.tried.iter().any(|&(x, y)| x.unsigned_abs().saturating_add(y.unsigned_abs()) > 1) {
+            return Err("a step leads to a side neighbour or nowhere");
+        }
+        if made.tried[0] != (0, 0) || made.blocked[0] || made.places[0] != self.exhibit.base {
+            return Err("the base does something");
+        }
+        if made.is_backtrack {
+            self.hear_backtrack(made)?;
+        } else {
+            self.hear_advance(made)?;
+        }
+        for robot in 0..self.exhibit.robots {
+            let arrived = if made.blocked[robot] { self.places[robot] } else { self.target(made, robot) };
+            if made.places[robot] != arrived {
+                return Err("a robot is not where its step leads");
+            }
+            self.gained |= self.explored.insert(arrived);
+        }
+        Ok(())
+    }
+
+    fn hear_backtrack(&mut self, made: &Move) -> Result<(), &'static str> {
+        let Some(last) = self.history.pop() else { return Err("there is nothing to take back") };
+        if made.blocked.contains(&true) {
+            return Err("a backtrack is not blocked");
+        }
+        if last.iter().zip(&made.tried).any(|(&(x, y), &back)| (-x, -y) != back) {
+            return Err("a backtrack takes the last open move back");
+        }
+        Ok(())
+    }
+
+    fn hear_advance(&mut self, made: &Move) -> Result<(), &'static str> {
+        self.admits(made)?;
+        for robot in 1..made.tried.len() {
+            let is_step = made.tried[robot] != (0, 0);
+            if made.blocked[robot] && !is_step {
+                return Err("a robot that stays is not blocked");
+            }
+            if is_step && made.blocked[robot] == self.exhibit.is_open(self.side(robot, made.tried[robot])) {
+                return Err("a robot is blocked where nothing is in the way, or passes where something is");
+            }
+        }
+        for robot in 1..made.tried.len() {
+            let side = self.side(robot, made.tried[robot]);
+            if made.blocked[robot] {
+                self.gained |= self.walls.insert(side);
+            } else if made.tried[robot] != (0, 0) {
+                self.open.insert(side);
+            }
+        }
+        let displaced = |robot: usize| if made.blocked[robot] { (0, 0) } else { made.tried[robot] };
+        self.history.push((0..made.tried.len()).map(displaced).collect());
+        Ok(())
+    }
+
+    /// The sentences of the rule about a planned move.
+    fn admits(&self, made: &Move) -> Result<(), &'static str> {
+        let planned: Vec<Place> = (0..made.tried.len()).map(|robot| self.target(made, robot)).collect();
+        for robot in 1..planned.len() {
+            self.admits_step(robot, made.tried[robot])?;
+            self.admits_pair(robot, made.tried[robot], planned[robot - 1])?;
+            if planned[robot] != self.exhibit.base && planned[1..robot].contains(&planned[robot]) {
+                return Err("two robots plan to be in one cell outside the base");
+            }
+        }
+        Ok(())
+    }
+
+    /// Those about a robot alone.
+    pub(super) fn admits_step(&self, robot: usize, step: Place) -> Result<(), &'static str> {
+        let (stays, planned) = (step == (0, 0), add(self.places[robot], step));
+        if !stays && self.is_known_wall(self.side(robot, step)) {
+            return Err("a robot plans to cross a known wall");
+        }
+        let is_null = stays && robot + 1 == self.exhibit.robots;
+        if !is_null && !is_covered(self.places[robot - 1], planned) {
+            return Err("a planned position is not in E_C of the present position behind");
+        }
+        let others = self.places.iter().filter(|&&place| place == planned).count();
+        let is_full = !stays && planned != self.exhibit.base && others >= 2;
+        if is_full && self.exhibit.repairs == Repairs::With {
+            return Err("a robot plans to enter a cell that two others occupy");
+        }
+        Ok(())
+    }
+
+    /// Those about a robot that plans to make `step`, and the one behind it, which plans to be at `behind`.
+    pub(super) fn admits_pair(&self, robot: usize, step: Place, behind: Place) -> Result<(), &'static str> {
+        if !is_safe(add(self.places[robot], step), behind) {
+            return Err("a planned position is not in E_S of the planned position ahead");
+        }
+        let is_sure = step == (0, 0) || self.open.contains(&self.side(robot, step));
+        if self.exhibit.repairs == Repairs::With && !is_sure && !is_covered(self.places[robot], behind) {
+            return Err("behind an unsure neighbour a robot plans to leave E_C of its present position");
+        }
+        Ok(())
+    }
+
+    pub(super) fn is_known_wall(&self, side: (Place, Place)) -> bool {
+        self.walls.contains(&side) || self.exhibit.is_border(side)
+    }
+
+    fn target(&self, made: &Move, robot: usize) -> Place {
+        add(self.places[robot], made.tried[robot])
+    }
+
+    pub(super) fn side(&self, robot: usize, step: Place) -> (Place, Place) {
+        side_between(self.places[robot], add(self.places[robot], step))
+    }
+}

@@ -1,0 +1,129 @@
+//! What is brought before the judge, and what can be said against it.
+
+use std::collections::BTreeSet;
+use std::fmt;
+
+use super::place::{Place, SIDES, add, side_between};
+
+/// A counterexample, written down.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Exhibit {
+    /// The clause that its last move is said to break, `CHAIN-1`, `CHAIN-2` or `CHAIN-3`, or its end, `CHAIN-13` or
+    /// `CHAIN-14`.
+    pub clause: String,
+    /// The rule that the team is said to follow.
+    pub repairs: Repairs,
+    /// Columns of the layout.
+    pub width: i32,
+    /// Rows of the layout.
+    pub height: i32,
+    /// Pairs of neighbouring cells, the western or northern first, with a wall between them.
+    pub walls: BTreeSet<(Place, Place)>,
+    /// Cells that nobody can enter.
+    pub blocked: BTreeSet<Place>,
+    /// The base.
+    pub base: Place,
+    /// Robots, base included.
+    pub robots: usize,
+    /// The team moves.
+    pub moves: Vec<Move>,
+}
+
+/// Whether the team follows the repaired rule.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Repairs {
+    /// The rule as published.
+    Without,
+    /// The rule with all repairs.
+    With,
+}
+
+/// One team move, base first.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Move {
+    /// Whether it takes an earlier move back.
+    pub is_backtrack: bool,
+    /// What each robot tried: columns and rows.
+    pub tried: Vec<Place>,
+    /// Whether it was blocked.
+    pub blocked: Vec<bool>,
+    /// Where it is now.
+    pub places: Vec<Place>,
+}
+
+/// Why an exhibit is no counterexample: the sentence, and the team move that it is about, counted from 1; 0 for
+/// the exhibit as a whole.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Objection {
+    /// The team move.
+    pub at: usize,
+    /// What is wrong.
+    pub what: &'static str,
+}
+
+impl fmt::Display for Objection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.at {
+            0 => f.write_str(self.what),
+            at => write!(f, "team move {at}: {}", self.what),
+        }
+    }
+}
+
+impl std::error::Error for Objection {}
+
+impl Exhibit {
+    pub(super) fn is_free(&self, (x, y): Place) -> bool {
+        (0..self.width).contains(&x) && (0..self.height).contains(&y) && !self.blocked.contains(&(x, y))
+    }
+
+    pub(super) fn is_open(&self, side: (Place, Place)) -> bool {
+        self.is_free(side.0) && self.is_free(side.1) && !self.walls.contains(&side)
+    }
+
+    /// Whether a place is in the area that the team is given.
+    pub(super) fn is_inside(&self, (x, y): Place) -> bool {
+        let range = self.robots as i32 - 1;
+        (0..self.width).contains(&x)
+            && (0..self.height).contains(&y)
+            && (x - self.base.0).abs() <= range
+            && (y - self.base.1).abs() <= range
+    }
+
+    /// The places of that area.
+    pub(super) fn inside(&self) -> impl Iterator<Item = Place> {
+        let range = i32::try_from(self.robots).unwrap_or(i32::MAX) - 1;
+        let (x, y) = self.base;
+        let columns = x.saturating_sub(range).max(0)..=x.saturating_add(range).min(self.width - 1);
+        let rows = y.saturating_sub(range).max(0)..=y.saturating_add(range).min(self.height - 1);
+        rows.flat_map(move |y| columns.clone().map(move |x| (x, y)))
+    }
+
+    /// The border of the area: known from the start.
+    pub(super) fn is_border(&self, side: (Place, Place)) -> bool {
+        !(self.is_inside(side.0) && self.is_inside(side.1))
+    }
+
+    /// The places of the area at most N−1 links from the base, where links cross the sides that `is_open`.
+    pub(super) fn within_reach(&self, is_open: impl Fn((Place, Place)) -> bool) -> BTreeSet<Place> {
+        let pass = |from: Place, step: Place| {
+            let to = add(from, step);
+            (self.is_inside(to) && is_open(side_between(from, to))).then_some(to)
+        };
+        let linked = |from: Place| {
+            SIDES
+                .into_iter()
+                .filter_map(move |(x, y)| pass(from, (x, y)).map(|next| (next, (x, y))))
+                .flat_map(move |(next, (x, y))| {
+                    let turns = [(y, x), (-y, -x)].into_iter().filter_map(move |turn| pass(next, turn));
+                    std::iter::once(next).chain(turns)
+                })
+        };
+        let mut reached = BTreeSet::from([self.base]);
+        let mut rim = vec![self.base];
+        for _ in 1..self.robots {
+            rim = rim.into_iter().flat_map(linked).filter(|&place| reached.insert(place)).collect();
+        }
+        reached
+    }
+}
