@@ -9,8 +9,8 @@ use tautline_proofs::rescue::chart::chart;
 use tautline_proofs::search::{Bounds, Counterexample};
 
 use super::usage;
-use tautline_sim::explore::agents::Way;
-use tautline_sim::explore::{Crew, RuleName, Setup};
+use tautline_sim::explore::chain::CHAIN;
+use tautline_sim::explore::{RuleName, Setup};
 use tautline_sim::fault::Halt;
 use tautline_sim::refutation::rule;
 use tautline_sim::{hunt, view};
@@ -51,13 +51,12 @@ pub(super) fn setup(check: &Check, run: &Counterexample) -> Result<Option<Setup>
         return Ok(None);
     };
     let bounds = Bounds::new(check.subject, robots, max_walls);
-    Ok(Some(hunt::setup(rule, &bounds, run).map_err(|problem| usage(&problem))?))
+    Ok(Some(hunt::setup(&CHAIN, rule, &bounds, run).map_err(|problem| usage(&problem))?))
 }
 
 /// A run of agents.
-fn drawn(check: &Check, course: &Course) -> Result<String, Halt> {
-    let crew = Crew::Agents(Way::Bricks(check.subject.bricks));
-    Ok(view::story::of_course(crew, course).map_err(|problem| usage(&problem))?)
+fn drawn(course: &Course) -> Result<String, Halt> {
+    Ok(view::story::of_course(course).map_err(|problem| usage(&problem))?)
 }
 
 /// What refutes a clause, as data.
@@ -72,7 +71,7 @@ pub(super) fn shown(check: &Check, evidence: &Evidence) -> Result<Shown, Halt> {
             Shown::Run { demand, walls: run.walls.len(), steps: run.frames.len(), layout }
         }
         Evidence::Course(course, ..) => {
-            Shown::Course { demand, turns: course.turns.len(), drawing: drawn(check, course)? }
+            Shown::Course { demand, turns: course.turns.len(), drawing: drawn(course)? }
         }
         Evidence::Rescue(run) => {
             let (setting, broken) = &**run;
@@ -113,7 +112,7 @@ pub(super) fn story(clause: &Clause, check: &Check, evidence: &Evidence) -> Resu
             }
         }
         Evidence::Course(course, ..) => {
-            format!("{id} as {rule}: not so: {demand}.\n\n{}", drawn(check, course)?)
+            format!("{id} as {rule}: not so: {demand}.\n\n{}", drawn(course)?)
         }
         Evidence::Rescue(run) => {
             let (setting, broken) = &**run;

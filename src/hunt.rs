@@ -8,18 +8,17 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use serde::Serialize;
-use tautline_proofs::clause::Verdict;
+use tautline_proofs::clause::{Subject, Verdict};
 use tautline_proofs::search::{Bounds, Found, Progress};
 use tautline_proofs::words::counted;
 
 use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, SizeArg, interrupt, number, progress, whole};
-use crate::chosen::chosen;
+use crate::chosen;
 use tautline_sim::aside::Aside;
-use tautline_sim::explore::{Crew, RuleName, SchemeName, Setup};
+use tautline_sim::explore::{Hunt as Way, Misfit, Profile, RuleId, Setup};
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::hunt::Saved;
-use tautline_sim::words::Worded;
 use tautline_sim::{hunt, view};
 
 /// How often a hunt is kept in its file.
@@ -47,11 +46,11 @@ Examples:
 #[command(after_help = EXAMPLES)]
 pub(super) struct Hunt {
     /// How the team explores.
-    #[arg(long, value_parser = chosen::<SchemeName>(), default_value = "chain")]
-    scheme: SchemeName,
+    #[arg(long, value_parser = chosen::scheme(), default_value = "chain")]
+    scheme: &'static Profile,
     /// The scheme as published, or repaired.
-    #[arg(long, value_parser = chosen::<RuleName>(), default_value = "repaired")]
-    rule: RuleName,
+    #[arg(long, value_parser = chosen::rule(), default_value = "repaired")]
+    rule: RuleId,
     /// Robots: 4 in a chain, the base counted, or 1 agent, unless this says otherwise. Agents act in turn here; `prove`
     /// looks at every order.
     #[arg(long, value_name = "N", value_parser = whole::<u64>)]
@@ -83,8 +82,8 @@ pub(super) struct Hunt {
 
 #[derive(Serialize)]
 struct Hunted {
-    scheme: SchemeName,
-    rule: RuleName,
+    scheme: &'static Profile,
+    rule: RuleId,
     robots: u64,
     runs: u64,
     moves: u64,
@@ -119,13 +118,18 @@ struct Stored {
 
 impl Hunt {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        match self.scheme.crew(self.rule) {
-            Crew::Chain => self.run_chain(out),
-            Crew::Agents(way) => trap::run(self, way, out),
+        let rule = self.scheme.rule(self.rule).ok_or(Misfit::Rule(self.scheme)).map_err(Fault::from)?;
+        match rule.hunt {
+            Some(Way::Walls(subject)) => self.run_walls(subject, out),
+            Some(Way::Traps(way)) => trap::run(self, way, out),
+            None => {
+                let what = format!("nothing is hunted of {}", self.scheme.name);
+                Err(Fault::usage(what, "hunt another scheme").into())
+            }
         }
     }
 
-    fn run_chain(&self, out: &mut Output) -> Result<Exit, Halt> {
+    fn run_walls(&self, subject: Subject, out: &mut Output) -> Result<Exit, Halt> {
         if self.max_misses.is_some() {
             let what = "the robots of a chain have no floor sensors to miss";
             return Err(
@@ -135,7 +139,7 @@ impl Hunt {
         check_folder(&self.out)?;
         let (robots, walls) =
             (self.robots.unwrap_or(DEFAULT_ROBOTS), self.max_walls.unwrap_or(DEFAULT_WALLS));
-        let mut bounds = hunt::bounds(self.rule, robots, walls, self.size.map(|SizeArg(size)| size))?;
+        let mut bounds = hunt::bounds(subject, robots, walls, self.size.map(|SizeArg(size)| size))?;
         bounds.budget_moves = self.budget;
         let found = self.search(&bounds, out)?;
         let hunted = self.store(&bounds, &found, out)?;
@@ -186,11 +190,10 @@ impl Hunt {
     fn store(&self, bounds: &Bounds, found: &Found, out: &mut Output) -> Result<Hunted, Halt> {
         let replaceable = self.force.replaceable(self.resume.clone());
         let counterexamples = found.counterexamples.iter().map(|counterexample| {
-            let setup =
-                hunt::setup(self.rule, bounds, counterexample).map_err(|problem| super::usage(&problem))?;
-            let breach = hunt::breach(counterexample.invariant);
-            let file = match breach {
-                Some(breach) => keep(hunt::store(&self.out, &setup, breach, &replaceable)?.0, out),
+            let setup = hunt::setup(self.scheme, self.rule, bounds, counterexample).map_err(Fault::from)?;
+            let clause = hunt::breach(counterexample.invariant);
+            let file = match clause {
+                Some(clause) => keep(hunt::store(&self.out, &setup, clause, &replaceable)?.0, out),
                 None => None,
             };
             Ok(Stored {
@@ -199,7 +202,7 @@ impl Hunt {
                 walls: counterexample.walls.len(),
                 steps: counterexample.frames.len(),
                 file,
-                is_endless: breach.is_none(),
+                is_endless: clause.is_none(),
                 setup,
             })
         });
@@ -262,7 +265,7 @@ fn tell(hunted: &Hunted) -> Result<String, Halt> {
     } = hunted;
     let mut text = format!(
         "{} ({rule}), {}, at most {}: {}, {}, {longest} the longest\n",
-        scheme.word(),
+        scheme.name,
         counted(*robots, "robot"),
         counted(*max_walls, "wall"),
         counted(*runs, "run"),

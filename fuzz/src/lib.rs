@@ -26,7 +26,8 @@ use tautline_proofs::judge::{self, Exhibit};
 use tautline_proofs::run::{Breach, CHEAP_LOOKS, Frame};
 use tautline_proofs::search::{self, Bounds, Found, Search};
 use tautline_sim::exhibit::exhibit;
-use tautline_sim::explore::{RuleName, SchemeName, Setup};
+use tautline_sim::explore::chain::CHAIN;
+use tautline_sim::explore::{RuleName, Setup};
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::hunt::{self, Saved};
 use tautline_sim::layout::{Layout, Misread, Size, movingai, ros, text};
@@ -201,7 +202,7 @@ pub fn judge(bytes: &[u8]) {
         if broken.is_some() { Next::Stop } else { Next::Go }
     });
     let Some(breach) = broken else { return };
-    let setup = Setup::new(SchemeName::Chain, RuleName::Published, robots as u16, layout, base);
+    let setup = Setup::new(&CHAIN, RuleName::Published, robots as u16, layout, base);
     let mut exhibit = exhibit(&setup, breach.clause(), &frames);
     assert_eq!(judge::judge(&exhibit), Ok(()));
     if let Some(wall) = exhibit.walls.iter().nth(change[0] as usize).copied() {
@@ -275,7 +276,7 @@ fn plan(bytes: &[u8], teams: [usize; 4], moves: fn(usize) -> usize) {
 
 /// The hunt of the target: two robots are the smallest team, and the whole hunt takes less than reading a file.
 static HUNT: LazyLock<(Bounds, Found)> = LazyLock::new(|| {
-    let bounds = hunt::bounds(RuleName::Published, 2, 1, None).expect("two robots fit");
+    let bounds = hunt::bounds(RuleName::Published.subject(), 2, 1, None).expect("two robots fit");
     let whole = search::search(&bounds, &mut search::unwatched).expect("two robots fit");
     (bounds, whole)
 });
@@ -304,9 +305,7 @@ pub fn kept_hunt(bytes: &[u8]) {
             while search.wave() {}
             let folder = tempfile::tempdir().expect("a folder");
             let file = folder.path().join("hunt");
-            Saved::new(&file, SchemeName::Chain, RuleName::Published, bounds)
-                .write(&search)
-                .expect("it can be written");
+            Saved::new(&file, &CHAIN, RuleName::Published, bounds).write(&search).expect("it can be written");
             let mut kept = fs::read(&file).expect("a kept hunt");
             for _ in 0..number(4) {
                 let place = number(kept.len());
@@ -321,7 +320,7 @@ pub fn kept_hunt(bytes: &[u8]) {
 fn hunt_on(bounds: &Bounds, bytes: &[u8]) -> Option<Found> {
     let mut file = tempfile::NamedTempFile::new().expect("a file");
     file.write_all(bytes).expect("it can be written");
-    match Saved::new(file.path(), SchemeName::Chain, RuleName::Published, bounds).search(bounds) {
+    match Saved::new(file.path(), &CHAIN, RuleName::Published, bounds).search(bounds) {
         Ok(mut search) => {
             let mut waves = 0;
             while search.wave() {

@@ -7,24 +7,28 @@ pub mod trap;
 use std::path::{Path, PathBuf};
 
 use tautline_kernel::ground::{Cell, Edge};
+use tautline_proofs::clause::Subject;
 use tautline_proofs::invariant::Invariant;
-use tautline_proofs::run::Breach;
 use tautline_proofs::search::{Bounds, Counterexample, Search, Unsearchable};
 
 use self::saved::AGAIN;
 pub use self::saved::Saved;
 use crate::aside::{Aside, Replaceable};
-use crate::explore::{self, Limits, OnViolation, Report, RuleName, SchemeName, Setup, explore};
+use crate::explore::{self, ClauseId, Limits, OnViolation, Profile, Report, RuleId, Setup, explore};
 use crate::fault::{Fault, Halt};
 use crate::layout::{Layout, Problem, Size};
 use crate::trace;
-use crate::words::Worded;
 
-/// The run that `found` is, in the area and with the robots of `bounds`; it stops at the violation.
+/// The run of `scheme` that `found` is, in the area and with the robots of `bounds`; it stops at the violation.
 ///
 /// # Errors
 /// [`Problem`] if the area is too large for a layout, or the base is outside.
-pub fn setup(rule: RuleName, bounds: &Bounds, found: &Counterexample) -> Result<Setup, Problem> {
+pub fn setup(
+    scheme: &'static Profile,
+    rule: impl Into<RuleId>,
+    bounds: &Bounds,
+    found: &Counterexample,
+) -> Result<Setup, Problem> {
     let mut layout = Layout::open(bounds.area.width() as u64, bounds.area.height() as u64)?;
     let origin = bounds.area.first();
     let shifted = |cell: Cell| Cell::new(cell.x - origin.x, cell.y - origin.y);
@@ -34,19 +38,19 @@ pub fn setup(rule: RuleName, bounds: &Bounds, found: &Counterexample) -> Result<
     let base = shifted(bounds.base);
     layout.place_base(base)?;
     let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
-    Ok(Setup { limits, ..Setup::new(SchemeName::Chain, rule, bounds.robots as u16, layout, base) })
+    Ok(Setup { limits, ..Setup::new(scheme, rule, bounds.robots as u16, layout, base) })
 }
 
-/// The place in `folder` of a run of `setup` that breaks `breach`. The scheme is in its name unless the clause tells it.
-pub fn path(folder: &Path, setup: &Setup, breach: Breach) -> PathBuf {
-    let clause = breach.clause().to_lowercase();
+/// The place in `folder` of a run of `setup` that breaks `clause`. The scheme is in its name unless the clause tells it.
+pub fn path(folder: &Path, setup: &Setup, clause: ClauseId) -> PathBuf {
+    let clause = clause.as_str().to_lowercase();
     let Setup { scheme, rule, robots, .. } = setup;
-    let is_told = clause.rsplit_once('-').is_some_and(|(family, _)| family == scheme.word());
-    let scheme = if is_told { String::new() } else { format!("-{}", scheme.word()) };
+    let is_told = clause.rsplit_once('-').is_some_and(|(family, _)| family == scheme.name);
+    let scheme = if is_told { String::new() } else { format!("-{}", scheme.name) };
     folder.join(format!("{clause}{scheme}-{rule}-n{robots}.jsonl"))
 }
 
-/// Writes the run of `setup`, which breaks `breach`, to a file in `folder` under a name that says so. The file has yet to
+/// Writes the run of `setup`, which breaks `clause`, to a file in `folder` under a name that says so. The file has yet to
 /// be put in its place.
 ///
 /// # Errors
@@ -54,10 +58,10 @@ pub fn path(folder: &Path, setup: &Setup, breach: Breach) -> PathBuf {
 pub fn store(
     folder: &Path,
     setup: &Setup,
-    breach: Breach,
+    clause: ClauseId,
     replaceable: &Replaceable,
 ) -> Result<(Aside, Report), Halt> {
-    store_at(&path(folder, setup, breach), setup, breach, replaceable)
+    store_at(&path(folder, setup, clause), setup, clause, replaceable)
 }
 
 /// The same with another name.
@@ -67,10 +71,11 @@ pub fn store(
 pub fn store_at(
     path: &Path,
     setup: &Setup,
-    breach: Breach,
+    clause: ClauseId,
     replaceable: &Replaceable,
 ) -> Result<(Aside, Report), Halt> {
-    let mut writer = trace::Writer::new(Aside::late(path, replaceable), setup, Some(breach));
+    let aside = Aside::late(path, replaceable);
+    let mut writer = trace::Writer::new(aside, &setup.stage(), Some(clause)).map_err(Fault::from)?;
     let report = explore(setup, &mut |made| {
         writer.add(made);
         Ok(())
@@ -78,10 +83,10 @@ pub fn store_at(
     Ok((writer.end(&report), report))
 }
 
-/// The breach that an invariant forbids, if it is one of safety.
-pub const fn breach(invariant: Invariant) -> Option<Breach> {
+/// The clause that a run breaks by what an invariant forbids, if the invariant is one of safety.
+pub fn breach(invariant: Invariant) -> Option<ClauseId> {
     match invariant {
-        Invariant::Without(breach) => Some(breach),
+        Invariant::Without(breach) => Some(breach.into()),
         Invariant::Admitted
         | Invariant::Distinct
         | Invariant::BaseStays
@@ -101,9 +106,20 @@ const MAX_ROBOTS: usize = 64;
 ///
 /// # Errors
 /// A [`Fault`] if there are too few or too many robots.
-pub fn bounds(rule: RuleName, robots: u64, max_walls: u32, size: Option<Size>) -> Result<Bounds, Fault> {
-    let robots = usize::from(Setup::count_robots(robots, MAX_ROBOTS)?);
-    let mut bounds = Bounds::new(rule.subject(), robots, max_walls);
+pub fn bounds(subject: Subject, robots: u64, max_walls: u32, size: Option<Size>) -> Result<Bounds, Fault> {
+    let count = usize::try_from(robots).ok().filter(|count| (2..=MAX_ROBOTS).contains(count));
+    let count = count.ok_or_else(|| {
+        let what = match robots {
+            0 => "no robots".to_owned(),
+            1 => "the base alone".to_owned(),
+            _ => format!("{robots} robots"),
+        };
+        Fault::usage(
+            format_args!("{what} cannot be the team"),
+            format_args!("give --robots a number from 2 to {MAX_ROBOTS}, the base counted"),
+        )
+    })?;
+    let mut bounds = Bounds::new(subject, count, max_walls);
     if let Some(size) = size {
         bounds.base = Cell::new((size.width() - 1) / 2, (size.height() - 1) / 2);
         bounds.area = size.area();
@@ -134,20 +150,22 @@ pub fn remedy(refused: Unsearchable) -> String {
 
 #[cfg(test)]
 mod tests {
+    use tautline_proofs::run::Breach;
+
     use super::*;
+    use crate::explore::RuleName;
+    use crate::explore::bricks::{BRICKS, BRICKS_ANTS};
+    use crate::explore::chain::CHAIN;
 
     #[test]
     fn runs_of_two_schemes_have_two_names() {
-        let name = |scheme, breach| {
+        let name = |scheme, breach: Breach| {
             let layout = Layout::open(3, 3).expect("a layout");
             let setup = Setup::new(scheme, RuleName::Repaired, 2, layout, Cell::new(1, 1));
-            path(Path::new("a"), &setup, breach).display().to_string()
+            path(Path::new("a"), &setup, breach.into()).display().to_string()
         };
-        assert_eq!(name(SchemeName::Chain, Breach::Completeness), "a/chain-13-repaired-n2.jsonl");
-        assert_eq!(name(SchemeName::Bricks, Breach::Premature), "a/bricks-4-repaired-n2.jsonl");
-        assert_eq!(
-            name(SchemeName::BricksAnts, Breach::Premature),
-            "a/bricks-4-bricks-ants-repaired-n2.jsonl"
-        );
+        assert_eq!(name(&CHAIN, Breach::Completeness), "a/chain-13-repaired-n2.jsonl");
+        assert_eq!(name(&BRICKS, Breach::Premature), "a/bricks-4-repaired-n2.jsonl");
+        assert_eq!(name(&BRICKS_ANTS, Breach::Premature), "a/bricks-4-bricks-ants-repaired-n2.jsonl");
     }
 }

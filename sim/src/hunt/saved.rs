@@ -13,7 +13,7 @@ use tautline_proofs::search::{Bounds, Position, Search};
 
 use super::{remedy, start};
 use crate::aside::{Aside, Replaceable, Standing, lock};
-use crate::explore::{RuleName, SchemeName};
+use crate::explore::{Profile, RuleId};
 use crate::fault::Fault;
 use crate::layout::MAX_FILE_BYTES;
 
@@ -36,8 +36,8 @@ struct Magic {
 struct Header {
     format: String,
     version: u32,
-    scheme: SchemeName,
-    rule: RuleName,
+    scheme: &'static Profile,
+    rule: RuleId,
     robots: usize,
     /// North-west and south-east corner of the area.
     area: [Cell; 2],
@@ -63,13 +63,13 @@ pub struct Saved<'a> {
 
 impl<'a> Saved<'a> {
     /// The hunt within `bounds` by `scheme` and `rule`, to be kept at `path`.
-    pub fn new(path: &'a Path, scheme: SchemeName, rule: RuleName, bounds: &Bounds) -> Self {
+    pub fn new(path: &'a Path, scheme: &'static Profile, rule: impl Into<RuleId>, bounds: &Bounds) -> Self {
         let area = bounds.reach().unwrap_or(bounds.area);
         let header = Header {
             format: FORMAT.to_owned(),
             version: VERSION,
             scheme,
-            rule,
+            rule: rule.into(),
             robots: bounds.robots,
             area: [area.first(), area.last()],
             base: bounds.base,

@@ -3,7 +3,7 @@
 
 use tautline_proofs::trap::{Bounds, MAX_AGENTS, MAX_CELLS, Trap, Way};
 
-use crate::explore::{Limits, OnViolation, RuleName, SchemeName, Setup};
+use crate::explore::{Limits, OnViolation, Profile, RuleId, Setup};
 use crate::fault::Fault;
 use crate::layout::{Layout, Problem, Size};
 
@@ -33,7 +33,7 @@ pub fn bounds(way: Way, agents: u64, max_misses: u8, size: Size) -> Result<Bound
 ///
 /// # Errors
 /// [`Problem`] if the trap does not fit into a layout.
-pub fn setup(scheme: SchemeName, rule: RuleName, trap: &Trap) -> Result<Setup, Problem> {
+pub fn setup(scheme: &'static Profile, rule: RuleId, trap: &Trap) -> Result<Setup, Problem> {
     let mut layout = Layout::open(trap.width as u64, trap.height as u64)?;
     for &cell in &trap.blocked {
         layout.block(cell);

@@ -10,6 +10,7 @@ use tautline_proofs::words::counted;
 
 use super::generate::{FORMS, Form};
 use super::{MAX_CELLS, MAX_FILE_BYTES, MAX_SIDE_CELLS, Size};
+use crate::fault::Fault;
 
 /// A problem in the bytes `at` of a text.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -233,6 +234,12 @@ fn examples() -> String {
 }
 
 impl std::error::Error for Problem {}
+
+impl From<Problem> for Fault {
+    fn from(problem: Problem) -> Self {
+        Self::usage(&problem, problem.remedy())
+    }
+}
 
 impl fmt::Display for Misread {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

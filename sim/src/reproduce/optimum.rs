@@ -15,7 +15,8 @@ use tautline_proofs::optimum::{Guide, Optimum, explore_all};
 use tautline_proofs::reach::{CellSet, Ground};
 
 use super::interval::hundredths;
-use crate::explore::{Chart, RuleName, SchemeName, Setup, explore};
+use crate::explore::chain::CHAIN;
+use crate::explore::{Chart, RuleName, Setup, explore};
 use crate::fault::{Fault, Halt, Watch};
 use crate::layout::{Layout, Problem, Size};
 
@@ -213,7 +214,7 @@ impl Area {
     }
 
     fn setup(&self, rule: RuleName, layout: Layout) -> Setup {
-        Setup::new(SchemeName::Chain, rule, self.robots, layout, self.base)
+        Setup::new(&CHAIN, rule, self.robots, layout, self.base)
     }
 
     /// What a team that knows the `layout` has to explore.

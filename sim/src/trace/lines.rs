@@ -15,7 +15,7 @@ use crate::fault::{BOM, Fault};
 use crate::layout::MAX_FILE_BYTES;
 
 /// Longer lines than those of the longest chain are refused; the header with its drawing may be longer.
-const MAX_LINE_BYTES: u64 = 1 << 16;
+pub(crate) const MAX_LINE_BYTES: u64 = 1 << 16;
 
 /// What every version of the header begins with.
 #[derive(Deserialize)]
@@ -156,9 +156,14 @@ impl Lines {
         if found == *expected {
             return Ok(());
         }
+        Err(self.differs(&text, expected, "the rule does not make this run; here it has"))
+    }
+
+    /// A fault where the line begins to differ from `expected`, which stands behind `what`.
+    pub(crate) fn differs(&self, text: &str, expected: &impl Serialize, what: &str) -> Fault {
+        let wanted = line_of(expected);
         let same = text.bytes().zip(wanted.bytes()).take_while(|(one, other)| one == other).count();
-        let what = format!("the rule does not make this run; here it has {}", wanted.trim_end());
-        Err(self.at(&text, same..same + 1, what, self.again))
+        self.at(text, same..same + 1, format_args!("{what} {}", wanted.trim_end()), self.again)
     }
 
     /// Checks that there is no line left.

@@ -6,42 +6,46 @@ use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Side, Step};
 use tautline_proofs::course::Course;
 use tautline_proofs::registry::CLAUSES;
-use tautline_proofs::run::Breach;
 use tautline_proofs::words::counted;
 
 use super::{Block, Pose, agents, beside, first_drawn, legend, outcome, team_move};
-use crate::explore::{Chart, Crew, Report, Setup, TeamMove, Violation, explore, missed};
+use crate::explore::{Chart, ClauseId, Look, Play, Report, TeamMove, Violation};
 use crate::fault::Halt;
 use crate::layout::{Layout, Problem};
 
-/// The sentence of the clause `id`.
-pub fn sentence(id: &str) -> &'static str {
-    CLAUSES.iter().find(|clause| clause.id == id).map_or("", |clause| clause.sentence)
+/// The sentence of the clause `id`, if it is one of this program.
+pub fn sentence(id: ClauseId) -> Option<&'static str> {
+    CLAUSES.iter().find(|clause| clause.id == id.as_str()).map(|clause| clause.sentence)
+}
+
+/// The id of a clause, with its sentence where that is known.
+fn with_sentence(id: ClauseId) -> String {
+    sentence(id).map_or_else(|| format!("{id}."), |sentence| format!("{id}: {sentence}"))
 }
 
 /// How the team move `made` breaks its clauses: the sentences, what each robot did, and the move drawn.
-pub fn of(setup: &Setup, chart: &Chart, made: &TeamMove<'_>) -> String {
+pub fn of(run: &dyn Play, chart: &Chart, made: &TeamMove<'_>) -> String {
     let mut text = String::new();
-    for &breach in made.breaches {
-        let clause = breach.clause();
+    for &clause in made.broken {
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "Team move {} breaks {clause}: {}", made.step, sentence(clause));
+        let _ = writeln!(text, "Team move {} breaks {}", made.step, with_sentence(clause));
     }
     text.push('\n');
-    let who = match setup.crew() {
-        Crew::Chain => "R_",
-        Crew::Agents(_) => "Agent ",
+    let look = run.stage().look;
+    let who = match look {
+        Look::Linked { .. } => "R_",
+        Look::Apart => "Agent ",
     };
-    for (robot, &from) in made.before.iter().enumerate().skip(first_drawn(setup.crew())) {
+    for (robot, &from) in made.before.iter().enumerate().skip(first_drawn(look)) {
         let _ = writeln!(text, "  {who}{} at {from} {}.", robot + 1, did(made, robot));
     }
-    for &breach in made.breaches {
-        for line in result(breach, setup, chart, made) {
+    for &clause in made.broken {
+        for line in run.told(clause, chart, made) {
             let _ = writeln!(text, "  {line}");
         }
     }
     text.push('\n');
-    let draw = |pose, title: &str| Block { title: title.to_owned(), ..team_move(setup, chart, made, pose) };
+    let draw = |pose, title: &str| Block { title: title.to_owned(), ..team_move(run, chart, made, pose) };
     text + &beside(vec![draw(Pose::Before, "before, with what each tries"), draw(Pose::After, "after")])
 }
 
@@ -63,119 +67,50 @@ const fn towards(side: Side) -> &'static str {
     }
 }
 
-/// What is wrong afterwards, one line for each pair or cell.
-fn result(breach: Breach, setup: &Setup, chart: &Chart, made: &TeamMove<'_>) -> Vec<String> {
-    let (before, after) = (made.before, made.frame.cells.as_slice());
-    match breach {
-        Breach::Contact => pairs(breach, before, after)
-            .map(|(robot, pair)| {
-                format!(
-                    "So R_{} is {} from R_{robot}: outside E_C, its cell is not wholly covered.",
-                    robot + 1,
-                    apart(pair)
-                )
-            })
-            .collect(),
-        Breach::Crowding => {
-            let mut crowded: Vec<Cell> = after.iter().copied().filter(|&cell| cell != after[0]).collect();
-            crowded.sort_unstable();
-            crowded
-                .chunk_by(|one, other| one == other)
-                .filter(|cells| cells.len() > 2)
-                .map(|cells| {
-                    let robots: Vec<String> = (1..)
-                        .zip(after)
-                        .filter(|&(_, &cell)| cell == cells[0])
-                        .map(|(robot, _)| format!("R_{robot}"))
-                        .collect();
-                    format!("So {} are in one cell, {}.", robots.join(", "), cells[0])
-                })
-                .collect()
-        }
-        Breach::Coverage => pairs(breach, before, after)
-            .map(|(robot, pair)| {
-                format!(
-                    "So the centres of R_{robot} and R_{}, {} apart in the end, may leave r_cov.",
-                    robot + 1,
-                    apart(pair)
-                )
-            })
-            .collect(),
-        Breach::Premature => {
-            let is_left = |cell: &Cell| chart.mark(*cell, made.step) == Mark::Unexplored;
-            let left = missed(setup, chart).into_iter().filter(is_left).count();
-            vec![format!("So an agent is done, with {} unexplored.", counted(left, "cell"))]
-        }
-        Breach::Costly | Breach::Completeness | Breach::Unvisited => Vec::new(),
-    }
-}
-
-/// The neighbours in the chain that commit `breach` by themselves: the number of the one behind, and where they are.
-fn pairs<'a>(
-    breach: Breach,
-    before: &'a [Cell],
-    after: &'a [Cell],
-) -> impl Iterator<Item = (usize, [Cell; 2])> + use<'a> {
-    (1..)
-        .zip(before.windows(2).zip(after.windows(2)))
-        .filter(move |(_, (from, to))| breach.is_in(from, to))
-        .map(|(robot, (_, to))| (robot, [to[0], to[1]]))
-}
-
-fn apart([one, other]: [Cell; 2]) -> String {
-    let (columns, rows) = one.apart(other);
-    format!("{} and {}", counted(columns, "column"), counted(rows, "row"))
-}
-
 /// How the end of a run breaks its clauses: the sentence, the cells that it missed, and the layout drawn. Nothing, if it
 /// does not.
-pub fn of_end(setup: &Setup, report: &Report) -> String {
-    let what = |breach| match breach {
-        Breach::Contact | Breach::Crowding | Breach::Coverage | Breach::Costly | Breach::Premature => None,
-        Breach::Completeness => Some("Within reach and unexplored"),
-        Breach::Unvisited => Some("Connected with a start and not visited"),
-    };
-    let mut broken = report.violations.iter().filter_map(|broken| Some((broken, what(broken.breach)?)));
-    broken.next().map_or_else(String::new, |(Violation { breach, step }, what)| {
-        let clause = breach.clause();
-        let head = format!("The end after team move {step} breaks {clause}: {}", sentence(clause));
-        unexplored(setup, report, &head, what, &missed(setup, &report.chart))
+pub fn of_end(run: &dyn Play, report: &Report) -> String {
+    let missed = |broken: &Violation| Some((*broken, run.missed(broken.clause, &report.chart)?));
+    let found = report.violations.iter().find_map(missed);
+    found.map_or_else(String::new, |(Violation { clause, step }, (what, cells))| {
+        let head = format!("The end after team move {step} breaks {}", with_sentence(clause));
+        unexplored(run, report, &head, what, &cells)
     })
 }
 
-fn unexplored(setup: &Setup, report: &Report, head: &str, what: &str, cells: &[Cell]) -> String {
+fn unexplored(run: &dyn Play, report: &Report, head: &str, what: &str, cells: &[Cell]) -> String {
     let cells: Vec<String> = cells.iter().map(|cell| format!("({cell})")).collect();
-    format!("{head}\n\n  {what}: {}.\n\n{}", cells.join(" "), outcome(setup, &report.chart, &report.team))
+    format!("{head}\n\n  {what}: {}.\n\n{}", cells.join(" "), outcome(run, &report.chart, &report.team))
 }
 
-/// How agents come into the trap of the run of `setup`: every team move before it is made, with what each agent tries
+/// How agents come into the trap of `run`: every team move before it is made, with what each agent tries
 /// and the sensors that it misses, and the end.
 ///
 /// # Errors
-/// [`Halt`] if the setup does not fit its scheme.
-pub fn of_trap(setup: &Setup) -> Result<String, Halt> {
-    let report = explore(setup, &mut |_| Ok(()))?;
+/// [`Halt`] if the run cannot be made.
+pub fn of_trap(run: &dyn Play) -> Result<String, Halt> {
+    let report = run.play(&mut |_| Ok(()))?;
     let (mut blocks, mut words) = (Vec::new(), String::new());
-    explore(setup, &mut |made| {
-        let before = team_move(setup, &report.chart, made, Pose::Before);
+    run.play(&mut |made| {
+        let before = team_move(run, &report.chart, made, Pose::Before);
         blocks.push(Block { title: format!("before move {}", made.step), ..before });
         for cell in made.unseen {
             // Writing to a string cannot fail.
             let _ = writeln!(words, "  In team move {} the sensor of {cell} is missed.", made.step);
         }
-        if !made.breaches.is_empty() {
-            let after = outcome(setup, &report.chart, &report.team);
+        if !made.broken.is_empty() {
+            let after = outcome(run, &report.chart, &report.team);
             blocks.push(Block {
                 title: "the end".to_owned(),
                 lines: after.lines().map(str::to_owned).collect(),
             });
         }
-        for line in made.breaches.iter().flat_map(|&breach| result(breach, setup, &report.chart, made)) {
+        for line in made.broken.iter().flat_map(|&clause| run.told(clause, &report.chart, made)) {
             let _ = writeln!(words, "  {line}");
         }
         Ok(())
     })?;
-    Ok(format!("{}\n\n{words}\n{}", legend(setup.crew()), beside(blocks)))
+    Ok(format!("{}\n\n{words}\n{}", legend(run.stage().look), beside(blocks)))
 }
 
 /// What agents do in `course`, turn by turn: every turn before it is made, with what the agent tries and the sensors that
@@ -183,7 +118,7 @@ pub fn of_trap(setup: &Setup) -> Result<String, Halt> {
 ///
 /// # Errors
 /// [`Problem`] if it does not fit into a layout.
-pub fn of_course(crew: Crew, course: &Course) -> Result<String, Problem> {
+pub fn of_course(course: &Course) -> Result<String, Problem> {
     let Course { width, height, blocked, walls, turns, round, end } = course;
     let mut layout = Layout::open(*width as u64, *height as u64)?;
     for &cell in blocked {
@@ -195,7 +130,7 @@ pub fn of_course(crew: Crew, course: &Course) -> Result<String, Problem> {
     let shown = if *round == 0 { 0 } else { turns.len() - round };
     let (mut blocks, mut words) = (Vec::new(), String::new());
     for (number, turn) in (1..).zip(turns).skip(shown) {
-        let lines = agents(crew, &layout, &turn.before, Some(turn));
+        let lines = agents(&layout, &turn.before, Some(turn));
         blocks.push(Block { title: format!("before turn {number}"), lines });
         for cell in &turn.unseen {
             // Writing to a string cannot fail.
@@ -213,17 +148,17 @@ pub fn of_course(crew: Crew, course: &Course) -> Result<String, Problem> {
             let _ = writeln!(words, "  The last {round} of {} turns can go on for ever.", turns.len());
         }
     }
-    blocks.push(Block { title: "the end".to_owned(), lines: agents(crew, &layout, end, None) });
-    Ok(format!("{}\n\n{words}\n{}", legend(crew), beside(blocks)))
+    blocks.push(Block { title: "the end".to_owned(), lines: agents(&layout, end, None) });
+    Ok(format!("{}\n\n{words}\n{}", legend(Look::Apart), beside(blocks)))
 }
 
-/// How the last team move of the run of `setup`, or its end, breaks its clauses.
+/// How the last team move of `run`, or its end, breaks its clauses.
 ///
 /// # Errors
-/// [`Halt`] if the setup does not fit its scheme.
-pub fn last_move(setup: &Setup) -> Result<String, Halt> {
-    let report = explore(setup, &mut |_| Ok(()))?;
-    let end = of_end(setup, &report);
+/// [`Halt`] if the run cannot be made.
+pub fn last_move(run: &dyn Play) -> Result<String, Halt> {
+    let report = run.play(&mut |_| Ok(()))?;
+    let end = of_end(run, &report);
     if !end.is_empty() {
         return Ok(end);
     }
@@ -231,12 +166,12 @@ pub fn last_move(setup: &Setup) -> Result<String, Halt> {
         let head = format!("The run ends after team move {}: {}.", report.steps, report.stopped.words());
         let left: Vec<Cell> =
             report.chart.area().cells().filter(|&cell| report.chart.step(cell).is_none()).collect();
-        return Ok(unexplored(setup, &report, &head, "Unexplored", &left));
+        return Ok(unexplored(run, &report, &head, "Unexplored", &left));
     }
     let mut story = String::new();
-    explore(setup, &mut |made| {
+    run.play(&mut |made| {
         if made.step == report.steps {
-            story = of(setup, &report.chart, made);
+            story = of(run, &report.chart, made);
         }
         Ok(())
     })?;
