@@ -8,10 +8,9 @@ use tautline_proofs::decide::Evidence;
 use tautline_proofs::rescue::chart::chart;
 use tautline_proofs::search::{Bounds, Counterexample};
 
-use super::usage;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::{RuleName, Setup};
-use tautline_sim::fault::Halt;
+use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::refutation::rule;
 use tautline_sim::{hunt, view};
 
@@ -51,12 +50,12 @@ pub(super) fn setup(check: &Check, run: &Counterexample) -> Result<Option<Setup>
         return Ok(None);
     };
     let bounds = Bounds::new(check.subject, robots, max_walls);
-    Ok(Some(hunt::setup(&CHAIN, rule, &bounds, run).map_err(|problem| usage(&problem))?))
+    Ok(Some(hunt::setup(&CHAIN, rule, &bounds, run).map_err(Fault::from)?))
 }
 
 /// A run of agents.
 fn drawn(course: &Course) -> Result<String, Halt> {
-    Ok(view::story::of_course(course).map_err(|problem| usage(&problem))?)
+    Ok(view::story::of_course(course).map_err(Fault::from)?)
 }
 
 /// What refutes a clause, as data.

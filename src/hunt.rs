@@ -14,7 +14,7 @@ use tautline_proofs::words::counted;
 
 use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, SizeArg, interrupt, number, progress, whole};
-use crate::chosen;
+use crate::{chosen, report};
 use tautline_sim::aside::Aside;
 use tautline_sim::explore::{Hunt as Way, Misfit, Profile, RuleId, Setup};
 use tautline_sim::fault::{Fault, Halt};
@@ -172,7 +172,7 @@ impl Hunt {
             if let Some(saved) = saved.as_mut().filter(|_| written.elapsed() > KEEP_EVERY) {
                 // There may be room again later on; the last good one stands there until then.
                 if let Err(fault) = saved.write(&search) {
-                    tracing::warn!("{fault}");
+                    tracing::warn!("{}", report::line(&fault));
                 }
                 written = Instant::now();
             }

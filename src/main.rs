@@ -284,10 +284,6 @@ fn positive(text: &str) -> Result<NonZeroU32, String> {
     text.parse().map_err(|_| format!("write a whole number from 1 to {}", u32::MAX))
 }
 
-fn usage(problem: &Problem) -> Fault {
-    Fault::usage(problem, problem.remedy())
-}
-
 /// Runs the program with the arguments of this process.
 fn main() -> ExitCode {
     panic::set_hook(Box::new(|bug| {

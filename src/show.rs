@@ -7,9 +7,9 @@ use serde::Serialize;
 use tautline_kernel::ground::Cell;
 
 use super::output::Output;
-use super::{Chance, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless, usage};
+use super::{Chance, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless};
 use tautline_sim::aside::Aside;
-use tautline_sim::fault::Halt;
+use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::view::svg::{self, Panel};
 use tautline_sim::view::{self, Environment};
 
@@ -94,10 +94,7 @@ impl Show {
                 height: layout.height(),
                 free_cells: layout.free_cells(),
                 walls: layout.walls().count(),
-                base: layout
-                    .base()
-                    .map_or_else(|| layout.default_base(), Ok)
-                    .map_err(|problem| usage(&problem))?,
+                base: layout.base().map_or_else(|| layout.default_base(), Ok).map_err(Fault::from)?,
                 robots: layout.robots(),
                 drawing,
             })?,

@@ -14,7 +14,8 @@ use tautline_proofs::search::{Bounds, Counterexample, Search, Unsearchable};
 use self::saved::AGAIN;
 pub use self::saved::Saved;
 use crate::aside::{Aside, Replaceable};
-use crate::explore::{self, ClauseId, Limits, OnViolation, Profile, Report, RuleId, Setup, explore};
+use crate::explore::chain;
+use crate::explore::{ClauseId, Limits, OnViolation, Profile, Report, RuleId, Setup, explore};
 use crate::fault::{Fault, Halt};
 use crate::layout::{Layout, Problem, Size};
 use crate::trace;
@@ -114,9 +115,10 @@ pub fn bounds(subject: Subject, robots: u64, max_walls: u32, size: Option<Size>)
             1 => "the base alone".to_owned(),
             _ => format!("{robots} robots"),
         };
-        Fault::usage(
+        Fault::of_field(
+            "robots",
             format_args!("{what} cannot be the team"),
-            format_args!("give --robots a number from 2 to {MAX_ROBOTS}, the base counted"),
+            format_args!("give `robots` a number from 2 to {MAX_ROBOTS}, the base counted"),
         )
     })?;
     let mut bounds = Bounds::new(subject, count, max_walls);
@@ -132,19 +134,25 @@ pub fn bounds(subject: Subject, robots: u64, max_walls: u32, size: Option<Size>)
 /// # Errors
 /// A [`Fault`] if it cannot be made.
 pub fn start(bounds: &Bounds) -> Result<Search, Fault> {
-    Search::new(bounds).map_err(|refused| Fault::usage(refused, remedy(refused)))
+    Search::new(bounds).map_err(fault)
 }
 
-/// What would be right where a hunt is refused.
-pub fn remedy(refused: Unsearchable) -> String {
+/// The fault of a search that is refused.
+fn fault(refused: Unsearchable) -> Fault {
     match refused {
-        Unsearchable::Team(refused) => explore::chain::remedy(refused),
-        Unsearchable::TooManyWalls { edges, .. } => format!("give --max-walls a number up to {edges}"),
-        Unsearchable::TooLarge { .. } => "give fewer --robots or a smaller --size".to_owned(),
-        Unsearchable::Beyond { walls } => {
-            format!("give --max-walls {walls} or more, or another --resume file")
+        Unsearchable::Team(refused) => chain::fault(refused),
+        Unsearchable::TooManyWalls { edges, .. } => {
+            Fault::of_field("max-walls", refused, format_args!("give `max-walls` a number up to {edges}"))
         }
-        Unsearchable::Foreign => AGAIN.to_owned(),
+        Unsearchable::TooLarge { .. } => {
+            Fault::of_field("size", refused, "give fewer `robots` or a smaller `size`")
+        }
+        Unsearchable::Beyond { walls } => Fault::of_field(
+            "max-walls",
+            refused,
+            format_args!("give `max-walls` {walls} or more, or another `resume` file"),
+        ),
+        Unsearchable::Foreign => Fault::of_field("resume", refused, AGAIN),
     }
 }
 

@@ -11,7 +11,7 @@ use tautline_proofs::words::counted;
 
 use super::{Hunt, check_folder, keep};
 use crate::output::Output;
-use crate::{Exit, Format, SizeArg, interrupt, progress, usage};
+use crate::{Exit, Format, SizeArg, interrupt, progress};
 use tautline_sim::explore::{Profile, RuleId, Setup};
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::hunt::store;
@@ -66,7 +66,7 @@ pub(super) fn run(hunt: &Hunt, way: Way, out: &mut Output) -> Result<Exit, Halt>
     check_folder(&hunt.out)?;
     let size = match hunt.size {
         Some(SizeArg(size)) => size,
-        None => Size::new(DEFAULT_SIDE, DEFAULT_SIDE).map_err(|problem| usage(&problem))?,
+        None => Size::new(DEFAULT_SIDE, DEFAULT_SIDE).map_err(Fault::from)?,
     };
     let (agents, misses) = (hunt.robots.unwrap_or(DEFAULT_AGENTS), hunt.max_misses.unwrap_or(DEFAULT_MISSES));
     let bounds = Bounds { budget_steps: hunt.budget, ..bounds(way, agents, misses, size)? };
@@ -133,7 +133,7 @@ const fn verdict(found: &Found) -> Verdict {
 }
 
 fn stored(hunt: &Hunt, trap: &Trap, out: &mut Output) -> Result<Stored, Halt> {
-    let setup = setup(hunt.scheme, hunt.rule, trap).map_err(|problem| usage(&problem))?;
+    let setup = setup(hunt.scheme, hunt.rule, trap).map_err(Fault::from)?;
     let (clause, file) = match trap.end {
         End::Done => {
             let (file, _) = store(&hunt.out, &setup, Breach::Premature.into(), &hunt.force.replaceable([]))?;

@@ -70,7 +70,7 @@ fn start(setup: &Setup, rule: chain::Rule) -> Result<Box<dyn Team>, Fault> {
         9..=32 => begin::<_, 32>(setup, rule, MediumGrid::new),
         _ => begin::<_, MAX_ROBOTS>(setup, rule, |area| Some(WideGrid::new(area))),
     }
-    .map_err(|refused| Fault::usage(refused, remedy(refused)))
+    .map_err(fault)
 }
 
 fn begin<G: Grid + 'static, const ROBOTS: usize>(
@@ -85,13 +85,16 @@ fn begin<G: Grid + 'static, const ROBOTS: usize>(
     Ok(Box::new(ChainTeam { chain, log: Vec::new() }))
 }
 
-/// What would be right where a chain is refused.
-pub(crate) fn remedy(refused: Refused) -> String {
+/// The fault of a chain that is refused.
+pub(crate) fn fault(refused: Refused) -> Fault {
     match refused {
         Refused::TooFewRobots { .. } | Refused::TooManyRobots { .. } => {
-            format!("give --robots a number from 2 to {MAX_ROBOTS}")
+            let remedy = format!("give `robots` a number from 2 to {MAX_ROBOTS}");
+            Fault::of_field("robots", refused, remedy)
         }
-        Refused::BaseOutside { .. } => "give --base a free cell of the layout".to_owned(),
+        Refused::BaseOutside { .. } => {
+            Fault::of_field("base", refused, "give `base` a free cell of the layout")
+        }
     }
 }
 

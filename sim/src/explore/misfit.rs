@@ -72,9 +72,9 @@ impl Misfit {
             Self::MissedByNone(_) => {
                 format!("take {}, or leave out what is missed", sensing(Senses::Floor, "or"))
             }
-            Self::MissAll => "give a probability below 1, or end the run by --max-moves".to_owned(),
+            Self::MissAll => "give a probability below 1, or end the run by `max-moves`".to_owned(),
             Self::Missed => "number them from 1 on, in order, each once".to_owned(),
-            Self::StartsAtBase(_) => "give the base another place by --base".to_owned(),
+            Self::StartsAtBase(_) => "give the base another place by `base`".to_owned(),
             Self::Starts { .. } => "give one start for all, or one for each agent".to_owned(),
             Self::Start(problem) => problem.remedy(),
         }
@@ -115,7 +115,7 @@ impl std::error::Error for Misfit {}
 
 impl From<Misfit> for Fault {
     fn from(misfit: Misfit) -> Self {
-        Self::usage(&misfit, misfit.remedy())
+        Self::of_field(misfit.field(), &misfit, misfit.remedy())
     }
 }
 

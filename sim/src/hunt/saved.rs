@@ -11,7 +11,7 @@ use serde_json::json;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::search::{Bounds, Position, Search};
 
-use super::{remedy, start};
+use super::{fault, start};
 use crate::aside::{Aside, Replaceable, Standing, lock};
 use crate::explore::{Profile, RuleId};
 use crate::fault::Fault;
@@ -84,8 +84,9 @@ impl<'a> Saved<'a> {
     pub fn search(&mut self, bounds: &Bounds) -> Result<Search, Fault> {
         match self.read()? {
             None => start(bounds),
-            Some(position) => Search::at(bounds, &position)
-                .map_err(|refused| Fault::in_file(self.path, refused, remedy(refused))),
+            Some(position) => {
+                Search::at(bounds, &position).map_err(|refused| fault(refused).found_in(self.path))
+            }
         }
     }
 
@@ -169,7 +170,7 @@ impl<'a> Saved<'a> {
         let differs = |key: &&str| kept[key] != asked[key];
         if let Some(key) = ["scheme", "rule", "robots", "area", "base"].into_iter().find(differs) {
             let what = format!("this is another hunt: {key} {}, asked for is {}", kept[key], asked[key]);
-            return Err(self.in_header(first, key, what, "ask for the same, or give another --resume file"));
+            return Err(self.in_header(first, key, what, "ask for the same, or give another `resume` file"));
         }
         self.parse(2, second).map(Some)
     }

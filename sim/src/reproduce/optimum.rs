@@ -135,7 +135,7 @@ const MOST_STATES: usize = 10_000_000;
 
 fn solve(ground: &Ground, goals: &CellSet) -> Result<Optimum, Halt> {
     let optimum = explore_all(ground, &KNOWING, goals, Guide::Distances, MOST_STATES);
-    Ok(optimum.map_err(|unsolved| Fault::usage(unsolved, "give fewer --max-walls"))?)
+    Ok(optimum.map_err(|unsolved| Fault::of_field("max-walls", unsolved, "give fewer `max-walls`"))?)
 }
 
 /// Walls of a layout, one bit for each edge in the order of [`Layout::edges`].

@@ -19,7 +19,7 @@ pub const FORMAT: &str = "tautline run";
 pub(super) const VERSION: u32 = 1;
 
 /// How to make such a file again.
-pub(super) const AGAIN: &str = "store the run again with `tautline explore --trace` or `tautline hunt`";
+pub(super) const AGAIN: &str = "store the run again with `tautline explore `trace`` or `tautline hunt`";
 
 /// The first line. What scheme, rule and limits say is known only of the schemes of this program.
 #[derive(Serialize, Deserialize)]

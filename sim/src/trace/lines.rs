@@ -57,7 +57,7 @@ impl Lines {
     /// A [`Fault`] if it cannot be opened.
     pub(crate) fn open(path: &Path, again: &'static str) -> Result<Self, Fault> {
         let unreadable =
-            |what: String| Fault::in_file(path, what, "name a file that --trace or `tautline hunt` wrote");
+            |what: String| Fault::in_file(path, what, "name a file that `trace` or `tautline hunt` wrote");
         if path.is_dir() {
             return Err(unreadable("this is a folder".to_owned()));
         }
@@ -86,7 +86,7 @@ impl Lines {
             Fault::in_file(&self.path, "the file is empty", remedy)
         })?;
         let magic: Magic =
-            self.parse(&text, "a trace begins with its header; name a file that --trace wrote")?;
+            self.parse(&text, "a trace begins with its header; name a file that `trace` wrote")?;
         if magic.format != format {
             let what = format!("the format is {:?}", magic.format);
             return Err(self.fault(&text, "\"format\"", what, format_args!("name a {format:?}")));

@@ -65,7 +65,7 @@ impl<'a> Page<'a> {
         self.bytes += text.len();
         if self.bytes > MAX_BYTES {
             let what = format!("a page of more than {} MiB is left out", MAX_BYTES >> 20);
-            let remedy = "store a trace, and give `tautline replay` fewer --moves to show";
+            let remedy = "store a trace, and give `tautline replay` fewer `moves` to show";
             self.file.leave_out(Fault::in_file(self.file.path(), what, remedy));
         } else {
             self.file.append(text);
