@@ -8,11 +8,12 @@ use tautline_proofs::decide::Evidence;
 use tautline_proofs::rescue::chart::chart;
 use tautline_proofs::search::{Bounds, Counterexample};
 
+use tautline_sim::counterexample::hunt;
+use tautline_sim::counterexample::refutation::rule;
+use tautline_sim::draw;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::{RuleName, Setup};
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::refutation::rule;
-use tautline_sim::{hunt, view};
 
 /// A refutation as JSON.
 #[derive(Serialize)]
@@ -55,7 +56,7 @@ pub(super) fn setup(check: &Check, run: &Counterexample) -> Result<Option<Setup>
 
 /// A run of agents.
 fn drawn(course: &Course) -> Result<String, Halt> {
-    Ok(view::story::of_course(course).map_err(Fault::from)?)
+    Ok(draw::story::of_course(course).map_err(Fault::from)?)
 }
 
 /// What refutes a clause, as data.
@@ -106,7 +107,7 @@ pub(super) fn story(clause: &Clause, check: &Check, evidence: &Evidence) -> Resu
                 run.frames.len()
             );
             match setup(check, run)? {
-                Some(setup) => head + &view::story::last_move(&setup)?,
+                Some(setup) => head + &draw::story::last_move(&setup)?,
                 None => head,
             }
         }

@@ -19,6 +19,8 @@ use super::{
 };
 use crate::chosen::{self, chosen};
 use tautline_sim::aside::Aside;
+use tautline_sim::draw::page::Page;
+use tautline_sim::draw::svg;
 use tautline_sim::explore::floor::Component;
 use tautline_sim::explore::{
     Knowledge, Limits, Milestone, Misfit, OnViolation, Play, Profile, Report, RuleId, Senses, Setup, Stage,
@@ -26,9 +28,7 @@ use tautline_sim::explore::{
 };
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::layout::generate::Probability;
-use tautline_sim::view::page::Page;
-use tautline_sim::view::svg;
-use tautline_sim::{trace, view};
+use tautline_sim::{draw, trace};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -132,7 +132,7 @@ impl Explore {
                 Some(Draw::Moves) => picture.draw(panels(&setup, &report, &(1..=report.steps)))?,
                 Some(Draw::Order) | None => {
                     let order = svg::order(&setup, &report.chart);
-                    picture.append(svg::picture(&view::title_of(&setup), &[order]));
+                    picture.append(svg::picture(&draw::title_of(&setup), &[order]));
                 }
             }
             out.keep(picture);
@@ -178,12 +178,12 @@ impl Explore {
 
     fn draw(&self, setup: &Setup, report: &Report, out: &mut Output) -> Result<(), Halt> {
         match self.draw {
-            Some(Draw::Order) => out.text(format_args!("\n{}", view::order(setup, &report.chart)))?,
+            Some(Draw::Order) => out.text(format_args!("\n{}", draw::order(setup, &report.chart)))?,
             Some(Draw::Moves) => {
-                draw_moves(setup, report, &(1..=report.steps), view::Pose::Before, out)?;
+                draw_moves(setup, report, &(1..=report.steps), draw::Pose::Before, out)?;
             }
             None if report.chart.area().width() <= SMALL_COLUMNS => {
-                out.text(format_args!("\n{}", view::outcome(setup, &report.chart, &report.team)))?;
+                out.text(format_args!("\n{}", draw::outcome(setup, &report.chart, &report.team)))?;
             }
             None => {}
         }
@@ -223,7 +223,7 @@ pub(super) fn panels(run: &dyn Play, report: &Report, moves: &RangeInclusive<u32
         panels.push(panel);
         Ok(())
     })?;
-    Ok(svg::picture(&view::title_of(run), &panels))
+    Ok(svg::picture(&draw::title_of(run), &panels))
 }
 
 /// Stores a page that plays the team moves in `moves`.
@@ -249,18 +249,18 @@ pub(super) fn draw_moves(
     run: &dyn Play,
     report: &Report,
     moves: &RangeInclusive<u32>,
-    pose: view::Pose,
+    pose: draw::Pose,
     out: &mut Output,
 ) -> Result<(), Halt> {
-    let drawn = view::TeamMoves::new(run, &report.chart);
+    let drawn = draw::TeamMoves::new(run, &report.chart);
     let mut columns = None;
     among(run, moves, &mut |made| {
         columns = columns.max(Some(drawn.columns(made, pose)));
         Ok(())
     })?;
     let Some(columns) = columns else { return Ok(()) };
-    out.text(format_args!("\n{}\n\n", view::legend(run.stage().look)))?;
-    let mut rows = view::Rows::new(columns);
+    out.text(format_args!("\n{}\n\n", draw::legend(run.stage().look)))?;
+    let mut rows = draw::Rows::new(columns);
     among(run, moves, &mut |made| {
         if out.is_gone() {
             return Ok(());
@@ -296,7 +296,7 @@ pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
     let percent = report.explored * 100 / report.cells;
     let mut text = format!(
         "{}, {}: {layout}\n{}: {}\n{} of {} explored ({percent} %)",
-        view::title_of(run),
+        draw::title_of(run),
         place(&run.stage()),
         counted(report.steps, "team move"),
         report.stopped.words(),
@@ -382,7 +382,7 @@ fn violations(report: &Report) -> String {
     let mut text = String::new();
     for violation in report.violations.iter().take(LISTED) {
         let Violation { clause, step } = *violation;
-        let _ = match view::story::sentence(clause) {
+        let _ = match draw::story::sentence(clause) {
             Some(sentence) => writeln!(text, "{clause} is broken in team move {step}: {sentence}"),
             None => writeln!(text, "{clause} is broken in team move {step}"),
         };

@@ -16,10 +16,11 @@ use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, SizeArg, interrupt, number, progress, whole};
 use crate::{chosen, report};
 use tautline_sim::aside::Aside;
+use tautline_sim::counterexample::hunt;
+use tautline_sim::counterexample::hunt::Saved;
+use tautline_sim::draw;
 use tautline_sim::explore::{Hunt as Way, Misfit, Profile, RuleId, Setup};
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::hunt::Saved;
-use tautline_sim::{hunt, view};
 
 /// How often a hunt is kept in its file.
 const KEEP_EVERY: Duration = Duration::from_secs(5);
@@ -172,7 +173,7 @@ impl Hunt {
             if let Some(saved) = saved.as_mut().filter(|_| written.elapsed() > KEEP_EVERY) {
                 // There may be room again later on; the last good one stands there until then.
                 if let Err(fault) = saved.write(&search) {
-                    tracing::warn!("{}", report::line(&fault));
+                    tracing::warn!("{}", report::with_flags(&fault.to_string()));
                 }
                 written = Instant::now();
             }
@@ -288,7 +289,7 @@ fn tell(hunted: &Hunted) -> Result<String, Halt> {
         let (walls, steps) = (counted(*walls, "wall"), counted(*steps, "team move"));
         let _ = writeln!(text, "\n{clause}, {walls}, {steps}; broken in {}", counted(*runs, "run"));
         let _ = match is_endless {
-            false => writeln!(text, "\n{}", view::story::last_move(setup)?),
+            false => writeln!(text, "\n{}", draw::story::last_move(setup)?),
             true => writeln!(text, "\nA run without end in this layout:\n\n{}", setup.layout),
         };
         if let Some(file) = file {

@@ -10,10 +10,10 @@ use tautline_proofs::words::counted;
 use super::output::Output;
 use super::replay::draw;
 use super::{Exit, ForceArgs, Format, FormatArgs, clause, hunt, progress};
+use tautline_sim::counterexample::hunt::store;
+use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, minimise};
 use tautline_sim::explore::{ClauseId, Profile, Report, RuleId};
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::hunt::store;
-use tautline_sim::minimise::{Extent, Failure, Minimal, minimise};
 use tautline_sim::trace::Trace;
 
 const EXAMPLES: &str = "\

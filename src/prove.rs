@@ -16,9 +16,9 @@ use super::hunt::keep;
 use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, progress};
 use tautline_sim::aside::Replaceable;
+use tautline_sim::counterexample::hunt;
+use tautline_sim::counterexample::refutation::{self, rule};
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::hunt;
-use tautline_sim::refutation::{self, rule};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -21,13 +21,13 @@ use super::output::Output;
 use super::rescue::{Files, tell};
 use super::{Exit, ForceArgs, Format, FormatArgs};
 use tautline_sim::aside::Aside;
-use tautline_sim::exhibit::{exhibit, of_agent, of_course, written_down};
+use tautline_sim::counterexample::exhibit::{exhibit, of_agent, of_course, written_down};
+use tautline_sim::counterexample::refutation::{self, Refutation};
+use tautline_sim::draw::svg;
 use tautline_sim::explore::{ClauseId, Judge, Play, Report, Stage, team};
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::refutation::{self, Refutation};
 use tautline_sim::trace::{self, Recorded, Stored, StoredMove, Trace, lines};
-use tautline_sim::view::svg;
-use tautline_sim::{rescue, view};
+use tautline_sim::{draw, rescue};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -371,16 +371,16 @@ pub(super) fn draw(
     moves: &RangeInclusive<u32>,
     out: &mut Output,
 ) -> Result<(), Halt> {
-    draw_moves(run, report, moves, view::Pose::After, out)?;
+    draw_moves(run, report, moves, draw::Pose::After, out)?;
     if report.violations.iter().any(|violation| moves.contains(&violation.step)) {
         among(run, moves, &mut |made| {
             if made.broken.is_empty() || out.is_gone() {
                 return Ok(());
             }
-            Ok(out.text(format_args!("\n{}", view::story::of(run, &report.chart, made)))?)
+            Ok(out.text(format_args!("\n{}", draw::story::of(run, &report.chart, made)))?)
         })?;
     }
-    let end = view::story::of_end(run, report);
+    let end = draw::story::of_end(run, report);
     if moves.contains(&report.steps) && !end.is_empty() {
         out.text(format_args!("\n{end}"))?;
     }

@@ -20,7 +20,7 @@ const FIELDS: [&str; 11] =
     ["robots", "base", "size", "max-walls", "max-moves", "resume", "image", "force", "trace", "out", "moves"];
 
 /// `words` with the flags of the fields that they name.
-fn with_flags(words: &str) -> String {
+pub(crate) fn with_flags(words: &str) -> String {
     let flag = |words: String, field| words.replace(&format!("`{field}`"), &format!("--{field}"));
     FIELDS.iter().fold(words.to_owned(), flag)
 }
@@ -31,11 +31,6 @@ fn what(fault: &Fault) -> String {
         Place::Request { .. } => with_flags(fault.what()),
         Place::File(_) | Place::Spot { .. } => fault.what().to_owned(),
     }
-}
-
-/// The fault in one line.
-pub(crate) fn line(fault: &Fault) -> String {
-    format!("{}{}; {}", fault.place(), what(fault), with_flags(fault.remedy()))
 }
 
 /// The fault over several lines, with the spot drawn where there is one. Ends with a newline.

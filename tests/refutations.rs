@@ -9,7 +9,7 @@ use tautline_proofs::decide::{Evidence, Prover};
 use tautline_proofs::registry::CLAUSES;
 use tautline_proofs::search::unwatched;
 use tautline_sim::aside::Replaceable;
-use tautline_sim::refutation::{self, path, replay};
+use tautline_sim::counterexample::refutation::{self, path, replay};
 
 /// What refutes the checks that are registered as refuted, but for those that take long to decide.
 fn refutations() -> Vec<(&'static Clause, &'static Check, Evidence)> {

@@ -11,13 +11,13 @@ use tautline_kernel::bricks::Rule;
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::course::{Course, Scene, Turn};
+use tautline_sim::draw::story;
 use tautline_sim::explore::agents::{Agents, Way};
 use tautline_sim::explore::ants::ANTS;
 use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};
 use tautline_sim::explore::{Report, RuleName, Setup, Stopped, explore};
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::layout::{self, Generator, Layout};
-use tautline_sim::view::story;
 
 /// More team moves than any run here has.
 const MANY: u32 = 300_000;

@@ -10,13 +10,13 @@ use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::judge::judge;
 use tautline_proofs::run::Breach;
 use tautline_sim::aside::Replaceable;
-use tautline_sim::exhibit::exhibit;
+use tautline_sim::counterexample::exhibit::exhibit;
+use tautline_sim::counterexample::hunt::store;
+use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, Refused, minimise};
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::{ClauseId, Limits, OnViolation, RuleId, RuleName, Setup, Stopped, explore};
 use tautline_sim::fault::Halt;
-use tautline_sim::hunt::store;
 use tautline_sim::layout::{self, Generator, Layout};
-use tautline_sim::minimise::{Extent, Failure, Minimal, Refused, minimise};
 use tautline_sim::trace::Trace;
 
 /// Column and row.

@@ -12,12 +12,12 @@ use tautline_proofs::words::counted;
 use super::{Hunt, check_folder, keep};
 use crate::output::Output;
 use crate::{Exit, Format, SizeArg, interrupt, progress};
+use tautline_sim::counterexample::hunt::store;
+use tautline_sim::counterexample::hunt::trap::{DEFAULT_SIDE, bounds, setup};
+use tautline_sim::draw;
 use tautline_sim::explore::{Profile, RuleId, Setup};
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::hunt::store;
-use tautline_sim::hunt::trap::{DEFAULT_SIDE, bounds, setup};
 use tautline_sim::layout::Size;
-use tautline_sim::view;
 
 /// Agents when nobody says how many.
 const DEFAULT_AGENTS: u64 = 1;
@@ -176,7 +176,7 @@ fn tell(hunted: &Hunted) -> Result<String, Halt> {
         let steps = counted(*steps, "team move");
         let _ = writeln!(text, "\n{clause}, {misses} missed, {columns}x{rows} cells, {steps}");
         let _ = match is_endless {
-            false => writeln!(text, "\n{}", view::story::of_trap(setup)?),
+            false => writeln!(text, "\n{}", draw::story::of_trap(setup)?),
             true => writeln!(text, "\nA run without end in this layout:\n\n{}", setup.layout),
         };
         if let Some(file) = file {

@@ -9,9 +9,9 @@ use tautline_proofs::invariant::Invariant;
 use tautline_proofs::run::Breach;
 use tautline_proofs::search::{Bounds, Counterexample, Progress};
 
+use crate::counterexample::hunt;
 use crate::explore::RuleName;
 use crate::fault::Halt;
-use crate::hunt;
 
 /// A number of robots, and the bound on the walls that one run meets.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
