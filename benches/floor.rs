@@ -6,7 +6,7 @@ mod common;
 use criterion::{BenchmarkId, Criterion};
 use tautline_kernel::ants;
 use tautline_kernel::bricks::Rule;
-use tautline_sim::explore::agents::{Team, Way};
+use tautline_sim::explore::agents::{Agents, Way};
 use tautline_sim::layout::Generator;
 use tautline_sim::layout::generate::Probability;
 
@@ -41,7 +41,7 @@ const LAYOUTS: [&str; 4] = ["office:30x30:4x4", "open:30x30", "office:512x512:16
 
 /// A team of ants and one that marks cells as visited are both followed to the end of exploration; the latter until all
 /// agents are done.
-fn follow(mut team: Team) -> Work {
+fn follow(mut team: Agents) -> Work {
     let mut work = Work::default();
     while work.team_moves < MOST && !team.is_over() {
         work.team_moves += 1;
@@ -60,7 +60,7 @@ fn main() {
         let starts = vec![layout.default_base().expect("a free cell"); AGENTS];
         let mut group = group(&mut criterion, described);
         for (scheme, way) in SCHEMES {
-            let team = Team::new(way, &layout, &starts, Probability::NEVER, 0);
+            let team = Agents::new(way, &layout, &starts, Probability::NEVER, 0);
             let cost = measure(&mut group, BenchmarkId::from_parameter(scheme), || follow(team.clone()));
             rows.push((described, scheme, cost));
         }

@@ -1,10 +1,32 @@
 //! Options whose values are words of the library.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use tautline_sim::explore::{Profile, RuleId, catalogue};
 use tautline_sim::words::Worded;
 
 /// Reads one of the words for values of `T`; the help says what each of them means.
 pub(crate) fn chosen<T: Worded + Send + Sync>() -> impl TypedValueParser<Value = T> {
-    let values = T::WORDS.iter().map(|(_, word, about)| PossibleValue::new(*word).help(*about));
-    PossibleValuesParser::new(values).try_map(|word| T::of(&word).ok_or("it is none of the words"))
+    one_of(T::WORDS.iter().copied())
+}
+
+/// Reads the name of a scheme.
+pub(crate) fn scheme() -> impl TypedValueParser<Value = &'static Profile> {
+    one_of(catalogue::SCHEMES.iter().map(|&scheme| (scheme, scheme.name, scheme.about)))
+}
+
+/// Reads the name of a rule that a scheme offers.
+pub(crate) fn rule() -> impl TypedValueParser<Value = RuleId> {
+    one_of(catalogue::rules().into_iter().map(|rule| (rule.name, rule.name.as_str(), rule.about)))
+}
+
+/// Reads a word as the value that stands before it; what stands behind it is the help about it.
+fn one_of<T: Copy + Send + Sync + 'static>(
+    words: impl Iterator<Item = (T, &'static str, &'static str)>,
+) -> impl TypedValueParser<Value = T> {
+    let words: Vec<_> = words.collect();
+    let values: Vec<_> = words.iter().map(|&(_, word, about)| PossibleValue::new(word).help(about)).collect();
+    PossibleValuesParser::new(values).try_map(move |chosen| {
+        let found = words.iter().find(|&&(_, word, _)| word == chosen);
+        found.map(|&(value, ..)| value).ok_or("it is none of the words")
+    })
 }

@@ -1,20 +1,17 @@
 //! What a person sees of a refutation, whoever has found it: `prove` as it decides, `replay` in a file.
 
 use serde::Serialize;
-use tautline_kernel::bricks;
 use tautline_kernel::ground::Edge;
-use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::clause::{AnyCheck, Clause};
 use tautline_proofs::course::Course;
 use tautline_proofs::decide::{Evidence, Seen};
 use tautline_proofs::run::Run;
 
-use super::usage;
-use tautline_sim::explore::agents::Way;
-use tautline_sim::explore::{Crew, RuleName, Setup};
-use tautline_sim::fault::Halt;
+use tautline_sim::counterexample::hunt;
+use tautline_sim::draw;
+use tautline_sim::explore::{ClauseId, RuleName, Setup, catalogue};
+use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::words::Worded;
-use tautline_sim::{hunt, view};
 
 /// A refutation as JSON.
 #[derive(Serialize)]
@@ -47,19 +44,20 @@ pub(super) enum Shown {
 
 /// The run of robots that a search has found, if the program can make it again.
 pub(super) fn setup(check: &dyn AnyCheck, run: &Run) -> Result<Option<Setup>, Halt> {
-    let Some(rule) = RuleName::of(check.rule()) else { return Ok(None) };
-    Ok(Some(hunt::setup(rule, run).map_err(|problem| usage(&problem))?))
+    let (Some(rule), Some(scheme)) = (RuleName::of(check.rule()), catalogue::scheme(run.scheme)) else {
+        return Ok(None);
+    };
+    Ok(Some(hunt::setup(scheme, rule, run).map_err(Fault::from)?))
 }
 
 /// What anyone sees that a run breaks.
-pub(super) fn breach(run: &Run) -> Option<Breach> {
-    run.breaks.and_then(|id| id.parse().ok())
+pub(super) fn breach(run: &Run) -> Option<ClauseId> {
+    run.breaks.map(ClauseId::new)
 }
 
 /// A run of agents.
 fn drawn(course: &Course) -> Result<String, Halt> {
-    let crew = Crew::Agents(Way::Bricks(bricks::Rule::PUBLISHED));
-    Ok(view::story::of_course(crew, course).map_err(|problem| usage(&problem))?)
+    Ok(draw::story::of_course(course).map_err(Fault::from)?)
 }
 
 /// What refutes a clause, as data.
@@ -96,7 +94,7 @@ pub(super) fn story(clause: &Clause, check: &dyn AnyCheck, evidence: &Evidence) 
                 run.frames.len()
             );
             match setup(check, run)? {
-                Some(setup) => head + &view::story::last_move(&setup)?,
+                Some(setup) => head + &draw::story::last_move(&setup)?,
                 None => head,
             }
         }

@@ -15,21 +15,20 @@ use tautline_proofs::words::counted;
 use super::output::Output;
 use super::{
     CellArg, Chance, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless, positive, probability,
-    progress, usage, whole,
+    progress, whole,
 };
-use crate::chosen::chosen;
+use crate::chosen::{self, chosen};
 use tautline_sim::aside::Aside;
-use tautline_sim::explore::agents::Way;
+use tautline_sim::draw::page::Page;
+use tautline_sim::draw::svg;
 use tautline_sim::explore::floor::Component;
 use tautline_sim::explore::{
-    Crew, Limits, Milestone, Misfit, OnViolation, Report, RuleName, SchemeName, Setup, Stopped, TeamMove,
-    Violation, explore,
+    Knowledge, Limits, Milestone, Misfit, OnViolation, Play, Profile, Report, RuleId, Senses, Setup, Stage,
+    Starts, Stopped, Violation, Watcher, explore, team,
 };
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::layout::generate::Probability;
-use tautline_sim::view::page::Page;
-use tautline_sim::view::svg;
-use tautline_sim::{trace, view};
+use tautline_sim::{draw, trace};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -46,11 +45,11 @@ pub(super) struct Explore {
     #[command(flatten)]
     layout: LayoutArgs,
     /// How the team explores.
-    #[arg(long, value_parser = chosen::<SchemeName>(), default_value = "chain")]
-    scheme: SchemeName,
+    #[arg(long, value_parser = chosen::scheme(), default_value = "chain")]
+    scheme: &'static Profile,
     /// The scheme as published, or repaired.
-    #[arg(long, value_parser = chosen::<RuleName>(), default_value = "repaired")]
-    rule: RuleName,
+    #[arg(long, value_parser = chosen::rule(), default_value = "repaired")]
+    rule: RuleId,
     /// Robots or agents; for the chain the base is one of them. Without it the layout says, or there are 8.
     #[arg(long, value_name = "N", value_parser = whole::<u64>)]
     robots: Option<u64>,
@@ -108,9 +107,10 @@ impl Explore {
         let files = [&self.trace, &self.replay, &self.svg];
         let [trace, page, picture] = self.force.files(files, self.layout.inputs())?;
         if page.is_some() || picture.is_some() {
-            svg::check_size(setup.area())?;
+            svg::check_size(team(&setup)?.area(&setup.layout))?;
         }
-        let mut writer = trace.map(|aside| trace::Writer::new(aside, &setup, None));
+        let writer = trace.map(|aside| trace::Writer::new(aside, &setup.stage(), None));
+        let mut writer = writer.transpose().map_err(Fault::from)?;
         let (bar, start) = (progress::spinner("exploring"), Instant::now());
         let report = explore(&setup, &mut |made| {
             bar.set_message(format!("team move {}", made.step));
@@ -132,7 +132,7 @@ impl Explore {
                 Some(Draw::Moves) => picture.draw(panels(&setup, &report, &(1..=report.steps)))?,
                 Some(Draw::Order) | None => {
                     let order = svg::order(&setup, &report.chart);
-                    picture.append(svg::picture(&view::title_of(&setup), &[order]));
+                    picture.append(svg::picture(&draw::title_of(&setup), &[order]));
                 }
             }
             out.keep(picture);
@@ -148,9 +148,8 @@ impl Explore {
     }
 
     fn setup(&self) -> Result<Setup, Fault> {
-        let crew = self.scheme.crew(self.rule);
-        if crew == Crew::Chain && self.miss.is_some() {
-            return Err(Fault::usage(Misfit::Miss, Misfit::Miss.remedy()));
+        if self.scheme.senses == Senses::Bumps && self.miss.is_some() {
+            return Err(Misfit::Miss(self.scheme).into());
         }
         if self.draw.is_some() && self.format.format == Format::Json && self.svg.is_none() {
             return Err(needless("--draw", "JSON has no drawing, and no picture is stored"));
@@ -158,34 +157,33 @@ impl Explore {
         let miss = self.miss.unwrap_or(Probability::NEVER);
         let mut layout = self.layout.load(if miss.is_never() { Chance::None } else { Chance::Some })?;
         let robots = self.robots.unwrap_or_else(|| layout.robots().unwrap_or(DEFAULT_ROBOTS).into());
-        let robots =
-            Setup::count(self.scheme, robots).map_err(|misfit| Fault::usage(&misfit, misfit.remedy()))?;
+        let robots = Setup::count(self.scheme, robots)?;
         let starts: Vec<Cell> = self.start.iter().map(|&CellArg(cell)| cell).collect();
         if let Some(&first) = starts.first() {
-            layout.check_start(first).map_err(|problem| usage(&problem))?;
+            layout.check_start(first)?;
         }
         let asked = self.base.map(|CellArg(cell)| cell).or(starts.first().copied());
-        let base = Setup::choose_base(&mut layout, asked).map_err(|problem| usage(&problem))?;
+        let base = Setup::choose_base(&mut layout, asked)?;
         let limits = Limits { until: self.until, max_moves: self.max_moves, violation: OnViolation::GoOn };
-        let starts = match (crew, starts.len()) {
-            (_, 0) | (Crew::Agents(_), 1) => None,
-            (Crew::Chain | Crew::Agents(_), _) => Some(starts),
+        let starts = match (self.scheme.starts, starts.len()) {
+            (_, 0) | (Starts::Anywhere, 1) => None,
+            (Starts::Base | Starts::Anywhere, _) => Some(starts),
         };
         let (scheme, rule, seed) = (self.scheme, self.rule, self.layout.seed());
         let missed = Vec::new();
         let setup = Setup { scheme, rule, robots, seed, layout, base, starts, miss, missed, limits };
-        setup.check().map_err(|misfit| Fault::usage(&misfit, misfit.remedy()))?;
+        setup.check()?;
         Ok(setup)
     }
 
     fn draw(&self, setup: &Setup, report: &Report, out: &mut Output) -> Result<(), Halt> {
         match self.draw {
-            Some(Draw::Order) => out.text(format_args!("\n{}", view::order(setup, &report.chart)))?,
+            Some(Draw::Order) => out.text(format_args!("\n{}", draw::order(setup, &report.chart)))?,
             Some(Draw::Moves) => {
-                draw_moves(setup, report, &(1..=report.steps), view::Pose::Before, out)?;
+                draw_moves(setup, report, &(1..=report.steps), draw::Pose::Before, out)?;
             }
             None if report.chart.area().width() <= SMALL_COLUMNS => {
-                out.text(format_args!("\n{}", view::outcome(setup, &report.chart, &report.team)))?;
+                out.text(format_args!("\n{}", draw::outcome(setup, &report.chart, &report.team)))?;
             }
             None => {}
         }
@@ -212,11 +210,11 @@ pub(super) fn check_panels(moves: &RangeInclusive<u32>) -> Result<(), Fault> {
 const MAX_PANEL_BYTES: usize = 64 << 20;
 
 /// A picture of the team moves in `moves`, one panel each.
-pub(super) fn panels(setup: &Setup, report: &Report, moves: &RangeInclusive<u32>) -> Result<String, Halt> {
+pub(super) fn panels(run: &dyn Play, report: &Report, moves: &RangeInclusive<u32>) -> Result<String, Halt> {
     check_panels(&(*moves.start()..=report.steps.min(*moves.end())))?;
     let (mut panels, mut bytes) = (Vec::new(), 0);
-    among(setup, moves, &mut |made| {
-        let panel = svg::team_move(setup, &report.chart, made);
+    among(run, moves, &mut |made| {
+        let panel = svg::team_move(run, &report.chart, made);
         bytes += panel.bytes();
         if bytes > MAX_PANEL_BYTES {
             let what = format!("a picture of more than {} MiB", MAX_PANEL_BYTES >> 20);
@@ -225,19 +223,19 @@ pub(super) fn panels(setup: &Setup, report: &Report, moves: &RangeInclusive<u32>
         panels.push(panel);
         Ok(())
     })?;
-    Ok(svg::picture(&view::title_of(setup), &panels))
+    Ok(svg::picture(&draw::title_of(run), &panels))
 }
 
 /// Stores a page that plays the team moves in `moves`.
 pub(super) fn play(
     mut file: Aside,
-    setup: &Setup,
+    run: &dyn Play,
     report: &Report,
     moves: &RangeInclusive<u32>,
     out: &mut Output,
 ) -> Result<(), Halt> {
-    let mut page = Page::new(&mut file, setup, report, moves);
-    among(setup, moves, &mut |made| {
+    let mut page = Page::new(&mut file, run, report, moves);
+    among(run, moves, &mut |made| {
         page.add(made);
         Ok(())
     })?;
@@ -248,22 +246,22 @@ pub(super) fn play(
 
 /// Draws the team moves in `moves`, a row at a time.
 pub(super) fn draw_moves(
-    setup: &Setup,
+    run: &dyn Play,
     report: &Report,
     moves: &RangeInclusive<u32>,
-    pose: view::Pose,
+    pose: draw::Pose,
     out: &mut Output,
 ) -> Result<(), Halt> {
-    let drawn = view::TeamMoves::new(setup, &report.chart);
+    let drawn = draw::TeamMoves::new(run, &report.chart);
     let mut columns = None;
-    among(setup, moves, &mut |made| {
+    among(run, moves, &mut |made| {
         columns = columns.max(Some(drawn.columns(made, pose)));
         Ok(())
     })?;
     let Some(columns) = columns else { return Ok(()) };
-    out.text(format_args!("\n{}\n\n", view::legend(setup.crew())))?;
-    let mut rows = view::Rows::new(columns);
-    among(setup, moves, &mut |made| {
+    out.text(format_args!("\n{}\n\n", draw::legend(run.stage().look)))?;
+    let mut rows = draw::Rows::new(columns);
+    among(run, moves, &mut |made| {
         if out.is_gone() {
             return Ok(());
         }
@@ -272,14 +270,14 @@ pub(super) fn draw_moves(
     Ok(out.text(rows.rest())?)
 }
 
-/// Runs `setup` as far as the last of `moves`, and lets `watch` see those.
+/// Makes `run` as far as the last of `moves`, and lets `watch` see those.
 pub(super) fn among(
-    setup: &Setup,
+    run: &dyn Play,
     moves: &RangeInclusive<u32>,
-    watch: &mut dyn FnMut(&TeamMove<'_>) -> Result<(), Halt>,
+    watch: &mut Watcher<'_>,
 ) -> Result<(), Halt> {
     let mut is_over = false;
-    let run = explore(setup, &mut |made| {
+    let made = run.play(&mut |made| {
         is_over = made.step > *moves.end();
         match (is_over, moves.contains(&made.step)) {
             (true, _) => Err(Halt::Interrupted),
@@ -287,19 +285,19 @@ pub(super) fn among(
             (false, false) => Ok(()),
         }
     });
-    match run {
+    match made {
         Err(Halt::Interrupted) if is_over => Ok(()),
-        run => run.map(|_| ()),
+        made => made.map(|_| ()),
     }
 }
 
 /// What came of a run, in a few lines.
-pub(super) fn summary(setup: &Setup, layout: &str, report: &Report) -> String {
+pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
     let percent = report.explored * 100 / report.cells;
     let mut text = format!(
         "{}, {}: {layout}\n{}: {}\n{} of {} explored ({percent} %)",
-        view::title_of(setup),
-        place(setup),
+        draw::title_of(run),
+        place(&run.stage()),
         counted(report.steps, "team move"),
         report.stopped.words(),
         report.explored,
@@ -316,13 +314,13 @@ pub(super) fn summary(setup: &Setup, layout: &str, report: &Report) -> String {
     if let Some(milliseconds) = report.milliseconds {
         let _ = writeln!(text, "the slowest agent took {} s", milliseconds / 1000);
     }
-    match setup.crew() {
-        Crew::Chain => {}
-        Crew::Agents(Way::Ants(_)) => {
+    match run.stage().knowledge {
+        None => {}
+        Some(Knowledge::None) => {
             text.push_str("ants never know that they are done: whoever watches them ends the run\n");
             text.push_str(&components(report, |_| String::new()));
         }
-        Crew::Agents(Way::Bricks(_)) => {
+        Some(Knowledge::Visited) => {
             let words = |Component { active, visited, .. }: &Component| {
                 let ends =
                     if *active == 0 { "every agent is done".to_owned() } else { format!("{active} go on") };
@@ -350,11 +348,11 @@ pub(super) fn summary(setup: &Setup, layout: &str, report: &Report) -> String {
 }
 
 /// Where the robots start.
-fn place(setup: &Setup) -> String {
-    match (setup.crew(), &setup.starts) {
-        (Crew::Chain, _) => format!("base {}", setup.base),
-        (Crew::Agents(_), None) => format!("start {}", setup.base),
-        (Crew::Agents(_), Some(starts)) => {
+fn place(stage: &Stage<'_>) -> String {
+    match (stage.look.has_base(), stage.starts) {
+        (true, _) => format!("base {}", stage.base),
+        (false, None) => format!("start {}", stage.base),
+        (false, Some(starts)) => {
             let starts: Vec<String> = starts.iter().map(Cell::to_string).collect();
             format!("starts {}", starts.join(" "))
         }
@@ -383,13 +381,11 @@ const LISTED: usize = 10;
 fn violations(report: &Report) -> String {
     let mut text = String::new();
     for violation in report.violations.iter().take(LISTED) {
-        let clause = violation.breach.clause();
-        let _ = writeln!(
-            text,
-            "{clause} is broken in team move {}: {}",
-            violation.step,
-            view::story::sentence(clause)
-        );
+        let Violation { clause, step } = *violation;
+        let _ = match draw::story::sentence(clause) {
+            Some(sentence) => writeln!(text, "{clause} is broken in team move {step}: {sentence}"),
+            None => writeln!(text, "{clause} is broken in team move {step}"),
+        };
     }
     match report.violations.len() {
         0 => text.push_str("no clause is broken\n"),
@@ -404,8 +400,8 @@ fn violations(report: &Report) -> String {
 /// The JSON of a run.
 #[derive(Serialize)]
 pub(super) struct Summary<'a> {
-    scheme: SchemeName,
-    rule: RuleName,
+    scheme: &'a str,
+    rule: &'a str,
     robots: u16,
     seed: u64,
     layout: &'a str,
@@ -428,7 +424,7 @@ struct FloorSummary<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     starts: Option<&'a [Cell]>,
     #[serde(flatten)]
-    knowledge: Option<Knowledge>,
+    marked: Option<Marked>,
     /// How long the slowest agent scanned and went.
     seconds: f64,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -443,7 +439,7 @@ fn seconds(report: &Report) -> f64 {
 
 /// What agents that mark cells have done and know.
 #[derive(Serialize)]
-struct Knowledge {
+struct Marked {
     visited: u32,
     terminated: bool,
 }
@@ -455,29 +451,31 @@ struct Part {
     cells: u32,
     explored: u32,
     #[serde(flatten)]
-    knowledge: Option<Knowledge>,
+    marked: Option<Marked>,
 }
 
-impl Knowledge {
-    fn of(way: Way, component: &Component) -> Option<Self> {
-        match way {
-            Way::Ants(_) => None,
-            Way::Bricks(_) => Some(Self { visited: component.visited, terminated: component.active == 0 }),
+impl Marked {
+    fn of(knowledge: Knowledge, component: &Component) -> Option<Self> {
+        match knowledge {
+            Knowledge::None => None,
+            Knowledge::Visited => {
+                Some(Self { visited: component.visited, terminated: component.active == 0 })
+            }
         }
     }
 }
 
 impl<'a> FloorSummary<'a> {
-    fn of(way: Way, setup: &'a Setup, report: &Report) -> Self {
+    fn of(knowledge: Knowledge, stage: &Stage<'a>, report: &Report) -> Self {
         let part = |component: &Component| {
             let Component { robots, cells, explored, .. } = *component;
-            Part { robots, cells, explored, knowledge: Knowledge::of(way, component) }
+            Part { robots, cells, explored, marked: Marked::of(knowledge, component) }
         };
         let parts = if report.components.len() < 2 { &[] } else { report.components.as_slice() };
         Self {
-            miss: setup.miss,
-            starts: setup.starts.as_deref(),
-            knowledge: Knowledge::of(way, &report.whole()),
+            miss: stage.miss,
+            starts: stage.starts,
+            marked: Marked::of(knowledge, &report.whole()),
             seconds: seconds(report),
             components: parts.iter().map(part).collect(),
         }
@@ -485,19 +483,17 @@ impl<'a> FloorSummary<'a> {
 }
 
 impl<'a> Summary<'a> {
-    pub(super) fn new(setup: &'a Setup, layout: &'a str, report: &Report) -> Self {
+    pub(super) fn new(run: &'a dyn Play, layout: &'a str, report: &Report) -> Self {
+        let stage = run.stage();
         let milestones = Milestone::ALL.map(|milestone| (milestone.percent(), report.reached(milestone)));
         Self {
-            scheme: setup.scheme,
-            rule: setup.rule,
-            robots: setup.robots,
-            seed: setup.seed,
+            scheme: stage.scheme,
+            rule: stage.rule,
+            robots: stage.robots,
+            seed: stage.seed,
             layout,
-            base: setup.base,
-            floor: match setup.crew() {
-                Crew::Chain => None,
-                Crew::Agents(way) => Some(FloorSummary::of(way, setup, report)),
-            },
+            base: stage.base,
+            floor: stage.knowledge.map(|knowledge| FloorSummary::of(knowledge, &stage, report)),
             steps: report.steps,
             explored: report.explored,
             cells: report.cells,

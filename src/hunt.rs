@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 use serde::Serialize;
+use tautline_proofs::chain::Observed;
 use tautline_proofs::chain::search::{Bounds, Found};
 use tautline_proofs::decide::Verdict;
 use tautline_proofs::engine::tree::Progress;
@@ -15,13 +16,13 @@ use tautline_proofs::words::counted;
 
 use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, SizeArg, interrupt, number, progress, whole};
-use crate::chosen::chosen;
+use crate::{chosen, report};
 use tautline_sim::aside::Aside;
-use tautline_sim::explore::{Crew, RuleName, SchemeName, Setup};
+use tautline_sim::counterexample::hunt;
+use tautline_sim::counterexample::hunt::Saved;
+use tautline_sim::draw;
+use tautline_sim::explore::{Hunt as Way, Misfit, Profile, RuleId, Setup};
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::hunt::Saved;
-use tautline_sim::words::Worded;
-use tautline_sim::{hunt, view};
 
 /// How often a hunt is kept in its file.
 const KEEP_EVERY: Duration = Duration::from_secs(5);
@@ -48,11 +49,11 @@ Examples:
 #[command(after_help = EXAMPLES)]
 pub(super) struct Hunt {
     /// How the team explores.
-    #[arg(long, value_parser = chosen::<SchemeName>(), default_value = "chain")]
-    scheme: SchemeName,
+    #[arg(long, value_parser = chosen::scheme(), default_value = "chain")]
+    scheme: &'static Profile,
     /// The scheme as published, or repaired.
-    #[arg(long, value_parser = chosen::<RuleName>(), default_value = "repaired")]
-    rule: RuleName,
+    #[arg(long, value_parser = chosen::rule(), default_value = "repaired")]
+    rule: RuleId,
     /// Robots: 4 in a chain, the base counted, or 1 agent, unless this says otherwise. Agents act in turn here; `prove`
     /// looks at every order.
     #[arg(long, value_name = "N", value_parser = whole::<u64>)]
@@ -84,8 +85,8 @@ pub(super) struct Hunt {
 
 #[derive(Serialize)]
 struct Hunted {
-    scheme: SchemeName,
-    rule: RuleName,
+    scheme: &'static Profile,
+    rule: RuleId,
     robots: u64,
     runs: u64,
     moves: u64,
@@ -120,13 +121,18 @@ struct Stored {
 
 impl Hunt {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        match self.scheme.crew(self.rule) {
-            Crew::Chain => self.run_chain(out),
-            Crew::Agents(way) => trap::run(self, way, out),
+        let rule = self.scheme.rule(self.rule).ok_or(Misfit::Rule(self.scheme)).map_err(Fault::from)?;
+        match rule.hunt {
+            Some(Way::Walls(subject)) => self.run_walls(subject, out),
+            Some(Way::Traps(way)) => trap::run(self, way, out),
+            None => {
+                let what = format!("nothing is hunted of {}", self.scheme.name);
+                Err(Fault::usage(what, "hunt another scheme").into())
+            }
         }
     }
 
-    fn run_chain(&self, out: &mut Output) -> Result<Exit, Halt> {
+    fn run_walls(&self, subject: Observed, out: &mut Output) -> Result<Exit, Halt> {
         if self.max_misses.is_some() {
             let what = "the robots of a chain have no floor sensors to miss";
             return Err(
@@ -136,7 +142,7 @@ impl Hunt {
         check_folder(&self.out)?;
         let (robots, walls) =
             (self.robots.unwrap_or(DEFAULT_ROBOTS), self.max_walls.unwrap_or(DEFAULT_WALLS));
-        let mut bounds = hunt::bounds(self.rule, robots, walls, self.size.map(|SizeArg(size)| size))?;
+        let mut bounds = hunt::bounds(subject, robots, walls, self.size.map(|SizeArg(size)| size))?;
         bounds.budget_moves = self.budget;
         let found = self.search(&bounds, out)?;
         let hunted = self.store(&bounds, &found, out)?;
@@ -169,7 +175,7 @@ impl Hunt {
             if let Some(saved) = saved.as_mut().filter(|_| written.elapsed() > KEEP_EVERY) {
                 // There may be room again later on; the last good one stands there until then.
                 if let Err(fault) = saved.write(&search) {
-                    tracing::warn!("{fault}");
+                    tracing::warn!("{}", report::with_flags(&fault.to_string()));
                 }
                 written = Instant::now();
             }
@@ -188,10 +194,10 @@ impl Hunt {
         let replaceable = self.force.replaceable(self.resume.clone());
         let counterexamples = found.counterexamples.iter().map(|counterexample| {
             let run = bounds.run(counterexample);
-            let setup = hunt::setup(self.rule, &run).map_err(|problem| super::usage(&problem))?;
-            let breach = counterexample.broken.breach();
-            let file = match breach {
-                Some(breach) => keep(hunt::store(&self.out, &setup, breach, &replaceable)?.0, out),
+            let setup = hunt::setup(self.scheme, self.rule, &run).map_err(Fault::from)?;
+            let clause = counterexample.broken.breach().map(tautline_sim::explore::ClauseId::from);
+            let file = match clause {
+                Some(clause) => keep(hunt::store(&self.out, &setup, clause, &replaceable)?.0, out),
                 None => None,
             };
             Ok(Stored {
@@ -200,7 +206,7 @@ impl Hunt {
                 walls: run.walls.len(),
                 steps: counterexample.frames.len(),
                 file,
-                is_endless: breach.is_none(),
+                is_endless: clause.is_none(),
                 setup,
             })
         });
@@ -263,7 +269,7 @@ fn tell(hunted: &Hunted) -> Result<String, Halt> {
     } = hunted;
     let mut text = format!(
         "{} ({rule}), {}, at most {}: {}, {}, {longest} the longest\n",
-        scheme.word(),
+        scheme.name,
         counted(*robots, "robot"),
         counted(*max_walls, "wall"),
         counted(*runs, "run"),
@@ -286,7 +292,7 @@ fn tell(hunted: &Hunted) -> Result<String, Halt> {
         let (walls, steps) = (counted(*walls, "wall"), counted(*steps, "team move"));
         let _ = writeln!(text, "\n{clause}, {walls}, {steps}; broken in {}", counted(*runs, "run"));
         let _ = match is_endless {
-            false => writeln!(text, "\n{}", view::story::last_move(setup)?),
+            false => writeln!(text, "\n{}", draw::story::last_move(setup)?),
             true => writeln!(text, "\nA run without end in this layout:\n\n{}", setup.layout),
         };
         if let Some(file) = file {

@@ -31,11 +31,12 @@ use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use tautline_kernel::ground::Cell;
 use tautline_kernel::notice::Count;
-use tautline_proofs::chain::breach::{Breach, NoBreach};
 
 use crate::report::{Colour, render};
 use output::Output;
 use tautline_sim::aside::{Aside, Foreign, Replaceable};
+use tautline_sim::explore::ClauseId;
+use tautline_sim::explore::catalogue::{self, NoClause};
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::layout::{self, Generator, Layout, Problem, Size};
@@ -244,8 +245,8 @@ impl FromStr for SizeArg {
 }
 
 /// The id of a clause that a run can break.
-fn clause(id: &str) -> Result<Breach, String> {
-    id.to_ascii_uppercase().parse().map_err(|none: NoBreach| format!("{none}; {}", none.remedy()))
+fn clause(id: &str) -> Result<ClauseId, String> {
+    catalogue::clause(&id.to_ascii_uppercase()).map_err(|none: NoClause| format!("{none}; {}", none.remedy()))
 }
 
 /// A whole number, as large as its type holds.
@@ -281,10 +282,6 @@ fn count(text: &str) -> Result<Count, String> {
 /// A whole number above 0.
 fn positive(text: &str) -> Result<NonZeroU32, String> {
     text.parse().map_err(|_| format!("write a whole number from 1 to {}", u32::MAX))
-}
-
-fn usage(problem: &Problem) -> Fault {
-    Fault::usage(problem, problem.remedy())
 }
 
 /// Runs the program with the arguments of this process.

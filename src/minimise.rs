@@ -5,18 +5,16 @@ use std::path::PathBuf;
 
 use clap::Args;
 use serde::Serialize;
-use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::words::counted;
 
 use super::output::Output;
 use super::replay::draw;
 use super::{Exit, ForceArgs, Format, FormatArgs, clause, hunt, progress};
-use tautline_sim::explore::{Report, RuleName, SchemeName};
+use tautline_sim::counterexample::hunt::store;
+use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, minimise};
+use tautline_sim::explore::{ClauseId, Profile, Report, RuleId};
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::hunt::store;
-use tautline_sim::minimise::{Extent, Failure, Minimal, minimise};
 use tautline_sim::trace::Trace;
-use tautline_sim::words::Worded;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -36,7 +34,7 @@ pub(super) struct Minimise {
     /// The clause that is to stay broken. Without it, the one that the file is a counterexample to, or else the first
     /// that the run breaks.
     #[arg(long, value_name = "CLAUSE", value_parser = clause)]
-    clause: Option<Breach>,
+    clause: Option<ClauseId>,
     /// The folder for the minimal run.
     #[arg(long, value_name = "DIR", default_value = ".")]
     out: PathBuf,
@@ -48,9 +46,9 @@ pub(super) struct Minimise {
 
 #[derive(Serialize)]
 struct Minimised {
-    scheme: SchemeName,
-    rule: RuleName,
-    clause: &'static str,
+    scheme: &'static Profile,
+    rule: RuleId,
+    clause: ClauseId,
     before: Extent,
     after: Extent,
     /// Runs that were made to find it.
@@ -98,13 +96,13 @@ impl Minimise {
     }
 
     fn store(&self, minimal: &Minimal, out: &mut Output) -> Result<(Minimised, Report), Halt> {
-        let Minimal { setup, breach, before, after, runs } = minimal;
+        let Minimal { setup, clause, before, after, runs } = minimal;
         let replaceable = self.force.replaceable([self.file.clone()]);
-        let (aside, report) = store(&self.out, setup, *breach, &replaceable)?;
+        let (aside, report) = store(&self.out, setup, *clause, &replaceable)?;
         let minimised = Minimised {
             scheme: setup.scheme,
             rule: setup.rule,
-            clause: breach.clause(),
+            clause: *clause,
             before: *before,
             after: *after,
             runs: *runs,
@@ -116,7 +114,7 @@ impl Minimise {
 
 fn tell(name: &str, minimised: &Minimised) -> String {
     let Minimised { scheme, rule, clause, before, after, runs, file: _ } = minimised;
-    let mut text = format!("{} ({rule}), {clause}: {name}\n\n               before   after\n", scheme.word());
+    let mut text = format!("{} ({rule}), {clause}: {name}\n\n               before   after\n", scheme.name);
     let rows = [
         ("robots", before.robots.to_string(), after.robots.to_string()),
         ("columns", before.columns.to_string(), after.columns.to_string()),

@@ -17,9 +17,8 @@ use super::hunt::keep;
 use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, progress};
 use tautline_sim::aside::Replaceable;
+use tautline_sim::counterexample::{hunt, refutation};
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::hunt;
-use tautline_sim::refutation;
 
 const EXAMPLES: &str = "\
 Examples:

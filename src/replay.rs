@@ -8,7 +8,7 @@ use std::str::FromStr;
 use clap::Args;
 use serde::ser::{Error, SerializeSeq};
 use serde::{Serialize, Serializer};
-use tautline_proofs::chain::breach::Breach;
+use tautline_kernel::ground::Area;
 use tautline_proofs::clause::{AnyCheck, Clause};
 use tautline_proofs::decide::{Evidence, Seen};
 use tautline_proofs::judge::chain::{Exhibit, judge, judges};
@@ -21,13 +21,13 @@ use super::output::Output;
 use super::rescue::{Files, tell};
 use super::{Exit, ForceArgs, Format, FormatArgs};
 use tautline_sim::aside::Aside;
-use tautline_sim::exhibit::{exhibit, of_agent, of_course, written_down};
-use tautline_sim::explore::{Crew, Report, Setup};
+use tautline_sim::counterexample::exhibit::{exhibit, of_agent, of_course, written_down};
+use tautline_sim::counterexample::refutation::{self, Refutation};
+use tautline_sim::draw::svg;
+use tautline_sim::explore::{ClauseId, Judge, Play, Report, Stage, team};
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::refutation::{self, Refutation};
-use tautline_sim::trace::{self, StoredMove, Trace, lines};
-use tautline_sim::view::svg;
-use tautline_sim::{rescue, view};
+use tautline_sim::trace::{self, Recorded, Stored, StoredMove, Trace, lines};
+use tautline_sim::{draw, rescue};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -87,13 +87,16 @@ struct Replayed<'a> {
     #[serde(flatten)]
     run: Summary<'a>,
     /// The clause that the file says it is a counterexample to; for a chain the judge agrees.
-    counterexample_to: Option<&'static str>,
+    counterexample_to: Option<ClauseId>,
+    /// Of a scheme that this program does not know, that its rule was not run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    is_rule_run: Option<bool>,
     moves: ShownMoves<'a>,
 }
 
 /// Team moves of a run, made one by one as they are written.
 struct ShownMoves<'a> {
-    setup: &'a Setup,
+    run: &'a dyn Play,
     moves: &'a RangeInclusive<u32>,
 }
 
@@ -101,7 +104,7 @@ impl Serialize for ShownMoves<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut list = serializer.serialize_seq(None)?;
         let mut written = Ok(());
-        among(self.setup, self.moves, &mut |made| {
+        among(self.run, self.moves, &mut |made| {
             if written.is_ok() {
                 written = list.serialize_element(&StoredMove::new(made.step, made.frame));
             }
@@ -131,33 +134,31 @@ impl Replay {
         match lines::format(&self.file).as_deref() {
             Some(rescue::trace::FORMAT) => self.run_rescue(Files { trace: None, page, map: picture }, out),
             Some(refutation::FORMAT) => self.run_refutation(out),
-            Some(trace::FORMAT) => self.run_team(Trace::open(&self.file)?, [page, picture], out),
+            Some(trace::FORMAT) => self.run_stored(trace::open(&self.file)?, [page, picture], out),
             Some(_) | None => {
                 let foreign = |fault: Fault| fault.with_remedy(REPLAYABLE);
-                self.run_team(Trace::open(&self.file).map_err(foreign)?, [page, picture], out)
+                self.run_stored(trace::open(&self.file).map_err(foreign)?, [page, picture], out)
             }
         }
     }
 
-    fn run_team(
-        &self,
-        trace: Trace,
-        [page, picture]: [Option<Aside>; 2],
-        out: &mut Output,
-    ) -> Result<Exit, Halt> {
+    fn run_stored(&self, stored: Stored, files: [Option<Aside>; 2], out: &mut Output) -> Result<Exit, Halt> {
+        match stored {
+            Stored::Known(trace) => self.run_team(trace, files, out),
+            Stored::Foreign(run) => self.run_recorded(&run, files, out),
+        }
+    }
+
+    fn run_team(&self, trace: Trace, files: [Option<Aside>; 2], out: &mut Output) -> Result<Exit, Halt> {
         let (setup, clause) = (trace.setup.clone(), trace.clause);
-        let (is_chain, is_premature) = (setup.crew() == Crew::Chain, clause == Some(Breach::Premature));
-        let is_drawn = page.is_none() && picture.is_none();
-        if !is_drawn {
-            svg::check_size(setup.area())?;
-        }
-        if let (Some(_), Some(Moves(moves))) = (&picture, &self.moves) {
-            check_panels(moves)?;
-        }
+        self.check_drawing(team(&setup)?.area(&setup.layout), &files)?;
+        let judge = clause.and_then(|clause| setup.scheme.clause(clause)?.judge);
         // What a judge reads: the run of a chain, or that of a single agent that is done too early.
-        let judged = clause.filter(|breach| is_chain && judges(breach.clause()));
-        let mut chain = judged.map(|breach| exhibit(&setup, breach.clause(), &[]));
-        let mut agent = (!is_chain && is_premature && setup.robots == 1).then(Vec::new);
+        let mut chain = match (judge, clause) {
+            (Some(Judge::Chain), Some(clause)) => Some(exhibit(&setup, clause.as_str(), &[])),
+            _ => None,
+        };
+        let mut agent = (judge == Some(Judge::Agent) && setup.robots == 1).then(Vec::new);
         let report = trace.replay(&mut |made| {
             let read = match (&mut chain, &mut agent) {
                 (Some(exhibit), _) => {
@@ -176,35 +177,86 @@ impl Replay {
             let what = format!("the judge reads no more than {MAX_JUDGED} robots in all team moves");
             Err(Fault::in_file(&self.file, what, "shrink the run with `tautline minimise`").into())
         })?;
-        let is_judged = match (chain, agent) {
+        let is_judged = match (chain, agent.zip(clause)) {
             (Some(exhibit), _) => self.judge_chain(&exhibit)?,
-            (None, Some(frames)) => self.judge_floor(&of_agent(&setup, Breach::Premature, &frames))?,
+            (None, Some((frames, clause))) => self.judge_floor(&of_agent(&setup, clause, &frames))?,
             (None, None) => false,
         };
-        let moves = self.moves(&report);
+        let said = clause.map(|clause| said(clause.as_str(), is_judged));
+        self.show(&setup, &report, clause, Told { said, is_rule_run: None }, files, out)
+    }
+
+    /// A run of a scheme that this program does not know, as it was written.
+    fn run_recorded(
+        &self,
+        run: &Recorded,
+        files: [Option<Aside>; 2],
+        out: &mut Output,
+    ) -> Result<Exit, Halt> {
+        let Stage { scheme, rule, layout, .. } = run.stage();
+        self.check_drawing(layout.size().area(), &files)?;
+        let report = run.play(&mut |_| Ok(()))?;
+        let mut said = format!(
+            "this program does not know the scheme {scheme}: its rule {rule} was not run, the team moves are those of \
+             the file"
+        );
+        if let Some(clause) = run.clause {
+            said += &format!("\nthe file says that it is a counterexample to {clause}");
+        }
+        self.show(run, &report, run.clause, Told { said: Some(said), is_rule_run: Some(false) }, files, out)
+    }
+
+    /// Checks that a page and a picture can hold what they are to show of `area`.
+    fn check_drawing(&self, area: Area, files: &[Option<Aside>; 2]) -> Result<(), Fault> {
+        if files.iter().any(Option::is_some) {
+            svg::check_size(area)?;
+        }
+        match (files, &self.moves) {
+            ([_, Some(_)], Some(Moves(moves))) => check_panels(moves),
+            _ => Ok(()),
+        }
+    }
+
+    /// Draws and tells a run that came out as `report`.
+    fn show(
+        &self,
+        run: &dyn Play,
+        report: &Report,
+        clause: Option<ClauseId>,
+        told: Told,
+        [page, picture]: [Option<Aside>; 2],
+        out: &mut Output,
+    ) -> Result<Exit, Halt> {
+        let is_drawn = page.is_none() && picture.is_none();
+        let moves = self.moves(report);
         if let Some(page) = page {
             let moves = self.moves.as_ref().map_or(1..=report.steps, |Moves(moves)| moves.clone());
-            play(page, &setup, &report, &moves, out)?;
+            play(page, run, report, &moves, out)?;
         }
         if let Some(mut picture) = picture {
             let moves = self.moves.as_ref().map_or(report.steps..=report.steps, |Moves(moves)| moves.clone());
-            picture.draw(panels(&setup, &report, &moves))?;
+            picture.draw(panels(run, report, &moves))?;
             out.keep(picture);
         }
         let name = self.file.display().to_string();
         match self.format.format {
             Format::Json => {
-                let run = Summary::new(&setup, &name, &report);
-                let moves = ShownMoves { setup: &setup, moves: &moves };
-                out.json(&Replayed { run, counterexample_to: clause.map(Breach::clause), moves })?;
+                let summary = Summary::new(run, &name, report);
+                let moves = ShownMoves { run, moves: &moves };
+                out.json(&Replayed {
+                    run: summary,
+                    counterexample_to: clause,
+                    is_rule_run: told.is_rule_run,
+                    moves,
+                })?;
             }
             Format::Text => {
-                out.text(summary(&setup, &name, &report))?;
-                if let Some(breach) = clause {
-                    out.text(format_args!("{}\n", said(breach.clause(), is_judged)))?;
+                out.text(summary(run, &name, report))?;
+                if let Some(said) = told.said {
+                    out.text(format_args!("{said}\n"))?;
                 }
                 if is_drawn {
-                    draw(&setup, &report, &moves, out)?;
+                    draw(run, report, &moves, out)?;
                 }
             }
         }
@@ -296,6 +348,13 @@ impl Replay {
     }
 }
 
+/// What is told of a run besides what came of it.
+struct Told {
+    /// Lines of text.
+    said: Option<String>,
+    is_rule_run: Option<bool>,
+}
+
 /// Who has judged a counterexample.
 fn said(clause: &str, is_judged: bool) -> String {
     if is_judged {
@@ -307,21 +366,21 @@ fn said(clause: &str, is_judged: bool) -> String {
 
 /// Draws the team moves, and tells the story of every violation among them.
 pub(super) fn draw(
-    setup: &Setup,
+    run: &dyn Play,
     report: &Report,
     moves: &RangeInclusive<u32>,
     out: &mut Output,
 ) -> Result<(), Halt> {
-    draw_moves(setup, report, moves, view::Pose::After, out)?;
+    draw_moves(run, report, moves, draw::Pose::After, out)?;
     if report.violations.iter().any(|violation| moves.contains(&violation.step)) {
-        among(setup, moves, &mut |made| {
-            if made.breaches.is_empty() || out.is_gone() {
+        among(run, moves, &mut |made| {
+            if made.broken.is_empty() || out.is_gone() {
                 return Ok(());
             }
-            Ok(out.text(format_args!("\n{}", view::story::of(setup, &report.chart, made)))?)
+            Ok(out.text(format_args!("\n{}", draw::story::of(run, &report.chart, made)))?)
         })?;
     }
-    let end = view::story::of_end(setup, report);
+    let end = draw::story::of_end(run, report);
     if moves.contains(&report.steps) && !end.is_empty() {
         out.text(format_args!("\n{end}"))?;
     }

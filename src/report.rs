@@ -15,13 +15,31 @@ pub(crate) enum Colour {
     Plain,
 }
 
+/// The fields of a request that have a flag of the same name.
+const FIELDS: [&str; 11] =
+    ["robots", "base", "size", "max-walls", "max-moves", "resume", "image", "force", "trace", "out", "moves"];
+
+/// `words` with the flags of the fields that they name.
+pub(crate) fn with_flags(words: &str) -> String {
+    let flag = |words: String, field| words.replace(&format!("`{field}`"), &format!("--{field}"));
+    FIELDS.iter().fold(words.to_owned(), flag)
+}
+
+/// What is wrong. Only where it is asked for something are the words our own; elsewhere they may quote a file.
+fn what(fault: &Fault) -> String {
+    match fault.place() {
+        Place::Request { .. } => with_flags(fault.what()),
+        Place::File(_) | Place::Spot { .. } => fault.what().to_owned(),
+    }
+}
+
 /// The fault over several lines, with the spot drawn where there is one. Ends with a newline.
 pub(crate) fn render(fault: &Fault, colour: Colour) -> String {
     match fault.place() {
         Place::Spot { file, line, column, excerpt } if *line <= MAX_DRAWN_LINE => {
             draw(fault, file, (*line, *column), excerpt, colour).unwrap_or_else(|| headline(fault, colour))
         }
-        Place::Spot { .. } | Place::File(_) | Place::Request => headline(fault, colour),
+        Place::Spot { .. } | Place::File(_) | Place::Request { .. } => headline(fault, colour),
     }
 }
 
@@ -30,7 +48,7 @@ fn headline(fault: &Fault, colour: Colour) -> String {
         Colour::Ansi => ("Error:".fg(Color::Red).to_string(), "Help:".fg(Color::Fixed(115)).to_string()),
         Colour::Plain => ("Error:".to_owned(), "Help:".to_owned()),
     };
-    format!("{error} {}{}\n {help} {}\n", fault.place(), fault.what(), fault.remedy())
+    format!("{error} {}{}\n {help} {}\n", fault.place(), what(fault), with_flags(fault.remedy()))
 }
 
 /// Empty lines stand for those before the excerpt, so that the margin numbers are those of the file. The heading counts
@@ -54,7 +72,7 @@ fn draw(
         .with_config(config)
         .with_message(fault.what())
         .with_label(label.with_message("here"))
-        .with_help(fault.remedy())
+        .with_help(with_flags(fault.remedy()))
         .finish()
         .write((file, Source::from("\n".repeat(skipped) + &excerpt.text)), &mut drawing)
         .ok()?;

@@ -15,6 +15,8 @@ use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, needless, progress, real, whole};
 use crate::chosen::chosen;
 use tautline_sim::aside::Aside;
+use tautline_sim::draw;
+use tautline_sim::draw::field::picture;
 use tautline_sim::explore::RuleName;
 use tautline_sim::fault::{Fault, Halt, Watch};
 use tautline_sim::radio::{ChannelName, FREE_SPACE};
@@ -23,8 +25,6 @@ use tautline_sim::rescue::{
     Assignments, CallTimes, Event, Logged, Ordinal, Report, RobotsFailed, SchemeName, Setting, Summary,
     rescue, seconds, trace,
 };
-use tautline_sim::view;
-use tautline_sim::view::field::picture;
 use tautline_sim::words::Worded;
 
 const EXAMPLES: &str = "\
@@ -300,11 +300,11 @@ pub(super) fn tell(
         let broken = if broken.is_empty() { none_broken() } else { format!("{} broken", broken.join(", ")) };
         let (events, what) = (summary.assignments.events, counted_as(setting));
         let outcome = format!("{served} of {events} {what} served; {broken}.");
-        page.draw(view::rescue::page(&title, &outcome, report).map_err(Halt::from))?;
+        page.draw(draw::rescue::page(&title, &outcome, report).map_err(Halt::from))?;
         out.keep(page);
     }
     if let Some(mut map) = files.map {
-        map.append(picture(&title, &[view::rescue::map(String::new(), report)]));
+        map.append(picture(&title, &[draw::rescue::map(String::new(), report)]));
         out.keep(map);
     }
     print(out, format, setting, &(seed..=seed), (&summary, Some(report)))

@@ -7,11 +7,11 @@ use serde::Serialize;
 use tautline_kernel::ground::Cell;
 
 use super::output::Output;
-use super::{Chance, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless, usage};
+use super::{Chance, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless};
 use tautline_sim::aside::Aside;
-use tautline_sim::fault::Halt;
-use tautline_sim::view::svg::{self, Panel};
-use tautline_sim::view::{self, Environment};
+use tautline_sim::draw::svg::{self, Panel};
+use tautline_sim::draw::{self, Environment};
+use tautline_sim::fault::{Fault, Halt};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -74,7 +74,7 @@ impl Show {
             let [file] = self.force.files([&self.svg], [])?;
             store(out, file, "The environments of a cell", &svg::environments());
             match self.format.format {
-                Format::Text => out.text(view::environments())?,
+                Format::Text => out.text(draw::environments())?,
                 Format::Json => out.json(&ShownEnvironments { environments: Environment::ALL.map(shown) })?,
             }
             return Ok(Exit::Expected);
@@ -94,10 +94,7 @@ impl Show {
                 height: layout.height(),
                 free_cells: layout.free_cells(),
                 walls: layout.walls().count(),
-                base: layout
-                    .base()
-                    .map_or_else(|| layout.default_base(), Ok)
-                    .map_err(|problem| usage(&problem))?,
+                base: layout.base().map_or_else(|| layout.default_base(), Ok).map_err(Fault::from)?,
                 robots: layout.robots(),
                 drawing,
             })?,

@@ -27,10 +27,11 @@ use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::engine::{Seeded, Tape};
 use tautline_proofs::judge::chain::{Exhibit, judge as judged};
 use tautline_proofs::run::Frame;
-use tautline_sim::exhibit::exhibit;
-use tautline_sim::explore::{RuleName, SchemeName, Setup};
+use tautline_sim::counterexample::exhibit::exhibit;
+use tautline_sim::counterexample::hunt::{self, Saved};
+use tautline_sim::explore::chain::CHAIN;
+use tautline_sim::explore::{RuleName, Setup};
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::hunt::{self, Saved};
 use tautline_sim::layout::{Layout, Misread, Size, movingai, ros, text};
 use tautline_sim::trace::Trace;
 use tautline_sim::wide::WideGrid;
@@ -203,7 +204,7 @@ pub fn judge(bytes: &[u8]) {
         if broken.is_some() { Next::Stop } else { Next::Go }
     });
     let Some(breach) = broken else { return };
-    let setup = Setup::new(SchemeName::Chain, RuleName::Published, robots as u16, layout, base);
+    let setup = Setup::new(&CHAIN, RuleName::Published, robots as u16, layout, base);
     let mut exhibit = exhibit(&setup, breach.clause(), &frames);
     assert_eq!(judged(&exhibit), Ok(()));
     if let Some(wall) = exhibit.walls.iter().nth(change[0] as usize).copied() {
@@ -277,7 +278,7 @@ fn plan(bytes: &[u8], teams: [usize; 4], moves: fn(usize) -> usize) {
 
 /// The hunt of the target: two robots are the smallest team, and the whole hunt takes less than reading a file.
 static HUNT: LazyLock<(Bounds, Found)> = LazyLock::new(|| {
-    let bounds = hunt::bounds(RuleName::Published, 2, 1, None).expect("two robots fit");
+    let bounds = hunt::bounds(RuleName::Published.observed(), 2, 1, None).expect("two robots fit");
     let whole = search(&bounds, &mut unwatched).expect("two robots fit");
     (bounds, whole)
 });
@@ -306,9 +307,7 @@ pub fn kept_hunt(bytes: &[u8]) {
             while search.wave() {}
             let folder = tempfile::tempdir().expect("a folder");
             let file = folder.path().join("hunt");
-            Saved::new(&file, SchemeName::Chain, RuleName::Published, bounds)
-                .write(&search)
-                .expect("it can be written");
+            Saved::new(&file, &CHAIN, RuleName::Published, bounds).write(&search).expect("it can be written");
             let mut kept = fs::read(&file).expect("a kept hunt");
             for _ in 0..number(4) {
                 let place = number(kept.len());
@@ -323,7 +322,7 @@ pub fn kept_hunt(bytes: &[u8]) {
 fn hunt_on(bounds: &Bounds, bytes: &[u8]) -> Option<Found> {
     let mut file = tempfile::NamedTempFile::new().expect("a file");
     file.write_all(bytes).expect("it can be written");
-    match Saved::new(file.path(), SchemeName::Chain, RuleName::Published, bounds).search(bounds) {
+    match Saved::new(file.path(), &CHAIN, RuleName::Published, bounds).search(bounds) {
         Ok(mut search) => {
             let mut waves = 0;
             while search.wave() {

@@ -71,7 +71,7 @@ impl Replaceable {
         }
         if self.foreign == Foreign::Keep && !is_ours(target) {
             let what = "tautline did not write this file, and does not overwrite it";
-            return Err(Fault::in_file(path, what, "store it elsewhere, or replace it with --force"));
+            return Err(Fault::in_file(path, what, "store it elsewhere, or replace it with `force`"));
         }
         Ok(())
     }

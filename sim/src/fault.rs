@@ -1,5 +1,5 @@
 //! What went wrong with something the user gave, where, and what would be right: the one error type of this crate, as
-//! data. How it is shown is the caller's business. A fault in a text keeps only the line it points at, clipped, however large the file.
+//! data. How it is shown, and by which flag a field is given, is the caller's business. A fault in a text keeps only the line it points at, clipped, however large the file.
 
 use std::fmt;
 use std::ops::Range;
@@ -30,7 +30,10 @@ struct Parts {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Place {
     /// In what was asked for.
-    Request,
+    Request {
+        /// The field that is wrong, if one alone is.
+        field: Option<&'static str>,
+    },
     /// In a file as a whole.
     File(String),
     /// In a text.
@@ -121,7 +124,12 @@ impl Fault {
 
     /// A fault of what was asked for.
     pub fn usage(what: impl fmt::Display, remedy: impl fmt::Display) -> Self {
-        Self::new(Place::Request, what, remedy)
+        Self::new(Place::Request { field: None }, what, remedy)
+    }
+
+    /// A fault of one field of what was asked for. Where its words name a field, the name stands between backticks.
+    pub fn of_field(field: &'static str, what: impl fmt::Display, remedy: impl fmt::Display) -> Self {
+        Self::new(Place::Request { field: Some(field) }, what, remedy)
     }
 
     fn new(place: Place, what: impl fmt::Display, remedy: impl fmt::Display) -> Self {
@@ -145,6 +153,13 @@ impl Fault {
     /// What would be right.
     pub fn remedy(&self) -> &str {
         &self.0.remedy
+    }
+
+    /// The same fault, which a whole file has made.
+    #[must_use]
+    pub fn found_in(mut self, file: impl AsRef<Path>) -> Self {
+        self.0.place = Place::File(name(file.as_ref()));
+        self
     }
 
     /// The same fault with another remedy.
@@ -207,7 +222,7 @@ fn one_line(text: &str) -> String {
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Request => Ok(()),
+            Self::Request { field: _ } => Ok(()),
             Self::File(file) => write!(f, "{file}: "),
             Self::Spot { file, line, column, excerpt: _ } => write!(f, "{file}:{line}:{column}: "),
         }

@@ -8,6 +8,7 @@ mod lines;
 pub mod movingai;
 mod plane;
 mod problem;
+mod read;
 pub mod ros;
 mod size;
 pub mod text;
@@ -20,9 +21,10 @@ use tautline_kernel::ground::{Cell, Edge, Side};
 
 use plane::Plane;
 
-pub use file::{MAX_FILE_BYTES, inputs, load};
+pub use file::{inputs, load};
 pub use generate::Generator;
 pub use problem::{Misread, Problem};
+pub use read::MAX_FILE_BYTES;
 pub use size::{MAX_CELLS, MAX_SIDE_CELLS, Size};
 
 /// An area of cells. The outer rim is closed; three bits a cell hold the rest.

@@ -2,19 +2,16 @@
 //! are drawn and counted. What a person types, and how an error is printed, is the program's business.
 
 pub mod aside;
-pub mod exhibit;
+pub mod counterexample;
+pub mod draw;
 pub mod explore;
 pub mod fault;
-pub mod hunt;
 pub mod layout;
-pub mod minimise;
 pub mod radio;
-pub mod refutation;
 pub mod reproduce;
 pub mod rescue;
 pub mod tan;
 pub mod trace;
-pub mod view;
 pub mod wide;
 pub mod words;
 

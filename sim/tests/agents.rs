@@ -11,11 +11,13 @@ use tautline_kernel::bricks::Rule;
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::course::{Course, Scene, Turn};
-use tautline_sim::explore::agents::{Team, Way};
-use tautline_sim::explore::{Crew, Report, RuleName, SchemeName, Setup, Stopped, explore};
+use tautline_sim::draw::story;
+use tautline_sim::explore::agents::{Agents, Way};
+use tautline_sim::explore::ants::ANTS;
+use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};
+use tautline_sim::explore::{Report, RuleName, Setup, Stopped, explore};
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::layout::{self, Generator, Layout};
-use tautline_sim::view::story;
 
 /// More team moves than any run here has.
 const MANY: u32 = 300_000;
@@ -50,7 +52,7 @@ fn setups() -> impl Strategy<Value = Setup> {
             let starts: Vec<Cell> = places.iter().map(|place| *place.get(&free)).collect();
             let base = Setup::choose_base(&mut layout, None).ok()?;
             let robots = starts.len() as u16;
-            let setup = Setup::new(SchemeName::Bricks, RuleName::Repaired, robots, layout, base);
+            let setup = Setup::new(&BRICKS, RuleName::Repaired, robots, layout, base);
             Some(Setup { seed, starts: Some(starts), ..setup })
         },
     )
@@ -75,7 +77,7 @@ proptest! {
     #[test]
     fn every_cell_is_visited_and_every_agent_knows_it(
         setup in setups(),
-        scheme in prop::sample::select(vec![SchemeName::Bricks, SchemeName::BricksAnts]),
+        scheme in prop::sample::select(vec![&BRICKS, &BRICKS_ANTS]),
     ) {
         let report = run(&Setup { scheme, ..setup.clone() });
         prop_assert_eq!(&report.violations, &[]);
@@ -92,7 +94,7 @@ proptest! {
 
     #[test]
     fn ants_explore_everything(setup in setups(), rule in prop::sample::select(RuleName::ALL.to_vec())) {
-        let report = run(&Setup { scheme: SchemeName::Ants, rule, ..setup });
+        let report = run(&Setup { scheme: &ANTS, rule: rule.into(), ..setup });
         prop_assert_eq!((report.stopped, report.explored), (Stopped::Explored, report.cells));
         prop_assert_eq!(report.violations, []);
     }
@@ -101,7 +103,7 @@ proptest! {
     fn repaired_ants_and_robust_agents_explore_everything_although_sensors_are_missed(
         setup in setups(),
         miss in 0.0..0.1_f64,
-        scheme in prop::sample::select(vec![SchemeName::Ants, SchemeName::BricksAnts]),
+        scheme in prop::sample::select(vec![&ANTS, &BRICKS_ANTS]),
     ) {
         let miss = Probability::new(miss).expect("a probability");
         let report = run(&Setup { scheme, miss, ..setup });
@@ -113,7 +115,7 @@ proptest! {
 /// The end of a team in `layout`, all agents starting in `start`: cells, visited cells, and agents that are not done.
 fn ended(rule: Rule, layout: &Layout, start: Cell, agents: usize) -> (u32, u32, u32) {
     let starts = vec![start; agents];
-    let mut team = Team::new(Way::Bricks(rule), layout, &starts, Probability::NEVER, 0);
+    let mut team = Agents::new(Way::Bricks(rule), layout, &starts, Probability::NEVER, 0);
     while !team.is_over() {
         team.advance();
     }
@@ -206,7 +208,7 @@ fn of_turns_that_can_go_on_for_ever_only_those_are_drawn() {
         round: 2,
         end: scene([0, 0]),
     };
-    let drawn = story::of_course(Crew::Agents(Way::Bricks(Rule::PUBLISHED)), &course).expect("a layout");
+    let drawn = story::of_course(&course).expect("a layout");
     assert_snapshot!(drawn, @"
     1, 2, … are the agents, K× stands for K of them in one cell; · is explored, : explored and entered by nobody any more, ░░░ visited, ▒▒▒ sealed, ## blocked; ? is a sensor that an agent missed.
 

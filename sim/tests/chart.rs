@@ -3,8 +3,8 @@
 use insta::assert_snapshot;
 use proptest::collection::vec;
 use proptest::prelude::*;
+use tautline_sim::draw::chart::{Axis, LineChart, Point, Series, Stroke};
 use tautline_sim::reproduce::interval::Estimate;
-use tautline_sim::view::chart::{Axis, LineChart, Point, Series, Stroke};
 
 fn points(points: &[(f64, f64)]) -> Vec<Point> {
     points.iter().map(|&(x, y)| Point { x, y, interval: None }).collect()

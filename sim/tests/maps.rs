@@ -1,8 +1,8 @@
 //! Maps of radio fields: what stands where in the picture.
 
 use insta::assert_snapshot;
+use tautline_sim::draw::field::{Map, Terminus, Trail, picture};
 use tautline_sim::radio::{Area, Field, Obstacle, Point};
-use tautline_sim::view::field::{Map, Terminus, Trail, picture};
 
 const fn at(x_m: f64, y_m: f64) -> Point {
     Point { x_m, y_m }

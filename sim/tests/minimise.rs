@@ -10,12 +10,13 @@ use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::judge::chain::judge;
 use tautline_sim::aside::Replaceable;
-use tautline_sim::exhibit::exhibit;
-use tautline_sim::explore::{Limits, OnViolation, RuleName, SchemeName, Setup, Stopped, explore};
+use tautline_sim::counterexample::exhibit::exhibit;
+use tautline_sim::counterexample::hunt::store;
+use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, Refused, minimise};
+use tautline_sim::explore::chain::CHAIN;
+use tautline_sim::explore::{ClauseId, Limits, OnViolation, RuleId, RuleName, Setup, Stopped, explore};
 use tautline_sim::fault::Halt;
-use tautline_sim::hunt::store;
 use tautline_sim::layout::{self, Generator, Layout};
-use tautline_sim::minimise::{Extent, Failure, Minimal, Refused, minimise};
 use tautline_sim::trace::Trace;
 
 /// Column and row.
@@ -50,7 +51,7 @@ impl Case {
         }
     }
 
-    fn setup(&self, rule: RuleName) -> Setup {
+    fn setup(&self, rule: RuleId) -> Setup {
         let mut layout = Layout::open(self.columns as u64, self.rows as u64).expect("a size");
         self.blocked.iter().for_each(|&(x, y)| layout.block(Cell::new(x, y)));
         for &((x, y), (east, _)) in &self.walls {
@@ -58,7 +59,7 @@ impl Case {
         }
         let base = Cell::new(self.base.0, self.base.1);
         layout.place_base(base).expect("a free cell");
-        Setup::new(SchemeName::Chain, rule, self.robots, layout, base)
+        Setup::new(&CHAIN, rule, self.robots, layout, base)
     }
 
     /// Columns for rows.
@@ -129,18 +130,18 @@ impl Case {
         smaller
     }
 
-    /// Whether its run breaks `breach`, whatever else it breaks before.
-    fn breaks(&self, rule: RuleName, breach: Breach) -> bool {
+    /// Whether its run breaks `clause`, whatever else it breaks before.
+    fn breaks(&self, rule: RuleId, clause: ClauseId) -> bool {
         let run = explore(&self.setup(rule), &mut |made| {
-            if made.breaches.contains(&breach) { Err(Halt::Interrupted) } else { Ok(()) }
+            if made.broken.contains(&clause) { Err(Halt::Interrupted) } else { Ok(()) }
         });
-        run.map_or(true, |report| report.violations.iter().any(|violation| violation.breach == breach))
+        run.map_or(true, |report| report.violations.iter().any(|violation| violation.clause == clause))
     }
 }
 
 fn setup(robots: u16, mut layout: Layout) -> Setup {
     let base = Setup::choose_base(&mut layout, None).expect("a free cell");
-    Setup::new(SchemeName::Chain, RuleName::Published, robots, layout, base)
+    Setup::new(&CHAIN, RuleName::Published, robots, layout, base)
 }
 
 fn generated(description: &str, seed: u64) -> Layout {
@@ -148,7 +149,7 @@ fn generated(description: &str, seed: u64) -> Layout {
 }
 
 fn minimal(setup: &Setup, asked: Option<Breach>) -> Option<Minimal> {
-    match minimise(setup, asked, &mut |_| Ok(())) {
+    match minimise(setup, asked.map(ClauseId::from), &mut |_| Ok(())) {
         Ok(minimal) => Some(minimal),
         Err(Failure::Refused(_)) => None,
         Err(Failure::Halted(halt)) => panic!("{halt:?}"),
@@ -157,16 +158,16 @@ fn minimal(setup: &Setup, asked: Option<Breach>) -> Option<Minimal> {
 
 /// Checks that `found` is what it promises to be.
 fn check(found: &Minimal) {
-    let Minimal { setup, breach, before, after, runs: _ } = found;
+    let Minimal { setup, clause, before, after, runs: _ } = found;
     let mut frames = Vec::new();
     let report = explore(setup, &mut |made| {
         frames.push(made.frame.clone());
         Ok(())
     });
     let report = report.expect("a run");
-    let stopped = if *breach == Breach::Completeness { Stopped::Exhausted } else { Stopped::Violation };
+    let stopped = if *clause == Breach::Completeness { Stopped::Exhausted } else { Stopped::Violation };
     assert_eq!((report.stopped, report.steps), (stopped, after.steps));
-    assert_eq!(judge(&exhibit(setup, breach.clause(), &frames)), Ok(()), "{setup:?}");
+    assert_eq!(judge(&exhibit(setup, clause.as_str(), &frames)), Ok(()), "{setup:?}");
     let case = Case::of(setup);
     assert_eq!((case.robots, case.columns, case.rows), (after.robots, after.columns, after.rows));
     assert_eq!((case.blocked.len(), case.walls.len()), (after.blocked, after.walls));
@@ -174,9 +175,9 @@ fn check(found: &Minimal) {
     assert!(shrinks(|extent| extent.robots.into()) && shrinks(|extent| extent.walls), "{found:?}");
     assert!(shrinks(|extent| extent.columns as usize) && shrinks(|extent| extent.rows as usize), "{found:?}");
     assert!(shrinks(|extent| extent.blocked), "{found:?}");
-    assert!(case.breaks(setup.rule, *breach), "{setup:?}");
+    assert!(case.breaks(setup.rule, *clause), "{setup:?}");
     for (what, smaller) in case.smaller() {
-        assert!(!smaller.breaks(setup.rule, *breach), "{what} can go: {setup:?}");
+        assert!(!smaller.breaks(setup.rule, *clause), "{what} can go: {setup:?}");
     }
 }
 
@@ -230,10 +231,10 @@ fn minimising_is_the_same_every_time_and_leaves_a_minimal_run_as_it_is() {
 fn the_clause_asked_for_stays_broken_whatever_breaks_before() {
     let setup = setup(8, generated("walls:15x15:0.2", 80));
     let first = minimal(&setup, None).expect("it breaks CHAIN-1");
-    assert_eq!(first.breach, Breach::Contact);
+    assert_eq!(first.clause, Breach::Contact);
     check(&first);
     let crowded = minimal(&setup, Some(Breach::Crowding)).expect("it breaks CHAIN-2 later");
-    assert_eq!(crowded.breach, Breach::Crowding);
+    assert_eq!(crowded.clause, Breach::Crowding);
     assert!(crowded.before.steps > first.before.steps);
     check(&crowded);
 }
@@ -245,14 +246,14 @@ fn a_minimal_run_that_breaks_another_clause_before_replays_to_its_own() {
     check(&minimal);
     let folder = tempfile::tempdir().expect("a folder");
     let replaceable = Replaceable::default();
-    let (file, report) = store(folder.path(), &minimal.setup, minimal.breach, &replaceable).expect("a run");
+    let (file, report) = store(folder.path(), &minimal.setup, minimal.clause, &replaceable).expect("a run");
     let path = file.path().to_owned();
     file.keep().expect("a file");
     assert_eq!(path.file_name(), Some("chain-2-published-n10.jsonl".as_ref()));
-    let broken: Vec<Breach> = report.violations.iter().map(|violation| violation.breach).collect();
+    let broken: Vec<ClauseId> = report.violations.iter().map(|violation| violation.clause).collect();
     assert_eq!(broken, [Breach::Contact, Breach::Crowding]);
     let trace = Trace::open(&path).expect("a stored run");
-    assert_eq!(trace.clause, Some(Breach::Crowding));
+    assert_eq!(trace.clause, Some(Breach::Crowding.into()));
     assert_eq!(trace.replay(&mut |_| Ok(())), Ok(report));
 }
 
@@ -282,8 +283,9 @@ fn what_a_run_never_met_goes_at_once_and_its_moves_stay() {
 #[test]
 fn a_run_is_taken_to_its_end_and_no_further() {
     let crowded = setup(8, generated("walls:15x15:0.2", 80));
-    let ended =
-        |limits| minimise(&Setup { limits, ..crowded.clone() }, Some(Breach::Crowding), &mut |_| Ok(()));
+    let ended = |limits| {
+        minimise(&Setup { limits, ..crowded.clone() }, Some(Breach::Crowding.into()), &mut |_| Ok(()))
+    };
     let refused = |result: Result<Minimal, Failure>| match result {
         Err(Failure::Refused(refused)) => refused,
         other => panic!("{other:?}"),
@@ -291,7 +293,7 @@ fn a_run_is_taken_to_its_end_and_no_further() {
     let stopped = Limits { violation: OnViolation::Stop, ..Limits::default() };
     assert_eq!(
         refused(ended(stopped)),
-        Refused::Otherwise { asked: Breach::Crowding, broken: vec![Breach::Contact] }
+        Refused::Otherwise { asked: Breach::Crowding.into(), broken: vec![Breach::Contact.into()] }
     );
     let short = Limits { max_moves: NonZeroU32::new(1), ..Limits::default() };
     assert_eq!(refused(ended(short)), Refused::Unbroken);

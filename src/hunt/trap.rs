@@ -11,14 +11,13 @@ use tautline_proofs::words::counted;
 
 use super::{Hunt, check_folder, keep};
 use crate::output::Output;
-use crate::{Exit, Format, SizeArg, interrupt, progress, usage};
-use tautline_sim::explore::{Misfit, RuleName, SchemeName, Setup};
+use crate::{Exit, Format, SizeArg, interrupt, progress};
+use tautline_sim::counterexample::hunt::store;
+use tautline_sim::counterexample::hunt::trap::{DEFAULT_SIDE, bounds, setup};
+use tautline_sim::draw;
+use tautline_sim::explore::{Profile, RuleId, Setup};
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::hunt::store;
-use tautline_sim::hunt::trap::{DEFAULT_SIDE, bounds, setup};
 use tautline_sim::layout::Size;
-use tautline_sim::view;
-use tautline_sim::words::Worded;
 
 /// Agents when nobody says how many.
 const DEFAULT_AGENTS: u64 = 1;
@@ -28,8 +27,8 @@ const DEFAULT_MISSES: u8 = 1;
 
 #[derive(Serialize)]
 struct Hunted {
-    scheme: SchemeName,
-    rule: RuleName,
+    scheme: &'static Profile,
+    rule: RuleId,
     robots: u32,
     /// Columns and rows of the largest layouts.
     size: String,
@@ -67,7 +66,7 @@ pub(super) fn run(hunt: &Hunt, way: Way, out: &mut Output) -> Result<Exit, Halt>
     check_folder(&hunt.out)?;
     let size = match hunt.size {
         Some(SizeArg(size)) => size,
-        None => Size::new(DEFAULT_SIDE, DEFAULT_SIDE).map_err(|problem| usage(&problem))?,
+        None => Size::new(DEFAULT_SIDE, DEFAULT_SIDE).map_err(Fault::from)?,
     };
     let (agents, misses) = (hunt.robots.unwrap_or(DEFAULT_AGENTS), hunt.max_misses.unwrap_or(DEFAULT_MISSES));
     let bounds = Bounds { budget_steps: hunt.budget, ..bounds(way, agents, misses, size)? };
@@ -100,10 +99,6 @@ pub(super) fn run(hunt: &Hunt, way: Way, out: &mut Output) -> Result<Exit, Halt>
 
 /// Refuses what is not asked of agents.
 fn refuse(hunt: &Hunt) -> Result<(), Fault> {
-    if (hunt.scheme, hunt.rule) == (SchemeName::BricksAnts, RuleName::Published) {
-        let misfit = Misfit::Rule(hunt.scheme);
-        return Err(Fault::usage(&misfit, misfit.remedy()));
-    }
     if hunt.max_walls.is_some() {
         let what = "agents know every wall: no number of walls bounds their search";
         return Err(Fault::usage(what, "give --max-misses for the sensors, and --size for the layouts"));
@@ -138,10 +133,10 @@ const fn verdict(found: &Found) -> Verdict {
 }
 
 fn stored(hunt: &Hunt, trap: &Trap, out: &mut Output) -> Result<Stored, Halt> {
-    let setup = setup(hunt.scheme, hunt.rule, trap).map_err(|problem| usage(&problem))?;
+    let setup = setup(hunt.scheme, hunt.rule, trap).map_err(Fault::from)?;
     let (clause, file) = match trap.end {
         End::Done => {
-            let (file, _) = store(&hunt.out, &setup, Breach::Premature, &hunt.force.replaceable([]))?;
+            let (file, _) = store(&hunt.out, &setup, Breach::Premature.into(), &hunt.force.replaceable([]))?;
             (Breach::Premature.clause(), keep(file, out))
         }
         End::Endless => (ENDLESS, None),
@@ -159,7 +154,7 @@ fn tell(hunted: &Hunted) -> Result<String, Halt> {
     let order = if *robots == 1 { "" } else { " that act in turn" };
     let mut text = format!(
         "{} ({rule}), {}{order}, at most {max_misses} missed, layouts up to {size}: {}, {}, {}\n",
-        scheme.word(),
+        scheme.name,
         counted(*robots, "agent"),
         counted(*layouts, "layout"),
         counted(*states, "state"),
@@ -181,7 +176,7 @@ fn tell(hunted: &Hunted) -> Result<String, Halt> {
         let steps = counted(*steps, "team move");
         let _ = writeln!(text, "\n{clause}, {misses} missed, {columns}x{rows} cells, {steps}");
         let _ = match is_endless {
-            false => writeln!(text, "\n{}", view::story::of_trap(setup)?),
+            false => writeln!(text, "\n{}", draw::story::of_trap(setup)?),
             true => writeln!(text, "\nA run without end in this layout:\n\n{}", setup.layout),
         };
         if let Some(file) = file {

@@ -9,12 +9,12 @@ use tautline_proofs::words::counted;
 
 use crate::output::Output;
 use crate::{Exit, ForceArgs, Format, FormatArgs, number, progress};
-use tautline_sim::explore::SchemeName;
+use tautline_sim::draw::chart::{Axis, LineChart, Point, Series, Stroke};
+use tautline_sim::explore::bricks::BRICKS;
 use tautline_sim::fault::Halt;
 use tautline_sim::reproduce::Reproduction;
 use tautline_sim::reproduce::agents::{self, Duration, Extent, Figure, Line, TEAMS, Team};
 use tautline_sim::reproduce::interval::Estimate;
-use tautline_sim::view::chart::{Axis, LineChart, Point, Series, Stroke};
 
 /// Agents on the floors of offices: what they explore and mark, and how long they take.
 #[derive(Debug, Args)]
@@ -219,8 +219,8 @@ fn chart(figure: Figure, lines: &[Line]) -> LineChart {
                 drawn.push(series(format!("{word}: until done"), team, &done));
             }
         }
-        let printed: &[(&str, f64)] = match (figure, team.scheme) {
-            (Figure::Agents, SchemeName::Bricks) => &[("explored", 50.0), ("visited", 40.0)],
+        let printed: &[(&str, f64)] = match (figure, team.scheme == &BRICKS) {
+            (Figure::Agents, true) => &[("explored", 50.0), ("visited", 40.0)],
             (Figure::Agents | Figure::Area | Figure::Ideal, _) => &[],
         };
         for (what, percent) in printed {

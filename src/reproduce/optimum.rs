@@ -7,11 +7,11 @@ use serde::Serialize;
 
 use crate::output::Output;
 use crate::{Exit, Format, FormatArgs, progress};
+use tautline_sim::draw::{self, Block};
 use tautline_sim::explore::RuleName;
 use tautline_sim::fault::{Halt, Watch};
 use tautline_sim::reproduce::Reproduction;
 use tautline_sim::reproduce::optimum::{self, Field, Line, Worst};
-use tautline_sim::view::{self, Block};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -93,11 +93,11 @@ fn text(lines: &[Line]) -> Result<String, Halt> {
 fn drawing(line: &Line, worst: &Worst) -> Result<String, Halt> {
     let (setup, charts) = optimum::charts(line, worst)?;
     let titles = [format!("chain: {}", worst.chain), format!("optimum: {}", worst.optimum)];
-    let lines = charts.map(|chart| view::order(&setup, &chart).lines().map(str::to_owned).collect());
+    let lines = charts.map(|chart| draw::order(&setup, &chart).lines().map(str::to_owned).collect());
     let blocks: Vec<Block> =
         titles.into_iter().zip(lines).map(|(title, lines)| Block { title, lines }).collect();
     let title = format!("The worst for {} robots ({}): when each cell is explored", line.robots, line.rule);
-    Ok(format!("\n{title}\n\n{}", view::beside(blocks)))
+    Ok(format!("\n{title}\n\n{}", draw::beside(blocks)))
 }
 
 const fn is_worse(one: &Worst, other: &Worst) -> bool {

@@ -1,4 +1,4 @@
-//! Agents on a sensor floor as schemes (paper 004): Ants, Brick&Mortar, and Brick&Mortar robust against missed sensors.
+//! A team of agents on a sensor floor (paper 004), whichever way they decide, and what is the same in all their rows.
 //! In a team move every agent that is not done acts once, in the order of the agents' ids.
 //!
 //! Missed sensors are drawn from `ChaCha8`, seeded with the seed of the run as layouts are, with the tag `miss`: one
@@ -13,16 +13,37 @@ use tautline_kernel::bricks::{self, Agent, Condition, Next};
 use tautline_kernel::chain::Kind;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Claim, Mark, Scan, settle};
-use tautline_kernel::ground::{Area, Cell, Edge, Step};
+use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_kernel::perception::time;
 use tautline_proofs::chain::breach::Breach;
 pub use tautline_proofs::floor::trap::Way;
 use tautline_proofs::run::Frame;
 
-use super::floor::{Component, SensorFloor};
-use super::{Chart, End, Scheme, Setup};
+use super::chart::Chart;
+use super::clause::ClauseId;
+use super::floor::{Component, SensorFloor, is_visited};
+use super::run::{End, Team};
+use super::setup::{Profile, Senses, Setup, Starts};
+use super::stage::Look;
 use crate::layout::Layout;
 use crate::layout::generate::{self, Probability};
+
+/// The most agents on a floor: a sensor keeps an id in eight bits, and counts agents in as many.
+const MAX_AGENTS: usize = 255;
+
+/// What is the same in the rows of all agents.
+pub(super) const AGENTS: Profile = Profile {
+    name: "",
+    about: "",
+    rules: &[],
+    team: "team",
+    robots: 1..=MAX_AGENTS,
+    starts: Starts::Anywhere,
+    senses: Senses::Floor,
+    look: Look::Apart,
+    knowledge: None,
+    clauses: &[],
+};
 
 /// The world: which sensors are missed, by chance or as it is written down.
 #[derive(Clone)]
@@ -75,7 +96,7 @@ fn milliseconds(scan: &Scan, step: Step) -> u64 {
 
 /// A team of agents on a floor.
 #[derive(Clone)]
-pub struct Team {
+pub struct Agents {
     way: Way,
     floor: SensorFloor,
     bodies: Vec<Body>,
@@ -91,7 +112,7 @@ pub struct Team {
     unseen: Vec<Cell>,
 }
 
-impl Team {
+impl Agents {
     /// A team in `layout`, an agent in each of `starts`: at most 255, and in free cells. They miss sensors by `chance`, drawn
     /// from `seed`.
     pub fn new(way: Way, layout: &Layout, starts: &[Cell], chance: Probability, seed: u64) -> Self {
@@ -230,31 +251,33 @@ impl Team {
     }
 }
 
-/// A scheme of agents.
-struct Agents {
-    team: Team,
-    area: Area,
+/// Agents that may go round for ever.
+struct Watched {
+    team: Agents,
     watch: Option<Watch>,
 }
 
 /// The agents of `setup`, each at its start.
-pub(super) fn start(setup: &Setup, way: Way) -> Box<dyn Scheme> {
-    let team = Team::of(setup, way);
+pub(super) fn start(setup: &Setup, way: Way) -> Box<dyn Team> {
+    let team = Agents::of(setup, way);
     let watch = team.repeats().then(|| Watch::new(&team));
-    Box::new(Agents { team, area: setup.layout.size().area(), watch })
+    Box::new(Watched { team, watch })
 }
 
-impl Scheme for Agents {
-    fn area(&self) -> Area {
-        self.area
-    }
+/// The cells that an agent of `setup` can get to and that are not visited, as `chart` shows.
+pub(super) fn missed(setup: &Setup, chart: &Chart) -> Vec<Cell> {
+    unvisited(&SensorFloor::new(&setup.layout, &setup.starts()), chart)
+}
 
+/// The cells that an agent can get to and that are not visited, as `chart` shows.
+fn unvisited(floor: &SensorFloor, chart: &Chart) -> Vec<Cell> {
+    let due = chart.area().cells().filter(|&cell| floor.component(cell).is_some());
+    due.filter(|&cell| !is_visited(chart.mark(cell, u32::MAX))).collect()
+}
+
+impl Team for Watched {
     fn cells(&self) -> &[Cell] {
         self.team.cells()
-    }
-
-    fn due(&self, _: &Layout) -> u32 {
-        self.team.due()
     }
 
     fn advance(&mut self, _: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
@@ -270,18 +293,26 @@ impl Scheme for Agents {
         Ok(Frame { kind: Kind::Advance, blocked: vec![false; steps.len()], steps, cells })
     }
 
-    fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<Breach> {
-        if self.team.is_premature { vec![Breach::Premature] } else { Vec::new() }
+    fn due(&self, _: &Layout) -> u32 {
+        self.team.due()
+    }
+
+    fn missed(&self, _: &Layout, chart: &Chart) -> Vec<Cell> {
+        unvisited(self.team.floor(), chart)
+    }
+
+    fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<ClauseId> {
+        if self.team.is_premature { vec![Breach::Premature.into()] } else { Vec::new() }
     }
 
     /// That every cell is visited is promised where no sensor is missed, and by those who mark cells.
-    fn broken_at_end(&self, _: &Setup, _: &Chart, _: End) -> Vec<Breach> {
+    fn broken_at_end(&self, _: &Layout, _: &Chart, _: End) -> Vec<ClauseId> {
         let is_promised = match self.team.way {
             Way::Ants(_) => false,
             Way::Bricks(_) => self.team.misses.is_never(),
         };
         let is_broken = is_promised && self.team.visited() < self.team.due();
-        if is_broken { vec![Breach::Unvisited] } else { Vec::new() }
+        if is_broken { vec![Breach::Unvisited.into()] } else { Vec::new() }
     }
 
     fn marked(&self) -> &[(Cell, Mark)] {
@@ -314,7 +345,7 @@ struct Watch {
 }
 
 impl Watch {
-    fn new(team: &Team) -> Self {
+    fn new(team: &Agents) -> Self {
         Self {
             bodies: team.bodies.clone(),
             cells: team.cells.clone(),
@@ -326,7 +357,7 @@ impl Watch {
     }
 
     /// Whether the team, which has made a team move since the last call, is where it was.
-    fn has_come_round(&mut self, team: &Team) -> bool {
+    fn has_come_round(&mut self, team: &Agents) -> bool {
         if self.gains != team.floor.gains() || !team.misses.is_over() {
             *self = Self { moves: 1, ..Self::new(team) };
             return false;

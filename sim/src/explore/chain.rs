@@ -1,66 +1,107 @@
-//! The recursive chain (paper 000, III) as a scheme: the kernel's chain, the log of messages that it reads its
+//! The recursive chain (paper 000, III): its row, and its team: the kernel's chain, the log of messages that it reads its
 //! history from, and the smallest grid that holds its area.
 
 use tautline_kernel::chain::{self, Chain, Intent, MAX_ROBOTS, Refused};
-use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Area, Cell, Edge, Grid, MediumGrid, SmallGrid};
-use tautline_proofs::chain::breach::frame;
-use tautline_proofs::chain::breach::{Breach, CHEAP_LOOKS};
+use tautline_proofs::chain::Observed;
+use tautline_proofs::chain::breach::{Breach, CHEAP_LOOKS, frame};
+use tautline_proofs::chain::links::within_reach;
 use tautline_proofs::run::Frame;
+use tautline_proofs::words::counted;
 
-use super::floor::Component;
-use super::{Chart, End, Scheme, Setup, missed};
+use super::chart::Chart;
+use super::clause::ClauseId;
+use super::run::{End, Team, TeamMove};
+use super::setup::{Clause, Hunt, Judge, Profile, Rule, Senses, Setup, Starts};
+use super::stage::Look;
 use crate::fault::Fault;
 use crate::layout::Layout;
 use crate::wide::WideGrid;
 
-struct ChainScheme<G, const ROBOTS: usize> {
+/// A base, a leader that seeks the frontier, and followers that keep radio contact.
+pub static CHAIN: Profile = Profile {
+    name: "chain",
+    about: "A base, a leader that seeks the frontier, and followers that keep radio contact",
+    rules: &[
+        Rule::published(|setup| start(setup, chain::Rule::PUBLISHED), Hunt::Walls(Observed::PUBLISHED)),
+        Rule::repaired(|setup| start(setup, chain::Rule::REPAIRED), Hunt::Walls(Observed::REPAIRED)),
+    ],
+    team: "chain",
+    robots: 2..=MAX_ROBOTS,
+    starts: Starts::Base,
+    senses: Senses::Bumps,
+    look: Look::Linked {
+        is_lost: |from, to| Breach::Contact.is_in(from, to) || Breach::Coverage.is_in(from, to),
+    },
+    knowledge: None,
+    clauses: &[
+        Clause {
+            judge: Some(Judge::Chain),
+            told: |_, _, made| far_apart(made),
+            ..Clause::new(Breach::Contact.clause())
+        },
+        Clause {
+            judge: Some(Judge::Chain),
+            told: |_, _, made| crowded(&made.frame.cells),
+            ..Clause::new(Breach::Crowding.clause())
+        },
+        Clause {
+            judge: Some(Judge::Chain),
+            told: |_, _, made| out_of_range(made),
+            ..Clause::new(Breach::Coverage.clause())
+        },
+        Clause::new(Breach::Costly.clause()),
+        Clause {
+            judge: Some(Judge::Chain),
+            missed: Some("Within reach and unexplored"),
+            ..Clause::new(Breach::Completeness.clause())
+        },
+    ],
+};
+
+struct ChainTeam<G, const ROBOTS: usize> {
     chain: Chain<G, ROBOTS>,
     log: Vec<u8>,
 }
 
 /// The chain of `setup`, all robots at the base.
-pub(super) fn start(setup: &Setup) -> Result<Box<dyn Scheme>, Fault> {
+fn start(setup: &Setup, rule: chain::Rule) -> Result<Box<dyn Team>, Fault> {
     match setup.robots {
-        0..=8 => begin::<_, 8>(setup, SmallGrid::new),
-        9..=32 => begin::<_, 32>(setup, MediumGrid::new),
-        _ => begin::<_, MAX_ROBOTS>(setup, |area| Some(WideGrid::new(area))),
+        0..=8 => begin::<_, 8>(setup, rule, SmallGrid::new),
+        9..=32 => begin::<_, 32>(setup, rule, MediumGrid::new),
+        _ => begin::<_, MAX_ROBOTS>(setup, rule, |area| Some(WideGrid::new(area))),
     }
-    .map_err(|refused| Fault::usage(refused, remedy(refused)))
+    .map_err(fault)
 }
 
 fn begin<G: Grid + 'static, const ROBOTS: usize>(
     setup: &Setup,
+    rule: chain::Rule,
     grid: impl Fn(Area) -> Option<G>,
-) -> Result<Box<dyn Scheme>, Refused> {
+) -> Result<Box<dyn Team>, Refused> {
     let (base, robots) = (setup.base, usize::from(setup.robots));
     let area = chain::area(setup.layout.size().area(), base, robots).ok_or(Refused::BaseOutside { base })?;
     let grid = grid(area).ok_or(Refused::TooManyRobots { robots, most: ROBOTS })?;
-    let chain = Chain::<G, ROBOTS>::new(setup.rule.chain(), robots, base, grid)?;
-    Ok(Box::new(ChainScheme { chain, log: Vec::new() }))
+    let chain = Chain::<G, ROBOTS>::new(rule, robots, base, grid)?;
+    Ok(Box::new(ChainTeam { chain, log: Vec::new() }))
 }
 
-/// What would be right where a chain is refused.
-pub(crate) fn remedy(refused: Refused) -> String {
+/// The fault of a chain that is refused.
+pub(crate) fn fault(refused: Refused) -> Fault {
     match refused {
         Refused::TooFewRobots { .. } | Refused::TooManyRobots { .. } => {
-            format!("give --robots a number from 2 to {MAX_ROBOTS}")
+            let remedy = format!("give `robots` a number from 2 to {MAX_ROBOTS}");
+            Fault::of_field("robots", refused, remedy)
         }
-        Refused::BaseOutside { .. } => "give --base a free cell of the layout".to_owned(),
+        Refused::BaseOutside { .. } => {
+            Fault::of_field("base", refused, "give `base` a free cell of the layout")
+        }
     }
 }
 
-impl<G: Grid, const ROBOTS: usize> Scheme for ChainScheme<G, ROBOTS> {
-    fn area(&self) -> Area {
-        self.chain.grid().area()
-    }
-
+impl<G: Grid, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
     fn cells(&self) -> &[Cell] {
         self.chain.cells()
-    }
-
-    fn due(&self, layout: &Layout) -> u32 {
-        self.area().cells().filter(|&cell| layout.is_free(cell)).count() as u32
     }
 
     fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
@@ -76,29 +117,70 @@ impl<G: Grid, const ROBOTS: usize> Scheme for ChainScheme<G, ROBOTS> {
         }
     }
 
-    fn broken_in_move(&self, before: &[Cell], frame: &Frame) -> Vec<Breach> {
+    fn area(&self, _: &Layout) -> Area {
+        self.chain.grid().area()
+    }
+
+    fn missed(&self, layout: &Layout, chart: &Chart) -> Vec<Cell> {
+        let (base, robots) = (self.cells()[0], self.cells().len());
+        let due = within_reach(chart.area(), base, robots, |edge| layout.is_open(edge));
+        due.into_iter().filter(|&cell| chart.step(cell).is_none()).collect()
+    }
+
+    fn broken_in_move(&self, before: &[Cell], frame: &Frame) -> Vec<ClauseId> {
         let is_costly = self.chain.looked_at() > CHEAP_LOOKS * before.len() as u32;
         let seen = Breach::CHAIN.into_iter().filter(|breach| breach.is_in(before, &frame.cells));
-        seen.chain(is_costly.then_some(Breach::Costly)).collect()
+        seen.chain(is_costly.then_some(Breach::Costly)).map(ClauseId::from).collect()
     }
 
-    fn broken_at_end(&self, setup: &Setup, chart: &Chart, _: End) -> Vec<Breach> {
-        if missed(setup, chart).is_empty() { Vec::new() } else { vec![Breach::Completeness] }
+    fn broken_at_end(&self, layout: &Layout, chart: &Chart, _: End) -> Vec<ClauseId> {
+        if self.missed(layout, chart).is_empty() { Vec::new() } else { vec![Breach::Completeness.into()] }
     }
+}
 
-    fn marked(&self) -> &[(Cell, Mark)] {
-        &[]
-    }
+/// The neighbours in the chain that are out of contact.
+fn far_apart(made: &TeamMove<'_>) -> Vec<String> {
+    let told = |(robot, pair): (usize, [Cell; 2])| {
+        let apart = apart(pair);
+        format!("So R_{} is {apart} from R_{robot}: outside E_C, its cell is not wholly covered.", robot + 1)
+    };
+    pairs(Breach::Contact, made).map(told).collect()
+}
 
-    fn unseen(&self) -> &[Cell] {
-        &[]
-    }
+/// The neighbours in the chain that may have left each other's range.
+fn out_of_range(made: &TeamMove<'_>) -> Vec<String> {
+    let told = |(robot, pair): (usize, [Cell; 2])| {
+        let apart = apart(pair);
+        format!("So the centres of R_{robot} and R_{}, {apart} apart in the end, may leave r_cov.", robot + 1)
+    };
+    pairs(Breach::Coverage, made).map(told).collect()
+}
 
-    fn components(&self) -> &[Component] {
-        &[]
-    }
+/// The robots that are too many in one cell.
+fn crowded(team: &[Cell]) -> Vec<String> {
+    let mut crowded: Vec<Cell> = team.iter().copied().filter(|&cell| cell != team[0]).collect();
+    crowded.sort_unstable();
+    crowded
+        .chunk_by(|one, other| one == other)
+        .filter(|cells| cells.len() > 2)
+        .map(|cells| {
+            let here = (1..).zip(team).filter(|&(_, &cell)| cell == cells[0]);
+            let robots: Vec<String> = here.map(|(robot, _)| format!("R_{robot}")).collect();
+            format!("So {} are in one cell, {}.", robots.join(", "), cells[0])
+        })
+        .collect()
+}
 
-    fn milliseconds(&self) -> Option<u64> {
-        None
-    }
+/// The neighbours in the chain that commit `breach` by themselves: the number of the one behind, and where they are.
+fn pairs<'a>(breach: Breach, made: &TeamMove<'a>) -> impl Iterator<Item = (usize, [Cell; 2])> + use<'a> {
+    let TeamMove { before, frame, .. } = *made;
+    (1..)
+        .zip(before.windows(2).zip(frame.cells.windows(2)))
+        .filter(move |(_, (from, to))| breach.is_in(from, to))
+        .map(|(robot, (_, to))| (robot, [to[0], to[1]]))
+}
+
+fn apart([one, other]: [Cell; 2]) -> String {
+    let (columns, rows) = one.apart(other);
+    format!("{} and {}", counted(columns, "column"), counted(rows, "row"))
 }

@@ -2,15 +2,12 @@
 
 use std::fmt;
 
-use tautline_kernel::chain::MAX_ROBOTS;
 use tautline_proofs::words::counted;
 
-use super::{Crew, RuleName, SchemeName, Setup};
+use super::catalogue::sensing;
+use super::setup::{Profile, Rule, Senses, Setup, Starts};
+use crate::fault::Fault;
 use crate::layout::Problem;
-use crate::words::Worded;
-
-/// The most agents on a floor: a sensor keeps an id in eight bits, and counts agents in as many.
-const MAX_AGENTS: usize = 255;
 
 /// What does not fit: `Display` says what, [`Misfit::remedy`] what would be right.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -18,22 +15,22 @@ pub enum Misfit {
     /// No team of the scheme has so many.
     Robots {
         /// The scheme.
-        scheme: SchemeName,
+        scheme: &'static Profile,
         /// So many.
         robots: u64,
     },
-    /// The scheme is not published.
-    Rule(SchemeName),
+    /// The scheme does not offer the rule.
+    Rule(&'static Profile),
     /// The scheme has no sensors to miss.
-    Miss,
+    Miss(&'static Profile),
     /// The same, one by one.
-    MissedByChain,
+    MissedByNone(&'static Profile),
     /// All sensors are missed, and nothing ends the run.
     MissAll,
     /// The numbers of the sensors that are missed do not grow from 1 on.
     Missed,
     /// The scheme starts at the base.
-    StartsOfChain,
+    StartsAtBase(&'static Profile),
     /// There are starts for another number of agents.
     Starts {
         /// So many starts.
@@ -51,25 +48,33 @@ impl Misfit {
         match self {
             Self::Robots { .. } => "robots",
             Self::Rule(_) => "rule",
-            Self::Miss | Self::MissAll => "miss",
-            Self::MissedByChain | Self::Missed => "missed",
-            Self::StartsOfChain | Self::Starts { .. } | Self::Start(_) => "starts",
+            Self::Miss(_) | Self::MissAll => "miss",
+            Self::MissedByNone(_) | Self::Missed => "missed",
+            Self::StartsAtBase(_) | Self::Starts { .. } | Self::Start(_) => "starts",
         }
     }
 
     /// What would be right.
     pub fn remedy(&self) -> String {
         match self {
-            Self::Robots { scheme: SchemeName::Chain, .. } => {
-                format!("a chain has 2 to {MAX_ROBOTS} robots, the base counted")
+            Self::Robots { scheme, .. } => {
+                let Profile { team, robots, look, .. } = scheme;
+                let base = if look.has_base() { ", the base counted" } else { "" };
+                format!("a {team} has {} to {} {}s{base}", robots.start(), robots.end(), look.robot())
             }
-            Self::Robots { .. } => format!("a team has 1 to {MAX_AGENTS} agents"),
-            Self::Rule(scheme) => format!("take the rule repaired, or another scheme than {}", scheme.word()),
-            Self::Miss => "take ants, bricks or bricks-ants, or leave out how likely that is".to_owned(),
-            Self::MissedByChain => "take ants, bricks or bricks-ants, or leave out what is missed".to_owned(),
-            Self::MissAll => "give a probability below 1, or end the run by --max-moves".to_owned(),
+            Self::Rule(scheme) => {
+                let names: Vec<&str> = scheme.rules.iter().map(|rule| rule.name.as_str()).collect();
+                format!("take the rule {}, or another scheme than {}", names.join(" or "), scheme.name)
+            }
+            Self::Miss(_) => {
+                format!("take {}, or leave out how likely that is", sensing(Senses::Floor, "or"))
+            }
+            Self::MissedByNone(_) => {
+                format!("take {}, or leave out what is missed", sensing(Senses::Floor, "or"))
+            }
+            Self::MissAll => "give a probability below 1, or end the run by `max-moves`".to_owned(),
             Self::Missed => "number them from 1 on, in order, each once".to_owned(),
-            Self::StartsOfChain => "give the base another place by --base".to_owned(),
+            Self::StartsAtBase(_) => "give the base another place by `base`".to_owned(),
             Self::Starts { .. } => "give one start for all, or one for each agent".to_owned(),
             Self::Start(problem) => problem.remedy(),
         }
@@ -79,20 +84,25 @@ impl Misfit {
 impl fmt::Display for Misfit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Robots { scheme: SchemeName::Chain, robots: 0 } => f.write_str("no robots are no chain"),
-            Self::Robots { scheme: SchemeName::Chain, robots: 1 } => {
-                f.write_str("the base alone is no chain")
+            Self::Robots { scheme, robots } => {
+                let Profile { team, look, .. } = scheme;
+                let robot = look.robot();
+                match (*robots, look.has_base()) {
+                    (0, _) => write!(f, "no {robot}s are no {team}"),
+                    (1, true) => write!(f, "the base alone is no {team}"),
+                    (robots, true) => write!(f, "{robots} {robot}s are no {team}"),
+                    (robots, false) => write!(f, "{robots} {robot}s are too many for a {team}"),
+                }
             }
-            Self::Robots { scheme: SchemeName::Chain, robots } => write!(f, "{robots} robots are no chain"),
-            Self::Robots { robots: 0, .. } => f.write_str("no agents are no team"),
-            Self::Robots { robots, .. } => write!(f, "{robots} agents are too many for a team"),
-            Self::Rule(scheme) => write!(f, "{} is ours: nobody has published it", scheme.word()),
-            Self::Miss | Self::MissedByChain => {
-                f.write_str("the robots of a chain have no floor sensors to miss")
+            Self::Rule(scheme) => write!(f, "{} is ours: nobody has published it", scheme.name),
+            Self::Miss(scheme) | Self::MissedByNone(scheme) => {
+                write!(f, "the {}s of a {} have no floor sensors to miss", scheme.look.robot(), scheme.team)
             }
             Self::MissAll => f.write_str("agents that miss every sensor go on for ever"),
             Self::Missed => f.write_str("the numbers of the sensors that are missed are not in order"),
-            Self::StartsOfChain => f.write_str("the robots of a chain start at the base"),
+            Self::StartsAtBase(scheme) => {
+                write!(f, "the {}s of a {} start at the base", scheme.look.robot(), scheme.team)
+            }
             Self::Starts { starts, robots } => {
                 write!(f, "{} for {}", counted(*starts, "start"), counted(*robots, "agent"))
             }
@@ -103,49 +113,52 @@ impl fmt::Display for Misfit {
 
 impl std::error::Error for Misfit {}
 
+impl From<Misfit> for Fault {
+    fn from(misfit: Misfit) -> Self {
+        Self::of_field(misfit.field(), &misfit, misfit.remedy())
+    }
+}
+
 impl Setup {
     /// `robots` as the number of a team of `scheme`.
     ///
     /// # Errors
     /// [`Misfit::Robots`].
-    pub fn count(scheme: SchemeName, robots: u64) -> Result<u16, Misfit> {
-        let allowed = match scheme {
-            SchemeName::Chain => 2..=MAX_ROBOTS,
-            SchemeName::Ants | SchemeName::Bricks | SchemeName::BricksAnts => 1..=MAX_AGENTS,
-        };
-        let count = u16::try_from(robots).ok().filter(|&count| allowed.contains(&count.into()));
+    pub fn count(scheme: &'static Profile, robots: u64) -> Result<u16, Misfit> {
+        let count = u16::try_from(robots).ok().filter(|&count| scheme.robots.contains(&count.into()));
         count.ok_or(Misfit::Robots { scheme, robots })
     }
 
-    /// Whether everything fits the scheme.
+    /// The rule of its scheme, if everything fits that.
     ///
     /// # Errors
     /// [`Misfit`], the first in the order of its variants.
-    pub fn check(&self) -> Result<(), Misfit> {
-        Self::count(self.scheme, self.robots.into())?;
-        if (self.scheme, self.rule) == (SchemeName::BricksAnts, RuleName::Published) {
-            return Err(Misfit::Rule(self.scheme));
+    pub fn check(&self) -> Result<&'static Rule, Misfit> {
+        let Self { scheme, rule, robots, starts, .. } = self;
+        Self::count(scheme, (*robots).into())?;
+        let rule = scheme.rule(*rule).ok_or(Misfit::Rule(scheme))?;
+        match scheme.senses {
+            Senses::Bumps if !self.miss.is_never() => return Err(Misfit::Miss(scheme)),
+            Senses::Bumps if !self.missed.is_empty() => return Err(Misfit::MissedByNone(scheme)),
+            Senses::Floor if self.miss.is_certain() && self.limits.max_moves.is_none() => {
+                return Err(Misfit::MissAll);
+            }
+            Senses::Floor if self.missed.first() == Some(&0) || !self.missed.is_sorted_by(|a, b| a < b) => {
+                return Err(Misfit::Missed);
+            }
+            Senses::Bumps | Senses::Floor => {}
         }
-        match (self.crew(), &self.starts) {
-            (Crew::Chain, _) if !self.miss.is_never() => Err(Misfit::Miss),
-            (Crew::Chain, _) if !self.missed.is_empty() => Err(Misfit::MissedByChain),
-            (Crew::Agents(_), _) if self.miss.is_certain() && self.limits.max_moves.is_none() => {
-                Err(Misfit::MissAll)
+        match (scheme.starts, starts) {
+            (Starts::Base, Some(_)) => return Err(Misfit::StartsAtBase(scheme)),
+            (Starts::Base, None) => {}
+            (Starts::Anywhere, Some(starts)) if starts.len() != usize::from(*robots) => {
+                return Err(Misfit::Starts { starts: starts.len(), robots: *robots });
             }
-            (Crew::Agents(_), _)
-                if self.missed.first() == Some(&0) || !self.missed.is_sorted_by(|a, b| a < b) =>
-            {
-                Err(Misfit::Missed)
+            (Starts::Anywhere, starts) => {
+                let starts = starts.as_deref().unwrap_or(std::slice::from_ref(&self.base));
+                starts.iter().try_for_each(|&start| self.layout.check_start(start)).map_err(Misfit::Start)?;
             }
-            (Crew::Chain, Some(_)) => Err(Misfit::StartsOfChain),
-            (Crew::Agents(_), Some(starts)) if starts.len() != usize::from(self.robots) => {
-                Err(Misfit::Starts { starts: starts.len(), robots: self.robots })
-            }
-            (Crew::Agents(_), Some(starts)) => {
-                starts.iter().try_for_each(|&start| self.layout.check_start(start)).map_err(Misfit::Start)
-            }
-            (Crew::Agents(_), None) => self.layout.check_start(self.base).map_err(Misfit::Start),
-            (Crew::Chain, None) => Ok(()),
         }
+        Ok(rule)
     }
 }

@@ -10,6 +10,7 @@ use tautline_proofs::words::counted;
 
 use super::generate::{FORMS, Form};
 use super::{MAX_CELLS, MAX_FILE_BYTES, MAX_SIDE_CELLS, Size};
+use crate::fault::Fault;
 
 /// A problem in the bytes `at` of a text.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -145,7 +146,7 @@ impl fmt::Display for Problem {
             Self::Mode(mode) => write!(f, "the mode {mode:?} is not supported"),
             Self::NoImage { tried } => write!(f, "the image {tried} is not there"),
             Self::Image(message) => write!(f, "the image cannot be read: {message}"),
-            Self::NeedlessImage => f.write_str("--image is given, but the layout is not a ROS map"),
+            Self::NeedlessImage => f.write_str("`image` is given, but the layout is not a ROS map"),
             Self::BareImage => f.write_str("this is an image alone"),
             Self::NoSuchGenerator(description) => write!(f, "{description:?} names no generator"),
             Self::Generator { description, form: _ } => {
@@ -205,9 +206,9 @@ impl Problem {
                 .to_owned(),
             Self::Number { allowed, .. } => (*allowed).to_owned(),
             Self::Mode(_) => "save the map in mode trinary or scale".to_owned(),
-            Self::NoImage { .. } => "name another image with --image FILE".to_owned(),
+            Self::NoImage { .. } => "name another image with `image` FILE".to_owned(),
             Self::Image(_) => "give a whole PGM or PNG file".to_owned(),
-            Self::NeedlessImage => "leave --image out, or name the map's .yaml file".to_owned(),
+            Self::NeedlessImage => "leave `image` out, or name the map's .yaml file".to_owned(),
             Self::BareImage => "name the .yaml file that describes it".to_owned(),
             Self::NoSuchGenerator(_) => format!("the generators are {}", examples()),
             Self::Generator { form, .. } if form.pattern == form.example => format!("write {}", form.pattern),
@@ -233,6 +234,16 @@ fn examples() -> String {
 }
 
 impl std::error::Error for Problem {}
+
+impl From<Problem> for Fault {
+    fn from(problem: Problem) -> Self {
+        let remedy = problem.remedy();
+        match problem {
+            Problem::NoImage { .. } | Problem::NeedlessImage => Self::of_field("image", problem, remedy),
+            problem => Self::usage(problem, remedy),
+        }
+    }
+}
 
 impl fmt::Display for Misread {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -15,7 +15,7 @@ use serde::Deserialize;
 use serde_saphyr::{Location, Spanned};
 use tautline_kernel::ground::Cell;
 
-use super::file::{at, in_file, read_bytes, read_text, usage};
+use super::read::{at, in_file, read_bytes, read_text};
 use super::{Layout, MAX_CELLS, MAX_SIDE_CELLS, Misread, Problem};
 use crate::fault::{BOM, Fault};
 
@@ -86,7 +86,7 @@ pub fn load(file: &Path, image: Option<&Path>) -> Result<(Layout, Frame), Fault>
         (Problem::NoFile, given) => {
             let problem = Problem::NoImage { tried: path.display().to_string() };
             match given {
-                Some(_) => usage(&problem),
+                Some(_) => problem.into(),
                 None => at(file, &source, &Misread { at: description.image_at.clone(), problem }),
             }
         }

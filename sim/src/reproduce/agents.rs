@@ -12,17 +12,17 @@ use tautline_kernel::{ants, bricks};
 
 use super::interval::Estimate;
 use crate::explore::agents::{self as explore, Way};
-use crate::explore::{RuleName, SchemeName};
+use crate::explore::bricks::{BRICKS, BRICKS_ANTS};
+use crate::explore::{Profile, RuleName, ants::ANTS};
 use crate::fault::{Fault, Halt, Watch};
 use crate::layout::generate::Probability;
 use crate::layout::{Generator, Layout, Problem};
-use crate::words::Worded;
 
 /// A scheme under one of its rules.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
 pub struct Team {
     /// The scheme.
-    pub scheme: SchemeName,
+    pub scheme: &'static Profile,
     /// Its rule.
     pub rule: RuleName,
     #[serde(skip)]
@@ -31,10 +31,10 @@ pub struct Team {
 
 /// The teams that are compared.
 pub const TEAMS: [Team; 4] = [
-    Team { scheme: SchemeName::Bricks, rule: RuleName::Repaired, way: Way::Bricks(bricks::Rule::REPAIRED) },
-    Team { scheme: SchemeName::BricksAnts, rule: RuleName::Repaired, way: Way::Bricks(bricks::Rule::ROBUST) },
-    Team { scheme: SchemeName::Ants, rule: RuleName::Repaired, way: Way::Ants(ants::Rule::Repaired) },
-    Team { scheme: SchemeName::Ants, rule: RuleName::Published, way: Way::Ants(ants::Rule::Published) },
+    Team { scheme: &BRICKS, rule: RuleName::Repaired, way: Way::Bricks(bricks::Rule::REPAIRED) },
+    Team { scheme: &BRICKS_ANTS, rule: RuleName::Repaired, way: Way::Bricks(bricks::Rule::ROBUST) },
+    Team { scheme: &ANTS, rule: RuleName::Repaired, way: Way::Ants(ants::Rule::Repaired) },
+    Team { scheme: &ANTS, rule: RuleName::Published, way: Way::Ants(ants::Rule::Published) },
 ];
 
 /// The sensors that the paper's agents miss, of all.
@@ -176,9 +176,9 @@ fn follow(
     seed: u64,
     max_steps: u32,
 ) -> Outcome {
-    let mut team = explore::Team::new(way, layout, &vec![start; agents.into()], miss, seed);
+    let mut team = explore::Agents::new(way, layout, &vec![start; agents.into()], miss, seed);
     let (mut team_moves, mut steps, mut exploration) = (0, 0, None);
-    let now = |team: &explore::Team, team_moves| Moment { team_moves, milliseconds: team.milliseconds() };
+    let now = |team: &explore::Agents, team_moves| Moment { team_moves, milliseconds: team.milliseconds() };
     while !team.is_over() && steps < max_steps {
         team_moves += 1;
         steps += team.active();
@@ -201,8 +201,8 @@ impl Team {
     /// Its name: the scheme, with its rule where that is the published one.
     pub fn name(self) -> String {
         match self.rule {
-            RuleName::Repaired => self.scheme.word().to_owned(),
-            RuleName::Published => format!("{} ({})", self.scheme.word(), self.rule),
+            RuleName::Repaired => self.scheme.name.to_owned(),
+            RuleName::Published => format!("{} ({})", self.scheme.name, self.rule),
         }
     }
 }

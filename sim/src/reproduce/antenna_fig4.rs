@@ -10,10 +10,10 @@ use tautline_proofs::engine::Seeded;
 
 use super::interval::{Estimate, rounded};
 use super::notice_fig5::{RANGE_M, usage};
+use crate::draw::chart::{Axis, LineChart, Point as Mark, Series, Stroke};
 use crate::fault::Halt;
 use crate::radio::{Area, Field, Model, Point, Problem, Radio};
 use crate::tan::{Antenna, Ear, Signal};
-use crate::view::chart::{Axis, LineChart, Point as Mark, Series, Stroke};
 
 /// The paper's distance, in metres.
 pub const DISTANCE_M: f64 = 20.0;

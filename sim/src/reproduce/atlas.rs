@@ -5,16 +5,15 @@ use std::ops::ControlFlow;
 
 use serde::Serialize;
 use tautline_kernel::ground::{Cell, Edge};
-use tautline_proofs::chain::Observed;
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::chain::invariant::Invariant;
 use tautline_proofs::chain::search::{Bounds, Counterexample};
 use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::run::walls;
 
+use crate::counterexample::hunt;
 use crate::explore::RuleName;
 use crate::fault::Halt;
-use crate::hunt;
 
 /// A number of robots, and the bound on the walls that one run meets.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -138,7 +137,7 @@ pub fn line(
     rule: RuleName,
     watch: &mut dyn FnMut(&Progress<'_>) -> ControlFlow<()>,
 ) -> Result<Line, Halt> {
-    let mut bounds = Bounds::new(Observed::honest(rule.chain()), sheet.robots.into(), sheet.max_walls);
+    let mut bounds = Bounds::new(rule.observed(), sheet.robots.into(), sheet.max_walls);
     if sheet.reach == Reach::Counted {
         bounds.invariants.push(Invariant::Exhausts);
     }

@@ -3,7 +3,7 @@
 
 use serde::Serialize;
 
-use crate::view::chart::Point;
+use crate::draw::chart::Point;
 
 /// The normal distribution's 97.5 % quantile.
 const NORMAL: f64 = 1.959_964;

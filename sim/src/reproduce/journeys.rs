@@ -16,14 +16,14 @@ use tautline_proofs::engine::Seeded;
 
 use super::interval::{Estimate, rounded};
 use super::notice_fig5::{NODES, usage};
+use crate::draw::chart::{Axis, LineChart, Series, Stroke};
+use crate::draw::field::{self, Map, Terminus, Trail};
 use crate::fault::{Halt, Watch};
 use crate::radio::{
     Area, Channel, Faults, Field, LONGEST_WAIT_NS, Model, Network, Obstacle, Point, Problem, Radio,
 };
 use crate::rescue::seconds;
 use crate::tan::{End, Equipment, Journey, Site, Tree, hops, shortest_m};
-use crate::view::chart::{Axis, LineChart, Series, Stroke};
-use crate::view::field::{self, Map, Terminus, Trail};
 
 /// The figures.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -11,11 +11,11 @@ use tautline_kernel::notice::{Count, Rule, Scheme};
 use tautline_proofs::engine::Seeded;
 
 use super::interval::{Estimate, decimals, rounded};
+use crate::draw::chart::{Axis, LineChart, Series, Stroke};
 use crate::fault::{Fault, Halt, Watch};
 use crate::radio::{
     Area, Channel, Faults, Field, LONGEST_WAIT_NS, Model, Network, Problem, Radio, broadcast,
 };
-use crate::view::chart::{Axis, LineChart, Series, Stroke};
 
 /// The numbers of nodes of the paper.
 pub const NODES: [usize; 5] = [300, 500, 700, 900, 1100];

@@ -15,7 +15,8 @@ use tautline_proofs::chain::optimum::{Guide, Optimum, explore_all};
 use tautline_proofs::chain::reach::{CellSet, Ground};
 
 use super::interval::hundredths;
-use crate::explore::{Chart, RuleName, SchemeName, Setup, explore};
+use crate::explore::chain::CHAIN;
+use crate::explore::{Chart, RuleName, Setup, explore};
 use crate::fault::{Fault, Halt, Watch};
 use crate::layout::{Layout, Problem, Size};
 
@@ -134,7 +135,7 @@ const MOST_STATES: usize = 10_000_000;
 
 fn solve(ground: &Ground, goals: &CellSet) -> Result<Optimum, Halt> {
     let optimum = explore_all(ground, &KNOWING, goals, Guide::Distances, MOST_STATES);
-    Ok(optimum.map_err(|unsolved| Fault::usage(unsolved, "give fewer --max-walls"))?)
+    Ok(optimum.map_err(|unsolved| Fault::of_field("max-walls", unsolved, "give fewer `max-walls`"))?)
 }
 
 /// Walls of a layout, one bit for each edge in the order of [`Layout::edges`].
@@ -213,7 +214,7 @@ impl Area {
     }
 
     fn setup(&self, rule: RuleName, layout: Layout) -> Setup {
-        Setup::new(SchemeName::Chain, rule, self.robots, layout, self.base)
+        Setup::new(&CHAIN, rule, self.robots, layout, self.base)
     }
 
     /// What a team that knows the `layout` has to explore.

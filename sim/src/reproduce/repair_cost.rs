@@ -8,7 +8,8 @@ use serde::Serialize;
 use tautline_proofs::chain::breach::Breach;
 
 use super::interval::{Estimate, Moments, hundredths};
-use crate::explore::{Milestone, Report, RuleName, SchemeName, Setup, explore};
+use crate::explore::chain::CHAIN;
+use crate::explore::{Milestone, Report, RuleName, Setup, explore};
 use crate::fault::{Fault, Halt, Watch};
 use crate::layout::Generator;
 
@@ -122,13 +123,13 @@ impl Sums {
             .map_err(|problem| Fault::usage(&problem, problem.remedy()))?;
         let run = |rule| {
             let layout = layout.clone();
-            let setup = Setup { seed, ..Setup::new(SchemeName::Chain, rule, ROBOTS, layout, base) };
+            let setup = Setup { seed, ..Setup::new(&CHAIN, rule, ROBOTS, layout, base) };
             explore(&setup, &mut |_| Ok(()))
         };
         let (published, repaired) = (run(RuleName::Published)?, run(RuleName::Repaired)?);
         let breaks = |report: &Report| {
             Breach::CHAIN
-                .map(|breach| u32::from(report.violations.iter().any(|violation| violation.breach == breach)))
+                .map(|breach| u32::from(report.violations.iter().any(|violation| violation.clause == breach)))
         };
         Ok(Self {
             milestones: MILESTONES.map(|milestone| {

@@ -9,13 +9,13 @@ use tautline_proofs::words::counted;
 
 use super::interval::{Estimate, decimals, rounded};
 use super::notice_fig5::{RANGE_M, SIDE_M};
+use crate::draw::field::picture;
+use crate::draw::rescue::map;
 use crate::explore::RuleName;
 use crate::fault::{Fault, Halt, Watch};
 use crate::radio::{ChannelName, FREE_SPACE, Point};
 use crate::rescue::{CallTimes, Fate, Problem, Report, SchemeName, rescue};
 use crate::tan::shortest_m;
-use crate::view::field::picture;
-use crate::view::rescue::map;
 
 /// The robots of the figure.
 pub const ROBOTS: usize = 3;

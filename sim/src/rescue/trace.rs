@@ -20,7 +20,7 @@ use crate::trace::lines::{Lines, line_of};
 pub const FORMAT: &str = "tautline rescue";
 const VERSION: u32 = 1;
 
-const AGAIN: &str = "store the rescue again with `tautline rescue --trace`";
+const AGAIN: &str = "store the rescue again with `tautline rescue `trace``";
 
 /// Longer headers are refused: nobody places so many robots, WFRs and obstacles.
 const MAX_HEADER_BYTES: u64 = 1 << 20;

@@ -15,7 +15,7 @@ use crate::fault::{BOM, Fault};
 use crate::layout::MAX_FILE_BYTES;
 
 /// Longer lines than those of the longest chain are refused; the header with its drawing may be longer.
-const MAX_LINE_BYTES: u64 = 1 << 16;
+pub(crate) const MAX_LINE_BYTES: u64 = 1 << 16;
 
 /// What every version of the header begins with.
 #[derive(Deserialize)]
@@ -57,7 +57,7 @@ impl Lines {
     /// A [`Fault`] if it cannot be opened.
     pub(crate) fn open(path: &Path, again: &'static str) -> Result<Self, Fault> {
         let unreadable =
-            |what: String| Fault::in_file(path, what, "name a file that --trace or `tautline hunt` wrote");
+            |what: String| Fault::in_file(path, what, "name a file that `trace` or `tautline hunt` wrote");
         if path.is_dir() {
             return Err(unreadable("this is a folder".to_owned()));
         }
@@ -86,7 +86,7 @@ impl Lines {
             Fault::in_file(&self.path, "the file is empty", remedy)
         })?;
         let magic: Magic =
-            self.parse(&text, "a trace begins with its header; name a file that --trace wrote")?;
+            self.parse(&text, "a trace begins with its header; name a file that `trace` wrote")?;
         if magic.format != format {
             let what = format!("the format is {:?}", magic.format);
             return Err(self.fault(&text, "\"format\"", what, format_args!("name a {format:?}")));
@@ -156,9 +156,14 @@ impl Lines {
         if found == *expected {
             return Ok(());
         }
+        Err(self.differs(&text, expected, "the rule does not make this run; here it has"))
+    }
+
+    /// A fault where the line begins to differ from `expected`, which stands behind `what`.
+    pub(crate) fn differs(&self, text: &str, expected: &impl Serialize, what: &str) -> Fault {
+        let wanted = line_of(expected);
         let same = text.bytes().zip(wanted.bytes()).take_while(|(one, other)| one == other).count();
-        let what = format!("the rule does not make this run; here it has {}", wanted.trim_end());
-        Err(self.at(&text, same..same + 1, what, self.again))
+        self.at(text, same..same + 1, format_args!("{what} {}", wanted.trim_end()), self.again)
     }
 
     /// Checks that there is no line left.

@@ -28,7 +28,7 @@ use crate::trace::lines::{Lines, line_of};
 pub const FORMAT: &str = "tautline refutation";
 const VERSION: u32 = 1;
 
-const AGAIN: &str = "store it again with `tautline prove --out`";
+const AGAIN: &str = "store it again with `tautline prove `out``";
 
 /// Longer lines are refused: no bound takes so many words.
 const MAX_LINE_BYTES: u64 = 1 << 14;

@@ -25,9 +25,9 @@ use std::ops::Range;
 
 use serde::Serialize;
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
-use tautline_proofs::chain::breach::Breach;
 
-use crate::explore::{Crew, Limits, OnViolation, Report, Setup, Violation, explore};
+use crate::explore::catalogue::sensing;
+use crate::explore::{ClauseId, Limits, OnViolation, Report, Senses, Setup, TeamMove, Violation, explore};
 use crate::fault::{Fault, Halt};
 use crate::layout::{Layout, Problem};
 
@@ -37,7 +37,7 @@ pub struct Minimal {
     /// What makes it. The run stops at the team move that breaks the clause; another clause may be broken before.
     pub setup: Setup,
     /// What its last team move breaks.
-    pub breach: Breach,
+    pub clause: ClauseId,
     /// How large the run was that it is made from.
     pub before: Extent,
     /// How large it is.
@@ -64,10 +64,10 @@ pub struct Extent {
 }
 
 impl Extent {
-    fn new(setup: &Setup, steps: u32) -> Self {
-        let layout = &setup.layout;
+    fn new(case: &Case, steps: u32) -> Self {
+        let layout = &case.layout;
         Self {
-            robots: setup.robots,
+            robots: case.robots,
             columns: layout.width(),
             rows: layout.height(),
             walls: layout.walls().count(),
@@ -91,14 +91,14 @@ pub struct Progress {
 pub enum Refused {
     /// The run breaks no clause.
     Unbroken,
-    /// The run is not that of a chain: what agents never met, their sensors may still have seen.
+    /// The run is one of agents: what they never met, their sensors may still have seen.
     OfAgents,
     /// The run breaks other clauses than the one asked for.
     Otherwise {
         /// What was asked for.
-        asked: Breach,
+        asked: ClauseId,
         /// What is broken.
-        broken: Vec<Breach>,
+        broken: Vec<ClauseId>,
     },
 }
 
@@ -109,9 +109,9 @@ impl Refused {
             Self::Unbroken => "name a counterexample of `tautline hunt`, or a trace of a run that ended \
                                `tautline explore` with exit code 1"
                 .to_owned(),
-            Self::OfAgents => "name a run of the scheme chain".to_owned(),
+            Self::OfAgents => format!("name a run of the scheme {}", sensing(Senses::Bumps, "or")),
             Self::Otherwise { broken, .. } => {
-                let broken: Vec<&str> = broken.iter().map(|breach| breach.clause()).collect();
+                let broken: Vec<&str> = broken.iter().map(|clause| clause.as_str()).collect();
                 format!("it breaks {}", broken.join(", "))
             }
         }
@@ -124,7 +124,7 @@ impl fmt::Display for Refused {
             Self::Unbroken => f.write_str("this run breaks no clause: there is nothing to minimise"),
             Self::OfAgents => f.write_str("this is a run of agents: they are not minimised"),
             Self::Otherwise { asked, .. } => {
-                write!(f, "this run does not break {}: there is nothing to minimise", asked.clause())
+                write!(f, "this run does not break {asked}: there is nothing to minimise")
             }
         }
     }
@@ -153,37 +153,62 @@ impl From<Halt> for Failure {
     }
 }
 
-/// The minimal run that the run of `setup` shrinks to; what stays broken is `asked`, or else what the run breaks first.
-/// `watch` is called after every team move of every run, and may end the work for good.
+/// What can go smaller of a run.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// Robots, the base counted.
+    pub robots: u16,
+    /// The layout, with the base if there is one.
+    pub layout: Layout,
+    /// Where the robots start.
+    pub base: Cell,
+}
+
+/// A run that breaks the clause.
+#[derive(Clone, Debug)]
+pub struct Broken {
+    /// Team moves up to the one that breaks it.
+    pub steps: u32,
+    /// What the run met, if a run that meets the same is the same; then all the rest goes at once.
+    pub met: Option<Met>,
+}
+
+/// What a run met.
+#[derive(Clone, Debug)]
+pub struct Met {
+    /// The cells in the team's reach.
+    pub area: Area,
+    /// The edges at which robots stood before a wall or a blocked cell.
+    pub edges: Vec<Edge>,
+}
+
+/// Makes the run of a case, and says whether it breaks the clause; it is told how far the work is.
+pub type Breaks<'a> = dyn FnMut(&Case, Progress) -> Result<Option<Broken>, Halt> + 'a;
+
+/// What the work came to.
+#[derive(Clone, Debug)]
+pub struct Shrunk {
+    /// The smallest case: without any one robot, column, row, blocked cell or wall of it the clause is not broken.
+    pub case: Case,
+    /// How large it is.
+    pub extent: Extent,
+    /// Runs that were made to find it.
+    pub runs: u32,
+}
+
+/// Shrinks `case`, which breaks a clause in team move number `steps`, as far as `breaks` says that the clause is still
+/// broken. A team has at least `least` robots. Any team can be shrunk so, of this program or not.
 ///
 /// # Errors
-/// [`Failure`] if the run does not break that, if the setup does not fit its scheme, or if `watch` ended the work.
-pub fn minimise(
-    setup: &Setup,
-    asked: Option<Breach>,
-    watch: &mut dyn FnMut(Progress) -> Result<(), Halt>,
-) -> Result<Minimal, Failure> {
-    match setup.crew() {
-        Crew::Chain => {}
-        Crew::Agents(_) => return Err(Refused::OfAgents.into()),
-    }
-    let mut before = Extent::new(setup, 0);
-    let violation = match (setup.limits.violation, asked) {
-        (OnViolation::GoOn, Some(asked)) => OnViolation::StopAt(asked),
-        (OnViolation::GoOn, None) => OnViolation::Stop,
-        (stop @ (OnViolation::Stop | OnViolation::StopAt(_)), _) => stop,
-    };
-    let first = Setup { limits: Limits { violation, ..setup.limits }, ..setup.clone() };
-    let report = explore(&first, &mut |_| watch(Progress { runs: 0, smallest: before }))?;
-    let Violation { breach, step } = first_violation(&report, asked)?;
-    before.steps = step;
-    let limits = Limits { violation: OnViolation::StopAt(breach), ..Limits::default() };
-    let smallest = Setup { limits, ..first };
-    let mut shrinking = Shrinking { smallest, progress: Progress { runs: 0, smallest: before }, watch };
+/// [`Halt`] if `breaks` ended the work.
+pub fn shrink(case: Case, steps: u32, least: u16, breaks: &mut Breaks<'_>) -> Result<Shrunk, Halt> {
+    let extent = Extent::new(&case, steps);
+    let progress = Progress { runs: 0, smallest: extent };
+    let mut shrinking = Shrinking { smallest: case, progress, breaks };
     shrinking.attempt(&shrinking.smallest.clone())?;
     loop {
         let last = shrinking.progress.smallest;
-        shrinking.dismiss_robots()?;
+        shrinking.dismiss_robots(least)?;
         for part in Part::ALL {
             shrinking.thin(part)?;
         }
@@ -191,18 +216,60 @@ pub fn minimise(
             break;
         }
     }
-    let Shrinking { smallest: setup, progress: Progress { runs, smallest: after }, watch: _ } = shrinking;
-    Ok(Minimal { setup, breach, before, after, runs })
+    let Shrinking { smallest: case, progress: Progress { runs, smallest: extent }, breaks: _ } = shrinking;
+    Ok(Shrunk { case, extent, runs })
+}
+
+/// The minimal run that the run of `setup` shrinks to; what stays broken is `asked`, or else what the run breaks first.
+/// `watch` is called after every team move of every run, and may end the work for good.
+///
+/// # Errors
+/// [`Failure`] if the run does not break that, if the setup does not fit its scheme, or if `watch` ended the work.
+pub fn minimise(
+    setup: &Setup,
+    asked: Option<ClauseId>,
+    watch: &mut dyn FnMut(Progress) -> Result<(), Halt>,
+) -> Result<Minimal, Failure> {
+    match setup.scheme.senses {
+        Senses::Bumps => {}
+        Senses::Floor => return Err(Refused::OfAgents.into()),
+    }
+    let case = Case { robots: setup.robots, layout: setup.layout.clone(), base: setup.base };
+    let mut before = Extent::new(&case, 0);
+    let violation = match (setup.limits.violation, asked) {
+        (OnViolation::GoOn, Some(asked)) => OnViolation::StopAt(asked),
+        (OnViolation::GoOn, None) => OnViolation::Stop,
+        (stop @ (OnViolation::Stop | OnViolation::StopAt(_)), _) => stop,
+    };
+    let first = Setup { limits: Limits { violation, ..setup.limits }, ..setup.clone() };
+    let report = explore(&first, &mut |_| watch(Progress { runs: 0, smallest: before }))?;
+    let Violation { clause, step } = first_violation(&report, asked)?;
+    before.steps = step;
+    let limits = Limits { violation: OnViolation::StopAt(clause), ..Limits::default() };
+    let made = |Case { robots, layout, base }: Case| Setup { robots, layout, base, limits, ..first.clone() };
+    let least = *setup.scheme.robots.start() as u16;
+    let shrunk = shrink(case, step, least, &mut |case, progress| {
+        let mut edges = Vec::new();
+        let report = explore(&made(case.clone()), &mut |made: &TeamMove<'_>| {
+            edges.extend(made.frame.bumps());
+            watch(progress)
+        })?;
+        let is_broken = report.violations.iter().any(|broken| broken.clause == clause);
+        let met = Some(Met { area: report.chart.area(), edges });
+        Ok(is_broken.then_some(Broken { steps: report.steps, met }))
+    })?;
+    let Shrunk { case, extent: after, runs } = shrunk;
+    Ok(Minimal { setup: made(case), clause, before, after, runs })
 }
 
 /// The first violation of what is `asked`, if something is.
-fn first_violation(report: &Report, asked: Option<Breach>) -> Result<Violation, Refused> {
+fn first_violation(report: &Report, asked: Option<ClauseId>) -> Result<Violation, Refused> {
     let mut violations = report.violations.iter();
-    let found = violations.find(|violation| asked.is_none_or(|asked| violation.breach == asked));
+    let found = violations.find(|violation| asked.is_none_or(|asked| violation.clause == asked));
     found.copied().ok_or_else(|| match asked {
         Some(asked) if !report.violations.is_empty() => {
-            let broken: BTreeSet<Breach> =
-                report.violations.iter().map(|violation| violation.breach).collect();
+            let broken: BTreeSet<ClauseId> =
+                report.violations.iter().map(|violation| violation.clause).collect();
             Refused::Otherwise { asked, broken: broken.into_iter().collect() }
         }
         Some(_) | None => Refused::Unbroken,
@@ -231,16 +298,16 @@ impl Part {
         }
     }
 
-    /// What `setup` can become without those in `range`, the first choice first.
-    fn without(self, setup: &Setup, range: &Range<usize>) -> Result<Vec<Setup>, Problem> {
-        let whole = &setup.layout;
+    /// What `case` can become without those in `range`, the first choice first.
+    fn without(self, case: &Case, range: &Range<usize>) -> Result<Vec<Case>, Problem> {
+        let whole = &case.layout;
         let mut layout = whole.clone();
         match self {
             Self::Columns => {
-                return with_lines(setup, &outside(range, whole.width()), &outside(&(0..0), whole.height()));
+                return with_lines(case, &outside(range, whole.width()), &outside(&(0..0), whole.height()));
             }
             Self::Rows => {
-                return with_lines(setup, &outside(&(0..0), whole.width()), &outside(range, whole.height()));
+                return with_lines(case, &outside(&(0..0), whole.width()), &outside(range, whole.height()));
             }
             Self::Blocked => {
                 let blocked = whole.cells().filter(|&cell| !whole.is_free(cell));
@@ -251,7 +318,7 @@ impl Part {
                 walls.for_each(|wall| layout.remove_wall(wall));
             }
         }
-        Ok(vec![Setup { layout, ..setup.clone() }])
+        Ok(vec![Case { layout, ..*case }])
     }
 }
 
@@ -260,12 +327,12 @@ fn outside(range: &Range<usize>, count: i16) -> Vec<i16> {
     (0..count).filter(|&line| !range.contains(&(line as usize))).collect()
 }
 
-/// What `setup` can become with only these columns and rows: one for each place that the base can have.
-fn with_lines(setup: &Setup, columns: &[i16], rows: &[i16]) -> Result<Vec<Setup>, Problem> {
+/// What `case` can become with only these columns and rows: one for each place that the base can have.
+fn with_lines(case: &Case, columns: &[i16], rows: &[i16]) -> Result<Vec<Case>, Problem> {
     if columns.is_empty() || rows.is_empty() {
         return Ok(Vec::new());
     }
-    let whole = &setup.layout;
+    let whole = &case.layout;
     let mut layout = Layout::open(columns.len() as u64, rows.len() as u64)?;
     for (y, &row) in (0..).zip(rows) {
         for (x, &column) in (0..).zip(columns) {
@@ -283,18 +350,18 @@ fn with_lines(setup: &Setup, columns: &[i16], rows: &[i16]) -> Result<Vec<Setup>
             }
         }
     }
-    let mut setups = Vec::new();
-    for y in places(rows, setup.base.y) {
-        for x in places(columns, setup.base.x) {
+    let mut cases = Vec::new();
+    for y in places(rows, case.base.y) {
+        for x in places(columns, case.base.x) {
             let base = Cell::new(x, y);
             if layout.is_free(base) {
                 let mut layout = layout.clone();
                 layout.place_base(base)?;
-                setups.push(Setup { layout, base, ..setup.clone() });
+                cases.push(Case { layout, base, ..*case });
             }
         }
     }
-    Ok(setups)
+    Ok(cases)
 }
 
 /// Where among the lines that are left `line` is: its own place, or, if it went, those of the next line after it and
@@ -306,13 +373,13 @@ fn places(left: &[i16], line: i16) -> impl Iterator<Item = i16> {
     [Some(next).filter(|&next| next < left.len()), last].into_iter().flatten().map(|place| place as i16)
 }
 
-/// `setup` with nothing but the cells of `area`, and what was met at the edges in `met`.
-fn cut_down(setup: &Setup, area: Area, met: &[Edge]) -> Result<Setup, Problem> {
-    let whole = &setup.layout;
+/// `case` with nothing but what was met.
+fn cut_down(case: &Case, Met { area, edges }: &Met) -> Result<Case, Problem> {
+    let whole = &case.layout;
     let origin = area.first();
     let shifted = |cell: Cell| Cell::new(cell.x - origin.x, cell.y - origin.y);
     let mut layout = Layout::open(area.width() as u64, area.height() as u64)?;
-    for edge in met {
+    for edge in edges {
         let (cell, side) = (edge.cell(), edge.side());
         for cell in [cell, cell.beyond(side)] {
             if !whole.is_free(cell) {
@@ -323,24 +390,24 @@ fn cut_down(setup: &Setup, area: Area, met: &[Edge]) -> Result<Setup, Problem> {
             layout.build_wall(Edge::new(shifted(cell), side));
         }
     }
-    let base = shifted(setup.base);
+    let base = shifted(case.base);
     layout.place_base(base)?;
-    Ok(Setup { layout, base, ..setup.clone() })
+    Ok(Case { layout, base, ..*case })
 }
 
 /// The work under way.
-struct Shrinking<'a> {
-    /// The smallest run so far.
-    smallest: Setup,
+struct Shrinking<'a, 'b> {
+    /// The smallest case so far.
+    smallest: Case,
     progress: Progress,
-    watch: &'a mut dyn FnMut(Progress) -> Result<(), Halt>,
+    breaks: &'a mut Breaks<'b>,
 }
 
-impl Shrinking<'_> {
+impl Shrinking<'_, '_> {
     /// Makes the smallest team that breaks the clause in this layout the team.
-    fn dismiss_robots(&mut self) -> Result<(), Halt> {
-        for robots in 2..self.smallest.robots {
-            if self.attempt(&Setup { robots, ..self.smallest.clone() })? {
+    fn dismiss_robots(&mut self, least: u16) -> Result<(), Halt> {
+        for robots in least..self.smallest.robots {
+            if self.attempt(&Case { robots, ..self.smallest.clone() })? {
                 break;
             }
         }
@@ -365,7 +432,7 @@ impl Shrinking<'_> {
 
     /// Leaves out those of `part` in `range`; whether the clause is broken without them.
     fn leave_out(&mut self, part: Part, range: &Range<usize>) -> Result<bool, Halt> {
-        for candidate in part.without(&self.smallest, range).map_err(|problem| fault(&problem))? {
+        for candidate in part.without(&self.smallest, range).map_err(Fault::from)? {
             if self.attempt(&candidate)? {
                 return Ok(true);
             }
@@ -373,25 +440,15 @@ impl Shrinking<'_> {
         Ok(false)
     }
 
-    /// Runs `candidate` and, if it breaks the clause, makes what it met the smallest run. Whether it does.
-    fn attempt(&mut self, candidate: &Setup) -> Result<bool, Halt> {
+    /// Runs `candidate` and, if it breaks the clause, makes what it met the smallest case. Whether it does.
+    fn attempt(&mut self, candidate: &Case) -> Result<bool, Halt> {
         self.progress.runs += 1;
-        let mut met = Vec::new();
-        let report = explore(candidate, &mut |made| {
-            met.extend(made.frame.bumps());
-            (self.watch)(self.progress)
-        })?;
-        let violation = candidate.limits.violation;
-        if !report.violations.iter().any(|broken| violation.is_final(broken.breach)) {
-            return Ok(false);
-        }
-        self.smallest = cut_down(candidate, report.chart.area(), &met).map_err(|problem| fault(&problem))?;
-        self.progress.smallest = Extent::new(&self.smallest, report.steps);
+        let Some(Broken { steps, met }) = (self.breaks)(candidate, self.progress)? else { return Ok(false) };
+        self.smallest = match met {
+            Some(met) => cut_down(candidate, &met).map_err(Fault::from)?,
+            None => candidate.clone(),
+        };
+        self.progress.smallest = Extent::new(&self.smallest, steps);
         Ok(true)
     }
-}
-
-/// No part of a layout is too large for one.
-fn fault(problem: &Problem) -> Fault {
-    Fault::usage(problem, problem.remedy())
 }

@@ -13,7 +13,7 @@ use tautline_proofs::words::counted;
 
 use super::svg::{self, Frame};
 use crate::aside::{Aside, HTML_HEAD};
-use crate::explore::{Chart, Crew, Report, Setup, TeamMove};
+use crate::explore::{Chart, Look, Play, Report, Stage, TeamMove};
 use crate::fault::Fault;
 
 /// Bytes of a page. What is larger no browser shows.
@@ -25,7 +25,7 @@ const TEMPLATE: &str = include_str!("page.html");
 #[derive(Debug)]
 pub struct Page<'a> {
     file: &'a mut Aside,
-    setup: &'a Setup,
+    stage: Stage<'a>,
     report: &'a Report,
     /// How many bytes it has.
     bytes: usize,
@@ -38,7 +38,7 @@ impl<'a> Page<'a> {
     /// The page in `file` that plays these team moves of a run that came out as `report`.
     pub fn new(
         file: &'a mut Aside,
-        setup: &'a Setup,
+        run: &'a dyn Play,
         report: &'a Report,
         moves: &RangeInclusive<u32>,
     ) -> Self {
@@ -50,13 +50,14 @@ impl<'a> Page<'a> {
             counted(report.cells, "cell"),
             broken(report)
         );
-        let title = super::title_of(setup);
+        let title = super::title_of(run);
         let [head, middle, foot] = parts(svg::STYLE, ["team move", "Team moves"], &title, &outcome);
         let area = report.chart.area();
-        let mut page = Self { file, setup, report, bytes: 0, foot, is_begun: false };
-        page.put(&(head + &svg::open(area) + &svg::blocked(&setup.layout, area)));
+        let stage = run.stage();
+        let mut page = Self { file, stage, report, bytes: 0, foot, is_begun: false };
+        page.put(&(head + &svg::open(area) + &svg::blocked(stage.layout, area)));
         page.put(&marked(&report.chart, moves));
-        page.put(&(svg::lines(area) + &svg::walls(&setup.layout, area) + TEAM + "</g></svg>" + &middle));
+        page.put(&(svg::lines(area) + &svg::walls(stage.layout, area) + TEAM + "</g></svg>" + &middle));
         page
     }
 
@@ -64,7 +65,7 @@ impl<'a> Page<'a> {
         self.bytes += text.len();
         if self.bytes > MAX_BYTES {
             let what = format!("a page of more than {} MiB is left out", MAX_BYTES >> 20);
-            let remedy = "store a trace, and give `tautline replay` fewer --moves to show";
+            let remedy = "store a trace, and give `tautline replay` fewer `moves` to show";
             self.file.leave_out(Fault::in_file(self.file.path(), what, remedy));
         } else {
             self.file.append(text);
@@ -83,15 +84,15 @@ impl<'a> Page<'a> {
                 cells: made.before.to_vec(),
             };
             let step = made.step - 1;
-            let start = TeamMove { step, before: made.before, frame: &start, unseen: &[], breaches: &[] };
-            let words = if step == 0 { started(self.setup) } else { format!("After team move {step}") };
+            let start = TeamMove { step, before: made.before, frame: &start, unseen: &[], broken: &[] };
+            let words = if step == 0 { started(&self.stage) } else { format!("After team move {step}") };
             self.push(&start, &words);
         }
-        self.push(made, &words(self.setup.crew(), made, self.report));
+        self.push(made, &words(self.stage.look, made, self.report));
     }
 
     fn push(&mut self, made: &TeamMove<'_>, words: &str) {
-        let team = svg::team(self.setup.crew(), Frame(self.report.chart.area()), made);
+        let team = svg::team(self.stage.look, Frame(self.report.chart.area()), made);
         self.put(&moved(made.step, words, &team));
     }
 
@@ -158,35 +159,35 @@ fn marked(chart: &Chart, moves: &RangeInclusive<u32>) -> String {
 }
 
 /// Who stands where before the first team move.
-fn started(setup: &Setup) -> String {
-    match setup.crew() {
-        Crew::Chain => {
-            format!("The start: the base, with {} in its cell", counted(setup.robots - 1, "robot"))
-        }
-        Crew::Agents(_) => format!("The start: {}", counted(setup.robots, "agent")),
+fn started(stage: &Stage<'_>) -> String {
+    let robot = stage.look.robot();
+    if stage.look.has_base() {
+        format!("The start: the base, with {} in its cell", counted(stage.robots - 1, robot))
+    } else {
+        format!("The start: {}", counted(stage.robots, robot))
     }
 }
 
 fn broken(report: &Report) -> String {
     match report.violations.as_slice() {
         [] => "no clause is broken".to_owned(),
-        [first, ..] => format!("{} is broken in team move {}", first.breach.clause(), first.step),
+        [first, ..] => format!("{} is broken in team move {}", first.clause, first.step),
     }
 }
 
-fn words(crew: Crew, made: &TeamMove<'_>, report: &Report) -> String {
-    let kind = match (crew, made.frame.kind) {
-        (Crew::Chain, Kind::Advance) => ", an advance",
-        (Crew::Chain, Kind::Backtrack) => ", a backtrack",
-        (Crew::Agents(_), Kind::Advance | Kind::Backtrack) => "",
+fn words(look: Look, made: &TeamMove<'_>, report: &Report) -> String {
+    let kind = match (look, made.frame.kind) {
+        (Look::Linked { .. }, Kind::Advance) => ", an advance",
+        (Look::Linked { .. }, Kind::Backtrack) => ", a backtrack",
+        (Look::Apart, Kind::Advance | Kind::Backtrack) => "",
     };
     let mut words = format!("Team move {} of {}{kind}", made.step, report.steps);
     let blocked = (1..).zip(&made.frame.blocked).filter(|&(_, &blocked)| blocked);
     for (robot, _) in blocked {
         let _ = write!(words, "; R{robot} meets a wall");
     }
-    for breach in made.breaches {
-        let _ = write!(words, "; breaks {}", breach.clause());
+    for clause in made.broken {
+        let _ = write!(words, "; breaks {clause}");
     }
     words
 }

@@ -2,23 +2,19 @@
 
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge};
-use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::course::{Course, Turn};
 use tautline_proofs::judge::chain::{Exhibit, Move, Place, Repairs};
 use tautline_proofs::judge::floor;
 use tautline_proofs::run::Frame;
 
-use crate::explore::{RuleName, Setup};
+use crate::explore::{ClauseId, RuleId, Setup};
 
 /// The run of `setup` with these frames, said to break `clause`.
 pub fn exhibit(setup: &Setup, clause: &str, frames: &[Frame]) -> Exhibit {
     let layout = &setup.layout;
     Exhibit {
         clause: clause.to_owned(),
-        repairs: match setup.rule {
-            RuleName::Published => Repairs::Without,
-            RuleName::Repaired => Repairs::With,
-        },
+        repairs: if setup.rule == RuleId::PUBLISHED { Repairs::Without } else { Repairs::With },
         width: layout.width().into(),
         height: layout.height().into(),
         walls: layout.walls().map(sides).collect(),
@@ -49,7 +45,7 @@ pub fn of_course(clause: &str, course: &Course) -> floor::Exhibit {
 }
 
 /// The run of the only agent of `setup` with these frames, which is done in the last one, said to break `clause`.
-pub fn of_agent(setup: &Setup, clause: Breach, frames: &[Frame]) -> floor::Exhibit {
+pub fn of_agent(setup: &Setup, clause: ClauseId, frames: &[Frame]) -> floor::Exhibit {
     let layout = &setup.layout;
     let turn = |(number, frame): (usize, &Frame)| floor::Turn {
         agent: 0,
@@ -57,7 +53,7 @@ pub fn of_agent(setup: &Setup, clause: Breach, frames: &[Frame]) -> floor::Exhib
         is_done: number == frames.len(),
     };
     floor::Exhibit {
-        clause: clause.clause().to_owned(),
+        clause: clause.to_string(),
         width: layout.width().into(),
         height: layout.height().into(),
         walls: layout.walls().map(sides).collect(),

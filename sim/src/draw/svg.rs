@@ -5,11 +5,10 @@ use std::fmt::Write;
 
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
-use tautline_proofs::chain::breach::Breach;
 
 use super::{Environment, REACH, first_drawn};
 use crate::aside::SVG_HEAD;
-use crate::explore::{Chart, Crew, Setup, TeamMove};
+use crate::explore::{Chart, Look, Play, Stage, TeamMove};
 use crate::fault::Fault;
 use crate::layout::Layout;
 
@@ -155,11 +154,12 @@ pub fn layout(layout: &Layout) -> Panel {
 }
 
 /// The order of exploration.
-pub fn order(setup: &Setup, chart: &Chart) -> Panel {
+pub fn order(run: &dyn Play, chart: &Chart) -> Panel {
+    let Stage { layout, base, look, .. } = run.stage();
     let area = chart.area();
     let frame = Frame(area);
     let last = area.cells().filter_map(|cell| chart.step(cell)).max().unwrap_or(0).max(1);
-    let mut body = ground(&setup.layout, area);
+    let mut body = ground(layout, area);
     for (cell, step) in area.cells().filter_map(|cell| chart.step(cell).map(|step| (cell, step))) {
         let (x, y) = frame.corner(cell);
         let (cx, cy) = frame.centre(cell);
@@ -172,23 +172,23 @@ pub fn order(setup: &Setup, chart: &Chart) -> Panel {
             let _ = write!(body, "<text class=\"small\" x=\"{cx}\" y=\"{cy}\">{step}</text>");
         }
     }
-    match setup.crew() {
-        Crew::Chain => body.push_str(&base_mark(frame, setup.base)),
-        Crew::Agents(_) => {}
+    if look.has_base() {
+        body.push_str(&base_mark(frame, base));
     }
-    panel(area, String::new(), body + &walls(&setup.layout, area))
+    panel(area, String::new(), body + &walls(layout, area))
 }
 
 /// One team move: where the robots were, what they tried, where they are.
-pub fn team_move(setup: &Setup, chart: &Chart, made: &TeamMove<'_>) -> Panel {
+pub fn team_move(run: &dyn Play, chart: &Chart, made: &TeamMove<'_>) -> Panel {
     let area = chart.area();
     let frame = Frame(area);
-    let mut body = ground(&setup.layout, area);
+    let Stage { layout, look, .. } = run.stage();
+    let mut body = ground(layout, area);
     for cell in area.cells() {
         body.push_str(&marked_cell(frame, cell, chart.mark(cell, made.step)));
     }
-    body.push_str(&walls(&setup.layout, area));
-    body.push_str(&team(setup.crew(), frame, made));
+    body.push_str(&walls(layout, area));
+    body.push_str(&team(look, frame, made));
     panel(area, super::title(made), body)
 }
 
@@ -355,30 +355,29 @@ fn name((x, y): (i32, i32), text: &str) -> String {
     format!("<text class=\"name\" x=\"{x}\" y=\"{y}\">{text}</text>")
 }
 
-/// The links and the base of a chain, the ways of the robots and the robots.
-pub(super) fn team(crew: Crew, frame: Frame, made: &TeamMove<'_>) -> String {
+/// The links and the base of a team that has them, the ways of the robots and the robots.
+pub(super) fn team(look: Look, frame: Frame, made: &TeamMove<'_>) -> String {
     let (before, after) = (made.before, made.frame.cells.as_slice());
     let mut body: String = made.unseen.iter().map(|&cell| unseen(frame, cell)).collect();
-    body += &match crew {
-        Crew::Chain => links(frame, before, after) + &base_with(frame, after),
-        Crew::Agents(_) => String::new(),
+    body += &match look {
+        Look::Linked { is_lost } => links(frame, is_lost, before, after) + &base_with(frame, after),
+        Look::Apart => String::new(),
     };
-    for (robot, &from) in before.iter().enumerate().skip(first_drawn(crew)) {
+    for (robot, &from) in before.iter().enumerate().skip(first_drawn(look)) {
         if let Step::Cross(side) = made.frame.steps[robot] {
             body.push_str(&way(frame, from, side, made.frame.blocked[robot]));
         }
     }
-    for robot in first_drawn(crew)..after.len() {
-        body.push_str(&self::robot(crew, frame, after, robot));
+    for robot in first_drawn(look)..after.len() {
+        body.push_str(&self::robot(look, frame, after, robot));
     }
     body
 }
 
-fn links(frame: Frame, before: &[Cell], after: &[Cell]) -> String {
+fn links(frame: Frame, is_lost: fn(&[Cell], &[Cell]) -> bool, before: &[Cell], after: &[Cell]) -> String {
     let mut body = String::new();
     for (from, to) in before.windows(2).zip(after.windows(2)) {
-        let is_lost = |breach: Breach| breach.is_in(from, to);
-        let class = if is_lost(Breach::Contact) || is_lost(Breach::Coverage) { "broken" } else { "link" };
+        let class = if is_lost(from, to) { "broken" } else { "link" };
         let ((x, y), (to_x, to_y)) = (frame.centre(to[0]), frame.centre(to[1]));
         if (x, y) != (to_x, to_y) {
             let _ = write!(body, "<path class=\"{class}\" d=\"M{x} {y}L{to_x} {to_y}\"/>");
@@ -427,11 +426,11 @@ const CORNERS: [(i32, i32); 4] = [(-6, -6), (6, -6), (-6, 6), (6, 6)];
 const BESIDE_BASE: usize = 2;
 
 /// A robot, beside the others in its cell.
-fn robot(crew: Crew, frame: Frame, team: &[Cell], robot: usize) -> String {
+fn robot(look: Look, frame: Frame, team: &[Cell], robot: usize) -> String {
     let cell = team[robot];
-    let is_base = crew == Crew::Chain && cell == team[0];
-    let others = (first_drawn(crew)..robot).filter(|&other| team[other] == cell).count();
-    let all = (first_drawn(crew)..team.len()).filter(|&other| team[other] == cell).count();
+    let is_base = look.has_base() && cell == team[0];
+    let others = (first_drawn(look)..robot).filter(|&other| team[other] == cell).count();
+    let all = (first_drawn(look)..team.len()).filter(|&other| team[other] == cell).count();
     let (x, y) = frame.centre(cell);
     let (dx, dy) = match (all, is_base, CORNERS.get(others)) {
         (_, true, _) if all > BESIDE_BASE => return String::new(),
@@ -441,10 +440,10 @@ fn robot(crew: Crew, frame: Frame, team: &[Cell], robot: usize) -> String {
         // More do not fit; those that are drawn hide them.
         (_, _, None) => return String::new(),
     };
-    let class = match (crew, all > 2 && !is_base, robot + 1 == team.len()) {
-        (Crew::Chain, true, _) => "crowded",
-        (Crew::Chain, false, true) => "leader",
-        (Crew::Chain, false, false) | (Crew::Agents(_), ..) => "robot",
+    let class = match (look, all > 2 && !is_base, robot + 1 == team.len()) {
+        (Look::Linked { .. }, true, _) => "crowded",
+        (Look::Linked { .. }, false, true) => "leader",
+        (Look::Linked { .. }, false, false) | (Look::Apart, ..) => "robot",
     };
     let radius = if all == 1 && !is_base { 9 } else { 6 };
     let at = (x + dx, y + dy);

@@ -11,9 +11,9 @@ use serde_json::json;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::search::{Bounds, Position, Search};
 
-use super::{remedy, start};
+use super::{fault, start};
 use crate::aside::{Aside, Replaceable, Standing, lock};
-use crate::explore::{RuleName, SchemeName};
+use crate::explore::{Profile, RuleId};
 use crate::fault::Fault;
 use crate::layout::MAX_FILE_BYTES;
 
@@ -36,8 +36,8 @@ struct Magic {
 struct Header {
     format: String,
     version: u32,
-    scheme: SchemeName,
-    rule: RuleName,
+    scheme: &'static Profile,
+    rule: RuleId,
     robots: usize,
     /// North-west and south-east corner of the area.
     area: [Cell; 2],
@@ -63,13 +63,13 @@ pub struct Saved<'a> {
 
 impl<'a> Saved<'a> {
     /// The hunt within `bounds` by `scheme` and `rule`, to be kept at `path`.
-    pub fn new(path: &'a Path, scheme: SchemeName, rule: RuleName, bounds: &Bounds) -> Self {
+    pub fn new(path: &'a Path, scheme: &'static Profile, rule: impl Into<RuleId>, bounds: &Bounds) -> Self {
         let area = bounds.reach().unwrap_or(bounds.area);
         let header = Header {
             format: FORMAT.to_owned(),
             version: VERSION,
             scheme,
-            rule,
+            rule: rule.into(),
             robots: bounds.robots,
             area: [area.first(), area.last()],
             base: bounds.base,
@@ -84,8 +84,9 @@ impl<'a> Saved<'a> {
     pub fn search(&mut self, bounds: &Bounds) -> Result<Search, Fault> {
         match self.read()? {
             None => start(bounds),
-            Some(position) => Search::at(bounds, &position)
-                .map_err(|refused| Fault::in_file(self.path, refused, remedy(refused))),
+            Some(position) => {
+                Search::at(bounds, &position).map_err(|refused| fault(refused).found_in(self.path))
+            }
         }
     }
 
@@ -169,7 +170,7 @@ impl<'a> Saved<'a> {
         let differs = |key: &&str| kept[key] != asked[key];
         if let Some(key) = ["scheme", "rule", "robots", "area", "base"].into_iter().find(differs) {
             let what = format!("this is another hunt: {key} {}, asked for is {}", kept[key], asked[key]);
-            return Err(self.in_header(first, key, what, "ask for the same, or give another --resume file"));
+            return Err(self.in_header(first, key, what, "ask for the same, or give another `resume` file"));
         }
         self.parse(2, second).map(Some)
     }

@@ -3,7 +3,7 @@
 
 use tautline_proofs::floor::trap::{Bounds, MAX_AGENTS, MAX_CELLS, Trap, Way};
 
-use crate::explore::{Limits, OnViolation, RuleName, SchemeName, Setup};
+use crate::explore::{Limits, OnViolation, Profile, RuleId, Setup};
 use crate::fault::Fault;
 use crate::layout::{Layout, Problem, Size};
 
@@ -18,12 +18,12 @@ pub fn bounds(way: Way, agents: u64, max_misses: u8, size: Size) -> Result<Bound
     let fitting = u32::try_from(agents).ok().filter(|agents| (1..=MAX_AGENTS).contains(agents));
     let agents = fitting.ok_or_else(|| {
         let what = format!("a hunt for traps of {agents} agents");
-        Fault::usage(what, format_args!("give --robots a number from 1 to {MAX_AGENTS}"))
+        Fault::of_field("robots", what, format_args!("give `robots` a number from 1 to {MAX_AGENTS}"))
     })?;
     if size.cells() > MAX_CELLS {
         let what = format!("{size} cells are {}, too many to search all their layouts", size.cells());
-        let remedy = format!("give --size at most {MAX_CELLS} cells, for example 4x4 or 8x2");
-        return Err(Fault::usage(what, remedy));
+        let remedy = format!("give `size` at most {MAX_CELLS} cells, for example 4x4 or 8x2");
+        return Err(Fault::of_field("size", what, remedy));
     }
     let (max_width, max_height) = (size.width(), size.height());
     Ok(Bounds { way, agents, max_misses, max_width, max_height, budget_steps: None })
@@ -33,7 +33,7 @@ pub fn bounds(way: Way, agents: u64, max_misses: u8, size: Size) -> Result<Bound
 ///
 /// # Errors
 /// [`Problem`] if the trap does not fit into a layout.
-pub fn setup(scheme: SchemeName, rule: RuleName, trap: &Trap) -> Result<Setup, Problem> {
+pub fn setup(scheme: &'static Profile, rule: RuleId, trap: &Trap) -> Result<Setup, Problem> {
     let mut layout = Layout::open(trap.width as u64, trap.height as u64)?;
     for &cell in &trap.blocked {
         layout.block(cell);

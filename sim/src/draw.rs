@@ -18,35 +18,30 @@ use tautline_kernel::ground::{Area, Cell, Circle, Edge, Side, Step, neighbours};
 use tautline_proofs::course::{Scene, Turn};
 use tautline_proofs::words::counted;
 
-use crate::explore::{Chart, Crew, Setup, TeamMove};
+use crate::explore::{Chart, Look, Play, Stage, TeamMove};
 use crate::layout::Layout;
-use crate::words::Worded;
 
 /// Drawings beside each other take up at most so many columns.
 const PAGE_COLUMNS: usize = 100;
 
 /// What a drawing of team moves means.
-pub const fn legend(crew: Crew) -> &'static str {
-    match crew {
-        Crew::Chain => {
+pub const fn legend(look: Look) -> &'static str {
+    match look {
+        Look::Linked { .. } => {
             "B is the base, with the robots beside it or +K for K of them; 2, 3, … are the robots, the last one leads; \
              · is explored, ## blocked; x stands where a robot met a wall."
         }
-        Crew::Agents(_) => {
+        Look::Apart => {
             "1, 2, … are the agents, K× stands for K of them in one cell; · is explored, : explored and entered by \
              nobody any more, ░░░ visited, ▒▒▒ sealed, ## blocked; ? is a sensor that an agent missed."
         }
     }
 }
 
-/// What a picture of the run of `setup` is called.
-pub fn title_of(setup: &Setup) -> String {
-    let Setup { scheme, rule, robots, .. } = setup;
-    let team = match setup.crew() {
-        Crew::Chain => counted(*robots, "robot"),
-        Crew::Agents(_) => counted(*robots, "agent"),
-    };
-    format!("{} ({rule}), {team}", scheme.word())
+/// What a picture of a run is called.
+pub fn title_of(run: &dyn Play) -> String {
+    let Stage { scheme, rule, robots, look, .. } = run.stage();
+    format!("{scheme} ({rule}), {}", counted(robots, look.robot()))
 }
 
 /// Lines of text with a title above them.
@@ -179,23 +174,24 @@ pub enum Pose {
     After,
 }
 
-/// One team move of the run of `setup`. `chart` knows the explored cells.
-pub fn team_move(setup: &Setup, chart: &Chart, made: &TeamMove<'_>, pose: Pose) -> Block {
-    TeamMoves::new(setup, chart).draw(made, pose)
+/// One team move of a run. `chart` knows the explored cells.
+pub fn team_move(run: &dyn Play, chart: &Chart, made: &TeamMove<'_>, pose: Pose) -> Block {
+    TeamMoves::new(run, chart).draw(made, pose)
 }
 
 /// The team moves of a run, drawn one by one.
 #[derive(Debug)]
 pub struct TeamMoves<'a> {
-    setup: &'a Setup,
+    stage: Stage<'a>,
     chart: &'a Chart,
     is_bare: bool,
 }
 
 impl<'a> TeamMoves<'a> {
-    /// Those of the run of `setup`. `chart` knows the explored cells.
-    pub fn new(setup: &'a Setup, chart: &'a Chart) -> Self {
-        Self { setup, chart, is_bare: is_bare(setup, chart.area()) }
+    /// Those of `run`. `chart` knows the explored cells.
+    pub fn new(run: &'a dyn Play, chart: &'a Chart) -> Self {
+        let stage = run.stage();
+        Self { stage, chart, is_bare: is_bare(&stage, chart.area()) }
     }
 
     /// Whether one character for each cell is enough to draw a team move.
@@ -208,7 +204,7 @@ impl<'a> TeamMoves<'a> {
             Pose::Before => (made.before, Some(&made.frame.steps)),
             Pose::After => (made.frame.cells.as_slice(), None),
         };
-        Labels { crew: self.setup.crew(), cells, steps, unseen: made.unseen }
+        Labels { look: self.stage.look, cells, steps, unseen: made.unseen }
     }
 
     /// Columns of the drawing of a team move.
@@ -224,7 +220,7 @@ impl<'a> TeamMoves<'a> {
 
     /// A team move.
     pub fn draw(&self, made: &TeamMove<'_>, pose: Pose) -> Block {
-        let Self { setup, chart, .. } = self;
+        let Self { stage, chart, .. } = self;
         let step = match pose {
             Pose::Before => made.step - 1,
             Pose::After => made.step,
@@ -232,10 +228,10 @@ impl<'a> TeamMoves<'a> {
         let labels = self.labels(made, pose);
         let bumps: Vec<Edge> = made.frame.bumps().collect();
         let lines = if self.is_bare(made, pose) {
-            bare(setup.crew(), chart.area(), labels.cells, |cell| chart.mark(cell, step))
+            bare(stage.look, chart.area(), labels.cells, |cell| chart.mark(cell, step))
         } else {
             let label = |cell| labels.label(cell, chart.mark(cell, step));
-            grid(&setup.layout, chart.area(), labels.width(), label, |edge| bumps.contains(&edge))
+            grid(stage.layout, chart.area(), labels.width(), label, |edge| bumps.contains(&edge))
         };
         Block { title: title(made), lines }
     }
@@ -243,13 +239,13 @@ impl<'a> TeamMoves<'a> {
 
 /// Agents on a floor with such marks, one of them with the arrow of what it tries if that is given, with the sensors that
 /// it misses.
-fn agents(crew: Crew, layout: &Layout, scene: &Scene, tries: Option<&Turn>) -> Vec<String> {
+fn agents(layout: &Layout, scene: &Scene, tries: Option<&Turn>) -> Vec<String> {
     let steps = tries.map(|turn| {
         let step = |agent| if agent == turn.agent { turn.step } else { Step::Stay };
         (0..scene.cells.len()).map(step).collect()
     });
     let unseen = tries.map_or(&[][..], |turn| &turn.unseen);
-    let labels = Labels { crew, cells: &scene.cells, steps: steps.as_ref(), unseen };
+    let labels = Labels { look: Look::Apart, cells: &scene.cells, steps: steps.as_ref(), unseen };
     let mark =
         |cell| scene.marks.iter().find(|(at, _)| *at == cell).map_or(Mark::Unexplored, |&(_, mark)| mark);
     grid(layout, layout.size().area(), labels.width(), |cell| labels.label(cell, mark(cell)), |_| false)
@@ -260,22 +256,19 @@ fn title(made: &TeamMove<'_>) -> String {
         Kind::Advance => "",
         Kind::Backtrack => " (back)",
     };
-    let broken: Vec<&str> = made.breaches.iter().map(|breach| breach.clause()).collect();
+    let broken: Vec<&str> = made.broken.iter().map(|clause| clause.as_str()).collect();
     let broken = if broken.is_empty() { String::new() } else { format!(" breaks {}", broken.join(", ")) };
     format!("move {}{kind}{broken}", made.step)
 }
 
-/// The place of the first robot that is drawn as one: the first of a chain is the base.
-const fn first_drawn(crew: Crew) -> usize {
-    match crew {
-        Crew::Chain => 1,
-        Crew::Agents(_) => 0,
-    }
+/// The place of the first robot that is drawn as one: a base is drawn for itself.
+const fn first_drawn(look: Look) -> usize {
+    if look.has_base() { 1 } else { 0 }
 }
 
 /// The labels of the cells in a drawing of a team.
 struct Labels<'a> {
-    crew: Crew,
+    look: Look,
     cells: &'a [Cell],
     /// What each robot tries, if arrows are to be drawn.
     steps: Option<&'a Vec<Step>>,
@@ -285,9 +278,9 @@ struct Labels<'a> {
 
 impl Labels<'_> {
     fn label(&self, cell: Cell, mark: Mark) -> String {
-        let first = first_drawn(self.crew);
+        let first = first_drawn(self.look);
         let here: Vec<usize> = (first..self.cells.len()).filter(|&robot| self.cells[robot] == cell).collect();
-        if self.crew == Crew::Chain && self.cells[0] == cell {
+        if self.look.has_base() && self.cells[0] == cell {
             let rests = |&robot: &usize| self.steps.is_none_or(|steps| steps[robot] == Step::Stay);
             let (resting, leaving): (Vec<usize>, Vec<usize>) = here.into_iter().partition(rests);
             return match (resting.len(), leaving.len()) {
@@ -296,7 +289,7 @@ impl Labels<'_> {
                 (many, _) => format!("B+{many} {}", self.names(&leaving)),
             };
         }
-        match (self.crew, here.as_slice()) {
+        match (self.look, here.as_slice()) {
             (_, []) if self.unseen.contains(&cell) => match mark {
                 Mark::Unexplored | Mark::Explored => "·?".to_owned(),
                 Mark::Closing => ":?".to_owned(),
@@ -310,9 +303,9 @@ impl Labels<'_> {
                 Mark::Visited => "░░░".to_owned(),
                 Mark::Sealed => "▒▒▒".to_owned(),
             },
-            (Crew::Agents(_), here) if self.unseen.contains(&cell) => format!("{}?", self.team(here)),
-            (Crew::Agents(_), here) => self.team(here),
-            (Crew::Chain, here) => self.names(here),
+            (Look::Apart, here) if self.unseen.contains(&cell) => format!("{}?", self.team(here)),
+            (Look::Apart, here) => self.team(here),
+            (Look::Linked { .. }, here) => self.names(here),
         }
     }
 
@@ -358,16 +351,16 @@ const fn arrow(step: Step) -> &'static str {
 const SYMBOLS: &str = "123456789abcdefghijklmnopqrstuvwxyz";
 
 /// Whether one character for each cell is enough to draw the run: nothing is in the way.
-fn is_bare(setup: &Setup, area: Area) -> bool {
-    usize::from(setup.robots) <= SYMBOLS.len() && area.edges().all(|edge| setup.layout.is_open(edge))
+fn is_bare(stage: &Stage<'_>, area: Area) -> bool {
+    usize::from(stage.robots) <= SYMBOLS.len() && area.edges().all(|edge| stage.layout.is_open(edge))
 }
 
 /// A drawing with one character for each cell, of a team in an area with nothing in the way.
-fn bare(crew: Crew, area: Area, team: &[Cell], mark: impl Fn(Cell) -> Mark) -> Vec<String> {
+fn bare(look: Look, area: Area, team: &[Cell], mark: impl Fn(Cell) -> Mark) -> Vec<String> {
     let symbol = |cell: Cell| {
-        let mut here = (first_drawn(crew)..team.len()).filter(|&robot| team[robot] == cell);
+        let mut here = (first_drawn(look)..team.len()).filter(|&robot| team[robot] == cell);
         match (here.next(), here.next(), mark(cell)) {
-            _ if crew == Crew::Chain && cell == team[0] => 'B',
+            _ if look.has_base() && cell == team[0] => 'B',
             (Some(robot), None, _) => SYMBOLS.chars().nth(robot).unwrap_or('*'),
             (Some(_), Some(_), _) => '*',
             (None, _, Mark::Unexplored) => ' ',
@@ -387,21 +380,23 @@ fn bare(crew: Crew, area: Area, team: &[Cell], mark: impl Fn(Cell) -> Mark) -> V
 }
 
 /// The order of exploration: in each cell the team move in which it was explored.
-pub fn order(setup: &Setup, chart: &Chart) -> String {
-    let label = |cell| match (chart.step(cell), setup.crew()) {
-        (Some(0), Crew::Chain) => "B".to_owned(),
+pub fn order(run: &dyn Play, chart: &Chart) -> String {
+    let Stage { layout, look, .. } = run.stage();
+    let label = |cell| match (chart.step(cell), look) {
+        (Some(0), Look::Linked { .. }) => "B".to_owned(),
         (Some(step), _) => step.to_string(),
         (None, _) => String::new(),
     };
     let width = chart.area().cells().map(|cell| label(cell).len()).max().unwrap_or(0).max(2);
-    grid(&setup.layout, chart.area(), width, label, |_| false).join("\n") + "\n"
+    grid(layout, chart.area(), width, label, |_| false).join("\n") + "\n"
 }
 
 /// What was explored, and where the team is in the end.
-pub fn outcome(setup: &Setup, chart: &Chart, team: &[Cell]) -> String {
-    let labels = Labels { crew: setup.crew(), cells: team, steps: None, unseen: &[] };
+pub fn outcome(run: &dyn Play, chart: &Chart, team: &[Cell]) -> String {
+    let Stage { layout, look, .. } = run.stage();
+    let labels = Labels { look, cells: team, steps: None, unseen: &[] };
     let label = |cell| labels.label(cell, chart.mark(cell, u32::MAX));
-    grid(&setup.layout, chart.area(), labels.width(), label, |_| false).join("\n") + "\n"
+    grid(layout, chart.area(), labels.width(), label, |_| false).join("\n") + "\n"
 }
 
 /// A set of cells round one cell.

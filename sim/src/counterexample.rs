@@ -1,0 +1,7 @@
+//! Counterexamples: how they are found, made minimal, stored, and written down for judges who share no code with what made
+//! them.
+
+pub mod exhibit;
+pub mod hunt;
+pub mod minimise;
+pub mod refutation;

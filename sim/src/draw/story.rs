@@ -1,0 +1,179 @@
+//! The words that go with a violation: what the clause demands, and what the robots did to break it.
+
+use std::fmt::Write;
+
+use tautline_kernel::floor::Mark;
+use tautline_kernel::ground::{Cell, Side, Step};
+use tautline_proofs::course::Course;
+use tautline_proofs::ledger;
+use tautline_proofs::words::counted;
+
+use super::{Block, Pose, agents, beside, first_drawn, legend, outcome, team_move};
+use crate::explore::{Chart, ClauseId, Look, Play, Report, TeamMove, Violation};
+use crate::fault::Halt;
+use crate::layout::{Layout, Problem};
+
+/// The sentence of the clause `id`, if it is one of this program.
+pub fn sentence(id: ClauseId) -> Option<&'static str> {
+    ledger::clauses().find(|clause| clause.id == id.as_str()).map(|clause| clause.sentence)
+}
+
+/// The id of a clause, with its sentence where that is known.
+fn with_sentence(id: ClauseId) -> String {
+    sentence(id).map_or_else(|| format!("{id}."), |sentence| format!("{id}: {sentence}"))
+}
+
+/// How the team move `made` breaks its clauses: the sentences, what each robot did, and the move drawn.
+pub fn of(run: &dyn Play, chart: &Chart, made: &TeamMove<'_>) -> String {
+    let mut text = String::new();
+    for &clause in made.broken {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "Team move {} breaks {}", made.step, with_sentence(clause));
+    }
+    text.push('\n');
+    let look = run.stage().look;
+    let who = match look {
+        Look::Linked { .. } => "R_",
+        Look::Apart => "Agent ",
+    };
+    for (robot, &from) in made.before.iter().enumerate().skip(first_drawn(look)) {
+        let _ = writeln!(text, "  {who}{} at {from} {}.", robot + 1, did(made, robot));
+    }
+    for &clause in made.broken {
+        for line in run.told(clause, chart, made) {
+            let _ = writeln!(text, "  {line}");
+        }
+    }
+    text.push('\n');
+    let draw = |pose, title: &str| Block { title: title.to_owned(), ..team_move(run, chart, made, pose) };
+    text + &beside(vec![draw(Pose::Before, "before, with what each tries"), draw(Pose::After, "after")])
+}
+
+fn did(made: &TeamMove<'_>, robot: usize) -> String {
+    let to = made.frame.cells[robot];
+    match (made.frame.steps[robot], made.frame.blocked[robot]) {
+        (Step::Stay, _) => "stays".to_owned(),
+        (Step::Cross(side), true) => format!("tries to go {}, meets a wall and stays", towards(side)),
+        (Step::Cross(side), false) => format!("goes {} to {to}", towards(side)),
+    }
+}
+
+const fn towards(side: Side) -> &'static str {
+    match side {
+        Side::East => "east",
+        Side::South => "south",
+        Side::West => "west",
+        Side::North => "north",
+    }
+}
+
+/// How the end of a run breaks its clauses: the sentence, the cells that it missed, and the layout drawn. Nothing, if it
+/// does not.
+pub fn of_end(run: &dyn Play, report: &Report) -> String {
+    let missed = |broken: &Violation| Some((*broken, run.missed(broken.clause, &report.chart)?));
+    let found = report.violations.iter().find_map(missed);
+    found.map_or_else(String::new, |(Violation { clause, step }, (what, cells))| {
+        let head = format!("The end after team move {step} breaks {}", with_sentence(clause));
+        unexplored(run, report, &head, what, &cells)
+    })
+}
+
+fn unexplored(run: &dyn Play, report: &Report, head: &str, what: &str, cells: &[Cell]) -> String {
+    let cells: Vec<String> = cells.iter().map(|cell| format!("({cell})")).collect();
+    format!("{head}\n\n  {what}: {}.\n\n{}", cells.join(" "), outcome(run, &report.chart, &report.team))
+}
+
+/// How agents come into the trap of `run`: every team move before it is made, with what each agent tries
+/// and the sensors that it misses, and the end.
+///
+/// # Errors
+/// [`Halt`] if the run cannot be made.
+pub fn of_trap(run: &dyn Play) -> Result<String, Halt> {
+    let report = run.play(&mut |_| Ok(()))?;
+    let (mut blocks, mut words) = (Vec::new(), String::new());
+    run.play(&mut |made| {
+        let before = team_move(run, &report.chart, made, Pose::Before);
+        blocks.push(Block { title: format!("before move {}", made.step), ..before });
+        for cell in made.unseen {
+            // Writing to a string cannot fail.
+            let _ = writeln!(words, "  In team move {} the sensor of {cell} is missed.", made.step);
+        }
+        if !made.broken.is_empty() {
+            let after = outcome(run, &report.chart, &report.team);
+            blocks.push(Block {
+                title: "the end".to_owned(),
+                lines: after.lines().map(str::to_owned).collect(),
+            });
+        }
+        for line in made.broken.iter().flat_map(|&clause| run.told(clause, &report.chart, made)) {
+            let _ = writeln!(words, "  {line}");
+        }
+        Ok(())
+    })?;
+    Ok(format!("{}\n\n{words}\n{}", legend(run.stage().look), beside(blocks)))
+}
+
+/// What agents do in `course`, turn by turn: every turn before it is made, with what the agent tries and the sensors that
+/// it misses, and the end. Of turns that can go on for ever only those are shown.
+///
+/// # Errors
+/// [`Problem`] if it does not fit into a layout.
+pub fn of_course(course: &Course) -> Result<String, Problem> {
+    let Course { width, height, blocked, walls, turns, round, end } = course;
+    let mut layout = Layout::open(*width as u64, *height as u64)?;
+    for &cell in blocked {
+        layout.block(cell);
+    }
+    for &wall in walls {
+        layout.build_wall(wall);
+    }
+    let shown = if *round == 0 { 0 } else { turns.len() - round };
+    let (mut blocks, mut words) = (Vec::new(), String::new());
+    for (number, turn) in (1..).zip(turns).skip(shown) {
+        let lines = agents(&layout, &turn.before, Some(turn));
+        blocks.push(Block { title: format!("before turn {number}"), lines });
+        for cell in &turn.unseen {
+            // Writing to a string cannot fail.
+            let _ =
+                writeln!(words, "  In turn {number} agent {} misses the sensor of {cell}.", turn.agent + 1);
+        }
+    }
+    let is_unexplored = |(_, mark): &&(Cell, Mark)| *mark == Mark::Unexplored;
+    match (round, end.marks.iter().filter(is_unexplored).count()) {
+        (0, 0) => {}
+        (0, left) => {
+            let _ = writeln!(words, "  The run ends with {} unexplored.", counted(left, "cell"));
+        }
+        (round, _) => {
+            let _ = writeln!(words, "  The last {round} of {} turns can go on for ever.", turns.len());
+        }
+    }
+    blocks.push(Block { title: "the end".to_owned(), lines: agents(&layout, end, None) });
+    Ok(format!("{}\n\n{words}\n{}", legend(Look::Apart), beside(blocks)))
+}
+
+/// How the last team move of `run`, or its end, breaks its clauses.
+///
+/// # Errors
+/// [`Halt`] if the run cannot be made.
+pub fn last_move(run: &dyn Play) -> Result<String, Halt> {
+    let report = run.play(&mut |_| Ok(()))?;
+    let end = of_end(run, &report);
+    if !end.is_empty() {
+        return Ok(end);
+    }
+    if report.violations.is_empty() {
+        let head = format!("The run ends after team move {}: {}.", report.steps, report.stopped.words());
+        let left: Vec<Cell> =
+            report.chart.area().cells().filter(|&cell| report.chart.step(cell).is_none()).collect();
+        return Ok(unexplored(run, &report, &head, "Unexplored", &left));
+    }
+    let mut story = String::new();
+    run.play(&mut |made| {
+        if made.step == report.steps {
+            story = of(run, &report.chart, made);
+        }
+        Ok(())
+    })?;
+    Ok(story)
+}

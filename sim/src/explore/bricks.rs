@@ -1,0 +1,58 @@
+//! Brick&Mortar (paper 004): agents that mark cells as visited until none is left, as published, repaired, and robust
+//! against missed sensors. Their rows; the team is that of all agents.
+
+use tautline_kernel::bricks::Rule as Bricks;
+use tautline_kernel::floor::Mark;
+use tautline_kernel::ground::Cell;
+use tautline_proofs::chain::breach::Breach;
+use tautline_proofs::floor::trap::Way;
+use tautline_proofs::words::counted;
+
+use super::agents::{AGENTS, missed, start};
+use super::chart::Chart;
+use super::run::TeamMove;
+use super::setup::{Clause, Hunt, Judge, Profile, Rule, Setup};
+use super::stage::Knowledge;
+
+const PUBLISHED: Way = Way::Bricks(Bricks::PUBLISHED);
+const REPAIRED: Way = Way::Bricks(Bricks::REPAIRED);
+const ROBUST: Way = Way::Bricks(Bricks::ROBUST);
+
+/// Brick&Mortar: agents on a sensor floor that mark cells as visited until none is left.
+pub static BRICKS: Profile = Profile {
+    name: "bricks",
+    about: "Brick&Mortar: agents on a sensor floor that mark cells as visited until none is left",
+    rules: &[
+        Rule::published(|setup| Ok(start(setup, PUBLISHED)), Hunt::Traps(PUBLISHED)),
+        Rule::repaired(|setup| Ok(start(setup, REPAIRED)), Hunt::Traps(REPAIRED)),
+    ],
+    ..MARKING
+};
+
+/// Brick&Mortar with ants' ways, robust against missed sensors. It is ours: nobody has published it.
+pub static BRICKS_ANTS: Profile = Profile {
+    name: "bricks-ants",
+    about: "Brick&Mortar with ants' ways, robust against missed sensors",
+    rules: &[Rule::repaired(|setup| Ok(start(setup, ROBUST)), Hunt::Traps(ROBUST))],
+    ..MARKING
+};
+
+/// What is the same of all agents that mark cells as visited.
+const MARKING: Profile = Profile {
+    knowledge: Some(Knowledge::Visited),
+    clauses: &[
+        Clause { judge: Some(Judge::Agent), told: premature, ..Clause::new(Breach::Premature.clause()) },
+        Clause {
+            missed: Some("Connected with a start and not visited"),
+            ..Clause::new(Breach::Unvisited.clause())
+        },
+    ],
+    ..AGENTS
+};
+
+/// How much is left to an agent that is done too early.
+fn premature(setup: &Setup, chart: &Chart, made: &TeamMove<'_>) -> Vec<String> {
+    let is_left = |cell: &Cell| chart.mark(*cell, made.step) == Mark::Unexplored;
+    let left = missed(setup, chart).into_iter().filter(is_left).count();
+    vec![format!("So an agent is done, with {} unexplored.", counted(left, "cell"))]
+}

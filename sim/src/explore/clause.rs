@@ -1,0 +1,112 @@
+//! The id of a clause that a run can break, whoever wrote the clause.
+
+use std::cmp::Ordering;
+use std::collections::BTreeSet;
+use std::fmt;
+use std::sync::{Mutex, PoisonError};
+
+use serde::{Serialize, Serializer};
+use tautline_proofs::chain::breach::Breach;
+
+/// An id such as `CHAIN-1`: a family and a number. Ids are ordered by family, then by number, so that `CHAIN-2` comes
+/// before `CHAIN-12`.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub struct ClauseId(&'static str);
+
+/// The ids that were read in files of other programs. A file names few, and they are kept as long as the process.
+static READ: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
+
+impl ClauseId {
+    /// The clause with this id.
+    pub const fn new(id: &'static str) -> Self {
+        Self(id)
+    }
+
+    /// The id as it is printed and stored.
+    pub const fn as_str(self) -> &'static str {
+        self.0
+    }
+
+    /// The clause with the id that stands in a file.
+    pub(crate) fn read(id: &str) -> Self {
+        let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = read.get(id).copied();
+        Self(known.unwrap_or_else(|| {
+            let kept: &'static str = Box::leak(id.into());
+            read.insert(kept);
+            kept
+        }))
+    }
+
+    /// The family, and the number if there is one.
+    fn parts(self) -> (&'static str, Option<u32>) {
+        let numbered =
+            self.0.rsplit_once('-').and_then(|(family, number)| Some((family, number.parse().ok()?)));
+        numbered.map_or((self.0, None), |(family, number)| (family, Some(number)))
+    }
+}
+
+impl Ord for ClauseId {
+    fn cmp(&self, other: &Self) -> Ordering {
+        (self.parts(), self.0).cmp(&(other.parts(), other.0))
+    }
+}
+
+impl PartialOrd for ClauseId {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl fmt::Display for ClauseId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0)
+    }
+}
+
+impl fmt::Debug for ClauseId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0)
+    }
+}
+
+impl Serialize for ClauseId {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.0)
+    }
+}
+
+impl From<Breach> for ClauseId {
+    fn from(breach: Breach) -> Self {
+        Self(breach.clause())
+    }
+}
+
+impl PartialEq<Breach> for ClauseId {
+    fn eq(&self, breach: &Breach) -> bool {
+        self.0 == breach.clause()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn clauses_are_ordered_by_their_numbers() {
+        let mut ids = ["CHAIN-12", "CHAIN", "CHAIN-2", "BRICKS-6", "A-B-10", "A-B-9"].map(ClauseId::new);
+        ids.sort();
+        assert_eq!(
+            ids.map(ClauseId::as_str),
+            ["A-B-9", "A-B-10", "BRICKS-6", "CHAIN", "CHAIN-2", "CHAIN-12"]
+        );
+    }
+
+    #[test]
+    fn an_id_that_was_read_is_kept_once() {
+        let once = ClauseId::read(&"PAIR-1".to_owned());
+        let again = ClauseId::read(&"PAIR-1".to_owned());
+        assert_eq!(once, ClauseId::new("PAIR-1"));
+        assert!(std::ptr::eq(once.as_str(), again.as_str()));
+    }
+}

@@ -1,0 +1,98 @@
+//! The rules that a team can follow, by their names.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize, Serializer};
+use tautline_kernel::chain::Rule;
+use tautline_proofs::chain::Observed;
+
+use crate::words::Worded;
+
+/// Whether a scheme is taken as its paper has it.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RuleName {
+    /// As the paper publishes it.
+    Published,
+    /// With the repairs of its refuted claims.
+    Repaired,
+}
+
+impl Worded for RuleName {
+    const WORDS: &'static [(Self, &'static str, &'static str)] = &[
+        (Self::Published, "published", "As the paper publishes it"),
+        (Self::Repaired, "repaired", "With the repairs of its refuted claims"),
+    ];
+}
+
+impl RuleName {
+    /// Both rules.
+    pub const ALL: [Self; 2] = [Self::Published, Self::Repaired];
+
+    /// The chain that follows it.
+    pub const fn observed(self) -> Observed {
+        match self {
+            Self::Published => Observed::PUBLISHED,
+            Self::Repaired => Observed::REPAIRED,
+        }
+    }
+
+    /// The chain's rule.
+    pub const fn chain(self) -> Rule {
+        self.observed().rule
+    }
+}
+
+impl fmt::Display for RuleName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())
+    }
+}
+
+/// The name of a rule of a scheme: `published`, `repaired`, or what else the scheme offers.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct RuleId(&'static str);
+
+impl RuleId {
+    /// As the paper publishes it.
+    pub const PUBLISHED: Self = Self("published");
+    /// With the repairs of its refuted claims.
+    pub const REPAIRED: Self = Self("repaired");
+
+    /// The rule with this name.
+    pub const fn new(name: &'static str) -> Self {
+        Self(name)
+    }
+
+    /// The name as it is typed, printed and stored.
+    pub const fn as_str(self) -> &'static str {
+        self.0
+    }
+}
+
+impl From<RuleName> for RuleId {
+    fn from(rule: RuleName) -> Self {
+        match rule {
+            RuleName::Published => Self::PUBLISHED,
+            RuleName::Repaired => Self::REPAIRED,
+        }
+    }
+}
+
+impl PartialEq<RuleName> for RuleId {
+    fn eq(&self, rule: &RuleName) -> bool {
+        self.0 == rule.word()
+    }
+}
+
+impl fmt::Display for RuleId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0)
+    }
+}
+
+impl Serialize for RuleId {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.0)
+    }
+}

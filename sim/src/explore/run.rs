@@ -1,0 +1,361 @@
+//! The run loop. A [`Team`] sees what its robots know and makes one team move at a time; the layout answers for the edges
+//! it tries. A run goes on after a violation, so that its cost can be compared. Any team can be run, of this program or not.
+
+use std::num::NonZeroU32;
+
+use serde::{Deserialize, Serialize};
+use tautline_kernel::floor::Mark;
+use tautline_kernel::ground::{Area, Cell, Edge};
+use tautline_proofs::run::Frame;
+
+use super::chart::Chart;
+use super::clause::ClauseId;
+use super::floor::Component;
+use crate::fault::Halt;
+use crate::layout::Layout;
+use crate::words::Worded;
+
+/// What a run asks of a team. Only where its robots are and how they make a team move is required.
+pub trait Team {
+    /// Where the robots are; if one of them is a base, it is the first.
+    fn cells(&self) -> &[Cell];
+
+    /// Makes one team move. `is_open` answers for every edge that is crossed without being known.
+    ///
+    /// # Errors
+    /// [`End`] if the run is over.
+    fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End>;
+
+    /// The cells of `layout` among which the team is to explore: all of them, unless it says otherwise.
+    fn area(&self, layout: &Layout) -> Area {
+        layout.size().area()
+    }
+
+    /// How many cells of `layout` the team is to explore: the free ones of its area, unless it says otherwise.
+    fn due(&self, layout: &Layout) -> u32 {
+        self.area(layout).cells().filter(|&cell| layout.is_free(cell)).count() as u32
+    }
+
+    /// The cells of `layout` that the team must have explored, or marked as visited, before it ends, and has not, as
+    /// `chart` shows. It must explore none, unless it says otherwise.
+    fn missed(&self, layout: &Layout, chart: &Chart) -> Vec<Cell> {
+        let _ = (layout, chart);
+        Vec::new()
+    }
+
+    /// The clauses that the last team move broke; `before` is where the robots were.
+    fn broken_in_move(&self, before: &[Cell], frame: &Frame) -> Vec<ClauseId> {
+        let _ = (before, frame);
+        Vec::new()
+    }
+
+    /// The clauses that the end of the run breaks, in which the team has explored what is in `chart`.
+    fn broken_at_end(&self, layout: &Layout, chart: &Chart, end: End) -> Vec<ClauseId> {
+        let _ = (layout, chart, end);
+        Vec::new()
+    }
+
+    /// The marks of cells that the last team move has changed, in order.
+    fn marked(&self) -> &[(Cell, Mark)] {
+        &[]
+    }
+
+    /// The cells of the sensors that agents missed in the last team move, agent by agent.
+    fn unseen(&self) -> &[Cell] {
+        &[]
+    }
+
+    /// The parts of a sensor floor in which agents started; none for teams without one.
+    fn components(&self) -> &[Component] {
+        &[]
+    }
+
+    /// How long the run has taken the slowest robot, where that is known.
+    fn milliseconds(&self) -> Option<u64> {
+        None
+    }
+}
+/// When a run is stopped before it ends by itself.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Limits {
+    /// When so much is explored.
+    pub until: Option<Milestone>,
+    /// When a robot has entered so many cells.
+    pub max_moves: Option<NonZeroU32>,
+    /// What a violation does.
+    pub violation: OnViolation,
+}
+
+/// What a violation does to a run.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum OnViolation {
+    /// The run goes on.
+    #[default]
+    GoOn,
+    /// It stops, as a counterexample does.
+    Stop,
+    /// It stops if this is what was broken, as a minimal run does; otherwise it goes on.
+    StopAt(ClauseId),
+}
+
+impl OnViolation {
+    /// Whether a run goes no farther when it breaks `clause`.
+    pub fn is_final(self, clause: ClauseId) -> bool {
+        match self {
+            Self::GoOn => false,
+            Self::Stop => true,
+            Self::StopAt(last) => last == clause,
+        }
+    }
+}
+
+/// A share of the free cells of the area.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize)]
+pub enum Milestone {
+    /// 50 %
+    #[serde(rename = "50")]
+    Half,
+    /// 75 %
+    #[serde(rename = "75")]
+    ThreeQuarters,
+    /// 100 %
+    #[serde(rename = "100")]
+    Whole,
+}
+
+impl Worded for Milestone {
+    const WORDS: &'static [(Self, &'static str, &'static str)] =
+        &[(Self::Half, "50", "50 %"), (Self::ThreeQuarters, "75", "75 %"), (Self::Whole, "100", "100 %")];
+}
+
+impl Milestone {
+    /// All, in order.
+    pub const ALL: [Self; 3] = [Self::Half, Self::ThreeQuarters, Self::Whole];
+
+    /// The share.
+    pub const fn percent(self) -> u32 {
+        match self {
+            Self::Half => 50,
+            Self::ThreeQuarters => 75,
+            Self::Whole => 100,
+        }
+    }
+
+    /// How many of `cells` it takes, rounded up.
+    pub const fn of(self, cells: u32) -> u32 {
+        (cells as u64 * self.percent() as u64).div_ceil(100) as u32
+    }
+}
+
+/// How a run ended by itself.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum End {
+    /// Every cell of the area is explored.
+    Explored,
+    /// What is left cannot be reached.
+    Exhausted,
+    /// The team goes round and round.
+    Endless,
+}
+
+/// Why a run is over.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stopped {
+    /// Every cell of the area is explored.
+    Explored,
+    /// What is left cannot be reached.
+    Exhausted,
+    /// The team goes round and round, and would for ever.
+    Endless,
+    /// A robot has entered as many cells as it may.
+    MaxMoves,
+    /// As much is explored as was asked for.
+    Until,
+    /// A clause was broken.
+    Violation,
+}
+
+impl Stopped {
+    /// The reason in words.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Explored => "every cell of the area is explored",
+            Self::Exhausted => "the team can explore nothing more",
+            Self::Endless => "the team is where it was, and would go round for ever",
+            Self::MaxMoves => "a robot has entered as many cells as it may",
+            Self::Until => "as much is explored as was asked for",
+            Self::Violation => "a clause was broken",
+        }
+    }
+}
+
+/// A clause that was broken, and when.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Violation {
+    /// What was broken.
+    pub clause: ClauseId,
+    /// The team move, counted from 1.
+    pub step: u32,
+}
+
+/// One team move, as a watcher sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct TeamMove<'a> {
+    /// Its number, counted from 1.
+    pub step: u32,
+    /// Where the robots were; if one of them is a base, it is the first.
+    pub before: &'a [Cell],
+    /// What they did.
+    pub frame: &'a Frame,
+    /// The cells of the sensors that agents missed before they did it.
+    pub unseen: &'a [Cell],
+    /// What was broken.
+    pub broken: &'a [ClauseId],
+}
+
+/// Sees every team move of a run, and may stop the run for good.
+pub type Watcher<'a> = dyn FnMut(&TeamMove<'_>) -> Result<(), Halt> + 'a;
+
+/// What came of a run.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Report {
+    /// Team moves, backtracks included.
+    pub steps: u32,
+    /// Cells that were occupied.
+    pub explored: u32,
+    /// Cells that the team is to explore.
+    pub cells: u32,
+    /// In which team move each [`Milestone`] was reached, if it was.
+    pub milestones: [Option<u32>; Milestone::ALL.len()],
+    /// Why it is over.
+    pub stopped: Stopped,
+    /// What was broken, in order.
+    pub violations: Vec<Violation>,
+    /// Which cell was explored when, and how it was marked.
+    pub chart: Chart,
+    /// Where the robots are in the end.
+    pub team: Vec<Cell>,
+    /// The parts of a sensor floor in which agents started.
+    pub components: Vec<Component>,
+    /// How long the run took its slowest robot, where that is known.
+    pub milliseconds: Option<u64>,
+}
+
+impl Report {
+    /// The team move in which `milestone` was reached, if it was.
+    pub const fn reached(&self, milestone: Milestone) -> Option<u32> {
+        self.milestones[milestone as usize]
+    }
+
+    /// All parts of a sensor floor in which agents started, taken together.
+    pub fn whole(&self) -> Component {
+        self.components.iter().fold(Component::default(), |sum, part| Component {
+            robots: sum.robots + part.robots,
+            active: sum.active + part.active,
+            cells: sum.cells + part.cells,
+            explored: sum.explored + part.explored,
+            visited: sum.visited + part.visited,
+        })
+    }
+
+    /// What is known at the start: where the robots are is explored.
+    fn new(team: &dyn Team, layout: &Layout) -> Self {
+        let mut report = Self {
+            steps: 0,
+            explored: 0,
+            cells: team.due(layout),
+            milestones: [None; Milestone::ALL.len()],
+            stopped: Stopped::Exhausted,
+            violations: Vec::new(),
+            chart: Chart::new(team.area(layout)),
+            team: team.cells().to_vec(),
+            components: Vec::new(),
+            milliseconds: None,
+        };
+        report.note(team.cells(), &[]);
+        report
+    }
+
+    /// Notes where the robots are and what they have marked.
+    fn note(&mut self, cells: &[Cell], marked: &[(Cell, Mark)]) {
+        for &cell in cells {
+            self.explored += u32::from(self.chart.enter(cell, self.steps));
+        }
+        for &(cell, mark) in marked {
+            self.chart.put(cell, self.steps, mark);
+        }
+        for milestone in Milestone::ALL {
+            let reached = &mut self.milestones[milestone as usize];
+            if reached.is_none() && self.explored >= milestone.of(self.cells) {
+                *reached = Some(self.steps);
+            }
+        }
+    }
+
+    /// The report of a run that is over.
+    fn ended(self, stopped: Stopped, team: &dyn Team) -> Self {
+        let (cells, components) = (team.cells().to_vec(), team.components().to_vec());
+        Self { stopped, team: cells, components, milliseconds: team.milliseconds(), ..self }
+    }
+}
+
+/// Runs `team`, which is at its start, in `layout`. `watch` sees every team move, and may stop the run for good.
+///
+/// # Errors
+/// Whatever `watch` returned.
+pub fn run(
+    team: &mut dyn Team,
+    layout: &Layout,
+    limits: Limits,
+    watch: &mut Watcher<'_>,
+) -> Result<Report, Halt> {
+    let mut report = Report::new(team, layout);
+    let mut entered = vec![0_u32; team.cells().len()];
+    let mut before = team.cells().to_vec();
+    loop {
+        if let Some(stopped) = limit(limits, &report, &entered) {
+            return Ok(report.ended(stopped, team));
+        }
+        let frame = match team.advance(&mut |edge| layout.is_open(edge)) {
+            Ok(frame) => frame,
+            Err(end) => {
+                let stopped = match end {
+                    End::Explored => Stopped::Explored,
+                    End::Exhausted => Stopped::Exhausted,
+                    End::Endless => Stopped::Endless,
+                };
+                let (step, broken) = (report.steps, team.broken_at_end(layout, &report.chart, end));
+                report.violations.extend(broken.into_iter().map(|clause| Violation { clause, step }));
+                return Ok(report.ended(stopped, team));
+            }
+        };
+        report.steps += 1;
+        report.note(&frame.cells, team.marked());
+        for (count, (from, to)) in entered.iter_mut().zip(before.iter().zip(&frame.cells)) {
+            *count += u32::from(from != to);
+        }
+        let broken = team.broken_in_move(&before, &frame);
+        let step = report.steps;
+        report.violations.extend(broken.iter().map(|&clause| Violation { clause, step }));
+        let unseen = team.unseen();
+        watch(&TeamMove { step, before: &before, frame: &frame, unseen, broken: &broken })?;
+        before = frame.cells;
+    }
+}
+
+fn limit(limits: Limits, report: &Report, entered: &[u32]) -> Option<Stopped> {
+    let is_far = |most: NonZeroU32| entered.iter().any(|&count| count >= most.get());
+    let is_broken = report.violations.iter().any(|broken| limits.violation.is_final(broken.clause));
+    if is_broken {
+        Some(Stopped::Violation)
+    } else if limits.until.is_some_and(|milestone| report.reached(milestone).is_some()) {
+        Some(Stopped::Until)
+    } else if limits.max_moves.is_some_and(is_far) {
+        Some(Stopped::MaxMoves)
+    } else {
+        None
+    }
+}

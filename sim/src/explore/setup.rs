@@ -1,0 +1,235 @@
+//! A scheme as a row of data, and a run of it before its start.
+
+use std::fmt;
+use std::ops::RangeInclusive;
+
+use serde::{Serialize, Serializer};
+use tautline_kernel::ground::Cell;
+use tautline_proofs::chain::Observed;
+use tautline_proofs::floor::trap::Way;
+
+use super::chart::Chart;
+use super::clause::ClauseId;
+use super::rule::RuleId;
+use super::run::{Limits, Team, TeamMove};
+use super::stage::{Knowledge, Look, Stage};
+use crate::fault::Fault;
+use crate::layout::generate::Probability;
+use crate::layout::{Layout, Problem};
+
+/// A scheme: a way for a team to explore. Whatever is not the scheme's own asks this row.
+pub struct Profile {
+    /// The word for it on the command line and in files.
+    pub name: &'static str,
+    /// One line about it.
+    pub about: &'static str,
+    /// Its rules.
+    pub rules: &'static [Rule],
+    /// What its team is called.
+    pub team: &'static str,
+    /// How many robots a team can have, the base counted if there is one.
+    pub robots: RangeInclusive<usize>,
+    /// Where its robots start.
+    pub starts: Starts,
+    /// How its robots learn of the layout.
+    pub senses: Senses,
+    /// How its team is drawn.
+    pub look: Look,
+    /// What its team knows of a sensor floor, if it is on one.
+    pub knowledge: Option<Knowledge>,
+    /// The clauses that its runs can break, in order.
+    pub clauses: &'static [Clause],
+}
+
+/// A rule of a scheme.
+#[derive(Clone, Copy, Debug)]
+pub struct Rule {
+    /// Its name.
+    pub name: RuleId,
+    /// One line about it.
+    pub about: &'static str,
+    /// The team of a setup at its start.
+    pub start: Start,
+    /// How layouts are found in which a team breaks a clause, if they are sought.
+    pub hunt: Option<Hunt>,
+}
+
+/// The team of a setup at its start.
+pub type Start = fn(&Setup) -> Result<Box<dyn Team>, Fault>;
+
+impl Rule {
+    /// As the paper publishes it.
+    pub const fn published(start: Start, hunt: Hunt) -> Self {
+        Self { name: RuleId::PUBLISHED, about: "As the paper publishes it", start, hunt: Some(hunt) }
+    }
+
+    /// With the repairs of its refuted claims.
+    pub const fn repaired(start: Start, hunt: Hunt) -> Self {
+        let about = "With the repairs of its refuted claims";
+        Self { name: RuleId::REPAIRED, about, start, hunt: Some(hunt) }
+    }
+}
+
+/// How layouts are found in which a team breaks a clause.
+#[derive(Clone, Copy, Debug)]
+pub enum Hunt {
+    /// All layouts, decided wall by wall as the team of this subject meets them.
+    Walls(Observed),
+    /// All small layouts, and the fewest missed sensors that trap agents of this way.
+    Traps(Way),
+}
+
+/// Where the robots of a team start.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Starts {
+    /// All of them at the base.
+    Base,
+    /// Each in any free cell.
+    Anywhere,
+}
+
+/// How robots learn of a layout.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Senses {
+    /// A robot knows the edges that were tried. What no robot met can go, and the run stays the same.
+    Bumps,
+    /// Agents read sensors on the floor, and may miss some.
+    Floor,
+}
+
+/// A clause that a run can break.
+#[derive(Clone, Copy, Debug)]
+pub struct Clause {
+    /// Its id.
+    pub id: ClauseId,
+    /// Which independent judge reads its counterexamples.
+    pub judge: Option<Judge>,
+    /// How a team move breaks it, one line for each pair or cell.
+    pub told: fn(&Setup, &Chart, &TeamMove<'_>) -> Vec<String>,
+    /// If it is about the end of a run: what the cells are that are missed.
+    pub missed: Option<&'static str>,
+}
+
+/// A judge of counterexamples.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Judge {
+    /// The judge of the chain.
+    Chain,
+    /// The judge of agents, for runs of one agent.
+    Agent,
+}
+
+impl Clause {
+    /// The clause with this id, of which the words of the clause itself tell enough, and which has no judge.
+    pub const fn new(id: &'static str) -> Self {
+        Self { id: ClauseId::new(id), judge: None, told: |_, _, _| Vec::new(), missed: None }
+    }
+}
+
+impl Profile {
+    /// The rule with this name, if the scheme offers it.
+    pub fn rule(&self, name: RuleId) -> Option<&'static Rule> {
+        self.rules.iter().find(|rule| rule.name == name)
+    }
+
+    /// The clause with this id, if its runs can break it.
+    pub fn clause(&self, id: ClauseId) -> Option<&'static Clause> {
+        self.clauses.iter().find(|clause| clause.id == id)
+    }
+}
+
+impl PartialEq for Profile {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Eq for Profile {}
+
+impl fmt::Debug for Profile {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name)
+    }
+}
+
+impl Serialize for Profile {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name)
+    }
+}
+
+/// A run before its start: the same setup makes the same run.
+#[derive(Clone, Debug)]
+pub struct Setup {
+    /// The scheme.
+    pub scheme: &'static Profile,
+    /// One of its rules.
+    pub rule: RuleId,
+    /// Robots, the base of a chain included.
+    pub robots: u16,
+    /// The seed of whatever is left to chance.
+    pub seed: u64,
+    /// The ground truth.
+    pub layout: Layout,
+    /// Where the robots start that have no start of their own: a free cell.
+    pub base: Cell,
+    /// Where each agent starts, if not all start at the base: free cells.
+    pub starts: Option<Vec<Cell>>,
+    /// How likely it is that an agent misses a sensor that it could see.
+    pub miss: Probability,
+    /// Which sensors are missed besides: their numbers among all that agents ask about, counted from 1, in order.
+    pub missed: Vec<u32>,
+    /// When the run is stopped.
+    pub limits: Limits,
+}
+
+impl Setup {
+    /// A run of `scheme` in `layout` with a base, all robots starting there, nothing missed, and no limits.
+    pub fn new(
+        scheme: &'static Profile,
+        rule: impl Into<RuleId>,
+        robots: u16,
+        layout: Layout,
+        base: Cell,
+    ) -> Self {
+        let (limits, miss) = (Limits::default(), Probability::NEVER);
+        let (rule, missed) = (rule.into(), Vec::new());
+        Self { scheme, rule, robots, seed: 0, layout, base, starts: None, miss, missed, limits }
+    }
+
+    /// What stands still in the run.
+    pub fn stage(&self) -> Stage<'_> {
+        Stage {
+            scheme: self.scheme.name,
+            rule: self.rule.as_str(),
+            robots: self.robots,
+            seed: self.seed,
+            layout: &self.layout,
+            base: self.base,
+            starts: self.starts.as_deref(),
+            miss: self.miss,
+            missed: &self.missed,
+            limits: self.limits,
+            look: self.scheme.look,
+            knowledge: self.scheme.knowledge,
+        }
+    }
+
+    /// Where the robots start.
+    pub fn starts(&self) -> Vec<Cell> {
+        self.stage().starts()
+    }
+
+    /// The base of a run in `layout`: the one asked for, or that of the layout, or the free cell nearest the centre.
+    ///
+    /// # Errors
+    /// [`Problem`] if it is not a free cell.
+    pub fn choose_base(layout: &mut Layout, asked: Option<Cell>) -> Result<Cell, Problem> {
+        let base = match asked.or(layout.base()) {
+            Some(base) => base,
+            None => layout.default_base()?,
+        };
+        layout.place_base(base)?;
+        Ok(base)
+    }
+}

@@ -1,0 +1,245 @@
+//! The lines of a stored run: how they are written, by whomever, and what they say.
+
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
+use tautline_kernel::chain::Kind;
+use tautline_kernel::ground::{Cell, Edge, Side, Step};
+use tautline_proofs::run::Frame;
+
+use super::lines::{Lines, line_of};
+use crate::aside::Aside;
+use crate::explore::{ClauseId, Report, Stage, Stopped, TeamMove, Violation};
+use crate::fault::Fault;
+use crate::layout::generate::Probability;
+use crate::layout::{Layout, Problem};
+
+/// The format of the header.
+pub const FORMAT: &str = "tautline run";
+pub(super) const VERSION: u32 = 1;
+
+/// How to make such a file again.
+pub(super) const AGAIN: &str = "store the run again with `tautline explore `trace`` or `tautline hunt`";
+
+/// The first line. What scheme, rule and limits say is known only of the schemes of this program.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Header<S, R, L> {
+    format: String,
+    version: u32,
+    pub(super) scheme: S,
+    pub(super) rule: R,
+    pub(super) robots: u16,
+    pub(super) seed: u64,
+    pub(super) base: Cell,
+    /// Where each agent starts, if not all start at the base.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) starts: Option<Vec<Cell>>,
+    /// How likely it is that a sensor is missed, if that happens at all.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) miss: Option<Probability>,
+    /// Which sensors are missed besides.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) missed: Vec<u32>,
+    pub(super) limits: L,
+    /// The clause that the last move breaks, in a counterexample.
+    pub(super) clause: Option<String>,
+    /// The drawing, with the base.
+    pub(super) layout: String,
+}
+
+/// A later line.
+#[derive(PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Line {
+    Move(StoredMove),
+    End(StoredEnd),
+}
+
+/// One team move, in the order of the robots, as it is stored.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StoredMove {
+    /// Its number, counted from 1.
+    pub(super) step: u32,
+    kind: Kind,
+    /// One letter a robot: E, S, W, N, or `.` for a robot that stays.
+    tried: String,
+    /// The numbers of the robots that met a wall; the base of a chain is 1.
+    blocked: Vec<usize>,
+    /// Where the robots are now.
+    cells: Vec<Cell>,
+}
+
+/// The last line.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StoredEnd {
+    pub(super) stopped: Stopped,
+    pub(super) steps: u32,
+    pub(super) explored: u32,
+    pub(super) cells: u32,
+    pub(super) violations: Vec<StoredViolation>,
+}
+
+/// A clause that was broken, and in which team move.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StoredViolation {
+    pub(super) clause: String,
+    pub(super) step: u32,
+}
+
+impl StoredMove {
+    /// Team move number `step`.
+    pub fn new(step: u32, frame: &Frame) -> Self {
+        Self {
+            step,
+            kind: frame.kind,
+            tried: frame.steps.iter().map(|&step| letter(step)).collect(),
+            blocked: (1..)
+                .zip(&frame.blocked)
+                .filter(|&(_, &blocked)| blocked)
+                .map(|(robot, _)| robot)
+                .collect(),
+            cells: frame.cells.clone(),
+        }
+    }
+
+    /// The team move that it tells of robots in the cells `before`.
+    ///
+    /// # Errors
+    /// The field that contradicts the others or `layout`, and what is wrong with it.
+    pub(super) fn frame(self, before: &[Cell], layout: &Layout) -> Result<Frame, (&'static str, String)> {
+        let Self { step: _, kind, tried, blocked, cells } = self;
+        let robots = before.len();
+        let steps: Option<Vec<Step>> = tried.chars().map(step).collect();
+        let Some(steps) = steps.filter(|steps| steps.len() == robots) else {
+            let what = format!("write one letter of E, S, W, N or . for each of {robots} robots");
+            return Err(("tried", what));
+        };
+        if !blocked.is_sorted_by(|one, other| one < other)
+            || blocked.iter().any(|robot| !(1..=robots).contains(robot))
+        {
+            return Err(("blocked", format!("name robots from 1 to {robots}, in order, each once")));
+        }
+        if cells.len() != robots {
+            return Err(("cells", format!("there are {} cells of {robots} robots", cells.len())));
+        }
+        let blocked: Vec<bool> = (1..=robots).map(|robot| blocked.contains(&robot)).collect();
+        for (robot, (&from, &to)) in before.iter().zip(&cells).enumerate() {
+            let (name, side) = (
+                robot + 1,
+                match steps[robot] {
+                    Step::Stay if blocked[robot] => {
+                        return Err(("blocked", format!("robot {} has not tried to go anywhere", robot + 1)));
+                    }
+                    Step::Stay if to == from => continue,
+                    Step::Stay => return Err(("cells", format!("robot {} stays in {from}", robot + 1))),
+                    Step::Cross(side) => side,
+                },
+            );
+            let is_open = layout.is_open(Edge::new(from, side));
+            let due = if blocked[robot] { from } else { from.beyond(side) };
+            if blocked[robot] && is_open {
+                return Err(("blocked", format!("nothing is in the way of robot {name} at {from}")));
+            }
+            if !blocked[robot] && !is_open {
+                return Err(("tried", format!("robot {name} at {from} cannot cross a wall")));
+            }
+            if to != due {
+                return Err(("cells", format!("robot {name} is in {due} then")));
+            }
+        }
+        Ok(Frame { kind, steps, blocked, cells })
+    }
+}
+
+/// The letter of what a robot tries.
+const fn letter(step: Step) -> char {
+    match step {
+        Step::Cross(Side::East) => 'E',
+        Step::Cross(Side::South) => 'S',
+        Step::Cross(Side::West) => 'W',
+        Step::Cross(Side::North) => 'N',
+        Step::Stay => '.',
+    }
+}
+
+/// What a robot tries by this letter.
+fn step(name: char) -> Option<Step> {
+    let sides = Side::ALL.map(Step::Cross);
+    sides.into_iter().chain([Step::Stay]).find(|&step| letter(step) == name)
+}
+
+impl From<&Violation> for StoredViolation {
+    fn from(violation: &Violation) -> Self {
+        Self { clause: violation.clause.to_string(), step: violation.step }
+    }
+}
+
+impl From<&Report> for StoredEnd {
+    fn from(report: &Report) -> Self {
+        Self {
+            stopped: report.stopped,
+            steps: report.steps,
+            explored: report.explored,
+            cells: report.cells,
+            violations: report.violations.iter().map(StoredViolation::from).collect(),
+        }
+    }
+}
+
+/// A trace in the making.
+#[derive(Debug)]
+pub struct Writer(Aside);
+
+impl Writer {
+    /// The trace of a run on `stage` in `aside`, of any team. A counterexample names the clause that it breaks.
+    ///
+    /// # Errors
+    /// [`Problem`] if the base is not a free cell.
+    pub fn new(mut aside: Aside, stage: &Stage<'_>, clause: Option<ClauseId>) -> Result<Self, Problem> {
+        let mut layout = Cow::Borrowed(stage.layout);
+        if layout.base() != Some(stage.base) {
+            layout.to_mut().place_base(stage.base)?;
+        }
+        aside.append(line_of(&Header {
+            format: FORMAT.to_owned(),
+            version: VERSION,
+            scheme: stage.scheme,
+            rule: stage.rule,
+            robots: stage.robots,
+            seed: stage.seed,
+            base: stage.base,
+            starts: stage.starts.map(<[Cell]>::to_vec),
+            miss: Some(stage.miss).filter(|miss| !miss.is_never()),
+            missed: stage.missed.to_vec(),
+            limits: stage.limits,
+            clause: clause.map(|clause| clause.to_string()),
+            layout: layout.to_string(),
+        }));
+        Ok(Self(aside))
+    }
+
+    /// Adds a team move.
+    pub fn add(&mut self, made: &TeamMove<'_>) {
+        self.0.append(line_of(&Line::Move(StoredMove::new(made.step, made.frame))));
+    }
+
+    /// Adds the end. The file has yet to be put in its place.
+    pub fn end(mut self, report: &Report) -> Aside {
+        self.0.append(line_of(&Line::End(report.into())));
+        self.0
+    }
+}
+
+/// The layout of a header, with the base where the header has it.
+pub(super) fn drawn(lines: &Lines, text: &str, layout: &str, base: Cell) -> Result<Layout, Fault> {
+    let layout: Layout = layout.parse().map_err(|problem| lines.fault(text, "\"layout\"", problem, AGAIN))?;
+    if layout.base() != Some(base) {
+        let what = format!("the base {base} is not where the layout draws it");
+        return Err(lines.fault(text, "\"base\"", what, AGAIN));
+    }
+    Ok(layout)
+}

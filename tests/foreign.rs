@@ -1,0 +1,84 @@
+//! `tautline replay` of a run whose scheme this program does not know: it is said what it is, and it plays as it was
+//! written.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use insta::assert_snapshot;
+
+/// Two robots in a row of three cells; the first meets the wall, the second comes into its cell.
+const RUN: &str = r#"{"format":"tautline run","version":1,"scheme":"pair","rule":"eager","robots":2,"seed":0,"base":[0,0],"limits":{"until":null,"max_moves":null,"violation":"stop"},"clause":"PAIR-1","layout":"tautline layout 1\n+--+--+--+\n|B    |  |\n+--+--+--+\n"}
+{"move":{"step":1,"kind":"advance","tried":"E.","blocked":[],"cells":[[1,0],[0,0]]}}
+{"move":{"step":2,"kind":"advance","tried":"EE","blocked":[1],"cells":[[1,0],[1,0]]}}
+{"end":{"stopped":"violation","steps":2,"explored":2,"cells":3,"violations":[{"clause":"PAIR-1","step":2}]}}
+"#;
+
+fn tautline(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_tautline"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .expect("the program runs")
+}
+
+/// What the command prints on stdout, and what on stderr; it ends with exit code `code`.
+fn ended(folder: &Path, arguments: &[&str], code: i32) -> (String, String) {
+    let output = tautline(folder, arguments);
+    let text = |bytes| String::from_utf8(bytes).expect("text");
+    let (told, said) = (text(output.stdout), text(output.stderr));
+    assert_eq!(output.status.code(), Some(code), "{told}{said}");
+    (told, said)
+}
+
+fn folder(run: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("run.jsonl"), run).expect("a file");
+    folder
+}
+
+#[test]
+fn a_run_of_an_unknown_scheme_plays_as_it_was_written() {
+    let folder = folder(RUN);
+    let (told, said) = ended(folder.path(), &["replay", "run.jsonl"], 1);
+    assert_eq!(said, "");
+    assert_snapshot!(told, @"");
+}
+
+#[test]
+fn a_run_of_an_unknown_scheme_that_names_no_clause_is_as_expected() {
+    let kept = RUN
+        .replacen("\"clause\":\"PAIR-1\",\"layout\"", "\"clause\":null,\"layout\"", 1)
+        .replacen("[{\"clause\":\"PAIR-1\",\"step\":2}]", "[]", 1)
+        .replacen("\"stopped\":\"violation\"", "\"stopped\":\"exhausted\"", 1);
+    let folder = folder(&kept);
+    let (told, _) = ended(folder.path(), &["replay", "run.jsonl", "--moves", "1..1"], 0);
+    assert_snapshot!(told, @"");
+}
+
+#[test]
+fn a_run_of_an_unknown_scheme_has_a_page_a_picture_and_json() {
+    let folder = folder(RUN);
+    let folder = folder.path();
+    let (told, _) = ended(folder, &["replay", "run.jsonl", "--html", "run.html", "--svg", "run.svg"], 1);
+    assert!(told.contains("the file says that it is a counterexample to PAIR-1"), "{told}");
+    let page = fs::read_to_string(folder.join("run.html")).expect("a page");
+    assert!(page.contains("Team move 2 of 2; R1 meets a wall; breaks PAIR-1"), "{page}");
+    assert!(fs::read_to_string(folder.join("run.svg")).expect("a picture").contains("breaks PAIR-1"));
+    let (told, _) = ended(folder, &["replay", "run.jsonl", "--format", "json"], 1);
+    assert_snapshot!(told, @"");
+}
+
+#[test]
+fn a_run_of_an_unknown_scheme_that_contradicts_itself_is_refused() {
+    let folder = folder(&RUN.replacen("\"blocked\":[1]", "\"blocked\":[]", 1));
+    let (_, said) = ended(folder.path(), &["replay", "run.jsonl"], 2);
+    assert_snapshot!(said, @"");
+}
+
+#[test]
+fn a_run_of_an_unknown_scheme_is_not_minimised() {
+    let folder = folder(RUN);
+    let (_, said) = ended(folder.path(), &["minimise", "run.jsonl"], 2);
+    assert_snapshot!(said, @"");
+}
