@@ -73,7 +73,7 @@ fn the_table_of_the_spec_has_the_verdicts_of_the_ledger() {
     let ledger = document("docs/ledger.md");
     let verdicts = verdicts(&ledger);
     let mut table = "| clause | sentence | verdict |\n|---|---|---|\n".to_owned();
-    for clause in CLAUSES {
+    for clause in &CLAUSES {
         let (id, sentence) = (clause.id, clause.sentence);
         let rules = verdicts.get(id).unwrap_or_else(|| panic!("{id} is not in the ledger"));
         let rules: Vec<String> =
@@ -93,7 +93,10 @@ fn the_exit_codes_of_the_documents_are_those_of_the_help() {
     let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     let help = printed(&["--help"], 0);
     let codes = help.split("\n\n").find(|part| part.starts_with("Exit codes:")).expect("exit codes");
-    assert!(words(&document("docs/commands.md")).contains(&words(codes)), "docs/commands.md has others:\n{codes}");
+    assert!(
+        words(&document("docs/commands.md")).contains(&words(codes)),
+        "docs/commands.md has others:\n{codes}"
+    );
 }
 
 #[test]
@@ -191,6 +194,9 @@ fn the_readme_is_one_page_and_its_commands_answer() {
     }
 }
 
+/// What the documents link to before it is written.
+const TO_BE_WRITTEN: [&str; 1] = ["docs/own-rule.md"];
+
 /// The documents that people read: those of the project's folder and of docs/.
 fn documents() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -233,6 +239,10 @@ fn every_link_of_the_documents_leads_somewhere() {
         for link in of_markdown.chain(of_html).filter(|link| !link.starts_with("https://")) {
             let (file, place) = link.split_once('#').unwrap_or((link, ""));
             let target = if file.is_empty() { path.clone() } else { folder.join(file) };
+            if TO_BE_WRITTEN.iter().any(|awaited| target.ends_with(awaited)) {
+                assert!(!target.exists(), "{link} is written: strike it from the list");
+                continue;
+            }
             assert!(target.exists(), "{}: {link} leads nowhere", path.display());
             assert!(
                 place.is_empty() || anchors(&target).contains(place),
