@@ -3,6 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::iter;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -72,14 +73,15 @@ fn verdicts(ledger: &str) -> BTreeMap<&str, Vec<(&str, Vec<&str>)>> {
 fn the_table_of_the_spec_has_the_verdicts_of_the_ledger() {
     let ledger = document("docs/ledger.md");
     let verdicts = verdicts(&ledger);
-    let mut table = "| clause | sentence | verdict |\n|---|---|---|\n".to_owned();
-    for clause in &CLAUSES {
+    let rows = CLAUSES.iter().map(|clause| {
         let (id, sentence) = (clause.id, clause.sentence);
         let rules = verdicts.get(id).unwrap_or_else(|| panic!("{id} is not in the ledger"));
         let rules: Vec<String> =
             rules.iter().map(|(rule, verdicts)| format!("{rule}: {}", verdicts.join(", "))).collect();
-        table += &format!("| [{id}](#{}) | {sentence} | {} |\n", id.to_lowercase(), rules.join("; "));
-    }
+        format!("| [{id}](#{}) | {sentence} | {} |\n", id.to_lowercase(), rules.join("; "))
+    });
+    let table: String =
+        iter::once("| clause | sentence | verdict |\n|---|---|---|\n".to_owned()).chain(rows).collect();
     shows("SPEC.md", &table);
 }
 
