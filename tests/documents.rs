@@ -1,7 +1,10 @@
-//! SPEC.md and the README say what the code says: the clauses' sentences, the ledger and the pictures.
+//! SPEC.md, the README and the pages of docs/ say what the code says: the clauses' sentences, the ledger, the tables and
+//! the pictures. Their links lead somewhere.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::Path;
+use std::iter;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use insta::assert_snapshot;
@@ -13,8 +16,13 @@ fn document(name: &str) -> String {
 
 /// What the program prints in the project's folder, if it ends with `code`.
 fn printed(arguments: &[&str], code: i32) -> String {
+    printed_in(Path::new(env!("CARGO_MANIFEST_DIR")), arguments, code)
+}
+
+/// What the program prints in a folder, if it ends with `code`.
+fn printed_in(folder: &Path, arguments: &[&str], code: i32) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_tautline"))
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .current_dir(folder)
         .args(arguments)
         .env("NO_COLOR", "1")
         .output()
@@ -38,85 +46,125 @@ fn every_clause_stands_in_the_spec_word_for_word() {
     assert_eq!(stated, registered);
 }
 
+/// The verdicts of a ledger: by clause, then by rule, in the order in which they stand there, each once.
+fn verdicts(ledger: &str) -> BTreeMap<&str, Vec<(&str, Vec<&str>)>> {
+    let mut all: BTreeMap<&str, Vec<(&str, Vec<&str>)>> = BTreeMap::new();
+    for line in ledger.lines() {
+        let [id, rule, _engine, cases, verdict, _mutants] = line.split_whitespace().collect::<Vec<_>>()[..]
+        else {
+            continue;
+        };
+        if cases.parse::<u64>().is_err() {
+            continue;
+        }
+        let rules = all.entry(id).or_default();
+        let place = rules.iter().position(|&(name, _)| name == rule).unwrap_or_else(|| {
+            rules.push((rule, Vec::new()));
+            rules.len() - 1
+        });
+        if !rules[place].1.contains(&verdict) {
+            rules[place].1.push(verdict);
+        }
+    }
+    all
+}
+
 #[test]
-fn the_exit_codes_of_the_readme_are_those_of_the_help() {
+fn the_table_of_the_spec_has_the_verdicts_of_the_ledger() {
+    let ledger = document("docs/ledger.md");
+    let verdicts = verdicts(&ledger);
+    let rows = ledger::clauses().map(|clause| {
+        let (id, sentence) = (clause.id, clause.sentence);
+        let rules = verdicts.get(id).unwrap_or_else(|| panic!("{id} is not in the ledger"));
+        let rules: Vec<String> =
+            rules.iter().map(|(rule, verdicts)| format!("{rule}: {}", verdicts.join(", "))).collect();
+        format!("| [{id}](#{}) | {sentence} | {} |\n", id.to_lowercase(), rules.join("; "))
+    });
+    let table: String =
+        iter::once("| clause | sentence | verdict |\n|---|---|---|\n".to_owned()).chain(rows).collect();
+    shows("SPEC.md", &table);
+}
+
+/// The document shows the text byte for byte.
+fn shows(name: &str, text: &str) {
+    assert!(document(name).contains(text), "{name} shows something else, not\n{text}");
+}
+
+#[test]
+fn the_exit_codes_of_the_documents_are_those_of_the_help() {
     let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     let help = printed(&["--help"], 0);
     let codes = help.split("\n\n").find(|part| part.starts_with("Exit codes:")).expect("exit codes");
     assert!(
-        words(&document("README.md")).contains(&words(codes)),
-        "the README has other exit codes:\n{codes}"
+        words(&document("docs/commands.md")).contains(&words(codes)),
+        "docs/commands.md has others:\n{codes}"
     );
 }
 
 #[test]
-fn the_ledger_and_the_chart_are_those_of_the_readme() {
-    let (readme, all) = (document("README.md"), printed(&["prove"], 0));
+fn the_ledger_and_the_chart_are_those_of_the_documents() {
+    let all = printed(&["prove"], 0);
     let (ledger, stories) = all.split_once("\n\n").expect("a ledger, then counterexamples");
     for line in ledger.lines() {
         assert!(line.chars().count() <= 80, "wider than 80 columns: {line}");
     }
     assert_snapshot!("ledger", ledger);
-    assert!(readme.contains(ledger), "the README shows another ledger:\n{ledger}");
+    shows("docs/ledger.md", ledger);
     let (_, of_mrc_1) = stories.split_once("MRC-1 as published").expect("it is refuted");
     let (_, chart) = of_mrc_1.split_once("events.\n\n").expect("a chart");
     let (chart, _) = chart.split_once("\n\nMRC-2 as").expect("the next story");
-    assert!(readme.contains(chart.trim_end()), "the README shows another chart:\n{chart}");
+    shows("docs/mrc.md", chart.trim_end());
 }
 
 #[test]
-fn the_atlas_is_that_of_the_readme() {
+fn the_atlas_is_that_of_the_page() {
     let atlas = printed(&["reproduce", "atlas"], 0);
     assert_snapshot!("atlas", atlas);
     let (table, _) = atlas.split_once("\n\nlayouts:").expect("a table, then what it means");
-    assert!(document("README.md").contains(table), "the README shows another atlas:\n{table}");
+    shows("docs/chain.md", table);
 }
 
 #[test]
-fn the_distance_from_the_optimum_is_that_of_the_readme() {
-    let table = printed(&["reproduce", "optimum"], 0);
-    assert!(document("README.md").contains(&table), "the README shows another table:\n{table}");
+fn the_distance_from_the_optimum_is_that_of_the_page() {
+    shows("docs/chain.md", &printed(&["reproduce", "optimum"], 0));
 }
 
 #[test]
-fn the_reach_of_broadcasts_is_that_of_the_readme() {
-    let table = printed(&["reproduce", "notice-fig5"], 0);
-    assert!(document("README.md").contains(&table), "the README shows another table:\n{table}");
+fn the_reach_of_broadcasts_is_that_of_the_page() {
+    shows("docs/notice.md", &printed(&["reproduce", "notice-fig5"], 0));
 }
 
 #[test]
-fn the_ways_of_robots_are_those_of_the_readme() {
-    let table = printed(&["reproduce", "rescue-fig7"], 0);
-    assert!(document("README.md").contains(&table), "the README shows another table:\n{table}");
+fn the_ways_of_robots_are_those_of_the_page() {
+    shows("docs/tan.md", &printed(&["reproduce", "rescue-fig7"], 0));
 }
 
 #[test]
-fn a_thousand_rescues_are_those_of_the_readme() {
+fn a_thousand_rescues_are_those_of_the_page() {
     let rescues =
         ["rescue", "--wfr", "3", "--robots", "3", "--loss", "0.1", "--failing", "1", "--seeds", "0..999"];
-    let table = printed(&rescues, 0);
-    assert!(document("README.md").contains(&table), "the README shows another table:\n{table}");
+    shows("docs/rescue.md", &printed(&rescues, 0));
 }
 
 #[test]
-fn the_pictures_of_the_readme_are_drawn_by_the_commands_beside_them() {
-    let readme = document("README.md");
+fn the_pictures_are_drawn_by_the_commands_beside_them() {
     let folder = tempfile::tempdir().expect("a folder");
-    for (picture, arguments, code) in [
-        ("environments.svg", "show environments --svg", 0),
-        ("move.svg", "replay docs/open-7x7.jsonl --moves 5..5 --svg", 0),
-        ("spiral.svg", "explore open:15x15 --robots 8 --draw order --svg", 0),
-        ("notice-reach.svg", "reproduce notice-fig5 --svg-reach", 0),
-        ("notice-rebroadcasts.svg", "reproduce notice-fig5 --svg-rebroadcasts", 0),
-        ("walked.svg", "reproduce rescue-fig7 --svg", 0),
-        ("ways.svg", "reproduce rescue-fig6 --svg", 0),
-        ("lakes.svg", "reproduce rescue-fig10 --svg", 0),
-        ("rescue.svg", "reproduce rescue-fig8 --svg", 0),
-        ("crowding.svg", "replay docs/chain-2-published-n4.jsonl --svg", 1),
-        ("dear.svg", "replay docs/chain-12-published-n47.jsonl --svg", 1),
-        ("trap.svg", "replay docs/bricks-4-repaired-n1.jsonl --moves 1..5 --svg", 1),
+    for (page, picture, arguments, code) in [
+        ("docs/chain.md", "environments.svg", "show environments --svg", 0),
+        ("docs/chain.md", "move.svg", "replay docs/open-7x7.jsonl --moves 5..5 --svg", 0),
+        ("docs/chain.md", "spiral.svg", "explore open:15x15 --robots 8 --draw order --svg", 0),
+        ("docs/notice.md", "notice-reach.svg", "reproduce notice-fig5 --svg-reach", 0),
+        ("docs/notice.md", "notice-rebroadcasts.svg", "reproduce notice-fig5 --svg-rebroadcasts", 0),
+        ("docs/tan.md", "walked.svg", "reproduce rescue-fig7 --svg", 0),
+        ("docs/tan.md", "ways.svg", "reproduce rescue-fig6 --svg", 0),
+        ("docs/tan.md", "lakes.svg", "reproduce rescue-fig10 --svg", 0),
+        ("docs/rescue.md", "rescue.svg", "reproduce rescue-fig8 --svg", 0),
+        ("README.md", "crowding.svg", "replay docs/chain-2-published-n4.jsonl --svg", 1),
+        ("docs/chain.md", "crowding.svg", "replay docs/chain-2-published-n4.jsonl --svg", 1),
+        ("docs/chain.md", "dear.svg", "replay docs/chain-12-published-n47.jsonl --svg", 1),
+        ("docs/floor.md", "trap.svg", "replay docs/bricks-4-repaired-n1.jsonl --moves 1..5 --svg", 1),
     ] {
-        assert!(readme.contains(&format!("tautline {arguments} docs/{picture}")), "{picture}");
+        shows(page, &format!("tautline {arguments} docs/{picture}"));
         let drawn = folder.path().join(picture);
         let arguments: Vec<&str> =
             arguments.split(' ').chain([drawn.to_str().expect("a plain name")]).collect();
@@ -127,4 +175,82 @@ fn the_pictures_of_the_readme_are_drawn_by_the_commands_beside_them() {
     let run = folder.path().join("run");
     printed(&["explore", "open:7x7", "--robots", "4", "--trace", run.to_str().expect("a plain name")], 0);
     assert_eq!(fs::read_to_string(run).expect("a run"), document("docs/open-7x7.jsonl"));
+}
+
+#[test]
+fn the_readme_is_one_page_and_its_commands_answer() {
+    let readme = document("README.md");
+    assert!(readme.len() <= 10_000, "{} bytes", readme.len());
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::create_dir(folder.path().join("docs")).expect("a folder");
+    let run = "docs/chain-2-published-n4.jsonl";
+    fs::write(folder.path().join(run), document(run)).expect("a run");
+    let commands = readme.lines().filter_map(|line| line.strip_prefix("cargo run --release -- "));
+    let commands: Vec<&str> = commands.map(|line| line.split('#').next().unwrap_or(line).trim()).collect();
+    let [all, quick @ ..] = &commands[..] else { panic!("the README has no commands") };
+    assert_eq!(*all, "prove");
+    assert_eq!(quick.len(), 3, "{quick:?}");
+    for (command, code) in quick.iter().zip([1, 1, 0]) {
+        let arguments: Vec<&str> = command.split_whitespace().collect();
+        assert!(!printed_in(folder.path(), &arguments, code).is_empty(), "{command}");
+    }
+}
+
+/// What the documents link to before it is written.
+const TO_BE_WRITTEN: [&str; 1] = ["docs/own-rule.md"];
+
+/// The documents that people read: those of the project's folder and of docs/.
+fn documents() -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let entries = [root.to_owned(), root.join("docs")].into_iter().flat_map(|folder| {
+        fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path())
+    });
+    let mut found: Vec<PathBuf> =
+        entries.filter(|path| path.extension().is_some_and(|extension| extension == "md")).collect();
+    found.sort();
+    found
+}
+
+/// What GitHub makes of a heading, to link to it.
+fn anchor(heading: &str) -> String {
+    let kept = heading.trim().chars().filter(|&c| c.is_alphanumeric() || " -_".contains(c));
+    kept.map(|c| if c == ' ' { '-' } else { c.to_ascii_lowercase() }).collect()
+}
+
+/// The anchors of a document. Its headings do not stand within a block of code.
+fn anchors(path: &Path) -> BTreeSet<String> {
+    let text = fs::read_to_string(path).expect("a document");
+    let mut in_code = false;
+    let mut found = BTreeSet::new();
+    for line in text.lines() {
+        in_code ^= line.starts_with("```");
+        if !in_code && line.starts_with('#') {
+            found.insert(anchor(line.trim_start_matches('#')));
+        }
+    }
+    found
+}
+
+#[test]
+fn every_link_of_the_documents_leads_somewhere() {
+    for path in documents() {
+        let text = fs::read_to_string(&path).expect("a document");
+        let folder = path.parent().expect("a folder");
+        let of_markdown = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+        let of_html = text.split("src=\"").skip(1).filter_map(|rest| rest.split('"').next());
+        for link in of_markdown.chain(of_html).filter(|link| !link.starts_with("https://")) {
+            let (file, place) = link.split_once('#').unwrap_or((link, ""));
+            let target = if file.is_empty() { path.clone() } else { folder.join(file) };
+            if TO_BE_WRITTEN.iter().any(|awaited| target.ends_with(awaited)) {
+                assert!(!target.exists(), "{link} is written: strike it from the list");
+                continue;
+            }
+            assert!(target.exists(), "{}: {link} leads nowhere", path.display());
+            assert!(
+                place.is_empty() || anchors(&target).contains(place),
+                "{}: {link} has no such heading",
+                path.display()
+            );
+        }
+    }
 }

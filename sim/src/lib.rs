@@ -15,7 +15,7 @@ pub mod trace;
 pub mod wide;
 pub mod words;
 
-/// The README's code, compiled and run.
+/// The code of the page on embedding, compiled and run.
 #[cfg(doctest)]
-#[doc = include_str!("../../README.md")]
-struct Readme;
+#[doc = include_str!("../../docs/embed.md")]
+struct Embedding;
