@@ -2,12 +2,20 @@
 //! It looks right, and it is not: searched in all layouts of a small area, it breaks its promise where a wall stands
 //! between the two at the start. Repaired, both start in one cell.
 
+use std::env;
+use std::error::Error;
+use std::path::Path;
+
 use tautline_kernel::ground::{Cell, Side, Step};
 use tautline_proofs::clause::{Check, Clause, Named};
-use tautline_proofs::decide::Refused;
+use tautline_proofs::decide::Seen;
 use tautline_proofs::decide::Verdict::{Holds, Refuted};
-use tautline_proofs::ledger;
+use tautline_proofs::ledger::{self, Row};
+use tautline_proofs::run::Run;
 use tautline_proofs::team::{Demand, Keeps, Layouts, Team};
+use tautline_sim::aside::Replaceable;
+use tautline_sim::counterexample::minimise::Shrunk;
+use tautline_sim::counterexample::own::Found;
 
 /// Two robots, and all that they know. The last two fields are the rule.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -51,14 +59,14 @@ static LAYOUTS: Layouts<Pair, Pair, 2> = Layouts {
     longest_run: 100,
     start: |pair| (*pair, pair.cells),
     demands: &[
-        Demand::always("the robots are at most two steps apart", |moved| {
+        Demand::always("FOLLOW-1", "the robots are at most two steps apart", |moved| {
             let (columns, rows) = moved.to[0].apart(moved.to[1]);
             columns + rows <= 2
         }),
-        Demand::always("the follower enters no occupied cell", |moved| {
+        Demand::always("FOLLOW-2", "the follower enters no occupied cell", |moved| {
             moved.from[1] == moved.to[1] || moved.to[0] != moved.to[1]
         }),
-        Demand::never_endless("no run comes back to where it was"),
+        Demand::never_endless("FOLLOW-3", "no run comes back to where it was"),
     ],
     covers: &[
         ("a step", |moved| moved.from[1] != moved.to[1]),
@@ -93,21 +101,54 @@ pub static CLAUSES: [Clause; 3] = [
     },
 ];
 
-fn main() -> Result<(), Refused> {
-    let clauses = ledger::register(&[&CLAUSES]).map_err(Refused::new)?;
-    print!("{}", ledger::table(&ledger::decide_all(&clauses)?));
+/// The smallest run that breaks a check which is registered as refuted.
+fn counterexample(rows: &[Row]) -> Option<&Run> {
+    rows.iter().find_map(|row| match &row.decision.counterexample.as_ref()?.seen {
+        Seen::Robots(run) => Some(&**run),
+        _ => None,
+    })
+}
+
+/// Prints the ledger, and stores the counterexample in the file that is named, if one is.
+fn main() -> Result<(), Box<dyn Error>> {
+    let rows = ledger::decide_all(&ledger::register(&[&CLAUSES])?)?;
+    print!("{}", ledger::table(&rows));
+    if let (Some(path), Some(run)) = (env::args().nth(1), counterexample(&rows)) {
+        let found = Found { layouts: &LAYOUTS, rule: ("written", &WRITTEN), run };
+        let Shrunk { case, .. } = found.minimise()?;
+        let (file, _) = found.store(Path::new(&path), &Replaceable::default())?;
+        file.keep()?;
+        println!("\nThe smallest layout that breaks it:\n{}", case.layout);
+        println!("play it with: tautline replay {path}");
+    }
     Ok(())
 }
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]
-    fn every_check_comes_out_as_it_is_registered() {
+    fn every_check_comes_out_as_it_is_registered_and_what_is_found_is_what_the_tutorial_draws() {
         let rows = ledger::decide_all(&ledger::register(&[&CLAUSES]).expect("ids of their own"));
-        for row in rows.expect("it can be searched") {
+        let rows = rows.expect("it can be searched");
+        for row in &rows {
             assert!(row.is_as_registered(), "{}: {:?}", row.clause.id, row.decision);
         }
+        let run = counterexample(&rows).expect("the rule as written is refuted");
+        let found = Found { layouts: &LAYOUTS, rule: ("written", &WRITTEN), run };
+        let shrunk = found.minimise().expect("nobody stops it");
+        assert_eq!(
+            (run.walls.len(), run.frames.len(), shrunk.case.layout.to_string().lines().count()),
+            (1, 2, 6)
+        );
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("found.jsonl");
+        found.store(&path, &Replaceable::default()).expect("room").0.keep().expect("room");
+        let read = |path: &Path| fs::read_to_string(path).expect("a file");
+        let drawn = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/follow-1-written.jsonl");
+        assert_eq!(read(&path), read(&drawn));
     }
 }

@@ -46,25 +46,56 @@ enum When<T: 'static, const ROBOTS: usize> {
 
 /// What is demanded of a team.
 pub struct Demand<T: 'static, const ROBOTS: usize> {
-    /// In words.
-    words: &'static str,
+    /// The id of the clause that demands it.
+    pub id: &'static str,
+    /// What it demands, in words.
+    pub words: &'static str,
     when: When<T, ROBOTS>,
 }
 
 impl<T, const ROBOTS: usize> Demand<T, ROBOTS> {
     /// Of every team move.
-    pub const fn always(words: &'static str, is_kept: fn(&Moved<'_, T, ROBOTS>) -> bool) -> Self {
-        Self { words, when: When::Always(is_kept) }
+    pub const fn always(
+        id: &'static str,
+        words: &'static str,
+        is_kept: fn(&Moved<'_, T, ROBOTS>) -> bool,
+    ) -> Self {
+        Self { id, words, when: When::Always(is_kept) }
     }
 
     /// Of the end of every run that ends.
-    pub const fn at_the_end(words: &'static str, is_kept: fn(&T, &[Cell; ROBOTS]) -> bool) -> Self {
-        Self { words, when: When::AtTheEnd(is_kept) }
+    pub const fn at_the_end(
+        id: &'static str,
+        words: &'static str,
+        is_kept: fn(&T, &[Cell; ROBOTS]) -> bool,
+    ) -> Self {
+        Self { id, words, when: When::AtTheEnd(is_kept) }
     }
 
     /// That no run comes back to where it was. Where this is not demanded, a run that does is over.
-    pub const fn never_endless(words: &'static str) -> Self {
-        Self { words, when: When::NeverEndless }
+    pub const fn never_endless(id: &'static str, words: &'static str) -> Self {
+        Self { id, words, when: When::NeverEndless }
+    }
+
+    /// Whether a team move breaks it.
+    pub fn is_broken_by(&self, moved: &Moved<'_, T, ROBOTS>) -> bool {
+        match self.when {
+            When::Always(is_kept) => !is_kept(moved),
+            When::AtTheEnd(_) | When::NeverEndless => false,
+        }
+    }
+
+    /// Whether a run breaks it that ends with the robots in `cells`.
+    pub fn is_broken_at_end(&self, team: &T, cells: &[Cell; ROBOTS]) -> bool {
+        match self.when {
+            When::AtTheEnd(is_kept) => !is_kept(team, cells),
+            When::Always(_) | When::NeverEndless => false,
+        }
+    }
+
+    /// Whether a run breaks it that never ends.
+    pub const fn is_broken_by_endless_runs(&self) -> bool {
+        matches!(self.when, When::NeverEndless)
     }
 }
 
@@ -135,7 +166,7 @@ impl<R, T: Team<ROBOTS>, const ROBOTS: usize> Layouts<R, T, ROBOTS> {
             starts: (self.start)(rule).1.to_vec(),
             walls: walls(&found.frames),
             frames: found.frames.clone(),
-            breaks: None,
+            breaks: self.demands.get(found.broken.0).map(|demand| demand.id),
         }
     }
 
@@ -211,8 +242,10 @@ pub struct State<T, const ROBOTS: usize> {
 }
 
 impl<R, T: Team<ROBOTS>, const ROBOTS: usize> InLayouts<R, T, ROBOTS> {
-    fn demands(&self) -> impl Iterator<Item = (Promise, &'static Demand<T, ROBOTS>)> {
-        self.layouts.demands.iter().enumerate().map(|(number, demand)| (Promise(number), demand))
+    /// The first demand that is broken.
+    fn first(&self, is_broken: impl Fn(&Demand<T, ROBOTS>) -> bool) -> Option<(Promise, &'static str)> {
+        let number = self.layouts.demands.iter().position(is_broken)?;
+        Some((Promise(number), self.layouts.demands[number].words))
     }
 }
 
@@ -259,17 +292,11 @@ impl<R, T: Team<ROBOTS>, const ROBOTS: usize> Game for InLayouts<R, T, ROBOTS> {
 
     fn broken_by(&self, turn: &Turn<'_, Self>) -> Option<Broken<Self>> {
         let moved = moved(turn);
-        self.demands().find_map(|(promise, Demand { words, when })| match when {
-            When::Always(is_kept) => (!is_kept(&moved)).then_some((promise, *words)),
-            When::AtTheEnd(_) | When::NeverEndless => None,
-        })
+        self.first(|demand| demand.is_broken_by(&moved))
     }
 
     fn broken_at_end(&self, state: &Self::State, _: &[u8]) -> Option<Broken<Self>> {
-        self.demands().find_map(|(promise, Demand { words, when })| match when {
-            When::AtTheEnd(is_kept) => (!is_kept(&state.team, &state.cells)).then_some((promise, *words)),
-            When::Always(_) | When::NeverEndless => None,
-        })
+        self.first(|demand| demand.is_broken_at_end(&state.team, &state.cells))
     }
 
     fn recurs(
@@ -282,10 +309,7 @@ impl<R, T: Team<ROBOTS>, const ROBOTS: usize> Game for InLayouts<R, T, ROBOTS> {
         if (&then.team, then.cells) != (&now.team, now.cells) {
             return ControlFlow::Continue(());
         }
-        ControlFlow::Break(self.demands().find_map(|(promise, Demand { words, when })| match when {
-            When::NeverEndless => Some((promise, *words)),
-            When::Always(_) | When::AtTheEnd(_) => None,
-        }))
+        ControlFlow::Break(self.first(Demand::is_broken_by_endless_runs))
     }
 
     fn edges(&self) -> u32 {

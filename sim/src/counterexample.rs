@@ -4,4 +4,5 @@
 pub mod exhibit;
 pub mod hunt;
 pub mod minimise;
+pub mod own;
 pub mod refutation;

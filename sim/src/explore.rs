@@ -11,6 +11,7 @@ mod chart;
 mod clause;
 pub mod floor;
 mod misfit;
+mod own;
 mod rule;
 mod run;
 mod setup;
@@ -19,6 +20,7 @@ mod stage;
 pub use self::chart::Chart;
 pub use self::clause::ClauseId;
 pub use self::misfit::Misfit;
+pub use self::own::Own;
 pub use self::rule::{RuleId, RuleName};
 pub use self::run::{
     End, Limits, Milestone, OnViolation, Report, Stopped, Team, TeamMove, Violation, Watcher, run,

@@ -26,16 +26,25 @@ use crate::trace;
 /// # Errors
 /// [`Problem`] if the area is too large for a layout, or the base is outside.
 pub fn setup(scheme: &'static Profile, rule: impl Into<RuleId>, found: &Run) -> Result<Setup, Problem> {
+    let (mut layout, starts) = layout(found)?;
+    let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
+    layout.place_base(base)?;
+    let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
+    Ok(Setup { limits, ..Setup::new(scheme, rule, starts.len() as u16, layout, base) })
+}
+
+/// The layout of a run that was found, which has the walls that were met and no others; and where the robots start in it.
+///
+/// # Errors
+/// [`Problem`] if the area is too large for a layout.
+pub fn layout(found: &Run) -> Result<(Layout, Vec<Cell>), Problem> {
     let mut layout = Layout::open(found.area.width() as u64, found.area.height() as u64)?;
     let origin = found.area.first();
     let shifted = |cell: Cell| Cell::new(cell.x - origin.x, cell.y - origin.y);
     for wall in &found.walls {
         layout.build_wall(Edge::new(shifted(wall.cell()), wall.side()));
     }
-    let base = shifted(found.starts.first().copied().unwrap_or(origin));
-    layout.place_base(base)?;
-    let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
-    Ok(Setup { limits, ..Setup::new(scheme, rule, found.starts.len() as u16, layout, base) })
+    Ok((layout, found.starts.iter().copied().map(shifted).collect()))
 }
 
 /// The place in `folder` of a run of `setup` that breaks `clause`. The scheme is in its name unless the clause tells it.

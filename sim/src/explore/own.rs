@@ -1,0 +1,80 @@
+//! A team of one's own that is searched over all layouts ([`tautline_proofs::team`]), as a run plays it: in one layout, with
+//! what it breaks.
+
+use tautline_kernel::chain::Kind;
+use tautline_kernel::ground::{Cell, Edge, Step};
+use tautline_proofs::run::Frame;
+use tautline_proofs::team::{self, Demand, Moved};
+
+use super::chart::Chart;
+use super::clause::ClauseId;
+use super::run::{End, Team};
+use crate::layout::Layout;
+
+/// A team that is played in one layout.
+pub struct Own<T: 'static, const ROBOTS: usize> {
+    team: T,
+    /// Before the last team move.
+    before: T,
+    cells: [Cell; ROBOTS],
+    demands: &'static [Demand<T, ROBOTS>],
+    /// Where the team was, moved on at powers of two (Brent's search for cycles).
+    mark: (T, [Cell; ROBOTS]),
+    moved: u32,
+}
+
+impl<T: team::Team<ROBOTS>, const ROBOTS: usize> Own<T, ROBOTS> {
+    /// `team` at its start, in these cells.
+    pub const fn new(team: T, cells: [Cell; ROBOTS], demands: &'static [Demand<T, ROBOTS>]) -> Self {
+        Self { team, before: team, cells, demands, mark: (team, cells), moved: 0 }
+    }
+
+    fn broken(&self, is_broken: impl Fn(&Demand<T, ROBOTS>) -> bool) -> Vec<ClauseId> {
+        let broken = self.demands.iter().filter(|demand| is_broken(demand));
+        broken.map(|demand| ClauseId::new(demand.id)).collect()
+    }
+}
+
+impl<T: team::Team<ROBOTS>, const ROBOTS: usize> Team for Own<T, ROBOTS> {
+    fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+        if self.moved > 0 && self.mark == (self.team, self.cells) {
+            return Err(End::Endless);
+        }
+        if self.moved.is_power_of_two() {
+            self.mark = (self.team, self.cells);
+        }
+        self.moved += 1;
+        self.before = self.team;
+        let steps = self.team.plan().ok_or(End::Exhausted)?;
+        let mut blocked = [false; ROBOTS];
+        for (robot, step) in steps.iter().enumerate() {
+            let cell = &mut self.cells[robot];
+            blocked[robot] = matches!(*step, Step::Cross(side) if !is_open(Edge::new(*cell, side)));
+            if !blocked[robot] {
+                *cell = cell.after(*step);
+            }
+        }
+        self.team.settle(self.cells, blocked);
+        let (steps, blocked, cells) = (steps.to_vec(), blocked.to_vec(), self.cells.to_vec());
+        Ok(Frame { kind: Kind::Advance, steps, blocked, cells })
+    }
+
+    fn broken_in_move(&self, before: &[Cell], _: &Frame) -> Vec<ClauseId> {
+        let Ok(from) = before.try_into() else { return Vec::new() };
+        let moved = Moved { before: &self.before, after: &self.team, from, to: self.cells };
+        self.broken(|demand| demand.is_broken_by(&moved))
+    }
+
+    fn broken_at_end(&self, _: &Layout, _: &Chart, end: End) -> Vec<ClauseId> {
+        match end {
+            End::Explored | End::Exhausted => {
+                self.broken(|demand| demand.is_broken_at_end(&self.team, &self.cells))
+            }
+            End::Endless => self.broken(Demand::is_broken_by_endless_runs),
+        }
+    }
+}
