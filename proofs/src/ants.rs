@@ -2,3 +2,4 @@
 
 pub mod clauses;
 mod colony;
+mod walk;

@@ -11,31 +11,22 @@
 use std::ops::ControlFlow;
 
 use rayon::prelude::*;
-use tautline_kernel::ants;
-use tautline_kernel::bricks::{Agent, Condition, Next, Rule, act};
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::floor::{Mark, Scan, Sensor, settle};
+use tautline_kernel::floor::{Mark, Sensor, settle};
 use tautline_kernel::ground::Cell;
 
+pub use super::agents::{Acted, Agents};
 use super::plans::{CELLS, FloorPlan, blocked};
 use super::small::{Misses, Small, is_shut, marked};
+pub use super::way::Way;
 use crate::engine::outcomes;
 use crate::engine::states::{Bits, Run, Step, System, search};
 
-/// How agents decide.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Way {
-    /// By the crossings of the cells around.
-    Ants(ants::Rule),
-    /// By marking cells.
-    Bricks(Rule),
-}
-
 /// What to search for, and how far.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Bounds {
+pub struct Bounds<A = Way> {
     /// How the agents decide.
-    pub way: Way,
+    pub way: A,
     /// How many they are: one or two.
     pub agents: u32,
     /// Sensors that are missed in a run at most.
@@ -110,7 +101,7 @@ const DONE: &str = "an agent is done only when every cell is explored";
 const ENDLESS: &str = "every cell is explored in the end";
 
 /// The smallest trap within `bounds`. `watch` hears after each wave what has been found, and may end the search.
-pub fn hunt(bounds: &Bounds, watch: &mut dyn FnMut(&Found) -> ControlFlow<()>) -> Found {
+pub fn hunt<A: Agents>(bounds: &Bounds<A>, watch: &mut dyn FnMut(&Found) -> ControlFlow<()>) -> Found {
     let mut found = Found::default();
     for misses in 0..=bounds.max_misses {
         for (width, height) in areas(bounds) {
@@ -129,7 +120,7 @@ pub fn hunt(bounds: &Bounds, watch: &mut dyn FnMut(&Found) -> ControlFlow<()>) -
 }
 
 /// The areas, the smallest first.
-fn areas(bounds: &Bounds) -> Vec<(i16, i16)> {
+fn areas<A>(bounds: &Bounds<A>) -> Vec<(i16, i16)> {
     let mut areas: Vec<(i16, i16)> = (1..=bounds.max_width)
         .flat_map(|width| (1..=bounds.max_height).map(move |height| (width, height)))
         .filter(|&(width, height)| width as usize * height as usize <= MAX_CELLS)
@@ -140,9 +131,9 @@ fn areas(bounds: &Bounds) -> Vec<(i16, i16)> {
 
 impl Found {
     /// Looks at all layouts of an area, if it may get to their end.
-    fn look(
+    fn look<A: Agents>(
         &mut self,
-        bounds: &Bounds,
+        bounds: &Bounds<A>,
         misses: u8,
         (width, height): (i16, i16),
         watch: &mut dyn FnMut(&Self) -> ControlFlow<()>,
@@ -187,30 +178,30 @@ struct Look {
 }
 
 /// An agent on the floor.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-struct Body {
-    agent: Agent,
+#[derive(Clone, PartialEq, Eq, Hash)]
+struct Body<M> {
+    memory: M,
     cell: Cell,
     is_done: bool,
 }
 
 /// A floor and its agents.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
-struct State {
+#[derive(Clone, PartialEq, Eq, Hash)]
+struct State<M> {
     sensors: [Sensor; CELLS],
     placed: [u8; CELLS],
-    bodies: Vec<Body>,
+    bodies: Vec<Body<M>>,
     misses: u8,
 }
 
 /// The floors of one plan: a system whose steps are team moves.
-struct Floors {
-    way: Way,
+struct Floors<A> {
+    way: A,
     plan: FloorPlan,
     misses: u8,
 }
 
-impl Floors {
+impl<A: Agents> Floors<A> {
     /// Looks at every start.
     fn look(&self, agents: u32, most_steps: u32) -> Look {
         let starts: Vec<Vec<Cell>> = self.plan.starts(agents).collect();
@@ -219,34 +210,24 @@ impl Floors {
         Look { states: found.states, steps: found.steps, is_whole: found.is_whole, trap }
     }
 
-    fn start(&self, cells: &[Cell]) -> State {
+    fn start(&self, cells: &[Cell]) -> State<A::Memory> {
         let (mut sensors, mut placed) = ([Sensor::default(); CELLS], [0; CELLS]);
         let mut floor = Small { plan: &self.plan, sensors: &mut sensors, placed: &mut placed };
         settle(&mut floor, cells);
-        let bodies = (0..).zip(cells).map(|(id, &cell)| Body { agent: Agent::new(id), cell, is_done: false });
+        let bodies =
+            (0..).zip(cells).map(|(id, &cell)| Body { memory: self.way.memory(id), cell, is_done: false });
         let mut state = State { sensors, placed, bodies: bodies.collect(), misses: 0 };
         self.forget(&mut state);
         state
     }
 
-    fn has(&self, condition: Condition) -> bool {
-        match self.way {
-            Way::Ants(_) => false,
-            Way::Bricks(rule) => rule.has(condition),
-        }
-    }
-
     /// What no agent ever reads is left out of the state.
-    fn forget(&self, state: &mut State) {
-        if !self.has(Condition::SeenOnly) {
+    fn forget(&self, state: &mut State<A::Memory>) {
+        if !self.way.reads_serials() {
             state.placed = [0; CELLS];
             state.sensors.iter_mut().for_each(|sensor| sensor.serial = 0);
         }
-        let are_crossings_read = match self.way {
-            Way::Ants(_) => true,
-            Way::Bricks(rule) => rule.has(Condition::LeastCrossed),
-        };
-        if !are_crossings_read {
+        if !self.way.reads_crossings() {
             state.sensors.iter_mut().for_each(|sensor| sensor.crossings = 0);
         } else if state.misses == self.misses {
             self.forget_in_trap(state);
@@ -255,11 +236,11 @@ impl Floors {
 
     /// Where agents can get to no unexplored cell any more no sensor is placed any more, so that only the differences
     /// between crossings count.
-    fn forget_in_trap(&self, state: &mut State) {
+    fn forget_in_trap(&self, state: &mut State<A::Memory>) {
         let awake = state.bodies.iter().filter(|body| !body.is_done);
         let under =
             awake.filter_map(|body| self.plan.place(body.cell)).fold(0, |set, place| set | 1 << place);
-        let mut rest = under | self.marked(state, |mark| self.is_passable(mark));
+        let mut rest = under | self.marked(state, |mark| self.way.passes(mark));
         let unexplored = self.marked(state, |mark| mark == Mark::Unexplored);
         let mut least = [0; CELLS];
         while rest != 0 {
@@ -280,24 +261,16 @@ impl Floors {
         }
     }
 
-    const fn is_passable(&self, mark: Mark) -> bool {
-        match (mark, self.way) {
-            (Mark::Unexplored | Mark::Explored | Mark::Closing, _) | (Mark::Visited, Way::Ants(_)) => true,
-            (Mark::Visited, Way::Bricks(rule)) => rule.has(Condition::SecondPass),
-            (Mark::Sealed, _) => false,
-        }
-    }
-
-    fn marked(&self, state: &State, is: impl Fn(Mark) -> bool) -> u16 {
+    fn marked(&self, state: &State<A::Memory>, is: impl Fn(Mark) -> bool) -> u16 {
         marked(&self.plan, &state.sensors, is)
     }
 
-    fn is_explored(&self, state: &State) -> bool {
+    fn is_explored(&self, state: &State<A::Memory>) -> bool {
         self.marked(state, |mark| mark == Mark::Unexplored) == 0
     }
 
     /// Makes a team move; whether an agent is done in it while a cell is unexplored.
-    fn advance(&self, state: &mut State, world: &mut dyn Oracle) -> bool {
+    fn advance(&self, state: &mut State<A::Memory>, world: &mut dyn Oracle) -> bool {
         let mut is_early = false;
         for number in 0..state.bodies.len() {
             let State { sensors, placed, bodies, misses: _ } = &mut *state;
@@ -306,25 +279,15 @@ impl Floors {
                 continue;
             }
             let mut floor = Small { plan: &self.plan, sensors, placed };
-            match self.way {
-                Way::Ants(rule) => {
-                    let scan = Scan::new(&floor, body.cell, world);
-                    if let Some(side) = ants::act(rule, &mut floor, body.cell, &scan) {
-                        body.cell = body.cell.beyond(side);
-                    }
-                }
-                Way::Bricks(rule) => {
-                    let (act, cell) = act(rule, &mut floor, &mut body.agent, body.cell, world);
-                    (body.cell, body.is_done) = (cell, act.next == Next::Done);
-                    is_early |= body.is_done && !self.is_explored(state);
-                }
-            }
+            let acted = self.way.act(&mut floor, &mut body.memory, body.cell, world);
+            (body.cell, body.is_done) = (acted.cell, acted.is_done);
+            is_early |= acted.is_done && !self.is_explored(state);
         }
         is_early
     }
 
     /// Every team move from `state`; none once the run is over.
-    fn moves(&self, state: &State) -> impl Iterator<Item = Moved> {
+    fn moves(&self, state: &State<A::Memory>) -> impl Iterator<Item = Moved<A::Memory>> {
         outcomes(|world| {
             if self.awake(state) == 0 || self.is_explored(state) {
                 return None;
@@ -366,8 +329,8 @@ impl Floors {
 }
 
 /// What a team move leads to.
-struct Moved {
-    state: State,
+struct Moved<M> {
+    state: State<M>,
     /// Whether an agent is done in it while a cell is unexplored.
     is_early: bool,
     /// Questions that were asked in it.
@@ -396,17 +359,17 @@ impl Oracle for Questions<'_> {
     }
 }
 
-impl System for Floors {
-    type State = State;
-    type Key = State;
+impl<A: Agents> System for Floors<A> {
+    type State = State<A::Memory>;
+    type Key = State<A::Memory>;
     type Demand = &'static str;
 
-    fn key(&self, state: &State) -> State {
+    fn key(&self, state: &State<A::Memory>) -> State<A::Memory> {
         state.clone()
     }
 
-    fn steps(&self, state: &State) -> impl Iterator<Item = Step<State, &'static str>> {
-        let step = |Moved { state, is_early, .. }: Moved| {
+    fn steps(&self, state: &State<A::Memory>) -> impl Iterator<Item = Step<State<A::Memory>, &'static str>> {
+        let step = |Moved { state, is_early, .. }: Moved<A::Memory>| {
             let breaks = if is_early { vec![DONE] } else { Vec::new() };
             Step { state, situation: "a team move", acting: 1, is_bound: true, breaks }
         };
@@ -418,7 +381,7 @@ impl System for Floors {
     }
 
     /// The team as a whole: all that are not done act in every step.
-    fn awake(&self, state: &State) -> Bits {
+    fn awake(&self, state: &State<A::Memory>) -> Bits {
         state.bodies.iter().any(|body| !body.is_done).into()
     }
 }

@@ -1,0 +1,198 @@
+//! Who may import whom: arrows run one way, from the program down to the kernel, and a scheme is a room of its own, which
+//! the shared rooms do not know. A room is a top-level module of a crate; the root of a crate may import all of its rooms.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// By crate: the crates of ours that it may use. The program stands in the folder of the workspace.
+const BELOW: &str = "
+    kernel:
+    proofs: kernel
+    sim: kernel proofs
+    .: kernel proofs sim";
+
+/// By crate and rooms: the other rooms that may import them; `*` are all. The robust rule of bricks goes where an agent has
+/// been least, as ants do.
+const KNOWN_TO: &str = "
+    kernel choice conditions floor ground net: *
+    kernel ants: bricks
+    kernel bricks chain mrc notice perception tan:
+    proofs clause course decide engine run step_check words: *
+    proofs judge ledger:
+    proofs floor: ants bricks
+    proofs ground: ledger chain
+    proofs ants bricks chain mrc notice tan: ledger
+    sim tables:";
+
+/// By crate and rooms: the only rooms that they may import.
+const KNOWS: &str = "
+    proofs engine: words
+    proofs judge words:
+    sim stats fault words: stats fault words";
+
+/// Crates whose rooms all have a line that says who may import them.
+const ALL_LISTED: [&str; 2] = ["kernel", "proofs"];
+
+/// Folders whose files are no longer than [`MOST_LINES`], but for those in [`LONGER`].
+const FOLDERS: [&str; 7] = ["kernel/src", "proofs/src", "sim/src", "src", "examples", "benches", "fuzz/src"];
+const MOST_LINES: usize = 550;
+const LONGER: [&str; 1] = ["sim/src/explore.rs"];
+
+/// The right side of a table's line that begins with `part` and names `room`, if there is one.
+fn line(table: &'static str, part: &str, room: &str) -> Option<Vec<&'static str>> {
+    let sides = table.lines().filter_map(|line| line.trim().split_once(':'));
+    let mut named = sides.filter(|(left, _)| {
+        let mut words = left.split(' ');
+        words.next() == Some(part) && (room.is_empty() || words.any(|word| word == room))
+    });
+    named.next().map(|(_, right)| right.split_whitespace().collect())
+}
+
+/// The room that a file belongs to.
+fn room(file: &str) -> &str {
+    file.split(['/', '.']).next().unwrap_or(file)
+}
+
+/// The rooms that a file names by a path from the root of its crate, and the crates of ours that it names. The text is laid
+/// out by rustfmt: a module within a file ends at a brace that stands as far in as its first line.
+fn imports(file: &str, text: &str) -> BTreeSet<String> {
+    let name = |text: &str| -> String {
+        text.chars().take_while(|&sign| sign.is_alphanumeric() || matches!(sign, '_' | '*')).collect()
+    };
+    let (mut code, mut inner) = (String::new(), Vec::new());
+    for line in text.lines() {
+        let line = line.split("//").next().unwrap_or(line);
+        let indent = line.len() - line.trim_start().len();
+        if line.trim() == "}" && inner.last() == Some(&indent) {
+            inner.pop();
+        }
+        code += &line.replace(&"super::".repeat(file.split('/').count() + inner.len()), "crate::");
+        if line.ends_with('{') && line.split_whitespace().any(|word| word == "mod") {
+            inner.push(indent);
+        }
+    }
+    code.retain(|sign| !sign.is_whitespace());
+    let mut found: BTreeSet<String> =
+        code.match_indices("tautline_").map(|(start, _)| name(&code[start..])).collect();
+    for (start, root) in code.match_indices("crate::") {
+        let rest = &code[start + root.len()..];
+        let mut groups = 0;
+        for piece in rest.strip_prefix('{').unwrap_or(rest).split_inclusive(['{', ',', '}']) {
+            found.extend(Some(name(piece)).filter(|name| groups == 0 && !name.is_empty()));
+            groups += i32::from(piece.ends_with('{')) - i32::from(piece.ends_with('}'));
+            if groups < 0 || !rest.starts_with('{') {
+                break;
+            }
+        }
+    }
+    found
+}
+
+/// What is forbidden among the imports of a file of the crate `part`.
+fn forbidden(part: &str, file: &str, text: &str) -> Vec<String> {
+    let is_allowed = |name: &str| match name.strip_prefix("tautline_") {
+        Some(used) => line(BELOW, part, "").is_some_and(|below| below.contains(&used)),
+        None if name == room(file) || matches!(file, "lib.rs" | "main.rs") => true,
+        None => {
+            let importers = line(KNOWN_TO, part, name);
+            name != "*"
+                && importers.is_none_or(|rooms| rooms == ["*"] || rooms.contains(&room(file)))
+                && line(KNOWS, part, room(file)).is_none_or(|known| known.contains(&name))
+        }
+    };
+    let arrows = imports(file, text).into_iter().filter(|name| !is_allowed(name));
+    arrows.map(|name| format!("{part}/src/{file} imports {name}")).collect()
+}
+
+/// The crates of ours that a manifest depends on, but for tests.
+fn dependencies(manifest: &str) -> impl Iterator<Item = &str> {
+    let sections = manifest.split("\n[").filter(|section| section.starts_with("dependencies]"));
+    sections.flat_map(str::lines).filter_map(|line| line.strip_prefix("tautline-")?.split(' ').next())
+}
+
+fn path(folder: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)
+}
+
+/// The Rust files under a folder, by their path within it, and what they say.
+fn sources(folder: &str) -> Vec<(String, String)> {
+    let (mut files, mut left) = (Vec::new(), vec![path(folder)]);
+    while let Some(next) = left.pop() {
+        if next.is_dir() {
+            left.extend(fs::read_dir(&next).expect("a folder").map(|entry| entry.expect("an entry").path()));
+        } else if next.extension().is_some_and(|extension| extension == "rs") {
+            let names = next.strip_prefix(path(folder)).expect("a file within").iter();
+            let names: Vec<&str> = names.map(|name| name.to_str().expect("Unicode")).collect();
+            files.push((names.join("/"), fs::read_to_string(&next).expect("a source")));
+        }
+    }
+    files
+}
+
+#[test]
+fn arrows_run_one_way_and_files_are_short() {
+    for part in ["kernel", "proofs", "sim", "."] {
+        let files = sources(&format!("{part}/src"));
+        let found: Vec<_> = files.iter().flat_map(|(file, text)| forbidden(part, file, text)).collect();
+        assert!(found.is_empty(), "{found:#?}");
+        let manifest = fs::read_to_string(path(part).join("Cargo.toml")).expect("a manifest");
+        let below = line(BELOW, part, "").expect("a line");
+        assert!(dependencies(&manifest).all(|used| below.contains(&used)), "{part}/Cargo.toml");
+        for room in files.iter().map(|(file, _)| room(file)).filter(|&room| room != "lib") {
+            let is_listed = line(KNOWN_TO, part, room).is_some() || !ALL_LISTED.contains(&part);
+            assert!(is_listed, "no line says who may import the room {room} of {part}");
+        }
+    }
+    for folder in FOLDERS.into_iter().filter(|folder| path(folder).exists()) {
+        for (file, text) in sources(folder) {
+            let (file, lines) = (format!("{folder}/{file}"), text.lines().count());
+            assert!(lines <= MOST_LINES || LONGER.contains(&file.as_str()), "{file} has {lines} lines");
+        }
+    }
+}
+
+#[test]
+fn a_forbidden_arrow_is_found_however_it_is_written() {
+    let found = |file, text| imports(file, text).into_iter().collect::<Vec<_>>();
+    assert_eq!(found("run.rs", "use crate::chain::Rule;"), ["chain"]);
+    assert_eq!(
+        found("run.rs", "fn all() {\n    one(crate::chain::plan(), crate::run::all());\n}"),
+        ["chain", "run"]
+    );
+    assert_eq!(
+        found("run.rs", "use crate::{\n    chain::{Rule, plan},\n    words,\n};\nuse std::fs;"),
+        ["chain", "words"]
+    );
+    assert_eq!(
+        found("run.rs", "use super::{chain, words::{self, one}};\nuse crate::*;"),
+        ["*", "chain", "words"]
+    );
+    let inner = "use super::super::tan;\nmod tests {\n    use super::super::log;\n}\nuse super::super::mrc;";
+    assert_eq!(found("run/log.rs", inner), ["mrc", "tan"]);
+    assert!(found("run.rs", "//! [`crate::chain`]\npub(crate) fn one() {} // crate::chain").is_empty());
+    for (part, file, text) in [
+        ("kernel", "mrc/robot.rs", "use crate::notice::Node;"),
+        ("kernel", "floor.rs", "use crate::{choice, ants};"),
+        ("kernel", "choice.rs", "use tautline_proofs::engine;"),
+        ("proofs", "engine/tree.rs", "use crate::run::Run;"),
+        ("proofs", "decide.rs", "use crate::{run, chain};"),
+        ("proofs", "mrc/space.rs", "use super::super::ledger;"),
+        ("proofs", "judge/chain.rs", "use crate::words::counted;"),
+        ("sim", "draw/svg.rs", "use crate::tables::optimum;"),
+        ("sim", "fault.rs", "use crate::layout::Layout;"),
+    ] {
+        assert_eq!(forbidden(part, file, text).len(), 1, "{part}/src/{file}: {text}");
+    }
+    for (part, file, text) in [
+        ("kernel", "mrc/robot.rs", "use crate::net::Notice;"),
+        ("proofs", "engine/tree.rs", "use super::states;\nuse crate::words::counted;"),
+        ("proofs", "ledger.rs", "use crate::{ants, chain, mrc};"),
+        ("sim", "tables/optimum.rs", "use crate::stats::mean;\nuse tautline_proofs::chain;"),
+        ("sim", "lib.rs", "pub use crate::tables::all;"),
+    ] {
+        assert_eq!(forbidden(part, file, text), [""; 0]);
+    }
+    let manifest = "[package]\n[dependencies]\ntautline-sim = { path = \"sim\" }\n[dev-dependencies]\ntautline-proofs = \"1\"";
+    assert!(dependencies(manifest).eq(["sim"]));
+}
