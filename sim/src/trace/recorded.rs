@@ -6,12 +6,16 @@ use serde::de::IgnoredAny;
 use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::run::Frame;
 
-use super::format::{AGAIN, Header, Line, StoredEnd, StoredViolation, drawn};
+use super::format::{Header, Line, StoredEnd, StoredViolation, drawn};
 use super::lines::{Lines, MAX_LINE_BYTES};
-use crate::explore::{ClauseId, End, Limits, Look, Play, Report, Stage, Team, Violation, Watcher, run};
+use crate::explore::{
+    Chart, ClauseId, End, Limits, Look, Play, Report, Stage, Team, Violation, Watcher, run,
+};
 use crate::fault::{Fault, Halt};
 use crate::layout::Layout;
 use crate::layout::generate::Probability;
+
+const AGAIN: &str = "store the run again with the program that wrote it";
 
 /// Robots that are held, over all team moves.
 const MAX_HELD: usize = 1 << 22;
@@ -37,10 +41,11 @@ pub struct Recorded {
 
 impl Recorded {
     /// Reads the lines of a run behind its header, which is `text`.
-    pub(super) fn read(mut lines: Lines, text: &str) -> Result<Self, Fault> {
+    pub(super) fn read(lines: Lines, text: &str) -> Result<Self, Fault> {
+        let mut lines = lines.made_by(AGAIN);
         let header: Header<String, String, IgnoredAny> = lines.parse(text, AGAIN)?;
         let Header { scheme, rule, robots, seed, base, starts, miss, missed, clause, layout, .. } = header;
-        let layout = drawn(&lines, text, &layout, base)?;
+        let layout = drawn(&lines, text, &layout, base, AGAIN)?;
         if robots == 0 {
             return Err(lines.fault(text, "\"robots\"", "no robots are no team", AGAIN));
         }
@@ -197,7 +202,7 @@ impl Team for Player<'_> {
     }
 
     /// What is broken before the first team move.
-    fn broken_at_end(&self, _: &Layout, _: &crate::explore::Chart, _: End) -> Vec<ClauseId> {
+    fn broken_at_end(&self, _: &Layout, _: &Chart, _: End) -> Vec<ClauseId> {
         if self.made == 0 { self.broken() } else { Vec::new() }
     }
 }
