@@ -10,9 +10,12 @@ use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::run::Frame;
 use tautline_sim::aside::{Aside, Replaceable};
-use tautline_sim::counterexample::minimise::{Broken, Case, Met, shrink};
+use tautline_sim::counterexample::minimise::{Broken, Case, Met, minimise, shrink};
 use tautline_sim::draw::{story, svg};
-use tautline_sim::explore::{ClauseId, End, Limits, OnViolation, Play, Report, Stage, Stopped, Team, run};
+use tautline_sim::explore::{
+    Clause, ClauseId, End, Limits, Look, OnViolation, Play, Profile, Report, Rule, RuleId, Senses, Setup,
+    Stage, Starts, Stopped, Team, run,
+};
 use tautline_sim::fault::Fault;
 use tautline_sim::layout::{self, Layout};
 use tautline_sim::trace::{self, Stored, Writer};
@@ -77,6 +80,25 @@ impl Team for Pair {
         if has_come { vec![ALONE] } else { Vec::new() }
     }
 }
+
+/// The pair as a row, as those of the catalogue are.
+static PAIR: Profile = Profile {
+    name: "pair",
+    about: "Two robots, of which the second follows the first",
+    rules: &[Rule {
+        name: RuleId::new("eager"),
+        about: "The second does not know that the first may meet a wall",
+        start: |setup| Ok(Box::new(Pair::new(&setup.layout, setup.base))),
+        hunt: None,
+    }],
+    team: "pair",
+    robots: 2..=2,
+    starts: Starts::Base,
+    senses: Senses::Bumps,
+    look: Look::Apart,
+    knowledge: None,
+    clauses: &[Clause::new("PAIR-1")],
+};
 
 /// Runs the pair in `layout` until it breaks its clause, and stores the run at `path`.
 fn store(path: &Path, layout: &Layout, start: Cell, limits: Limits) -> Report {
@@ -175,7 +197,7 @@ fn what_a_team_of_ones_own_breaks_is_shrunk() {
     };
     let case = Case { robots: 2, layout, base };
     let steps = breaks(&case).expect("a run").expect("it breaks the clause").steps;
-    let shrunk = shrink(case, steps, 2, &mut |case, _| breaks(case)).expect("nobody ends the work");
+    let shrunk = shrink(case.clone(), steps, 2, &mut |case, _| breaks(case)).expect("nobody ends the work");
     assert_snapshot!(shrunk.case.layout, @"
     tautline layout 1
     +--+
@@ -187,6 +209,10 @@ fn what_a_team_of_ones_own_breaks_is_shrunk() {
     +--+
     ");
     assert_eq!(breaks(&shrunk.case).expect("a run").map(|broken| broken.steps), Some(shrunk.extent.steps));
+    // A row of one's own is minimised as those of the catalogue are.
+    let setup = Setup::new(&PAIR, RuleId::new("eager"), case.robots, case.layout, case.base);
+    let minimal = minimise(&setup, None, &mut |_| Ok(())).expect("it breaks the clause");
+    assert_eq!((minimal.clause, minimal.setup.layout), (ALONE, shrunk.case.layout));
 }
 
 #[test]
@@ -229,7 +255,7 @@ fn a_stored_run_that_contradicts_itself_is_refused_with_its_place() {
             whole.replacen("\"clause\":\"PAIR-1\",\"layout\"", "\"clause\":\"PAIR-2\",\"layout\"", 1),
         ),
         ("a team move left out", whole.replacen(&format!("{second}\n"), "", 1)),
-        ("no end", whole.lines().take(3).map(|line| format!("{line}\n")).collect()),
+        ("no end", whole.split_inclusive('\n').take(3).collect()),
         ("a line after the end", whole.clone() + "{}\n"),
     ];
     let said = cases.map(|(what, text)| {

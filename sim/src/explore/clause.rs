@@ -104,8 +104,8 @@ mod tests {
 
     #[test]
     fn an_id_that_was_read_is_kept_once() {
-        let once = ClauseId::read(&"PAIR-1".to_owned());
-        let again = ClauseId::read(&"PAIR-1".to_owned());
+        let once = ClauseId::read("PAIR-1");
+        let again = ClauseId::read("PAIR-1");
         assert_eq!(once, ClauseId::new("PAIR-1"));
         assert!(std::ptr::eq(once.as_str(), again.as_str()));
     }

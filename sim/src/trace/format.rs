@@ -127,18 +127,20 @@ impl StoredMove {
             return Err(("cells", format!("there are {} cells of {robots} robots", cells.len())));
         }
         let mut is_blocked = vec![false; robots];
-        blocked.iter().for_each(|robot| is_blocked[robot - 1] = true);
+        for robot in blocked {
+            is_blocked[robot - 1] = true;
+        }
         for (robot, (&from, &to)) in before.iter().zip(&cells).enumerate() {
             let name = robot + 1;
             let is_open = |side| layout.is_open(Edge::new(from, side));
-            let stays = || (to != from).then(|| ("cells", format!("robot {name} stays in {from}")));
             let wrong = match (steps[robot], is_blocked[robot]) {
-                (Step::Stay, false) => stays(),
                 (Step::Stay, true) => Some(("blocked", format!("robot {name} has tried to go nowhere"))),
                 (Step::Cross(side), true) if is_open(side) => {
                     Some(("blocked", format!("nothing is in the way of robot {name} at {from}")))
                 }
-                (Step::Cross(_), true) => stays(),
+                (Step::Stay, false) | (Step::Cross(_), true) => {
+                    (to != from).then(|| ("cells", format!("robot {name} stays in {from}")))
+                }
                 (Step::Cross(side), false) if !is_open(side) => {
                     Some(("tried", format!("robot {name} at {from} cannot cross a wall")))
                 }
