@@ -233,6 +233,11 @@ fn a_stored_run_that_contradicts_itself_is_refused_with_its_place() {
         ("another layout", whole.replacen("|B    |  |", "|B |  |  |", 1)),
         ("no wall", whole.replacen("|B    |  |", "|B       |", 1)),
         ("another base", whole.replacen("\"base\":[0,0]", "\"base\":[1,0]", 1)),
+        ("a name that is markup", whole.replacen("\"pair\"", "\"<b>\"", 1)),
+        (
+            "a clause that is markup",
+            whole.replacen("\"clause\":\"PAIR-1\",\"step\"", "\"clause\":\"<b>\",\"step\"", 1),
+        ),
         ("no robots", whole.replacen("\"robots\":2", "\"robots\":0", 1)),
         ("a robot more", whole.replacen("\"robots\":2", "\"robots\":3", 1)),
         ("a start outside", whole.replacen("\"base\":[0,0]", "\"base\":[0,0],\"starts\":[[0,0],[0,1]]", 1)),

@@ -8,7 +8,7 @@ use std::sync::{Mutex, PoisonError};
 use serde::{Serialize, Serializer};
 use tautline_proofs::run::Breach;
 
-/// An id such as `CHAIN-1`: a family and a number. Ids are ordered by family, then by number, so that `CHAIN-2` comes
+/// An id such as `CHAIN-1`: a family and a number, of letters, digits and hyphens. Ids are ordered by family, then by number, so that `CHAIN-2` comes
 /// before `CHAIN-12`.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ClauseId(&'static str);

@@ -22,7 +22,7 @@ pub(super) const VERSION: u32 = 1;
 pub(super) const AGAIN: &str = "store the run again with `tautline explore `trace`` or `tautline hunt`";
 
 /// The first line. What scheme, rule and limits say is known only of the schemes of this program.
-#[derive(Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Header<S, R, L> {
     format: String,
