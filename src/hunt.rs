@@ -21,7 +21,7 @@ use tautline_sim::aside::Aside;
 use tautline_sim::counterexample::hunt;
 use tautline_sim::counterexample::hunt::Saved;
 use tautline_sim::draw;
-use tautline_sim::explore::{Hunt as Way, Misfit, Profile, RuleId, Setup};
+use tautline_sim::explore::{Misfit, Profile, Quarry, RuleId, Setup};
 use tautline_sim::fault::{Fault, Halt};
 
 /// How often a hunt is kept in its file.
@@ -123,8 +123,8 @@ impl Hunt {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let rule = self.scheme.rule(self.rule).ok_or(Misfit::Rule(self.scheme)).map_err(Fault::from)?;
         match rule.hunt {
-            Some(Way::Walls(subject)) => self.run_walls(subject, out),
-            Some(Way::Traps(way)) => trap::run(self, way, out),
+            Some(Quarry::Walls(subject)) => self.run_walls(subject, out),
+            Some(Quarry::Traps(way)) => trap::run(self, way, out),
             None => {
                 let what = format!("nothing is hunted of {}", self.scheme.name);
                 Err(Fault::usage(what, "hunt another scheme").into())

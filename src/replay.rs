@@ -196,14 +196,21 @@ impl Replay {
         let Stage { scheme, rule, layout, .. } = run.stage();
         self.check_drawing(layout.size().area(), &files)?;
         let report = run.play(&mut |_| Ok(()))?;
-        let mut said = format!(
+        let said = format!(
             "this program does not know the scheme {scheme}: its rule {rule} was not run, the team moves are those of \
              the file"
         );
-        if let Some(clause) = run.clause {
-            said += &format!("\nthe file says that it is a counterexample to {clause}");
-        }
-        self.show(run, &report, run.clause, Told { said: Some(said), is_rule_run: Some(false) }, files, out)
+        let named = run.clause.map_or_else(String::new, |clause| {
+            format!("\nthe file says that it is a counterexample to {clause}")
+        });
+        self.show(
+            run,
+            &report,
+            run.clause,
+            Told { said: Some(said + &named), is_rule_run: Some(false) },
+            files,
+            out,
+        )
     }
 
     /// Checks that a page and a picture can hold what they are to show of `area`.

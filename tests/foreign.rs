@@ -42,7 +42,31 @@ fn a_run_of_an_unknown_scheme_plays_as_it_was_written() {
     let folder = folder(RUN);
     let (told, said) = ended(folder.path(), &["replay", "run.jsonl"], 1);
     assert_eq!(said, "");
-    assert_snapshot!(told, @"");
+    assert_snapshot!(told, @r"
+    pair (eager), 2 agents, start 0,0: run.jsonl
+    2 team moves: a clause was broken
+    2 of 3 cells explored (66 %), 50 % at team move 1, 75 % never, 100 % never
+    PAIR-1 is broken in team move 2
+    this program does not know the scheme pair: its rule eager was not run, the team moves are those of the file
+    the file says that it is a counterexample to PAIR-1
+
+    1, 2, … are the agents, K× stands for K of them in one cell; · is explored, : explored and entered by nobody any more, ░░░ visited, ▒▒▒ sealed, ## blocked; ? is a sensor that an agent missed.
+
+    move 1                 move 2 breaks PAIR-1
+    +---+---+---+          +---+---+---+
+    | 2   1 |   |          | ·  12 x   |
+    +---+---+---+          +---+---+---+
+
+    Team move 2 breaks PAIR-1.
+
+      Agent 1 at 1,0 tries to go east, meets a wall and stays.
+      Agent 2 at 0,0 goes east to 1,0.
+
+    before, with what each tries   after
+    +---+---+---+                  +---+---+---+
+    |2→  1→ x   |                  | ·  12 x   |
+    +---+---+---+                  +---+---+---+
+    ");
 }
 
 #[test]
@@ -53,7 +77,20 @@ fn a_run_of_an_unknown_scheme_that_names_no_clause_is_as_expected() {
         .replacen("\"stopped\":\"violation\"", "\"stopped\":\"exhausted\"", 1);
     let folder = folder(&kept);
     let (told, _) = ended(folder.path(), &["replay", "run.jsonl", "--moves", "1..1"], 0);
-    assert_snapshot!(told, @"");
+    assert_snapshot!(told, @r"
+    pair (eager), 2 agents, start 0,0: run.jsonl
+    2 team moves: the team can explore nothing more
+    2 of 3 cells explored (66 %), 50 % at team move 1, 75 % never, 100 % never
+    no clause is broken
+    this program does not know the scheme pair: its rule eager was not run, the team moves are those of the file
+
+    1, 2, … are the agents, K× stands for K of them in one cell; · is explored, : explored and entered by nobody any more, ░░░ visited, ▒▒▒ sealed, ## blocked; ? is a sensor that an agent missed.
+
+    move 1
+    +---+---+---+
+    | 2   1 |   |
+    +---+---+---+
+    ");
 }
 
 #[test]
@@ -66,19 +103,32 @@ fn a_run_of_an_unknown_scheme_has_a_page_a_picture_and_json() {
     assert!(page.contains("Team move 2 of 2; R1 meets a wall; breaks PAIR-1"), "{page}");
     assert!(fs::read_to_string(folder.join("run.svg")).expect("a picture").contains("breaks PAIR-1"));
     let (told, _) = ended(folder, &["replay", "run.jsonl", "--format", "json"], 1);
-    assert_snapshot!(told, @"");
+    assert_snapshot!(told, @r#"{"schema_version":1,"scheme":"pair","rule":"eager","robots":2,"seed":0,"layout":"run.jsonl","base":[0,0],"steps":2,"explored":2,"cells":3,"milestones":{"50":1,"75":null,"100":null},"stopped":"violation","violations":[{"clause":"PAIR-1","step":2}],"counterexample_to":"PAIR-1","is_rule_run":false,"moves":[{"step":1,"kind":"advance","tried":"E.","blocked":[],"cells":[[1,0],[0,0]]},{"step":2,"kind":"advance","tried":"EE","blocked":[1],"cells":[[1,0],[1,0]]}]}"#);
 }
 
 #[test]
 fn a_run_of_an_unknown_scheme_that_contradicts_itself_is_refused() {
     let folder = folder(&RUN.replacen("\"blocked\":[1]", "\"blocked\":[]", 1));
     let (_, said) = ended(folder.path(), &["replay", "run.jsonl"], 2);
-    assert_snapshot!(said, @"");
+    assert_snapshot!(said, @r#"
+    Error: robot 1 at 1,0 cannot cross a wall
+       ╭─[ run.jsonl:3:36 ]
+       │
+     3 │ …ove":{"step":2,"kind":"advance","tried":"EE","blocked":[],"cells":[[1,0…
+       │                                  ───┬───  
+       │                                     ╰───── here
+       │ 
+       │ Help: store the run again with the program that wrote it
+    ───╯
+    "#);
 }
 
 #[test]
 fn a_run_of_an_unknown_scheme_is_not_minimised() {
     let folder = folder(RUN);
     let (_, said) = ended(folder.path(), &["minimise", "run.jsonl"], 2);
-    assert_snapshot!(said, @"");
+    assert_snapshot!(said, @r"
+    Error: run.jsonl: this program does not know the scheme pair: it cannot make the run again
+     Help: name a run of chain, ants, bricks, bricks-ants
+    ");
 }

@@ -15,7 +15,7 @@ use tautline_sim::layout::{self, Generator, Layout, Problem, movingai, ros};
 #[path = "../src/report.rs"]
 mod report;
 
-use report::{Colour, render};
+use report::{Colour, render, with_flags};
 
 const DRAWING: &str = "\
 tautline layout 1
@@ -71,7 +71,7 @@ fn refused(name: &str, content: impl AsRef<[u8]>) -> String {
 }
 
 fn plain(fault: &Fault, folder: &Path) -> String {
-    fault.to_string().replace(&format!("{}/", folder.display()), "")
+    with_flags(&fault.to_string()).replace(&format!("{}/", folder.display()), "")
 }
 
 /// The drawing of a fault without the blanks at the ends of its lines.
@@ -359,8 +359,9 @@ fn a_file_that_is_no_layout_is_refused() {
     assert_snapshot!(refused("a.txt", b"tautline \xff"), @"a.txt: byte 9 is not UTF-8 text; a layout is a drawing, a MovingAI map or a ROS map's .yaml file");
     assert_snapshot!(refused("a.pgm", "P2 1 1 255 0"), @"a.pgm: this is an image alone; name the .yaml file that describes it");
     assert_snapshot!(refused("a.txt", "\u{1b}[31mred"), @"a.txt:1:1: this is not the first line of a layout; a drawing begins with `tautline layout 1`; name MovingAI maps .map and ROS maps .yaml");
-    let load =
-        |description: &str, image| layout::load(description, 0, image).expect_err("a fault").to_string();
+    let load = |description: &str, image| {
+        with_flags(&layout::load(description, 0, image).expect_err("a fault").to_string())
+    };
     assert_snapshot!(load("no/such/file.map", None), @"no/such/file.map: there is no such file; name a layout file or one of the generators open:15x15, walls:15x15:0.1, rooms-a, rooms-b, office:30x30:4x4, cells:32x32:0.2");
     assert_snapshot!(load("src", None), @"src: this is a directory; name a layout file or one of the generators open:15x15, walls:15x15:0.1, rooms-a, rooms-b, office:30x30:4x4, cells:32x32:0.2");
     assert_snapshot!(load("open:3x3", Some(Path::new("map.pgm"))), @"--image is given, but the layout is not a ROS map; leave --image out, or name the map's .yaml file");

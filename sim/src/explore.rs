@@ -25,7 +25,7 @@ pub use self::rule::{RuleId, RuleName};
 pub use self::run::{
     End, Limits, Milestone, OnViolation, Report, Stopped, Team, TeamMove, Violation, Watcher, run,
 };
-pub use self::setup::{Clause, Hunt, Judge, Profile, Rule, Senses, Setup, Start, Starts};
+pub use self::setup::{Clause, Judge, Profile, Quarry, Rule, Senses, Setup, Start, Starts};
 pub use self::stage::{Knowledge, Look, Play, Stage};
 
 use tautline_kernel::ground::Cell;

@@ -80,9 +80,11 @@ impl Trace {
         match open(path)? {
             Stored::Known(trace) => Ok(trace),
             Stored::Foreign(run) => {
-                let what = format!("this program does not know the scheme {:?}", run.stage().scheme);
+                let scheme = run.stage().scheme;
+                let what =
+                    format!("this program does not know the scheme {scheme}: it cannot make the run again");
                 let names: Vec<&str> = catalogue::SCHEMES.iter().map(|scheme| scheme.name).collect();
-                Err(Fault::in_file(path, what, format_args!("the schemes are {}", names.join(", "))))
+                Err(Fault::in_file(path, what, format_args!("name a run of {}", names.join(", "))))
             }
         }
     }
@@ -90,7 +92,7 @@ impl Trace {
     /// The setup of a header.
     fn check(lines: Lines, text: &str, header: Known) -> Result<Self, Fault> {
         let Header { scheme, rule, robots, seed, base, starts, missed, limits, clause, layout, .. } = header;
-        let layout = drawn(&lines, text, &layout, base)?;
+        let layout = drawn(&lines, text, &layout, base, AGAIN)?;
         let clause = clause.map(|id| {
             catalogue::clause(&id).map_err(|none| lines.fault(text, "\"clause\"", &none, none.remedy()))
         });

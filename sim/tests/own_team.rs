@@ -1,4 +1,4 @@
-//! A team that is in no catalogue: it runs on a map, its run is stored, read back and drawn as that of any team, and what
+//! A team that is in no catalogue: it runs in a building, its run is stored, read back and drawn as that of any team, and what
 //! it breaks is shrunk. A stored run that contradicts itself is refused with its place.
 
 use std::collections::BTreeSet;
@@ -10,9 +10,12 @@ use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::run::Frame;
 use tautline_sim::aside::{Aside, Replaceable};
-use tautline_sim::counterexample::minimise::{Broken, Case, Met, shrink};
+use tautline_sim::counterexample::minimise::{Broken, Case, Met, minimise, shrink};
 use tautline_sim::draw::{story, svg};
-use tautline_sim::explore::{ClauseId, End, Limits, OnViolation, Play, Report, Stage, Stopped, Team, run};
+use tautline_sim::explore::{
+    Clause, ClauseId, End, Limits, Look, OnViolation, Play, Profile, Report, Rule, RuleId, Senses, Setup,
+    Stage, Starts, Stopped, Team, run,
+};
 use tautline_sim::fault::Fault;
 use tautline_sim::layout::{self, Layout};
 use tautline_sim::trace::{self, Stored, Writer};
@@ -78,6 +81,25 @@ impl Team for Pair {
     }
 }
 
+/// The pair as a row, as those of the catalogue are.
+static PAIR: Profile = Profile {
+    name: "pair",
+    about: "Two robots, of which the second follows the first",
+    rules: &[Rule {
+        name: RuleId::new("eager"),
+        about: "The second does not know that the first may meet a wall",
+        start: |setup| Ok(Box::new(Pair::new(&setup.layout, setup.base))),
+        hunt: None,
+    }],
+    team: "pair",
+    robots: 2..=2,
+    starts: Starts::Base,
+    senses: Senses::Bumps,
+    look: Look::Apart,
+    knowledge: None,
+    clauses: &[Clause::new("PAIR-1")],
+};
+
 /// Runs the pair in `layout` until it breaks its clause, and stores the run at `path`.
 fn store(path: &Path, layout: &Layout, start: Cell, limits: Limits) -> Report {
     let starts = [start; 2];
@@ -110,12 +132,12 @@ fn foreign(path: &Path) -> Result<trace::Recorded, Fault> {
 }
 
 #[test]
-fn a_team_of_ones_own_explores_a_map_and_its_run_reads_back_as_it_was() {
+fn a_team_of_ones_own_runs_in_a_building_and_its_run_reads_back_as_it_was() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("run.jsonl");
     let (layout, base) = loaded("rooms-a");
     let report = store(&path, &layout, base, Limits::default());
-    assert_eq!((report.stopped, report.explored, report.cells), (Stopped::Exhausted, 225, 225));
+    assert_eq!((report.stopped, report.explored, report.cells), (Stopped::Exhausted, 197, 225));
     assert!(!report.violations.is_empty());
     let read = foreign(&path).expect("a stored run");
     assert_eq!(read.clause, None);
@@ -130,7 +152,17 @@ fn a_stored_run_of_a_team_of_ones_own_is_drawn() {
     let report = store(&path, &layout, Cell::new(0, 0), STOP);
     let read = foreign(&path).expect("a stored run");
     assert_eq!(read.clause, Some(ALONE));
-    assert_snapshot!(story::last_move(&read).expect("a run"), @"");
+    assert_snapshot!(story::last_move(&read).expect("a run"), @r"
+    Team move 2 breaks PAIR-1.
+
+      Agent 1 at 1,0 tries to go east, meets a wall and stays.
+      Agent 2 at 0,0 goes east to 1,0.
+
+    before, with what each tries   after
+    +---+---+---+                  +---+---+---+
+    |2→  1→ x   |                  | ·  12 x   |
+    +---+---+---+                  +---+---+---+
+    ");
     let mut panels = 0;
     read.play(&mut |made| {
         assert!(
@@ -165,9 +197,22 @@ fn what_a_team_of_ones_own_breaks_is_shrunk() {
     };
     let case = Case { robots: 2, layout, base };
     let steps = breaks(&case).expect("a run").expect("it breaks the clause").steps;
-    let shrunk = shrink(case, steps, 2, &mut |case, _| breaks(case)).expect("nobody ends the work");
-    assert_snapshot!(shrunk.case.layout, @"");
+    let shrunk = shrink(case.clone(), steps, 2, &mut |case, _| breaks(case)).expect("nobody ends the work");
+    assert_snapshot!(shrunk.case.layout, @"
+    tautline layout 1
+    +--+
+    |B |
+    +  +
+    |  |
+    +--+
+    |  |
+    +--+
+    ");
     assert_eq!(breaks(&shrunk.case).expect("a run").map(|broken| broken.steps), Some(shrunk.extent.steps));
+    // A row of one's own is minimised as those of the catalogue are.
+    let setup = Setup::new(&PAIR, RuleId::new("eager"), case.robots, case.layout, case.base);
+    let minimal = minimise(&setup, None, &mut |_| Ok(())).expect("it breaks the clause");
+    assert_eq!((minimal.clause, minimal.setup.layout), (ALONE, shrunk.case.layout));
 }
 
 #[test]
@@ -177,12 +222,22 @@ fn a_stored_run_that_contradicts_itself_is_refused_with_its_place() {
     let layout: Layout = SMALL.parse().expect("a layout");
     store(&path, &layout, Cell::new(0, 0), STOP);
     let whole = fs::read_to_string(&path).expect("text");
-    assert_snapshot!(whole, @"");
+    assert_snapshot!(whole, @r#"
+    {"format":"tautline run","version":1,"scheme":"pair","rule":"eager","robots":2,"seed":0,"base":[0,0],"limits":{"until":null,"max_moves":null,"violation":"go-on"},"clause":"PAIR-1","layout":"tautline layout 1\n+--+--+--+\n|B    |  |\n+--+--+--+\n"}
+    {"move":{"step":1,"kind":"advance","tried":"E.","blocked":[],"cells":[[1,0],[0,0]]}}
+    {"move":{"step":2,"kind":"advance","tried":"EE","blocked":[1],"cells":[[1,0],[1,0]]}}
+    {"end":{"stopped":"violation","steps":2,"explored":2,"cells":3,"violations":[{"clause":"PAIR-1","step":2}]}}
+    "#);
     let second = whole.lines().nth(2).expect("a second team move");
     let cases = [
         ("another layout", whole.replacen("|B    |  |", "|B |  |  |", 1)),
         ("no wall", whole.replacen("|B    |  |", "|B       |", 1)),
         ("another base", whole.replacen("\"base\":[0,0]", "\"base\":[1,0]", 1)),
+        ("a name that is markup", whole.replacen("\"pair\"", "\"<b>\"", 1)),
+        (
+            "a clause that is markup",
+            whole.replacen("\"clause\":\"PAIR-1\",\"step\"", "\"clause\":\"<b>\",\"step\"", 1),
+        ),
         ("no robots", whole.replacen("\"robots\":2", "\"robots\":0", 1)),
         ("a robot more", whole.replacen("\"robots\":2", "\"robots\":3", 1)),
         ("a start outside", whole.replacen("\"base\":[0,0]", "\"base\":[0,0],\"starts\":[[0,0],[0,1]]", 1)),
@@ -205,7 +260,7 @@ fn a_stored_run_that_contradicts_itself_is_refused_with_its_place() {
             whole.replacen("\"clause\":\"PAIR-1\",\"layout\"", "\"clause\":\"PAIR-2\",\"layout\"", 1),
         ),
         ("a team move left out", whole.replacen(&format!("{second}\n"), "", 1)),
-        ("no end", whole.lines().take(3).map(|line| format!("{line}\n")).collect()),
+        ("no end", whole.split_inclusive('\n').take(3).collect()),
         ("a line after the end", whole.clone() + "{}\n"),
     ];
     let said = cases.map(|(what, text)| {

@@ -4,7 +4,7 @@ use tautline_kernel::ants::Rule as Ants;
 use tautline_proofs::floor::trap::Way;
 
 use super::agents::{AGENTS, start};
-use super::setup::{Hunt, Profile, Rule};
+use super::setup::{Profile, Quarry, Rule};
 use super::stage::Knowledge;
 
 const PUBLISHED: Way = Way::Ants(Ants::Published);
@@ -15,8 +15,8 @@ pub static ANTS: Profile = Profile {
     name: "ants",
     about: "Agents on a sensor floor that go where they have been least; they never know that they are done",
     rules: &[
-        Rule::published(|setup| Ok(start(setup, PUBLISHED)), Hunt::Traps(PUBLISHED)),
-        Rule::repaired(|setup| Ok(start(setup, REPAIRED)), Hunt::Traps(REPAIRED)),
+        Rule::published(|setup| Ok(start(setup, PUBLISHED)), Quarry::Traps(PUBLISHED)),
+        Rule::repaired(|setup| Ok(start(setup, REPAIRED)), Quarry::Traps(REPAIRED)),
     ],
     knowledge: Some(Knowledge::None),
     ..AGENTS

@@ -11,7 +11,7 @@ use tautline_proofs::words::counted;
 use super::agents::{AGENTS, missed, start};
 use super::chart::Chart;
 use super::run::TeamMove;
-use super::setup::{Clause, Hunt, Judge, Profile, Rule, Setup};
+use super::setup::{Clause, Judge, Profile, Quarry, Rule, Setup};
 use super::stage::Knowledge;
 
 const PUBLISHED: Way = Way::Bricks(Bricks::PUBLISHED);
@@ -23,8 +23,8 @@ pub static BRICKS: Profile = Profile {
     name: "bricks",
     about: "Brick&Mortar: agents on a sensor floor that mark cells as visited until none is left",
     rules: &[
-        Rule::published(|setup| Ok(start(setup, PUBLISHED)), Hunt::Traps(PUBLISHED)),
-        Rule::repaired(|setup| Ok(start(setup, REPAIRED)), Hunt::Traps(REPAIRED)),
+        Rule::published(|setup| Ok(start(setup, PUBLISHED)), Quarry::Traps(PUBLISHED)),
+        Rule::repaired(|setup| Ok(start(setup, REPAIRED)), Quarry::Traps(REPAIRED)),
     ],
     ..MARKING
 };
@@ -33,7 +33,7 @@ pub static BRICKS: Profile = Profile {
 pub static BRICKS_ANTS: Profile = Profile {
     name: "bricks-ants",
     about: "Brick&Mortar with ants' ways, robust against missed sensors",
-    rules: &[Rule::repaired(|setup| Ok(start(setup, ROBUST)), Hunt::Traps(ROBUST))],
+    rules: &[Rule::repaired(|setup| Ok(start(setup, ROBUST)), Quarry::Traps(ROBUST))],
     ..MARKING
 };
 

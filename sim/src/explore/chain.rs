@@ -12,7 +12,7 @@ use tautline_proofs::words::counted;
 use super::chart::Chart;
 use super::clause::ClauseId;
 use super::run::{End, Team, TeamMove};
-use super::setup::{Clause, Hunt, Judge, Profile, Rule, Senses, Setup, Starts};
+use super::setup::{Clause, Judge, Profile, Quarry, Rule, Senses, Setup, Starts};
 use super::stage::Look;
 use crate::fault::Fault;
 use crate::layout::Layout;
@@ -23,8 +23,8 @@ pub static CHAIN: Profile = Profile {
     name: "chain",
     about: "A base, a leader that seeks the frontier, and followers that keep radio contact",
     rules: &[
-        Rule::published(|setup| start(setup, chain::Rule::PUBLISHED), Hunt::Walls(Observed::PUBLISHED)),
-        Rule::repaired(|setup| start(setup, chain::Rule::REPAIRED), Hunt::Walls(Observed::REPAIRED)),
+        Rule::published(|setup| start(setup, chain::Rule::PUBLISHED), Quarry::Walls(Observed::PUBLISHED)),
+        Rule::repaired(|setup| start(setup, chain::Rule::REPAIRED), Quarry::Walls(Observed::REPAIRED)),
     ],
     team: "chain",
     robots: 2..=MAX_ROBOTS,

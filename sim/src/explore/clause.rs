@@ -8,7 +8,7 @@ use std::sync::{Mutex, PoisonError};
 use serde::{Serialize, Serializer};
 use tautline_proofs::chain::breach::Breach;
 
-/// An id such as `CHAIN-1`: a family and a number. Ids are ordered by family, then by number, so that `CHAIN-2` comes
+/// An id such as `CHAIN-1`: a family and a number, of letters, digits and hyphens. Ids are ordered by family, then by number, so that `CHAIN-2` comes
 /// before `CHAIN-12`.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ClauseId(&'static str);
@@ -104,8 +104,8 @@ mod tests {
 
     #[test]
     fn an_id_that_was_read_is_kept_once() {
-        let once = ClauseId::read(&"PAIR-1".to_owned());
-        let again = ClauseId::read(&"PAIR-1".to_owned());
+        let once = ClauseId::read("PAIR-1");
+        let again = ClauseId::read("PAIR-1");
         assert_eq!(once, ClauseId::new("PAIR-1"));
         assert!(std::ptr::eq(once.as_str(), again.as_str()));
     }

@@ -50,8 +50,8 @@ pub struct Rule {
     pub about: &'static str,
     /// The team of a setup at its start.
     pub start: Start,
-    /// How layouts are found in which a team breaks a clause, if they are sought.
-    pub hunt: Option<Hunt>,
+    /// How it is hunted, if it is.
+    pub hunt: Option<Quarry>,
 }
 
 /// The team of a setup at its start.
@@ -59,20 +59,20 @@ pub type Start = fn(&Setup) -> Result<Box<dyn Team>, Fault>;
 
 impl Rule {
     /// As the paper publishes it.
-    pub const fn published(start: Start, hunt: Hunt) -> Self {
+    pub const fn published(start: Start, hunt: Quarry) -> Self {
         Self { name: RuleId::PUBLISHED, about: "As the paper publishes it", start, hunt: Some(hunt) }
     }
 
     /// With the repairs of its refuted claims.
-    pub const fn repaired(start: Start, hunt: Hunt) -> Self {
+    pub const fn repaired(start: Start, hunt: Quarry) -> Self {
         let about = "With the repairs of its refuted claims";
         Self { name: RuleId::REPAIRED, about, start, hunt: Some(hunt) }
     }
 }
 
-/// How layouts are found in which a team breaks a clause.
+/// What is sought in a hunt for layouts in which a team breaks a clause.
 #[derive(Clone, Copy, Debug)]
-pub enum Hunt {
+pub enum Quarry {
     /// All layouts, decided wall by wall as the team of this subject meets them.
     Walls(Observed),
     /// All small layouts, and the fewest missed sensors that trap agents of this way.

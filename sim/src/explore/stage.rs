@@ -51,7 +51,7 @@ pub enum Knowledge {
 /// What stands still while a run goes on: who explores, where, and what makes the run.
 #[derive(Clone, Copy, Debug)]
 pub struct Stage<'a> {
-    /// The name of the scheme.
+    /// The name of the scheme: letters, digits and hyphens, as all names of rules and clauses.
     pub scheme: &'a str,
     /// The name of its rule.
     pub rule: &'a str,

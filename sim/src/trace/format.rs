@@ -22,7 +22,7 @@ pub(super) const VERSION: u32 = 1;
 pub(super) const AGAIN: &str = "store the run again with `tautline explore `trace`` or `tautline hunt`";
 
 /// The first line. What scheme, rule and limits say is known only of the schemes of this program.
-#[derive(Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Header<S, R, L> {
     format: String,
@@ -126,31 +126,34 @@ impl StoredMove {
         if cells.len() != robots {
             return Err(("cells", format!("there are {} cells of {robots} robots", cells.len())));
         }
-        let blocked: Vec<bool> = (1..=robots).map(|robot| blocked.contains(&robot)).collect();
+        let mut is_blocked = vec![false; robots];
+        for robot in blocked {
+            is_blocked[robot - 1] = true;
+        }
         for (robot, (&from, &to)) in before.iter().zip(&cells).enumerate() {
-            let (name, side) = (
-                robot + 1,
-                match steps[robot] {
-                    Step::Stay if blocked[robot] => {
-                        return Err(("blocked", format!("robot {} has not tried to go anywhere", robot + 1)));
-                    }
-                    Step::Stay if to == from => continue,
-                    Step::Stay => return Err(("cells", format!("robot {} stays in {from}", robot + 1))),
-                    Step::Cross(side) => side,
-                },
-            );
-            let is_open = layout.is_open(Edge::new(from, side));
-            let due = if blocked[robot] { from } else { from.beyond(side) };
-            if blocked[robot] && is_open {
-                return Err(("blocked", format!("nothing is in the way of robot {name} at {from}")));
-            }
-            if !blocked[robot] && !is_open {
-                return Err(("tried", format!("robot {name} at {from} cannot cross a wall")));
-            }
-            if to != due {
-                return Err(("cells", format!("robot {name} is in {due} then")));
+            let name = robot + 1;
+            let is_open = |side| layout.is_open(Edge::new(from, side));
+            let wrong = match (steps[robot], is_blocked[robot]) {
+                (Step::Stay, true) => Some(("blocked", format!("robot {name} has tried to go nowhere"))),
+                (Step::Cross(side), true) if is_open(side) => {
+                    Some(("blocked", format!("nothing is in the way of robot {name} at {from}")))
+                }
+                (Step::Stay, false) | (Step::Cross(_), true) => {
+                    (to != from).then(|| ("cells", format!("robot {name} stays in {from}")))
+                }
+                (Step::Cross(side), false) if !is_open(side) => {
+                    Some(("tried", format!("robot {name} at {from} cannot cross a wall")))
+                }
+                (Step::Cross(side), false) => {
+                    let due = from.beyond(side);
+                    (to != due).then(|| ("cells", format!("robot {name} goes from {from} to {due}")))
+                }
+            };
+            if let Some(wrong) = wrong {
+                return Err(wrong);
             }
         }
+        let blocked = is_blocked;
         Ok(Frame { kind, steps, blocked, cells })
     }
 }
@@ -235,11 +238,17 @@ impl Writer {
 }
 
 /// The layout of a header, with the base where the header has it.
-pub(super) fn drawn(lines: &Lines, text: &str, layout: &str, base: Cell) -> Result<Layout, Fault> {
-    let layout: Layout = layout.parse().map_err(|problem| lines.fault(text, "\"layout\"", problem, AGAIN))?;
+pub(super) fn drawn(
+    lines: &Lines,
+    text: &str,
+    layout: &str,
+    base: Cell,
+    again: &str,
+) -> Result<Layout, Fault> {
+    let layout: Layout = layout.parse().map_err(|problem| lines.fault(text, "\"layout\"", problem, again))?;
     if layout.base() != Some(base) {
         let what = format!("the base {base} is not where the layout draws it");
-        return Err(lines.fault(text, "\"base\"", what, AGAIN));
+        return Err(lines.fault(text, "\"base\"", what, again));
     }
     Ok(layout)
 }

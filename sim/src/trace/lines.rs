@@ -71,6 +71,11 @@ impl Lines {
         Ok(Self { path: path.to_owned(), input: BufReader::new(file), count: 0, again })
     }
 
+    /// The same lines, with other words for how to make such a file again.
+    pub(crate) fn made_by(self, again: &'static str) -> Self {
+        Self { again, ..self }
+    }
+
     /// The file.
     pub(crate) fn path(&self) -> &Path {
         &self.path

@@ -6,110 +6,72 @@ use serde::de::IgnoredAny;
 use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::run::Frame;
 
-use super::format::{AGAIN, Header, Line, StoredEnd, StoredViolation, drawn};
+use super::format::{Header, Line, StoredEnd, StoredViolation, drawn};
 use super::lines::{Lines, MAX_LINE_BYTES};
-use crate::explore::{ClauseId, End, Limits, Look, Play, Report, Stage, Team, Violation, Watcher, run};
+use crate::explore::{
+    Chart, ClauseId, End, Limits, Look, Play, Report, Stage, Team, Violation, Watcher, run,
+};
 use crate::fault::{Fault, Halt};
 use crate::layout::Layout;
-use crate::layout::generate::Probability;
+
+const AGAIN: &str = "store the run again with the program that wrote it";
 
 /// Robots that are held, over all team moves.
 const MAX_HELD: usize = 1 << 22;
+
+/// Letters of a name.
+const MAX_WORD: usize = 64;
+
+/// Whether `name` can stand in every drawing as it is.
+fn is_word(name: &str) -> bool {
+    let is_fitting = |letter: char| letter.is_ascii_alphanumeric() || letter == '-';
+    (1..=MAX_WORD).contains(&name.len()) && name.chars().all(is_fitting)
+}
 
 /// A run as it was written, which agrees with itself.
 #[derive(Clone, Debug)]
 pub struct Recorded {
     /// The clause that the file says it breaks, if it is a counterexample.
     pub clause: Option<ClauseId>,
-    scheme: String,
-    rule: String,
-    seed: u64,
+    header: Named,
     layout: Layout,
-    base: Cell,
-    starts: Option<Vec<Cell>>,
-    miss: Probability,
-    missed: Vec<u32>,
-    robots: u16,
     frames: Vec<Frame>,
     end: StoredEnd,
     violations: Vec<Violation>,
 }
 
+/// A header of which the scheme, its rule and when a run of it is stopped are only names.
+type Named = Header<String, String, IgnoredAny>;
+
 impl Recorded {
     /// Reads the lines of a run behind its header, which is `text`.
-    pub(super) fn read(mut lines: Lines, text: &str) -> Result<Self, Fault> {
-        let header: Header<String, String, IgnoredAny> = lines.parse(text, AGAIN)?;
-        let Header { scheme, rule, robots, seed, base, starts, miss, missed, clause, layout, .. } = header;
-        let layout = drawn(&lines, text, &layout, base)?;
-        if robots == 0 {
-            return Err(lines.fault(text, "\"robots\"", "no robots are no team", AGAIN));
+    pub(super) fn read(lines: Lines, text: &str) -> Result<Self, Fault> {
+        let mut lines = lines.made_by(AGAIN);
+        let header: Named = lines.parse(text, AGAIN)?;
+        let layout = drawn(&lines, text, &header.layout, header.base, AGAIN)?;
+        if let Err((key, what)) = check_header(&header, &layout) {
+            return Err(lines.fault(text, &format!("\"{key}\""), what, AGAIN));
         }
-        if let Some(starts) = starts.as_ref().filter(|starts| starts.len() != usize::from(robots)) {
-            let what = format!("there are {} starts of {robots} robots", starts.len());
-            return Err(lines.fault(text, "\"starts\"", what, AGAIN));
+        let (frames, text, end) = read_moves(&mut lines, starts(&header), &layout)?;
+        let wrong = |what: String| Err(lines.fault(&text, "\"violations\"", what, AGAIN));
+        if let Some(broken) = end.violations.iter().find(|broken| !is_word(&broken.clause)) {
+            return wrong(format!("{:?} is no name of a clause", broken.clause));
         }
-        for &start in starts.iter().flatten() {
-            let refused = layout.check_start(start).err();
-            refused
-                .map_or(Ok(()), |problem| Err(lines.fault(text, "\"starts\"", &problem, problem.remedy())))?;
+        if !end.violations.is_sorted_by_key(|broken| broken.step) {
+            return wrong("the team moves are not in order".to_owned());
         }
-        let mut team = starts.clone().unwrap_or_else(|| vec![base; robots.into()]);
-        let (mut frames, mut number) = (Vec::new(), 1);
-        let (text, end) = loop {
-            let Some(text) = lines.next(MAX_LINE_BYTES)? else {
-                let what = format!("the trace ends after line {number}; a stored run has an end");
-                return Err(Fault::in_file(lines.path(), what, AGAIN));
-            };
-            let made = match lines.parse(&text, AGAIN)? {
-                Line::Move(made) => made,
-                Line::End(end) => break (text, end),
-            };
-            if made.step != number {
-                let what = format!("this is team move {number}");
-                return Err(lines.fault(&text, "\"step\"", what, AGAIN));
-            }
-            let told = made.frame(&team, &layout);
-            let frame =
-                told.map_err(|(field, what)| lines.fault(&text, &format!("\"{field}\""), what, AGAIN))?;
-            team.clone_from(&frame.cells);
-            frames.push(frame);
-            number += 1;
-            if frames.len() * team.len() > MAX_HELD {
-                let what = format!("more than {MAX_HELD} robots in all team moves");
-                return Err(Fault::in_file(lines.path(), what, "store a shorter run"));
-            }
-        };
-        let violation = |stored: &StoredViolation| Violation {
-            clause: ClauseId::read(&stored.clause),
-            step: stored.step,
-        };
-        let violations: Vec<Violation> = end.violations.iter().map(violation).collect();
-        if !violations.is_sorted_by_key(|violation| violation.step) {
-            return Err(lines.fault(&text, "\"violations\"", "the team moves are not in order", AGAIN));
-        }
-        let clause = clause.as_deref().map(ClauseId::read);
-        if let Some(clause) = clause.filter(|&clause| violations.iter().all(|broken| broken.clause != clause))
+        if let Some(clause) = &header.clause
+            && end.violations.iter().all(|broken| broken.clause != *clause)
         {
-            let what =
-                format!("the header promises that {clause} is broken, but the end does not tell of it");
-            return Err(lines.fault(&text, "\"violations\"", what, AGAIN));
+            return wrong(format!("the header promises that {clause} is broken, and it is not"));
         }
-        let miss = miss.unwrap_or_default();
-        let recorded = Self {
-            clause,
-            scheme,
-            rule,
-            seed,
-            layout,
-            base,
-            starts,
-            miss,
-            missed,
-            robots,
-            frames,
-            end,
-            violations,
+        let violation = |broken: &StoredViolation| Violation {
+            clause: ClauseId::read(&broken.clause),
+            step: broken.step,
         };
+        let violations = end.violations.iter().map(violation).collect();
+        let clause = header.clause.as_deref().map(ClauseId::read);
+        let recorded = Self { clause, header, layout, frames, end, violations };
         recorded.check(&lines, &text)?;
         lines.end()?;
         Ok(recorded)
@@ -131,7 +93,7 @@ impl Recorded {
     }
 
     fn run(&self, watch: &mut Watcher<'_>) -> Result<Report, Halt> {
-        let mut player = Player { recorded: self, made: 0, cells: self.stage().starts() };
+        let mut player = Player { recorded: self, made: 0, cells: starts(&self.header) };
         let report = run(&mut player, &self.layout, Limits::default(), watch)?;
         Ok(Report { stopped: self.end.stopped, ..report })
     }
@@ -139,16 +101,17 @@ impl Recorded {
 
 impl Play for Recorded {
     fn stage(&self) -> Stage<'_> {
+        let Header { scheme, rule, robots, seed, base, starts, miss, missed, .. } = &self.header;
         Stage {
-            scheme: &self.scheme,
-            rule: &self.rule,
-            robots: self.robots,
-            seed: self.seed,
+            scheme,
+            rule,
+            robots: *robots,
+            seed: *seed,
             layout: &self.layout,
-            base: self.base,
-            starts: self.starts.as_deref(),
-            miss: self.miss,
-            missed: &self.missed,
+            base: *base,
+            starts: starts.as_deref(),
+            miss: miss.unwrap_or_default(),
+            missed,
             limits: Limits::default(),
             look: Look::Apart,
             knowledge: None,
@@ -157,6 +120,64 @@ impl Play for Recorded {
 
     fn play(&self, watch: &mut Watcher<'_>) -> Result<Report, Halt> {
         self.run(watch)
+    }
+}
+
+/// Where the robots of a header start.
+fn starts(header: &Named) -> Vec<Cell> {
+    header.starts.clone().unwrap_or_else(|| vec![header.base; header.robots.into()])
+}
+
+/// Checks what a header says of the team: else the key that is wrong, and what is wrong with it.
+fn check_header(header: &Named, layout: &Layout) -> Result<(), (&'static str, String)> {
+    let Header { scheme, rule, robots, clause, .. } = header;
+    for (key, name) in [("scheme", Some(scheme)), ("rule", Some(rule)), ("clause", clause.as_ref())] {
+        if let Some(name) = name.filter(|name| !is_word(name)) {
+            return Err((
+                key,
+                format!("{name:?} is no name: at most {MAX_WORD} letters, digits and hyphens"),
+            ));
+        }
+    }
+    if *robots == 0 {
+        return Err(("robots", "no robots are no team".to_owned()));
+    }
+    let starts = starts(header);
+    if starts.len() != usize::from(*robots) {
+        return Err(("starts", format!("there are {} starts of {robots} robots", starts.len())));
+    }
+    let refused = starts.iter().find_map(|&start| layout.check_start(start).err());
+    refused.map_or(Ok(()), |problem| Err(("starts", problem.to_string())))
+}
+
+/// The team moves of robots in the cells `team`, and the end with its line.
+fn read_moves(
+    lines: &mut Lines,
+    mut team: Vec<Cell>,
+    layout: &Layout,
+) -> Result<(Vec<Frame>, String, StoredEnd), Fault> {
+    let mut frames: Vec<Frame> = Vec::new();
+    loop {
+        let number = frames.len() + 1;
+        let Some(text) = lines.next(MAX_LINE_BYTES)? else {
+            let what = format!("the trace ends after line {number}; a stored run has an end");
+            return Err(Fault::in_file(lines.path(), what, AGAIN));
+        };
+        let made = match lines.parse(&text, AGAIN)? {
+            Line::Move(made) => made,
+            Line::End(end) => return Ok((frames, text, end)),
+        };
+        if made.step as usize != number {
+            return Err(lines.fault(&text, "\"step\"", format_args!("this is team move {number}"), AGAIN));
+        }
+        let told = made.frame(&team, layout);
+        let frame = told.map_err(|(key, what)| lines.fault(&text, &format!("\"{key}\""), what, AGAIN))?;
+        team.clone_from(&frame.cells);
+        frames.push(frame);
+        if number * team.len() > MAX_HELD {
+            let what = format!("more than {MAX_HELD} robots in all team moves");
+            return Err(Fault::in_file(lines.path(), what, "store a shorter run"));
+        }
     }
 }
 
@@ -197,7 +218,7 @@ impl Team for Player<'_> {
     }
 
     /// What is broken before the first team move.
-    fn broken_at_end(&self, _: &Layout, _: &crate::explore::Chart, _: End) -> Vec<ClauseId> {
+    fn broken_at_end(&self, _: &Layout, _: &Chart, _: End) -> Vec<ClauseId> {
         if self.made == 0 { self.broken() } else { Vec::new() }
     }
 }
