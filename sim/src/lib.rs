@@ -2,6 +2,7 @@
 //! are drawn and counted. What a person types, and how an error is printed, is the program's business.
 
 pub mod aside;
+pub mod columns;
 pub mod exhibit;
 pub mod explore;
 pub mod fault;
@@ -9,9 +10,11 @@ pub mod hunt;
 pub mod layout;
 pub mod minimise;
 pub mod radio;
+pub mod reading;
 pub mod refutation;
-pub mod reproduce;
 pub mod rescue;
+pub mod stats;
+pub mod tables;
 pub mod tan;
 pub mod trace;
 pub mod view;
