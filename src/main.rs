@@ -20,7 +20,7 @@ mod show;
 mod threads;
 
 use std::io::{self, IsTerminal, Write};
-use std::num::{IntErrorKind, NonZeroU32, ParseIntError};
+use std::num::NonZeroU32;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -30,7 +30,6 @@ use std::time::Instant;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use tautline_kernel::ground::Cell;
-use tautline_kernel::notice::Count;
 
 use crate::report::{Colour, render};
 use output::Output;
@@ -40,6 +39,7 @@ use tautline_sim::explore::catalogue::{self, NoClause};
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::layout::{self, Generator, Layout, Problem, Size};
+use tautline_sim::reading::{number, real, whole};
 
 /// How a command ended. Where several are so, the last of them in this order is told.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -209,10 +209,31 @@ impl ForceArgs {
         paths: [&Option<PathBuf>; N],
         inputs: impl IntoIterator<Item = PathBuf>,
     ) -> Result<[Option<Aside>; N], Fault> {
-        if self.force && paths.iter().all(|path| path.is_none()) {
+        self.has_effect(paths.iter().any(|path| path.is_some()))?;
+        Aside::several(paths.map(Option::as_deref), &self.replaceable(inputs))
+    }
+
+    /// The same of as many files as there may be, of a command that reads none.
+    ///
+    /// # Errors
+    /// As of [`ForceArgs::files`].
+    fn each(&self, paths: &[Option<PathBuf>]) -> Result<Vec<Option<Aside>>, Fault> {
+        self.has_effect(paths.iter().any(Option::is_some))?;
+        let replaceable = self.replaceable([]);
+        let mut files: Vec<Option<Aside>> = Vec::new();
+        for path in paths {
+            let beside = |path: &PathBuf| Aside::beside(path, files.iter().flatten(), &replaceable);
+            let file = path.as_ref().map(beside).transpose()?;
+            files.push(file);
+        }
+        Ok(files)
+    }
+
+    fn has_effect(&self, is_any_stored: bool) -> Result<(), Fault> {
+        if self.force && !is_any_stored {
             return Err(needless("--force", "no file is to be stored"));
         }
-        Aside::several(paths.map(Option::as_deref), &self.replaceable(inputs))
+        Ok(())
     }
 }
 
@@ -249,34 +270,9 @@ fn clause(id: &str) -> Result<ClauseId, String> {
     catalogue::clause(&id.to_ascii_uppercase()).map_err(|none: NoClause| format!("{none}; {}", none.remedy()))
 }
 
-/// A whole number, as large as its type holds.
-fn number<T: FromStr>(text: &str) -> Result<T, String> {
-    let largest = u128::MAX >> (128 - 8 * size_of::<T>());
-    text.parse().map_err(|_| format!("write a whole number up to {largest}"))
-}
-
-/// A whole number of which something else says how large it may be.
-fn whole<T: FromStr<Err = ParseIntError>>(text: &str) -> Result<T, &'static str> {
-    text.parse().map_err(|error: ParseIntError| match error.kind() {
-        IntErrorKind::PosOverflow => "write a smaller number",
-        _ => "write a whole number",
-    })
-}
-
-/// A number that need not be whole.
-fn real(text: &str) -> Result<f64, &'static str> {
-    text.parse().map_err(|_| "write a number")
-}
-
 /// A number from 0 to 1.
 fn probability(text: &str) -> Result<Probability, String> {
     text.parse().map_err(|problem: Problem| format!("{problem}; {}", problem.remedy()))
-}
-
-/// How often something is counted until a node is silent.
-fn count(text: &str) -> Result<Count, String> {
-    let count = text.parse().ok().and_then(Count::new);
-    count.ok_or_else(|| format!("write whole numbers from 1 to {}", Count::MOST))
 }
 
 /// A whole number above 0.

@@ -1,24 +1,21 @@
-//! `tautline reproduce`: tables again.
+//! `tautline reproduce`: tables again. The catalogue of tables says what can be asked, and does the work.
 
-mod agents;
-mod antenna_fig4;
-mod atlas;
-mod journeys;
-mod notice_fig5;
-mod optimum;
-mod repair_cost;
-mod rescue_fig8;
-mod table;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
 
-use clap::{Args, Subcommand};
+use clap::builder::{PossibleValue, PossibleValuesParser};
+use clap::error::ErrorKind;
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, Subcommand};
+use indicatif::ProgressBar;
 use serde::Serialize;
+use tautline_proofs::engine::tree::Progress;
+use tautline_sim::fault::Halt;
+use tautline_sim::tables::parameter::{Given, Values};
+use tautline_sim::tables::{About, Entry, Observer, TABLES, find};
 
 use super::output::Output;
-use super::{Exit, Format, FormatArgs};
-use tautline_sim::fault::Halt;
-use tautline_sim::reproduce::Reproduction;
-use tautline_sim::reproduce::agents::Figure;
-use tautline_sim::reproduce::journeys::Figure as Journey;
+use super::{Exit, ForceArgs, Format, FormatArgs, SCHEMA_VERSION, progress};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -32,42 +29,22 @@ Examples:
 #[command(subcommand_value_name = "ID", subcommand_help_heading = "Tables")]
 pub(super) struct Reproduce {
     #[command(subcommand)]
-    table: Option<Table>,
+    table: Option<Wanted>,
     #[command(flatten)]
     format: FormatArgs,
 }
 
-#[derive(Debug, Subcommand)]
-enum Table {
-    RepairCost(repair_cost::RepairCost),
-    Optimum(optimum::Optimum),
-    Atlas(atlas::Atlas),
-    /// What agents explore by their number, with missed sensors.
-    #[command(name = "bricks-fig11")]
-    BricksFig11(agents::Agents),
-    /// What agents explore by the area, with missed sensors.
-    #[command(name = "bricks-fig12")]
-    BricksFig12(agents::Agents),
-    /// How long agents take, with none missed.
-    BricksIdeal(agents::Agents),
-    #[command(name = "antenna-fig4")]
-    AntennaFig4(antenna_fig4::AntennaFig4),
-    #[command(name = "notice-fig5")]
-    NoticeFig5(notice_fig5::NoticeFig5),
-    /// The ways of a robot by Reich's scheme, TAN and Verma's, as a picture.
-    #[command(name = "rescue-fig6")]
-    RescueFig6(journeys::Journeys),
-    /// How far a robot walks by TAN and its rivals, by the number of nodes.
-    #[command(name = "rescue-fig7")]
-    RescueFig7(journeys::Journeys),
-    #[command(name = "rescue-fig8")]
-    RescueFig8(rescue_fig8::RescueFig8),
-    /// How far a robot walks round a large obstacle.
-    #[command(name = "rescue-fig9")]
-    RescueFig9(journeys::Journeys),
-    /// How far a robot walks round four large obstacles.
-    #[command(name = "rescue-fig10")]
-    RescueFig10(journeys::Journeys),
+/// A table, and what is asked of it.
+#[derive(Debug)]
+struct Wanted {
+    table: &'static dyn Entry,
+    /// The options that are given, with their values.
+    given: Vec<(String, Vec<String>)>,
+    /// The names of its pictures, and where each is to be stored.
+    pictures: (Vec<&'static str>, Vec<Option<PathBuf>>),
+    /// None if it has no pictures.
+    force: Option<ForceArgs>,
+    format: FormatArgs,
 }
 
 #[derive(Serialize)]
@@ -85,28 +62,14 @@ impl Reproduce {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         match &self.table {
             None => self.list(out),
-            Some(Table::RepairCost(table)) => table.run(out),
-            Some(Table::Optimum(table)) => table.run(out),
-            Some(Table::Atlas(table)) => table.run(out),
-            Some(Table::BricksFig11(table)) => table.run(Reproduction::BricksFig11, Figure::Agents, out),
-            Some(Table::BricksFig12(table)) => table.run(Reproduction::BricksFig12, Figure::Area, out),
-            Some(Table::BricksIdeal(table)) => table.run(Reproduction::BricksIdeal, Figure::Ideal, out),
-            Some(Table::AntennaFig4(table)) => table.run(out),
-            Some(Table::NoticeFig5(table)) => table.run(out),
-            Some(Table::RescueFig6(table)) => table.run(Reproduction::RescueFig6, Journey::Trajectories, out),
-            Some(Table::RescueFig7(table)) => table.run(Reproduction::RescueFig7, Journey::Ratios, out),
-            Some(Table::RescueFig8(table)) => table.run(out),
-            Some(Table::RescueFig9(table)) => table.run(Reproduction::RescueFig9, Journey::OneObstacle, out),
-            Some(Table::RescueFig10(table)) => {
-                table.run(Reproduction::RescueFig10, Journey::FourObstacles, out)
-            }
+            Some(wanted) => wanted.run(out),
         }
     }
 
     fn list(&self, out: &mut Output) -> Result<Exit, Halt> {
-        let listed =
-            |reproduction: Reproduction| Listed { id: reproduction.id(), shows: reproduction.words() };
-        let reproductions: Vec<Listed> = Reproduction::ALL.into_iter().map(listed).collect();
+        let about = TABLES.iter().map(|table| table.about());
+        let reproductions: Vec<Listed> =
+            about.map(|about| Listed { id: about.id, shows: about.shows }).collect();
         match self.format.format {
             Format::Json => out.json(&List { reproductions })?,
             Format::Text => {
@@ -116,5 +79,163 @@ impl Reproduce {
             }
         }
         Ok(Exit::Expected)
+    }
+}
+
+impl Wanted {
+    fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        let (names, paths) = &self.pictures;
+        let files = self.force.as_ref().map_or_else(|| Ok(Vec::new()), |force| force.each(paths))?;
+        let asked = self.table.asked(&self.given)?;
+        let made = Show::over(self.table.about().doing, |show| asked.run(show))?;
+        for (name, file) in names.iter().zip(files) {
+            if let Some(mut file) = file {
+                file.draw(made.picture(name))?;
+                out.keep(file);
+            }
+        }
+        match self.format.format {
+            Format::Json => out.text(made.json(SCHEMA_VERSION)? + "\n")?,
+            Format::Text => out.text(made.text()?)?,
+        }
+        Ok(if made.is_broken() { Exit::Violation } else { Exit::Expected })
+    }
+}
+
+impl Subcommand for Wanted {
+    fn augment_subcommands(command: Command) -> Command {
+        TABLES.iter().fold(command, |command, &table| command.subcommand(subcommand(table)))
+    }
+
+    fn augment_subcommands_for_update(command: Command) -> Command {
+        Self::augment_subcommands(command)
+    }
+
+    fn has_subcommand(name: &str) -> bool {
+        find(name).is_some()
+    }
+}
+
+impl FromArgMatches for Wanted {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
+        let missing = || Error::raw(ErrorKind::MissingSubcommand, "an id of a table is missing");
+        let (id, matches) = matches.subcommand().ok_or_else(missing)?;
+        let table = find(id).ok_or_else(missing)?;
+        let given = |option: Given| match option.values {
+            Values::None => matches.get_flag(option.name).then(|| (option.name.to_owned(), Vec::new())),
+            Values::One | Values::Word(_) | Values::List | Values::Repeated => {
+                let texts = matches.get_many::<String>(option.name)?;
+                Some((option.name.to_owned(), texts.cloned().collect()))
+            }
+        };
+        let picture = |(name, _): (&'static str, _)| (name, matches.get_one::<PathBuf>(name).cloned());
+        let pictures: (Vec<_>, Vec<_>) = table.pictures().into_iter().map(picture).unzip();
+        let force = (!pictures.0.is_empty()).then(|| ForceArgs::from_arg_matches(matches)).transpose()?;
+        Ok(Self {
+            table,
+            given: table.options().into_iter().filter_map(|(option, _)| given(option)).collect(),
+            pictures,
+            force,
+            format: FormatArgs::from_arg_matches(matches)?,
+        })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+/// The command that measures a table.
+fn subcommand(table: &'static dyn Entry) -> Command {
+    let options = table.options().into_iter().map(|(option, default)| argument(table, option, default));
+    let mut command = Command::new(table.about().id).args(options);
+    let pictures = table.pictures();
+    if !pictures.is_empty() {
+        let picture = |(name, about)| {
+            let path = clap::value_parser!(PathBuf);
+            Arg::new(name).long(name).value_name("FILE").help(about).value_parser(path)
+        };
+        command = ForceArgs::augment_args(command.args(pictures.into_iter().map(picture)));
+    }
+    // What is said of the table comes last: options that are flattened in say something, too.
+    let About { help, more, examples, .. } = table.about();
+    let examples = examples.iter().map(|example| format!("\n  tautline reproduce {example}"));
+    let examples = "Examples:".to_owned() + &examples.collect::<String>();
+    let command = FormatArgs::augment_args(command).about(help).after_help(examples);
+    if more.is_empty() { command } else { command.long_about(format!("{help}.\n\n{more}")) }
+}
+
+/// An option of a table. Values are checked as they are read, so that what is wrong is told of the option.
+fn argument(table: &'static dyn Entry, option: Given, default: Vec<String>) -> Arg {
+    let name = option.name;
+    let argument = Arg::new(name).long(name).help(option.about);
+    if option.values == Values::None {
+        return argument.action(ArgAction::SetTrue);
+    }
+    let checked = move |text: &str| table.check(name, text).map(|()| text.to_owned());
+    let argument = argument.value_name(option.value).default_values(default);
+    match option.values {
+        Values::None | Values::One => argument.value_parser(checked),
+        Values::Word(words) => {
+            let words = words.into_iter().map(|(word, about)| PossibleValue::new(word).help(about));
+            argument.value_parser(PossibleValuesParser::new(words))
+        }
+        Values::List => argument.value_parser(checked).value_delimiter(',').action(ArgAction::Append),
+        Values::Repeated => {
+            argument.value_parser(checked).allow_hyphen_values(true).action(ArgAction::Append)
+        }
+    }
+}
+
+/// Shows how far a table is.
+struct Show {
+    doing: &'static str,
+    bar: ProgressBar,
+    parts: AtomicU64,
+    done: AtomicU64,
+}
+
+impl Show {
+    /// Does the work under a bar.
+    fn over<T>(doing: &'static str, work: impl FnOnce(&Self) -> Result<T, Halt>) -> Result<T, Halt> {
+        let start = Instant::now();
+        let (parts, done) = (AtomicU64::new(0), AtomicU64::new(0));
+        let show = Self { doing, bar: progress::bar(doing, 1), parts, done };
+        let result = work(&show);
+        show.bar.finish_and_clear();
+        let [done, parts] = [&show.done, &show.parts].map(|count| count.load(Ordering::Relaxed));
+        tracing::info!("{doing}: {done} of {parts} in {:.3} s", start.elapsed().as_secs_f64());
+        result
+    }
+}
+
+impl Observer for Show {
+    fn begin(&self, parts: u64) {
+        self.parts.store(parts, Ordering::Relaxed);
+        self.bar.set_length(parts);
+    }
+
+    fn done(&self, parts: u64) -> Result<(), Halt> {
+        let before = self.done.fetch_add(parts, Ordering::Relaxed);
+        // A search may have had the bar to itself.
+        if self.bar.prefix() == self.doing {
+            self.bar.inc(parts);
+        } else {
+            self.bar.reset();
+            self.bar.set_prefix(self.doing);
+            self.bar.set_message("");
+            self.bar.set_length(self.parts.load(Ordering::Relaxed));
+            self.bar.set_position(before + parts);
+        }
+        Ok(())
+    }
+
+    fn searched(&self, what: &str, progress: &Progress<'_>) -> Result<(), Halt> {
+        if self.bar.prefix() != what {
+            self.bar.reset();
+            self.bar.set_prefix(what.to_owned());
+        }
+        if progress::show(&self.bar, progress).is_break() { Err(Halt::Interrupted) } else { Ok(()) }
     }
 }

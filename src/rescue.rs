@@ -15,16 +15,18 @@ use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, needless, progress, real, whole};
 use crate::chosen::chosen;
 use tautline_sim::aside::Aside;
+use tautline_sim::columns::{Column, Columns, Width};
 use tautline_sim::draw;
 use tautline_sim::draw::field::picture;
 use tautline_sim::explore::RuleName;
 use tautline_sim::fault::{Fault, Halt, Watch};
 use tautline_sim::radio::{ChannelName, FREE_SPACE};
-use tautline_sim::reproduce::interval::Estimate;
+use tautline_sim::reading::Metres;
 use tautline_sim::rescue::{
     Assignments, CallTimes, Event, Logged, Ordinal, Report, RobotsFailed, SchemeName, Setting, Summary,
     rescue, seconds, trace,
 };
+use tautline_sim::stats::Estimate;
 use tautline_sim::words::Worded;
 
 const EXAMPLES: &str = "\
@@ -133,23 +135,6 @@ pub(super) struct Rescue {
     force: ForceArgs,
     #[command(flatten)]
     format: FormatArgs,
-}
-
-/// Metres, with commas between them.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Metres<const COUNT: usize>(pub(super) [f64; COUNT]);
-
-impl<const COUNT: usize> FromStr for Metres<COUNT> {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
-        let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
-        numbers.map(Self).ok_or_else(|| {
-            let example: Vec<String> = (1..=COUNT).map(|place| (place * 50).to_string()).collect();
-            format!("write {COUNT} numbers of metres, for example {}", example.join(","))
-        })
-    }
 }
 
 /// Metres as `WxH`.
@@ -436,13 +421,12 @@ fn table(setting: &Setting, summary: &Summary) -> String {
         "seconds from the first call to the robot".to_owned(),
         Estimate::text_or_dash(summary.wait_s, 1),
     ));
-    let width = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
-    let mut text = String::new();
-    // Writing to a string cannot fail.
+    let mut columns = Columns::new([Column::left(Width::Fit), Column::left(Width::Fit)]);
     for (name, value) in rows {
-        let _ = writeln!(text, "{name:<width$}  {value}");
+        columns.row([name, value]);
     }
-    text.push('\n');
+    let mut text = columns.text() + "\n";
+    // Writing to a string cannot fail.
     for broken in &summary.violations {
         let rescues = counted(broken.rescues as usize, "rescue");
         let event = match setting.events_per_wfr {

@@ -165,14 +165,26 @@ impl Aside {
         let mut asides = [const { None::<Self> }; N];
         for (place, path) in paths.into_iter().enumerate() {
             let Some(path) = path else { continue };
-            let (aside, taken) = (Self::new(path, replaceable)?, asides[..place].iter().flatten());
-            if taken.into_iter().any(|other| other.place() == aside.place()) {
-                let what = "two files are to stand here";
-                return Err(Fault::in_file(path, what, "give each a name of its own"));
-            }
-            asides[place] = Some(aside);
+            asides[place] = Some(Self::beside(path, asides[..place].iter().flatten(), replaceable)?);
         }
         Ok(asides)
+    }
+
+    /// A file that a command stores beside others.
+    ///
+    /// # Errors
+    /// A [`Fault`] as of [`Aside::new`], or if it is to stand where one of the others is.
+    pub fn beside<'a>(
+        path: &Path,
+        mut others: impl Iterator<Item = &'a Self>,
+        replaceable: &Replaceable,
+    ) -> Result<Self, Fault> {
+        let aside = Self::new(path, replaceable)?;
+        if others.any(|other| other.place() == aside.place()) {
+            let what = "two files are to stand here";
+            return Err(Fault::in_file(path, what, "give each a name of its own"));
+        }
+        Ok(aside)
     }
 
     /// The path as the user gave it.

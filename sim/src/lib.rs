@@ -2,14 +2,17 @@
 //! are drawn and counted. What a person types, and how an error is printed, is the program's business.
 
 pub mod aside;
+pub mod columns;
 pub mod counterexample;
 pub mod draw;
 pub mod explore;
 pub mod fault;
 pub mod layout;
 pub mod radio;
-pub mod reproduce;
+pub mod reading;
 pub mod rescue;
+pub mod stats;
+pub mod tables;
 pub mod tan;
 pub mod trace;
 pub mod wide;

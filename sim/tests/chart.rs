@@ -4,7 +4,7 @@ use insta::assert_snapshot;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use tautline_sim::draw::chart::{Axis, LineChart, Point, Series, Stroke};
-use tautline_sim::reproduce::interval::Estimate;
+use tautline_sim::stats::Estimate;
 
 fn points(points: &[(f64, f64)]) -> Vec<Point> {
     points.iter().map(|&(x, y)| Point { x, y, interval: None }).collect()
@@ -25,7 +25,10 @@ fn chart(series: Vec<Series>) -> LineChart {
 
 /// Two series measured, and one that a paper prints.
 fn explored() -> LineChart {
-    let share = |hits, x| Estimate::share(hits, 200).expect("a share").times(100.0).at(x);
+    let share = |hits, x| {
+        let share = Estimate::share(hits, 200).expect("a share").times(100.0);
+        Point { x, y: share.mean, interval: share.interval }
+    };
     let bricks = [(1.0, 98), (10.0, 151), (20.0, 170), (40.0, 184)].map(|(x, hits)| share(hits, x));
     let ants = [1.0, 10.0, 20.0, 40.0].map(|x| share(200, x));
     let paper = Series {

@@ -1,8 +1,8 @@
 //! Broadcasts over random networks against what an independent program measured.
 
-use tautline_kernel::notice::Count;
-use tautline_sim::radio::Channel;
-use tautline_sim::reproduce::notice_fig5::{NODES, RANGE_M, SIDE_M, Setting};
+use tautline_sim::tables::measure;
+use tautline_sim::tables::notice_fig5::{NoticeFig5, Settings};
+use tautline_sim::tables::parameter::Senders;
 
 /// The normal distribution's 99.5 % quantile.
 const NORMAL: f64 = 2.576;
@@ -16,16 +16,8 @@ const PRINTED: (f64, f64) = (0.005, 0.5);
 
 #[test]
 fn reach_and_rebroadcasts_are_compatible_with_those_of_an_independent_program() {
-    let setting = Setting {
-        nodes: NODES.to_vec(),
-        side_m: SIDE_M,
-        range_m: RANGE_M,
-        ks: vec![Count::ONE],
-        topologies: 200,
-        seed: 0,
-        channel: Channel::Ideal,
-    };
-    let densities = setting.measure(&|| Ok(())).expect("networks");
+    let settings = Settings { ks: vec![Senders::ONE], ..Settings::default() };
+    let densities = measure(&NoticeFig5, &settings, &()).expect("networks").densities;
     for (density, (reach, rebroadcasts)) in densities.iter().zip(INDEPENDENT) {
         let ours = &density.schemes[0];
         for (ours, theirs, printed) in

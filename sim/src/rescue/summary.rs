@@ -11,7 +11,7 @@ use tautline_proofs::mrc::Demand;
 
 use super::{Event, Fate, Logged, Ordinal, Report, Setting, Violation, rescue};
 use crate::fault::{Fault, Halt, Watch};
-use crate::reproduce::interval::{Estimate, rounded};
+use crate::stats::{Estimate, rounded};
 
 /// What came of many rescues.
 #[derive(Clone, PartialEq, Debug, Serialize)]

@@ -1,15 +1,13 @@
 //! Means and shares with their 95 % intervals. Everything is summed exactly or in the order given, and no step but
 //! division and square root rounds, so results are the same on every machine and any number of threads.
 
-use serde::Serialize;
-
-use crate::draw::chart::Point;
+use serde::{Deserialize, Serialize};
 
 /// The normal distribution's 97.5 % quantile.
 const NORMAL: f64 = 1.959_964;
 
 /// A mean or a share, and where 95 % of such intervals have the true one.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Estimate {
     /// How many values it is of.
     pub count: u32,
@@ -100,15 +98,10 @@ impl Estimate {
         let interval = self.interval.map(|bounds| bounds.map(|bound| bound * factor));
         Self { mean: self.mean * factor, interval, ..self }
     }
-
-    /// Its point in a chart.
-    pub fn at(self, x: f64) -> Point {
-        Point { x, y: self.mean, interval: self.interval }
-    }
 }
 
 /// Exact sums over whole numbers, to be added up in any order.
-#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug, Serialize, Deserialize)]
 pub struct Moments {
     count: u32,
     sum: i128,
@@ -161,12 +154,12 @@ fn student(degrees_of_freedom: u32) -> f64 {
 }
 
 /// Rounded to two decimals.
-pub(super) fn hundredths(number: f64) -> f64 {
+pub(crate) fn hundredths(number: f64) -> f64 {
     decimals(number, 100.0)
 }
 
 /// Rounded to a whole number of `parts` of 1.
-pub(super) fn decimals(number: f64, parts: f64) -> f64 {
+pub(crate) fn decimals(number: f64, parts: f64) -> f64 {
     (number * parts).round() / parts
 }
 

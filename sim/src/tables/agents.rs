@@ -5,18 +5,24 @@
 //! Layouts are `office:SIDExSIDE:4x4`, all agents start at the cell nearest the centre, and all teams get the same
 //! layouts and seeds. A run that goes on is ended after a number of agents' steps, and counted.
 
-use rayon::prelude::*;
-use serde::Serialize;
-use tautline_kernel::ground::Cell;
+mod drawn;
+mod printed;
+
+use serde::{Deserialize, Serialize};
 use tautline_kernel::{ants, bricks};
 
-use super::interval::Estimate;
+use self::printed::Printed;
+use super::parameter::{Parameter, put, shown};
+use super::{About, Chart, Observer, Table, unfit};
 use crate::explore::agents::{self as explore, Way};
+use crate::explore::ants::ANTS;
 use crate::explore::bricks::{BRICKS, BRICKS_ANTS};
-use crate::explore::{Profile, RuleName, ants::ANTS};
-use crate::fault::{Fault, Halt, Watch};
+use crate::explore::{Profile, RuleName};
+use crate::fault::Halt;
+use crate::layout::Generator;
 use crate::layout::generate::Probability;
-use crate::layout::{Generator, Layout, Problem};
+use crate::reading::{number, within};
+use crate::stats::Estimate;
 
 /// A scheme under one of its rules.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
@@ -44,9 +50,45 @@ pub const MISS: Probability = Probability::new(0.0556).expect("a probability");
 const SIDE: u16 = 30;
 const AGENTS: u16 = 20;
 
+/// Figure 11.
+pub const BRICKS_FIG11: Agents = Agents {
+    figure: Figure::Agents,
+    id: "bricks-fig11",
+    shows: "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what they explore and mark as \
+            visited, by the number of agents",
+    help: "What agents explore by their number, with missed sensors",
+};
+
+/// Figure 12.
+pub const BRICKS_FIG12: Agents = Agents {
+    figure: Figure::Area,
+    id: "bricks-fig12",
+    shows: "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what 20 agents explore and mark \
+            as visited, by the area",
+    help: "What agents explore by the area, with missed sensors",
+};
+
+/// What agents do where no sensor is missed.
+pub const BRICKS_IDEAL: Agents = Agents {
+    figure: Figure::Ideal,
+    id: "bricks-ideal",
+    shows: "Brick&Mortar, Ants and both together in offices, no sensor missed: how long until everything is explored, and \
+            until all agents know it, by the number of agents",
+    help: "How long agents take, with none missed",
+};
+
+/// Agents on the floors of offices.
+#[derive(Clone, Copy, Debug)]
+pub struct Agents {
+    figure: Figure,
+    id: &'static str,
+    shows: &'static str,
+    help: &'static str,
+}
+
 /// What is varied.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Figure {
+enum Figure {
     /// The number of agents, with missed sensors.
     Agents,
     /// The area, with missed sensors.
@@ -57,7 +99,7 @@ pub enum Figure {
 
 impl Figure {
     /// Cells on a side, and agents, of each of its points.
-    pub fn points(self) -> Vec<(u16, u16)> {
+    fn points(self) -> Vec<(u16, u16)> {
         match self {
             Self::Agents => [1, 2, 5, 10, 15, 20, 25, 30, 35, 40].map(|agents| (SIDE, agents)).into(),
             Self::Area => [10, 15, 20, 25, 30, 40, 50, 60].map(|side| (side, AGENTS)).into(),
@@ -66,7 +108,7 @@ impl Figure {
     }
 
     /// How likely a sensor is missed.
-    pub const fn miss(self) -> Probability {
+    const fn miss(self) -> Probability {
         match self {
             Self::Agents | Self::Area => MISS,
             Self::Ideal => Probability::NEVER,
@@ -75,14 +117,40 @@ impl Figure {
 }
 
 /// How much is measured.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Extent {
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct Settings {
     /// Layouts at each point.
     pub layouts: u32,
     /// The seed of the first one.
     pub seed: u64,
     /// Steps of all agents after which a run is ended.
     pub max_steps: u32,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { layouts: 200, seed: 0, max_steps: 200_000 }
+    }
+}
+
+/// One layout with so many agents, for every team.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct Job {
+    side: u16,
+    agents: u16,
+    seed: u64,
+}
+
+/// The whole figure.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Merged {
+    layouts: u32,
+    seed: u64,
+    miss: f64,
+    max_steps: u32,
+    /// Point by point, each of all teams.
+    pub lines: Vec<Line>,
+    paper: Vec<Printed>,
 }
 
 /// A team at a point.
@@ -117,15 +185,15 @@ pub struct Duration {
 }
 
 /// When something was so.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 struct Moment {
     team_moves: u32,
     milliseconds: u64,
 }
 
 /// What came of one run.
-#[derive(Clone, Copy)]
-struct Outcome {
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct Outcome {
     cells: u32,
     explored: u32,
     visited: u32,
@@ -134,49 +202,104 @@ struct Outcome {
     is_ended: bool,
 }
 
-/// Measures every point of `figure`. `watch` is called after each run.
-///
-/// # Errors
-/// [`Halt`], as `watch` returned it.
-pub fn measure(figure: Figure, extent: Extent, watch: &Watch<'_>) -> Result<Vec<Line>, Halt> {
-    let miss = figure.miss();
-    let mut lines = Vec::new();
-    for (side, agents) in figure.points() {
-        let description = format!("office:{side}x{side}:4x4");
-        let generator: Generator = description.parse().map_err(|problem| fault(&problem))?;
-        let runs = (0..u64::from(extent.layouts)).into_par_iter().map(|index| {
-            let seed = extent.seed.wrapping_add(index);
-            let layout = generator.generate(seed).map_err(|problem| fault(&problem))?;
-            let start = layout.default_base().map_err(|problem| fault(&problem))?;
-            let run = |team: Team| {
-                let outcome = follow(team.way, &layout, start, agents, miss, seed, extent.max_steps);
-                watch().map(|()| outcome)
-            };
-            TEAMS.into_iter().map(run).collect()
-        });
-        let runs: Vec<Vec<Outcome>> = runs.collect::<Result<_, Halt>>()?;
-        for (place, team) in TEAMS.into_iter().enumerate() {
-            let outcomes: Vec<Outcome> = runs.iter().map(|run| run[place]).collect();
-            lines.extend(Line::of(team, side, agents, &outcomes));
+impl Table for Agents {
+    type Settings = Settings;
+    type Job = Job;
+    type Measured = [Outcome; TEAMS.len()];
+    type Merged = Merged;
+
+    fn about(&self) -> About {
+        About {
+            id: self.id,
+            shows: self.shows,
+            help: self.help,
+            more: "",
+            examples: &["bricks-fig11 --svg fig11.svg", "bricks-ideal --layouts 20 --format json"],
+            doing: "exploring",
         }
     }
-    Ok(lines)
+
+    fn parameters(&self) -> Vec<Parameter<Settings>> {
+        vec![
+            Parameter::one(
+                "layouts",
+                "COUNT",
+                "Random layouts at each point",
+                |all| shown(&all.layouts),
+                |all, texts| put(&mut all.layouts, texts, |text| within(text, &(1..=100_000_i64))),
+            ),
+            Parameter::one(
+                "seed",
+                "SEED",
+                "The seed of the first layout and its runs; the others have the seeds after it",
+                |all| shown(&all.seed),
+                |all, texts| put(&mut all.seed, texts, number),
+            ),
+            Parameter::one(
+                "max-steps",
+                "STEPS",
+                "Steps of all agents together after which a run is ended",
+                |all| shown(&all.max_steps),
+                |all, texts| put(&mut all.max_steps, texts, |text| within(text, &(1..=i64::from(u32::MAX)))),
+            ),
+        ]
+    }
+
+    fn charts(&self) -> Vec<Chart<Self>> {
+        let draw = |agents: &Self, _: &Settings, merged: &Merged| {
+            Ok(drawn::chart(agents.figure, &merged.lines).svg())
+        };
+        vec![Chart { name: "svg", about: "Store a chart", draw }]
+    }
+
+    fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
+        let at = |(side, agents)| {
+            let first = settings.seed;
+            let job = move |index| Job { side, agents, seed: first.wrapping_add(index) };
+            (0..u64::from(settings.layouts)).map(job)
+        };
+        Ok(self.figure.points().into_iter().flat_map(at).collect())
+    }
+
+    fn parts(&self, _: &Job) -> u64 {
+        TEAMS.len() as u64
+    }
+
+    fn measure(&self, settings: &Settings, job: &Job, _: &dyn Observer) -> Result<Self::Measured, Halt> {
+        let Job { side, agents, seed } = *job;
+        let description = format!("office:{side}x{side}:4x4");
+        let generator: Generator = description.parse().map_err(|problem| unfit(&problem))?;
+        let layout = generator.generate(seed).map_err(|problem| unfit(&problem))?;
+        let start = layout.default_base().map_err(|problem| unfit(&problem))?;
+        let miss = self.figure.miss();
+        let run = |team: Team| {
+            let starts = vec![start; agents.into()];
+            follow(explore::Agents::new(team.way, &layout, &starts, miss, seed), settings.max_steps)
+        };
+        Ok(TEAMS.map(run))
+    }
+
+    fn merge(&self, settings: &Settings, results: Vec<(Job, Self::Measured)>) -> Result<Merged, Halt> {
+        let Settings { layouts, seed, max_steps } = *settings;
+        let at = |(side, agents): (u16, u16)| {
+            let here = results.iter().filter(move |(job, _)| (job.side, job.agents) == (side, agents));
+            let line = move |(place, team): (usize, Team)| {
+                let outcomes: Vec<Outcome> = here.clone().map(|(_, outcomes)| outcomes[place]).collect();
+                Line::of(team, side, agents, &outcomes)
+            };
+            TEAMS.into_iter().enumerate().filter_map(line)
+        };
+        let lines: Vec<Line> = self.figure.points().into_iter().flat_map(at).collect();
+        let paper = printed::of(self.figure, &lines);
+        Ok(Merged { layouts, seed, miss: self.figure.miss().into(), max_steps, lines, paper })
+    }
+
+    fn text(&self, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+        Ok(printed::text(self.figure, merged))
+    }
 }
 
-fn fault(problem: &Problem) -> Fault {
-    Fault::usage(problem, problem.remedy())
-}
-
-fn follow(
-    way: Way,
-    layout: &Layout,
-    start: Cell,
-    agents: u16,
-    miss: Probability,
-    seed: u64,
-    max_steps: u32,
-) -> Outcome {
-    let mut team = explore::Agents::new(way, layout, &vec![start; agents.into()], miss, seed);
+fn follow(mut team: explore::Agents, max_steps: u32) -> Outcome {
     let (mut team_moves, mut steps, mut exploration) = (0, 0, None);
     let now = |team: &explore::Agents, team_moves| Moment { team_moves, milliseconds: team.milliseconds() };
     while !team.is_over() && steps < max_steps {

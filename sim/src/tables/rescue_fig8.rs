@@ -3,38 +3,45 @@
 //! in many networks, under MRC as published and repaired, without any fault, and how much farther the robots have to go
 //! than under the best of all assignments. Both rules have the same networks.
 
-use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use tautline_proofs::words::counted;
 
-use super::interval::{Estimate, decimals, rounded};
 use super::notice_fig5::{RANGE_M, SIDE_M};
+use super::parameter::{Parameter, Senders, put, shown};
+use super::{About, Chart, Observer, Table};
+use crate::columns::Figures;
 use crate::draw::field::picture;
 use crate::draw::rescue::map;
 use crate::explore::RuleName;
-use crate::fault::{Fault, Halt, Watch};
+use crate::fault::{Fault, Halt};
 use crate::radio::{ChannelName, FREE_SPACE, Point};
+use crate::reading::{number, whole, within};
 use crate::rescue::{CallTimes, Fate, Problem, Report, SchemeName, rescue};
+use crate::stats::{Estimate, decimals, rounded};
 use crate::tan::shortest_m;
 
 /// The robots of the figure.
-pub const ROBOTS: usize = 3;
+const ROBOTS: usize = 3;
 
 /// The WFRs of the figure.
-pub const WFRS: usize = 3;
+const WFRS: usize = 3;
 
 /// Nodes, which the paper does not tell: the middle of its range.
-pub const NODES: usize = 700;
+const NODES: usize = 700;
 
 /// The most robots and WFRs: all assignments are tried.
-pub const MOST: usize = 6;
+const MOST: u64 = 6;
 
 /// What the paper has, as a share of the topologies: all are served, each by a robot of its own.
 const PAPER: f64 = 1.0;
 
+/// Figure 8.
+#[derive(Clone, Copy, Debug)]
+pub struct RescueFig8;
+
 /// What is measured.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Setting {
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct Settings {
     /// Nodes.
     pub nodes: usize,
     /// Robots.
@@ -42,11 +49,33 @@ pub struct Setting {
     /// WFRs.
     pub wfrs: usize,
     /// The k of k-FNF.
-    pub k: u8,
+    pub k: Senders,
     /// Topologies.
     pub topologies: u32,
     /// The seed of the first; the others follow.
     pub seed: u64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { nodes: NODES, robots: ROBOTS, wfrs: WFRS, k: Senders::ONE, topologies: 200, seed: 0 }
+    }
+}
+
+/// One topology under one rule.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct Job {
+    rule: RuleName,
+    seed: u64,
+}
+
+/// The whole figure.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Merged {
+    #[serde(flatten)]
+    settings: Settings,
+    /// Rule by rule.
+    pub rules: Vec<Line>,
 }
 
 /// One rule.
@@ -89,7 +118,8 @@ impl Compared {
 }
 
 /// What is kept of a topology.
-struct Sample {
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Sample {
     is_served: bool,
     /// The distances moved, and the shortest.
     way_m: (f64, f64),
@@ -98,12 +128,12 @@ struct Sample {
     last_s: Option<f64>,
 }
 
-impl Setting {
+impl Settings {
     fn rescue(&self, rule: RuleName, seed: u64) -> Result<Report, Problem> {
         let setting = crate::rescue::Setting {
             rule,
             scheme: SchemeName::KFnf,
-            k: self.k,
+            k: self.k.0.get(),
             nodes: self.nodes,
             area_m: [SIDE_M, SIDE_M],
             range_m: RANGE_M,
@@ -125,35 +155,16 @@ impl Setting {
         rescue(&setting, seed)
     }
 
-    /// Measures both rules. `watch` is called after each topology of each rule. The result is the same on any
-    /// number of threads.
-    ///
-    /// # Errors
-    /// [`Halt`], as `watch` returned it, or if the setting makes no rescue.
-    pub fn measure(&self, watch: &Watch<'_>) -> Result<Vec<Line>, Halt> {
-        self.rescue(RuleName::Published, self.seed).map_err(Fault::from)?;
-        let line = |rule: RuleName| {
-            let topologies = (0..u64::from(self.topologies)).into_par_iter();
-            let samples = topologies.map(|topology| {
-                let report = self.rescue(rule, self.seed.wrapping_add(topology)).map_err(Fault::from)?;
-                watch()?;
-                Ok(Sample::of(&report))
-            });
-            let samples: Vec<Sample> = samples.collect::<Result<_, Halt>>()?;
-            Ok(Line::of(rule, &samples))
-        };
-        [RuleName::Published, RuleName::Repaired].into_iter().map(line).collect()
+    fn seeds(&self) -> impl Iterator<Item = u64> {
+        let first = self.seed;
+        (0..u64::from(self.topologies)).map(move |topology| first.wrapping_add(topology))
     }
 
     /// The ways in the first topology in which each WFR has a robot of its own, or else in the first of all, under the
     /// repaired rule.
-    ///
-    /// # Errors
-    /// [`Halt`] if the setting makes no rescue.
-    pub fn picture(&self) -> Result<String, Halt> {
-        let seeds = (0..u64::from(self.topologies)).map(|topology| self.seed.wrapping_add(topology));
+    fn picture(&self) -> Result<String, Halt> {
         let mut drawn = None;
-        for seed in seeds {
+        for seed in self.seeds() {
             let report = self.rescue(RuleName::Repaired, seed).map_err(Fault::from)?;
             let is_fit = Sample::of(&report).assigned_m.is_some();
             if is_fit || drawn.is_none() {
@@ -167,6 +178,134 @@ impl Setting {
         let team = counted(self.robots, "robot");
         let title = format!("{team} for {}, seed {seed}", counted(self.wfrs, "WFR"));
         Ok(picture(&title, &[map(String::new(), &report)]))
+    }
+}
+
+impl Table for RescueFig8 {
+    type Settings = Settings;
+    type Job = Job;
+    type Measured = Sample;
+    type Merged = Merged;
+
+    fn about(&self) -> About {
+        About {
+            id: "rescue-fig8",
+            shows: "three robots for three that wait for rescue, MRC as published and repaired: how often each gets a robot, \
+                    and one of its own, how far they go, and how far from the best assignment that is",
+            help: "Which robot comes to whom, and how far it goes, where several call at once",
+            more: "Nodes, robots and those who wait for rescue (WFRs) at random in a square, without any fault, under MRC \
+                   as published and repaired. The paper draws one case of it.",
+            examples: &[
+                "rescue-fig8 --svg ways.svg",
+                "rescue-fig8 --nodes 1100 --topologies 1000 --format json",
+                "rescue-fig8 --robots 2 --wfr 4",
+            ],
+            doing: "rescuing",
+        }
+    }
+
+    fn parameters(&self) -> Vec<Parameter<Settings>> {
+        vec![
+            Parameter::one(
+                "nodes",
+                "N",
+                "Nodes",
+                |all| shown(&all.nodes),
+                |all, texts| put(&mut all.nodes, texts, whole),
+            ),
+            Parameter::one(
+                "robots",
+                "N",
+                "Robots",
+                |all| shown(&all.robots),
+                |all, texts| put(&mut all.robots, texts, |text| within(text, &(1..=MOST))),
+            ),
+            Parameter::one(
+                "wfr",
+                "N",
+                "WFRs",
+                |all| shown(&all.wfrs),
+                |all, texts| put(&mut all.wfrs, texts, |text| within(text, &(1..=MOST))),
+            ),
+            Parameter::one(
+                "k",
+                "K",
+                "The k of k-FNF",
+                |all| shown(&all.k.0.get()),
+                |all, texts| put(&mut all.k, texts, Senders::read),
+            ),
+            Parameter::one(
+                "topologies",
+                "COUNT",
+                "Topologies",
+                |all| shown(&all.topologies),
+                |all, texts| put(&mut all.topologies, texts, |text| within(text, &(1..=100_000_i64))),
+            ),
+            Parameter::one(
+                "seed",
+                "SEED",
+                "The seed of the first topology; the others follow",
+                |all| shown(&all.seed),
+                |all, texts| put(&mut all.seed, texts, number),
+            ),
+        ]
+    }
+
+    fn charts(&self) -> Vec<Chart<Self>> {
+        let about =
+            "Store the ways of the first topology in which each WFR has a robot of its own as a picture";
+        vec![Chart { name: "svg", about, draw: |_, settings, _| settings.picture() }]
+    }
+
+    fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
+        settings.rescue(RuleName::Published, settings.seed).map_err(Fault::from)?;
+        let seeds = |rule| settings.seeds().map(move |seed| Job { rule, seed });
+        Ok(RuleName::ALL.into_iter().flat_map(seeds).collect())
+    }
+
+    fn measure(&self, settings: &Settings, job: &Job, _: &dyn Observer) -> Result<Sample, Halt> {
+        Ok(Sample::of(&settings.rescue(job.rule, job.seed).map_err(Fault::from)?))
+    }
+
+    fn merge(&self, settings: &Settings, results: Vec<(Job, Sample)>) -> Result<Merged, Halt> {
+        let line = |rule: RuleName| {
+            let samples = results.iter().filter(|(job, _)| job.rule == rule);
+            Line::of(rule, &samples.map(|(_, sample)| sample).collect::<Vec<_>>())
+        };
+        Ok(Merged { settings: settings.clone(), rules: RuleName::ALL.map(line).into() })
+    }
+
+    fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
+        let Settings { nodes, robots, wfrs, k, topologies, seed } = settings;
+        let heading = format!(
+            "{}, {}, {nodes} nodes in 300×300 m, range 25 m, k = {}, {}, seed {seed}",
+            counted(*robots, "robot"),
+            counted(*wfrs, "WFR"),
+            k.0.get(),
+            counted(*topologies, "topology")
+        );
+        let percent = |share: f64| format!("{:.2}", 100.0 * share);
+        let mut table = Figures::new(heading, &merged.rules);
+        table.row("MRC", |line| line.rule.to_string());
+        table.row("served, %", |line| line.served.ours.times(100.0).text(2));
+        table.row("  paper", |line| percent(line.served.paper));
+        table.row("  difference", |line| percent(line.served.difference));
+        table.row("a robot each, %", |line| line.own.ours.times(100.0).text(2));
+        table.row("  paper", |line| percent(line.own.paper));
+        table.row("  difference", |line| percent(line.own.difference));
+        table.row("RD", |line| Estimate::text_or_dash(line.distance_ratio, 3));
+        table.row("over the best assignment", |line| Estimate::text_or_dash(line.over_best, 3));
+        table.row("the best assignment, %", |line| {
+            Estimate::text_or_dash(line.best.map(|share| share.times(100.0)), 2)
+        });
+        table.row("seconds to the last", |line| Estimate::text_or_dash(line.last_s, 1));
+        Ok(table.with_notes(
+            "served: % of the topologies in which one robot comes to each WFR, and one only · a robot each: a different one \
+             to each ·\npaper: a picture of one topology in which it is so, and “for all simulated scenarios” · RD: metres \
+             walked for each metre\nof the shortest ways · over the best assignment: how many times as far the robots are \
+             off the WFRs that they come to as\nunder the best of all assignments, where each WFR has a robot of its own · \
+             the best assignment: % of these in which it is\nthat one · ±, […]: the 95 % interval",
+        ))
     }
 }
 
@@ -219,7 +358,7 @@ fn best_m(wfrs: usize, robots: &[usize], distance_m: &impl Fn(usize, usize) -> O
 const SAME_M: f64 = 1e-6;
 
 impl Line {
-    fn of(rule: RuleName, samples: &[Sample]) -> Self {
+    fn of(rule: RuleName, samples: &[&Sample]) -> Self {
         let own: Vec<(f64, f64)> = samples.iter().filter_map(|sample| sample.assigned_m).collect();
         let ways: Vec<(f64, f64)> =
             samples.iter().map(|sample| sample.way_m).filter(|&(_, shortest_m)| shortest_m > 0.0).collect();
@@ -240,6 +379,7 @@ impl Line {
 
 #[cfg(test)]
 mod tests {
+    use super::super::measure;
     use super::*;
 
     #[test]
@@ -253,8 +393,8 @@ mod tests {
 
     #[test]
     fn greedy_assignments_are_never_better_than_the_best() {
-        let setting = Setting { nodes: NODES, robots: ROBOTS, wfrs: WFRS, k: 1, topologies: 20, seed: 0 };
-        let lines = setting.measure(&|| Ok(())).expect("rescues");
+        let settings = Settings { topologies: 20, ..Settings::default() };
+        let lines = measure(&RescueFig8, &settings, &()).expect("rescues").rules;
         for line in &lines {
             assert!(line.over_best.is_some_and(|ratio| ratio.mean >= 1.0), "{line:?}");
         }

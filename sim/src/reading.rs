@@ -1,0 +1,99 @@
+//! Values as a person writes them, on a command line for example. What is wrong with one is said as what to write instead.
+
+use std::fmt::Display;
+use std::num::{IntErrorKind, ParseIntError};
+use std::ops::RangeInclusive;
+use std::str::FromStr;
+
+use tautline_kernel::notice::Count;
+
+/// A whole number, as large as its type holds.
+///
+/// # Errors
+/// What to write.
+pub fn number<T: FromStr>(text: &str) -> Result<T, String> {
+    let largest = u128::MAX >> (128 - 8 * size_of::<T>());
+    text.parse().map_err(|_| format!("write a whole number up to {largest}"))
+}
+
+/// A whole number of which something else says how large it may be.
+///
+/// # Errors
+/// What to write.
+pub fn whole<T: FromStr<Err = ParseIntError>>(text: &str) -> Result<T, &'static str> {
+    text.parse().map_err(|error: ParseIntError| match error.kind() {
+        IntErrorKind::PosOverflow => "write a smaller number",
+        _ => "write a whole number",
+    })
+}
+
+/// A whole number of `range`.
+///
+/// # Errors
+/// Why it is none.
+pub fn within<N, T>(text: &str, range: &RangeInclusive<N>) -> Result<T, String>
+where
+    N: FromStr<Err = ParseIntError> + PartialOrd + Copy + Display,
+    T: TryFrom<N>,
+{
+    let number: N = text.parse().map_err(|error: ParseIntError| error.to_string())?;
+    let fitting = Some(number).filter(|number| range.contains(number));
+    let outside = || format!("{number} is not in {}..={}", range.start(), range.end());
+    fitting.and_then(|number| number.try_into().ok()).ok_or_else(outside)
+}
+
+/// A number that need not be whole.
+///
+/// # Errors
+/// What to write.
+pub fn real(text: &str) -> Result<f64, &'static str> {
+    text.parse().map_err(|_| "write a number")
+}
+
+/// How often something is counted until a node is silent.
+///
+/// # Errors
+/// What to write.
+pub fn count(text: &str) -> Result<Count, String> {
+    let count = text.parse().ok().and_then(Count::new);
+    count.ok_or_else(|| format!("write whole numbers from 1 to {}", Count::MOST))
+}
+
+/// Metres, with commas between them.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Metres<const COUNT: usize>(pub [f64; COUNT]);
+
+impl<const COUNT: usize> FromStr for Metres<COUNT> {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+        let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
+        numbers.map(Self).ok_or_else(|| {
+            let example: Vec<String> = (1..=COUNT).map(|place| (place * 50).to_string()).collect();
+            format!("write {COUNT} numbers of metres, for example {}", example.join(","))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_outside_its_range_is_told_the_range() {
+        let read = |text| within::<i64, u32>(text, &(1..=6));
+        assert_eq!([read("1"), read("6")], [Ok(1), Ok(6)]);
+        for wrong in ["0", "7", "-1"] {
+            assert_eq!(read(wrong), Err(format!("{wrong} is not in 1..=6")));
+        }
+        assert_eq!(read("six"), Err("invalid digit found in string".to_owned()));
+    }
+
+    #[test]
+    fn metres_are_as_many_as_are_wanted() {
+        assert_eq!("1, 2.5".parse(), Ok(Metres([1.0, 2.5])));
+        let wrong: Result<Metres<2>, String> = "1,2,3".parse();
+        assert_eq!(wrong, Err("write 2 numbers of metres, for example 50,100".to_owned()));
+    }
+}
