@@ -18,7 +18,7 @@ const KNOWN_TO: &str = "
     kernel choice conditions floor ground net: *
     kernel ants: bricks
     kernel bricks chain mrc notice perception tan:
-    proofs clause course decide engine run step_check words: *
+    proofs clause course decide engine run step_check team words: *
     proofs judge ledger:
     proofs floor: ants bricks
     proofs ground: ledger chain
