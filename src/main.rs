@@ -75,7 +75,7 @@ impl From<Exit> for ExitCode {
     }
 }
 
-/// What the exit codes say, for the help, the manual pages and the README.
+/// What the exit codes say, for the help, the manual pages and the documents.
 const EXIT_CODES: &str = "\
 0 as expected · 1 a violation was found · 2 wrong usage or bad input, or a file could not be stored · 3 a budget, Ctrl-C, \
 SIGTERM or SIGHUP ended the work before its bound, also if something was found by then · 70 a bug of ours. Where several \

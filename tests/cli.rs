@@ -95,7 +95,7 @@ fn the_published_rule_is_refuted_and_its_counterexamples_replay() {
     assert_eq!(names(folder), files);
     let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/chain-2-published-n4.jsonl");
     let found = fs::read_to_string(folder.join("chain-2-published-n4.jsonl")).expect("a run");
-    assert_eq!(found, fs::read_to_string(kept).expect("a run"), "the README draws another one");
+    assert_eq!(found, fs::read_to_string(kept).expect("a run"), "the page draws another one");
     for (clause, file) in ["CHAIN-1", "CHAIN-13", "CHAIN-2"].into_iter().zip(files) {
         assert_snapshot!(format!("counterexample_to_{clause}"), printed(folder, &["replay", file], 1));
         let replayed = json(folder, &["replay", file], 1);
@@ -129,7 +129,7 @@ fn brick_and_mortar_is_trapped_by_one_missed_sensor() {
     assert_snapshot!(found["counterexamples"], @r#"[{"clause":"BRICKS-4","columns":3,"file":"bricks-4-repaired-n1.jsonl","misses":1,"rows":3,"steps":5}]"#);
     let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/bricks-4-repaired-n1.jsonl");
     let stored = fs::read_to_string(folder.join("bricks-4-repaired-n1.jsonl")).expect("a run");
-    assert_eq!(stored, fs::read_to_string(kept).expect("a run"), "the README draws another one");
+    assert_eq!(stored, fs::read_to_string(kept).expect("a run"), "the page draws another one");
     assert_snapshot!("trap_replayed", printed(folder, &["replay", "bricks-4-repaired-n1.jsonl"], 1));
     let cases = [
         ("nothing missed", stored.replacen("\"missed\":[2],", "", 1)),

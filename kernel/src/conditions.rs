@@ -1,6 +1,22 @@
 //! Sets of named conditions: every rule is one.
 
-/// Makes the type of the sets of a `Condition`, of which there are at most 16.
+/// Makes the type `Conditions` of the sets of a `Condition`, a fieldless enum that counts from 0 and has at most 16 variants.
+///
+/// ```
+/// #[derive(Clone, Copy)]
+/// pub enum Condition {
+///     /// A robot that is blocked waits.
+///     Waits,
+///     /// A robot that waits tells so.
+///     Tells,
+/// }
+///
+/// tautline_kernel::conditions!(Condition);
+///
+/// const OURS: Conditions = Conditions::of(&[Condition::Waits, Condition::Tells]);
+/// assert!(!OURS.without(Condition::Tells).has(Condition::Tells));
+/// ```
+#[macro_export]
 macro_rules! conditions {
     ($condition:ident) => {
         /// A set of conditions.
@@ -39,5 +55,3 @@ macro_rules! conditions {
         }
     };
 }
-
-pub(crate) use conditions;

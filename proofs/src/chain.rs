@@ -1,9 +1,11 @@
 //! The chain (CHAIN): what is promised of it, the search over all layouts that it is played in, what it can reach, and in how
 //! few team moves.
 
+pub mod bounds;
 pub mod breach;
 pub mod clauses;
 mod crowd;
+mod environment;
 mod game;
 pub mod invariant;
 pub mod links;

@@ -4,10 +4,10 @@ use std::fmt::Write;
 use std::ops::ControlFlow;
 
 use serde::Serialize;
-use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::decide::Verdict;
 use tautline_proofs::floor::trap::{self, Bounds, End, Found, Trap, Way};
 use tautline_proofs::words::counted;
+use tautline_sim::explore::agents::PREMATURE;
 
 use super::{Hunt, check_folder, keep};
 use crate::output::Output;
@@ -136,8 +136,8 @@ fn stored(hunt: &Hunt, trap: &Trap, out: &mut Output) -> Result<Stored, Halt> {
     let setup = setup(hunt.scheme, hunt.rule, trap).map_err(Fault::from)?;
     let (clause, file) = match trap.end {
         End::Done => {
-            let (file, _) = store(&hunt.out, &setup, Breach::Premature.into(), &hunt.force.replaceable([]))?;
-            (Breach::Premature.clause(), keep(file, out))
+            let (file, _) = store(&hunt.out, &setup, PREMATURE, &hunt.force.replaceable([]))?;
+            (PREMATURE.as_str(), keep(file, out))
         }
         End::Endless => (ENDLESS, None),
     };

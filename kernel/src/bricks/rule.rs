@@ -1,6 +1,6 @@
 //! The rule of Brick&Mortar as a set of named conditions.
 
-use crate::conditions::conditions;
+use crate::conditions;
 
 /// One condition of the rule, by the sentence it stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -2,7 +2,7 @@
 //! conditions allow, in whatever order one prefers them. The proofs of CHAIN-1, CHAIN-2 and CHAIN-3 speak of
 //! these functions alone; the planner asks them and nothing else.
 
-use crate::conditions::conditions;
+use crate::conditions;
 use crate::ground::{Cell, Circle, Step, neighbours};
 
 /// One condition of the rule, by the sentence it stands for.

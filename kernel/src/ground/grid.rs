@@ -1,5 +1,5 @@
 //! What a team knows of its area: walls, open sides, explored cells, virtual obstacles, and the distance to
-//! the nearest unexplored cell (paper 000, equation (4)). [`Grid`] is what the rules ask for; [`BitGrid`] is
+//! the nearest unexplored cell (paper 000, equation (4)). [`Grid`] is what the rules ask for; [`BitGrid`](super::BitGrid) is
 //! its home in a few machine words, small enough to be copied at every fork of a search.
 
 use super::{Cell, Edge, Side, Step, Steps};
@@ -67,7 +67,7 @@ pub trait Grid {
         }
         distances
     }
-    /// A walk from `from` to the unexplored cell that is fewest [`links`] away, the first in row order of these: how
+    /// A walk from `from` to the unexplored cell that is fewest [`links`](super::links) away, the first in row order of these: how
     /// many links it has, at most one less than there are `stops`, and the cells where they begin and end in
     /// `stops`, `from` first. Going back, each stop is the first of those linked to the one after it that is
     /// nearer to `from`. `None` if all cells so near are explored.

@@ -2,7 +2,7 @@
 //! the others repair what it leaves open: when a WFR chooses, what becomes of later MOVEs, and of messages, nodes and
 //! robots that fail.
 
-use crate::conditions::conditions;
+use crate::conditions;
 
 /// One condition of the rule, by the sentence it stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -4,7 +4,7 @@
 
 use core::num::NonZeroU32;
 
-use crate::conditions::conditions;
+use crate::conditions;
 
 /// One condition of the rule, by the sentence it stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -1,8 +1,5 @@
-//! What a run may never break: the chain's safety sentences that every frame is checked against (CHAIN-1, CHAIN-2, CHAIN-3),
-//! and those about the ends of runs and of agents.
-
-use std::fmt;
-use std::str::FromStr;
+//! What a run of the chain may never break: the safety sentences that every frame is checked against (CHAIN-1, CHAIN-2,
+//! CHAIN-3), and those about what plans cost and how runs end.
 
 use serde::{Deserialize, Serialize};
 use tautline_kernel::chain::{Kind, Message, Outcome};
@@ -21,7 +18,7 @@ pub fn frame(kind: Kind, messages: &[u8], cells: &[Cell]) -> Frame {
     Frame { kind, steps, blocked, cells: cells.to_vec() }
 }
 
-/// What no robot team may do, whatever the layout.
+/// What no chain may do, whatever the layout.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Breach {
@@ -35,24 +32,9 @@ pub enum Breach {
     Costly,
     /// The run has ended, and a cell within reach is unexplored: CHAIN-13.
     Completeness,
-    /// An agent is done, and a cell that it could get to is unexplored: BRICKS-4.
-    Premature,
-    /// The run has ended, or goes on for ever, and a cell that an agent could get to is not visited: BRICKS-6.
-    Unvisited,
 }
 
 impl Breach {
-    /// Every breach.
-    pub const ALL: [Self; 7] = [
-        Self::Contact,
-        Self::Crowding,
-        Self::Coverage,
-        Self::Costly,
-        Self::Completeness,
-        Self::Premature,
-        Self::Unvisited,
-    ];
-
     /// Those of the chain that are seen in where its robots are.
     pub const CHAIN: [Self; 4] = [Self::Contact, Self::Crowding, Self::Coverage, Self::Completeness];
 
@@ -64,8 +46,6 @@ impl Breach {
             Self::Coverage => "CHAIN-3",
             Self::Costly => "CHAIN-12",
             Self::Completeness => "CHAIN-13",
-            Self::Premature => "BRICKS-4",
-            Self::Unvisited => "BRICKS-6",
         }
     }
 
@@ -81,41 +61,13 @@ impl Breach {
                 .windows(2)
                 .zip(after.windows(2))
                 .any(|(from, to)| !stays_in_range([from[0], to[0]], [from[1], to[1]])),
-            Self::Costly | Self::Completeness | Self::Premature | Self::Unvisited => false,
+            Self::Costly | Self::Completeness => false,
         }
     }
 }
 
 /// Candidates of followers for each robot of a chain, the base counted, that a plan may look at by CHAIN-12.
 pub const CHEAP_LOOKS: u32 = 100;
-
-/// An id that is of no clause about runs.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct NoBreach(String);
-
-impl NoBreach {
-    /// What would be right.
-    pub fn remedy(&self) -> String {
-        format!("the clauses are {}", Breach::ALL.map(Breach::clause).join(", "))
-    }
-}
-
-impl fmt::Display for NoBreach {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "no run can break the clause {:?}", self.0)
-    }
-}
-
-impl std::error::Error for NoBreach {}
-
-/// The breach of the clause with this id.
-impl FromStr for Breach {
-    type Err = NoBreach;
-
-    fn from_str(id: &str) -> Result<Self, NoBreach> {
-        Self::ALL.into_iter().find(|breach| breach.clause() == id).ok_or_else(|| NoBreach(id.to_owned()))
-    }
-}
 
 /// Whether two robots that go from the first to the second of their cells, each at any speeds and with any
 /// pauses, keep their centres within r_cov of each other. Their offset moves inside the parallelogram of the

@@ -6,12 +6,12 @@ use tautline_kernel::chain::{Chain, Intent, Message, Outcome, Plan, Refused};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, CellMark, EdgeMark, Grid, Step};
 
+use super::bounds::Bounds;
 use super::breach::{Breach, frame};
 use super::invariant::{Invariant, Moment};
 use super::links::within_reach;
 use super::observed::Deception;
 use super::reach::{CellSet, Ground};
-use super::search::Bounds;
 use crate::engine::Stop;
 use crate::engine::tree::{Broken, Game, Turn};
 use crate::run::Frame;

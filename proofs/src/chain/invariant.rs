@@ -6,6 +6,7 @@ use tautline_kernel::chain::{Budget, Chain, Condition, Kind, Message, Outcome, P
 use tautline_kernel::ground::{Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Step};
 
 use super::breach::Breach;
+use super::environment::{in_covered, in_safe};
 use super::observed::Observed;
 use super::plain::walk;
 use crate::engine::{Stop, require};
@@ -121,9 +122,7 @@ impl Invariant {
                         Breach::Contact => "each neighbour's cell is wholly covered",
                         Breach::Crowding => "no three robots are in one cell outside the base",
                         Breach::Coverage => "the neighbours' centres stay within r_cov",
-                        Breach::Costly | Breach::Completeness | Breach::Premature | Breach::Unvisited => {
-                            "this is seen in no team move"
-                        }
+                        Breach::Costly | Breach::Completeness => "this is seen in no team move",
                     },
                 )
             }
@@ -295,16 +294,4 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
         require(understood, "every byte is a message that fits the plan")?;
         require(listener == *self.after, "one who hears the bytes has the state of the whole team")
     }
-}
-
-/// E_S: at most one column and one row apart.
-pub(crate) fn in_safe(centre: Cell, cell: Cell) -> bool {
-    let (dx, dy) = centre.apart(cell);
-    dx <= 1 && dy <= 1
-}
-
-/// E_C: E_S, and two straight ahead.
-pub(crate) fn in_covered(centre: Cell, cell: Cell) -> bool {
-    let (dx, dy) = centre.apart(cell);
-    in_safe(centre, cell) || u32::from(dx) + u32::from(dy) <= 2
 }

@@ -9,7 +9,7 @@ use std::collections::VecDeque;
 use tautline_kernel::chain::{Condition, High, Rule};
 use tautline_kernel::ground::{Area, Avoid, Cell, Edge, Side, Step};
 
-use super::invariant::{in_covered, in_safe};
+use super::environment::{in_covered, in_safe};
 
 /// A chain on an area of its own.
 #[derive(Clone, Debug)]

@@ -1,4 +1,4 @@
-//! From the search over all layouts to files that anyone can replay: a [`Counterexample`] becomes the setup of a run
+//! From the search over all layouts to files that anyone can replay: a [`Run`] becomes the setup of one
 //! in a layout that has the walls met and no others.
 
 mod saved;
@@ -151,8 +151,6 @@ fn fault(refused: Unsearchable) -> Fault {
 
 #[cfg(test)]
 mod tests {
-    use tautline_proofs::chain::breach::Breach;
-
     use super::*;
     use crate::explore::RuleName;
     use crate::explore::bricks::{BRICKS, BRICKS_ANTS};
@@ -160,13 +158,13 @@ mod tests {
 
     #[test]
     fn runs_of_two_schemes_have_two_names() {
-        let name = |scheme, breach: Breach| {
+        let name = |scheme, clause: &'static str| {
             let layout = Layout::open(3, 3).expect("a layout");
             let setup = Setup::new(scheme, RuleName::Repaired, 2, layout, Cell::new(1, 1));
-            path(Path::new("a"), &setup, breach.into()).display().to_string()
+            path(Path::new("a"), &setup, ClauseId::new(clause)).display().to_string()
         };
-        assert_eq!(name(&CHAIN, Breach::Completeness), "a/chain-13-repaired-n2.jsonl");
-        assert_eq!(name(&BRICKS, Breach::Premature), "a/bricks-4-repaired-n2.jsonl");
-        assert_eq!(name(&BRICKS_ANTS, Breach::Premature), "a/bricks-4-bricks-ants-repaired-n2.jsonl");
+        assert_eq!(name(&CHAIN, "CHAIN-13"), "a/chain-13-repaired-n2.jsonl");
+        assert_eq!(name(&BRICKS, "BRICKS-4"), "a/bricks-4-repaired-n2.jsonl");
+        assert_eq!(name(&BRICKS_ANTS, "BRICKS-4"), "a/bricks-4-bricks-ants-repaired-n2.jsonl");
     }
 }

@@ -15,7 +15,6 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Claim, Mark, Scan, settle};
 use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_kernel::perception::time;
-use tautline_proofs::chain::breach::Breach;
 pub use tautline_proofs::floor::trap::Way;
 use tautline_proofs::run::Frame;
 
@@ -44,6 +43,12 @@ pub(super) const AGENTS: Profile = Profile {
     knowledge: None,
     clauses: &[],
 };
+
+/// An agent is done, and a cell that it could get to is unexplored.
+pub const PREMATURE: ClauseId = ClauseId::new("BRICKS-4");
+
+/// The run has ended, or goes on for ever, and a cell that an agent could get to is not visited.
+pub const UNVISITED: ClauseId = ClauseId::new("BRICKS-6");
 
 /// The world: which sensors are missed, by chance or as it is written down.
 #[derive(Clone)]
@@ -302,7 +307,7 @@ impl Team for Watched {
     }
 
     fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<ClauseId> {
-        if self.team.is_premature { vec![Breach::Premature.into()] } else { Vec::new() }
+        if self.team.is_premature { vec![PREMATURE] } else { Vec::new() }
     }
 
     /// That every cell is visited is promised where no sensor is missed, and by those who mark cells.
@@ -312,7 +317,7 @@ impl Team for Watched {
             Way::Bricks(_) => self.team.misses.is_never(),
         };
         let is_broken = is_promised && self.team.visited() < self.team.due();
-        if is_broken { vec![Breach::Unvisited.into()] } else { Vec::new() }
+        if is_broken { vec![UNVISITED] } else { Vec::new() }
     }
 
     fn marked(&self) -> &[(Cell, Mark)] {

@@ -4,11 +4,10 @@
 use tautline_kernel::bricks::Rule as Bricks;
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::Cell;
-use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::floor::trap::Way;
 use tautline_proofs::words::counted;
 
-use super::agents::{AGENTS, missed, start};
+use super::agents::{AGENTS, PREMATURE, UNVISITED, missed, start};
 use super::chart::Chart;
 use super::run::TeamMove;
 use super::setup::{Clause, Judge, Profile, Quarry, Rule, Setup};
@@ -41,11 +40,8 @@ pub static BRICKS_ANTS: Profile = Profile {
 const MARKING: Profile = Profile {
     knowledge: Some(Knowledge::Visited),
     clauses: &[
-        Clause { judge: Some(Judge::Agent), told: premature, ..Clause::new(Breach::Premature.clause()) },
-        Clause {
-            missed: Some("Connected with a start and not visited"),
-            ..Clause::new(Breach::Unvisited.clause())
-        },
+        Clause { judge: Some(Judge::Agent), told: premature, ..Clause::new(PREMATURE.as_str()) },
+        Clause { missed: Some("Connected with a start and not visited"), ..Clause::new(UNVISITED.as_str()) },
     ],
     ..AGENTS
 };

@@ -171,7 +171,7 @@ impl Table for Optimum {
         let area = Area::new(job.field.robots)?;
         let mut sums = Self::Measured::default();
         for orbit in &job.orbits {
-            area.compare(orbit, &mut sums)?;
+            sums::compare(&area, orbit, &mut sums)?;
         }
         Ok(sums)
     }

@@ -5,7 +5,7 @@ use tautline_kernel::ground::{Area, Cell, Step};
 
 use super::cells::{CellSet, cells_of, index};
 use super::ground::Ground;
-use crate::chain::invariant::{in_covered, in_safe};
+use crate::chain::environment::{in_covered, in_safe};
 
 impl Ground {
     /// All cells that the chain can reach under `rule`, and perhaps others, for any number of robots.

@@ -6,7 +6,7 @@ use tautline_kernel::ground::{Area, Cell, Side, Step};
 use super::cells::{cells_of, index};
 use super::ground::Ground;
 use super::limits::{MAX_CELLS, MAX_FOLLOWERS, TooLarge};
-use crate::chain::invariant::{in_covered, in_safe};
+use crate::chain::environment::{in_covered, in_safe};
 
 /// Followers R_2 … R_{N−1}, by the index of their cells.
 pub(crate) type Followers = [u8; MAX_FOLLOWERS];

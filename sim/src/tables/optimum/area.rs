@@ -6,9 +6,8 @@ use tautline_proofs::chain::optimum::{Guide, Optimum, explore_all};
 use tautline_proofs::chain::reach::{CellSet, Ground};
 
 use super::super::unfit;
-use super::sums::Sums;
 use crate::explore::chain::CHAIN;
-use crate::explore::{RuleName, Setup, explore};
+use crate::explore::{RuleName, Setup};
 use crate::fault::{Fault, Halt};
 use crate::layout::{Layout, Size};
 
@@ -112,27 +111,5 @@ impl Area {
         let goals = ground.reachable(&KNOWING);
         let goals = goals.map_err(|too_large| Fault::usage(too_large, "measure fewer robots"))?;
         Ok((ground, goals))
-    }
-
-    /// Runs the chain under both rules in layouts that have one optimum.
-    pub(super) fn compare(
-        &self,
-        orbit: &[WallSet],
-        sums: &mut [Sums; RuleName::ALL.len()],
-    ) -> Result<(), Halt> {
-        let mut optimum = None;
-        for &walls in orbit {
-            let layout = self.layout(walls);
-            let (ground, goals) = self.goals(&layout)?;
-            let optimum = match optimum {
-                Some(optimum) => optimum,
-                None => *optimum.insert(solve(&ground, &goals)?.moves()),
-            };
-            for (rule, sums) in RuleName::ALL.into_iter().zip(&mut *sums) {
-                let report = explore(&self.setup(rule, layout.clone()), &mut |_| Ok(()))?;
-                sums.count(walls, optimum, &goals, &report.chart);
-            }
-        }
-        Ok(())
     }
 }

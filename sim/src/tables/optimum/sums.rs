@@ -6,9 +6,10 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use tautline_proofs::chain::reach::CellSet;
 
-use super::area::{Area, WallSet};
+use super::area::{Area, WallSet, solve};
 use super::{Line, Worst};
-use crate::explore::{Chart, RuleName};
+use crate::explore::{Chart, RuleName, explore};
+use crate::fault::Halt;
 use crate::stats::hundredths;
 
 /// Sums over layouts.
@@ -113,4 +114,26 @@ impl Sums {
             }),
         }
     }
+}
+
+/// Runs the chain under both rules in layouts of `area` that have one optimum.
+pub(super) fn compare(
+    area: &Area,
+    orbit: &[WallSet],
+    sums: &mut [Sums; RuleName::ALL.len()],
+) -> Result<(), Halt> {
+    let mut optimum = None;
+    for &walls in orbit {
+        let layout = area.layout(walls);
+        let (ground, goals) = area.goals(&layout)?;
+        let optimum = match optimum {
+            Some(optimum) => optimum,
+            None => *optimum.insert(solve(&ground, &goals)?.moves()),
+        };
+        for (rule, sums) in RuleName::ALL.into_iter().zip(&mut *sums) {
+            let report = explore(&area.setup(rule, layout.clone()), &mut |_| Ok(()))?;
+            sums.count(walls, optimum, &goals, &report.chart);
+        }
+    }
+    Ok(())
 }

@@ -1,0 +1,89 @@
+//! What a search for the chain looks for, and how far.
+
+use tautline_kernel::chain::{Refused, area};
+use tautline_kernel::ground::{Area, Cell};
+
+use super::breach::Breach;
+use super::invariant::Invariant;
+use super::observed::Observed;
+use super::whole;
+use crate::engine::Until;
+use crate::engine::tree::{self, Limits};
+use crate::run::{Frame, Run, walls};
+
+/// A run that breaks an invariant.
+pub type Counterexample = tree::Counterexample<Invariant, Frame>;
+
+/// What to search for, and how far.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Bounds {
+    /// The chain, and how it is deceived.
+    pub observed: Observed,
+    /// Robots, base included: at most 64.
+    pub robots: usize,
+    /// The cells that the layouts have in common; the chain's range cuts them to size.
+    pub area: Area,
+    /// The base.
+    pub base: Cell,
+    /// Most walls that are met in one run; the border is not counted.
+    pub max_walls: u32,
+    /// The search stops when it has made about as many team moves as this, at the next answer.
+    pub budget_moves: Option<u64>,
+    /// What is looked for. A run without end is always found, since it would never be left.
+    pub invariants: Vec<Invariant>,
+    /// When to stop.
+    pub until: Until,
+}
+
+impl Bounds {
+    /// The area of the paper for `robots`: (2N−1)² cells, the base in the middle, everything looked for that a run of
+    /// its own can break.
+    pub fn new(observed: Observed, robots: usize, max_walls: u32) -> Self {
+        let (area, base) = whole::area(robots);
+        Self {
+            observed,
+            robots,
+            area,
+            base,
+            max_walls,
+            budget_moves: None,
+            invariants: Invariant::OF_RUNS.to_vec(),
+            until: Until::Exhausted,
+        }
+    }
+
+    /// The run that was found within these bounds.
+    pub fn run(&self, found: &Counterexample) -> Run {
+        Run {
+            scheme: "chain",
+            area: self.area,
+            starts: vec![self.base; self.robots],
+            walls: walls(&found.frames),
+            frames: found.frames.clone(),
+            breaks: found.broken.breach().map(Breach::clause),
+        }
+    }
+
+    /// The limits of the search.
+    pub(super) fn limits(&self) -> Limits<Invariant> {
+        let Self { max_walls, budget_moves, until, .. } = *self;
+        Limits { max_walls, budget_moves, wanted: self.invariants.clone(), until }
+    }
+
+    /// The area as the chain's range cuts it.
+    ///
+    /// # Errors
+    /// [`Refused`] if the base is outside.
+    pub fn reach(&self) -> Result<Area, Refused> {
+        let base = self.base;
+        area(self.area, base, self.robots).ok_or(Refused::BaseOutside { base })
+    }
+
+    /// How many edges can be walls.
+    ///
+    /// # Errors
+    /// [`Refused`] if the base is outside.
+    pub fn edges(&self) -> Result<u32, Refused> {
+        Ok(self.reach()?.edges().count() as u32)
+    }
+}
