@@ -142,7 +142,7 @@ mod tests {
         let shrunk = found.minimise().expect("nobody stops it");
         assert_eq!(
             (run.walls.len(), run.frames.len(), shrunk.case.layout.to_string().lines().count()),
-            (1, 2, 6)
+            (1, 2, 8)
         );
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("found.jsonl");

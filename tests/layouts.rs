@@ -728,7 +728,7 @@ fn published_ros_maps_are_read_or_refused() {
                 frame.y_m,
                 frame.yaw_rad
             ),
-            Err(fault) => fault.to_string().replace(&format!("{}/", folder.display()), ""),
+            Err(fault) => plain(&fault, &folder),
         }
     };
     assert_snapshot!(load("depot.yaml", None), @"604x307, 179481 free, 0.05 m from 0,0 yaw 0");

@@ -251,7 +251,7 @@ fn published_maps_are_read_and_explored_if_they_are_there() {
         match (yaml.as_str(), load(&format!("ros/{yaml}"))) {
             ("depot.yaml", Ok(_)) => {}
             ("tb3_map.yaml" | "testmap.yaml", Err(fault)) => {
-                assert!(fault.to_string().contains("--image"), "{fault}");
+                assert!(fault.to_string().contains("`image`"), "{fault}");
             }
             (_, result) => panic!("{yaml}: {result:?}"),
         }
