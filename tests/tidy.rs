@@ -107,7 +107,7 @@ fn forbidden(part: &str, file: &str, text: &str) -> Vec<String> {
 /// The crates of ours that a manifest depends on, but for tests.
 fn dependencies(manifest: &str) -> impl Iterator<Item = &str> {
     let sections = manifest.split("\n[").filter(|section| section.starts_with("dependencies]"));
-    sections.flat_map(str::lines).filter_map(|line| line.strip_prefix("tautline-")?.split(' ').next())
+    sections.flat_map(str::lines).filter_map(|line| line.strip_prefix("tautline-")?.split([' ', '.']).next())
 }
 
 fn path(folder: &str) -> PathBuf {
@@ -192,6 +192,6 @@ fn a_forbidden_arrow_is_found_however_it_is_written() {
     ] {
         assert_eq!(forbidden(part, file, text), [""; 0]);
     }
-    let manifest = "[package]\n[dependencies]\ntautline-sim = { path = \"sim\" }\n[dev-dependencies]\ntautline-proofs = \"1\"";
-    assert!(dependencies(manifest).eq(["sim"]));
+    let manifest = "[package]\n[dependencies]\ntautline-kernel.workspace = true\ntautline-sim = { path = \"sim\" }\n[dev-dependencies]\ntautline-proofs = \"1\"";
+    assert!(dependencies(manifest).eq(["kernel", "sim"]));
 }

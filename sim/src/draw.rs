@@ -18,7 +18,7 @@ use tautline_kernel::ground::{Area, Cell, Circle, Edge, Side, Step, neighbours};
 use tautline_proofs::course::{Scene, Turn};
 use tautline_proofs::words::counted;
 
-use crate::explore::{Chart, Look, Play, Stage, TeamMove};
+use crate::explore::{Look, Play, Stage, Survey, TeamMove};
 use crate::layout::Layout;
 
 /// Drawings beside each other take up at most so many columns.
@@ -175,7 +175,7 @@ pub enum Pose {
 }
 
 /// One team move of a run. `chart` knows the explored cells.
-pub fn team_move(run: &dyn Play, chart: &Chart, made: &TeamMove<'_>, pose: Pose) -> Block {
+pub fn team_move(run: &dyn Play, chart: &Survey, made: &TeamMove<'_>, pose: Pose) -> Block {
     TeamMoves::new(run, chart).draw(made, pose)
 }
 
@@ -183,13 +183,13 @@ pub fn team_move(run: &dyn Play, chart: &Chart, made: &TeamMove<'_>, pose: Pose)
 #[derive(Debug)]
 pub struct TeamMoves<'a> {
     stage: Stage<'a>,
-    chart: &'a Chart,
+    chart: &'a Survey,
     is_bare: bool,
 }
 
 impl<'a> TeamMoves<'a> {
     /// Those of `run`. `chart` knows the explored cells.
-    pub fn new(run: &'a dyn Play, chart: &'a Chart) -> Self {
+    pub fn new(run: &'a dyn Play, chart: &'a Survey) -> Self {
         let stage = run.stage();
         Self { stage, chart, is_bare: is_bare(&stage, chart.area()) }
     }
@@ -380,7 +380,7 @@ fn bare(look: Look, area: Area, team: &[Cell], mark: impl Fn(Cell) -> Mark) -> V
 }
 
 /// The order of exploration: in each cell the team move in which it was explored.
-pub fn order(run: &dyn Play, chart: &Chart) -> String {
+pub fn order(run: &dyn Play, chart: &Survey) -> String {
     let Stage { layout, look, .. } = run.stage();
     let label = |cell| match (chart.step(cell), look) {
         (Some(0), Look::Linked { .. }) => "B".to_owned(),
@@ -392,7 +392,7 @@ pub fn order(run: &dyn Play, chart: &Chart) -> String {
 }
 
 /// What was explored, and where the team is in the end.
-pub fn outcome(run: &dyn Play, chart: &Chart, team: &[Cell]) -> String {
+pub fn outcome(run: &dyn Play, chart: &Survey, team: &[Cell]) -> String {
     let Stage { layout, look, .. } = run.stage();
     let labels = Labels { look, cells: team, steps: None, unseen: &[] };
     let label = |cell| labels.label(cell, chart.mark(cell, u32::MAX));

@@ -7,7 +7,6 @@ pub mod ants;
 pub mod bricks;
 pub mod catalogue;
 pub mod chain;
-mod chart;
 mod clause;
 pub mod floor;
 mod misfit;
@@ -16,8 +15,8 @@ mod rule;
 mod run;
 mod setup;
 mod stage;
+mod survey;
 
-pub use self::chart::Chart;
 pub use self::clause::ClauseId;
 pub use self::misfit::Misfit;
 pub use self::own::Own;
@@ -27,6 +26,7 @@ pub use self::run::{
 };
 pub use self::setup::{Clause, Judge, Profile, Quarry, Rule, Senses, Setup, Start, Starts};
 pub use self::stage::{Knowledge, Look, Play, Stage};
+pub use self::survey::Survey;
 
 use tautline_kernel::ground::Cell;
 
@@ -57,11 +57,11 @@ impl Play for Setup {
         explore(self, watch)
     }
 
-    fn told(&self, clause: ClauseId, chart: &Chart, made: &TeamMove<'_>) -> Vec<String> {
+    fn told(&self, clause: ClauseId, chart: &Survey, made: &TeamMove<'_>) -> Vec<String> {
         self.scheme.clause(clause).map_or_else(Vec::new, |clause| (clause.told)(self, chart, made))
     }
 
-    fn missed(&self, clause: ClauseId, chart: &Chart) -> Option<(&'static str, Vec<Cell>)> {
+    fn missed(&self, clause: ClauseId, chart: &Survey) -> Option<(&'static str, Vec<Cell>)> {
         let words = self.scheme.clause(clause)?.missed?;
         Some((words, team(self).ok()?.missed(&self.layout, chart)))
     }

@@ -2,11 +2,11 @@
 //! drawing says so, the base and the number of robots. Only the simulator has one; a robot team learns of it
 //! edge by edge. Rows are counted southwards from 0 in every format, as text and images are read.
 
+mod bitmap;
 mod file;
 pub mod generate;
 mod lines;
 pub mod movingai;
-mod plane;
 mod problem;
 mod read;
 pub mod ros;
@@ -19,7 +19,7 @@ use std::str::FromStr;
 
 use tautline_kernel::ground::{Cell, Edge, Side};
 
-use plane::Plane;
+use bitmap::Bitmap;
 
 pub use file::{inputs, load};
 pub use generate::Generator;
@@ -32,10 +32,10 @@ pub use size::{MAX_CELLS, MAX_SIDE_CELLS, Size};
 pub struct Layout {
     size: Size,
     /// Walls on the eastern side of a cell; never on the rim.
-    east: Plane,
+    east: Bitmap,
     /// Walls on the southern side of a cell; never on the rim.
-    south: Plane,
-    blocked: Plane,
+    south: Bitmap,
+    blocked: Bitmap,
     /// Always a free cell.
     base: Option<Cell>,
     robots: Option<NonZeroU16>,
@@ -53,7 +53,7 @@ impl Layout {
 
     /// An area without walls and blocked cells.
     pub fn of(size: Size) -> Self {
-        let plane = Plane::new(size.cells());
+        let plane = Bitmap::new(size.cells());
         let (east, south, blocked) = (plane.clone(), plane.clone(), plane);
         Self { size, east, south, blocked, base: None, robots: None }
     }
@@ -224,14 +224,14 @@ impl Layout {
         self.size.index(cell).filter(|_| self.contains(beyond))
     }
 
-    const fn walls_beside(&self, side: Side) -> &Plane {
+    const fn walls_beside(&self, side: Side) -> &Bitmap {
         match side {
             Side::East | Side::West => &self.east,
             Side::South | Side::North => &self.south,
         }
     }
 
-    const fn walls_beside_mut(&mut self, side: Side) -> &mut Plane {
+    const fn walls_beside_mut(&mut self, side: Side) -> &mut Bitmap {
         match side {
             Side::East | Side::West => &mut self.east,
             Side::South | Side::North => &mut self.south,

@@ -11,10 +11,10 @@ mod event;
 mod judge;
 mod letters;
 mod pace;
-mod plan;
 mod problem;
 mod report;
 mod rover;
+mod scenario;
 mod setting;
 mod summary;
 mod timers;
@@ -39,7 +39,7 @@ mod tests {
     use tautline_proofs::engine::Seeded;
     use tautline_proofs::mrc::Demand;
 
-    use super::plan::{Caller, Place, Plan};
+    use super::scenario::{Caller, Place, Scenario};
     use super::*;
     use crate::explore::RuleName;
     use crate::radio::{
@@ -139,8 +139,8 @@ mod tests {
 
     /// A rescue under a rule that is wrong in one thing.
     fn under(rule: Rule, setting: &Setting, seed: u64) -> Report {
-        let plan = setting.plan(&mut Seeded::new(seed, 0)).expect("a plan");
-        Plan { rule, ..plan }.rescue(&mut Seeded::new(seed, 1)).expect("a rescue")
+        let scenario = setting.lay_out(&mut Seeded::new(seed, 0)).expect("a scenario");
+        Scenario { rule, ..scenario }.rescue(&mut Seeded::new(seed, 1)).expect("a rescue")
     }
 
     #[test]
@@ -253,17 +253,17 @@ mod tests {
     #[test]
     fn under_shadows_links_are_others_and_every_wfr_is_served_all_the_same() {
         let setting = Setting { shadowing_db: 4.0, exponent: 3.0, ..setting(RuleName::Repaired) };
-        let lies_beyond = |plan: &Plan| {
-            let place = |node: NodeId| plan.field.nodes()[node.0 as usize];
+        let lies_beyond = |scenario: &Scenario| {
+            let place = |node: NodeId| scenario.field.nodes()[node.0 as usize];
             let nodes = (0..700).map(NodeId).flat_map(|node| {
-                plan.network.neighbours(node).iter().map(move |&other| (place(node), place(other)))
+                scenario.network.neighbours(node).iter().map(move |&other| (place(node), place(other)))
             });
             nodes.filter(|(one, other)| (one.x_m - other.x_m).hypot(one.y_m - other.y_m) > 25.0).count()
         };
-        let of_plan = |setting: &Setting| setting.plan(&mut Seeded::new(0, 0)).expect("a plan");
+        let of_scenario = |setting: &Setting| setting.lay_out(&mut Seeded::new(0, 0)).expect("a scenario");
         let plain = Setting { shadowing_db: 0.0, ..setting.clone() };
-        assert_eq!(lies_beyond(&of_plan(&plain)), 0);
-        assert!(lies_beyond(&of_plan(&setting)) > 1_000);
+        assert_eq!(lies_beyond(&of_scenario(&plain)), 0);
+        assert!(lies_beyond(&of_scenario(&setting)) > 1_000);
         for seed in 0..20 {
             let report = rescue(&setting, seed).expect("a rescue");
             assert!(report.fates.iter().all(is_served_once) && report.violations.is_empty(), "seed {seed}");
@@ -282,26 +282,31 @@ mod tests {
     #[test]
     fn a_robot_has_the_shadows_of_the_node_at_which_it_was_last() {
         let setting = Setting { shadowing_db: 4.0, exponent: 3.0, ..setting(RuleName::Repaired) };
-        let plan = setting.plan(&mut Seeded::new(0, 0)).expect("a plan");
+        let scenario = setting.lay_out(&mut Seeded::new(0, 0)).expect("a scenario");
         let place = NodeId(9);
-        let at = plan.field.nodes()[9];
-        let mut links = plan.network.links(place).peekable();
+        let at = scenario.field.nodes()[9];
+        let mut links = scenario.network.links(place).peekable();
         assert!(links.peek().is_some());
         for link in links {
-            let heard = plan
-                .link(link.to, plan.signal(link.to, Some(place)), at)
+            let heard = scenario
+                .link(link.to, scenario.signal(link.to, Some(place)), at)
                 .expect("it hears whom the node hears");
             assert!(heard.distance_um.abs_diff(link.distance_um) <= 1);
-            let plain = plan.signal(link.to, None);
-            assert_eq!(plain, Signal::plain(plan.field.nodes()[link.to.0 as usize]));
+            let plain = scenario.signal(link.to, None);
+            assert_eq!(plain, Signal::plain(scenario.field.nodes()[link.to.0 as usize]));
         }
-        let far = (0..700).map(NodeId).find(|&node| plan.network.distance_um(place, node).is_none());
+        let far = (0..700).map(NodeId).find(|&node| scenario.network.distance_um(place, node).is_none());
         let far = far.expect("a node that is not linked");
-        assert_eq!(plan.signal(far, Some(place)), plan.signal(far, None));
+        assert_eq!(scenario.signal(far, Some(place)), scenario.signal(far, None));
     }
 
     /// Nodes at these places, WFR the first, that flood; robots at these, some of which fail.
-    fn row(rule: Rule, nodes: &[(f64, f64)], robots: &[(f64, Option<u64>)], failing: &[(u32, u64)]) -> Plan {
+    fn row(
+        rule: Rule,
+        nodes: &[(f64, f64)],
+        robots: &[(f64, Option<u64>)],
+        failing: &[(u32, u64)],
+    ) -> Scenario {
         let area = Area::new(200.0, 20.0).expect("an area");
         let nodes = nodes.iter().map(|&(x_m, y_m)| Point { x_m, y_m }).collect();
         let field = Field::new(area, vec![], nodes).expect("a field");
@@ -309,7 +314,7 @@ mod tests {
         let network = Network::new(&field, radio, &mut Seeded::new(0, 0)).expect("a network");
         let range_um = std::num::NonZeroU32::new(25_000_000).expect("a range");
         let second = |at: u64| at * 1_000_000_000;
-        Plan {
+        Scenario {
             rule,
             broadcast: notice::Rule::new(Scheme::Flooding, range_um, 100_000_000),
             radio,
@@ -354,8 +359,8 @@ mod tests {
     #[test]
     fn when_the_robot_on_its_way_fails_the_lease_lapses_and_another_comes_but_not_as_published() {
         let fate = |rule: Rule| {
-            let plan = row(rule, &ROW, &[(85.0, None), (60.0, Some(20))], &[]);
-            let report = plan.rescue(&mut Seeded::new(0, 0)).expect("a rescue");
+            let scenario = row(rule, &ROW, &[(85.0, None), (60.0, Some(20))], &[]);
+            let report = scenario.rescue(&mut Seeded::new(0, 0)).expect("a rescue");
             (report.fates[0], breaks(&report, Demand::IsServed))
         };
         assert_eq!(fate(Rule::REPAIRED), (Fate::Served { by: 0, visits: 1 }, false));
@@ -369,8 +374,8 @@ mod tests {
         let served = Fate::Served { by: 0, visits: 1 };
         let of_either = |rule: Rule, is_end: fn(&Event) -> bool| {
             let mut fates = [[(2, 25)], [(4, 25)]].map(|failing| {
-                let plan = row(rule, &nodes, &[(85.0, None)], &failing);
-                let report = plan.rescue(&mut Seeded::new(0, 0)).expect("a rescue");
+                let scenario = row(rule, &nodes, &[(85.0, None)], &failing);
+                let report = scenario.rescue(&mut Seeded::new(0, 0)).expect("a rescue");
                 (report.fates[0], events(&report).iter().any(is_end))
             });
             fates.sort_by_key(|&(_, has_ended)| has_ended);
@@ -385,9 +390,9 @@ mod tests {
     #[test]
     fn as_published_the_robot_beside_the_wfr_stays_deaf_to_its_second_event() {
         let outcome = |rule: Rule| {
-            let mut plan = row(rule, &ROW, &[(60.0, None)], &[]);
-            plan.wfrs[0].pauses_ns = vec![100_000_000_000];
-            let report = plan.rescue(&mut Seeded::new(0, 0)).expect("a rescue");
+            let mut scenario = row(rule, &ROW, &[(60.0, None)], &[]);
+            scenario.wfrs[0].pauses_ns = vec![100_000_000_000];
+            let report = scenario.rescue(&mut Seeded::new(0, 0)).expect("a rescue");
             let journeys: Vec<(usize, f64)> =
                 report.journeys.iter().map(|journey| (journey.event, journey.moved_m.round())).collect();
             let found = [Demand::AsksAnew, Demand::IsServed]
@@ -406,10 +411,10 @@ mod tests {
     fn without_numbers_nodes_do_not_send_the_second_event_on() {
         let outcome = |conditions: notice::Conditions| {
             // The robot that serves the first event fails before the second; the other one is three hops off.
-            let mut plan = row(Rule::REPAIRED, &ROW, &[(85.0, None), (60.0, Some(100))], &[]);
-            plan.wfrs[0].pauses_ns = vec![100_000_000_000];
-            plan.broadcast.conditions = conditions;
-            let report = plan.rescue(&mut Seeded::new(0, 0)).expect("a rescue");
+            let mut scenario = row(Rule::REPAIRED, &ROW, &[(85.0, None), (60.0, Some(100))], &[]);
+            scenario.wfrs[0].pauses_ns = vec![100_000_000_000];
+            scenario.broadcast.conditions = conditions;
+            let report = scenario.rescue(&mut Seeded::new(0, 0)).expect("a rescue");
             let spreads: Vec<u32> = report.spreads.iter().map(|spread| spread.reached).collect();
             (report.fates, spreads)
         };
@@ -421,7 +426,7 @@ mod tests {
     #[test]
     fn whom_nobody_can_reach_or_has_heard_of_is_told_apart() {
         let alone = row(Rule::REPAIRED, &ROW, &[(150.0, None)], &[]);
-        let fates = |plan: Plan| plan.rescue(&mut Seeded::new(0, 0)).expect("a rescue").fates;
+        let fates = |scenario: Scenario| scenario.rescue(&mut Seeded::new(0, 0)).expect("a rescue").fates;
         assert_eq!(fates(alone), [Fate::CutOff]);
         let dead = row(Rule::REPAIRED, &ROW, &[(60.0, Some(0))], &[]);
         assert_eq!(fates(dead), [Fate::CutOff]);

@@ -13,7 +13,7 @@ use tautline_proofs::words::counted;
 
 use super::svg::{self, Frame};
 use crate::aside::{Aside, HTML_HEAD};
-use crate::explore::{Chart, Look, Play, Report, Stage, TeamMove};
+use crate::explore::{Look, Play, Report, Stage, Survey, TeamMove};
 use crate::fault::Fault;
 
 /// Bytes of a page. What is larger no browser shows.
@@ -129,7 +129,7 @@ pub(super) fn parts(style: &str, steps: [&str; 2], title: &str, outcome: &str) -
 }
 
 /// The cells as they are before the first of `moves`, and what becomes of them in these.
-fn marked(chart: &Chart, moves: &RangeInclusive<u32>) -> String {
+fn marked(chart: &Survey, moves: &RangeInclusive<u32>) -> String {
     let frame = Frame(chart.area());
     let before = moves.start().saturating_sub(1);
     let mut text = String::new();

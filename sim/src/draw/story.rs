@@ -9,7 +9,7 @@ use tautline_proofs::ledger;
 use tautline_proofs::words::counted;
 
 use super::{Block, Pose, agents, beside, first_drawn, legend, outcome, team_move};
-use crate::explore::{Chart, ClauseId, Look, Play, Report, TeamMove, Violation};
+use crate::explore::{ClauseId, Look, Play, Report, Survey, TeamMove, Violation};
 use crate::fault::Halt;
 use crate::layout::{Layout, Problem};
 
@@ -24,7 +24,7 @@ fn with_sentence(id: ClauseId) -> String {
 }
 
 /// How the team move `made` breaks its clauses: the sentences, what each robot did, and the move drawn.
-pub fn of(run: &dyn Play, chart: &Chart, made: &TeamMove<'_>) -> String {
+pub fn of(run: &dyn Play, chart: &Survey, made: &TeamMove<'_>) -> String {
     let mut text = String::new();
     for &clause in made.broken {
         // Writing to a string cannot fail.

@@ -8,7 +8,7 @@ use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
 
 use super::{Environment, REACH, first_drawn};
 use crate::aside::SVG_HEAD;
-use crate::explore::{Chart, Look, Play, Stage, TeamMove};
+use crate::explore::{Look, Play, Stage, Survey, TeamMove};
 use crate::fault::Fault;
 use crate::layout::Layout;
 
@@ -154,7 +154,7 @@ pub fn layout(layout: &Layout) -> Panel {
 }
 
 /// The order of exploration.
-pub fn order(run: &dyn Play, chart: &Chart) -> Panel {
+pub fn order(run: &dyn Play, chart: &Survey) -> Panel {
     let Stage { layout, base, look, .. } = run.stage();
     let area = chart.area();
     let frame = Frame(area);
@@ -179,7 +179,7 @@ pub fn order(run: &dyn Play, chart: &Chart) -> Panel {
 }
 
 /// One team move: where the robots were, what they tried, where they are.
-pub fn team_move(run: &dyn Play, chart: &Chart, made: &TeamMove<'_>) -> Panel {
+pub fn team_move(run: &dyn Play, chart: &Survey, made: &TeamMove<'_>) -> Panel {
     let area = chart.area();
     let frame = Frame(area);
     let Stage { layout, look, .. } = run.stage();

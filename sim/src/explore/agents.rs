@@ -18,12 +18,12 @@ use tautline_kernel::perception::time;
 pub use tautline_proofs::floor::trap::Way;
 use tautline_proofs::run::Frame;
 
-use super::chart::Chart;
 use super::clause::ClauseId;
 use super::floor::{Component, SensorFloor, is_visited};
 use super::run::{End, Team};
 use super::setup::{Profile, Senses, Setup, Starts};
 use super::stage::Look;
+use super::survey::Survey;
 use crate::layout::Layout;
 use crate::layout::generate::{self, Probability};
 
@@ -270,12 +270,12 @@ pub(super) fn start(setup: &Setup, way: Way) -> Box<dyn Team> {
 }
 
 /// The cells that an agent of `setup` can get to and that are not visited, as `chart` shows.
-pub(super) fn missed(setup: &Setup, chart: &Chart) -> Vec<Cell> {
+pub(super) fn missed(setup: &Setup, chart: &Survey) -> Vec<Cell> {
     unvisited(&SensorFloor::new(&setup.layout, &setup.starts()), chart)
 }
 
 /// The cells that an agent can get to and that are not visited, as `chart` shows.
-fn unvisited(floor: &SensorFloor, chart: &Chart) -> Vec<Cell> {
+fn unvisited(floor: &SensorFloor, chart: &Survey) -> Vec<Cell> {
     let due = chart.area().cells().filter(|&cell| floor.component(cell).is_some());
     due.filter(|&cell| !is_visited(chart.mark(cell, u32::MAX))).collect()
 }
@@ -302,7 +302,7 @@ impl Team for Watched {
         self.team.due()
     }
 
-    fn missed(&self, _: &Layout, chart: &Chart) -> Vec<Cell> {
+    fn missed(&self, _: &Layout, chart: &Survey) -> Vec<Cell> {
         unvisited(self.team.floor(), chart)
     }
 
@@ -311,7 +311,7 @@ impl Team for Watched {
     }
 
     /// That every cell is visited is promised where no sensor is missed, and by those who mark cells.
-    fn broken_at_end(&self, _: &Layout, _: &Chart, _: End) -> Vec<ClauseId> {
+    fn broken_at_end(&self, _: &Layout, _: &Survey, _: End) -> Vec<ClauseId> {
         let is_promised = match self.team.way {
             Way::Ants(_) => false,
             Way::Bricks(_) => self.team.misses.is_never(),

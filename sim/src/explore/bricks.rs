@@ -8,10 +8,10 @@ use tautline_proofs::floor::trap::Way;
 use tautline_proofs::words::counted;
 
 use super::agents::{AGENTS, PREMATURE, UNVISITED, missed, start};
-use super::chart::Chart;
 use super::run::TeamMove;
 use super::setup::{Clause, Judge, Profile, Quarry, Rule, Setup};
 use super::stage::Knowledge;
+use super::survey::Survey;
 
 const PUBLISHED: Way = Way::Bricks(Bricks::PUBLISHED);
 const REPAIRED: Way = Way::Bricks(Bricks::REPAIRED);
@@ -47,7 +47,7 @@ const MARKING: Profile = Profile {
 };
 
 /// How much is left to an agent that is done too early.
-fn premature(setup: &Setup, chart: &Chart, made: &TeamMove<'_>) -> Vec<String> {
+fn premature(setup: &Setup, chart: &Survey, made: &TeamMove<'_>) -> Vec<String> {
     let is_left = |cell: &Cell| chart.mark(*cell, made.step) == Mark::Unexplored;
     let left = missed(setup, chart).into_iter().filter(is_left).count();
     vec![format!("So an agent is done, with {} unexplored.", counted(left, "cell"))]

@@ -9,11 +9,11 @@ use tautline_proofs::chain::links::within_reach;
 use tautline_proofs::run::Frame;
 use tautline_proofs::words::counted;
 
-use super::chart::Chart;
 use super::clause::ClauseId;
 use super::run::{End, Team, TeamMove};
 use super::setup::{Clause, Judge, Profile, Quarry, Rule, Senses, Setup, Starts};
 use super::stage::Look;
+use super::survey::Survey;
 use crate::fault::Fault;
 use crate::layout::Layout;
 use crate::wide::WideGrid;
@@ -121,7 +121,7 @@ impl<G: Grid, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
         self.chain.grid().area()
     }
 
-    fn missed(&self, layout: &Layout, chart: &Chart) -> Vec<Cell> {
+    fn missed(&self, layout: &Layout, chart: &Survey) -> Vec<Cell> {
         let (base, robots) = (self.cells()[0], self.cells().len());
         let due = within_reach(chart.area(), base, robots, |edge| layout.is_open(edge));
         due.into_iter().filter(|&cell| chart.step(cell).is_none()).collect()
@@ -133,7 +133,7 @@ impl<G: Grid, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
         seen.chain(is_costly.then_some(Breach::Costly)).map(ClauseId::from).collect()
     }
 
-    fn broken_at_end(&self, layout: &Layout, chart: &Chart, _: End) -> Vec<ClauseId> {
+    fn broken_at_end(&self, layout: &Layout, chart: &Survey, _: End) -> Vec<ClauseId> {
         if self.missed(layout, chart).is_empty() { Vec::new() } else { vec![Breach::Completeness.into()] }
     }
 }

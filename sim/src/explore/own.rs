@@ -6,9 +6,9 @@ use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_proofs::run::Frame;
 use tautline_proofs::team::{self, Demand, Moved};
 
-use super::chart::Chart;
 use super::clause::ClauseId;
 use super::run::{End, Team};
+use super::survey::Survey;
 use crate::layout::Layout;
 
 /// A team that is played in one layout.
@@ -69,7 +69,7 @@ impl<T: team::Team<ROBOTS>, const ROBOTS: usize> Team for Own<T, ROBOTS> {
         self.broken(|demand| demand.is_broken_by(&moved))
     }
 
-    fn broken_at_end(&self, _: &Layout, _: &Chart, end: End) -> Vec<ClauseId> {
+    fn broken_at_end(&self, _: &Layout, _: &Survey, end: End) -> Vec<ClauseId> {
         match end {
             End::Explored | End::Exhausted => {
                 self.broken(|demand| demand.is_broken_at_end(&self.team, &self.cells))

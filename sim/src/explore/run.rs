@@ -8,9 +8,9 @@ use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Area, Cell, Edge};
 use tautline_proofs::run::Frame;
 
-use super::chart::Chart;
 use super::clause::ClauseId;
 use super::floor::Component;
+use super::survey::Survey;
 use crate::fault::Halt;
 use crate::layout::Layout;
 use crate::words::Worded;
@@ -38,7 +38,7 @@ pub trait Team {
 
     /// The cells of `layout` that the team must have explored, or marked as visited, before it ends, and has not, as
     /// `chart` shows. It must explore none, unless it says otherwise.
-    fn missed(&self, layout: &Layout, chart: &Chart) -> Vec<Cell> {
+    fn missed(&self, layout: &Layout, chart: &Survey) -> Vec<Cell> {
         let _ = (layout, chart);
         Vec::new()
     }
@@ -50,7 +50,7 @@ pub trait Team {
     }
 
     /// The clauses that the end of the run breaks, in which the team has explored what is in `chart`.
-    fn broken_at_end(&self, layout: &Layout, chart: &Chart, end: End) -> Vec<ClauseId> {
+    fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
         let _ = (layout, chart, end);
         Vec::new()
     }
@@ -235,7 +235,7 @@ pub struct Report {
     /// What was broken, in order.
     pub violations: Vec<Violation>,
     /// Which cell was explored when, and how it was marked.
-    pub chart: Chart,
+    pub chart: Survey,
     /// Where the robots are in the end.
     pub team: Vec<Cell>,
     /// The parts of a sensor floor in which agents started.
@@ -270,7 +270,7 @@ impl Report {
             milestones: [None; Milestone::ALL.len()],
             stopped: Stopped::Exhausted,
             violations: Vec::new(),
-            chart: Chart::new(team.area(layout)),
+            chart: Survey::new(team.area(layout)),
             team: team.cells().to_vec(),
             components: Vec::new(),
             milliseconds: None,

@@ -8,11 +8,11 @@ use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::Observed;
 use tautline_proofs::floor::trap::Way;
 
-use super::chart::Chart;
 use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::{Limits, Team, TeamMove};
 use super::stage::{Knowledge, Look, Stage};
+use super::survey::Survey;
 use crate::fault::Fault;
 use crate::layout::generate::Probability;
 use crate::layout::{Layout, Problem};
@@ -105,7 +105,7 @@ pub struct Clause {
     /// Which independent judge reads its counterexamples.
     pub judge: Option<Judge>,
     /// How a team move breaks it, one line for each pair or cell.
-    pub told: fn(&Setup, &Chart, &TeamMove<'_>) -> Vec<String>,
+    pub told: fn(&Setup, &Survey, &TeamMove<'_>) -> Vec<String>,
     /// If it is about the end of a run: what the cells are that are missed.
     pub missed: Option<&'static str>,
 }

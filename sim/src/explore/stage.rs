@@ -2,9 +2,9 @@
 
 use tautline_kernel::ground::Cell;
 
-use super::chart::Chart;
 use super::clause::ClauseId;
 use super::run::{Limits, Report, TeamMove, Watcher};
+use super::survey::Survey;
 use crate::fault::Halt;
 use crate::layout::Layout;
 use crate::layout::generate::Probability;
@@ -115,13 +115,13 @@ pub trait Play {
     fn play(&self, watch: &mut Watcher<'_>) -> Result<Report, Halt>;
 
     /// How the team move `made` breaks `clause`, one line for each pair or cell.
-    fn told(&self, clause: ClauseId, chart: &Chart, made: &TeamMove<'_>) -> Vec<String> {
+    fn told(&self, clause: ClauseId, chart: &Survey, made: &TeamMove<'_>) -> Vec<String> {
         let _ = (clause, chart, made);
         Vec::new()
     }
 
     /// What the cells are that the end of the run must not miss by `clause`, and those that it misses.
-    fn missed(&self, clause: ClauseId, chart: &Chart) -> Option<(&'static str, Vec<Cell>)> {
+    fn missed(&self, clause: ClauseId, chart: &Survey) -> Option<(&'static str, Vec<Cell>)> {
         let _ = (clause, chart);
         None
     }

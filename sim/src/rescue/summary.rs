@@ -146,7 +146,7 @@ impl Summary {
     /// [`Halt`], as `watch` returned it, or if the setting makes no rescue.
     pub fn measure(setting: &Setting, seeds: RangeInclusive<u64>, watch: &Watch<'_>) -> Result<Self, Halt> {
         // What is wrong with all is to be the same fault each time, not that of whichever thread is first.
-        setting.plan(&mut Seeded::new(*seeds.start(), 0)).map_err(Fault::from)?;
+        setting.lay_out(&mut Seeded::new(*seeds.start(), 0)).map_err(Fault::from)?;
         let one = |seed: u64| {
             let report = rescue(setting, seed).map_err(Fault::from)?;
             watch()?;

@@ -17,8 +17,8 @@ use super::event::millimetres;
 use super::judge::{Judge, Seen};
 use super::letters::{ANSWER_WAIT_NS, Letter, Letters};
 use super::pace;
-use super::plan::Plan;
 use super::rover::Rover;
+use super::scenario::Scenario;
 use super::timers::Timers;
 use super::{Event, Journey, Logged, MAX_ROBOTS, MAX_WFRS, Ordinal, Problem, Report, Setting, Spread};
 use crate::radio::{Broadcast, Link, Protocol, run};
@@ -35,11 +35,11 @@ const ROUTES: usize = MAX_ROBOTS * MAX_WFRS;
 /// # Errors
 /// A [`Problem`] if the setting makes none.
 pub fn rescue(setting: &Setting, seed: u64) -> Result<Report, Problem> {
-    let plan = setting.plan(&mut Seeded::new(seed, 0))?;
-    plan.rescue(&mut Seeded::new(seed, 1))
+    let scenario = setting.lay_out(&mut Seeded::new(seed, 0))?;
+    scenario.rescue(&mut Seeded::new(seed, 1))
 }
 
-impl Plan {
+impl Scenario {
     /// The rescue, as it goes with these answers.
     pub(super) fn rescue(&self, chance: &mut dyn Oracle) -> Result<Report, Problem> {
         let mut world = World::new(self);
@@ -115,7 +115,7 @@ struct Happening {
 }
 
 struct World<'a> {
-    plan: &'a Plan,
+    scenario: &'a Scenario,
     timers: Vec<Timers>,
     /// Of the nodes, then of the robots.
     agendas: Vec<Agenda<Duty, Message>>,
@@ -133,43 +133,43 @@ struct World<'a> {
 }
 
 impl<'a> World<'a> {
-    fn new(plan: &'a Plan) -> Self {
-        let stations = plan.network.nodes() + plan.robots.len();
-        let leg_ns = pace::leg_ns(&plan.equipment, plan.radio.reach_m(), plan.noise_db);
+    fn new(scenario: &'a Scenario) -> Self {
+        let stations = scenario.network.nodes() + scenario.robots.len();
+        let leg_ns = pace::leg_ns(&scenario.equipment, scenario.radio.reach_m(), scenario.noise_db);
         let sensor = || Sensor { has_failed: false, guide: Guide::IDLE, until_ns: 0, relay: None };
         Self {
-            plan,
-            timers: plan.wfrs.iter().map(|wfr| Timers::new(wfr.depth, leg_ns)).collect(),
+            scenario,
+            timers: scenario.wfrs.iter().map(|wfr| Timers::new(wfr.depth, leg_ns)).collect(),
             agendas: (0..stations).map(|_| Agenda::new()).collect(),
             letters: (0..stations).map(|_| Letters::default()).collect(),
-            sensors: (0..plan.network.nodes()).map(|_| sensor()).collect(),
+            sensors: (0..scenario.network.nodes()).map(|_| sensor()).collect(),
             rovers: (0..)
-                .zip(&plan.robots)
-                .map(|(robot, place)| Rover::new(plan.rule, RobotId(robot), place.at))
+                .zip(&scenario.robots)
+                .map(|(robot, place)| Rover::new(scenario.rule, RobotId(robot), place.at))
                 .collect(),
-            wfrs: plan.wfrs.iter().map(|wfr| Wfr::new(plan.rule, wfr.node)).collect(),
-            broadcasts: plan
+            wfrs: scenario.wfrs.iter().map(|wfr| Wfr::new(scenario.rule, wfr.node)).collect(),
+            broadcasts: scenario
                 .wfrs
                 .iter()
-                .map(|wfr| Broadcast::new(&plan.network, plan.broadcast, wfr.node))
+                .map(|wfr| Broadcast::new(&scenario.network, scenario.broadcast, wfr.node))
                 .collect(),
-            happenings: plan.wfrs.iter().map(|_| Vec::new()).collect(),
+            happenings: scenario.wfrs.iter().map(|_| Vec::new()).collect(),
             journeys: Vec::new(),
-            judge: Judge::new(plan.robots.len(), plan.wfrs.len()),
+            judge: Judge::new(scenario.robots.len(), scenario.wfrs.len()),
             log: Vec::new(),
         }
     }
 
     /// Puts what is due from the start, and returns when the stations' timers go off first.
     fn begin(&mut self) -> Vec<(NodeId, u64)> {
-        let plan = self.plan;
-        for (wfr, caller) in plan.wfrs.iter().enumerate() {
+        let scenario = self.scenario;
+        for (wfr, caller) in scenario.wfrs.iter().enumerate() {
             self.put(caller.node, caller.at_ns, Duty::Raise(wfr));
         }
-        for &(node, at_ns) in &plan.failing {
+        for &(node, at_ns) in &scenario.failing {
             self.put(node, at_ns, Duty::Fail);
         }
-        for (robot, place) in plan.robots.iter().enumerate() {
+        for (robot, place) in scenario.robots.iter().enumerate() {
             if let Some(at_ns) = place.fails_ns {
                 self.put(self.station(robot), at_ns, Duty::Fail);
             }
@@ -182,16 +182,16 @@ impl<'a> World<'a> {
 
     /// The number under which a robot is on the air.
     fn station(&self, robot: usize) -> NodeId {
-        NodeId((self.plan.network.nodes() + robot) as u32)
+        NodeId((self.scenario.network.nodes() + robot) as u32)
     }
 
     /// Which robot is on the air under this number; a node is none.
     fn robot(&self, at: NodeId) -> Option<usize> {
-        (at.0 as usize).checked_sub(self.plan.network.nodes())
+        (at.0 as usize).checked_sub(self.scenario.network.nodes())
     }
 
     fn put(&mut self, at: NodeId, at_ns: u64, duty: Duty) {
-        if at_ns <= HORIZON_NS * self.plan.events() as u64 {
+        if at_ns <= HORIZON_NS * self.scenario.events() as u64 {
             self.agendas[at.0 as usize].put(at_ns, duty);
         }
     }
@@ -309,7 +309,7 @@ impl<'a> World<'a> {
 
     /// The link of a node with a robot, to either; `None` if they do not hear each other.
     fn link(&self, node: NodeId, rover: &Rover, to: NodeId) -> Option<Link> {
-        self.plan.link(to, self.plan.signal(node, rover.place), rover.at)
+        self.scenario.link(to, self.scenario.signal(node, rover.place), rover.at)
     }
 }
 
@@ -349,12 +349,13 @@ impl Protocol for World<'_> {
         match self.robot(at).map(|robot| &self.rovers[robot]) {
             None => links.extend(robots().filter_map(|(to, rover)| self.link(at, rover, to))),
             Some(sender) => {
-                let nodes = (0..self.plan.network.nodes() as u32).map(NodeId);
+                let nodes = (0..self.scenario.network.nodes() as u32).map(NodeId);
                 links.extend(nodes.filter_map(|to| self.link(to, sender, to)));
                 let others = robots().filter(|&(to, _)| to != at);
-                links.extend(
-                    others.filter_map(|(to, rover)| self.plan.link(to, Signal::plain(rover.at), sender.at)),
-                );
+                links
+                    .extend(others.filter_map(|(to, rover)| {
+                        self.scenario.link(to, Signal::plain(rover.at), sender.at)
+                    }));
             }
         }
     }

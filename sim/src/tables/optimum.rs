@@ -15,7 +15,7 @@ use super::parameter::{Parameter, put, shown};
 use super::{About, Observer, Table};
 use crate::columns::{Column, Columns, Width};
 use crate::draw::{self, Block};
-use crate::explore::{Chart, RuleName, Setup, explore};
+use crate::explore::{RuleName, Setup, Survey, explore};
 use crate::fault::Halt;
 use crate::layout::Layout;
 use crate::reading::within;
@@ -241,7 +241,7 @@ fn columns(lines: &[Line]) -> Columns {
 
 /// When each cell is explored, by the chain and in the optimum.
 fn drawing(line: &Line, worst: &Worst) -> Result<String, Halt> {
-    let (setup, charts) = charts(line, worst)?;
+    let (setup, charts) = surveys(line, worst)?;
     let titles = [format!("chain: {}", worst.chain), format!("optimum: {}", worst.optimum)];
     let lines = charts.map(|chart| draw::order(&setup, &chart).lines().map(str::to_owned).collect());
     let blocks: Vec<Block> =
@@ -262,13 +262,13 @@ impl Worst {
 }
 
 /// The run of the chain in the layout of `worst`, and when each cell is explored in it and in the optimum.
-fn charts(line: &Line, worst: &Worst) -> Result<(Setup, [Chart; 2]), Halt> {
+fn surveys(line: &Line, worst: &Worst) -> Result<(Setup, [Survey; 2]), Halt> {
     let area = Area::new(line.robots)?;
     let setup = area.setup(line.rule, worst.layout.clone());
     let report = explore(&setup, &mut |_| Ok(()))?;
     let (ground, goals) = area.goals(&worst.layout)?;
     let optimum = solve(&ground, &goals)?;
-    let charted = Chart::of(ground.area(), optimum.configurations.iter().map(Vec::as_slice));
+    let charted = Survey::of(ground.area(), optimum.configurations.iter().map(Vec::as_slice));
     Ok((setup, [report.chart, charted]))
 }
 

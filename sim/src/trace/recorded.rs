@@ -9,7 +9,7 @@ use tautline_proofs::run::Frame;
 use super::format::{Header, Line, StoredEnd, StoredViolation, drawn};
 use super::lines::{Lines, MAX_LINE_BYTES};
 use crate::explore::{
-    Chart, ClauseId, End, Limits, Look, Play, Report, Stage, Team, Violation, Watcher, run,
+    ClauseId, End, Limits, Look, Play, Report, Stage, Survey, Team, Violation, Watcher, run,
 };
 use crate::fault::{Fault, Halt};
 use crate::layout::Layout;
@@ -218,7 +218,7 @@ impl Team for Player<'_> {
     }
 
     /// What is broken before the first team move.
-    fn broken_at_end(&self, _: &Layout, _: &Chart, _: End) -> Vec<ClauseId> {
+    fn broken_at_end(&self, _: &Layout, _: &Survey, _: End) -> Vec<ClauseId> {
         if self.made == 0 { self.broken() } else { Vec::new() }
     }
 }

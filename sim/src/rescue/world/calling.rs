@@ -16,7 +16,7 @@ impl World<'_> {
         let station = self.station(robot);
         match message {
             Message::Notice(notice) => {
-                let Some(wfr) = self.plan.wfr(notice.call.wfr) else { return };
+                let Some(wfr) = self.scenario.wfr(notice.call.wfr) else { return };
                 let known = |rover: &Rover| rover.machine.request(notice.call.wfr).copied();
                 let before = known(&self.rovers[robot]).map(|request| request.call.epoch);
                 let place = self.log.len();
@@ -63,7 +63,7 @@ impl World<'_> {
         bidder: Option<RobotId>,
         turn: impl FnOnce(Wfr<MAX_ROBOTS>) -> (Wfr<MAX_ROBOTS>, Sent<MAX_ROBOTS>),
     ) {
-        let (before, node) = (self.wfrs[wfr], self.plan.wfrs[wfr].node);
+        let (before, node) = (self.wfrs[wfr], self.scenario.wfrs[wfr].node);
         let (after, sent) = turn(before);
         self.wfrs[wfr] = after;
         let (Epoch(epoch), hops) =
@@ -108,7 +108,7 @@ impl World<'_> {
 
     /// A WFR's NOTICE, under whichever epoch, is its next event to the nodes.
     pub(super) fn call(&mut self, wfr: usize, now_ns: u64) {
-        let node = self.plan.wfrs[wfr].node;
+        let node = self.scenario.wfrs[wfr].node;
         let Epoch(epoch) = self.wfrs[wfr].call().epoch;
         self.measure_spread(wfr);
         self.judge.calls(wfr);
@@ -135,7 +135,7 @@ impl World<'_> {
         let Some(Happening { epoch, spread, .. }) = self.happenings[wfr].last_mut() else { return };
         spread.get_or_insert_with(|| {
             let Reach { reached, rebroadcasts } = self.broadcasts[wfr].reach(*epoch);
-            let component = self.plan.network.component(self.plan.wfrs[wfr].node) as u32;
+            let component = self.scenario.network.component(self.scenario.wfrs[wfr].node) as u32;
             Spread { reached, component, rebroadcasts }
         });
     }
@@ -151,7 +151,7 @@ impl World<'_> {
         let before = self.rovers[robot].machine;
         let (after, sent) = turn(before);
         self.rovers[robot].machine = after;
-        self.judge.turns(robot, (before.task(), &after), resb, |wfr| self.plan.wfr(wfr), now_ns);
+        self.judge.turns(robot, (before.task(), &after), resb, |wfr| self.scenario.wfr(wfr), now_ns);
         let station = self.station(robot);
         if let Some(message) = sent {
             self.say(robot, message, now_ns);
@@ -159,7 +159,7 @@ impl World<'_> {
         }
         if after.timer() != before.timer()
             && let Some(timer) = after.timer()
-            && let Some(wfr) = self.plan.wfr(timer.call.wfr)
+            && let Some(wfr) = self.scenario.wfr(timer.call.wfr)
         {
             let wait_ns = self.timers[wfr].resb_ns(timer.call.epoch);
             self.put(station, now_ns + wait_ns, Duty::Robot(timer));
@@ -179,7 +179,7 @@ impl World<'_> {
 
     /// What a robot has to say, for the log; an answer that it comes prolongs its lease.
     fn say(&mut self, robot: usize, message: Upward, now_ns: u64) {
-        let Some(wfr) = self.plan.wfr(message.call.wfr) else { return };
+        let Some(wfr) = self.scenario.wfr(message.call.wfr) else { return };
         let Epoch(epoch) = message.call.epoch;
         match message.word {
             Word::Move { hops } => {

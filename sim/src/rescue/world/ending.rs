@@ -17,7 +17,7 @@ impl World<'_> {
         }
         let mut fates = Vec::new();
         for wfr in 0..self.wfrs.len() {
-            let of_wfr = (0..self.plan.events()).map(|event| self.fate(wfr, event));
+            let of_wfr = (0..self.scenario.events()).map(|event| self.fate(wfr, event));
             let place = fates.len();
             fates.extend(of_wfr);
             if fates[place..].contains(&Fate::Abandoned) {
@@ -32,8 +32,13 @@ impl World<'_> {
             violations: self.judge.violations,
             log: self.log,
             paths: self.rovers.into_iter().map(|rover| rover.path).collect(),
-            field: self.plan.field.clone(),
-            wfrs: self.plan.wfrs.iter().map(|wfr| self.plan.field.nodes()[wfr.node.0 as usize]).collect(),
+            field: self.scenario.field.clone(),
+            wfrs: self
+                .scenario
+                .wfrs
+                .iter()
+                .map(|wfr| self.scenario.field.nodes()[wfr.node.0 as usize])
+                .collect(),
             air,
         }
     }
@@ -46,9 +51,9 @@ impl World<'_> {
         if let Some(first) = first {
             return Fate::Served { by: first.robot, visits };
         }
-        let node = self.plan.wfrs[wfr].node;
+        let node = self.scenario.wfrs[wfr].node;
         let lives = |node: NodeId| !self.sensors[node.0 as usize].has_failed;
-        let hops = hops(&self.plan.network, node, lives);
+        let hops = hops(&self.scenario.network, node, lives);
         let linked = (0..).map(NodeId).zip(hops).filter(|&(node, hops)| hops.is_some() && lives(node));
         let nodes: Vec<NodeId> = linked.map(|(node, _)| node).collect();
         let is_linked = |rover: &&Rover| {

@@ -17,7 +17,7 @@ impl World<'_> {
         let Heard { message, distance_um, now_ns } = heard;
         match message {
             Message::Notice(message) => {
-                let Some(wfr) = self.plan.wfr(message.call.wfr) else { return };
+                let Some(wfr) = self.scenario.wfr(message.call.wfr) else { return };
                 let heard = Heard { message, distance_um, now_ns };
                 if let Some(at_ns) = self.broadcasts[wfr].receive(at, heard, chance) {
                     self.put(at, at_ns, Duty::Forward(wfr));
@@ -39,7 +39,7 @@ impl World<'_> {
 
     /// Something for this node to send on, or for the WFR that it is.
     fn carry(&mut self, at: NodeId, message: Upward, from: Hop, now_ns: u64) {
-        let Some(wfr) = self.plan.wfr(message.call.wfr) else { return };
+        let Some(wfr) = self.scenario.wfr(message.call.wfr) else { return };
         let is_goal = message.call.wfr == at;
         let parent = if is_goal {
             Some(at)
@@ -97,7 +97,7 @@ impl World<'_> {
         let node = self.broadcasts[wfr].nodes()[at.0 as usize];
         let is_path_node = node.stage() == Stage::Forwarded && node.event() == Some(epoch);
         let hops = node.hops().filter(|_| is_path_node)?;
-        Some(Nav { wfr: self.plan.wfrs[wfr].node, node: at, hops, parent: node.parent().unwrap_or(at) })
+        Some(Nav { wfr: self.scenario.wfrs[wfr].node, node: at, hops, parent: node.parent().unwrap_or(at) })
     }
 
     pub(super) fn send_down(&mut self, at: NodeId, resb: Resb, now_ns: u64) {
@@ -108,13 +108,13 @@ impl World<'_> {
     }
 
     pub(super) fn guide(&mut self, at: NodeId, request: ReqNav, now_ns: u64) {
-        let Some(wfr) = self.plan.wfr(request.wfr) else { return };
+        let Some(wfr) = self.scenario.wfr(request.wfr) else { return };
         let epoch = self.broadcasts[wfr].nodes()[at.0 as usize].event();
         // Whoever comes to a WFR that is rescued comes in vain: it answers a MOVE with nobody's name, and a REQNAV not at
         // all.
         let is_over = self.wfrs[wfr].call().wfr == at
             && !self.wfrs[wfr].is_waiting()
-            && self.plan.rule.has(Condition::AnswersAgain);
+            && self.scenario.rule.has(Condition::AnswersAgain);
         let own = epoch.filter(|_| !is_over).and_then(|epoch| self.place_in_tree(at, wfr, epoch));
         let guide = self.sensors[at.0 as usize].guide.request(request, at, own);
         match guide.conduct {

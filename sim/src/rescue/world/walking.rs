@@ -17,11 +17,11 @@ const SERVICE_NS: u64 = 10_000_000_000;
 
 impl World<'_> {
     pub(super) fn set_out(&mut self, robot: usize, call: Call, now_ns: u64) {
-        let Some(wfr) = self.plan.wfr(call.wfr) else { return };
+        let Some(wfr) = self.scenario.wfr(call.wfr) else { return };
         let rover = &self.rovers[robot];
         let Some(&Request { parent, hops, .. }) = rover.machine.request(call.wfr) else { return };
         let (start, id) = (rover.at, rover.machine.id());
-        let walker = Walker::new(self.plan.equipment, start, id, call.wfr, (parent, hops));
+        let walker = Walker::new(self.scenario.equipment, start, id, call.wfr, (parent, hops));
         self.rovers[robot].way = Some(Way { call, wfr, walker, leg: 0, passed: None, has_come: false });
         self.tell(
             now_ns,
@@ -101,9 +101,9 @@ impl World<'_> {
             !sensor.has_failed && matches!(sensor.guide.conduct, Conduct::Signals(nav) if is_for(nav))
         };
         let guide = way.walker.guide();
-        let signal = guide.filter(sends).map(|node| self.plan.signal(node, rover.place));
+        let signal = guide.filter(sends).map(|node| self.scenario.signal(node, rover.place));
         let (hops, places) = (way.walker.hops(), way.walker.trail().len());
-        let takes_ns = way.walker.act(&self.plan.field, signal, chance);
+        let takes_ns = way.walker.act(&self.scenario.field, signal, chance);
         let (to, done_ns, leg) = (way.walker.at(), now_ns + takes_ns, way.leg);
         let onward = if way.walker.trail().len() > places { Onward::Turned } else { Onward::Straight };
         let reached = guide.filter(|_| way.walker.hops() < hops);
@@ -126,13 +126,13 @@ impl World<'_> {
         let Some(way) = &mut rover.way else { return };
         way.has_come = true;
         let (wfr, call, id, at) = (way.wfr, way.call, rover.machine.id(), rover.at);
-        let goal = self.plan.field.nodes()[self.plan.wfrs[wfr].node.0 as usize];
+        let goal = self.scenario.field.nodes()[self.scenario.wfrs[wfr].node.0 as usize];
         let event = self.happenings[wfr].len() - 1;
         let happening = &mut self.happenings[wfr][event];
         happening.visits += 1;
         let is_first = self.wfrs[wfr].is_waiting();
         if is_first {
-            let shortest_m = shortest_m(&self.plan.field, rover.since, goal);
+            let shortest_m = shortest_m(&self.scenario.field, rover.since, goal);
             let moved_m = rover.moved_m + way.walker.walked_m();
             let waited_ns = now_ns - happening.at_ns;
             let journey = Journey { robot, wfr, event, at_ns: now_ns, waited_ns, moved_m, shortest_m };
@@ -142,7 +142,7 @@ impl World<'_> {
         self.wfrs[wfr] = self.wfrs[wfr].reach(id);
         self.tell(now_ns, Event::Arrives { robot: Ordinal(robot), wfr: Ordinal(wfr), at: millimetres(at) });
         self.put(station, now_ns + SERVICE_NS, Duty::Served(call));
-        let caller = &self.plan.wfrs[wfr];
+        let caller = &self.scenario.wfrs[wfr];
         if let Some(pause_ns) = caller.pauses_ns.get(event).filter(|_| is_first) {
             self.put(caller.node, now_ns + SERVICE_NS + pause_ns, Duty::Raise(wfr));
         }

@@ -8,7 +8,7 @@ use tautline_proofs::chain::reach::CellSet;
 
 use super::area::{Area, WallSet, solve};
 use super::{Line, Worst};
-use crate::explore::{Chart, RuleName, explore};
+use crate::explore::{RuleName, Survey, explore};
 use crate::fault::Halt;
 use crate::stats::hundredths;
 
@@ -48,7 +48,7 @@ mod pairs {
 }
 
 impl Sums {
-    pub(super) fn count(&mut self, walls: WallSet, optimum: u32, goals: &CellSet, chart: &Chart) {
+    pub(super) fn count(&mut self, walls: WallSet, optimum: u32, goals: &CellSet, chart: &Survey) {
         self.layouts += 1;
         let is_beyond = |cell| chart.step(cell).is_some() && !goals.contains(cell);
         self.beyond += u64::from(chart.area().cells().any(is_beyond));

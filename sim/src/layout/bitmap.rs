@@ -1,9 +1,9 @@
 //! One bit for each cell of a layout.
 
 #[derive(Clone, PartialEq, Eq, Hash)]
-pub(super) struct Plane(Vec<u64>);
+pub(super) struct Bitmap(Vec<u64>);
 
-impl Plane {
+impl Bitmap {
     /// A plane of `bits` bits, none of them set.
     pub(super) fn new(bits: usize) -> Self {
         Self(vec![0; bits.div_ceil(64)])

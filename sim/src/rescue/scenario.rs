@@ -26,7 +26,7 @@ const EARLY_MS: u32 = 600_000;
 const MILLISECOND_NS: u64 = 1_000_000;
 
 /// A rescue laid out.
-pub(super) struct Plan {
+pub(super) struct Scenario {
     pub(super) rule: Rule,
     pub(super) broadcast: notice::Rule,
     pub(super) radio: Radio,
@@ -68,7 +68,7 @@ pub(super) struct Place {
 
 impl Setting {
     /// Lays the rescue out. What is not given is drawn.
-    pub(super) fn plan(&self, chance: &mut dyn Oracle) -> Result<Plan, Problem> {
+    pub(super) fn lay_out(&self, chance: &mut dyn Oracle) -> Result<Scenario, Problem> {
         self.check()?;
         let [width_m, height_m] = self.area_m;
         let obstacles = self.obstacles_m.iter().copied().map(Obstacle::from).collect();
@@ -101,7 +101,7 @@ impl Setting {
         for caller in &mut wfrs {
             caller.pauses_ns = (1..self.events_per_wfr).map(|_| early_ns(chance)).collect();
         }
-        Ok(Plan {
+        Ok(Scenario {
             rule,
             broadcast: notice::Rule { conditions, ..notice::Rule::new(scheme, range_um, LONGEST_WAIT_NS) },
             radio,
@@ -227,7 +227,7 @@ fn early_ns(chance: &mut dyn Oracle) -> u64 {
     u64::from(chance.pick(EARLY_MS)) * MILLISECOND_NS
 }
 
-impl Plan {
+impl Scenario {
     /// How many events happen at each WFR.
     pub(super) fn events(&self) -> usize {
         1 + self.wfrs.first().map_or(0, |caller| caller.pauses_ns.len())

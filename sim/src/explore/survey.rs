@@ -7,7 +7,7 @@ use tautline_kernel::ground::{Area, Cell};
 
 /// Which cell was explored when, and how it was marked.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Chart {
+pub struct Survey {
     area: Area,
     /// Row by row: the team move, or `UNEXPLORED`.
     steps: Vec<u32>,
@@ -17,7 +17,7 @@ pub struct Chart {
 
 const UNEXPLORED: u32 = u32::MAX;
 
-impl Chart {
+impl Survey {
     /// Nothing of `area` is explored.
     pub(super) fn new(area: Area) -> Self {
         Self { area, steps: vec![UNEXPLORED; area.width() * area.height()], marks: BTreeMap::new() }
