@@ -137,6 +137,8 @@ mod tests {
         for row in &rows {
             assert!(row.is_as_registered(), "{}: {:?}", row.clause.id, row.decision);
         }
+        let tutorial = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/own-rule.md");
+        assert!(fs::read_to_string(tutorial).expect("a page").contains(&ledger::table(&rows)));
         let run = counterexample(&rows).expect("the rule as written is refuted");
         let found = Found { layouts: &LAYOUTS, rule: ("written", &WRITTEN), run };
         let shrunk = found.minimise().expect("nobody stops it");
