@@ -28,11 +28,15 @@ struct Election(Smaller);
 
 impl System for Election {
     type State = Ring;
-    type Key = Ring;
+    type Part = Ring;
     type Demand = &'static str;
 
-    fn key(&self, ring: &Ring) -> Ring {
-        ring.clone()
+    fn parts(&self, ring: &Ring) -> impl IntoIterator<Item = Ring> {
+        [ring.clone()]
+    }
+
+    fn put(&self, ring: &mut Ring, _: usize, part: &Ring) {
+        ring.clone_from(part);
     }
 
     fn steps(&self, ring: &Ring) -> impl Iterator<Item = Step<Ring, &'static str>> {

@@ -20,7 +20,7 @@
 macro_rules! conditions {
     ($condition:ident) => {
         /// A set of conditions.
-        #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+        #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
         pub struct Conditions(u16);
 
         impl Conditions {

@@ -5,6 +5,7 @@
 use std::fmt;
 
 use crate::decide::{Answer, Desk, Evidence, Memory, Method, Played, Refused, Verdict};
+use crate::engine::states::Room;
 use crate::engine::tree::Watch;
 use crate::engine::{Choices, Unfit, Until};
 
@@ -143,7 +144,7 @@ impl<R: Sync> AnyCheck for Check<R> {
     }
 
     fn decide(&self, memory: &mut Memory, watch: Watch<'_>) -> Result<Decision, Refused> {
-        let mut desk = Desk { memory, watch };
+        let mut desk = Desk { memory, watch, room: Room::any() };
         let Answer { verdict, cases, given_up, counterexample } =
             self.method.decide(&self.about.rule, Until::Exhausted, &mut desk)?;
         let (mut killed, mut survived) = (Vec::new(), Vec::new());

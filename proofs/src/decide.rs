@@ -7,7 +7,7 @@ use std::fmt;
 use tautline_kernel::choice::Oracle;
 
 use crate::course::Course;
-use crate::engine::states::{self, System};
+use crate::engine::states::{self, Limits, Room, System};
 use crate::engine::tree::Watch;
 use crate::engine::{self, Choices, Outcome, Replay, Script, Stop, Tally, Unfit, Until};
 use crate::run::Run;
@@ -173,6 +173,8 @@ pub struct Desk<'a, 'w> {
     pub memory: &'a mut Memory,
     /// Hears of searches, and may end them: the check is left open then.
     pub watch: Watch<'w>,
+    /// The memory that searches over states may take. Where it does not suffice, the check is left open.
+    pub room: &'a Room,
 }
 
 /// A way to decide a clause about rules of type `R`: a scheme's own, or a stranger's.
@@ -339,9 +341,10 @@ where
     }
 
     /// The choices are the number of the start, and those of the steps.
-    fn decide(&self, rule: &R, _: Until, _: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+    fn decide(&self, rule: &R, _: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
         let system = (self.system)(rule);
-        let found = states::search(&system, (self.starts)(&system), self.most_steps);
+        let limits = Limits { most_steps: self.most_steps.into(), room: desk.room };
+        let found = states::search(&system, (self.starts)(&system), limits);
         let evidence = found.broken.first().map(|run| Evidence {
             choices: Choices {
                 once: [&[run.start as u32], &run.steps[..]].concat(),

@@ -202,7 +202,7 @@ where
             Until::Violation => vec![promise],
         };
         let key = (std::ptr::from_ref(layouts).addr(), rule.clone(), wanted);
-        let Desk { memory, watch } = desk;
+        let Desk { memory, watch, .. } = desk;
         let found: Result<&Found<Promise, Frame>, Refused> = memory.recall(key, |(_, rule, wanted)| {
             let mut tree = layouts.search(rule, until, wanted)?;
             while tree.wave() && watch(&tree.progress()).is_continue() {}

@@ -1,4 +1,4 @@
-//! MRC's states, counted twice: by the search of `prove`, which keeps whole states and looks for cycles, and by
+//! MRC's states, counted twice: by the search of `prove`, which keeps the parts of states and looks for cycles, and by
 //! stateright, which keeps fingerprints and knows no cycles. Both must find the same states, and break a demand in as
 //! few steps. Then longer runs with more faults than can be searched, at random.
 
@@ -9,6 +9,7 @@ use std::hash::{Hash, Hasher};
 use stateright::{Checker, Model, Property};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::mrc::{Condition, Rule, Task};
+use tautline_proofs::engine::states::Limits;
 use tautline_proofs::engine::{Outcome, require, sample};
 use tautline_proofs::mrc::space::{Found, Until, search};
 use tautline_proofs::mrc::{Action, Actor, Demand, Faults, Leases, Lossy, Setting, State};
@@ -52,7 +53,7 @@ const fn setting((robots, wfrs): (usize, usize), events: u8, max_hops: u16, faul
     }
 }
 
-const ENOUGH: u32 = 200_000_000;
+const ENOUGH: Limits<'_> = Limits::steps(200_000_000);
 
 fn found(setting: &Setting) -> Found {
     search(setting, Until::Exhausted, ENOUGH)
@@ -94,12 +95,12 @@ struct Future {
     broken: Vec<Demand>,
     owed: Vec<bool>,
     awake: Vec<bool>,
-    next: Vec<(Action, bool, Box<[u8]>)>,
+    next: Vec<(Action, bool, State)>,
 }
 
-/// The search and stateright both take states for one that have the same key, so neither would notice a key that leaves
+/// The search and stateright both take states for one that have the same parts, so neither would notice parts that leave
 /// out something that matters. Here every state is gone on from that differs in anything at all, and whichever have the
-/// same key must have the same future.
+/// same parts must have the same future.
 #[test]
 fn states_that_are_taken_for_one_have_the_same_future() {
     let setting = setting((2, 1), 2, 2, Faults::any(1));
@@ -118,11 +119,11 @@ fn states_that_are_taken_for_one_have_the_same_future() {
             awake: actors.map(|actor| state.timer_runs(actor)).collect(),
             next: next
                 .iter()
-                .map(|(action, after)| (*action, state.is_bound_to_happen(&setting, *action), after.key()))
+                .map(|(action, after)| (*action, state.is_bound_to_happen(&setting, *action), after.clone()))
                 .collect(),
         };
         ahead.extend(next.into_iter().map(|(_, after)| after));
-        match futures.entry(state.key()) {
+        match futures.entry(state.clone()) {
             Entry::Vacant(entry) => {
                 entry.insert(future);
             }

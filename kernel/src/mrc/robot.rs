@@ -55,7 +55,7 @@ pub struct RobotTimer {
 }
 
 /// A robot that knows of at most `CALLS` WFRs at a time.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Robot<const CALLS: usize> {
     rule: Rule,
     id: RobotId,
@@ -87,6 +87,20 @@ impl<const CALLS: usize> Robot<CALLS> {
     /// Its record of a WFR.
     pub fn request(&self, wfr: NodeId) -> Option<&Request> {
         self.requests().find(|request| request.call.wfr == wfr)
+    }
+
+    /// The robot with the calls that it knows under other epochs. Rules compare epochs of one WFR and do nothing else with
+    /// them: if `rename` keeps their order, the robot goes on as before.
+    #[must_use]
+    pub fn renamed(mut self, rename: impl Fn(Call) -> Call) -> Self {
+        for request in self.requests.iter_mut().flatten() {
+            request.call = rename(request.call);
+        }
+        match &mut self.task {
+            Task::Free => {}
+            Task::Asking { call, .. } | Task::Leased { call } => *call = rename(*call),
+        }
+        self
     }
 
     /// The timer that runs.

@@ -55,7 +55,7 @@ impl Condition {
 conditions!(Condition);
 
 /// The rule of a rescue.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Rule {
     /// The conditions in force.
     pub conditions: Conditions,

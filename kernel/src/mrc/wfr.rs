@@ -65,7 +65,7 @@ pub enum Sent<const ROBOTS: usize> {
 
 /// A WFR that remembers at most `ROBOTS` robots that have asked. A robot beyond them is heard and may be chosen, but is
 /// told of the choice only when it repeats its MOVE.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Wfr<const ROBOTS: usize> {
     rule: Rule,
     call: Call,
@@ -101,6 +101,15 @@ impl<const ROBOTS: usize> Wfr<ROBOTS> {
             Phase::Idle | Phase::Rescued { .. } => false,
             Phase::Collecting { .. } | Phase::Offered { .. } | Phase::Leased { .. } => true,
         }
+    }
+
+    /// The WFR with its call under another epoch, and with the robots that have asked in the order of their ids, which is
+    /// the order in which they are told. If `rename` keeps the order of epochs, the WFR goes on as before.
+    #[must_use]
+    pub fn renamed(mut self, rename: impl Fn(Call) -> Call) -> Self {
+        self.call = rename(self.call);
+        self.asked.sort_unstable_by_key(|robot| (robot.is_none(), *robot));
+        self
     }
 
     /// The timer that runs.

@@ -9,9 +9,9 @@ use tautline_kernel::ground::Cell;
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
 use crate::engine::states::{Bits, Step, System};
 use crate::engine::{Choices, Script, Unfit, Until, outcomes};
-use crate::floor::look::{Explored, look};
+use crate::floor::look::Explored;
 use crate::floor::plans::{Area, CELLS, FloorPlan};
-use crate::floor::small::{Misses, Small};
+use crate::floor::small::{self, Misses, Part, Small};
 
 /// Ants that are observed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -31,19 +31,21 @@ struct Colony {
     max_misses: u8,
 }
 
-#[derive(Clone, PartialEq, Eq, Hash)]
-struct State {
-    sensors: [Sensor; CELLS],
-    ants: Vec<Cell>,
-    misses: u8,
-}
+/// The state of a floor and the cells of its ants.
+type State = small::State<Cell>;
 
 impl Colony {
     fn starts(&self, ants: u32) -> Vec<State> {
-        let start = |ants| {
-            let mut state = State { sensors: [Sensor::default(); CELLS], ants, misses: 0 };
+        let start = |bodies| {
+            let mut state = State {
+                sensors: [Sensor::default(); CELLS],
+                placed: [0; CELLS],
+                bodies,
+                misses: 0,
+                streak: (0, 0),
+            };
             let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors, placed: &mut [0; CELLS] };
-            settle(&mut floor, &state.ants);
+            settle(&mut floor, &state.bodies);
             state
         };
         self.plan.starts(ants).map(start).collect()
@@ -61,13 +63,13 @@ impl Colony {
             return None;
         }
         let mut state = state.clone();
-        let ant = if state.ants.len() > 1 { world.pick(state.ants.len() as u32) } else { 0 };
-        let cell = state.ants[ant as usize];
+        let ant = if state.bodies.len() > 1 { world.pick(state.bodies.len() as u32) } else { 0 };
+        let cell = state.bodies[ant as usize];
         let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors, placed: &mut [0; CELLS] };
         let mut world = Misses { world, count: &mut state.misses, most: self.max_misses };
         let scan = Scan::new(&floor, cell, &mut world);
         if let Some(side) = act(self.observed.rule, &mut floor, cell, &scan) {
-            state.ants[ant as usize] = cell.beyond(side);
+            state.bodies[ant as usize] = cell.beyond(side);
         }
         for sensor in &mut state.sensors {
             sensor.serial = 0;
@@ -81,11 +83,15 @@ impl Colony {
 
 impl System for Colony {
     type State = State;
-    type Key = State;
+    type Part = Part<Cell>;
     type Demand = &'static str;
 
-    fn key(&self, state: &State) -> State {
-        state.clone()
+    fn parts(&self, state: &State) -> impl IntoIterator<Item = Part<Cell>> {
+        state.parts()
+    }
+
+    fn put(&self, state: &mut State, place: usize, part: &Part<Cell>) {
+        state.put(place, part);
     }
 
     fn steps(&self, state: &State) -> impl Iterator<Item = Step<State, &'static str>> {
@@ -97,7 +103,7 @@ impl System for Colony {
     }
 
     fn awake(&self, state: &State) -> Bits {
-        (1 << state.ants.len()) - 1
+        (1 << state.bodies.len()) - 1
     }
 }
 
@@ -137,14 +143,16 @@ impl Method<Observed> for SmallFloors {
         SERIES.map(words).join("; ")
     }
 
-    /// The choices of a violation are as those of [`look`].
-    fn decide(&self, observed: &Observed, _: Until, _: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
-        let mut explored = Explored::default();
+    /// The choices of a violation are as those of [`Explored`].
+    fn decide(&self, observed: &Observed, _: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+        let mut explored = Explored::new();
         for (number, series) in (0..).zip(SERIES) {
             let colonies = series.colonies(*observed);
             let starts = |colony: &Colony| colony.starts(series.ants);
-            if let Some((_, run)) = look(&mut explored.tally, number, &colonies, starts) {
+            if let Some((_, run)) = explored.look(number, &colonies, starts, desk.room) {
                 explored.again = run.round().to_vec();
+            }
+            if !explored.is_whole || explored.tally.violation.is_some() {
                 break;
             }
         }

@@ -7,7 +7,8 @@ use super::team::{Demand, State, Team, Turns};
 use super::{Deception, Observed};
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
 use crate::engine::{Choices, Script, Unfit, Until};
-use crate::floor::look::{Explored, look};
+use crate::engine::states::Room;
+use crate::floor::look::Explored;
 use crate::floor::plans::Area;
 
 /// Teams to look at: all plans of an area, how many agents start in any of their cells, and how many sensors they miss.
@@ -121,14 +122,16 @@ impl Floors {
 
     /// Looks at all states, series by series, until the first violation. Its choices are the numbers of the series, the
     /// plan and the start, then the steps.
-    fn explore(self, observed: &Observed) -> Explored {
-        let mut explored = Explored::default();
+    fn explore(self, observed: &Observed, room: &Room) -> Explored {
+        let mut explored = Explored::new();
         for (number, series) in (0..).zip(self.series) {
             let teams = series.teams(observed, self.demand);
-            let tally = &mut explored.tally;
-            let Some((team, run)) = look(tally, number, &teams, |team| team.starts(series.agents).collect())
-            else {
-                continue;
+            let starts = |team: &Team| team.starts(series.agents).collect();
+            let Some((team, run)) = explored.look(number, &teams, starts, room) else {
+                if explored.is_whole {
+                    continue;
+                }
+                break;
             };
             explored.again = run.round().to_vec();
             explored.course = team.starts(series.agents).nth(run.start).map(|start| team.course(start, &run));
@@ -158,14 +161,15 @@ impl Method<Observed> for Floors {
     /// for its own first violation.
     fn decide(&self, observed: &Observed, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
         let Some(together) = self.together().filter(|_| until == Until::Exhausted) else {
-            return Ok(self.explore(observed).answer(self.shows()));
+            return Ok(self.explore(observed, desk.room).answer(self.shows()));
         };
         let key = (together, *observed);
+        let Desk { memory, room, .. } = desk;
         let explored: Result<&Explored, Refused> =
-            desk.memory.recall(key, |(floors, observed)| Ok(floors.explore(observed)));
+            memory.recall(key, |(floors, observed)| Ok(floors.explore(observed, room)));
         let explored = explored?.clone();
         let is_kept = explored.tally.violation.is_none();
-        Ok(if is_kept { explored } else { self.explore(observed) }.answer(self.shows()))
+        Ok(if is_kept { explored } else { self.explore(observed, room) }.answer(self.shows()))
     }
 
     fn replay(&self, observed: &Observed, choices: &Choices) -> Result<Played, Unfit> {
@@ -231,7 +235,8 @@ mod tests {
         for demand in [Demand::Connected, Demand::Ends] {
             const FAR: [Series; 1] = [Series { reach: u8::MAX, ..Series::new(Area::blocked(4, 3), 2) }];
             let floors = Floors { series: &FAR, demand };
-            let Explored { tally, course, .. } = floors.explore(&Observed::marking(Rule::REPAIRED));
+            let observed = Observed::marking(Rule::REPAIRED);
+            let Explored { tally, course, .. } = floors.explore(&observed, Room::any());
             assert_eq!((tally.violation, course, tally.cases), (None, None, 32_566_853), "{demand:?}");
         }
     }

@@ -11,7 +11,7 @@ use crate::course::{Course, Scene, Turn};
 use crate::engine::outcomes;
 use crate::engine::states::{self, Bits, Run, System};
 use crate::floor::plans::{CELLS, FloorPlan};
-use crate::floor::small::{Misses, Small, is_shut, marked};
+use crate::floor::small::{self, Misses, Part, Small, is_shut, marked};
 
 /// What two agents may do at once.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -50,16 +50,7 @@ pub(crate) struct Body {
 }
 
 /// The state of a floor and its agents.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
-pub(crate) struct State {
-    pub(crate) sensors: [Sensor; CELLS],
-    pub(crate) placed: [u8; CELLS],
-    pub(crate) bodies: Vec<Body>,
-    /// Sensors missed so far.
-    pub(crate) misses: u8,
-    /// Who acted last, and how many times in a row; kept only where that is bounded.
-    pub(crate) streak: (u8, u8),
-}
+pub(crate) type State = small::State<Body>;
 
 /// Agents that follow a rule on a plan.
 #[derive(Clone, Copy, Debug)]
@@ -268,11 +259,15 @@ struct Turned {
 
 impl System for Team {
     type State = State;
-    type Key = State;
+    type Part = Part<Body>;
     type Demand = &'static str;
 
-    fn key(&self, state: &State) -> State {
-        state.clone()
+    fn parts(&self, state: &State) -> impl IntoIterator<Item = Part<Body>> {
+        state.parts()
+    }
+
+    fn put(&self, state: &mut State, place: usize, part: &Part<Body>) {
+        state.put(place, part);
     }
 
     fn steps(&self, state: &State) -> impl Iterator<Item = states::Step<State, &'static str>> {

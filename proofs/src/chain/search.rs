@@ -169,7 +169,7 @@ impl Method<Observed> for EveryLayout {
             Until::Exhausted => all,
             Until::Violation => Bounds { invariants: vec![self.0], until, ..all },
         };
-        let Desk { memory, watch } = desk;
+        let Desk { memory, watch, .. } = desk;
         let found = memory.recall(bounds.clone(), |bounds| search(bounds, *watch));
         let found = found.map_err(decide::Refused::new)?;
         let broken = found.counterexamples.iter().find(|found| found.broken == self.0);

@@ -3,15 +3,20 @@
 //! there are no more, those that the system can come back to are looked at for runs that go on for ever and owe the same
 //! thing throughout, although everybody acts who is not kept from it.
 //!
-//! Of a state that has been gone on from only what tells it from others is kept. A run is given by the numbers of its
-//! steps, each among all steps from its state.
+//! A state is kept in a few bytes: it is taken apart, each part that was ever met stands once in a table, and the state
+//! is the numbers of its parts (collapse compression, Holzmann 1997). It is put together again when it is gone on from.
+//! Besides, of each state the one is kept from which it was first found, and where endless runs are looked for, the
+//! steps that are bound to be made. A run is given by the numbers of its steps, each among all steps from its state.
 
 mod graph;
+mod known;
+mod limits;
 mod rounds;
 mod search;
 
 use std::hash::Hash;
 
+pub use limits::{Limits, Room};
 pub use search::search;
 
 /// A set of at most sixteen things, one bit each.
@@ -20,14 +25,19 @@ pub type Bits = u16;
 /// A system whose states are searched.
 pub trait System {
     /// All that it is.
-    type State;
-    /// What tells one state from another.
-    type Key: Eq + Hash;
+    type State: Clone;
+    /// What states are made of. The fewer different parts there are, the less memory a search takes; the whole state may
+    /// be one part.
+    type Part: Clone + Eq + Hash;
     /// What can be broken.
     type Demand: Copy + Eq;
 
-    /// What tells `state` from others.
-    fn key(&self, state: &Self::State) -> Self::Key;
+    /// The parts of `state`: the same number for every state, and equal ones for states that are to be taken for one.
+    fn parts(&self, state: &Self::State) -> impl IntoIterator<Item = Self::Part>;
+
+    /// Makes `part` the part of `state` in this place among its [`parts`](Self::parts), which is another state's until all
+    /// its parts are put.
+    fn put(&self, state: &mut Self::State, place: usize, part: &Self::Part);
 
     /// Every step from `state`, always in the same order.
     fn steps(&self, state: &Self::State) -> impl Iterator<Item = Step<Self::State, Self::Demand>>;
@@ -85,7 +95,9 @@ pub struct Found<D> {
     pub looked_at: u64,
     /// Steps between states.
     pub steps: u64,
-    /// Whether the search came to its end, and not to the most steps that it may make.
+    /// The most bytes that it took at a time.
+    pub bytes: u64,
+    /// Whether the search came to its end, and not to one of its [`Limits`].
     pub is_whole: bool,
     /// The situations that occurred, sorted.
     pub covered: Vec<&'static str>,

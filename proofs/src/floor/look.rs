@@ -1,17 +1,21 @@
 //! All states of many small floors, plan by plan, until the first violation.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use rayon::prelude::*;
 
 use crate::course::Course;
 use crate::decide::{Answer, Seen, Verdict};
-use crate::engine::states::{END, Found, Run, System, search};
+use crate::engine::states::{END, Found, Limits, Room, Run, System, search};
 use crate::engine::{Tally, cover};
 
 /// What the states of small floors have shown.
-#[derive(Clone, PartialEq, Eq, Debug, Default)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Explored {
     /// A case is a state. The choices of a violation are the numbers of the series, the plan, the start, and the steps.
     pub tally: Tally,
+    /// Whether no search was cut off.
+    pub is_whole: bool,
     /// The steps with which it goes round for ever, if it does.
     pub again: Vec<u32>,
     /// The run of the violation, where there is more to see in it than choices.
@@ -19,46 +23,66 @@ pub(crate) struct Explored {
 }
 
 impl Explored {
+    /// Nothing yet.
+    pub(crate) fn new() -> Self {
+        Self { tally: Tally::default(), is_whole: true, again: Vec::new(), course: None }
+    }
+
     /// What it shows.
     pub(crate) fn answer(self, shown: Verdict) -> Answer {
-        let Self { tally, again, course } = self;
-        let mut answer = Answer::of_tally(tally, &[END], shown);
+        let Self { tally, is_whole, again, course } = self;
+        let mut answer = Answer::of_tally(tally, &[END], if is_whole { shown } else { Verdict::Open });
         if let Some(evidence) = &mut answer.counterexample {
             evidence.choices.again = again;
             evidence.seen = course.map_or(Seen::Choices, |course| Seen::Agents(Box::new(course)));
         }
         answer
     }
+
+    /// Searches all states of `systems`, which are of the series with this number, from their starts, until something is
+    /// broken or a search is cut off: by which system, and how. What is found is the same on any number of threads.
+    pub(crate) fn look<'a, S: System<Demand = &'static str> + Sync>(
+        &mut self,
+        series: u32,
+        systems: &'a [S],
+        starts: impl Fn(&S) -> Vec<S::State> + Sync,
+        room: &Room,
+    ) -> Option<(&'a S, Run<&'static str>)> {
+        for ((place, system), found) in (0..).zip(systems).zip(search_each(systems, starts, room)) {
+            let Found { states, covered, broken, is_whole, .. } = found;
+            self.tally.cases += states;
+            self.is_whole &= is_whole;
+            for situation in covered {
+                cover(&mut self.tally.covered, situation);
+            }
+            if let Some(run) = broken.into_iter().next() {
+                let choices = [&[series, place, run.start as u32], &run.steps[..]].concat();
+                self.tally.violation = Some((choices, run.demand));
+                return Some((system, run));
+            }
+        }
+        None
+    }
 }
 
-/// Plans that are looked at between two looks for a violation.
-const WAVE: usize = 64;
-
-/// Searches all states of `systems`, which are of the series with this number, from their starts, until something is
-/// broken: by which system, and how. The choices of a violation are the numbers of the series, the system, the start, and
-/// the steps; the tally is the same on any number of threads.
-pub(crate) fn look<'a, S: System<Demand = &'static str> + Sync>(
-    tally: &mut Tally,
-    series: u32,
-    systems: &'a [S],
+/// What is found in each of `systems`, up to the first in which something is broken or the search is cut off.
+fn search_each<S: System<Demand = &'static str> + Sync>(
+    systems: &[S],
     starts: impl Fn(&S) -> Vec<S::State> + Sync,
-) -> Option<(&'a S, Run<&'static str>)> {
-    for (wave, first) in systems.chunks(WAVE).zip((0..).step_by(WAVE)) {
-        let found: Vec<Found<_>> =
-            wave.par_iter().map(|system| search(system, starts(system), u32::MAX)).collect();
-        let mut shown = None;
-        for ((place, system), Found { states, covered, broken, .. }) in (first..).zip(wave).zip(found) {
-            tally.cases += states;
-            for situation in covered {
-                cover(&mut tally.covered, situation);
-            }
-            shown = shown.or(broken.into_iter().next().map(|run| (place, system, run)));
+    room: &Room,
+) -> Vec<Found<&'static str>> {
+    let last = AtomicUsize::new(usize::MAX);
+    let each = systems.par_iter().enumerate().with_max_len(1).map(|(place, system)| {
+        if last.load(Ordering::Relaxed) < place {
+            return None;
         }
-        if let Some((place, system, run)) = shown {
-            let choices = [&[series, place, run.start as u32], &run.steps[..]].concat();
-            tally.violation = Some((choices, run.demand));
-            return Some((system, run));
+        let found = search(system, starts(system), Limits { room, ..Limits::NONE });
+        if !found.broken.is_empty() || !found.is_whole {
+            last.fetch_min(place, Ordering::Relaxed);
         }
-    }
-    None
+        Some(found)
+    });
+    let mut found: Vec<Option<Found<_>>> = each.collect();
+    found.truncate(last.into_inner().saturating_add(1));
+    found.into_iter().flatten().collect()
 }

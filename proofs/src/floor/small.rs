@@ -1,10 +1,66 @@
-//! The sensors of a small floor, and an oracle that misses some of them.
+//! The state of a small floor and of those on it, and an oracle that misses some sensors.
+
+use std::array;
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Floor, Mark, Sensor};
 use tautline_kernel::ground::{Cell, Edge};
 
 use super::plans::{CELLS, FloorPlan};
+
+/// What a small floor stores, and those on it.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub(crate) struct State<B> {
+    pub(crate) sensors: [Sensor; CELLS],
+    /// How many sensors have been placed in each cell.
+    pub(crate) placed: [u8; CELLS],
+    pub(crate) bodies: Vec<B>,
+    /// Sensors missed so far.
+    pub(crate) misses: u8,
+    /// Who acted last, and how many times in a row; kept only where that is bounded.
+    pub(crate) streak: (u8, u8),
+}
+
+/// The cells of a [`Part`].
+const QUARTER: usize = CELLS / 4;
+
+/// A part of a [`State`].
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub(crate) enum Part<B> {
+    /// A quarter of the floor.
+    Floor([Sensor; QUARTER], [u8; QUARTER]),
+    /// One of those on it.
+    Body(B),
+    /// The rest.
+    Counts { misses: u8, streak: (u8, u8) },
+}
+
+impl<B: Clone> State<B> {
+    /// The parts.
+    pub(crate) fn parts(&self) -> impl Iterator<Item = Part<B>> {
+        let quarter = |first: usize| {
+            let cell = |place: usize| first * QUARTER + place;
+            let sensors = array::from_fn(|place| self.sensors[cell(place)]);
+            Part::Floor(sensors, array::from_fn(|place| self.placed[cell(place)]))
+        };
+        let counts = Part::Counts { misses: self.misses, streak: self.streak };
+        let bodies = self.bodies.iter().cloned().map(Part::Body);
+        (0..CELLS / QUARTER).map(quarter).chain([counts]).chain(bodies)
+    }
+
+    /// Makes `part` the one in this place.
+    pub(crate) fn put(&mut self, place: usize, part: &Part<B>) {
+        match part {
+            Part::Floor(sensors, placed) => {
+                let cells = place * QUARTER..(place + 1) * QUARTER;
+                self.sensors[cells.clone()].copy_from_slice(sensors);
+                self.placed[cells].copy_from_slice(placed);
+            }
+            Part::Counts { misses, streak } => (self.misses, self.streak) = (*misses, *streak),
+            Part::Body(body) => self.bodies[place - CELLS / QUARTER - 1] = body.clone(),
+        }
+    }
+}
 
 /// The sensors of a plan.
 pub(crate) struct Small<'a> {

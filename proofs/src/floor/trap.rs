@@ -17,10 +17,10 @@ use tautline_kernel::ground::Cell;
 
 pub use super::agents::{Acted, Agents};
 use super::plans::{CELLS, FloorPlan, blocked};
-use super::small::{Misses, Small, is_shut, marked};
+use super::small::{self, Misses, Part, Small, is_shut, marked};
 pub use super::way::Way;
 use crate::engine::outcomes;
-use crate::engine::states::{Bits, Run, Step, System, search};
+use crate::engine::states::{Bits, Limits, Run, Step, System, search};
 
 /// What to search for, and how far.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -46,7 +46,7 @@ pub const MAX_CELLS: usize = CELLS;
 pub const MAX_AGENTS: u32 = 2;
 
 /// Steps that are made in one layout before it is given up: its states then take about a gigabyte.
-const MAX_STEPS: u32 = 1 << 20;
+const MAX_STEPS: u64 = 1 << 20;
 
 /// Layouts that are looked at together.
 const WAVE: usize = 64;
@@ -141,7 +141,7 @@ impl Found {
         let mut plans = blocked(width, height).peekable();
         while plans.peek().is_some() {
             let left = bounds.budget_steps.map_or(u64::MAX, |budget| budget.saturating_sub(self.steps));
-            let most_steps = left.min(MAX_STEPS.into()) as u32;
+            let most_steps = left.min(MAX_STEPS);
             if left == 0 {
                 return ControlFlow::Break(());
             }
@@ -186,13 +186,7 @@ struct Body<M> {
 }
 
 /// A floor and its agents.
-#[derive(Clone, PartialEq, Eq, Hash)]
-struct State<M> {
-    sensors: [Sensor; CELLS],
-    placed: [u8; CELLS],
-    bodies: Vec<Body<M>>,
-    misses: u8,
-}
+type State<M> = small::State<Body<M>>;
 
 /// The floors of one plan: a system whose steps are team moves.
 struct Floors<A> {
@@ -203,9 +197,9 @@ struct Floors<A> {
 
 impl<A: Agents> Floors<A> {
     /// Looks at every start.
-    fn look(&self, agents: u32, most_steps: u32) -> Look {
+    fn look(&self, agents: u32, most_steps: u64) -> Look {
         let starts: Vec<Vec<Cell>> = self.plan.starts(agents).collect();
-        let found = search(self, starts.iter().map(|cells| self.start(cells)), most_steps);
+        let found = search(self, starts.iter().map(|cells| self.start(cells)), Limits::steps(most_steps));
         let trap = found.broken.first().map(|run| self.trap(&starts, run));
         Look { states: found.states, steps: found.steps, is_whole: found.is_whole, trap }
     }
@@ -216,7 +210,7 @@ impl<A: Agents> Floors<A> {
         settle(&mut floor, cells);
         let bodies =
             (0..).zip(cells).map(|(id, &cell)| Body { memory: self.way.memory(id), cell, is_done: false });
-        let mut state = State { sensors, placed, bodies: bodies.collect(), misses: 0 };
+        let mut state = State { sensors, placed, bodies: bodies.collect(), misses: 0, streak: (0, 0) };
         self.forget(&mut state);
         state
     }
@@ -273,7 +267,7 @@ impl<A: Agents> Floors<A> {
     fn advance(&self, state: &mut State<A::Memory>, world: &mut dyn Oracle) -> bool {
         let mut is_early = false;
         for number in 0..state.bodies.len() {
-            let State { sensors, placed, bodies, misses: _ } = &mut *state;
+            let State { sensors, placed, bodies, .. } = &mut *state;
             let body = &mut bodies[number];
             if body.is_done {
                 continue;
@@ -361,11 +355,15 @@ impl Oracle for Questions<'_> {
 
 impl<A: Agents> System for Floors<A> {
     type State = State<A::Memory>;
-    type Key = State<A::Memory>;
+    type Part = Part<Body<A::Memory>>;
     type Demand = &'static str;
 
-    fn key(&self, state: &State<A::Memory>) -> State<A::Memory> {
-        state.clone()
+    fn parts(&self, state: &State<A::Memory>) -> impl IntoIterator<Item = Part<Body<A::Memory>>> {
+        state.parts()
+    }
+
+    fn put(&self, state: &mut State<A::Memory>, place: usize, part: &Part<Body<A::Memory>>) {
+        state.put(place, part);
     }
 
     fn steps(&self, state: &State<A::Memory>) -> impl Iterator<Item = Step<State<A::Memory>, &'static str>> {

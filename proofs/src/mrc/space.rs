@@ -3,8 +3,8 @@
 //! waits and that can go round for ever, nothing being left out that is bound to happen: no timer that runs, no robot on
 //! its way, and no message between a robot and a WFR between whom there is one throughout.
 
-use super::state::{Action, Actor, Demand, Message, ROBOTS, Setting, State, WFRS, place};
-use crate::engine::states::{self, Bits, Run, Step, System};
+use super::state::{Action, Actor, Demand, Message, Part, ROBOTS, Setting, State, WFRS, place};
+use crate::engine::states::{self, Bits, Limits, Run, Step, System};
 use crate::engine::{Choices, Script, Unfit};
 
 /// When to stop.
@@ -47,7 +47,7 @@ pub struct Found {
     pub states: u64,
     /// Steps from state to state.
     pub steps: u64,
-    /// Whether the search came to its end, and not to the most steps that it may make.
+    /// Whether the search came to its end, and not to one of its limits.
     pub complete: bool,
     /// The demands that are broken, each by its shortest run.
     pub broken: Vec<Broken>,
@@ -60,10 +60,10 @@ impl Found {
     }
 }
 
-/// Searches all states of `setting`, until `most_steps` are made.
-pub fn search(setting: &Setting, until: Until, most_steps: u32) -> Found {
+/// Searches all states of `setting` within `limits`.
+pub fn search(setting: &Setting, until: Until, limits: Limits<'_>) -> Found {
     let space = Space { setting: *setting, until };
-    let found = states::search(&space, setting.starts(), most_steps);
+    let found = states::search(&space, setting.starts(), limits);
     let mut broken: Vec<Broken> = found.broken.into_iter().map(|run| space.broken(run)).collect();
     broken.sort_by_key(|broken| broken.demand);
     Found { states: found.states, steps: found.steps, complete: found.is_whole, broken }
@@ -188,11 +188,15 @@ impl Space {
 
 impl System for Space {
     type State = State;
-    type Key = Box<[u8]>;
+    type Part = Part;
     type Demand = Demand;
 
-    fn key(&self, state: &State) -> Box<[u8]> {
-        state.key()
+    fn parts(&self, state: &State) -> impl IntoIterator<Item = Part> {
+        state.parts()
+    }
+
+    fn put(&self, state: &mut State, place: usize, part: &Part) {
+        state.put(place, part);
     }
 
     fn steps(&self, state: &State) -> impl Iterator<Item = Step<State, Demand>> {

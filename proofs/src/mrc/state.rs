@@ -9,8 +9,8 @@
 mod action;
 mod broken;
 mod demand;
-mod key;
 mod next;
+mod parts;
 mod setting;
 mod turn;
 
@@ -20,6 +20,7 @@ use tautline_kernel::net::{Epoch, NodeId, RobotId};
 pub use action::{Action, Actor, Message};
 pub use demand::Demand;
 use demand::Notes;
+pub(super) use parts::Part;
 pub use setting::{Faults, Leases, Lossy, ROBOTS, Setting, WFRS};
 
 /// Robots, WFRs and what is between them.

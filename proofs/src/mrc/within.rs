@@ -4,13 +4,14 @@ use super::chart::chart;
 use super::space::{self, Broken};
 use super::{Demand, Observed, Setting};
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
+use crate::engine::states::Limits;
 use crate::engine::{Choices, Script, Unfit, Until};
 
 /// Every state within a setting is checked for a demand.
 pub(super) struct Within(pub Demand, pub Setting);
 
 /// Steps between states at which a check is left open.
-const MOST_STEPS: u32 = 20_000_000;
+const MOST_STEPS: u64 = 20_000_000;
 
 impl Within {
     fn setting(&self, observed: &Observed) -> Setting {
@@ -38,9 +39,10 @@ impl Method<Observed> for Within {
             Until::Exhausted => space::Until::Exhausted,
             Until::Violation => space::Until::Broken(demand),
         };
+        let limits = Limits { most_steps: MOST_STEPS, room: desk.room };
         let found: Result<&space::Found, Refused> = desk
             .memory
-            .recall((setting, until), |(setting, until)| Ok(space::search(setting, *until, MOST_STEPS)));
+            .recall((setting, until), |(setting, until)| Ok(space::search(setting, *until, limits)));
         let found = found?;
         let evidence = found.broken(demand).map(|broken| Self::evidence(&setting, broken));
         Ok(Answer::new(evidence, found.complete, self.shows(), found.states))

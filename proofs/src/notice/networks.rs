@@ -5,7 +5,7 @@ use tautline_kernel::notice::{Count, Rule, Scheme, Stage};
 use super::Observed;
 use super::spread::{Demand, Event, Links, Point, Spread, ones};
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
-use crate::engine::states::{Run, Step, System, search};
+use crate::engine::states::{Limits, Run, Step, System, search};
 use crate::engine::{Choices, Script, Stop, Tally, Unfit, Until, cover};
 
 /// The largest network of which every state is looked at.
@@ -115,11 +115,15 @@ impl Case {
 
 impl System for Case {
     type State = Spread<SMALL>;
-    type Key = Spread<SMALL>;
+    type Part = Spread<SMALL>;
     type Demand = &'static str;
 
-    fn key(&self, spread: &Spread<SMALL>) -> Spread<SMALL> {
-        *spread
+    fn parts(&self, spread: &Spread<SMALL>) -> impl IntoIterator<Item = Spread<SMALL>> {
+        [*spread]
+    }
+
+    fn put(&self, spread: &mut Spread<SMALL>, _: usize, part: &Spread<SMALL>) {
+        *spread = *part;
     }
 
     fn steps(&self, spread: &Spread<SMALL>) -> impl Iterator<Item = Step<Spread<SMALL>, &'static str>> {
@@ -160,7 +164,7 @@ impl Networks {
     fn explore(self, observed: &Observed) -> Tally {
         let mut tally = Tally::default();
         for (place, case) in (0..).zip(self.cases(observed)) {
-            let found = search(&case, [Spread::start(&case.links)], u32::MAX);
+            let found = search(&case, [Spread::start(&case.links)], Limits::NONE);
             tally.cases += found.looked_at;
             for situation in found.covered {
                 cover(&mut tally.covered, situation);
@@ -321,14 +325,14 @@ mod tests {
             let rule = observed.farthest(k);
             let broken = demands.into_iter().filter(|&demand| {
                 let case = Case { links, rule, demand };
-                let found = search(&case, [Spread::start(&links)], u32::MAX);
+                let found = search(&case, [Spread::start(&links)], Limits::NONE);
                 let theirs = case.checker().threads(1).spawn_bfs().join();
                 assert_eq!(theirs.discovery("keeps").is_some(), !found.broken.is_empty(), "{demand:?}");
                 !found.broken.is_empty()
             });
             let broken: Vec<Demand> = broken.collect();
             let case = Case { links, rule, demand: Demand::Once };
-            let ours = search(&case, [Spread::start(&links)], u32::MAX).states;
+            let ours = search(&case, [Spread::start(&links)], Limits::NONE).states;
             let theirs = case.checker().threads(1).spawn_bfs().join().unique_state_count();
             (ours, theirs, broken)
         };

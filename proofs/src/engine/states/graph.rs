@@ -1,61 +1,109 @@
-//! The graph of the states that were met, with nothing of what they are: how each was first found, and which steps lead
-//! from it.
+//! The graph of the states that were met, with nothing of what they are: how each was first found, and where endless runs
+//! are looked for, what is owed in it and which steps are bound to be made from it.
 
 use super::Bits;
+use super::known::Pile;
 
 /// The states that were met, in the order in which they were.
-#[derive(Default)]
 pub(super) struct Graph {
-    pub(super) nodes: Vec<Node>,
+    /// The numbers of the starts that were new, which are the first nodes.
+    starts: Vec<u32>,
+    /// From which node each was first found; of a start nothing is to be said.
+    from: Pile<u32>,
+    /// Whether endless runs are looked for.
+    keeps_arcs: bool,
+    pub(super) owed: Pile<Bits>,
     /// Of each node that is gone on from, where its arcs begin.
-    pub(super) first_arc: Vec<u32>,
-    pub(super) arcs: Vec<Arc>,
+    first_arc: Pile<u32>,
+    arcs: Pile<Arc>,
 }
 
-/// How a state was first found.
+/// A step that is bound to be made.
 #[derive(Clone, Copy)]
-pub(super) enum Way {
-    /// It is the start with this number.
-    Start(u32),
-    /// By a step from this node.
-    Step(u32),
-}
-
-pub(super) struct Node {
-    pub(super) way: Way,
-    pub(super) owed: Bits,
-    pub(super) awake: Bits,
-}
-
+#[repr(C, packed(2))]
 pub(super) struct Arc {
     pub(super) to: u32,
     pub(super) acting: Bits,
-    pub(super) is_bound: bool,
 }
 
 impl Graph {
-    /// The steps from a node.
-    pub(super) fn arcs(&self, node: usize) -> &[Arc] {
-        let end = self.first_arc.get(node + 1).map_or(self.arcs.len(), |&end| end as usize);
-        &self.arcs[self.first_arc[node] as usize..end]
-    }
-
-    /// The start, and the steps from it that first led to a node.
-    pub(super) fn way(&self, mut node: usize) -> (usize, Vec<u32>) {
-        let mut steps = Vec::new();
-        loop {
-            match self.nodes[node].way {
-                Way::Start(start) => {
-                    steps.reverse();
-                    return (start as usize, steps);
-                }
-                Way::Step(from) => {
-                    let before = from as usize;
-                    let number = self.arcs(before).iter().position(|arc| arc.to as usize == node);
-                    steps.extend(number.map(|number| number as u32));
-                    node = before;
-                }
-            }
+    pub(super) const fn new(keeps_arcs: bool) -> Self {
+        Self {
+            starts: Vec::new(),
+            from: Pile::new(1),
+            keeps_arcs,
+            owed: Pile::new(1),
+            first_arc: Pile::new(1),
+            arcs: Pile::new(1),
         }
     }
+
+    /// The number of nodes.
+    pub(super) const fn len(&self) -> usize {
+        self.from.len()
+    }
+
+    pub(super) fn bytes(&self) -> u64 {
+        self.from.bytes() + self.owed.bytes() + self.first_arc.bytes() + self.arcs.bytes()
+    }
+
+    /// Whether it has as many nodes or arcs as it can number.
+    pub(super) const fn is_full(&self) -> bool {
+        self.from.len() >= MOST || self.arcs.len() >= MOST
+    }
+
+    /// Adds the start with this number.
+    pub(super) fn add_start(&mut self, start: u32) {
+        self.starts.push(start);
+        self.from.push([0]);
+    }
+
+    /// Adds a node that was first found by a step from another.
+    pub(super) fn add(&mut self, from: u32) {
+        self.from.push([from]);
+    }
+
+    /// The next node is gone on from, in which this is owed.
+    pub(super) fn go_on(&mut self, owed: impl FnOnce() -> Bits) {
+        if self.keeps_arcs {
+            self.owed.push([owed()]);
+            self.first_arc.push([self.arcs.len() as u32]);
+        }
+    }
+
+    /// Adds a step from the node that is gone on from.
+    pub(super) fn add_arc(&mut self, arc: Arc) {
+        if self.keeps_arcs {
+            self.arcs.push([arc]);
+        }
+    }
+
+    /// The steps from a node that are bound to be made.
+    pub(super) fn arcs(&self, node: usize) -> impl Iterator<Item = Arc> {
+        (self.first_arc.at(node)..self.end(node)).map(|arc| self.arcs.at(arc as usize))
+    }
+
+    /// The step with this number among those from a node that are bound to be made.
+    pub(super) fn arc(&self, node: usize, number: u32) -> Option<Arc> {
+        let arc = self.first_arc.at(node) + number;
+        (arc < self.end(node)).then(|| self.arcs.at(arc as usize))
+    }
+
+    fn end(&self, node: usize) -> u32 {
+        if node + 1 < self.first_arc.len() { self.first_arc.at(node + 1) } else { self.arcs.len() as u32 }
+    }
+
+    /// The number of the start of the way that first led to a node, and the nodes on it, the start's first.
+    pub(super) fn way(&self, mut node: usize) -> (usize, Vec<usize>) {
+        let mut way = vec![node];
+        while node >= self.starts.len() {
+            node = self.from.at(node) as usize;
+            way.push(node);
+        }
+        way.reverse();
+        (self.starts[node] as usize, way)
+    }
 }
+
+/// Nodes and arcs are numbered in four bytes.
+const MOST: usize = u32::MAX as usize - 1;

@@ -1,5 +1,5 @@
 //! Runs that go round: among the states that owe the same thing throughout, the strongly connected components (Tarjan
-//! 1972) in which everybody acts who is awake throughout.
+//! 1972, with the memory of Pearce 2016) in which everybody acts who is awake throughout.
 
 use std::collections::VecDeque;
 use std::collections::hash_map::Entry;
@@ -8,54 +8,106 @@ use rustc_hash::FxHashMap;
 
 use super::Bits;
 use super::graph::{Arc, Graph};
+use super::limits::Taken;
 
-/// In place of a number of a node.
-const NONE: u32 = u32::MAX;
+/// In place of a component of a node that owes nothing.
+const NONE: u32 = 0;
+
+/// The search would take more memory than it may.
+pub(super) struct TooLarge;
+
+/// A way back to a state: its node, and the numbers of its steps, each among those that are bound to be made.
+pub(super) type Round = (usize, Vec<u32>);
+
+/// What there is of a component beside its nodes.
+#[derive(Clone, Copy)]
+struct Component {
+    /// Who acts in a step within it.
+    acting: Bits,
+    /// Who is awake in all its states.
+    awake: Bits,
+}
+
+impl Component {
+    const fn is_fair(self) -> bool {
+        self.awake & !self.acting == 0
+    }
+}
+
+/// A node on the way of the search for components.
+struct Visit {
+    node: u32,
+    /// The number of its next arc.
+    next: u32,
+    /// Its place in the order of the search.
+    order: u32,
+}
 
 impl Graph {
     /// The first node from which a run can go round and owe the same thing throughout, all acting who are awake
-    /// throughout; and the numbers of the steps of such a round.
-    pub(super) fn first_round(&self) -> Option<(usize, Vec<u32>)> {
-        let all = self.nodes.iter().fold(0, |all, node| all | node.owed);
-        let each = (0..Bits::BITS).map(|bit| 1 << bit).filter(|owed| all & owed != 0);
-        each.filter_map(|owed| self.round(owed)).min_by_key(|&(node, _)| node)
+    /// throughout; and such a round.
+    pub(super) fn first_round(
+        &self,
+        mut awake: impl FnMut(usize) -> Bits,
+        taken: &mut Taken<'_>,
+    ) -> Result<Option<Round>, TooLarge> {
+        let all = (0..self.len()).fold(0, |all, node| all | self.owed.at(node));
+        let mut first: Option<Round> = None;
+        for owed in (0..Bits::BITS).map(|bit| 1 << bit).filter(|owed| all & owed != 0) {
+            if let Some(round) = self.round(owed, &mut awake, taken)?
+                && first.as_ref().is_none_or(|first| round.0 < first.0)
+            {
+                first = Some(round);
+            }
+        }
+        Ok(first)
     }
 
     /// The first node from which a run can go round in which `owed` is owed and all act who are awake throughout; and
-    /// the numbers of the steps of such a round.
-    fn round(&self, owed: Bits) -> Option<(usize, Vec<u32>)> {
-        let part = self.components(owed);
-        let mut awake = vec![Bits::MAX; self.nodes.len()];
-        let mut acting = vec![None; self.nodes.len()];
-        for (node, _) in part.iter().enumerate().filter(|&(_, &part)| part != NONE) {
-            let home = part[node] as usize;
-            awake[home] &= self.nodes[node].awake;
-            for arc in
-                self.arcs(node).iter().filter(|arc| arc.is_bound && part[arc.to as usize] == part[node])
-            {
-                acting[home] = Some(acting[home].unwrap_or(0) | arc.acting);
+    /// such a round.
+    fn round(
+        &self,
+        owed: Bits,
+        awake: &mut impl FnMut(usize) -> Bits,
+        taken: &mut Taken<'_>,
+    ) -> Result<Option<Round>, TooLarge> {
+        let part = self.components(owed, taken)?;
+        let mut components: FxHashMap<u32, Component> = FxHashMap::default();
+        let inside = || (0..self.len()).filter(|&node| part[node] != NONE);
+        for node in inside() {
+            for arc in self.arcs(node).filter(|arc| part[arc.to as usize] == part[node]) {
+                let new = Component { acting: 0, awake: Bits::MAX };
+                components.entry(part[node]).or_insert(new).acting |= arc.acting;
             }
         }
-        let is_fair = |home: usize| acting[home].is_some_and(|acting| awake[home] & !acting == 0);
-        let first = (0..self.nodes.len()).find(|&node| part[node] != NONE && is_fair(part[node] as usize))?;
-        Some((first, self.way_round(&part, first, awake[part[first] as usize])))
+        for node in inside() {
+            if let Some(component) = components.get_mut(&part[node]) {
+                component.awake &= awake(node);
+            }
+        }
+        let fair = inside().find_map(|node| {
+            let component = components.get(&part[node]).filter(|component| component.is_fair())?;
+            Some((node, component.awake))
+        });
+        Ok(fair.map(|(first, awake)| (first, self.way_round(&part, first, awake))))
     }
 
-    /// The numbers of the steps of a way from `home` round to it within its part in which all of `due` act: a shortest
-    /// one, and for each whom it leaves out a way on to the nearest step of theirs and home.
+    /// A way from `home` round to it within its part in which all of `due` act: a shortest one, and for each whom it
+    /// leaves out a way on to the nearest step of theirs and home.
     fn way_round(&self, part: &[u32], home: usize, due: Bits) -> Vec<u32> {
         let (mut steps, mut node, mut left) = (Vec::new(), home, due);
         loop {
-            let is_homeward = |arc: &Arc| arc.to as usize == home;
-            let is_due = |arc: &Arc| arc.acting & left != 0;
+            let is_homeward = |arc: Arc| arc.to as usize == home;
+            let is_due = |arc: Arc| arc.acting & left != 0;
             let onward = if steps.is_empty() || left == 0 {
                 self.way_within(part, node, is_homeward)
             } else {
                 self.way_within(part, node, is_due)
             };
             for &number in &onward {
-                let arc = &self.arcs(node)[number as usize];
-                (node, left) = (arc.to as usize, left & !arc.acting);
+                if let Some(arc) = self.arc(node, number) {
+                    (node, left) = (arc.to as usize, left & !arc.acting);
+                }
             }
             let is_over = onward.is_empty() || node == home && left == 0;
             steps.extend(onward);
@@ -65,14 +117,14 @@ impl Graph {
         }
     }
 
-    /// The numbers of the steps of a shortest way from `start` within its part, up to the first step that `is_last`.
-    fn way_within(&self, part: &[u32], start: usize, is_last: impl Fn(&Arc) -> bool) -> Vec<u32> {
+    /// A shortest way from `start` within its part, up to the first step that `is_last`.
+    fn way_within(&self, part: &[u32], start: usize, is_last: impl Fn(Arc) -> bool) -> Vec<u32> {
         let mut before = FxHashMap::default();
         let mut ahead = VecDeque::from([start]);
         while let Some(node) = ahead.pop_front() {
             for (number, arc) in (0..).zip(self.arcs(node)) {
                 let to = arc.to as usize;
-                if !arc.is_bound || part[to] != part[start] {
+                if part[to] != part[start] {
                     continue;
                 }
                 if is_last(arc) {
@@ -96,52 +148,71 @@ impl Graph {
         Vec::new()
     }
 
-    /// The strongly connected component of each node in which `owed` is owed, among such nodes and steps that are bound
-    /// to be made; it goes by the number of one of its nodes, and is [`NONE`] for the other nodes.
-    fn components(&self, owed: Bits) -> Vec<u32> {
-        let size = self.nodes.len();
-        let is_inside = |node: usize| self.nodes[node].owed & owed != 0;
-        let (mut order, mut low, mut component) = (vec![NONE; size], vec![0; size], vec![NONE; size]);
-        let (mut count, mut open, mut path) = (0, Vec::new(), Vec::new());
-        for root in (0..size).filter(|&node| is_inside(node)) {
-            if order[root] != NONE {
+    /// The strongly connected component of each node in which `owed` is owed, among such nodes, by a number; [`NONE`]
+    /// for the other nodes.
+    fn components(&self, owed: Bits, taken: &mut Taken<'_>) -> Result<Vec<u32>, TooLarge> {
+        let is_inside = |node: usize| self.owed.at(node) & owed != 0;
+        let before = taken.held + (self.len() * size_of::<u32>()) as u64;
+        let mut fits = |path: &Vec<Visit>, open: &Vec<u32>| {
+            let bytes = path.capacity() * size_of::<Visit>() + open.capacity() * size_of::<u32>();
+            taken.reaches(before + bytes as u64)
+        };
+        let (mut path, mut open) = (Vec::new(), Vec::new());
+        if !fits(&path, &open) {
+            return Err(TooLarge);
+        }
+        // Of a node on the way or left open: the place in the order of the earliest one that it gets back to. Of a node
+        // that is done with: its component, whose numbers come down from above.
+        let mut part = vec![NONE; self.len()];
+        let (mut order, mut component) = (1, u32::MAX);
+        for root in (0..self.len()).filter(|&node| is_inside(node)) {
+            if part[root] != NONE {
                 continue;
             }
-            path.push((root, 0));
-            while let Some(&mut (node, ref mut next)) = path.last_mut() {
-                if *next == 0 {
-                    order[node] = count;
-                    low[node] = count;
-                    count += 1;
-                    open.push(node);
-                }
-                if let Some(arc) = self.arcs(node).get(*next) {
-                    *next += 1;
+            part[root] = order;
+            path.push(Visit { node: root as u32, next: 0, order });
+            order += 1;
+            while let Some(visit) = path.last_mut() {
+                let node = visit.node as usize;
+                if let Some(arc) = self.arc(node, visit.next) {
+                    visit.next += 1;
                     let to = arc.to as usize;
-                    if !arc.is_bound || !is_inside(to) {
+                    if !is_inside(to) {
                         continue;
                     }
-                    if order[to] == NONE {
-                        path.push((to, 0));
-                    } else if component[to] == NONE {
-                        low[node] = low[node].min(order[to]);
+                    if part[to] == NONE {
+                        part[to] = order;
+                        if path.len() == path.capacity() {
+                            path.reserve(1);
+                            if !fits(&path, &open) {
+                                return Err(TooLarge);
+                            }
+                        }
+                        path.push(Visit { node: to as u32, next: 0, order });
+                        order += 1;
+                    } else {
+                        part[node] = part[node].min(part[to]);
                     }
                     continue;
                 }
-                path.pop();
-                if let Some(&(before, _)) = path.last() {
-                    low[before] = low[before].min(low[node]);
-                }
-                if low[node] == order[node] {
-                    while let Some(member) = open.pop() {
-                        component[member] = node as u32;
-                        if member == node {
-                            break;
-                        }
+                if part[node] == visit.order {
+                    order -= 1;
+                    while let Some(member) = open.pop_if(|&mut member| part[member as usize] >= part[node]) {
+                        part[member as usize] = component;
+                        order -= 1;
                     }
+                    part[node] = component;
+                    component -= 1;
+                } else {
+                    open.push(node as u32);
+                }
+                path.pop();
+                if let Some(before) = path.last() {
+                    let before = before.node as usize;
+                    part[before] = part[before].min(part[node]);
                 }
             }
         }
-        component
+        Ok(part)
     }
 }

@@ -1,35 +1,37 @@
 //! The search itself: it makes all steps from each state in the order in which they were met, and keeps of each demand
 //! the first run that breaks it.
 
-use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
-use rustc_hash::FxHashMap;
-
-use super::graph::{Arc, Graph, Node, Way};
-use super::{END, Ending, Found, Run, Step, System};
+use super::graph::{Arc, Graph};
+use super::known::Known;
+use super::limits::{Limits, Taken};
+use super::rounds::TooLarge;
+use super::{Bits, END, Ending, Found, Run, Step, System};
 use crate::engine::cover;
 
-/// Searches all states that `system` gets to from `starts`, until enough is broken or `most_steps` are made.
+/// Searches all states that `system` gets to from `starts`, until enough is broken or one of the `limits` is reached.
 pub fn search<S: System>(
     system: &S,
     starts: impl IntoIterator<Item = S::State>,
-    most_steps: u32,
+    limits: Limits<'_>,
 ) -> Found<S::Demand> {
-    let mut search = Search::new(system);
-    for (start, state) in starts.into_iter().enumerate() {
-        search.meet(state, Way::Start(start as u32));
+    let mut search = Search::new(system, limits);
+    for (start, state) in (0..).zip(starts) {
+        search.meet_start(start, state);
     }
-    let stop = search.look_at_all(most_steps).break_value();
+    let mut stop = search.look_at_all(limits.most_steps).break_value();
     if let (None, Some(demand)) = (stop, system.broken_by_endless_runs()) {
-        search.look_for_rounds(demand);
+        stop = search.look_for_rounds(demand).err().map(|TooLarge| Stop::TooMany);
     }
+    let broken = std::mem::take(&mut search.broken);
     Found {
-        states: search.graph.nodes.len() as u64,
-        looked_at: search.graph.first_arc.len() as u64,
-        steps: search.graph.arcs.len() as u64,
+        states: search.known.len() as u64,
+        looked_at: search.looked_at as u64,
+        steps: search.steps,
+        bytes: search.taken.most,
         is_whole: stop != Some(Stop::TooMany),
-        broken: search.broken.iter().map(|broken| search.run(broken)).collect(),
+        broken: broken.into_iter().map(|broken| search.run(broken)).collect(),
         covered: search.covered,
     }
 }
@@ -52,67 +54,96 @@ enum How {
     Step(u32),
     /// By staying in the node.
     Still,
-    /// By these steps from the node back to it.
+    /// By these steps from the node back to it, each by its number among those that are bound to be made.
     Round(Vec<u32>),
 }
 
 struct Search<'a, S: System> {
     system: &'a S,
-    known: FxHashMap<S::Key, u32>,
-    /// The states that have yet to be gone on from, in the order of their nodes, which are the last ones.
-    ahead: VecDeque<S::State>,
+    known: Known<S::Part>,
     graph: Graph,
+    looked_at: usize,
+    steps: u64,
+    /// A state, and which: of the next one only what differs is put.
+    shown: Option<(S::State, Option<usize>)>,
+    taken: Taken<'a>,
     covered: Vec<&'static str>,
     broken: Vec<Broken<S::Demand>>,
 }
 
+/// States that are looked at between two looks at the memory that they take.
+const BETWEEN: usize = 64;
+
 impl<'a, S: System> Search<'a, S> {
-    fn new(system: &'a S) -> Self {
+    fn new(system: &'a S, limits: Limits<'a>) -> Self {
         Self {
             system,
-            known: FxHashMap::default(),
-            ahead: VecDeque::new(),
-            graph: Graph::default(),
+            known: Known::new(),
+            graph: Graph::new(system.broken_by_endless_runs().is_some()),
+            looked_at: 0,
+            steps: 0,
+            shown: None,
+            taken: Taken::new(limits.room),
             covered: Vec::new(),
             broken: Vec::new(),
         }
     }
 
-    /// The number of the node of `state`, which may be new.
-    fn meet(&mut self, state: S::State, way: Way) -> u32 {
-        let next = self.graph.nodes.len() as u32;
-        let place = *self.known.entry(self.system.key(&state)).or_insert(next);
-        if place == next {
-            let (owed, awake) = (self.system.owed(&state), self.system.awake(&state));
-            self.graph.nodes.push(Node { way, owed, awake });
-            self.ahead.push_back(state);
+    fn meet_start(&mut self, start: u32, state: S::State) {
+        if self.known.meet(self.system.parts(&state), None).1 {
+            self.graph.add_start(start);
         }
-        place
+        self.shown = Some((state, None));
+    }
+
+    /// The state of a node. It is to be given back as what is shown.
+    fn state(&mut self, node: usize) -> Option<S::State> {
+        let (mut state, shown) = self.shown.take()?;
+        for (place, part) in self.known.parts(node, shown) {
+            self.system.put(&mut state, place, part);
+        }
+        Some(state)
     }
 
     /// Makes all steps from all nodes.
-    fn look_at_all(&mut self, most_steps: u32) -> ControlFlow<Stop> {
-        while let Some(state) = self.ahead.pop_front() {
-            self.look(&state, most_steps)?;
+    fn look_at_all(&mut self, most_steps: u64) -> ControlFlow<Stop> {
+        while self.looked_at < self.known.len()
+            && let Some(state) = self.state(self.looked_at)
+        {
+            let is_due = self.looked_at.is_multiple_of(BETWEEN);
+            if is_due && !self.taken.hold(self.known.bytes() + self.graph.bytes()) {
+                return ControlFlow::Break(Stop::TooMany);
+            }
+            let node = self.looked_at;
+            let flow = self.look(node, &state, most_steps);
+            self.shown = Some((state, Some(node)));
+            flow?;
         }
         ControlFlow::Continue(())
     }
 
     /// Makes all steps from the next node, whose state it is.
-    fn look(&mut self, state: &S::State, most_steps: u32) -> ControlFlow<Stop> {
-        let node = self.graph.first_arc.len();
-        self.graph.first_arc.push(self.graph.arcs.len() as u32);
+    fn look(&mut self, node: usize, state: &S::State, most_steps: u64) -> ControlFlow<Stop> {
+        let system = self.system;
+        self.looked_at += 1;
+        self.graph.go_on(|| system.owed(state));
         let (mut is_last, mut is_still) = (true, true);
-        for (number, step) in (0..).zip(self.system.steps(state)) {
+        for (number, step) in (0..).zip(system.steps(state)) {
             let Step { state, situation, acting, is_bound, breaks } = step;
-            if self.graph.arcs.len() as u32 == most_steps {
+            if self.steps == most_steps || self.graph.is_full() {
                 return ControlFlow::Break(Stop::TooMany);
             }
+            self.steps += 1;
             is_last = false;
-            is_still &= !is_bound;
             cover(&mut self.covered, situation);
-            let to = self.meet(state, Way::Step(node as u32));
-            self.graph.arcs.push(Arc { to, acting, is_bound });
+            let (to, is_new) = self.known.meet(system.parts(&state), Some(node));
+            if is_new {
+                self.graph.add(node as u32);
+            }
+            if is_bound {
+                is_still = false;
+                self.graph.add_arc(Arc { to, acting });
+            }
             for demand in breaks {
                 self.note(Broken { demand, node, how: How::Step(number) })?;
             }
@@ -120,7 +151,7 @@ impl<'a, S: System> Search<'a, S> {
         if is_last {
             cover(&mut self.covered, END);
         }
-        if is_still && let Some(demand) = self.system.broken_at_end(state) {
+        if is_still && let Some(demand) = system.broken_at_end(state) {
             self.note(Broken { demand, node, how: How::Still })?;
         }
         ControlFlow::Continue(())
@@ -136,29 +167,69 @@ impl<'a, S: System> Search<'a, S> {
         if is_enough { ControlFlow::Break(Stop::Enough) } else { ControlFlow::Continue(()) }
     }
 
-    fn run(&self, broken: &Broken<S::Demand>) -> Run<S::Demand> {
-        let (start, mut steps) = self.graph.way(broken.node);
-        let ending = match &broken.how {
+    fn run(&mut self, broken: Broken<S::Demand>) -> Run<S::Demand> {
+        let Broken { demand, node, how } = broken;
+        let (start, mut steps) = self.way(node);
+        let ending = match how {
             How::Step(number) => {
-                steps.push(*number);
+                steps.push(number);
                 Ending::There
             }
             How::Still => Ending::Still,
-            How::Round(round) => Ending::Round(round.clone()),
+            How::Round(round) => Ending::Round(self.numbers(node, &round)),
         };
-        Run { demand: broken.demand, start, steps, ending }
+        Run { demand, start, steps, ending }
+    }
+
+    /// The number of the start, and those of the steps from it that first led to a node.
+    fn way(&mut self, node: usize) -> (usize, Vec<u32>) {
+        let (start, way) = self.graph.way(node);
+        let mut steps = Vec::new();
+        for pair in way.windows(2) {
+            let Some(state) = self.state(pair[0]) else { break };
+            let number = self.system.steps(&state).position(|step| {
+                self.known.find(self.system.parts(&step.state)) == Some(pair[1] as u32)
+            });
+            steps.extend(number.map(|number| number as u32));
+            self.shown = Some((state, Some(pair[0])));
+        }
+        (start, steps)
+    }
+
+    /// The numbers of the steps of a round from a node, each among all steps.
+    fn numbers(&mut self, mut node: usize, round: &[u32]) -> Vec<u32> {
+        let mut numbers = Vec::new();
+        for &bound in round {
+            let (Some(state), Some(arc)) = (self.state(node), self.graph.arc(node, bound)) else { break };
+            let steps = (0..).zip(self.system.steps(&state));
+            let number = steps.filter(|(_, step)| step.is_bound).nth(bound as usize).map(|(number, _)| number);
+            numbers.extend(number);
+            self.shown = Some((state, Some(node)));
+            node = arc.to as usize;
+        }
+        numbers
     }
 
     /// Looks for runs that go round and owe the same thing throughout. The one that gets there first counts, unless a
     /// run that breaks the same demand stays in a state that is found before.
-    fn look_for_rounds(&mut self, demand: S::Demand) {
-        let Some((node, round)) = self.graph.first_round() else { return };
-        let known = self.broken.iter().position(|broken| broken.demand == demand);
-        match known {
-            Some(place) if self.broken[place].node <= node => {}
-            Some(place) => self.broken[place] = Broken { demand, node, how: How::Round(round) },
-            None => self.broken.push(Broken { demand, node, how: How::Round(round) }),
+    fn look_for_rounds(&mut self, demand: S::Demand) -> Result<(), TooLarge> {
+        let Self { system, known, graph, shown, taken, .. } = self;
+        let awake = |node: usize| -> Bits {
+            let Some((state, last)) = shown else { return 0 };
+            for (place, part) in known.parts(node, *last) {
+                system.put(state, place, part);
+            }
+            *last = Some(node);
+            system.awake(state)
+        };
+        let Some((node, round)) = graph.first_round(awake, taken)? else { return Ok(()) };
+        let new = Broken { demand, node, how: How::Round(round) };
+        match self.broken.iter_mut().find(|broken| broken.demand == demand) {
+            Some(known) if known.node <= node => {}
+            Some(known) => *known = new,
+            None => self.broken.push(new),
         }
+        Ok(())
     }
 }
 
@@ -188,11 +259,15 @@ mod tests {
 
     impl System for Graphic {
         type State = usize;
-        type Key = usize;
+        type Part = usize;
         type Demand = &'static str;
 
-        fn key(&self, &node: &usize) -> usize {
-            node
+        fn parts(&self, &node: &usize) -> impl IntoIterator<Item = usize> {
+            [node]
+        }
+
+        fn put(&self, state: &mut usize, _: usize, &node: &usize) {
+            *state = node;
         }
 
         fn steps(&self, &node: &usize) -> impl Iterator<Item = Step<usize, &'static str>> {
@@ -231,7 +306,7 @@ mod tests {
     };
 
     fn found(graph: &Graphic) -> Found<&'static str> {
-        search(graph, [0], u32::MAX)
+        search(graph, [0], Limits::NONE)
     }
 
     fn broken(graph: &Graphic) -> Option<Run<&'static str>> {
@@ -240,21 +315,23 @@ mod tests {
 
     #[test]
     fn every_state_is_looked_at_once() {
+        let bytes = found(&GRAPH).bytes;
         let all = Found {
             states: 7,
             looked_at: 7,
             steps: 9,
+            bytes,
             is_whole: true,
             covered: vec![STEP],
             broken: Vec::new(),
         };
         assert_eq!(found(&GRAPH), all);
-        assert_eq!(search(&GRAPH, [0, 3, 0], 9), all);
+        assert_eq!(search(&GRAPH, [0, 3, 0], Limits::steps(9)), all);
     }
 
     #[test]
     fn a_search_stops_at_the_most_steps() {
-        let some = search(&GRAPH, [0], 4);
+        let some = search(&GRAPH, [0], Limits::steps(4));
         assert_eq!((some.states, some.looked_at, some.steps, some.is_whole), (4, 4, 4, false));
     }
 
@@ -263,7 +340,7 @@ mod tests {
         let graph = Graphic { forbidden: 5, ..GRAPH };
         let run = |start, steps| Run { demand: "not there", start, steps, ending: Ending::There };
         assert_eq!(broken(&graph), Some(run(0, vec![0, 1, 0, 1])));
-        assert_eq!(search(&graph, [0, 3], u32::MAX).broken, [run(1, vec![0, 1])]);
+        assert_eq!(search(&graph, [0, 3], Limits::NONE).broken, [run(1, vec![0, 1])]);
     }
 
     #[test]

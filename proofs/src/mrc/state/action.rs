@@ -24,6 +24,17 @@ impl Message {
         }
     }
 
+    /// The message with its call under another epoch.
+    pub(super) fn renamed(mut self, rename: impl Fn(Call) -> Call) -> Self {
+        let call = match &mut self {
+            Self::Notice(_, notice) => &mut notice.call,
+            Self::Resb(resb) => &mut resb.call,
+            Self::Up(upward) => &mut upward.call,
+        };
+        *call = rename(*call);
+        self
+    }
+
     /// The call that it is about.
     pub const fn call(self) -> Call {
         match self {

@@ -78,7 +78,7 @@ impl Demand {
 }
 
 /// What an observer notes down beside the machines' own states, to see whether a demand is broken.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub(super) struct Notes {
     /// The best MOVE of each WFR's latest call that arrived while its window was open, by the hops that it is away.
     pub(super) best: [Option<Bid>; WFRS],

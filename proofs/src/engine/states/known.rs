@@ -1,0 +1,199 @@
+//! The states that are known, each as the numbers of its parts.
+
+use std::hash::{BuildHasher, Hash};
+
+use hashbrown::HashTable;
+use rustc_hash::FxBuildHasher;
+
+/// Things in the order in which they came, in pieces, so that none is ever moved.
+pub(super) struct Pile<T> {
+    pieces: Vec<Vec<T>>,
+    /// Things of one entry, which stay together.
+    width: usize,
+    /// Entries.
+    length: usize,
+}
+
+/// Entries of a piece.
+const PIECE: usize = 1 << 16;
+
+impl<T: Copy> Pile<T> {
+    /// No entries; each is to be of `width` things.
+    pub(super) const fn new(width: usize) -> Self {
+        Self { pieces: Vec::new(), width, length: 0 }
+    }
+
+    pub(super) const fn len(&self) -> usize {
+        self.length
+    }
+
+    /// The bytes that it takes.
+    pub(super) fn bytes(&self) -> u64 {
+        let full = self.pieces.len().saturating_sub(1) * PIECE * self.width;
+        ((full + self.pieces.last().map_or(0, Vec::capacity)) * size_of::<T>()) as u64
+    }
+
+    pub(super) fn push(&mut self, entry: impl IntoIterator<Item = T>) {
+        if self.length.is_multiple_of(PIECE) {
+            self.pieces.push(Vec::new());
+        }
+        if let Some(piece) = self.pieces.last_mut() {
+            piece.extend(entry);
+            self.length += 1;
+        }
+    }
+
+    pub(super) fn entry(&self, place: usize) -> &[T] {
+        let first = place % PIECE * self.width;
+        &self.pieces[place / PIECE][first..first + self.width]
+    }
+}
+
+impl<T: Copy> Pile<T> {
+    /// The only thing of an entry.
+    pub(super) fn at(&self, place: usize) -> T {
+        self.entry(place)[0]
+    }
+}
+
+/// The parts that were met, each once.
+struct Parts<P> {
+    places: HashTable<u32>,
+    parts: Vec<P>,
+}
+
+impl<P: Eq + Hash> Parts<P> {
+    fn number(&mut self, part: P) -> u32 {
+        let Self { places, parts } = self;
+        let hash = FxBuildHasher.hash_one(&part);
+        let same = |&place: &u32| parts[place as usize] == part;
+        if let Some(&place) = places.find(hash, same) {
+            return place;
+        }
+        let place = parts.len() as u32;
+        places.insert_unique(hash, place, |&place| FxBuildHasher.hash_one(&parts[place as usize]));
+        parts.push(part);
+        place
+    }
+}
+
+/// States by the numbers of their parts. A number takes as many bytes as the largest needs.
+pub(super) struct Known<P> {
+    parts: Parts<P>,
+    /// Bytes of a number.
+    width: usize,
+    /// Parts of a state.
+    places: usize,
+    codes: Pile<u8>,
+    nodes: HashTable<u32>,
+    /// The numbers of the parts of a state in the making, and as bytes.
+    numbers: Vec<u32>,
+    code: Vec<u8>,
+}
+
+impl<P: Clone + Eq + Hash> Known<P> {
+    pub(super) const fn new() -> Self {
+        Self {
+            parts: Parts { places: HashTable::new(), parts: Vec::new() },
+            width: 1,
+            places: 0,
+            codes: Pile::new(0),
+            nodes: HashTable::new(),
+            numbers: Vec::new(),
+            code: Vec::new(),
+        }
+    }
+
+    /// The number of states.
+    pub(super) const fn len(&self) -> usize {
+        self.codes.len()
+    }
+
+    /// The bytes that they take, and will have taken once the next one is there.
+    pub(super) fn bytes(&self) -> u64 {
+        let grows = self.nodes.len() == self.nodes.capacity();
+        let table = self.nodes.allocation_size() as u64 * if grows { 3 } else { 1 };
+        let parts = self.parts.parts.capacity() * size_of::<P>() + self.parts.places.allocation_size();
+        self.codes.bytes() + table + parts as u64
+    }
+
+    /// The number of the state with these parts, and whether it is new. Most parts are those of the state `before`.
+    pub(super) fn meet(&mut self, parts: impl IntoIterator<Item = P>, before: Option<usize>) -> (u32, bool) {
+        self.encode(parts, before);
+        let hash = hash(&self.code);
+        let (codes, code) = (&self.codes, &self.code[..]);
+        if let Some(&node) = self.nodes.find(hash, |&node| codes.entry(node as usize) == code) {
+            return (node, false);
+        }
+        let node = codes.len() as u32;
+        self.nodes.insert_unique(hash, node, |&node| self::hash(codes.entry(node as usize)));
+        self.codes.push(self.code.iter().copied());
+        (node, true)
+    }
+
+    /// The number of a state that is known to be there.
+    pub(super) fn find(&mut self, parts: impl IntoIterator<Item = P>) -> Option<u32> {
+        self.encode(parts, None);
+        let (codes, code) = (&self.codes, &self.code[..]);
+        self.nodes.find(hash(code), |&node| codes.entry(node as usize) == code).copied()
+    }
+
+    fn encode(&mut self, parts: impl IntoIterator<Item = P>, before: Option<usize>) {
+        self.numbers.clear();
+        for (place, part) in parts.into_iter().enumerate() {
+            let as_before = before
+                .map(|node| self.number(node, place))
+                .filter(|&number| self.parts.parts[number as usize] == part);
+            let number = as_before.unwrap_or_else(|| self.parts.number(part));
+            self.numbers.push(number);
+        }
+        if self.codes.len() == 0 {
+            self.places = self.numbers.len();
+            self.codes = Pile::new(self.places * self.width);
+        }
+        assert_eq!(self.numbers.len(), self.places, "all states of a system have the same number of parts");
+        while self.parts.parts.len() > 1 << (8 * self.width) {
+            self.widen();
+        }
+        self.code.clear();
+        for number in &self.numbers {
+            self.code.extend_from_slice(&number.to_le_bytes()[..self.width]);
+        }
+    }
+
+    /// Writes all numbers with a byte more.
+    fn widen(&mut self) {
+        let mut codes = Pile::new(self.places * (self.width + 1));
+        for node in 0..self.codes.len() {
+            let numbers = self.codes.entry(node).chunks_exact(self.width);
+            codes.push(numbers.flat_map(|number| number.iter().copied().chain([0])));
+        }
+        self.width += 1;
+        self.codes = codes;
+        self.nodes.clear();
+        for node in 0..self.codes.len() {
+            let codes = &self.codes;
+            let hash_of = |&node: &u32| hash(codes.entry(node as usize));
+            self.nodes.insert_unique(hash(codes.entry(node)), node as u32, hash_of);
+        }
+    }
+
+    /// The number of the part of a state in this place.
+    fn number(&self, node: usize, place: usize) -> u32 {
+        let bytes = &self.codes.entry(node)[place * self.width..][..self.width];
+        bytes.iter().rev().fold(0, |number, &byte| number << 8 | u32::from(byte))
+    }
+
+    /// The parts of a state that it does not share with `shown`.
+    pub(super) fn parts(&self, node: usize, shown: Option<usize>) -> impl Iterator<Item = (usize, &P)> {
+        (0..self.places).filter_map(move |place| {
+            let number = self.number(node, place);
+            let is_shown = shown.is_some_and(|shown| self.number(shown, place) == number);
+            (!is_shown).then(|| (place, &self.parts.parts[number as usize]))
+        })
+    }
+}
+
+fn hash(code: &[u8]) -> u64 {
+    FxBuildHasher.hash_one(code)
+}
