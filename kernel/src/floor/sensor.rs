@@ -25,6 +25,9 @@ pub enum Mark {
 pub struct Sides(u8);
 
 impl Sides {
+    /// No side.
+    pub const NONE: Self = Self(0);
+
     /// Whether `side` is in the set.
     #[inline]
     pub const fn has(self, side: Side) -> bool {

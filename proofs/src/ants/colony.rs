@@ -3,15 +3,15 @@
 
 use tautline_kernel::ants::{Rule, act};
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::floor::{Mark, Scan, Sensor, settle};
+use tautline_kernel::floor::{Mark, Scan, Sensor};
 use tautline_kernel::ground::Cell;
 
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
 use crate::engine::states::{Bits, Step, System};
 use crate::engine::{Choices, Script, Unfit, Until, outcomes};
 use crate::floor::look::Explored;
-use crate::floor::plans::{Area, CELLS, FloorPlan};
-use crate::floor::small::{self, Misses, Part, Small};
+use crate::floor::plans::{Area, FloorPlan};
+use crate::floor::small::{self, Misses, Part, Small, Stored, marked};
 
 /// Ants that are observed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -36,25 +36,16 @@ type State = small::State<Cell>;
 
 impl Colony {
     fn starts(&self, ants: u32) -> Vec<State> {
-        let start = |bodies| {
-            let mut state = State {
-                sensors: [Sensor::default(); CELLS],
-                placed: [0; CELLS],
-                bodies,
-                misses: 0,
-                streak: (0, 0),
-            };
-            let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors, placed: &mut [0; CELLS] };
-            settle(&mut floor, &state.bodies);
+        let start = |ants: Vec<Cell>| {
+            let mut state = State::start(&self.plan, &ants.clone(), ants);
+            state.forget_serials();
             state
         };
         self.plan.starts(ants).map(start).collect()
     }
 
     fn is_explored(&self, state: &State) -> bool {
-        self.plan.cells().all(|cell| {
-            self.plan.place(cell).is_none_or(|place| state.sensors[place].mark != Mark::Unexplored)
-        })
+        marked(&self.plan, &state.sensors, |mark| mark == Mark::Unexplored) == 0
     }
 
     /// One step from `state`; none once the run is over.
@@ -65,17 +56,16 @@ impl Colony {
         let mut state = state.clone();
         let ant = if state.bodies.len() > 1 { world.pick(state.bodies.len() as u32) } else { 0 };
         let cell = state.bodies[ant as usize];
-        let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors, placed: &mut [0; CELLS] };
+        let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors, placed: &mut state.placed };
         let mut world = Misses { world, count: &mut state.misses, most: self.max_misses };
         let scan = Scan::new(&floor, cell, &mut world);
         if let Some(side) = act(self.observed.rule, &mut floor, cell, &scan) {
             state.bodies[ant as usize] = cell.beyond(side);
         }
-        for sensor in &mut state.sensors {
-            sensor.serial = 0;
-            if !self.observed.counts {
-                sensor.crossings = sensor.crossings.min(1);
-            }
+        state.forget_serials();
+        if !self.observed.counts {
+            let once = |sensor: Sensor| Sensor { crossings: sensor.crossings.min(1), ..sensor };
+            state.sensors = state.sensors.map(|sensor| Stored::new(once(sensor.sensor())));
         }
         Some(Step { state, situation: "a step", acting: 1 << ant, is_bound: true, breaks: Vec::new() })
     }

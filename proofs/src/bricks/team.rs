@@ -4,14 +4,14 @@
 
 use tautline_kernel::bricks::{Act, Agent, Condition, Next, Rule, carry_out};
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::floor::{Mark, Scan, Sensor, settle};
+use tautline_kernel::floor::{Mark, Scan};
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 
 use crate::course::{Course, Scene, Turn};
 use crate::engine::outcomes;
 use crate::engine::states::{self, Bits, Run, System};
-use crate::floor::plans::{CELLS, FloorPlan};
-use crate::floor::small::{self, Misses, Part, Small, is_shut, marked};
+use crate::floor::plans::FloorPlan;
+use crate::floor::small::{self, Misses, Part, Small, marked, shut};
 
 /// What two agents may do at once.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -68,14 +68,8 @@ pub(crate) struct Team {
 impl Team {
     /// The start with the agents in these cells.
     pub(crate) fn start(&self, cells: &[Cell]) -> State {
-        let (mut sensors, mut placed) = ([Sensor::default(); CELLS], [0; CELLS]);
-        let mut floor = Small { plan: &self.plan, sensors: &mut sensors, placed: &mut placed };
-        settle(&mut floor, cells);
-        let bodies = (0..)
-            .zip(cells)
-            .map(|(id, &cell)| Body { agent: Agent::new(id), cell, is_done: false, pending: None })
-            .collect();
-        let mut state = State { sensors, placed, bodies, misses: 0, streak: (0, 0) };
+        let body = |(id, &cell)| Body { agent: Agent::new(id), cell, is_done: false, pending: None };
+        let mut state = State::start(&self.plan, cells, (0..).zip(cells).map(body).collect());
         self.forget(&mut state);
         state
     }
@@ -90,11 +84,10 @@ impl Team {
     fn forget(&self, state: &mut State) {
         let is_ideal = self.max_misses == 0;
         if is_ideal && self.rule.patience == 0 || !self.rule.has(Condition::LeastCrossed) {
-            state.sensors.iter_mut().for_each(|sensor| sensor.crossings = 0);
+            state.forget_crossings();
         }
         if is_ideal || !self.rule.has(Condition::SeenOnly) {
-            state.placed = [0; CELLS];
-            state.sensors.iter_mut().for_each(|sensor| sensor.serial = 0);
+            state.forget_serials();
         }
     }
 
@@ -128,7 +121,7 @@ impl Team {
 
     fn is_torn(&self, state: &State) -> Option<&'static str> {
         let left = self.left(state);
-        let is_one = self.plan.spread(left, |edge| is_shut(&self.plan, &state.sensors, edge)) == left;
+        let is_one = self.plan.spread(left, shut(&self.plan, &state.sensors)) == left;
         (!is_one).then_some("the accessible cells stay connected")
     }
 
@@ -209,7 +202,7 @@ impl Team {
     }
 
     fn scene(&self, state: &State) -> Scene {
-        let mark = |cell| Some((cell, state.sensors[self.plan.place(cell)?].mark));
+        let mark = |cell| Some((cell, state.sensors[self.plan.place(cell)?].mark()));
         Scene {
             cells: state.bodies.iter().map(|body| body.cell).collect(),
             marks: self.plan.cells().filter_map(mark).collect(),

@@ -15,7 +15,12 @@ pub(crate) struct FloorPlan {
     pub(crate) height: i16,
     /// Row by row.
     pub(crate) free: u16,
-    /// Walls on the eastern and on the southern sides of cells.
+    pub(crate) walls: Edges,
+}
+
+/// Sets of edges, by the cells that have them on their eastern and on their southern sides.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub(crate) struct Edges {
     pub(crate) east: u16,
     pub(crate) south: u16,
 }
@@ -34,8 +39,8 @@ impl FloorPlan {
 
     pub(crate) fn is_open(&self, edge: Edge) -> bool {
         let walls = match edge.side() {
-            Side::East | Side::West => self.east,
-            Side::South | Side::North => self.south,
+            Side::East | Side::West => self.walls.east,
+            Side::South | Side::North => self.walls.south,
         };
         let (one, other) = (self.place(edge.cell()), self.place(edge.cell().beyond(edge.side())));
         one.zip(other).is_some_and(|(one, _)| walls >> one & 1 == 0)
@@ -56,30 +61,26 @@ impl FloorPlan {
     }
 
     /// Those of `cells` that can be reached from its first one through `cells` and edges that are not `shut`.
-    pub(crate) fn spread(&self, cells: u16, is_shut: impl Fn(Edge) -> bool) -> u16 {
+    pub(crate) fn spread(&self, cells: u16, shut: Edges) -> u16 {
+        let (row, rows) = (self.width as u32, 0..self.height as u32);
+        let last_column = rows.fold(0, |set: u16, number| set | 1 << (row * (number + 1) - 1));
+        let east = cells & cells >> 1 & !(self.walls.east | shut.east | last_column);
+        let south = cells & cells.unbounded_shr(row) & !(self.walls.south | shut.south);
         let mut reached = cells & cells.wrapping_neg();
-        let mut left: Vec<usize> = (0..CELLS).filter(|place| reached >> place & 1 == 1).collect();
-        while let Some(place) = left.pop() {
-            for side in Side::ALL {
-                let cell = self.cell(place);
-                let edge = Edge::new(cell, side);
-                let Some(next) =
-                    self.place(cell.beyond(side)).filter(|_| self.is_open(edge) && !is_shut(edge))
-                else {
-                    continue;
-                };
-                if cells >> next & 1 == 1 && reached >> next & 1 == 0 {
-                    reached |= 1 << next;
-                    left.push(next);
-                }
+        loop {
+            let along_rows = (reached & east) << 1 | reached >> 1 & east;
+            let along_columns = (reached & south).unbounded_shl(row) | reached.unbounded_shr(row) & south;
+            let wider = reached | along_rows | along_columns;
+            if wider == reached {
+                return reached;
             }
+            reached = wider;
         }
-        reached
     }
 
     /// Whether there are free cells, and all of them are connected.
     pub(crate) fn is_one(&self) -> bool {
-        self.free != 0 && self.spread(self.free, |_| false) == self.free
+        self.free != 0 && self.spread(self.free, Edges::default()) == self.free
     }
 }
 
@@ -152,8 +153,8 @@ fn walled(width: i16, height: i16) -> impl Iterator<Item = FloorPlan> {
             {
                 let place = plan.place(edge.cell()).unwrap_or_default();
                 match edge.side() {
-                    Side::East | Side::West => plan.east |= 1 << place,
-                    Side::South | Side::North => plan.south |= 1 << place,
+                    Side::East | Side::West => plan.walls.east |= 1 << place,
+                    Side::South | Side::North => plan.walls.south |= 1 << place,
                 }
             }
             plan
@@ -164,5 +165,5 @@ fn walled(width: i16, height: i16) -> impl Iterator<Item = FloorPlan> {
 /// The plan of `width` by `height` free cells without walls; at most [`CELLS`] cells.
 fn open(width: i16, height: i16) -> FloorPlan {
     let free = ((1_u32 << (width * height)) - 1) as u16;
-    FloorPlan { width, height, free, east: 0, south: 0 }
+    FloorPlan { width, height, free, walls: Edges::default() }
 }

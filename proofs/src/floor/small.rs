@@ -3,15 +3,66 @@
 use std::array;
 
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::floor::{Floor, Mark, Sensor};
-use tautline_kernel::ground::{Cell, Edge};
+use tautline_kernel::floor::{Floor, Mark, Sensor, Sides, settle};
+use tautline_kernel::ground::{Cell, Edge, Side};
 
-use super::plans::{CELLS, FloorPlan};
+use super::plans::{CELLS, Edges, FloorPlan};
+
+/// The memory of a sensor in one word. Its identifier counts how many sensors were placed in its cell, and takes the byte
+/// that is left: on a small floor it has no more.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+pub(crate) struct Stored(u64);
+
+impl Stored {
+    const NOTHING: Sensor = Sensor {
+        mark: Mark::Unexplored,
+        crossings: 0,
+        agents: 0,
+        shut: Sides::NONE,
+        claim: None,
+        serial: 0,
+    };
+    const MARK: u64 = 0b111;
+    const CROSSINGS: u64 = Sensor { crossings: u32::MAX, ..Self::NOTHING }.to_bits();
+    const SHUT: u64 = {
+        let all = Sides::NONE.with(Side::East).with(Side::South).with(Side::West).with(Side::North);
+        Sensor { shut: all, ..Self::NOTHING }.to_bits()
+    };
+    /// The bits of the identifier.
+    const SERIAL: u64 = u64::MAX << (u64::BITS - u8::BITS);
+
+    pub(crate) fn new(sensor: Sensor) -> Self {
+        Self(sensor.to_bits() | u64::from(sensor.serial) << Self::SERIAL.trailing_zeros())
+    }
+
+    pub(crate) fn sensor(self) -> Sensor {
+        let serial = (self.0 >> Self::SERIAL.trailing_zeros()) as u16;
+        Sensor { serial, ..Sensor::from_bits(self.0 & !Self::SERIAL).unwrap_or_default() }
+    }
+
+    pub(crate) fn mark(self) -> Mark {
+        Sensor::from_bits(self.0 & Self::MARK).unwrap_or_default().mark
+    }
+
+    fn shut(self) -> Sides {
+        if self.0 & Self::SHUT == 0 { Sides::NONE } else { self.sensor().shut }
+    }
+
+    /// The same but for its identifier.
+    pub(crate) const fn without_serial(self) -> Self {
+        Self(self.0 & !Self::SERIAL)
+    }
+
+    /// The same but for its crossings.
+    pub(crate) const fn without_crossings(self) -> Self {
+        Self(self.0 & !Self::CROSSINGS)
+    }
+}
 
 /// What a small floor stores, and those on it.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(crate) struct State<B> {
-    pub(crate) sensors: [Sensor; CELLS],
+    pub(crate) sensors: [Stored; CELLS],
     /// How many sensors have been placed in each cell.
     pub(crate) placed: [u8; CELLS],
     pub(crate) bodies: Vec<B>,
@@ -28,7 +79,7 @@ const QUARTER: usize = CELLS / 4;
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(crate) enum Part<B> {
     /// A quarter of the floor.
-    Floor([Sensor; QUARTER], [u8; QUARTER]),
+    Floor([Stored; QUARTER], [u8; QUARTER]),
     /// One of those on it.
     Body(B),
     /// The rest.
@@ -36,6 +87,24 @@ pub(crate) enum Part<B> {
 }
 
 impl<B: Clone> State<B> {
+    /// The start of these, who are in `cells` of `plan`.
+    pub(crate) fn start(plan: &FloorPlan, cells: &[Cell], bodies: Vec<B>) -> Self {
+        let (mut sensors, mut placed) = ([Stored::default(); CELLS], [0; CELLS]);
+        settle(&mut Small { plan, sensors: &mut sensors, placed: &mut placed }, cells);
+        Self { sensors, placed, bodies, misses: 0, streak: (0, 0) }
+    }
+
+    /// Leaves identifiers out of the state.
+    pub(crate) fn forget_serials(&mut self) {
+        self.placed = [0; CELLS];
+        self.sensors = self.sensors.map(Stored::without_serial);
+    }
+
+    /// Leaves crossings out of the state.
+    pub(crate) fn forget_crossings(&mut self) {
+        self.sensors = self.sensors.map(Stored::without_crossings);
+    }
+
     /// The parts.
     pub(crate) fn parts(&self) -> impl Iterator<Item = Part<B>> {
         let quarter = |first: usize| {
@@ -65,19 +134,19 @@ impl<B: Clone> State<B> {
 /// The sensors of a plan.
 pub(crate) struct Small<'a> {
     pub(crate) plan: &'a FloorPlan,
-    pub(crate) sensors: &'a mut [Sensor; CELLS],
+    pub(crate) sensors: &'a mut [Stored; CELLS],
     /// How many sensors have been placed in each cell.
     pub(crate) placed: &'a mut [u8; CELLS],
 }
 
 impl Floor for Small<'_> {
     fn sensor(&self, cell: Cell) -> Option<Sensor> {
-        self.plan.place(cell).map(|place| self.sensors[place])
+        self.plan.place(cell).map(|place| self.sensors[place].sensor())
     }
 
     fn put(&mut self, cell: Cell, sensor: Sensor) {
         if let Some(place) = self.plan.place(cell) {
-            self.sensors[place] = sensor;
+            self.sensors[place] = Stored::new(sensor);
         }
     }
 
@@ -94,16 +163,23 @@ impl Floor for Small<'_> {
 }
 
 /// The free cells with such marks.
-pub(crate) fn marked(plan: &FloorPlan, sensors: &[Sensor; CELLS], is: impl Fn(Mark) -> bool) -> u16 {
-    let cells = (0..CELLS).filter(|place| plan.free >> place & 1 == 1);
-    cells.filter(|&place| is(sensors[place].mark)).fold(0, |set, place| set | 1 << place)
+pub(crate) fn marked(plan: &FloorPlan, sensors: &[Stored; CELLS], is: impl Fn(Mark) -> bool) -> u16 {
+    let marked = (0..CELLS).filter(|&place| is(sensors[place].mark()));
+    marked.fold(0, |set, place| set | 1 << place) & plan.free
 }
 
-/// Whether the sensors on both sides of `edge` say that it is shut.
-pub(crate) fn is_shut(plan: &FloorPlan, sensors: &[Sensor; CELLS], edge: Edge) -> bool {
-    let (one, side) = (edge.cell(), edge.side());
-    let says = |cell: Cell, side| plan.place(cell).is_some_and(|place| sensors[place].shut.has(side));
-    says(one, side) && says(one.beyond(side), side.opposite())
+/// The sides that the sensors on both sides of them say are shut.
+pub(crate) fn shut(plan: &FloorPlan, sensors: &[Stored; CELLS]) -> Edges {
+    let says = |side: Side| {
+        (0..CELLS).filter(|&place| sensors[place].shut().has(side)).fold(0, |set, place| set | 1 << place)
+    };
+    if sensors.iter().all(|sensor| sensor.0 & Stored::SHUT == 0) {
+        return Edges::default();
+    }
+    Edges {
+        east: says(Side::East) & says(Side::West) >> 1,
+        south: says(Side::South) & says(Side::North).unbounded_shr(plan.width as u32),
+    }
 }
 
 /// Misses sensors a bounded number of times.

@@ -12,12 +12,12 @@ use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::floor::{Mark, Sensor, settle};
+use tautline_kernel::floor::{Mark, Sensor};
 use tautline_kernel::ground::Cell;
 
 pub use super::agents::{Acted, Agents};
 use super::plans::{CELLS, FloorPlan, blocked};
-use super::small::{self, Misses, Part, Small, is_shut, marked};
+use super::small::{self, Misses, Part, Small, Stored, marked, shut};
 pub use super::way::Way;
 use crate::engine::outcomes;
 use crate::engine::states::{Bits, Limits, Run, Step, System, search};
@@ -205,12 +205,8 @@ impl<A: Agents> Floors<A> {
     }
 
     fn start(&self, cells: &[Cell]) -> State<A::Memory> {
-        let (mut sensors, mut placed) = ([Sensor::default(); CELLS], [0; CELLS]);
-        let mut floor = Small { plan: &self.plan, sensors: &mut sensors, placed: &mut placed };
-        settle(&mut floor, cells);
-        let bodies =
-            (0..).zip(cells).map(|(id, &cell)| Body { memory: self.way.memory(id), cell, is_done: false });
-        let mut state = State { sensors, placed, bodies: bodies.collect(), misses: 0, streak: (0, 0) };
+        let body = |(id, &cell)| Body { memory: self.way.memory(id), cell, is_done: false };
+        let mut state = State::start(&self.plan, cells, (0..).zip(cells).map(body).collect());
         self.forget(&mut state);
         state
     }
@@ -218,11 +214,10 @@ impl<A: Agents> Floors<A> {
     /// What no agent ever reads is left out of the state.
     fn forget(&self, state: &mut State<A::Memory>) {
         if !self.way.reads_serials() {
-            state.placed = [0; CELLS];
-            state.sensors.iter_mut().for_each(|sensor| sensor.serial = 0);
+            state.forget_serials();
         }
         if !self.way.reads_crossings() {
-            state.sensors.iter_mut().for_each(|sensor| sensor.crossings = 0);
+            state.forget_crossings();
         } else if state.misses == self.misses {
             self.forget_in_trap(state);
         }
@@ -236,9 +231,10 @@ impl<A: Agents> Floors<A> {
             awake.filter_map(|body| self.plan.place(body.cell)).fold(0, |set, place| set | 1 << place);
         let mut rest = under | self.marked(state, |mark| self.way.passes(mark));
         let unexplored = self.marked(state, |mark| mark == Mark::Unexplored);
+        let shut = shut(&self.plan, &state.sensors);
         let mut least = [0; CELLS];
         while rest != 0 {
-            let part = self.plan.spread(rest, |edge| is_shut(&self.plan, &state.sensors, edge));
+            let part = self.plan.spread(rest, shut);
             rest &= !part;
             if part & under == 0 {
                 continue;
@@ -247,11 +243,12 @@ impl<A: Agents> Floors<A> {
                 return;
             }
             let places = || (0..CELLS).filter(|place| part >> place & 1 == 1);
-            let fewest = places().map(|place| state.sensors[place].crossings).min().unwrap_or(0);
+            let fewest = places().map(|place| state.sensors[place].sensor().crossings).min().unwrap_or(0);
             places().for_each(|place| least[place] = fewest);
         }
-        for (sensor, least) in state.sensors.iter_mut().zip(least) {
-            sensor.crossings -= least;
+        for (stored, least) in state.sensors.iter_mut().zip(least).filter(|&(_, least)| least > 0) {
+            let sensor = stored.sensor();
+            *stored = Stored::new(Sensor { crossings: sensor.crossings - least, ..sensor });
         }
     }
 

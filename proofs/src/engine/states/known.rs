@@ -86,6 +86,8 @@ pub(super) struct Known<P> {
     places: usize,
     codes: Pile<u8>,
     nodes: HashTable<u32>,
+    /// The parts of a state whose steps are made, which are most of those of the states after them, and their numbers.
+    before: Vec<(P, u32)>,
     /// The numbers of the parts of a state in the making, and as bytes.
     numbers: Vec<u32>,
     code: Vec<u8>,
@@ -99,6 +101,7 @@ impl<P: Clone + Eq + Hash> Known<P> {
             places: 0,
             codes: Pile::new(0),
             nodes: HashTable::new(),
+            before: Vec::new(),
             numbers: Vec::new(),
             code: Vec::new(),
         }
@@ -117,9 +120,20 @@ impl<P: Clone + Eq + Hash> Known<P> {
         self.codes.bytes() + table + parts as u64
     }
 
-    /// The number of the state with these parts, and whether it is new. Most parts are those of the state `before`.
-    pub(super) fn meet(&mut self, parts: impl IntoIterator<Item = P>, before: Option<usize>) -> (u32, bool) {
-        self.encode(parts, before);
+    /// Makes ready for the states that steps from this one lead to.
+    pub(super) fn go_on_from(&mut self, node: usize) {
+        let mut before = std::mem::take(&mut self.before);
+        before.clear();
+        before.extend((0..self.places).map(|place| {
+            let number = self.number(node, place);
+            (self.parts.parts[number as usize].clone(), number)
+        }));
+        self.before = before;
+    }
+
+    /// The number of the state with these parts, and whether it is new.
+    pub(super) fn meet(&mut self, parts: impl IntoIterator<Item = P>) -> (u32, bool) {
+        self.encode(parts);
         let hash = hash(&self.code);
         let (codes, code) = (&self.codes, &self.code[..]);
         if let Some(&node) = self.nodes.find(hash, |&node| codes.entry(node as usize) == code) {
@@ -133,19 +147,20 @@ impl<P: Clone + Eq + Hash> Known<P> {
 
     /// The number of a state that is known to be there.
     pub(super) fn find(&mut self, parts: impl IntoIterator<Item = P>) -> Option<u32> {
-        self.encode(parts, None);
+        self.encode(parts);
         let (codes, code) = (&self.codes, &self.code[..]);
         self.nodes.find(hash(code), |&node| codes.entry(node as usize) == code).copied()
     }
 
-    fn encode(&mut self, parts: impl IntoIterator<Item = P>, before: Option<usize>) {
-        self.numbers.clear();
+    fn encode(&mut self, parts: impl IntoIterator<Item = P>) {
+        let Self { numbers, before, parts: known, .. } = self;
+        numbers.clear();
         for (place, part) in parts.into_iter().enumerate() {
-            let as_before = before
-                .map(|node| self.number(node, place))
-                .filter(|&number| self.parts.parts[number as usize] == part);
-            let number = as_before.unwrap_or_else(|| self.parts.number(part));
-            self.numbers.push(number);
+            let number = match before.get(place) {
+                Some(&(ref same, number)) if *same == part => number,
+                Some(_) | None => known.number(part),
+            };
+            numbers.push(number);
         }
         if self.codes.len() == 0 {
             self.places = self.numbers.len();

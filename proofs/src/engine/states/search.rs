@@ -90,7 +90,7 @@ impl<'a, S: System> Search<'a, S> {
     }
 
     fn meet_start(&mut self, start: u32, state: S::State) {
-        if self.known.meet(self.system.parts(&state), None).1 {
+        if self.known.meet(self.system.parts(&state)).1 {
             self.graph.add_start(start);
         }
         self.shown = Some((state, None));
@@ -126,6 +126,7 @@ impl<'a, S: System> Search<'a, S> {
     fn look(&mut self, node: usize, state: &S::State, most_steps: u64) -> ControlFlow<Stop> {
         let system = self.system;
         self.looked_at += 1;
+        self.known.go_on_from(node);
         self.graph.go_on(|| system.owed(state));
         let (mut is_last, mut is_still) = (true, true);
         for (number, step) in (0..).zip(system.steps(state)) {
@@ -136,7 +137,7 @@ impl<'a, S: System> Search<'a, S> {
             self.steps += 1;
             is_last = false;
             cover(&mut self.covered, situation);
-            let (to, is_new) = self.known.meet(system.parts(&state), Some(node));
+            let (to, is_new) = self.known.meet(system.parts(&state));
             if is_new {
                 self.graph.add(node as u32);
             }
