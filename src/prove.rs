@@ -2,15 +2,17 @@
 
 use std::fmt::Write;
 use std::fs;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 use std::time::Instant;
 
 use clap::Args;
 use serde::Serialize;
 use tautline_proofs::clause::Clause;
-use tautline_proofs::decide::{Memory, Seen};
-use tautline_proofs::engine::tree::Progress;
-use tautline_proofs::ledger::{self, Row, table};
+use tautline_proofs::decide::Seen;
+use tautline_proofs::engine::states::Room;
+use tautline_proofs::ledger::{self, Heard, Row, table};
 
 use super::evidence::{self, Shown, shown};
 use super::hunt::keep;
@@ -25,7 +27,25 @@ Examples:
   tautline prove
   tautline prove CHAIN-1 CHAIN-2
   tautline prove BRICKS-4 --out refutations
+  tautline prove --memory 1GiB
   tautline prove --format json";
+
+/// A size in bytes, written with its unit.
+#[derive(Clone, Copy, Debug)]
+struct Bytes(u64);
+
+impl FromStr for Bytes {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        const UNITS: [(&str, u32); 3] = [("KiB", 10), ("MiB", 20), ("GiB", 30)];
+        let size = UNITS.iter().find_map(|&(unit, bits)| {
+            let number: u64 = text.strip_suffix(unit)?.parse().ok()?;
+            number.checked_mul(1 << bits).filter(|&bytes| bytes > 0)
+        });
+        size.map(Self).ok_or("write a whole number above 0 and its unit, KiB, MiB or GiB: for example 1GiB")
+    }
+}
 
 /// Decide the clauses of SPEC.md within their bounds, and print the ledger.
 #[derive(Debug, Args)]
@@ -37,23 +57,22 @@ pub(super) struct Prove {
     /// Store each counterexample as a file in DIR, which `tautline replay` plays. DIR is made if it is not there.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// The memory that searches over states may take together, as 1GiB or 500MiB. A check for which it does not suffice is
+    /// left open. Without it they take what they need.
+    #[arg(long, value_name = "SIZE")]
+    memory: Option<Bytes>,
     #[command(flatten)]
     force: ForceArgs,
     #[command(flatten)]
     format: FormatArgs,
 }
 
-/// What becomes of a row besides.
-struct Told {
-    seconds: f64,
-    /// Where its counterexample is stored.
-    file: Option<String>,
-}
-
 #[derive(Serialize)]
 struct Ledger {
     clauses: Vec<Line>,
     as_registered: bool,
+    /// Whether a search was cut off for want of memory.
+    out_of_memory: bool,
 }
 
 #[derive(Serialize)]
@@ -96,41 +115,61 @@ impl Prove {
             })?;
         }
         let checks = ledger::checks(&clauses);
-        let mut memory = Memory::default();
-        let (mut rows, mut told) = (Vec::new(), Vec::new());
-        for (place, &(clause, number)) in (1..).zip(&checks) {
-            let bar = progress::bar(format!("{place}/{} {}", checks.len(), clause.id), 1);
-            let start = Instant::now();
-            let watch = &mut |progress: &Progress<'_>| progress::show(&bar, progress);
-            let row = ledger::decide(clause, number, &mut memory, watch).map_err(|refused| {
-                Fault::usage(refused, "this is a bug in the registry: please report it")
-            })?;
-            bar.finish_and_clear();
-            let seconds = start.elapsed().as_secs_f64();
+        let threads = rayon::current_num_threads() as u64;
+        let room = self.memory.map(|Bytes(bytes)| Room::of(bytes, threads));
+        let room = room.as_ref().unwrap_or(Room::any());
+        let bar = progress::bar("proving", 1);
+        let start = Instant::now();
+        let is_single = checks.len() == 1;
+        let hear = |heard: Heard<'_>| match heard {
+            Heard::Search(progress) if is_single => progress::show(&bar, progress),
+            Heard::Search(_) => ControlFlow::Continue(()),
+            Heard::Done { clause, jobs, of } => {
+                bar.set_length(of as u64);
+                bar.set_position(jobs as u64);
+                bar.set_message(format!("{jobs} of {of}, the last of {clause}"));
+                ControlFlow::Continue(())
+            }
+        };
+        let rows = ledger::decide(&checks, room, &hear)
+            .map_err(|refused| Fault::usage(refused, "this is a bug in the registry: please report it"))?;
+        bar.finish_and_clear();
+        tracing::info!("{} checks in {:.1} s", rows.len(), start.elapsed().as_secs_f64());
+        let mut files = Vec::new();
+        for row in &rows {
             let (rule, engine) = (row.check.rule(), row.check.engine());
-            tracing::info!("{} {rule} {engine}: {seconds:.1} s", clause.id);
-            let file = match &self.out {
-                Some(folder) => stored(&row, folder, &replaceable, out)?,
+            tracing::info!("{} {rule} {engine}: {:.1} s", row.clause.id, row.seconds);
+            files.push(match &self.out {
+                Some(folder) => stored(row, folder, &replaceable, out)?,
                 None => None,
-            };
-            rows.push(row);
-            told.push(Told { seconds, file });
+            });
         }
         let as_registered = rows.iter().all(Row::is_as_registered);
         match self.format.format {
             Format::Json => {
-                let clauses = rows.iter().zip(&told).map(line).collect::<Result<_, Halt>>()?;
-                out.json(&Ledger { clauses, as_registered })?;
+                let clauses = rows.iter().zip(&files).map(line).collect::<Result<_, Halt>>()?;
+                out.json(&Ledger { clauses, as_registered, out_of_memory: room.was_too_small() })?;
             }
             Format::Text => {
                 out.text(table(&rows))?;
-                for (row, told) in rows.iter().zip(&told) {
-                    out.text(story(row, told)?)?;
+                for (row, file) in rows.iter().zip(&files) {
+                    out.text(story(row, file.as_deref())?)?;
                 }
                 out.text(last_line(&rows))?;
+                if room.was_too_small() {
+                    out.text(format!(
+                        "A search over states would have taken more than {} MiB: its check is open, or its mutant was not \
+                         rejected.\nGive more with --memory: one search gets three quarters of it.\n",
+                        room.most() >> 20
+                    ))?;
+                }
             }
         }
-        Ok(if as_registered { Exit::Expected } else { Exit::Violation })
+        Ok(match (room.was_too_small(), as_registered) {
+            (true, _) => Exit::Unfinished,
+            (false, true) => Exit::Expected,
+            (false, false) => Exit::Violation,
+        })
     }
 
     fn chosen(&self) -> Result<Vec<&'static Clause>, Fault> {
@@ -148,8 +187,8 @@ impl Prove {
     }
 }
 
-fn line((row, told): (&Row, &Told)) -> Result<Line, Halt> {
-    let Row { clause, check, ref decision, .. } = *row;
+fn line((row, file): (&Row, &Option<String>)) -> Result<Line, Halt> {
+    let Row { clause, check, ref decision, seconds, .. } = *row;
     let evidence = decision.counterexample.as_ref();
     Ok(Line {
         id: clause.id,
@@ -161,13 +200,13 @@ fn line((row, told): (&Row, &Told)) -> Result<Line, Halt> {
         verdict: decision.verdict.word(),
         registered: check.expected().word(),
         counterexample: evidence.map(|evidence| shown(check, evidence)).transpose()?,
-        file: told.file.clone(),
+        file: file.clone(),
         mutants: Mutants {
             killed: decision.killed.len(),
             of: decision.killed.len() + decision.survived.len(),
             survived: decision.survived.clone(),
         },
-        seconds: told.seconds,
+        seconds,
     })
 }
 
@@ -178,7 +217,7 @@ fn stored(
     replaceable: &Replaceable,
     out: &mut Output,
 ) -> Result<Option<String>, Halt> {
-    let Row { clause, number, check, ref decision } = *row;
+    let Row { clause, number, check, ref decision, .. } = *row;
     let Some(evidence) = &decision.counterexample else { return Ok(None) };
     let path = refutation::path(folder, clause, number);
     let run = match &evidence.seen {
@@ -193,10 +232,10 @@ fn stored(
 }
 
 /// What one sees in a counterexample, and where it is stored.
-fn story(row: &Row, told: &Told) -> Result<String, Halt> {
+fn story(row: &Row, file: Option<&str>) -> Result<String, Halt> {
     let Some(evidence) = &row.decision.counterexample else { return Ok(String::new()) };
     let story = evidence::story(row.clause, row.check, evidence)?;
-    let file = told.file.as_ref().map(|file| format!("\nreplay it with: tautline replay {file}\n"));
+    let file = file.map(|file| format!("\nreplay it with: tautline replay {file}\n"));
     Ok(format!("\n{story}{}", file.unwrap_or_default()))
 }
 

@@ -78,6 +78,17 @@ pub struct Decision {
 }
 
 impl Decision {
+    /// What came of a check's own rule, no mutant looked at yet.
+    pub fn of(answer: Answer) -> Self {
+        let Answer { verdict, cases, given_up, counterexample } = answer;
+        Self { verdict, cases, given_up, counterexample, killed: Vec::new(), survived: Vec::new() }
+    }
+
+    /// Adds what came of a mutant.
+    pub fn add(&mut self, mutant: &'static str, verdict: Verdict) {
+        if verdict == Verdict::Refuted { &mut self.killed } else { &mut self.survived }.push(mutant);
+    }
+
     /// Whether `check` came out as it is registered.
     pub fn is_as_registered(&self, check: &dyn AnyCheck) -> bool {
         self.verdict == check.expected() && self.survived.is_empty()
@@ -104,12 +115,34 @@ pub trait AnyCheck: Sync {
     /// The names of its mutants.
     fn mutants(&self) -> Vec<&'static str>;
 
-    /// Decides it, and whether its mutants are rejected. `watch` hears of searches only; a search that it ends leaves the
-    /// check open.
+    /// A name for what it shares with the checks of the same name: see [`Method::family`].
+    fn family(&self) -> Option<String>;
+
+    /// What comes of its own rule.
     ///
     /// # Errors
     /// [`Refused`] if its method cannot begin.
-    fn decide(&self, memory: &mut Memory, watch: Watch<'_>) -> Result<Decision, Refused>;
+    fn decide_own(&self, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused>;
+
+    /// What comes of the mutant with this number; open if there is none.
+    ///
+    /// # Errors
+    /// [`Refused`] if its method cannot begin.
+    fn decide_mutant(&self, number: usize, desk: &mut Desk<'_, '_>) -> Result<Verdict, Refused>;
+
+    /// Decides it, and whether its mutants are rejected, one after the other. `watch` hears of searches only; a search
+    /// that it ends leaves the check open.
+    ///
+    /// # Errors
+    /// [`Refused`] if its method cannot begin.
+    fn decide(&self, memory: &mut Memory, watch: Watch<'_>) -> Result<Decision, Refused> {
+        let mut desk = Desk { memory, watch, room: Room::any() };
+        let mut decision = Decision::of(self.decide_own(&mut desk)?);
+        for (number, name) in self.mutants().into_iter().enumerate() {
+            decision.add(name, self.decide_mutant(number, &mut desk)?);
+        }
+        Ok(decision)
+    }
 
     /// Plays `choices` by the rule of the check.
     ///
@@ -143,17 +176,17 @@ impl<R: Sync> AnyCheck for Check<R> {
         self.mutants.iter().map(|mutant| mutant.name).collect()
     }
 
-    fn decide(&self, memory: &mut Memory, watch: Watch<'_>) -> Result<Decision, Refused> {
-        let mut desk = Desk { memory, watch, room: Room::any() };
-        let Answer { verdict, cases, given_up, counterexample } =
-            self.method.decide(&self.about.rule, Until::Exhausted, &mut desk)?;
-        let (mut killed, mut survived) = (Vec::new(), Vec::new());
-        for mutant in self.mutants {
-            let found = self.method.decide(&mutant.rule, Until::Violation, &mut desk)?.verdict;
-            let list = if found == Verdict::Refuted { &mut killed } else { &mut survived };
-            list.push(mutant.name);
-        }
-        Ok(Decision { verdict, cases, given_up, counterexample, killed, survived })
+    fn family(&self) -> Option<String> {
+        self.method.family(&self.about.rule)
+    }
+
+    fn decide_own(&self, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+        self.method.decide(&self.about.rule, Until::Exhausted, desk)
+    }
+
+    fn decide_mutant(&self, number: usize, desk: &mut Desk<'_, '_>) -> Result<Verdict, Refused> {
+        let Some(mutant) = self.mutants.get(number) else { return Ok(Verdict::Open) };
+        Ok(self.method.decide(&mutant.rule, Until::Violation, desk)?.verdict)
     }
 
     fn replay(&self, choices: &Choices) -> Result<Played, Unfit> {

@@ -190,6 +190,12 @@ pub trait Method<R>: Sync {
         Verdict::Holds
     }
 
+    /// A name for the question that it asks an engine about `rule`, if another check may ask the same one: checks with the
+    /// same name are decided one after the other, with one [`Memory`].
+    fn family(&self, _: &R) -> Option<String> {
+        None
+    }
+
     /// Looks for a counterexample to `rule`.
     ///
     /// # Errors

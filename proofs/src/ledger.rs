@@ -1,11 +1,13 @@
 //! The ledger: the clauses of all rooms, in the order of `SPEC.md`, and what came of clauses, whosever they are.
 
+mod jobs;
+
 use std::fmt::{self, Write};
 
 use crate::clause::{AnyCheck, Clause, Decision};
-use crate::decide::{Memory, Refused};
-use crate::engine::tree::{Watch, unwatched};
 use crate::{ants, bricks, chain, ground, mrc, notice, tan};
+
+pub use jobs::{Hear, Heard, decide, decide_all};
 
 /// The clauses of each room.
 pub static ROOMS: [&[Clause]; 7] = [
@@ -60,6 +62,8 @@ pub struct Row {
     pub check: &'static dyn AnyCheck,
     /// What came of it.
     pub decision: Decision,
+    /// The time that it took, with its mutants, added up over threads.
+    pub seconds: f64,
 }
 
 impl Row {
@@ -81,30 +85,6 @@ impl Row {
 /// The checks of `clauses`, in order: the clause, and the number of the check.
 pub fn checks(clauses: &[&'static Clause]) -> Vec<(&'static Clause, usize)> {
     clauses.iter().flat_map(|&clause| (0..clause.checks.len()).map(move |number| (clause, number))).collect()
-}
-
-/// Decides a check of `clause`, the one with this number.
-///
-/// # Errors
-/// [`Refused`] if its method cannot begin.
-pub fn decide(
-    clause: &'static Clause,
-    number: usize,
-    memory: &mut Memory,
-    watch: Watch<'_>,
-) -> Result<Row, Refused> {
-    let check = clause.checks[number];
-    Ok(Row { clause, number, check, decision: check.decide(memory, watch)? })
-}
-
-/// Decides all checks of `clauses`, one after the other.
-///
-/// # Errors
-/// [`Refused`] if a method cannot begin.
-pub fn decide_all(clauses: &[&'static Clause]) -> Result<Vec<Row>, Refused> {
-    let mut memory = Memory::default();
-    let decided = |(clause, number)| decide(clause, number, &mut memory, &mut unwatched);
-    checks(clauses).into_iter().map(decided).collect()
 }
 
 const HEAD: [&str; 6] = ["clause", "rule", "engine", "cases", "verdict", "mutants killed"];

@@ -100,6 +100,7 @@ impl Sensor {
     }
 
     /// All that it stores but its identifier, in the lowest 56 bits.
+    #[inline]
     pub const fn to_bits(self) -> u64 {
         let claim = match self.claim {
             None => 0,
@@ -113,6 +114,7 @@ impl Sensor {
     }
 
     /// The sensor that stores `bits`; `None` if no sensor does.
+    #[inline]
     pub const fn from_bits(bits: u64) -> Option<Self> {
         let mark = match bits & 0b111 {
             0 => Mark::Unexplored,
@@ -122,16 +124,19 @@ impl Sensor {
             4 => Mark::Sealed,
             _ => return None,
         };
-        let claim = if bits >> 47 & 1 == 0 { None } else { Some(Claim { owner: (bits >> 48) as u8 }) };
-        let sensor = Self {
+        let claim = match (bits >> 47 & 1, bits >> 48) {
+            (0, 0) => None,
+            (1, owner @ 0..=0xFF) => Some(Claim { owner: owner as u8 }),
+            _ => return None,
+        };
+        Some(Self {
             mark,
             crossings: (bits >> 3) as u32,
             agents: (bits >> 35) as u8,
             shut: Sides((bits >> 43) as u8 & 0b1111),
             claim,
             serial: 0,
-        };
-        if sensor.to_bits() == bits { Some(sensor) } else { None }
+        })
     }
 }
 

@@ -7,7 +7,7 @@ use tautline_kernel::floor::{Mark, Scan, Sensor};
 use tautline_kernel::ground::Cell;
 
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
-use crate::engine::states::{Bits, Step, System};
+use crate::engine::states::{Bits, Limits, Step, System};
 use crate::engine::{Choices, Script, Unfit, Until, outcomes};
 use crate::floor::look::Explored;
 use crate::floor::plans::{Area, FloorPlan};
@@ -135,14 +135,13 @@ impl Method<Observed> for SmallFloors {
 
     /// The choices of a violation are as those of [`Explored`].
     fn decide(&self, observed: &Observed, _: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+        let limits = Limits { room: desk.room, ..Limits::NONE };
         let mut explored = Explored::new();
         for (number, series) in (0..).zip(SERIES) {
             let colonies = series.colonies(*observed);
             let starts = |colony: &Colony| colony.starts(series.ants);
-            if let Some((_, run)) = explored.look(number, &colonies, starts, desk.room) {
+            if let Some((_, run)) = explored.look(number, &colonies, starts, limits) {
                 explored.again = run.round().to_vec();
-            }
-            if !explored.is_whole || explored.tally.violation.is_some() {
                 break;
             }
         }

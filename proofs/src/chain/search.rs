@@ -158,6 +158,10 @@ impl Method<Observed> for EveryLayout {
         format!("all layouts, N = {robots}, at most {max_walls} walls")
     }
 
+    fn family(&self, observed: &Observed) -> Option<String> {
+        Some(format!("{:?}", self.bounds(observed)))
+    }
+
     fn decide(
         &self,
         observed: &Observed,

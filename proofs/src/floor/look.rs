@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::course::Course;
 use crate::decide::{Answer, Seen, Verdict};
-use crate::engine::states::{END, Found, Limits, Room, Run, System, search};
+use crate::engine::states::{END, Found, Limits, Run, System, search};
 use crate::engine::{Tally, cover};
 
 /// What the states of small floors have shown.
@@ -39,46 +39,49 @@ impl Explored {
         answer
     }
 
-    /// Searches all states of `systems`, which are of the series with this number, from their starts, until something is
-    /// broken or a search is cut off: by which system, and how. What is found is the same on any number of threads.
+    /// Searches the states of `systems`, which are of the series with this number, from their starts within `limits` each,
+    /// until something is broken: by which system, and how. What is found is the same on any number of threads.
     pub(crate) fn look<'a, S: System<Demand = &'static str> + Sync>(
         &mut self,
         series: u32,
         systems: &'a [S],
         starts: impl Fn(&S) -> Vec<S::State> + Sync,
-        room: &Room,
+        limits: Limits<'_>,
     ) -> Option<(&'a S, Run<&'static str>)> {
-        for ((place, system), found) in (0..).zip(systems).zip(search_each(systems, starts, room)) {
+        let mut first = None;
+        for ((place, system), found) in (0..).zip(systems).zip(search_each(systems, starts, limits)) {
             let Found { states, covered, broken, is_whole, .. } = found;
             self.tally.cases += states;
             self.is_whole &= is_whole;
             for situation in covered {
                 cover(&mut self.tally.covered, situation);
             }
-            if let Some(run) = broken.into_iter().next() {
-                let choices = [&[series, place, run.start as u32], &run.steps[..]].concat();
-                self.tally.violation = Some((choices, run.demand));
-                return Some((system, run));
-            }
+            first = first.or(broken.into_iter().next().map(|run| (place, system, run)));
         }
-        None
+        let (place, system, run) = first?;
+        let choices = [&[series, place, run.start as u32], &run.steps[..]].concat();
+        self.tally.violation = Some((choices, run.demand));
+        Some((system, run))
     }
 }
 
-/// What is found in each of `systems`, up to the first in which something is broken or the search is cut off.
+/// Systems that are looked at between two looks for a violation.
+const WAVE: usize = 64;
+
+/// What is found in each of `systems`, up to the end of the first wave in which something is broken.
 fn search_each<S: System<Demand = &'static str> + Sync>(
     systems: &[S],
     starts: impl Fn(&S) -> Vec<S::State> + Sync,
-    room: &Room,
+    limits: Limits<'_>,
 ) -> Vec<Found<&'static str>> {
     let last = AtomicUsize::new(usize::MAX);
     let each = systems.par_iter().enumerate().with_max_len(1).map(|(place, system)| {
         if last.load(Ordering::Relaxed) < place {
             return None;
         }
-        let found = search(system, starts(system), Limits { room, ..Limits::NONE });
-        if !found.broken.is_empty() || !found.is_whole {
-            last.fetch_min(place, Ordering::Relaxed);
+        let found = search(system, starts(system), limits);
+        if !found.broken.is_empty() {
+            last.fetch_min(place - place % WAVE + WAVE - 1, Ordering::Relaxed);
         }
         Some(found)
     });

@@ -26,17 +26,22 @@ pub(crate) struct Edges {
 }
 
 impl FloorPlan {
+    #[inline]
     pub(crate) fn place(&self, cell: Cell) -> Option<usize> {
-        let is_inside = (0..self.width).contains(&cell.x) && (0..self.height).contains(&cell.y);
-        is_inside
-            .then_some((cell.y * self.width + cell.x) as usize)
-            .filter(|place| self.free >> place & 1 == 1)
+        // West or north of the area a coordinate reads as more than any width or height.
+        let is_inside = (cell.x as u16) < self.width as u16 && (cell.y as u16) < self.height as u16;
+        if !is_inside {
+            return None;
+        }
+        let place = (cell.y * self.width + cell.x) as usize;
+        (self.free >> place & 1 == 1).then_some(place)
     }
 
     pub(crate) fn cell(&self, place: usize) -> Cell {
         Cell::new(place as i16 % self.width, place as i16 / self.width)
     }
 
+    #[inline]
     pub(crate) fn is_open(&self, edge: Edge) -> bool {
         let walls = match edge.side() {
             Side::East | Side::West => self.walls.east,

@@ -14,14 +14,8 @@ use super::plans::{CELLS, Edges, FloorPlan};
 pub(crate) struct Stored(u64);
 
 impl Stored {
-    const NOTHING: Sensor = Sensor {
-        mark: Mark::Unexplored,
-        crossings: 0,
-        agents: 0,
-        shut: Sides::NONE,
-        claim: None,
-        serial: 0,
-    };
+    const NOTHING: Sensor =
+        Sensor { mark: Mark::Unexplored, crossings: 0, agents: 0, shut: Sides::NONE, claim: None, serial: 0 };
     const MARK: u64 = 0b111;
     const CROSSINGS: u64 = Sensor { crossings: u32::MAX, ..Self::NOTHING }.to_bits();
     const SHUT: u64 = {
@@ -164,8 +158,13 @@ impl Floor for Small<'_> {
 
 /// The free cells with such marks.
 pub(crate) fn marked(plan: &FloorPlan, sensors: &[Stored; CELLS], is: impl Fn(Mark) -> bool) -> u16 {
-    let marked = (0..CELLS).filter(|&place| is(sensors[place].mark()));
-    marked.fold(0, |set, place| set | 1 << place) & plan.free
+    let mut places = [0; 1 + Stored::MARK as usize];
+    for (place, sensor) in sensors.iter().enumerate() {
+        places[(sensor.0 & Stored::MARK) as usize] |= 1 << place;
+    }
+    let marks = [Mark::Unexplored, Mark::Explored, Mark::Closing, Mark::Visited, Mark::Sealed];
+    let marked = marks.into_iter().filter(|&mark| is(mark)).map(|mark| places[mark as usize]);
+    marked.fold(0, |all: u16, places| all | places) & plan.free
 }
 
 /// The sides that the sensors on both sides of them say are shut.

@@ -33,6 +33,10 @@ impl Method<Observed> for Within {
         self.1.bound()
     }
 
+    fn family(&self, observed: &Observed) -> Option<String> {
+        Some(format!("{:?}", self.setting(observed)))
+    }
+
     fn decide(&self, observed: &Observed, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
         let (demand, setting) = (self.0, self.setting(observed));
         let until = match until {

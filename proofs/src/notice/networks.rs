@@ -1,5 +1,6 @@
 //! Every small network, and every state that it can come to (NOTICE-1 to NOTICE-6).
 
+use rayon::prelude::*;
 use tautline_kernel::notice::{Count, Rule, Scheme, Stage};
 
 use super::Observed;
@@ -15,7 +16,7 @@ pub(super) const SMALL: usize = 5;
 struct Case {
     links: Links<SMALL>,
     rule: Rule,
-    demand: Demand,
+    demands: &'static [Demand],
 }
 
 /// Among five nodes nobody hears more than three senders besides the first: all k there are.
@@ -77,6 +78,25 @@ enum Rules {
     Only(u8),
 }
 
+impl Rules {
+    fn list(self, observed: &Observed) -> Vec<Rule> {
+        match self {
+            Self::EveryK => every_k().map(|k| observed.farthest(k)).to_vec(),
+            Self::Endless => vec![observed.farthest(None), observed.rule(Scheme::Flooding)],
+            Self::Only(k) => vec![observed.farthest(Count::new(k))],
+        }
+    }
+}
+
+/// What all networks under one rule have shown, whatever is demanded.
+struct Shown {
+    rule: Rule,
+    /// Without a violation.
+    tally: Tally,
+    /// What is broken.
+    broken: Vec<Demand>,
+}
+
 /// Every small network, and every state that it can come to. The choices of a violation are the network with its rule,
 /// then event by event.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -105,18 +125,18 @@ const EVENTS: [&str; 4] = ["a NOTICE arrives", "a copy arrives", "a node forward
 
 impl Case {
     /// What is broken at some point of a run.
-    fn broken(&self, spread: &Spread<SMALL>, point: Point) -> Option<&'static str> {
-        match self.demand.check(&self.links, spread, point) {
-            Err(Stop::Violated(demand)) => Some(demand),
+    fn broken(&self, spread: &Spread<SMALL>, point: Point) -> impl Iterator<Item = (Demand, &'static str)> {
+        self.demands.iter().filter_map(move |&demand| match demand.check(&self.links, spread, point) {
+            Err(Stop::Violated(words)) => Some((demand, words)),
             Ok(()) | Err(Stop::Assumed | Stop::GivenUp) => None,
-        }
+        })
     }
 }
 
 impl System for Case {
     type State = Spread<SMALL>;
     type Part = Spread<SMALL>;
-    type Demand = &'static str;
+    type Demand = (Demand, &'static str);
 
     fn parts(&self, spread: &Spread<SMALL>) -> impl IntoIterator<Item = Spread<SMALL>> {
         [*spread]
@@ -126,7 +146,7 @@ impl System for Case {
         *spread = *part;
     }
 
-    fn steps(&self, spread: &Spread<SMALL>) -> impl Iterator<Item = Step<Spread<SMALL>, &'static str>> {
+    fn steps(&self, spread: &Spread<SMALL>) -> impl Iterator<Item = Step<Spread<SMALL>, Self::Demand>> {
         let step = |event| {
             let state = spread.after(&self.rule, &self.links, event);
             let situation = match event {
@@ -134,32 +154,34 @@ impl System for Case {
                 Event::ArrivesAgain { .. } => "a copy arrives",
                 Event::Expires { .. } => "a node forwards",
             };
-            let breaks = self.broken(&state, Point::OnTheWay).into_iter().collect();
+            let breaks = self.broken(&state, Point::OnTheWay).collect();
             Step { state, situation, acting: 0, is_bound: true, breaks }
         };
         spread.events().into_iter().map(step)
     }
 
-    fn broken_at_end(&self, spread: &Spread<SMALL>) -> Option<&'static str> {
-        self.broken(spread, Point::End)
+    /// What is demanded on the way is told on the way.
+    fn broken_at_end(&self, spread: &Spread<SMALL>) -> Option<Self::Demand> {
+        let is_of_ends = |(demand, _): &(Demand, _)| self.demands.len() == 1 || demand.is_of_ends();
+        self.broken(spread, Point::End).find(is_of_ends)
+    }
+
+    /// Among several demands the others are looked for.
+    fn is_enough(&self, _: Self::Demand) -> bool {
+        self.demands.len() == 1
     }
 }
 
 impl Networks {
     fn cases(self, observed: &Observed) -> impl Iterator<Item = Case> {
-        let rules = match self.rules {
-            Rules::EveryK => every_k().map(|k| observed.farthest(k)).to_vec(),
-            Rules::Endless => vec![observed.farthest(None), observed.rule(Scheme::Flooding)],
-            Rules::Only(k) => vec![observed.farthest(Count::new(k))],
-        };
+        let rules = self.rules.list(observed);
+        let demands = self.demand.alone();
         shapes().into_iter().flat_map(move |links| {
             let rules = rules.clone();
-            rules.into_iter().map(move |rule| Case { links, rule, demand: self.demand })
+            rules.into_iter().map(move |rule| Case { links, rule, demands })
         })
     }
-}
 
-impl Networks {
     /// Goes through all states, until the first violation. A case is a state.
     fn explore(self, observed: &Observed) -> Tally {
         let mut tally = Tally::default();
@@ -169,14 +191,51 @@ impl Networks {
             for situation in found.covered {
                 cover(&mut tally.covered, situation);
             }
-            if let Some(Run { steps, demand, .. }) = found.broken.into_iter().next() {
-                tally.violation = Some(([&[place], &steps[..]].concat(), demand));
+            if let Some(Run { steps, demand: (_, words), .. }) = found.broken.into_iter().next() {
+                tally.violation = Some(([&[place], &steps[..]].concat(), words));
                 break;
             }
         }
         tally
     }
 
+    /// What was shown of the rules of this check, if its demand is kept under them.
+    fn kept(self, observed: &Observed, shown: &[Shown]) -> Option<Tally> {
+        let rules = self.rules.list(observed);
+        let mut tally = Tally::default();
+        for Shown { tally: one, broken, .. } in shown.iter().filter(|shown| rules.contains(&shown.rule)) {
+            if broken.iter().any(|broken| broken.is_of_ends() == self.demand.is_of_ends()) {
+                return None;
+            }
+            tally.cases += one.cases;
+            one.covered.iter().for_each(|situation| cover(&mut tally.covered, situation));
+        }
+        Some(tally)
+    }
+}
+
+/// Goes through all states of every small network under every rule that some check is about, once for all demands.
+fn show(observed: &Observed) -> Vec<Shown> {
+    let mut rules = Rules::EveryK.list(observed);
+    rules.push(observed.rule(Scheme::Flooding));
+    let shapes = shapes();
+    let show = |rule: Rule| {
+        let look = |&links: &Links<SMALL>| {
+            search(&Case { links, rule, demands: &Demand::ALL }, [Spread::start(&links)], Limits::NONE)
+        };
+        let found: Vec<_> = shapes.par_iter().map(look).collect();
+        let mut shown = Shown { rule, tally: Tally::default(), broken: Vec::new() };
+        for found in found {
+            shown.tally.cases += found.looked_at;
+            found.covered.iter().for_each(|situation| cover(&mut shown.tally.covered, situation));
+            shown.broken.extend(found.broken.iter().map(|run| run.demand.0));
+        }
+        shown
+    };
+    rules.into_par_iter().map(show).collect()
+}
+
+impl Networks {
     /// What happens when these choices are made, in lines.
     fn story(self, observed: &Observed, choices: &[u32]) -> String {
         let (&place, choices) = choices.split_first().unwrap_or((&0, &[]));
@@ -229,8 +288,22 @@ impl Method<Observed> for Networks {
         format!("all networks of up to {SMALL} nodes, {rules}, every order")
     }
 
-    fn decide(&self, observed: &Observed, _: Until, _: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
-        let mut answer = Answer::of_tally(self.explore(observed), &EVENTS, self.shows());
+    fn family(&self, observed: &Observed) -> Option<String> {
+        Some(format!("networks {observed:?}"))
+    }
+
+    /// What several clauses demand of the same networks is looked at in one pass. What is broken there each looks for.
+    fn decide(&self, observed: &Observed, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+        let kept = match until {
+            Until::Violation => None,
+            Until::Exhausted => {
+                let shown: Result<&Vec<Shown>, Refused> =
+                    desk.memory.recall(*observed, |observed| Ok(show(observed)));
+                self.kept(observed, shown?)
+            }
+        };
+        let tally = kept.unwrap_or_else(|| self.explore(observed));
+        let mut answer = Answer::of_tally(tally, &EVENTS, self.shows());
         if let Some(evidence) = &mut answer.counterexample {
             evidence.seen = Seen::Story(self.story(observed, &evidence.choices.once));
         }
@@ -243,7 +316,7 @@ impl Method<Observed> for Networks {
         let case = &cases[script.choose(cases.len())?];
         let (of, run) = script.play(case, (0, Spread::start(&case.links)), |_| true)?;
         let seen = Seen::Story(self.story(observed, &choices.once));
-        Ok(Played { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })
+        Ok(Played { of, evidence: Evidence { choices: choices.clone(), demand: run.demand.1, seen } })
     }
 }
 
@@ -306,7 +379,7 @@ mod tests {
         fn properties(&self) -> Vec<Property<Self>> {
             let keeps = |case: &Self, spread: &Spread<SMALL>| {
                 let is_end = spread.events().is_empty();
-                case.broken(spread, if is_end { Point::End } else { Point::OnTheWay }).is_none()
+                case.broken(spread, if is_end { Point::End } else { Point::OnTheWay }).next().is_none()
             };
             vec![Property::always("keeps", keeps)]
         }
@@ -324,14 +397,14 @@ mod tests {
             }
             let rule = observed.farthest(k);
             let broken = demands.into_iter().filter(|&demand| {
-                let case = Case { links, rule, demand };
+                let case = Case { links, rule, demands: demand.alone() };
                 let found = search(&case, [Spread::start(&links)], Limits::NONE);
                 let theirs = case.checker().threads(1).spawn_bfs().join();
                 assert_eq!(theirs.discovery("keeps").is_some(), !found.broken.is_empty(), "{demand:?}");
                 !found.broken.is_empty()
             });
             let broken: Vec<Demand> = broken.collect();
-            let case = Case { links, rule, demand: Demand::Once };
+            let case = Case { links, rule, demands: Demand::Once.alone() };
             let ours = search(&case, [Spread::start(&links)], Limits::NONE).states;
             let theirs = case.checker().threads(1).spawn_bfs().join().unique_state_count();
             (ours, theirs, broken)

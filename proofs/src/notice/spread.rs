@@ -235,6 +235,29 @@ pub(super) enum Demand {
 }
 
 impl Demand {
+    /// Every demand.
+    pub(super) const ALL: [Self; 5] =
+        [Self::Tree, Self::Once, Self::Floods, Self::Reaches, Self::NearestParent];
+
+    /// This one, as a list.
+    pub(super) const fn alone(self) -> &'static [Self] {
+        match self {
+            Self::Tree => &[Self::Tree],
+            Self::Once => &[Self::Once],
+            Self::Floods => &[Self::Floods],
+            Self::Reaches => &[Self::Reaches],
+            Self::NearestParent => &[Self::NearestParent],
+        }
+    }
+
+    /// Whether only the end of a run can break it.
+    pub(super) const fn is_of_ends(self) -> bool {
+        match self {
+            Self::Floods | Self::Reaches => true,
+            Self::Tree | Self::Once | Self::NearestParent => false,
+        }
+    }
+
     pub(super) fn check<const NODES: usize>(
         self,
         links: &Links<NODES>,

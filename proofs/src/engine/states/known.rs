@@ -86,14 +86,14 @@ pub(super) struct Known<P> {
     places: usize,
     codes: Pile<u8>,
     nodes: HashTable<u32>,
-    /// The parts of a state whose steps are made, which are most of those of the states after them, and their numbers.
-    before: Vec<(P, u32)>,
+    /// The numbers of the parts of the state whose steps are made: most are those of the states after them.
+    before: Vec<u32>,
     /// The numbers of the parts of a state in the making, and as bytes.
     numbers: Vec<u32>,
     code: Vec<u8>,
 }
 
-impl<P: Clone + Eq + Hash> Known<P> {
+impl<P: Eq + Hash> Known<P> {
     pub(super) const fn new() -> Self {
         Self {
             parts: Parts { places: HashTable::new(), parts: Vec::new() },
@@ -124,10 +124,7 @@ impl<P: Clone + Eq + Hash> Known<P> {
     pub(super) fn go_on_from(&mut self, node: usize) {
         let mut before = std::mem::take(&mut self.before);
         before.clear();
-        before.extend((0..self.places).map(|place| {
-            let number = self.number(node, place);
-            (self.parts.parts[number as usize].clone(), number)
-        }));
+        before.extend((0..self.places).map(|place| self.number(node, place)));
         self.before = before;
     }
 
@@ -157,7 +154,7 @@ impl<P: Clone + Eq + Hash> Known<P> {
         numbers.clear();
         for (place, part) in parts.into_iter().enumerate() {
             let number = match before.get(place) {
-                Some(&(ref same, number)) if *same == part => number,
+                Some(&number) if known.parts[number as usize] == part => number,
                 Some(_) | None => known.number(part),
             };
             numbers.push(number);
@@ -211,4 +208,39 @@ impl<P: Clone + Eq + Hash> Known<P> {
 
 fn hash(code: &[u8]) -> u64 {
     FxBuildHasher.hash_one(code)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// More parts than one and two bytes can number; each state shares one part with the one before.
+    #[test]
+    fn states_stay_apart_and_come_back_when_their_numbers_grow() {
+        const STATES: u32 = 70_000;
+        let mut known = Known::new();
+        let parts = |state: u32| [state, state + 1, 7];
+        for state in 0..STATES {
+            assert_eq!(known.meet(parts(state)), (state, true));
+            known.go_on_from(state as usize);
+        }
+        assert_eq!(known.width, 3);
+        for state in (0..STATES).step_by(97) {
+            assert_eq!(known.meet(parts(state)), (state, false));
+            let shown: Vec<(usize, &u32)> = known.parts(state as usize, None).collect();
+            assert_eq!(shown, [(0, &state), (1, &(state + 1)), (2, &7)]);
+        }
+        assert_eq!(known.find([1, 1, 7]), None);
+        let shared: Vec<(usize, &u32)> = known.parts(5, Some(0)).collect();
+        assert_eq!(shared, [(0, &5), (1, &6)]);
+    }
+
+    #[test]
+    fn bytes_are_those_of_full_pieces_and_of_the_last_one() {
+        let mut pile = Pile::new(2);
+        (0..PIECE as u32 + 1).for_each(|entry| pile.push([entry, !entry]));
+        assert_eq!((pile.len(), pile.entry(PIECE)), (PIECE + 1, &[PIECE as u32, !(PIECE as u32)][..]));
+        let full = (PIECE * 2 * size_of::<u32>()) as u64;
+        assert!((full + 8..full + 64).contains(&pile.bytes()), "{}", pile.bytes());
+    }
 }

@@ -2,6 +2,7 @@
 //! ones take it as they come, and of those that grow only one at a time is large. What one search may take does not
 //! depend on how many there are, so neither does what it finds.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// How far a search may go.
@@ -24,7 +25,8 @@ impl Limits<'static> {
 }
 
 /// Room for whatever there is.
-static ANY: Room = Room { most: u64::MAX, small: u64::MAX, large: Mutex::new(()) };
+static ANY: Room =
+    Room { most: u64::MAX, small: u64::MAX, large: Mutex::new(()), was_too_small: AtomicBool::new(false) };
 
 /// The memory that searches beside each other may take together.
 #[derive(Debug)]
@@ -35,6 +37,8 @@ pub struct Room {
     small: u64,
     /// Held by the one search that is large.
     large: Mutex<()>,
+    /// Whether it did not suffice.
+    was_too_small: AtomicBool,
 }
 
 impl Room {
@@ -47,7 +51,13 @@ impl Room {
     /// shares for all.
     pub const fn of(bytes: u64, beside: u64) -> Self {
         let most = bytes - bytes / 4;
-        Self { most, small: bytes / 4 / if beside == 0 { 1 } else { beside }, large: Mutex::new(()) }
+        let small = bytes / 4 / if beside == 0 { 1 } else { beside };
+        Self { most, small, large: Mutex::new(()), was_too_small: AtomicBool::new(false) }
+    }
+
+    /// Whether a search was cut off for want of it.
+    pub fn was_too_small(&self) -> bool {
+        self.was_too_small.load(Ordering::Relaxed)
     }
 
     /// The most bytes of one search.
@@ -84,6 +94,52 @@ impl<'a> Taken<'a> {
         if bytes > self.room.small && self.large.is_none() {
             self.large = Some(self.room.large.lock().unwrap_or_else(PoisonError::into_inner));
         }
-        bytes <= self.room.most
+        let fits = bytes <= self.room.most;
+        if !fits {
+            self.room.was_too_small.store(true, Ordering::Relaxed);
+        }
+        fits
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::channel;
+    use std::thread;
+    use std::time::Duration;
+
+    use super::*;
+
+    #[test]
+    fn one_search_gets_three_quarters_whatever_is_beside_it() {
+        for beside in [0, 1, 64] {
+            let room = Room::of(1024, beside);
+            let mut taken = Taken::new(&room);
+            assert!(taken.hold(768) && !room.was_too_small());
+            assert!(!taken.hold(769) && room.was_too_small());
+            assert_eq!((taken.held, taken.most, room.most()), (769, 769, 768));
+        }
+        assert!(Taken::new(Room::any()).hold(u64::MAX));
+    }
+
+    #[test]
+    fn a_second_large_search_waits_for_the_first() {
+        let room = Room::of(1024, 2);
+        let (told, heard) = channel();
+        thread::scope(|scope| {
+            let mut first = Taken::new(&room);
+            assert!(first.hold(200));
+            scope.spawn(|| {
+                let mut second = Taken::new(&room);
+                assert!(second.hold(100), "a small one does not wait");
+                told.send("small").expect("somebody hears");
+                assert!(second.hold(300));
+                told.send("large").expect("somebody hears");
+            });
+            assert_eq!(heard.recv(), Ok("small"));
+            assert!(heard.recv_timeout(Duration::from_millis(50)).is_err(), "the first one is large");
+            drop(first);
+            assert_eq!(heard.recv(), Ok("large"));
+        });
     }
 }

@@ -188,9 +188,10 @@ impl<'a, S: System> Search<'a, S> {
         let mut steps = Vec::new();
         for pair in way.windows(2) {
             let Some(state) = self.state(pair[0]) else { break };
-            let number = self.system.steps(&state).position(|step| {
-                self.known.find(self.system.parts(&step.state)) == Some(pair[1] as u32)
-            });
+            let number = self
+                .system
+                .steps(&state)
+                .position(|step| self.known.find(self.system.parts(&step.state)) == Some(pair[1] as u32));
             steps.extend(number.map(|number| number as u32));
             self.shown = Some((state, Some(pair[0])));
         }
@@ -203,7 +204,8 @@ impl<'a, S: System> Search<'a, S> {
         for &bound in round {
             let (Some(state), Some(arc)) = (self.state(node), self.graph.arc(node, bound)) else { break };
             let steps = (0..).zip(self.system.steps(&state));
-            let number = steps.filter(|(_, step)| step.is_bound).nth(bound as usize).map(|(number, _)| number);
+            let number =
+                steps.filter(|(_, step)| step.is_bound).nth(bound as usize).map(|(number, _)| number);
             numbers.extend(number);
             self.shown = Some((state, Some(node)));
             node = arc.to as usize;
@@ -236,7 +238,7 @@ impl<'a, S: System> Search<'a, S> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Bits;
+    use super::super::{Bits, Room};
     use super::*;
 
     /// An arc of a graph that one can look at: where it leads, and who acts.
@@ -385,5 +387,29 @@ mod tests {
         assert_eq!(round(3, FAR), Some(Ending::Round(vec![0, 1, 0, 2])));
         assert_eq!(round(7, FAR), Some(Ending::Round(vec![0, 1, 0, 1, 1, 0, 2])));
         assert_eq!(round(15, FAR), None);
+    }
+
+    #[test]
+    fn a_search_that_would_take_too_much_memory_is_not_whole() {
+        let all = found(&GRAPH);
+        let in_room = |bytes| search(&GRAPH, [0], Limits { room: &Room::of(bytes, 1), ..Limits::NONE });
+        assert_eq!(in_room(2 * all.bytes), all);
+        let cut_off = in_room(8);
+        assert_eq!((cut_off.is_whole, cut_off.looked_at, cut_off.broken), (false, 0, vec![]));
+        // The states have room, and the search for rounds has not.
+        let owing = Graphic { owing: &[3, 4], ..GRAPH };
+        let all = found(&owing);
+        assert!(all.is_whole && all.broken.len() == 1);
+        let cut_off =
+            search(&owing, [0], Limits { room: &Room::of(all.bytes * 4 / 3 - 4, 1), ..Limits::NONE });
+        assert_eq!((cut_off.is_whole, cut_off.looked_at, cut_off.broken), (false, 7, vec![]));
+    }
+
+    /// From 0 a fault and then a step to 1 and back.
+    #[test]
+    fn the_steps_of_a_round_are_numbered_among_all_steps() {
+        const FAULTY: &[&[Drawn]] = &[&[(2, 0), (1, 1)], &[(2, 0), (2, 0), (0, 1)], &[]];
+        let round = broken(&Graphic { arcs: FAULTY, owing: &[0, 1], ..GRAPH });
+        assert_eq!(round.map(|run| run.ending), Some(Ending::Round(vec![1, 2])));
     }
 }

@@ -30,34 +30,76 @@ pub(in crate::mrc) struct Rest {
     notes: Notes,
 }
 
-/// The parts of a state: its robots, its WFRs, its network and the rest.
-const PARTS: usize = ROBOTS + WFRS + 2;
-
 impl State {
     /// The parts of this state, epochs by their places among those of the same WFR: equal for states that differ in no
     /// other way. So is what comes of these states.
-    pub(in crate::mrc) fn parts(&self) -> [Part; PARTS] {
-        let epochs = self.epochs();
+    pub(in crate::mrc) fn parts(&self) -> impl Iterator<Item = Part> + use<> {
+        let state = if self.is_renamed() { self.clone() } else { self.renamed() };
+        let Self { hops, robots, wfrs, failed, cut, network, left, events_left, notes } = state;
+        let wfrs = wfrs.map(|wfr| wfr.renamed(|call| call));
+        let rest = Rest { hops, failed, cut, left, events_left, notes };
+        let machines = robots.into_iter().map(Part::Robot).chain(wfrs.into_iter().map(Part::Wfr));
+        machines.chain([Part::Network(network), Part::Rest(rest)])
+    }
+
+    /// Whether the epochs of each WFR are 1, 2, … without a gap, and leases that were taken are those of present calls.
+    fn is_renamed(&self) -> bool {
+        let mut epochs = [0_u64; WFRS];
+        let mut is_small = true;
+        self.for_each_epoch(|wfr, Epoch(epoch)| {
+            is_small &= epoch < u64::BITS;
+            epochs[wfr] |= 1_u64.unbounded_shl(epoch);
+        });
+        let is_current =
+            |wfr: usize, epoch: Option<Epoch>| epoch.is_none_or(|it| it == self.wfrs[wfr].call().epoch);
+        let mut taken = self.notes.taken.iter().flat_map(|taken| taken.iter().copied().enumerate());
+        // 1, 2, … k set bits 1 to k.
+        is_small
+            && epochs.iter().all(|&set| set & 1 == 0 && (set | 1) & (set | 1).wrapping_add(1) == 0)
+            && taken.all(|(wfr, epoch)| is_current(wfr, epoch))
+    }
+
+    /// The state with its epochs by their places among those of the same WFR, from 1 on.
+    fn renamed(&self) -> Self {
+        let mut epochs = Vec::with_capacity(48);
+        self.for_each_epoch(|wfr, epoch| epochs.push((wfr, epoch)));
+        epochs.sort_unstable();
+        epochs.dedup();
         let rename = |call: Call| {
-            let is_not_later = |&&(wfr, epoch): &&(usize, Epoch)| wfr == place(call.wfr) && epoch <= call.epoch;
+            let is_not_later =
+                |&&(wfr, epoch): &&(usize, Epoch)| wfr == place(call.wfr) && epoch <= call.epoch;
             Call { epoch: Epoch(epochs.iter().filter(is_not_later).count() as u32), ..call }
         };
-        let renamed = |wfr: usize, epoch: Epoch| rename(Call { wfr: node(wfr), epoch }).epoch;
-        let mut notes = self.notes;
-        let mut cut = self.cut;
-        for (cut, taken) in cut.iter_mut().zip(&mut notes.taken) {
+        let epoch = |wfr: usize, epoch: Epoch| rename(Call { wfr: node(wfr), epoch }).epoch;
+        let mut state = self.clone();
+        for (cut, taken) in state.cut.iter_mut().zip(&mut state.notes.taken) {
             for wfr in 0..WFRS {
                 let current = self.wfrs[wfr].call().epoch;
-                cut[wfr] = cut[wfr].map(|epoch| renamed(wfr, epoch));
-                taken[wfr] = taken[wfr].filter(|&epoch| epoch == current).map(|epoch| renamed(wfr, epoch));
+                cut[wfr] = cut[wfr].map(|of| epoch(wfr, of));
+                taken[wfr] = taken[wfr].filter(|&of| of == current).map(|of| epoch(wfr, of));
             }
         }
-        let Self { hops, failed, left, events_left, .. } = *self;
-        let rest = Rest { hops, failed, cut, left, events_left, notes };
-        let network = self.network.iter().map(|message| message.renamed(rename)).collect();
-        let [first, second, third] = self.robots.map(|robot| Part::Robot(robot.renamed(rename)));
-        let [fourth, fifth, sixth] = self.wfrs.map(|wfr| Part::Wfr(wfr.renamed(rename)));
-        [first, second, third, fourth, fifth, sixth, Part::Network(network), Part::Rest(rest)]
+        state.robots = state.robots.map(|robot| robot.renamed(rename));
+        state.wfrs = state.wfrs.map(|wfr| wfr.renamed(rename));
+        state.network.iter_mut().for_each(|message| *message = message.renamed(rename));
+        state
+    }
+
+    /// Every epoch that is told apart from others of its WFR.
+    fn for_each_epoch(&self, mut hear: impl FnMut(usize, Epoch)) {
+        let mut of = |call: Call| hear(place(call.wfr), call.epoch);
+        for robot in &self.robots {
+            robot.requests().for_each(|request| of(request.call));
+            match robot.task() {
+                Task::Free => {}
+                Task::Asking { call, .. } | Task::Leased { call } => of(call),
+            }
+        }
+        self.wfrs.iter().for_each(|wfr| of(wfr.call()));
+        self.network.iter().for_each(|message| of(message.call()));
+        for (wfr, epoch) in self.cut.iter().flat_map(|cut| cut.iter().enumerate()) {
+            epoch.iter().for_each(|&epoch| hear(wfr, epoch));
+        }
     }
 
     /// Makes `part` the one in this place.
@@ -72,32 +114,11 @@ impl State {
             }
         }
     }
-
-    /// The epochs that are told apart, each with its WFR.
-    fn epochs(&self) -> Vec<(usize, Epoch)> {
-        let of = |call: Call| (place(call.wfr), call.epoch);
-        let mut epochs = Vec::with_capacity(48);
-        for robot in &self.robots {
-            epochs.extend(robot.requests().map(|request| of(request.call)));
-            match robot.task() {
-                Task::Free => {}
-                Task::Asking { call, .. } | Task::Leased { call } => epochs.push(of(call)),
-            }
-        }
-        epochs.extend(self.wfrs.iter().map(|wfr| of(wfr.call())));
-        epochs.extend(self.network.iter().map(|message| of(message.call())));
-        for cut in &self.cut {
-            epochs.extend(cut.iter().enumerate().filter_map(|(wfr, epoch)| Some((wfr, (*epoch)?))));
-        }
-        epochs.sort_unstable();
-        epochs.dedup();
-        epochs
-    }
 }
 
 impl PartialEq for State {
     fn eq(&self, other: &Self) -> bool {
-        self.parts() == other.parts()
+        self.parts().eq(other.parts())
     }
 }
 
@@ -105,6 +126,6 @@ impl Eq for State {}
 
 impl Hash for State {
     fn hash<H: Hasher>(&self, hasher: &mut H) {
-        self.parts().hash(hasher);
+        self.parts().for_each(|part| part.hash(hasher));
     }
 }
