@@ -3,6 +3,7 @@
 
 use insta::assert_snapshot;
 use tautline_kernel::mrc::{Condition, Rule};
+use tautline_proofs::engine::states::Limits;
 use tautline_proofs::mrc::chart::chart;
 use tautline_proofs::mrc::space::{Until, search};
 use tautline_proofs::mrc::{Demand, Faults, Leases, Lossy, Setting};
@@ -23,7 +24,7 @@ const LEAST: Setting = Setting {
 
 /// The chart of the shortest run that breaks `demand`, which no run of the repaired rule does.
 fn flaw(setting: Setting, demand: Demand) -> String {
-    let enough = 10_000_000;
+    let enough = Limits::NONE;
     let repaired = search(&Setting { rule: Rule::REPAIRED, ..setting }, Until::Exhausted, enough);
     assert!(repaired.complete);
     assert_eq!(repaired.broken, []);

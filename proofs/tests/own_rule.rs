@@ -4,6 +4,7 @@
 use tautline_kernel::ground::{Cell, Side, Step};
 use tautline_proofs::decide::{Answer, Desk, Memory, Method, Refused, Verdict};
 use tautline_proofs::engine::Until;
+use tautline_proofs::engine::states::Room;
 use tautline_proofs::engine::tree::{Waves, unwatched};
 use tautline_proofs::team::{Demand, Keeps, Layouts, Promise, Team};
 
@@ -62,7 +63,8 @@ static UNCOVERED: Layouts<Rule, Robot, 1> = Layouts {
 type Asked = (&'static Layouts<Rule, Robot, 1>, usize);
 
 fn decided(rule: Rule, (layouts, demand): Asked) -> Result<Answer, Refused> {
-    let mut desk = Desk { memory: &mut Memory::default(), watch: &mut unwatched };
+    let memory = &mut Memory::default();
+    let mut desk = Desk { memory, watch: &mut unwatched, room: Room::any() };
     Keeps(layouts, demand).decide(&rule, Until::Exhausted, &mut desk)
 }
 

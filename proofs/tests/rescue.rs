@@ -2,11 +2,14 @@
 //! stateright, which keeps fingerprints and knows no cycles. Both must find the same states, and break a demand in as
 //! few steps. Then longer runs with more faults than can be searched, at random.
 
+#[path = "common/rescue.rs"]
+mod model;
+
 use std::collections::hash_map::{DefaultHasher, Entry};
 use std::collections::{HashMap, HashSet, VecDeque};
 use std::hash::{Hash, Hasher};
 
-use stateright::{Checker, Model, Property};
+use stateright::{Checker, Model};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::mrc::{Condition, Rule, Task};
 use tautline_proofs::engine::states::Limits;
@@ -14,31 +17,7 @@ use tautline_proofs::engine::{Outcome, require, sample};
 use tautline_proofs::mrc::space::{Found, Until, search};
 use tautline_proofs::mrc::{Action, Actor, Demand, Faults, Leases, Lossy, Setting, State};
 
-/// A setting, and the demands that no state may break.
-struct Rescue(Setting, Vec<Demand>);
-
-impl Model for Rescue {
-    type State = State;
-    type Action = Action;
-
-    fn init_states(&self) -> Vec<State> {
-        self.0.starts()
-    }
-
-    fn actions(&self, state: &State, actions: &mut Vec<Action>) {
-        actions.extend(state.actions(&self.0));
-    }
-
-    fn next_state(&self, state: &State, action: Action) -> Option<State> {
-        Some(state.after(&self.0, action))
-    }
-
-    fn properties(&self) -> Vec<Property<Self>> {
-        let keeps =
-            |Self(_, demands): &Self, state: &State| !demands.iter().any(|&demand| state.breaks(demand));
-        vec![Property::always("keeps", keeps)]
-    }
-}
+use self::model::Rescue;
 
 const fn setting((robots, wfrs): (usize, usize), events: u8, max_hops: u16, faults: Faults) -> Setting {
     Setting {

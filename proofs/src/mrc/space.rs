@@ -47,6 +47,8 @@ pub struct Found {
     pub states: u64,
     /// Steps from state to state.
     pub steps: u64,
+    /// The most bytes that the search took at a time.
+    pub bytes: u64,
     /// Whether the search came to its end, and not to one of its limits.
     pub complete: bool,
     /// The demands that are broken, each by its shortest run.
@@ -66,7 +68,7 @@ pub fn search(setting: &Setting, until: Until, limits: Limits<'_>) -> Found {
     let found = states::search(&space, setting.starts(), limits);
     let mut broken: Vec<Broken> = found.broken.into_iter().map(|run| space.broken(run)).collect();
     broken.sort_by_key(|broken| broken.demand);
-    Found { states: found.states, steps: found.steps, complete: found.is_whole, broken }
+    Found { states: found.states, steps: found.steps, bytes: found.bytes, complete: found.is_whole, broken }
 }
 
 /// Plays a run that breaks `demand` again: from how many each choice was made, and the run.

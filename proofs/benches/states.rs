@@ -1,0 +1,181 @@
+//! What a state of the search over all states costs, in time and memory: against stateright in the same run, for MRC and
+//! for ants on an open floor. The same ants stand in `ants.pml` for SPIN, which is started by hand: see
+//! `docs/performance.md`. All must find the same states.
+
+#[path = "../tests/common/rescue.rs"]
+mod model;
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use stateright::{Checker, Model, Property};
+use tautline_kernel::mrc::Rule;
+use tautline_proofs::engine::states::{Found, Limits, Step, System, search};
+use tautline_proofs::mrc::space::{self, Until};
+use tautline_proofs::mrc::{Demand, Faults, Leases, Lossy, Setting};
+
+use self::model::Rescue;
+
+const WIDTH: usize = 5;
+const CELLS: usize = 20;
+const ANTS: usize = 3;
+
+/// Ants on an open floor: how often each cell was entered, and where the ants are.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+struct Floor {
+    crossings: [u8; CELLS],
+    at: [usize; ANTS],
+}
+
+/// Whoever is next goes to the neighbour that was entered least often, ties in the order of the compass, until every cell
+/// was entered.
+struct Ants;
+
+impl Floor {
+    const START: Self = {
+        let mut crossings = [0; CELLS];
+        crossings[0] = ANTS as u8;
+        Self { crossings, at: [0; ANTS] }
+    };
+
+    fn is_over(&self) -> bool {
+        !self.crossings.contains(&0)
+    }
+
+    fn after(mut self, ant: usize) -> Self {
+        let here = self.at[ant];
+        let (column, row) = (here % WIDTH, here / WIDTH);
+        let around = [
+            (row > 0).then(|| here - WIDTH),
+            (column + 1 < WIDTH).then_some(here + 1),
+            (here + WIDTH < CELLS).then_some(here + WIDTH),
+            (column > 0).then(|| here - 1),
+        ];
+        let best = around.into_iter().flatten().min_by_key(|&cell| self.crossings[cell]).unwrap_or(here);
+        self.crossings[best] += 1;
+        self.at[ant] = best;
+        self
+    }
+}
+
+/// Cells of a part: a row.
+type Row = [u8; WIDTH];
+
+#[derive(Clone, PartialEq, Eq, Hash)]
+enum Part {
+    Row(Row),
+    Ants([usize; ANTS]),
+}
+
+impl System for Ants {
+    type State = Floor;
+    type Part = Part;
+    type Demand = ();
+
+    fn parts(&self, floor: &Floor) -> impl IntoIterator<Item = Part> {
+        let rows = floor.crossings.as_chunks::<WIDTH>().0.to_owned();
+        rows.into_iter().map(Part::Row).chain([Part::Ants(floor.at)])
+    }
+
+    fn put(&self, floor: &mut Floor, place: usize, part: &Part) {
+        match part {
+            Part::Row(row) => floor.crossings[WIDTH * place..WIDTH * (place + 1)].copy_from_slice(row),
+            Part::Ants(at) => floor.at = *at,
+        }
+    }
+
+    fn steps(&self, floor: &Floor) -> impl Iterator<Item = Step<Floor, ()>> {
+        let step = |ant| Step {
+            state: floor.after(ant),
+            situation: "a step",
+            acting: 1 << ant,
+            is_bound: true,
+            breaks: Vec::new(),
+        };
+        let ants = if floor.is_over() { 0..0 } else { 0..ANTS };
+        ants.map(step)
+    }
+}
+
+impl Model for Ants {
+    type State = Floor;
+    type Action = usize;
+
+    fn init_states(&self) -> Vec<Floor> {
+        vec![Floor::START]
+    }
+
+    fn actions(&self, floor: &Floor, actions: &mut Vec<usize>) {
+        actions.extend(if floor.is_over() { 0..0 } else { 0..ANTS });
+    }
+
+    fn next_state(&self, floor: &Floor, ant: usize) -> Option<Floor> {
+        Some(floor.after(ant))
+    }
+
+    fn properties(&self) -> Vec<Property<Self>> {
+        vec![Property::always("nothing", |_, _| true)]
+    }
+}
+
+/// The largest of the settings that the tests count with stateright.
+const SETTING: Setting = Setting {
+    rule: Rule::REPAIRED,
+    robots: 2,
+    wfrs: 2,
+    events: 2,
+    max_hops: 2,
+    faults: Faults::any(1),
+    lossy: Lossy::All,
+    leases: Leases::UntilCalled,
+};
+
+/// What `run` counts, and the seconds of the faster of two runs.
+fn timed(run: impl Fn() -> u64) -> (u64, f64) {
+    let seconds = || {
+        let start = Instant::now();
+        let states = black_box(run());
+        (states, start.elapsed().as_secs_f64())
+    };
+    let (one, other) = (seconds(), seconds());
+    if one.1 < other.1 { one } else { other }
+}
+
+fn main() {
+    // A bench is also built and run as a test, which asks for nothing.
+    if !std::env::args().any(|argument| argument == "--bench") {
+        return;
+    }
+    let ants = || search(&Ants, [Floor::START], Limits::NONE);
+    let rescue = || space::search(&SETTING, Until::Exhausted, Limits::NONE);
+    let model = || Rescue(SETTING, Demand::ALL.to_vec());
+    let rows: [(&str, (u64, f64), (u64, f64), u64); 2] = [
+        (
+            "ants",
+            timed(|| ants().states),
+            timed(|| Ants.checker().threads(1).spawn_bfs().join().unique_state_count() as u64),
+            ants().bytes,
+        ),
+        (
+            "mrc",
+            timed(|| rescue().states),
+            timed(|| model().checker().threads(1).spawn_bfs().join().unique_state_count() as u64),
+            rescue().bytes,
+        ),
+    ];
+    println!(
+        "Million states a second of one thread, and bytes a state; MRC with its search for endless runs"
+    );
+    println!("            states   ours  stateright  ratio  bytes");
+    for (name, ours, theirs, bytes) in rows {
+        assert_eq!(ours.0, theirs.0, "both find the same states");
+        let rate = |(states, seconds): (u64, f64)| 1e-6 * states as f64 / seconds;
+        let (mine, other) = (rate(ours), rate(theirs));
+        let each = bytes / ours.0;
+        println!("  {name:6} {:>9} {mine:>6.2} {other:>11.2} {:>6.1} {each:>6}", ours.0, mine / other);
+    }
+    let Found { states, steps, .. } = ants();
+    println!(
+        "\nSPIN counts one state and one transition more for the start of ants.pml: {states} states, {steps} steps"
+    );
+}
