@@ -72,9 +72,12 @@ impl System for Ants {
     type Part = Part;
     type Demand = ();
 
-    fn parts(&self, floor: &Floor) -> impl IntoIterator<Item = Part> {
-        let rows = floor.crossings.as_chunks::<WIDTH>().0.to_owned();
-        rows.into_iter().map(Part::Row).chain([Part::Ants(floor.at)])
+    fn places(&self, _: &Floor) -> usize {
+        CELLS / WIDTH + 1
+    }
+
+    fn part(&self, floor: &Floor, place: usize) -> Part {
+        floor.crossings.as_chunks().0.get(place).map_or(Part::Ants(floor.at), |&row| Part::Row(row))
     }
 
     fn put(&self, floor: &mut Floor, place: usize, part: &Part) {

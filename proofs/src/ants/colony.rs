@@ -76,8 +76,16 @@ impl System for Colony {
     type Part = Part<Cell>;
     type Demand = &'static str;
 
-    fn parts(&self, state: &State) -> impl IntoIterator<Item = Part<Cell>> {
-        state.parts()
+    fn places(&self, state: &State) -> usize {
+        state.places()
+    }
+
+    fn part(&self, state: &State, place: usize) -> Part<Cell> {
+        state.part(place)
+    }
+
+    fn is_part(&self, state: &State, place: usize, part: &Part<Cell>) -> bool {
+        state.is_part(place, part)
     }
 
     fn put(&self, state: &mut State, place: usize, part: &Part<Cell>) {

@@ -255,8 +255,16 @@ impl System for Team {
     type Part = Part<Body>;
     type Demand = &'static str;
 
-    fn parts(&self, state: &State) -> impl IntoIterator<Item = Part<Body>> {
-        state.parts()
+    fn places(&self, state: &State) -> usize {
+        state.places()
+    }
+
+    fn part(&self, state: &State, place: usize) -> Part<Body> {
+        state.part(place)
+    }
+
+    fn is_part(&self, state: &State, place: usize, part: &Part<Body>) -> bool {
+        state.is_part(place, part)
     }
 
     fn put(&self, state: &mut State, place: usize, part: &Part<Body>) {

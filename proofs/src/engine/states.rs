@@ -32,11 +32,26 @@ pub trait System {
     /// What can be broken.
     type Demand: Copy + Eq;
 
-    /// The parts of `state`: the same number for every state, and equal ones for states that are to be taken for one.
-    fn parts(&self, state: &Self::State) -> impl IntoIterator<Item = Self::Part>;
+    /// The state that stands for all those that are to be taken for one with `state`, which itself is the only one unless
+    /// there is more to tell.
+    fn canonical(&self, state: Self::State) -> Self::State {
+        state
+    }
 
-    /// Makes `part` the part of `state` in this place among its [`parts`](Self::parts), which is another state's until all
-    /// its parts are put.
+    /// How many parts `state` has: as many as every other state.
+    fn places(&self, _: &Self::State) -> usize {
+        1
+    }
+
+    /// The part of `state` in this place.
+    fn part(&self, state: &Self::State, place: usize) -> Self::Part;
+
+    /// Whether `part` is the part of `state` in this place.
+    fn is_part(&self, state: &Self::State, place: usize, part: &Self::Part) -> bool {
+        self.part(state, place) == *part
+    }
+
+    /// Makes `part` the part of `state` in this place. Until all its parts are put, others may be another state's.
     fn put(&self, state: &mut Self::State, place: usize, part: &Self::Part);
 
     /// Every step from `state`, always in the same order.

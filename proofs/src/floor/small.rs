@@ -69,6 +69,10 @@ pub(crate) struct State<B> {
 /// The cells of a [`Part`].
 const QUARTER: usize = CELLS / 4;
 
+/// The place of the counts, behind the quarters, and of the first body.
+const COUNTS: usize = CELLS / QUARTER;
+const FIRST_BODY: usize = COUNTS + 1;
+
 /// A part of a [`State`].
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(crate) enum Part<B> {
@@ -80,7 +84,7 @@ pub(crate) enum Part<B> {
     Counts { misses: u8, streak: (u8, u8) },
 }
 
-impl<B: Clone> State<B> {
+impl<B: Clone + PartialEq> State<B> {
     /// The start of these, who are in `cells` of `plan`.
     pub(crate) fn start(plan: &FloorPlan, cells: &[Cell], bodies: Vec<B>) -> Self {
         let (mut sensors, mut placed) = ([Stored::default(); CELLS], [0; CELLS]);
@@ -99,16 +103,34 @@ impl<B: Clone> State<B> {
         self.sensors = self.sensors.map(Stored::without_crossings);
     }
 
-    /// The parts.
-    pub(crate) fn parts(&self) -> impl Iterator<Item = Part<B>> {
-        let quarter = |first: usize| {
-            let cell = |place: usize| first * QUARTER + place;
-            let sensors = array::from_fn(|place| self.sensors[cell(place)]);
-            Part::Floor(sensors, array::from_fn(|place| self.placed[cell(place)]))
-        };
-        let counts = Part::Counts { misses: self.misses, streak: self.streak };
-        let bodies = self.bodies.iter().cloned().map(Part::Body);
-        (0..CELLS / QUARTER).map(quarter).chain([counts]).chain(bodies)
+    /// How many parts it has: the quarters, the counts, the bodies.
+    pub(crate) const fn places(&self) -> usize {
+        FIRST_BODY + self.bodies.len()
+    }
+
+    /// The part in this place.
+    pub(crate) fn part(&self, place: usize) -> Part<B> {
+        if place < COUNTS {
+            let cell = |number: usize| place * QUARTER + number;
+            let sensors = array::from_fn(|number| self.sensors[cell(number)]);
+            Part::Floor(sensors, array::from_fn(|number| self.placed[cell(number)]))
+        } else if place < FIRST_BODY {
+            Part::Counts { misses: self.misses, streak: self.streak }
+        } else {
+            Part::Body(self.bodies[place - FIRST_BODY].clone())
+        }
+    }
+
+    /// Whether `part` is the one in this place.
+    pub(crate) fn is_part(&self, place: usize, part: &Part<B>) -> bool {
+        match part {
+            Part::Floor(sensors, placed) => {
+                let cells = place * QUARTER..(place + 1) * QUARTER;
+                self.sensors[cells.clone()] == *sensors && self.placed[cells] == *placed
+            }
+            Part::Counts { misses, streak } => (self.misses, self.streak) == (*misses, *streak),
+            Part::Body(body) => self.bodies[place - FIRST_BODY] == *body,
+        }
     }
 
     /// Makes `part` the one in this place.
@@ -120,7 +142,7 @@ impl<B: Clone> State<B> {
                 self.placed[cells].copy_from_slice(placed);
             }
             Part::Counts { misses, streak } => (self.misses, self.streak) = (*misses, *streak),
-            Part::Body(body) => self.bodies[place - CELLS / QUARTER - 1] = body.clone(),
+            Part::Body(body) => self.bodies[place - FIRST_BODY] = body.clone(),
         }
     }
 }

@@ -355,8 +355,16 @@ impl<A: Agents> System for Floors<A> {
     type Part = Part<Body<A::Memory>>;
     type Demand = &'static str;
 
-    fn parts(&self, state: &State<A::Memory>) -> impl IntoIterator<Item = Part<Body<A::Memory>>> {
-        state.parts()
+    fn places(&self, state: &State<A::Memory>) -> usize {
+        state.places()
+    }
+
+    fn part(&self, state: &State<A::Memory>, place: usize) -> Part<Body<A::Memory>> {
+        state.part(place)
+    }
+
+    fn is_part(&self, state: &State<A::Memory>, place: usize, part: &Part<Body<A::Memory>>) -> bool {
+        state.is_part(place, part)
     }
 
     fn put(&self, state: &mut State<A::Memory>, place: usize, part: &Part<Body<A::Memory>>) {

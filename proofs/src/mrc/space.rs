@@ -193,8 +193,20 @@ impl System for Space {
     type Part = Part;
     type Demand = Demand;
 
-    fn parts(&self, state: &State) -> impl IntoIterator<Item = Part> {
-        state.parts()
+    fn canonical(&self, state: State) -> State {
+        state.canonical()
+    }
+
+    fn places(&self, _: &State) -> usize {
+        State::PARTS
+    }
+
+    fn part(&self, state: &State, place: usize) -> Part {
+        state.part(place)
+    }
+
+    fn is_part(&self, state: &State, place: usize, part: &Part) -> bool {
+        state.is_part(place, part)
     }
 
     fn put(&self, state: &mut State, place: usize, part: &Part) {

@@ -138,8 +138,8 @@ impl System for Case {
     type Part = Spread<SMALL>;
     type Demand = (Demand, &'static str);
 
-    fn parts(&self, spread: &Spread<SMALL>) -> impl IntoIterator<Item = Spread<SMALL>> {
-        [*spread]
+    fn part(&self, spread: &Spread<SMALL>, _: usize) -> Spread<SMALL> {
+        *spread
     }
 
     fn put(&self, spread: &mut Spread<SMALL>, _: usize, part: &Spread<SMALL>) {

@@ -5,6 +5,8 @@ use std::hash::{BuildHasher, Hash};
 use hashbrown::HashTable;
 use rustc_hash::FxBuildHasher;
 
+use super::System;
+
 /// Things in the order in which they came, in pieces, so that none is ever moved.
 pub(super) struct Pile<T> {
     pieces: Vec<Vec<T>>,
@@ -93,7 +95,7 @@ pub(super) struct Known<P> {
     code: Vec<u8>,
 }
 
-impl<P: Eq + Hash> Known<P> {
+impl<P: Clone + Eq + Hash> Known<P> {
     pub(super) const fn new() -> Self {
         Self {
             parts: Parts { places: HashTable::new(), parts: Vec::new() },
@@ -128,9 +130,9 @@ impl<P: Eq + Hash> Known<P> {
         self.before = before;
     }
 
-    /// The number of the state with these parts, and whether it is new.
-    pub(super) fn meet(&mut self, parts: impl IntoIterator<Item = P>) -> (u32, bool) {
-        self.encode(parts);
+    /// The number of `state`, and whether it is new.
+    pub(super) fn meet<S: System<Part = P>>(&mut self, system: &S, state: &S::State) -> (u32, bool) {
+        self.encode(system, state);
         let hash = hash(&self.code);
         let (codes, code) = (&self.codes, &self.code[..]);
         if let Some(&node) = self.nodes.find(hash, |&node| codes.entry(node as usize) == code) {
@@ -142,20 +144,20 @@ impl<P: Eq + Hash> Known<P> {
         (node, true)
     }
 
-    /// The number of a state that is known to be there.
-    pub(super) fn find(&mut self, parts: impl IntoIterator<Item = P>) -> Option<u32> {
-        self.encode(parts);
+    /// The number of `state`, if it is known.
+    pub(super) fn find<S: System<Part = P>>(&mut self, system: &S, state: &S::State) -> Option<u32> {
+        self.encode(system, state);
         let (codes, code) = (&self.codes, &self.code[..]);
         self.nodes.find(hash(code), |&node| codes.entry(node as usize) == code).copied()
     }
 
-    fn encode(&mut self, parts: impl IntoIterator<Item = P>) {
-        let Self { numbers, before, parts: known, .. } = self;
+    fn encode<S: System<Part = P>>(&mut self, system: &S, state: &S::State) {
+        let Self { numbers, before, parts, .. } = self;
         numbers.clear();
-        for (place, part) in parts.into_iter().enumerate() {
+        for place in 0..system.places(state) {
             let number = match before.get(place) {
-                Some(&number) if known.parts[number as usize] == part => number,
-                Some(_) | None => known.number(part),
+                Some(&number) if system.is_part(state, place, &parts.parts[number as usize]) => number,
+                Some(_) | None => parts.number(system.part(state, place)),
             };
             numbers.push(number);
         }
@@ -212,7 +214,35 @@ fn hash(code: &[u8]) -> u64 {
 
 #[cfg(test)]
 mod tests {
+    use std::iter;
+
+    use super::super::Step;
     use super::*;
+
+    /// States of three parts.
+    struct Triples;
+
+    impl System for Triples {
+        type State = [u32; 3];
+        type Part = u32;
+        type Demand = ();
+
+        fn places(&self, _: &[u32; 3]) -> usize {
+            3
+        }
+
+        fn part(&self, state: &[u32; 3], place: usize) -> u32 {
+            state[place]
+        }
+
+        fn put(&self, state: &mut [u32; 3], place: usize, &part: &u32) {
+            state[place] = part;
+        }
+
+        fn steps(&self, _: &[u32; 3]) -> impl Iterator<Item = Step<[u32; 3], ()>> {
+            iter::empty()
+        }
+    }
 
     /// More parts than one and two bytes can number; each state shares one part with the one before.
     #[test]
@@ -221,16 +251,16 @@ mod tests {
         let mut known = Known::new();
         let parts = |state: u32| [state, state + 1, 7];
         for state in 0..STATES {
-            assert_eq!(known.meet(parts(state)), (state, true));
+            assert_eq!(known.meet(&Triples, &parts(state)), (state, true));
             known.go_on_from(state as usize);
         }
         assert_eq!(known.width, 3);
         for state in (0..STATES).step_by(97) {
-            assert_eq!(known.meet(parts(state)), (state, false));
+            assert_eq!(known.meet(&Triples, &parts(state)), (state, false));
             let shown: Vec<(usize, &u32)> = known.parts(state as usize, None).collect();
             assert_eq!(shown, [(0, &state), (1, &(state + 1)), (2, &7)]);
         }
-        assert_eq!(known.find([1, 1, 7]), None);
+        assert_eq!(known.find(&Triples, &[1, 1, 7]), None);
         let shared: Vec<(usize, &u32)> = known.parts(5, Some(0)).collect();
         assert_eq!(shared, [(0, &5), (1, &6)]);
     }

@@ -90,7 +90,8 @@ impl<'a, S: System> Search<'a, S> {
     }
 
     fn meet_start(&mut self, start: u32, state: S::State) {
-        if self.known.meet(self.system.parts(&state)).1 {
+        let state = self.system.canonical(state);
+        if self.known.meet(self.system, &state).1 {
             self.graph.add_start(start);
         }
         self.shown = Some((state, None));
@@ -137,7 +138,7 @@ impl<'a, S: System> Search<'a, S> {
             self.steps += 1;
             is_last = false;
             cover(&mut self.covered, situation);
-            let (to, is_new) = self.known.meet(system.parts(&state));
+            let (to, is_new) = self.known.meet(system, &system.canonical(state));
             if is_new {
                 self.graph.add(node as u32);
             }
@@ -188,10 +189,9 @@ impl<'a, S: System> Search<'a, S> {
         let mut steps = Vec::new();
         for pair in way.windows(2) {
             let Some(state) = self.state(pair[0]) else { break };
-            let number = self
-                .system
-                .steps(&state)
-                .position(|step| self.known.find(self.system.parts(&step.state)) == Some(pair[1] as u32));
+            let number = self.system.steps(&state).position(|step| {
+                self.known.find(self.system, &self.system.canonical(step.state)) == Some(pair[1] as u32)
+            });
             steps.extend(number.map(|number| number as u32));
             self.shown = Some((state, Some(pair[0])));
         }
@@ -265,8 +265,8 @@ mod tests {
         type Part = usize;
         type Demand = &'static str;
 
-        fn parts(&self, &node: &usize) -> impl IntoIterator<Item = usize> {
-            [node]
+        fn part(&self, &node: &usize, _: usize) -> usize {
+            node
         }
 
         fn put(&self, state: &mut usize, _: usize, &node: &usize) {

@@ -30,16 +30,51 @@ pub(in crate::mrc) struct Rest {
     notes: Notes,
 }
 
+/// The places of the first WFR, behind the robots, of the network and of the rest.
+const FIRST_WFR: usize = ROBOTS;
+const NETWORK: usize = FIRST_WFR + WFRS;
+const REST: usize = NETWORK + 1;
+
 impl State {
-    /// The parts of this state, epochs by their places among those of the same WFR: equal for states that differ in no
+    /// The parts: the robots, the WFRs, the network and the rest.
+    pub(in crate::mrc) const PARTS: usize = REST + 1;
+
+    /// The state with epochs by their places among those of the same WFR: one and the same for states that differ in no
     /// other way. So is what comes of these states.
-    pub(in crate::mrc) fn parts(&self) -> impl Iterator<Item = Part> + use<> {
-        let state = if self.is_renamed() { self.clone() } else { self.renamed() };
-        let Self { hops, robots, wfrs, failed, cut, network, left, events_left, notes } = state;
-        let wfrs = wfrs.map(|wfr| wfr.renamed(|call| call));
-        let rest = Rest { hops, failed, cut, left, events_left, notes };
-        let machines = robots.into_iter().map(Part::Robot).chain(wfrs.into_iter().map(Part::Wfr));
-        machines.chain([Part::Network(network), Part::Rest(rest)])
+    pub(in crate::mrc) fn canonical(mut self) -> Self {
+        if !self.is_renamed() {
+            return self.renamed();
+        }
+        self.wfrs = self.wfrs.map(|wfr| wfr.renamed(|call| call));
+        self
+    }
+
+    /// The part in this place.
+    pub(in crate::mrc) fn part(&self, place: usize) -> Part {
+        if place < FIRST_WFR {
+            Part::Robot(self.robots[place])
+        } else if place < NETWORK {
+            Part::Wfr(self.wfrs[place - FIRST_WFR])
+        } else if place < REST {
+            Part::Network(self.network.clone())
+        } else {
+            Part::Rest(self.rest())
+        }
+    }
+
+    /// Whether `part` is the one in this place.
+    pub(in crate::mrc) fn is_part(&self, place: usize, part: &Part) -> bool {
+        match part {
+            Part::Robot(robot) => self.robots[place] == *robot,
+            Part::Wfr(wfr) => self.wfrs[place - FIRST_WFR] == *wfr,
+            Part::Network(network) => self.network == *network,
+            Part::Rest(rest) => self.rest() == *rest,
+        }
+    }
+
+    const fn rest(&self) -> Rest {
+        let Self { hops, failed, cut, left, events_left, notes, .. } = *self;
+        Rest { hops, failed, cut, left, events_left, notes }
     }
 
     /// Whether the epochs of each WFR are 1, 2, … without a gap, and leases that were taken are those of present calls.
@@ -106,7 +141,7 @@ impl State {
     pub(in crate::mrc) fn put(&mut self, place: usize, part: &Part) {
         match part {
             Part::Robot(robot) => self.robots[place] = *robot,
-            Part::Wfr(wfr) => self.wfrs[place - ROBOTS] = *wfr,
+            Part::Wfr(wfr) => self.wfrs[place - FIRST_WFR] = *wfr,
             Part::Network(network) => self.network.clone_from(network),
             &Part::Rest(Rest { hops, failed, cut, left, events_left, notes }) => {
                 (self.hops, self.failed, self.cut) = (hops, failed, cut);
@@ -118,7 +153,8 @@ impl State {
 
 impl PartialEq for State {
     fn eq(&self, other: &Self) -> bool {
-        self.parts().eq(other.parts())
+        let (one, other) = (self.clone().canonical(), other.clone().canonical());
+        (0..Self::PARTS).all(|place| one.is_part(place, &other.part(place)))
     }
 }
 
@@ -126,6 +162,7 @@ impl Eq for State {}
 
 impl Hash for State {
     fn hash<H: Hasher>(&self, hasher: &mut H) {
-        self.parts().for_each(|part| part.hash(hasher));
+        let state = self.clone().canonical();
+        (0..Self::PARTS).for_each(|place| state.part(place).hash(hasher));
     }
 }
