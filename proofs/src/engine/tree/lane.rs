@@ -183,7 +183,7 @@ impl<G: Game> Lane<G> {
         while (lane.answers.given.len(), lane.mark.moved) < at {
             let fork = lane.plan(game)?;
             lane.follow(game, &fork, &place.answers)?;
-            if lane.recurs(game).is_break() {
+            if lane.recurs(game).is_break() || lane.steps > game.longest_run() {
                 return None;
             }
         }
