@@ -53,7 +53,7 @@ fn search(bounds: &Bounds) -> Shared {
 
 fn main() {
     println!("The busiest share of a wave over the mean, and how much of their time workers wait");
-    println!("    N  walls  waves  shares  moves made  typical  worst   {:?} workers wait", WORKERS);
+    println!("    N  walls  waves  shares  moves made  typical  worst   {WORKERS:?} workers wait");
     for (robots, max_walls) in [(4, 3), (4, 4), (5, 3), (3, 6)] {
         let shared = search(&Bounds::new(Observed::REPAIRED, robots, max_walls));
         let Shared { waves, shares, made, ref busiest, spans } = shared;

@@ -205,7 +205,9 @@ impl<G: Game> Tree<G> {
             .with_max_len(1)
             .map(|share| {
                 let mut count = Count::default();
-                share.iter_mut().for_each(|lane| lane.search(game, moves, budget, &mut count));
+                for lane in share {
+                    lane.search(game, moves, budget, &mut count);
+                }
                 count
             })
             .collect();
