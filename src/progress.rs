@@ -38,7 +38,7 @@ pub(super) fn during<T>(
 /// Shows how far a search is, and ends it when the user wants that. What is left is estimated.
 #[expect(clippy::cast_precision_loss, reason = "an estimate")]
 pub(super) fn show(bar: &ProgressBar, progress: &Progress<'_>) -> ControlFlow<()> {
-    let Progress { runs, moves, levels, max_walls, edges: _ } = *progress;
+    let Progress { runs, moves, levels, max_walls, edges: _, wave: _ } = *progress;
     let expected = progress.expected_moves().unwrap_or(0.0).max(moves as f64);
     bar.set_length(expected as u64);
     bar.set_position(moves);

@@ -27,7 +27,7 @@ pub struct Bounds {
     pub base: Cell,
     /// Most walls that are met in one run; the border is not counted.
     pub max_walls: u32,
-    /// The search stops when it has made about as many team moves as this, at the next answer.
+    /// The search stops when it has made so many team moves.
     pub budget_moves: Option<u64>,
     /// What is looked for. A run without end is always found, since it would never be left.
     pub invariants: Vec<Invariant>,

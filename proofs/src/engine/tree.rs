@@ -6,16 +6,21 @@
 //! The tree is searched by levels: first the runs that meet no wall, then those that meet one, and so on, so that the
 //! first counterexample has the fewest walls. On the way to its runs a level goes the ways of the levels before it
 //! again, which costs a few per cent and saves the memory that a list of all the places left for later would take.
-//! A level is shared out among *lanes*, each a depth-first search that knows only the answers on its way. The lanes
-//! are searched in waves of a fixed number of team moves and then share their work anew, in their order: so a search
-//! comes out the same on any number of threads, and its [`Position`], a list of answer prefixes, is small.
+//! A level is shared out among *lanes*, each a depth-first search that knows only the answers on its way. They are
+//! searched in waves. Before each wave the lanes with most left are split, and dealt out in *shares* that may all make the
+//! same number of team moves: fewer where a level begins or ends, so that hardly a share runs out before the others. All
+//! this hangs on nothing but where the lanes are: so a search comes out the same on any number of threads, and its
+//! [`Position`], a list of answer prefixes, is small.
 //!
 //! Whoever implements [`Game`] has all of this: levels, threads, resuming, replaying. What is here knows no scheme.
 
 mod count;
+mod forecast;
 mod lane;
 mod search;
 
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 use std::fmt;
 use std::ops::ControlFlow;
 
@@ -109,7 +114,7 @@ pub trait Game: Send + Sync + 'static {
 pub struct Limits<D> {
     /// Most walls that are met in one run; the border is not counted.
     pub max_walls: u32,
-    /// The search stops when it has made about as many team moves as this, at the next answer.
+    /// The search stops when it has made so many team moves.
     pub budget_moves: Option<u64>,
     /// What is looked for, where it matters: at which demand a search ends that looks for any violation.
     pub wanted: Vec<D>,
@@ -176,9 +181,23 @@ pub struct Progress<'a> {
     pub max_walls: u32,
     /// Edges that can be walls.
     pub edges: u32,
+    /// Team moves that each share of the last wave made, those included that an earlier level has counted.
+    pub wave: &'a [u64],
 }
 
 impl Progress<'_> {
+    /// How long the last wave takes so many workers, in team moves: who is done with a share takes the next one.
+    pub fn span(&self, workers: usize) -> u64 {
+        let mut busy_until: BinaryHeap<Reverse<u64>> = (0..workers).map(|_| Reverse(0)).collect();
+        let mut span = 0;
+        for made in self.wave {
+            let Some(mut first) = busy_until.peek_mut() else { break };
+            first.0 += made;
+            span = span.max(first.0);
+        }
+        span
+    }
+
     /// Team moves in all, if the numbers of walls grow on as they have so far. The runs that meet *k* walls are
     /// about as many as sets of *k* edges, so their growth falls as that of the sets does.
     #[expect(clippy::cast_precision_loss, reason = "an estimate")]

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use tautline_kernel::choice::Oracle;
 
 use super::count::{self, Count, Violation};
+use super::forecast::Forecast;
 use super::{Broken, Game, Turn};
 use crate::engine::Unfit;
 
@@ -103,6 +104,14 @@ pub(super) struct Place {
     /// How many of them, from the first on, are not its own to change.
     fixed: usize,
     next: Next,
+    /// Team moves since the last answer, if the run goes on.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    moved: u32,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "so serde calls it")]
+const fn is_zero(moves: &u32) -> bool {
+    *moves == 0
 }
 
 /// What a lane does next.
@@ -170,10 +179,11 @@ impl<G: Game> Lane<G> {
     /// The lane that was at `place`; `None` if no run gets there.
     pub(super) fn at(game: &G, mishaps: u32, place: &Place) -> Option<Self> {
         let mut lane = Self::whole(game, mishaps);
-        while lane.answers.given.len() < place.answers.len() {
+        let at = (place.answers.len(), place.moved);
+        while (lane.answers.given.len(), lane.mark.moved) < at {
             let fork = lane.plan(game)?;
             lane.follow(game, &fork, &place.answers)?;
-            if lane.recurs(game).is_break() {
+            if lane.recurs(game).is_break() || lane.steps > game.longest_run() {
                 return None;
             }
         }
@@ -185,7 +195,8 @@ impl<G: Game> Lane<G> {
     /// Where it is.
     pub(super) fn place(&self) -> Place {
         let fixed = self.forks.get(self.floor).map_or(self.answers.given.len(), |fork| fork.answered);
-        Place { answers: self.answers.values(0).collect(), fixed, next: self.next }
+        let moved = if self.next == Next::Advance { self.mark.moved } else { 0 };
+        Place { answers: self.answers.values(0).collect(), fixed, next: self.next, moved }
     }
 
     /// Plans the next team move of the run; `None` if it is over.
@@ -219,32 +230,25 @@ impl<G: Game> Lane<G> {
         fits
     }
 
-    /// Searches on, at most a wave or about `most` team moves that are new, and then to the next answer. Returns whether
-    /// something is left.
-    pub(super) fn search(&mut self, game: &G, wave: u64, most: u64, count: &mut Count<G::Demand>) -> bool {
-        loop {
-            let answered = match self.next {
-                Next::Advance => {
-                    let Some(fork) = self.plan(game) else {
-                        self.end(game.broken_at_end(&self.state, &self.log), count);
-                        continue;
-                    };
-                    self.make(game, &fork, count)
-                }
-                Next::Retreat => {
-                    let Some(fork) = self.retreat() else { return false };
-                    self.make(game, &fork, count)
-                }
+    /// Searches on until `count` has `made` team moves, or `new` ones that are new.
+    pub(super) fn search(&mut self, game: &G, made: u64, new: u64, count: &mut Count<G::Demand>) {
+        while count.made < made && count.moves < new {
+            let fork = match self.next {
+                Next::Advance => self.plan(game),
+                Next::Retreat => match self.retreat() {
+                    None => return,
+                    fork => fork,
+                },
             };
-            let is_far = count.made >= wave || count.moves >= most;
-            if is_far && self.answers.given.len() > answered && self.has_more() {
-                return true;
+            match fork {
+                Some(fork) => self.make(game, &fork, count),
+                None => self.end(game.broken_at_end(&self.state, &self.log), count),
             }
         }
     }
 
-    /// Makes the team move of `fork` and checks it; how many answers there were before.
-    fn make(&mut self, game: &G, fork: &Fork<G>, count: &mut Count<G::Demand>) -> usize {
+    /// Makes the team move of `fork` and checks it.
+    fn make(&mut self, game: &G, fork: &Fork<G>, count: &mut Count<G::Demand>) {
         self.settle(game, fork);
         self.next = Next::Advance;
         count.made += 1;
@@ -260,7 +264,6 @@ impl<G: Game> Lane<G> {
             count.given_up += u64::from(self.is_new());
             self.end(None, count);
         }
-        fork.answered
     }
 
     /// The team move of `fork`, which is the latest.
@@ -333,36 +336,54 @@ impl<G: Game> Lane<G> {
     }
 
     /// Whether something is left of it.
-    fn has_more(&self) -> bool {
+    pub(super) fn has_more(&self) -> bool {
         self.next == Next::Advance || self.first_open(self.floor).is_some()
     }
 
     /// The fork whose other outcomes can be split off so that something is left: the first of its own that has any, unless
-    /// these are all that the lane has.
+    /// these are all that is sure to be new in the lane.
     fn divisible(&self) -> Option<(usize, usize)> {
         let (place, answered) = self.first_open(self.floor)?;
-        let is_all = self.next == Next::Retreat && self.first_open(place + 1).is_none();
-        (!is_all).then_some((place, answered))
+        let is_sure = self.next == Next::Advance && self.is_new();
+        (is_sure || self.first_open(place + 1).is_some()).then_some((place, answered))
     }
 
-    /// The team moves before the fork that it can be split at; `None` if it cannot be split.
-    pub(super) fn depth(&self) -> Option<u32> {
-        self.divisible().map(|(place, _)| self.forks[place].steps)
+    /// About how many team moves are left of it.
+    pub(super) fn left(&self, forecast: &Forecast) -> u64 {
+        let below = |steps, mishaps| forecast.below(steps, self.answers.most - mishaps);
+        let mut mishaps = self.answers.mishaps;
+        let mut left = match self.next {
+            Next::Advance => below(self.steps, mishaps),
+            Next::Retreat => 0,
+        };
+        let mut to = self.answers.given.len();
+        for fork in self.forks[self.floor..].iter().rev() {
+            for answer in self.answers.given[fork.answered..to].iter().rev() {
+                mishaps -= u32::from(answer.is_mishap && answer.value == 1);
+                let others = answer.below - 1 - answer.value;
+                if others > 0 {
+                    let each = below(fork.steps, mishaps + u32::from(answer.is_mishap));
+                    left = left.saturating_add(each.saturating_mul(others.into()));
+                }
+            }
+            to = fork.answered;
+        }
+        left
     }
 
     /// Splits off the other outcomes of its first fork.
     pub(super) fn split(&mut self) -> Option<Self> {
         let (place, answered) = self.divisible()?;
         self.floor = place + 1;
-        let mut answers = self.answers.clone();
-        while answers.take(answered).is_some() {}
+        let given = self.answers.given[..answered].to_vec();
+        let mishaps = given.iter().filter(|answer| answer.is_mishap && answer.value == 1).count() as u32;
         Some(Self {
             state: self.state,
             log: self.log[..self.forks[place].sent].to_vec(),
             steps: self.steps,
-            answers,
-            forks: self.forks[..=place].to_vec(),
-            floor: place,
+            answers: Answers { given, mishaps, most: self.answers.most },
+            forks: vec![self.forks[place]],
+            floor: 0,
             next: Next::Retreat,
             mark: Mark::NONE,
             script: Vec::new(),

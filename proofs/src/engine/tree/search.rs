@@ -1,9 +1,13 @@
 //! A search, level by level and wave by wave.
 
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::count::{Broken, Count, Violation};
+use super::forecast::Forecast;
 use super::lane::{self, Lane, Place};
 use super::{Counterexample, Found, Game, Level, Limits, Progress, Unsearchable, Watch};
 use crate::engine::{Unfit, Until};
@@ -61,14 +65,20 @@ pub fn search<G: Game>(
 }
 
 /// Lanes of a search, if they have room: many more than threads, so that none is idle for long.
-const LANES: u64 = 64;
+const LANES: u64 = 512;
 
-/// Team moves of a lane in one wave, once there are as many lanes as there may be; fewer before, so that a level is soon
-/// shared out.
-pub(super) const WAVE: u64 = 1 << 14;
+/// Lanes for each share of a wave, so that a share whose first lane ends has another one.
+const LANES_OF_SHARE: usize = 2;
 
-/// Where the budget leaves less than so many team moves to each lane, they are left to the first one.
-const SHARE: u64 = 1 << 8;
+/// Team moves of a share in one wave where a level has enough left.
+const MOST: u64 = 1 << 12;
+
+/// Team moves of a share where a level begins or ends, so that it is soon shared out and no share runs out before the
+/// others.
+const LEAST: u64 = 1 << 6;
+
+/// How many times the team moves that it may make are left in a share, as far as that is known: some have less.
+const RESERVE: u64 = 2;
 
 /// Bytes that the lanes may need.
 const MEMORY: u64 = 1 << 30;
@@ -86,6 +96,26 @@ pub struct Tree<G: Game> {
     count: Count<G::Demand>,
     /// What is left of this level.
     lanes: Vec<Lane<G>>,
+    /// Team moves that the shares of the last wave made.
+    wave: Vec<u64>,
+}
+
+/// The first lanes, in their order, in shares in each of which enough is left that it can make `moves`: how many lanes each
+/// has. There are at most `most` shares; `left` says how much is left of each lane. If there is not enough for any, all are
+/// in one.
+fn share_out(left: &[u64], moves: u64, most: usize) -> Vec<usize> {
+    let enough = RESERVE * moves;
+    let mut shares = Vec::new();
+    let (mut lanes, mut sum) = (0, 0);
+    for left in left {
+        lanes += 1;
+        sum += enough.min(*left);
+        if sum >= enough && shares.len() < most {
+            shares.push(lanes);
+            (lanes, sum) = (0, 0);
+        }
+    }
+    if shares.is_empty() { vec![left.len()] } else { shares }
 }
 
 impl<G: Game> Tree<G> {
@@ -111,6 +141,7 @@ impl<G: Game> Tree<G> {
             levels: Vec::new(),
             count: Count::default(),
             lanes,
+            wave: Vec::new(),
         })
     }
 
@@ -147,40 +178,62 @@ impl<G: Game> Tree<G> {
         self.limits.budget_moves.unwrap_or(u64::MAX)
     }
 
-    /// Searches all lanes a little further, forgets those that are done, and splits others.
+    /// Splits lanes, shares them out, those with most left first, searches each share a little further, and forgets the lanes
+    /// that are done.
     fn search(&mut self) {
-        let left = self.budget_moves() - self.count.moves;
-        let share = left / self.lanes.len() as u64;
-        let is_scarce = share < SHARE;
-        let (active, most) = if is_scarce { (1, left) } else { (self.lanes.len(), share) };
+        let left = self.split();
+        let mut lanes: Vec<(u64, &mut Lane<G>)> = left.into_iter().zip(&mut self.lanes).collect();
+        lanes.sort_by_key(|&(left, _)| Reverse(left));
+        let (left, mut lanes): (Vec<u64>, Vec<&mut Lane<G>>) = lanes.into_iter().unzip();
+        let most = self.most_lanes.div_ceil(LANES_OF_SHARE);
+        let mut moves = MOST;
+        while moves > LEAST && share_out(&left, moves, most).len() < most {
+            moves /= 2;
+        }
+        let budget = self.limits.budget_moves.map_or(u64::MAX, |budget| budget - self.count.moves);
+        let affordable = (budget / moves).max(1) as usize;
+        let mut rest = &mut lanes[..];
+        let mut shares = Vec::new();
+        for length in share_out(&left, moves, most).into_iter().take(affordable) {
+            let (share, others) = rest.split_at_mut(length);
+            shares.push(share);
+            rest = others;
+        }
         let game = &self.game;
-        let wave = (WAVE * self.lanes.len() as u64 / self.most_lanes as u64).max(SHARE);
-        let counts: Vec<(Count<_>, bool)> = self.lanes[..active]
-            .par_iter_mut()
+        let counts: Vec<Count<_>> = shares
+            .into_par_iter()
             .with_max_len(1)
-            .map(|lane| {
+            .map(|share| {
                 let mut count = Count::default();
-                let is_left = lane.search(game, wave, most, &mut count);
-                (count, is_left)
+                for lane in share {
+                    lane.search(game, moves, budget, &mut count);
+                }
+                count
             })
             .collect();
-        let mut is_left = counts.iter().map(|&(_, is_left)| is_left).collect::<Vec<_>>().into_iter();
-        self.lanes.retain(|_| is_left.next().unwrap_or(true));
-        for (count, _) in counts {
+        self.wave = counts.iter().map(|count| count.made).collect();
+        for count in counts {
             self.count.add(count);
         }
-        if !is_scarce {
-            self.split();
-        }
+        self.lanes.retain(Lane::has_more);
     }
 
-    /// Splits the lanes with most left, those that have it nearest to the root, until there are as many as there may be.
-    fn split(&mut self) {
-        while self.lanes.len() < self.most_lanes {
-            let divisible = self.lanes.iter_mut().filter(|lane| lane.depth().is_some());
-            let Some(part) = divisible.min_by_key(|lane| lane.depth()).and_then(Lane::split) else { return };
+    /// Splits the lanes with most left, until there are as many as there may be. About how much is left of each.
+    fn split(&mut self) -> Vec<u64> {
+        let forecast = Forecast::new(&self.levels);
+        let mut left: Vec<u64> = self.lanes.iter().map(|lane| lane.left(&forecast)).collect();
+        let mut most: BinaryHeap<(u64, usize)> = left.iter().copied().zip(0..).collect();
+        while self.lanes.len() < self.most_lanes
+            && let Some((_, place)) = most.pop()
+        {
+            let Some(part) = self.lanes[place].split() else { continue };
+            left[place] = self.lanes[place].left(&forecast);
+            left.push(part.left(&forecast));
+            most.push((left[place], place));
+            most.push((left[self.lanes.len()], self.lanes.len()));
             self.lanes.push(part);
         }
+        left
     }
 
     /// The smallest run that breaks a demand again; `None` if it does not.
@@ -213,6 +266,7 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
         self.levels.clone_from(&position.levels);
         self.count = position.count.clone();
         self.lanes = lanes;
+        self.wave.clear();
         if is_done {
             self.begin();
         }
@@ -242,6 +296,7 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
             levels: &self.levels,
             max_walls: self.limits.max_walls,
             edges: self.game.edges(),
+            wave: &self.wave,
         }
     }
 

@@ -1,0 +1,46 @@
+//! About how many team moves are left below a place in the tree of runs, by what the levels before this one had. It decides
+//! how a level is shared out, and nothing of what is found.
+
+use super::Level;
+
+/// Parts of a run of usual length. Walls make runs longer, so that the last part, and not nothing, is left near its end.
+const PARTS: u64 = 8;
+
+/// A fraction of one is a number of these.
+const ONE: u64 = 1 << 20;
+
+/// How many team moves to expect.
+pub(super) struct Forecast {
+    /// Team moves of a usual run.
+    length: u64,
+    /// Team moves below a place, by the mishaps that may still come and the parts of a usual run before it.
+    below: Vec<Vec<u64>>,
+}
+
+impl Forecast {
+    /// Below the start, a search for at most *k* mishaps makes as many team moves as the levels 0 to *k* have. Farther on,
+    /// where a part *x* of a usual run is left, a level of *k* mishaps has about its *x* to the power of *k*, since each of
+    /// them is somewhere on what is left.
+    pub(super) fn new(levels: &[Level]) -> Self {
+        let mut fractions = [ONE; PARTS as usize];
+        let mut sums = [0_u64; PARTS as usize];
+        let mut below = Vec::new();
+        for level in levels {
+            for ((fraction, sum), left) in fractions.iter_mut().zip(&mut sums).zip((1..=PARTS).rev()) {
+                let moves = u128::from(level.moves) * u128::from(*fraction) / u128::from(ONE);
+                *sum = sum.saturating_add(moves as u64);
+                *fraction = *fraction * left / PARTS;
+            }
+            below.push(sums.to_vec());
+        }
+        let length = levels.first().map_or(1, |level| level.moves / level.runs.max(1)).max(1);
+        Self { length, below }
+    }
+
+    /// The team moves below a place after `steps` team moves, from which `mishaps` may still come. If no level tells, it is
+    /// more than any number.
+    pub(super) fn below(&self, steps: u32, mishaps: u32) -> u64 {
+        let part = (u64::from(steps) * PARTS / self.length).min(PARTS - 1);
+        self.below.get(mishaps as usize).map_or(u64::MAX, |moves| moves[part as usize])
+    }
+}
