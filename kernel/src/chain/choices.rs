@@ -84,14 +84,12 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
             let steps = if robot == leader {
                 leads
             } else {
-                Steps::ALL.filter(|step| planner.is_candidate(robot, step))
+                planner.candidates(robot)
             };
             choices.looks.take(if robot == leader { 0 } else { Steps::ALL.len() });
-            let behind = choices.left[robot - 1];
+            let (at, behind) = (planner.team[robot - 1], choices.left[robot - 1]);
             choices.left[robot] = steps.filter(|step| {
-                let own = planner.as_move(robot, step);
-                let agreeing =
-                    behind.filter(|step| planner.rule.admits_ahead(planner.as_move(robot - 1, step), own));
+                let agreeing = behind.and(planner.rule.steps_ahead(at, planner.as_move(robot, step)));
                 choices.agreeing[robot][step.place()] = agreeing;
                 !agreeing.is_empty()
             });
@@ -202,7 +200,7 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
 
     fn preferred<G: Grid>(&self, planner: &mut Planner<'a, G, ROBOTS>, robot: usize) -> Step {
         let ahead = planner.as_move(robot + 1, self.left[robot + 1].first());
-        planner.preferred(robot, ahead, |_, step| self.left[robot].has(step)).unwrap_or(Step::Stay)
+        planner.preferred(self.team[robot], ahead, self.left[robot]).0.unwrap_or(Step::Stay)
     }
 
     /// Leaves `robot` no other steps than these; false if some robot then has none.

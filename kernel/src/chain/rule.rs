@@ -3,7 +3,7 @@
 //! these functions alone; the planner asks them and nothing else.
 
 use crate::conditions;
-use crate::ground::{Cell, Circle, Step, neighbours};
+use crate::ground::{Cell, Circle, Step, Steps, neighbouring_steps, neighbours};
 
 /// One condition of the rule, by the sentence it stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -170,10 +170,29 @@ impl Rule {
         safe && (!unsure || self.covered.covers(ahead.from, own.to()))
     }
 
+    /// The steps from `at` that [`Rule::admits_ahead`] admits.
+    #[inline]
+    pub fn steps_ahead(&self, at: Cell, ahead: Move) -> Steps {
+        let mut steps = Steps::ALL;
+        if self.has(Condition::SafeAhead) {
+            steps = self.safe.covered_steps(ahead.to(), at);
+        }
+        if self.has(Condition::UnsureAhead) && !ahead.is_sure() {
+            steps = steps.and(self.covered.covered_steps(ahead.from, at));
+        }
+        steps
+    }
+
     /// Whether a robot may plan to be at `to` while the robot behind it is at `behind`.
     #[inline]
     pub fn admits_behind(&self, to: Cell, behind: Cell) -> bool {
         !self.has(Condition::CoveredBehind) || self.covered.covers(behind, to)
+    }
+
+    /// The steps from `at` that [`Rule::admits_behind`] admits.
+    #[inline]
+    pub fn steps_behind(&self, at: Cell, behind: Cell) -> Steps {
+        if self.has(Condition::CoveredBehind) { self.covered.covered_steps(behind, at) } else { Steps::ALL }
     }
 
     /// Whether a robot may enter a cell outside the base that `occupants` others occupy now.
@@ -209,6 +228,14 @@ impl Rule {
         match self.high {
             High::Planned => neighbours(ahead.to(), to),
             High::Present => neighbours(ahead.from, to),
+        }
+    }
+    /// The steps of a follower at `at` that lead into P_high.
+    #[inline]
+    pub fn high_steps(&self, at: Cell, ahead: Move) -> Steps {
+        match self.high {
+            High::Planned => neighbouring_steps(ahead.to(), at),
+            High::Present => neighbouring_steps(ahead.from, at),
         }
     }
 }

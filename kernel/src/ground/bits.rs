@@ -1,5 +1,7 @@
 //! The grid in machine words: a [`Plane`] for every mark. Distances are flood fills of whole planes at a time.
 
+use core::ops::ControlFlow;
+
 use super::plane::Plane;
 use super::{Area, Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Side, Step, Steps, links};
 
@@ -57,6 +59,44 @@ impl<P: Plane> BitGrid<P> {
     }
 }
 
+impl<P: Plane> BitGrid<P> {
+    /// The steps from a cell that leave the area.
+    #[inline]
+    fn leaving(&self, column: usize, row: usize) -> Steps {
+        let east = u8::from(column + 1 == self.area.width());
+        let south = u8::from(row + 1 == self.area.height());
+        Steps::of_bits(east | south << 1 | u8::from(column == 0) << 2 | u8::from(row == 0) << 3)
+    }
+
+    /// Floods the area from the frontier outwards, one cell at a time, until all the cells are reached where `steps` lead
+    /// from `at`, or as many as can be. Hears which are reached by how many cells, and whether that is enough.
+    #[inline]
+    fn flood(
+        &self,
+        at: Cell,
+        steps: Steps,
+        avoid: Avoid,
+        mut arrive: impl FnMut(Steps, u32) -> ControlFlow<()>,
+    ) {
+        let Some((column, row)) = self.area.locate(at) else { return };
+        let mut missing = steps.minus(self.leaving(column, row));
+        let (east, south) = self.open(avoid);
+        let mut reached = self.cells[CellMark::Explored as usize].not();
+        for length in 0.. {
+            let arrived = reached.steps_from(column, row).and(missing);
+            if !arrived.is_empty() && arrive(arrived, length).is_break() {
+                return;
+            }
+            missing = missing.minus(arrived);
+            let wider = reached.or(&reached.along_rows(&east)).or(&reached.along_columns(&south));
+            if missing.is_empty() || wider == reached {
+                return;
+            }
+            reached = wider;
+        }
+    }
+}
+
 /// The cells of the first `width` columns and `height` rows.
 fn rectangle<P: Plane>(width: usize, height: usize) -> P {
     let mut plane = P::NONE;
@@ -99,6 +139,27 @@ impl<P: Plane> Grid for BitGrid<P> {
         }
     }
 
+    #[inline]
+    fn sides(&self, mark: EdgeMark, cell: Cell) -> Steps {
+        match self.area.locate(cell) {
+            // The border is a wall, and nothing else: so is what stands before the first column and row.
+            Some((column, row)) => {
+                P::steps_across(&self.east[mark as usize], &self.south[mark as usize], column, row)
+            }
+            None if mark == EdgeMark::Wall => Steps::ALL.without(Step::Stay),
+            None => Steps::NONE,
+        }
+    }
+
+    #[inline]
+    fn steps_to(&self, mark: CellMark, at: Cell, steps: Steps) -> Steps {
+        match self.area.locate(at) {
+            Some((column, row)) => steps.and(self.cells[mark as usize].steps_from(column, row)),
+            None if mark == CellMark::Explored => steps,
+            None => Steps::NONE,
+        }
+    }
+
     fn put_edge(&mut self, mark: EdgeMark, edge: Edge) {
         if !self.area.contains(edge.cell().beyond(edge.side())) {
             return;
@@ -134,32 +195,26 @@ impl<P: Plane> Grid for BitGrid<P> {
     }
 
     fn distances(&mut self, at: Cell, steps: Steps, avoid: Avoid) -> [Option<u32>; Step::ALL.len()] {
-        // From the frontier outwards: one flood serves all.
-        let (east, south) = self.open(avoid);
-        let mut reached = self.cells[CellMark::Explored as usize].not();
         let mut distances = [None; Step::ALL.len()];
-        let mut places = [(0, 0); Step::ALL.len()];
-        let mut missing = steps.filter(|step| {
-            let place = self.area.locate(at.after(step));
-            places[step.place()] = place.unwrap_or_default();
-            place.is_some()
+        self.flood(at, steps, avoid, |arrived, length| {
+            for step in arrived.iter() {
+                distances[step.place()] = Some(length);
+            }
+            ControlFlow::Continue(())
         });
-        let mut length = 0;
-        loop {
-            for step in missing.iter() {
-                let (column, row) = places[step.place()];
-                if reached.has(column, row) {
-                    distances[step.place()] = Some(length);
-                    missing = missing.without(step);
-                }
-            }
-            let wider = reached.or(&reached.along_rows(&east)).or(&reached.along_columns(&south));
-            if missing.is_empty() || wider == reached {
-                return distances;
-            }
-            reached = wider;
-            length += 1;
+        distances
+    }
+
+    fn nearest(&mut self, at: Cell, steps: Steps, avoid: Avoid) -> Option<Step> {
+        if steps.len() <= 1 {
+            return steps.iter().next();
         }
+        let mut nearest = steps;
+        self.flood(at, steps, avoid, |arrived, _| {
+            nearest = arrived;
+            ControlFlow::Break(())
+        });
+        nearest.iter().next()
     }
 
     fn stops(&mut self, from: Cell, stops: &mut [Cell]) -> Option<usize> {

@@ -49,6 +49,17 @@ pub trait Grid {
     fn take(&mut self, mark: CellMark, cell: Cell);
     /// Whether `edge` carries `mark`. Every edge on or beyond the border is a wall.
     fn edge_has(&self, mark: EdgeMark, edge: Edge) -> bool;
+    /// The sides of `cell` that carry `mark`, as the steps across them.
+    fn sides(&self, mark: EdgeMark, cell: Cell) -> Steps {
+        Steps::ALL.filter(|step| match step {
+            Step::Cross(side) => self.edge_has(mark, Edge::new(cell, side)),
+            Step::Stay => false,
+        })
+    }
+    /// Those of the `steps` from `at`, none of which leaves the area, that lead to a cell with `mark`.
+    fn steps_to(&self, mark: CellMark, at: Cell, steps: Steps) -> Steps {
+        steps.filter(|step| self.has(mark, at.after(step)))
+    }
     /// Puts `mark` on `edge`; no effect on or beyond the border.
     fn put_edge(&mut self, mark: EdgeMark, edge: Edge);
     /// Takes `mark` off every edge inside the area.
@@ -66,6 +77,15 @@ pub trait Grid {
             distances[step.place()] = self.distance(at.after(step), avoid);
         }
         distances
+    }
+    /// The first of the `steps` from `at` after which the distance is least; `None` of no steps. Where there is no path
+    /// from any of them, the first.
+    fn nearest(&mut self, at: Cell, steps: Steps, avoid: Avoid) -> Option<Step> {
+        if steps.len() <= 1 {
+            return steps.iter().next();
+        }
+        let distances = self.distances(at, steps, avoid);
+        steps.iter().min_by_key(|&step| distances[step.place()].unwrap_or(u32::MAX))
     }
     /// A walk from `from` to the unexplored cell that is fewest [`links`](super::links) away, the first in row order of these: how
     /// many links it has, at most one less than there are `stops`, and the cells where they begin and end in

@@ -72,6 +72,18 @@ impl Steps {
         self.iter().next().unwrap_or(Step::Stay)
     }
 
+    /// A bit for each by its place, the first lowest; more bits than there are steps are left out.
+    #[inline]
+    pub const fn of_bits(bits: u8) -> Self {
+        Self(bits & Self::ALL.0)
+    }
+
+    /// A bit for each by its place, the first lowest.
+    #[inline]
+    pub const fn bits(self) -> u8 {
+        self.0
+    }
+
     /// In direction order.
     #[inline]
     pub fn iter(self) -> impl Iterator<Item = Step> {
