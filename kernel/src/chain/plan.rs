@@ -3,6 +3,8 @@
 //! descent from the leader to the base; where one does not, [`Choices`] find the plan that the paper's recursion
 //! would return, without its cost (clauses CHAIN-4, CHAIN-11 and CHAIN-12).
 
+use core::ops::ControlFlow;
+
 use super::choices::Choices;
 use super::planner::{Looks, Planner};
 use super::rule::{Condition, Move, Role};
@@ -125,22 +127,22 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
         };
         let shut = self.grid.sides(EdgeMark::Wall, at).or(self.grid.sides(EdgeMark::Virtual, at));
         let steps = Steps::ALL.without(Step::Stay).minus(shut);
-        let distances = self.grid.distances(at, steps, Avoid::WallsAndVirtual);
         let mut list = [Side::East; 4];
-        let mut keys = [(0, 0); 4];
         let mut count = 0_usize;
-        for (side, distance) in Side::ALL.into_iter().zip(distances) {
-            let Some(distance) = distance else { continue };
-            let key = (distance, -outward(side));
-            // In its place behind those that are no farther.
-            let mut place = count;
-            while let Some(before) = place.checked_sub(1).filter(|&before| keys[before] > key) {
-                (keys[place], list[place]) = (keys[before], list[before]);
-                place = before;
+        self.grid.approach(at, steps, Avoid::WallsAndVirtual, |nearest| {
+            let nearer = count;
+            for side in Side::ALL.into_iter().filter(|&side| nearest.has(Step::Cross(side))) {
+                // In its place behind those that are as near and lead as far away from the base.
+                let mut place = count;
+                while place > nearer && outward(list[place - 1]) < outward(side) {
+                    list[place] = list[place - 1];
+                    place -= 1;
+                }
+                list[place] = side;
+                count += 1;
             }
-            (keys[place], list[place]) = (key, side);
-            count += 1;
-        }
+            ControlFlow::Continue(())
+        });
         (list, count)
     }
 

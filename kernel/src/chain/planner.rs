@@ -1,6 +1,8 @@
 //! A plan in the making: what is planned so far, what it has cost, and what a robot can do next. The descent and the
 //! [`Choices`](super::choices::Choices) both work on it.
 
+use core::ops::ControlFlow;
+
 use super::rule::{Budget, Move, Role, Rule};
 use crate::ground::{Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Step, Steps};
 
@@ -88,7 +90,14 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
             return (Some(Step::Stay), 1);
         }
         let (best, looks) = if best.is_empty() { (fit, Steps::ALL.len()) } else { (best, high.len()) };
-        (self.grid.nearest(at, best, Avoid::Walls), looks)
+        let mut nearest = best;
+        if best.len() > 1 {
+            self.grid.approach(at, best, Avoid::Walls, |first| {
+                nearest = first;
+                ControlFlow::Break(())
+            });
+        }
+        (nearest.iter().next(), looks)
     }
 
     /// Those of the `steps` that do not lead into a cell where there are too many to enter it.

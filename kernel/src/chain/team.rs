@@ -313,21 +313,20 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     /// the order of the robots. All robots move at once; one that meets a wall stays, and all learn of it.
     pub fn settle(&mut self, plan: &Plan<ROBOTS>, mut is_open: impl FnMut(Edge) -> bool) -> Settled<ROBOTS> {
         let mut messages = [0; ROBOTS];
-        for (robot, sent) in messages.iter_mut().enumerate().take(self.robots).skip(1) {
-            let step = plan.steps[robot];
+        let team = messages.iter_mut().zip(&mut self.cells).zip(&plan.steps);
+        for ((sent, cell), &step) in team.take(self.robots).skip(1) {
             let outcome = match (plan.kind, step) {
                 (Kind::Backtrack, _) => Outcome::TookBack,
                 (Kind::Advance, Step::Stay) => Outcome::Arrived,
                 (Kind::Advance, Step::Cross(side)) => {
-                    self.try_edge(Edge::new(self.cells[robot], side), &mut is_open)
+                    try_edge(&mut self.grid, &mut self.stage, Edge::new(*cell, side), &mut is_open)
                 }
             };
             let message = Message { step, outcome };
             *sent = message.encode();
-            let cell = self.cells[robot].after(message.made());
-            self.cells[robot] = cell;
-            if !self.grid.has(CellMark::Explored, cell) {
-                self.grid.put(CellMark::Explored, cell);
+            *cell = cell.after(message.made());
+            if !self.grid.has(CellMark::Explored, *cell) {
+                self.grid.put(CellMark::Explored, *cell);
                 self.stage = Stage::Gained;
             }
         }
@@ -378,21 +377,27 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         });
         Ok(())
     }
+}
 
-    fn try_edge(&mut self, edge: Edge, is_open: &mut impl FnMut(Edge) -> bool) -> Outcome {
-        if self.grid.edge_has(EdgeMark::Open, edge) {
-            return Outcome::Arrived;
-        }
-        if self.grid.edge_has(EdgeMark::Wall, edge) {
-            return Outcome::Blocked;
-        }
-        if is_open(edge) {
-            self.grid.put_edge(EdgeMark::Open, edge);
-            Outcome::Arrived
-        } else {
-            self.grid.put_edge(EdgeMark::Wall, edge);
-            self.stage = Stage::Gained;
-            Outcome::Blocked
-        }
+/// What comes of crossing `edge`.
+fn try_edge(
+    grid: &mut impl Grid,
+    stage: &mut Stage,
+    edge: Edge,
+    is_open: &mut impl FnMut(Edge) -> bool,
+) -> Outcome {
+    if grid.edge_has(EdgeMark::Open, edge) {
+        return Outcome::Arrived;
+    }
+    if grid.edge_has(EdgeMark::Wall, edge) {
+        return Outcome::Blocked;
+    }
+    if is_open(edge) {
+        grid.put_edge(EdgeMark::Open, edge);
+        Outcome::Arrived
+    } else {
+        grid.put_edge(EdgeMark::Wall, edge);
+        *stage = Stage::Gained;
+        Outcome::Blocked
     }
 }

@@ -205,16 +205,9 @@ impl<P: Plane> Grid for BitGrid<P> {
         distances
     }
 
-    fn nearest(&mut self, at: Cell, steps: Steps, avoid: Avoid) -> Option<Step> {
-        if steps.len() <= 1 {
-            return steps.iter().next();
-        }
-        let mut nearest = steps;
-        self.flood(at, steps, avoid, |arrived, _| {
-            nearest = arrived;
-            ControlFlow::Break(())
-        });
-        nearest.iter().next()
+    #[inline]
+    fn approach(&mut self, at: Cell, steps: Steps, avoid: Avoid, mut tell: impl FnMut(Steps) -> ControlFlow<()>) {
+        self.flood(at, steps, avoid, |arrived, _| tell(arrived));
     }
 
     fn stops(&mut self, from: Cell, stops: &mut [Cell]) -> Option<usize> {

@@ -2,6 +2,8 @@
 //! the nearest unexplored cell (paper 000, equation (4)). [`Grid`] is what the rules ask for; [`BitGrid`](super::BitGrid) is
 //! its home in a few machine words, small enough to be copied at every fork of a search.
 
+use core::ops::ControlFlow;
+
 use super::{Cell, Edge, Side, Step, Steps};
 
 /// What is marked on cells.
@@ -78,14 +80,18 @@ pub trait Grid {
         }
         distances
     }
-    /// The first of the `steps` from `at` after which the distance is least; `None` of no steps. Where there is no path
-    /// from any of them, the first.
-    fn nearest(&mut self, at: Cell, steps: Steps, avoid: Avoid) -> Option<Step> {
-        if steps.len() <= 1 {
-            return steps.iter().next();
-        }
+    /// Tells of the `steps` from `at`, nearest first, which lead to cells with one and the same distance, until it is told
+    /// to stop; not of those from which there is no path.
+    fn approach(&mut self, at: Cell, steps: Steps, avoid: Avoid, mut tell: impl FnMut(Steps) -> ControlFlow<()>) {
         let distances = self.distances(at, steps, avoid);
-        steps.iter().min_by_key(|&step| distances[step.place()].unwrap_or(u32::MAX))
+        let mut untold = steps.filter(|step| distances[step.place()].is_some());
+        while let Some(least) = untold.iter().filter_map(|step| distances[step.place()]).min() {
+            let nearest = untold.filter(|step| distances[step.place()] == Some(least));
+            untold = untold.minus(nearest);
+            if tell(nearest).is_break() {
+                return;
+            }
+        }
     }
     /// A walk from `from` to the unexplored cell that is fewest [`links`](super::links) away, the first in row order of these: how
     /// many links it has, at most one less than there are `stops`, and the cells where they begin and end in
@@ -143,26 +149,22 @@ impl Area {
     /// Number of columns.
     #[inline]
     pub const fn width(self) -> usize {
-        self.first.x.abs_diff(self.last.x) as usize + 1
+        self.last.x.wrapping_sub(self.first.x) as u16 as usize + 1
     }
 
     /// Number of rows.
     #[inline]
     pub const fn height(self) -> usize {
-        self.first.y.abs_diff(self.last.y) as usize + 1
+        self.last.y.wrapping_sub(self.first.y) as u16 as usize + 1
     }
 
     /// Column and row of `cell` counted from the north-west corner; `None` outside.
     #[inline]
     pub const fn locate(self, cell: Cell) -> Option<(usize, usize)> {
         // West or north of the area the difference wraps round to more than its width or height.
-        let column = cell.x.wrapping_sub(self.first.x) as u16;
-        let row = cell.y.wrapping_sub(self.first.y) as u16;
-        if column <= self.first.x.abs_diff(self.last.x) && row <= self.first.y.abs_diff(self.last.y) {
-            Some((column as usize, row as usize))
-        } else {
-            None
-        }
+        let (column, row) = (cell.x.wrapping_sub(self.first.x), cell.y.wrapping_sub(self.first.y));
+        let (column, row) = (column as u16 as usize, row as u16 as usize);
+        if column < self.width() && row < self.height() { Some((column, row)) } else { None }
     }
 
     /// Whether `cell` is in the area.

@@ -243,9 +243,8 @@ impl Circle {
     /// Whether the centre of `cell` lies inside the circle round the centre of `round`.
     #[inline]
     pub const fn reaches(self, round: Cell, cell: Cell) -> bool {
-        let (dx, dy) = round.apart(cell);
-        let (x, y) = (2 * dx as u64, 2 * dy as u64);
-        x * x + y * y <= self.four_radius_squared
+        let (x, y) = (round.x as i64 - cell.x as i64, round.y as i64 - cell.y as i64);
+        4 * (x * x + y * y) as u64 <= self.four_radius_squared
     }
 }
 

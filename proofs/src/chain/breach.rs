@@ -51,11 +51,13 @@ impl Breach {
 
     /// Whether the team move from `before` to `after` commits it; the base stands first in both. Completeness is of
     /// the end of a run, and in no team move; where robots are does not tell what they know, or what a plan has cost.
+    #[inline]
     pub fn is_in(self, before: &[Cell], after: &[Cell]) -> bool {
         match self {
             Self::Contact => after.windows(2).any(|pair| !Circle::COVERED.covers(pair[0], pair[1])),
-            Self::Crowding => after.iter().enumerate().any(|(robot, &cell)| {
-                cell != after[0] && after[..robot].iter().filter(|&&other| other == cell).count() >= 2
+            Self::Crowding => (3..after.len()).any(|robot| {
+                let (cell, others) = (after[robot], &after[1..robot]);
+                cell != after[0] && others.iter().filter(|&&other| other == cell).count() >= 2
             }),
             Self::Coverage => before
                 .windows(2)
@@ -72,6 +74,8 @@ pub const CHEAP_LOOKS: u32 = 100;
 /// Whether two robots that go from the first to the second of their cells, each at any speeds and with any
 /// pauses, keep their centres within r_cov of each other. Their offset moves inside the parallelogram of the
 /// four differences, and distance is convex, so its corners decide.
+#[inline]
 pub fn stays_in_range(one: [Cell; 2], other: [Cell; 2]) -> bool {
-    one.iter().all(|&a| other.iter().all(|&b| Circle::COVERED.reaches(a, b)))
+    let reaches = |a: usize, b: usize| Circle::COVERED.reaches(one[a], other[b]);
+    reaches(0, 0) & reaches(0, 1) & reaches(1, 0) & reaches(1, 1)
 }
