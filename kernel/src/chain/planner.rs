@@ -3,7 +3,7 @@
 
 use core::ops::ControlFlow;
 
-use super::rule::{Budget, Move, Role, Rule};
+use super::rule::{Budget, Condition, Move, Role, Rule};
 use crate::ground::{Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Step, Steps};
 
 /// The candidates of followers that a plan has looked at, and may look at.
@@ -119,8 +119,11 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
     pub(super) fn as_move(&self, robot: usize, step: Step) -> Move {
         let from = self.team[robot];
         let known_open = match step {
-            Step::Cross(side) => self.grid.edge_has(EdgeMark::Open, Edge::new(from, side)),
-            Step::Stay => false,
+            // Of no other condition it matters.
+            Step::Cross(side) if self.rule.has(Condition::UnsureAhead) => {
+                self.grid.edge_has(EdgeMark::Open, Edge::new(from, side))
+            }
+            Step::Cross(_) | Step::Stay => false,
         };
         Move { from, step, known_open }
     }

@@ -313,8 +313,9 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     /// the order of the robots. All robots move at once; one that meets a wall stays, and all learn of it.
     pub fn settle(&mut self, plan: &Plan<ROBOTS>, mut is_open: impl FnMut(Edge) -> bool) -> Settled<ROBOTS> {
         let mut messages = [0; ROBOTS];
-        let team = messages.iter_mut().zip(&mut self.cells).zip(&plan.steps);
-        for ((sent, cell), &step) in team.take(self.robots).skip(1) {
+        let movers = 1..self.robots.min(ROBOTS);
+        let team = messages[movers.clone()].iter_mut().zip(&mut self.cells[movers.clone()]);
+        for ((sent, cell), &step) in team.zip(&plan.steps[movers]) {
             let outcome = match (plan.kind, step) {
                 (Kind::Backtrack, _) => Outcome::TookBack,
                 (Kind::Advance, Step::Stay) => Outcome::Arrived,

@@ -17,6 +17,17 @@ impl Table {
         table
     }
 
+    /// The one step from there to 0,0.
+    const fn of_cell() -> Self {
+        let mut table = Self([Steps::NONE; 64]);
+        let mut place = 0;
+        while place < table.0.len() {
+            table.0[place] = steps_onto(Cell::new(0, 0), Self::cell(place));
+            place += 1;
+        }
+        table
+    }
+
     const fn of_neighbours() -> Self {
         let mut table = Self([Steps::NONE; 64]);
         let mut place = 0;
@@ -44,6 +55,7 @@ impl Table {
 static SAFE: Table = Table::of_circle(Circle::SAFE);
 static COVERED: Table = Table::of_circle(Circle::COVERED);
 static BESIDE: Table = Table::of_neighbours();
+static ONTO: Table = Table::of_cell();
 
 impl Circle {
     /// The steps from `at` that lead to a cell which lies wholly inside the circle round the centre of `round`.
@@ -72,6 +84,26 @@ const fn covered_steps(circle: Circle, round: Cell, at: Cell) -> Steps {
         let step = Step::ALL[place];
         if circle.covers(round, at.after(step)) {
             steps = steps.with(step);
+        }
+        place += 1;
+    }
+    steps
+}
+
+/// The step from `at` that leads to the cell `to`, if there is one.
+#[inline]
+pub fn steps_to(to: Cell, at: Cell) -> Steps {
+    ONTO.get(to, at).unwrap_or(Steps::NONE)
+}
+
+#[cold]
+const fn steps_onto(to: Cell, at: Cell) -> Steps {
+    let mut steps = Steps::NONE;
+    let mut place = 0;
+    while place < Step::ALL.len() {
+        let cell = at.after(Step::ALL[place]);
+        if cell.x == to.x && cell.y == to.y {
+            steps = steps.with(Step::ALL[place]);
         }
         place += 1;
     }
@@ -109,6 +141,8 @@ mod tests {
             }
             let beside = Steps::ALL.filter(|step| neighbours(round, at.after(step)));
             assert_eq!(neighbouring_steps(round, at), beside, "{at}");
+            let onto = Steps::ALL.filter(|step| at.after(step) == round);
+            assert_eq!(steps_to(round, at), onto, "{at}");
         }
     }
 

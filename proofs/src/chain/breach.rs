@@ -54,15 +54,18 @@ impl Breach {
     #[inline]
     pub fn is_in(self, before: &[Cell], after: &[Cell]) -> bool {
         match self {
-            Self::Contact => after.windows(2).any(|pair| !Circle::COVERED.covers(pair[0], pair[1])),
+            Self::Contact => {
+                let mut pairs = after.iter().zip(after.iter().skip(1));
+                pairs.any(|(&one, &other)| !Circle::COVERED.covers(one, other))
+            }
             Self::Crowding => (3..after.len()).any(|robot| {
                 let (cell, others) = (after[robot], &after[1..robot]);
                 cell != after[0] && others.iter().filter(|&&other| other == cell).count() >= 2
             }),
-            Self::Coverage => before
-                .windows(2)
-                .zip(after.windows(2))
-                .any(|(from, to)| !stays_in_range([from[0], to[0]], [from[1], to[1]])),
+            Self::Coverage => {
+                let ways = before.iter().zip(after).map(|(&from, &to)| [from, to]);
+                ways.clone().zip(ways.skip(1)).any(|(one, other)| !stays_in_range(one, other))
+            }
             Self::Costly | Self::Completeness => false,
         }
     }
