@@ -171,7 +171,7 @@ impl Rule {
     }
 
     /// The steps from `at` that [`Rule::admits_ahead`] admits.
-    #[inline]
+    #[inline(always)]
     pub fn steps_ahead(&self, at: Cell, ahead: Move) -> Steps {
         let mut steps = Steps::ALL;
         if self.has(Condition::SafeAhead) {
@@ -190,7 +190,7 @@ impl Rule {
     }
 
     /// The steps from `at` that [`Rule::admits_behind`] admits.
-    #[inline]
+    #[inline(always)]
     pub fn steps_behind(&self, at: Cell, behind: Cell) -> Steps {
         if self.has(Condition::CoveredBehind) { self.covered.covered_steps(behind, at) } else { Steps::ALL }
     }

@@ -43,8 +43,9 @@ impl Cell {
     /// Where `step` leads from here, if nothing is in the way.
     #[inline]
     pub const fn after(self, step: Step) -> Self {
-        const OFFSETS: [(i16, i16); 5] = [(1, 0), (0, 1), (-1, 0), (0, -1), (0, 0)];
-        self.moved(OFFSETS[step.place()])
+        const OFFSETS: [(i16, i16); 8] =
+            [(1, 0), (0, 1), (-1, 0), (0, -1), (0, 0), (0, 0), (0, 0), (0, 0)];
+        self.moved(OFFSETS[step.place() % OFFSETS.len()])
     }
 
     /// Columns and rows between two cells, without sign.

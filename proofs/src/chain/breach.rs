@@ -74,11 +74,100 @@ impl Breach {
 /// Candidates of followers for each robot of a chain, the base counted, that a plan may look at by CHAIN-12.
 pub const CHEAP_LOOKS: u32 = 100;
 
+/// Whether a team move commits none of the breaches that are seen in where robots are, at a glance: if not, each of them
+/// tells. The base stands first in both.
+#[inline]
+pub(super) fn is_harmless(before: &[Cell], after: &[Cell]) -> bool {
+    let ways = before.iter().zip(after);
+    let keep_contact = ways.clone().zip(ways.skip(1)).all(|(one, other)| Pairs::TABLE.keep_contact(one, other));
+    keep_contact && !Breach::Crowding.is_in(before, after)
+}
+
+/// By the offset of two robots, from −4 to 3 columns and rows, and what each of them does: whether they are in E_C of each
+/// other afterwards and their centres stay in range.
+struct Pairs([u128; 64]);
+
+impl Pairs {
+    const TABLE: &Self = &Self::new();
+
+    const fn new() -> Self {
+        let mut pairs = [0; 64];
+        let mut place = 0;
+        while place < 64 * 81 {
+            let (offset, one, other) = (place / 81, place / 9 % 9, place % 9);
+            let (origin, from) = (Cell::new(0, 0), Cell::new((offset % 8) as i16 - 4, (offset / 8) as i16 - 4));
+            let (to, other_to) = (Self::moved(origin, one), Self::moved(from, other));
+            let keeps = Circle::COVERED.covers(to, other_to) && stays_in_range([origin, to], [from, other_to]);
+            pairs[offset] |= (keeps as u128) << (9 * one + other);
+            place += 1;
+        }
+        Self(pairs)
+    }
+
+    const fn moved(from: Cell, way: usize) -> Cell {
+        Cell::new(from.x + (way % 3) as i16 - 1, from.y + (way / 3) as i16 - 1)
+    }
+
+    /// What a robot does: which of the cells round its own it goes to, if any.
+    #[inline]
+    fn way((from, to): (&Cell, &Cell)) -> Option<u32> {
+        let columns = (i32::from(to.x) - i32::from(from.x) + 1) as u32;
+        let rows = (i32::from(to.y) - i32::from(from.y) + 1) as u32;
+        (columns < 3 && rows < 3).then(|| 3 * rows + columns)
+    }
+
+    #[inline]
+    fn keep_contact(&self, one: (&Cell, &Cell), other: (&Cell, &Cell)) -> bool {
+        let columns = (i32::from(other.0.x) - i32::from(one.0.x) + 4) as u32;
+        let rows = (i32::from(other.0.y) - i32::from(one.0.y) + 4) as u32;
+        match (Self::way(one), Self::way(other)) {
+            (Some(way), Some(other_way)) if columns < 8 && rows < 8 => {
+                self.0[(rows << 3 | columns) as usize] >> (9 * way + other_way) & 1 == 1
+            }
+            _ => false,
+        }
+    }
+}
+
 /// Whether two robots that go from the first to the second of their cells, each at any speeds and with any
 /// pauses, keep their centres within r_cov of each other. Their offset moves inside the parallelogram of the
 /// four differences, and distance is convex, so its corners decide.
 #[inline]
-pub fn stays_in_range(one: [Cell; 2], other: [Cell; 2]) -> bool {
-    let reaches = |a: usize, b: usize| Circle::COVERED.reaches(one[a], other[b]);
-    reaches(0, 0) & reaches(0, 1) & reaches(1, 0) & reaches(1, 1)
+pub const fn stays_in_range(one: [Cell; 2], other: [Cell; 2]) -> bool {
+    let circle = Circle::COVERED;
+    circle.reaches(one[0], other[0])
+        & circle.reaches(one[0], other[1])
+        & circle.reaches(one[1], other[0])
+        & circle.reaches(one[1], other[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every two robots near each other, whatever they do, also what no robot can.
+    #[test]
+    fn what_is_harmless_at_a_glance_commits_no_breach() {
+        let near = || (-5..=5).flat_map(|x| (-5..=5).map(move |y| Cell::new(x, y)));
+        let round = |from: Cell| {
+            (-2..=2).flat_map(move |x| (-2..=2).map(move |y| Cell::new(from.x + x, from.y + y)))
+        };
+        let mut harmless = 0;
+        for (from, to) in near().flat_map(|from| round(from).map(move |to| (from, to))) {
+            for other_to in round(Cell::new(0, 0)) {
+                let (before, after) = ([Cell::new(0, 0), from], [other_to, to]);
+                let commits = [Breach::Contact, Breach::Crowding, Breach::Coverage]
+                    .iter()
+                    .any(|breach| breach.is_in(&before, &after));
+                assert!(!(commits && is_harmless(&before, &after)), "{before:?} {after:?}");
+                let are_steps = [(before[0], after[0]), (from, to)].iter().all(|(from, to)| {
+                    let (columns, rows) = from.apart(*to);
+                    columns.max(rows) <= 1
+                });
+                assert!(commits || !are_steps || is_harmless(&before, &after), "{before:?} {after:?}");
+                harmless += u32::from(!commits);
+            }
+        }
+        assert!(harmless > 0);
+    }
 }
