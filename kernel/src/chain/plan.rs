@@ -78,9 +78,24 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
     fn lead(&mut self) -> bool {
         let leader = self.team.len() - 1;
         let (at, behind) = (self.team[leader], self.team[leader - 1]);
-        let (list, count) = self.leader_list();
-        let list = &list[..count];
+        let shut = self.grid.sides(EdgeMark::Wall, at).or(self.grid.sides(EdgeMark::Virtual, at));
+        let steps = Steps::ALL.without(Step::Stay).minus(shut);
         let admitted = self.rule.steps_behind(at, behind);
+        // Mostly the team can follow the first candidate. Then the others matter only if a move of them is not admitted.
+        let mut has_descended = false;
+        if steps.minus(admitted).is_empty() {
+            let (first, count) = self.leader_list(at, steps, ControlFlow::Break(()));
+            let first = if count == 0 { Steps::NONE } else { Steps::only(Step::Cross(first[0])) };
+            if let Some(step) = self.may_enter(Role::Leader, at, first).iter().next() {
+                self.steps[leader] = step;
+                if self.descend() {
+                    return true;
+                }
+                has_descended = true;
+            }
+        }
+        let (list, count) = self.leader_list(at, steps, ControlFlow::Continue(()));
+        let list = &list[..count];
         // A move out of E_C of the robot behind is replaced, in its place, by the null move.
         let replaced = |side| {
             let step = Step::Cross(side);
@@ -100,7 +115,7 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
             let step = replaced(side);
             if !self.looks.is_over() && enterable.has(step) {
                 self.steps[leader] = step;
-                if choices.is_none() && self.descend() {
+                if choices.is_none() && !has_descended && self.descend() {
                     return true;
                 }
                 if choices.get_or_insert_with(|| Choices::new(self, leads)).follow(self, step) {
@@ -115,9 +130,8 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
     }
 
     /// PLN_N: the sides that the leader may cross, nearest to the frontier first, then away from the base
-    /// ((P′−P)·P), then in direction order.
-    fn leader_list(&mut self) -> ([Side; 4], usize) {
-        let at = self.team[self.team.len() - 1];
+    /// ((P′−P)·P), then in direction order. If they are not to be continued, only those nearest to the frontier.
+    fn leader_list(&mut self, at: Cell, steps: Steps, farther: ControlFlow<()>) -> ([Side; 4], usize) {
         let base = self.base();
         let outward = |side| match side {
             Side::East => i32::from(at.x) - i32::from(base.x),
@@ -125,8 +139,6 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
             Side::West => i32::from(base.x) - i32::from(at.x),
             Side::North => i32::from(base.y) - i32::from(at.y),
         };
-        let shut = self.grid.sides(EdgeMark::Wall, at).or(self.grid.sides(EdgeMark::Virtual, at));
-        let steps = Steps::ALL.without(Step::Stay).minus(shut);
         let mut list = [Side::East; 4];
         let mut count = 0_usize;
         self.grid.approach(at, steps, Avoid::WallsAndVirtual, |nearest| {
@@ -141,7 +153,7 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
                 list[place] = side;
                 count += 1;
             }
-            ControlFlow::Continue(())
+            farther
         });
         (list, count)
     }

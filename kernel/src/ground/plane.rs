@@ -64,7 +64,12 @@ macro_rules! in_one_word {
 
             #[inline]
             fn steps_from(&self, column: usize, row: usize) -> Steps {
+                // The cell and its neighbours.
+                const CROSS: $word = 0b11 | 1 << $side | 1 << (<$word>::BITS - 1) | 1 << (<$word>::BITS - $side);
                 let round = self.rotate_right(($side * row + column) as u32);
+                if round & CROSS == 0 {
+                    return Steps::NONE;
+                }
                 let [east, south] = [round >> 1 & 1, round >> ($side - 1) & 2];
                 let [west, north] = [round >> (Self::BITS - 3) & 4, round >> (Self::BITS - $side - 3) & 8];
                 Steps::of_bits((east | south | west | north | (round & 1) << 4) as u8)

@@ -1,6 +1,8 @@
 //! What a run of the chain may never break: the safety sentences that every frame is checked against (CHAIN-1, CHAIN-2,
 //! CHAIN-3), and those about what plans cost and how runs end.
 
+use std::mem::replace;
+
 use serde::{Deserialize, Serialize};
 use tautline_kernel::chain::{Kind, Message, Outcome};
 use tautline_kernel::ground::{Cell, Circle, Step};
@@ -60,7 +62,7 @@ impl Breach {
             }
             Self::Crowding => (3..after.len()).any(|robot| {
                 let (cell, others) = (after[robot], &after[1..robot]);
-                cell != after[0] && others.iter().filter(|&&other| other == cell).count() >= 2
+                cell != after[0] && others.iter().filter(|&&other| other == cell).nth(1).is_some()
             }),
             Self::Coverage => {
                 let ways = before.iter().zip(after).map(|(&from, &to)| [from, to]);
@@ -78,27 +80,28 @@ pub const CHEAP_LOOKS: u32 = 100;
 /// tells. The base stands first in both.
 #[inline]
 pub(super) fn is_harmless(before: &[Cell], after: &[Cell]) -> bool {
-    let ways = before.iter().zip(after);
-    let keep_contact = ways.clone().zip(ways.skip(1)).all(|(one, other)| Pairs::TABLE.keep_contact(one, other));
+    let mut robots = before.iter().zip(after).map(|(&from, &to)| (from, Pairs::way(from, to)));
+    let Some(mut behind) = robots.next() else { return true };
+    let keep_contact = robots.all(|ahead| Pairs::TABLE.keep_contact(replace(&mut behind, ahead), ahead));
     keep_contact && !Breach::Crowding.is_in(before, after)
 }
 
-/// By the offset of two robots, from −4 to 3 columns and rows, and what each of them does: whether they are in E_C of each
-/// other afterwards and their centres stay in range.
-struct Pairs([u128; 64]);
+/// By the offset of two robots, from −4 to 3 columns and rows, what the first does and what the other does: whether they
+/// are in E_C of each other afterwards and their centres stay in range.
+struct Pairs([[u16; 9]; 64]);
 
 impl Pairs {
     const TABLE: &Self = &Self::new();
 
     const fn new() -> Self {
-        let mut pairs = [0; 64];
+        let mut pairs = [[0; 9]; 64];
         let mut place = 0;
         while place < 64 * 81 {
             let (offset, one, other) = (place / 81, place / 9 % 9, place % 9);
             let (origin, from) = (Cell::new(0, 0), Cell::new((offset % 8) as i16 - 4, (offset / 8) as i16 - 4));
             let (to, other_to) = (Self::moved(origin, one), Self::moved(from, other));
             let keeps = Circle::COVERED.covers(to, other_to) && stays_in_range([origin, to], [from, other_to]);
-            pairs[offset] |= (keeps as u128) << (9 * one + other);
+            pairs[offset][one] |= (keeps as u16) << other;
             place += 1;
         }
         Self(pairs)
@@ -108,24 +111,21 @@ impl Pairs {
         Cell::new(from.x + (way % 3) as i16 - 1, from.y + (way / 3) as i16 - 1)
     }
 
-    /// What a robot does: which of the cells round its own it goes to, if any.
+    /// Which of the nine cells in and round its own a robot goes to; more than eight if none.
     #[inline]
-    fn way((from, to): (&Cell, &Cell)) -> Option<u32> {
+    fn way(from: Cell, to: Cell) -> usize {
         let columns = (i32::from(to.x) - i32::from(from.x) + 1) as u32;
         let rows = (i32::from(to.y) - i32::from(from.y) + 1) as u32;
-        (columns < 3 && rows < 3).then(|| 3 * rows + columns)
+        if columns < 3 && rows < 3 { (3 * rows + columns) as usize } else { usize::MAX }
     }
 
     #[inline]
-    fn keep_contact(&self, one: (&Cell, &Cell), other: (&Cell, &Cell)) -> bool {
-        let columns = (i32::from(other.0.x) - i32::from(one.0.x) + 4) as u32;
-        let rows = (i32::from(other.0.y) - i32::from(one.0.y) + 4) as u32;
-        match (Self::way(one), Self::way(other)) {
-            (Some(way), Some(other_way)) if columns < 8 && rows < 8 => {
-                self.0[(rows << 3 | columns) as usize] >> (9 * way + other_way) & 1 == 1
-            }
-            _ => false,
-        }
+    fn keep_contact(&self, (from, way): (Cell, usize), (other_from, other_way): (Cell, usize)) -> bool {
+        let columns = (i32::from(other_from.x) - i32::from(from.x) + 4) as u32;
+        let rows = (i32::from(other_from.y) - i32::from(from.y) + 4) as u32;
+        let offset = (rows << 3 | columns) as usize;
+        let kept = if columns < 8 { self.0.get(offset).and_then(|ways| ways.get(way)) } else { None };
+        kept.is_some_and(|kept| other_way < 9 && kept >> other_way & 1 == 1)
     }
 }
 
