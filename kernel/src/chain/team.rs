@@ -258,7 +258,8 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         if log.len() != sent {
             return Err(Damaged::Length { bytes: log.len(), sent });
         }
-        let messages = log.chunks_exact(movers).nth(entry as usize).unwrap_or(&[]);
+        let first = entry as usize * movers;
+        let messages = log.get(first..first + movers).unwrap_or(&[]);
         let mut steps = [Step::Stay; ROBOTS];
         let mut cells = self.cells;
         for (robot, &byte) in (1..).zip(messages) {
@@ -282,20 +283,21 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             }
         }
         let team = &cells[..self.robots];
-        let is_crowded = mark_occupied(&mut self.grid, team.iter().copied(), cells[0]);
-        unmark_occupied(&mut self.grid, team.iter().copied());
-        if is_crowded && self.rule.keeps_apart() {
-            return Err(Damaged::Crowded);
+        if self.rule.keeps_apart() {
+            let is_crowded = mark_occupied(&mut self.grid, team.iter().copied(), cells[0]);
+            unmark_occupied(&mut self.grid, team.iter().copied());
+            if is_crowded {
+                return Err(Damaged::Crowded);
+            }
         }
         // Read backwards, every backtrack pairs with the nearest open move before it.
         let mut taken_back = 0_u32;
-        let earlier = log.chunks_exact(movers).take(entry as usize).enumerate().rev();
         let mut last_open = None;
-        for (index, messages) in earlier {
-            if Message::is_backtrack(messages[0]) {
+        for index in (0..entry).rev() {
+            if log.get(index as usize * movers).is_some_and(|&byte| Message::is_backtrack(byte)) {
                 taken_back += 1;
             } else if taken_back == 0 {
-                last_open = Some(index as u32);
+                last_open = Some(index);
                 break;
             } else {
                 taken_back -= 1;
