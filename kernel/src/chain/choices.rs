@@ -88,11 +88,7 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
             looks: planner.looks,
         };
         for robot in 1..=leader {
-            let steps = if robot == leader {
-                leads
-            } else {
-                planner.candidates(robot)
-            };
+            let steps = if robot == leader { leads } else { planner.candidates(robot) };
             choices.looks.take(if robot == leader { 0 } else { Steps::ALL.len() });
             let (at, behind) = (planner.team[robot - 1], choices.left[robot - 1]);
             choices.left[robot] = steps.filter(|step| {
@@ -232,10 +228,18 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
             }
             let ahead = robot + 1;
             if ahead < self.team.len() {
-                let agreeing = self.agreeing[ahead];
-                let doubtful = self.left[ahead].filter(|step| !agreeing[step.place()].and(struck).is_empty());
+                let agreeing = &self.agreeing[ahead];
+                let (mut doubtful, mut alone) = (Steps::NONE, Steps::NONE);
+                for step in self.left[ahead].iter() {
+                    let agreeing = agreeing[step.place()];
+                    if !agreeing.and(struck).is_empty() {
+                        doubtful = doubtful.with(step);
+                        if agreeing.and(left).is_empty() {
+                            alone = alone.with(step);
+                        }
+                    }
+                }
                 self.looks.take(doubtful.len());
-                let alone = doubtful.filter(|step| agreeing[step.place()].and(left).is_empty());
                 self.strike(ahead, alone, &mut wave);
             }
             if self.is_distinct {

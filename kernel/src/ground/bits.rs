@@ -205,7 +205,13 @@ impl<P: Plane> Grid for BitGrid<P> {
     }
 
     #[inline]
-    fn approach(&mut self, at: Cell, steps: Steps, avoid: Avoid, mut tell: impl FnMut(Steps) -> ControlFlow<()>) {
+    fn approach(
+        &mut self,
+        at: Cell,
+        steps: Steps,
+        avoid: Avoid,
+        mut tell: impl FnMut(Steps) -> ControlFlow<()>,
+    ) {
         self.flood(at, steps, avoid, |arrived, _| tell(arrived));
     }
 

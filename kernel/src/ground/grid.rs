@@ -82,7 +82,13 @@ pub trait Grid {
     }
     /// Tells of the `steps` from `at`, nearest first, which lead to cells with one and the same distance, until it is told
     /// to stop; not of those from which there is no path.
-    fn approach(&mut self, at: Cell, steps: Steps, avoid: Avoid, mut tell: impl FnMut(Steps) -> ControlFlow<()>) {
+    fn approach(
+        &mut self,
+        at: Cell,
+        steps: Steps,
+        avoid: Avoid,
+        mut tell: impl FnMut(Steps) -> ControlFlow<()>,
+    ) {
         let distances = self.distances(at, steps, avoid);
         let mut untold = steps.filter(|step| distances[step.place()].is_some());
         while let Some(least) = untold.iter().filter_map(|step| distances[step.place()]).min() {

@@ -43,8 +43,7 @@ impl Cell {
     /// Where `step` leads from here, if nothing is in the way.
     #[inline]
     pub const fn after(self, step: Step) -> Self {
-        const OFFSETS: [(i16, i16); 8] =
-            [(1, 0), (0, 1), (-1, 0), (0, -1), (0, 0), (0, 0), (0, 0), (0, 0)];
+        const OFFSETS: [(i16, i16); 8] = [(1, 0), (0, 1), (-1, 0), (0, -1), (0, 0), (0, 0), (0, 0), (0, 0)];
         self.moved(OFFSETS[step.place() % OFFSETS.len()])
     }
 

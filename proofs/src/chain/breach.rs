@@ -98,9 +98,11 @@ impl Pairs {
         let mut place = 0;
         while place < 64 * 81 {
             let (offset, one, other) = (place / 81, place / 9 % 9, place % 9);
-            let (origin, from) = (Cell::new(0, 0), Cell::new((offset % 8) as i16 - 4, (offset / 8) as i16 - 4));
+            let (origin, from) =
+                (Cell::new(0, 0), Cell::new((offset % 8) as i16 - 4, (offset / 8) as i16 - 4));
             let (to, other_to) = (Self::moved(origin, one), Self::moved(from, other));
-            let keeps = Circle::COVERED.covers(to, other_to) && stays_in_range([origin, to], [from, other_to]);
+            let keeps =
+                Circle::COVERED.covers(to, other_to) && stays_in_range([origin, to], [from, other_to]);
             pairs[offset][one] |= (keeps as u16) << other;
             place += 1;
         }
@@ -149,9 +151,8 @@ mod tests {
     #[test]
     fn what_is_harmless_at_a_glance_commits_no_breach() {
         let near = || (-5..=5).flat_map(|x| (-5..=5).map(move |y| Cell::new(x, y)));
-        let round = |from: Cell| {
-            (-2..=2).flat_map(move |x| (-2..=2).map(move |y| Cell::new(from.x + x, from.y + y)))
-        };
+        let round =
+            |from: Cell| (-2..=2).flat_map(move |x| (-2..=2).map(move |y| Cell::new(from.x + x, from.y + y)));
         let mut harmless = 0;
         for (from, to) in near().flat_map(|from| round(from).map(move |to| (from, to))) {
             for other_to in round(Cell::new(0, 0)) {
