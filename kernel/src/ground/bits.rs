@@ -78,7 +78,7 @@ impl<P: Plane> BitGrid<P> {
                 return;
             }
             missing = missing.minus(arrived);
-            let wider = reached.or(&reached.along_rows(&east)).or(&reached.along_columns(&south));
+            let wider = reached.spread(&east, &south);
             if missing.is_empty() || wider == reached {
                 return;
             }

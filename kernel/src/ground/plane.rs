@@ -37,6 +37,11 @@ pub trait Plane: Copy + Eq {
     fn along_rows(&self, open: &Self) -> Self;
     /// The cells beyond the open south and north sides of these.
     fn along_columns(&self, open: &Self) -> Self;
+    /// These and the cells beyond their open sides: the `east` and the `south` ones, from either side.
+    #[inline]
+    fn spread(&self, east: &Self, south: &Self) -> Self {
+        self.or(&self.along_rows(east)).or(&self.along_columns(south))
+    }
 }
 
 /// Small planes in one word, row after row.
@@ -206,6 +211,21 @@ impl<W: Word, const HEIGHT: usize> Plane for [W; HEIGHT] {
     #[inline]
     fn along_rows(&self, open: &Self) -> Self {
         core::array::from_fn(|row| (self[row] & open[row]) << 1 | self[row] >> 1 & open[row])
+    }
+
+    #[inline]
+    fn spread(&self, east: &Self, south: &Self) -> Self {
+        // Row by row in passes that processors make many rows at a time.
+        let mut wider: Self = core::array::from_fn(|row| {
+            self[row] | (self[row] & east[row]) << 1 | self[row] >> 1 & east[row]
+        });
+        for row in 1..HEIGHT {
+            wider[row] = wider[row] | self[row - 1] & south[row - 1];
+        }
+        for row in 1..HEIGHT {
+            wider[row - 1] = wider[row - 1] | self[row] & south[row - 1];
+        }
+        wider
     }
 
     #[inline]
