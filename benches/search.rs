@@ -1,6 +1,6 @@
 //! What a team move of the search over all layouts costs: against two searches as one would first write them, by the
-//! number of robots and the rule, and on two threads. Criterion follows the shorter searches over time; the tables at the end relate them
-//! to one another.
+//! number of robots and the rule, and on two threads. Criterion follows the shorter searches over time; the tables at
+//! the end relate them to one another.
 
 mod common;
 
@@ -19,7 +19,7 @@ use tautline_proofs::engine::tree::unwatched;
 
 use self::common::{Cost, Work, group, measure};
 
-/// What both searches look for after every team move. Neither looks at how a run ends.
+/// What all searches look for after every team move. None of them looks at how a run ends.
 const BREACHES: [Breach; 3] = [Breach::Contact, Breach::Crowding, Breach::Coverage];
 
 /// What was searched.

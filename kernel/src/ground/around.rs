@@ -59,7 +59,7 @@ static ONTO: Table = Table::of_cell();
 
 impl Circle {
     /// The steps from `at` that lead to a cell which lies wholly inside the circle round the centre of `round`.
-    #[inline(always)]
+    #[inline]
     pub fn covered_steps(self, round: Cell, at: Cell) -> Steps {
         let known = match self {
             Self::SAFE => SAFE.get(round, at),

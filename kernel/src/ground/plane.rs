@@ -216,9 +216,8 @@ impl<W: Word, const HEIGHT: usize> Plane for [W; HEIGHT] {
     #[inline]
     fn spread(&self, east: &Self, south: &Self) -> Self {
         // Row by row in passes that processors make many rows at a time.
-        let mut wider: Self = core::array::from_fn(|row| {
-            self[row] | (self[row] & east[row]) << 1 | self[row] >> 1 & east[row]
-        });
+        let mut wider: Self =
+            core::array::from_fn(|row| self[row] | (self[row] & east[row]) << 1 | self[row] >> 1 & east[row]);
         for row in 1..HEIGHT {
             wider[row] = wider[row] | self[row - 1] & south[row - 1];
         }

@@ -94,12 +94,6 @@ impl Steps {
         Self(bits & Self::ALL.0)
     }
 
-    /// A bit for each by its place, the first lowest.
-    #[inline]
-    pub const fn bits(self) -> u8 {
-        self.0
-    }
-
     /// In direction order.
     #[inline]
     pub fn iter(self) -> impl Iterator<Item = Step> + Clone {
