@@ -76,7 +76,7 @@ impl Oracle for World<'_> {
 }
 
 /// A team move that is planned.
-struct Planned<'a, G: Game> {
+struct Ready<'a, G: Game> {
     before: &'a G::State,
     planned: &'a G::State,
     plan: &'a G::Plan,
@@ -102,9 +102,9 @@ impl<G: Game> Clone for Fork<G> {
 impl<G: Game> Copy for Fork<G> {}
 
 impl<G: Game> Fork<G> {
-    const fn planned(&self) -> Planned<'_, G> {
+    const fn ready(&self) -> Ready<'_, G> {
         let Self { before, planned, plan, .. } = self;
-        Planned { before, planned, plan }
+        Ready { before, planned, plan }
     }
 }
 
@@ -213,21 +213,21 @@ impl<G: Game> Lane<G> {
     /// Makes the team move of `fork` in a run of which all answers are known; `None` if they do not fit.
     fn follow(&mut self, game: &G, fork: &Fork<G>, answers: &[u32]) -> Option<()> {
         self.script.extend_from_slice(answers.get(fork.answered..)?);
-        self.settle(game, &fork.planned()).then_some(())
+        self.settle(game, &fork.ready()).then_some(())
     }
 
     /// Makes the team move that is planned, with the answers of the script first; whether they fit its questions. Only a
     /// team move whose outcome is asked for is kept.
     #[inline]
-    fn settle(&mut self, game: &G, planned: &Planned<'_, G>) -> bool {
+    fn settle(&mut self, game: &G, ready: &Ready<'_, G>) -> bool {
         let (steps, sent, answered) = (self.steps, self.log.len(), self.answers.given.len());
         self.steps += 1;
         let mut world = World { answers: &mut self.answers, script: self.script.iter(), fits: true };
-        game.settle(&mut self.state, planned.plan, &mut self.log, &mut world);
+        game.settle(&mut self.state, ready.plan, &mut self.log, &mut world);
         let fits = world.fits;
         self.script.clear();
         if self.answers.given.len() > answered {
-            let Planned { before, planned, plan } = *planned;
+            let Ready { before, planned, plan } = *ready;
             self.mark = Mark::NONE;
             self.forks.push(Fork { before: *before, planned: *planned, plan: *plan, steps, sent, answered });
         } else {
@@ -248,11 +248,11 @@ impl<G: Game> Lane<G> {
                         continue;
                     };
                     let planned = self.state;
-                    self.make(game, &Planned { before: &before, planned: &planned, plan: &plan }, count)
+                    self.make(game, &Ready { before: &before, planned: &planned, plan: &plan }, count)
                 }
                 Next::Retreat => {
                     let Some(fork) = self.retreat() else { return false };
-                    self.make(game, &fork.planned(), count)
+                    self.make(game, &fork.ready(), count)
                 }
             };
             let is_far = count.made >= wave || count.moves >= most;
@@ -263,13 +263,13 @@ impl<G: Game> Lane<G> {
     }
 
     /// Makes the team move that is planned and checks it; whether its outcome was asked for.
-    fn make(&mut self, game: &G, planned: &Planned<'_, G>, count: &mut Count<G::Demand>) -> bool {
+    fn make(&mut self, game: &G, ready: &Ready<'_, G>, count: &mut Count<G::Demand>) -> bool {
         let (sent, answered) = (self.log.len(), self.answers.given.len());
-        self.settle(game, planned);
+        self.settle(game, ready);
         self.next = Next::Advance;
         count.made += 1;
         count.moves += u64::from(self.is_new());
-        let turn = self.turn(planned, sent);
+        let turn = self.turn(ready, sent);
         count.covered |= game.occurs(&turn);
         let broken = game.broken_by(&turn);
         if let Some(broken) = broken {
@@ -284,8 +284,8 @@ impl<G: Game> Lane<G> {
     }
 
     /// The latest team move, before which the log had `sent` bytes.
-    fn turn<'a>(&'a self, planned: &Planned<'a, G>, sent: usize) -> Turn<'a, G> {
-        let Planned { before, planned, plan } = *planned;
+    fn turn<'a>(&'a self, ready: &Ready<'a, G>, sent: usize) -> Turn<'a, G> {
+        let Ready { before, planned, plan } = *ready;
         Turn { before, planned, after: &self.state, plan, sent: &self.log[sent..] }
     }
 
@@ -407,7 +407,7 @@ pub(super) fn replay<G: Game>(
             break;
         };
         lane.script.extend_from_slice(answers.get(fork.answered..).unwrap_or_default());
-        if !lane.settle(game, &fork.planned()) {
+        if !lane.settle(game, &fork.ready()) {
             let mut given = lane.answers.given.iter().zip(answers);
             let at = given.position(|(given, &answer)| given.value != answer).unwrap_or(fork.answered);
             return Err(Unfit::None { at, of: lane.answers.given[at].below });
@@ -415,7 +415,7 @@ pub(super) fn replay<G: Game>(
         if lane.answers.given.len() > answers.len() {
             return Err(Unfit::Unbroken);
         }
-        let turn = lane.turn(&fork.planned(), fork.sent);
+        let turn = lane.turn(&fork.ready(), fork.sent);
         frames.push(game.frame(&turn));
         broken = game.broken_by(&turn).or_else(|| lane.recurs(game).break_value().flatten());
     }
@@ -440,7 +440,7 @@ pub(super) fn record<G: Game>(
     while lane.steps < steps {
         let fork = lane.plan(game)?;
         lane.follow(game, &fork, answers)?;
-        let turn = lane.turn(&fork.planned(), fork.sent);
+        let turn = lane.turn(&fork.ready(), fork.sent);
         frames.push(game.frame(&turn));
         broken = game.broken_by(&turn).or_else(|| lane.recurs(game).break_value().flatten());
     }
