@@ -11,7 +11,7 @@ use core::cmp::Reverse;
 
 use super::planner::{Looks, Planner};
 use super::rule::Condition;
-use crate::ground::{Cell, Grid, Step, Steps, neighbours};
+use crate::ground::{Cell, Grid, Step, Steps, steps_to};
 
 /// The steps that are left for each robot, base first.
 pub(super) struct Choices<'a, const ROBOTS: usize> {
@@ -20,6 +20,10 @@ pub(super) struct Choices<'a, const ROBOTS: usize> {
     /// Whether two robots may not plan to be in one cell.
     is_distinct: bool,
     left: [Steps; ROBOTS],
+    /// The robots with one step left.
+    decided: Robots<ROBOTS>,
+    /// The robots with more steps left.
+    undecided: Robots<ROBOTS>,
     /// By robot and place of its step: the steps of the robot behind that agree with it.
     agreeing: [[Steps; Step::ALL.len()]; ROBOTS],
     /// Whom something was struck out for, and what was left before: to be restored backwards.
@@ -54,14 +58,15 @@ enum Turn {
 
 /// What was struck out and has not been followed up.
 struct Wave<const ROBOTS: usize> {
-    robots: Robots,
+    robots: Robots<ROBOTS>,
     struck: [Steps; ROBOTS],
     /// Whether no step is left for some robot.
     is_over: bool,
 }
 
 /// A set of robots.
-struct Robots([u64; 4]);
+#[derive(Clone, Copy)]
+struct Robots<const ROBOTS: usize>([u64; 4]);
 
 impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
     /// What is left for every robot, if the leader takes one of the steps in `leads`.
@@ -71,6 +76,8 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
             team: planner.team,
             is_distinct: planner.rule.has(Condition::Distinct),
             left: [Steps::only(Step::Stay); ROBOTS],
+            decided: Robots::NONE,
+            undecided: Robots::NONE,
             agreeing: [[Steps::NONE; Step::ALL.len()]; ROBOTS],
             trail: [[(0, Steps::NONE); Step::ALL.len()]; ROBOTS],
             trail_length: 0,
@@ -81,17 +88,11 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
             looks: planner.looks,
         };
         for robot in 1..=leader {
-            let steps = if robot == leader {
-                leads
-            } else {
-                Steps::ALL.filter(|step| planner.is_candidate(robot, step))
-            };
+            let steps = if robot == leader { leads } else { planner.candidates(robot) };
             choices.looks.take(if robot == leader { 0 } else { Steps::ALL.len() });
-            let behind = choices.left[robot - 1];
+            let (at, behind) = (planner.team[robot - 1], choices.left[robot - 1]);
             choices.left[robot] = steps.filter(|step| {
-                let own = planner.as_move(robot, step);
-                let agreeing =
-                    behind.filter(|step| planner.rule.admits_ahead(planner.as_move(robot - 1, step), own));
+                let agreeing = behind.and(planner.rule.steps_ahead(at, planner.as_move(robot, step)));
                 choices.agreeing[robot][step.place()] = agreeing;
                 !agreeing.is_empty()
             });
@@ -102,7 +103,10 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
             choices.left[robot - 1] = behind.and(choices.agreeing(robot, choices.left[robot]));
         }
         let mut wave = Wave::NONE;
-        (0..=leader).for_each(|robot| wave.robots.insert(robot));
+        for robot in 0..=leader {
+            choices.leave_exactly(robot, choices.left[robot]);
+            wave.robots.insert(robot);
+        }
         if !choices.follow_up(wave) {
             choices.left[leader] = Steps::NONE;
         }
@@ -186,13 +190,12 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
     /// the culprit, even if the witness helps it, or else that one of them that failed most often for each step it has
     /// left; in doubt the nearest to the leader.
     fn next(&self) -> Option<(usize, Turn)> {
-        let mut lost = (1..self.team.len()).rev().filter(|&robot| {
-            self.left[robot].len() > 1 && self.left[robot].and(self.witness[robot]).is_empty()
-        });
+        let undecided = self.undecided.iter();
+        let mut lost = undecided.filter(|&robot| self.left[robot].and(self.witness[robot]).is_empty());
         let first = lost.next()?;
         let urgency =
             |robot: usize| Reverse(FAILURE.saturating_mul(self.failures[robot]) / self.left[robot].len());
-        let urgent = if self.left[self.culprit].len() > 1 {
+        let urgent = if self.undecided.has(self.culprit) {
             self.culprit
         } else {
             lost.fold(first, |best, robot| if urgency(robot) < urgency(best) { robot } else { best })
@@ -202,7 +205,7 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
 
     fn preferred<G: Grid>(&self, planner: &mut Planner<'a, G, ROBOTS>, robot: usize) -> Step {
         let ahead = planner.as_move(robot + 1, self.left[robot + 1].first());
-        planner.preferred(robot, ahead, |_, step| self.left[robot].has(step)).unwrap_or(Step::Stay)
+        planner.preferred(self.team[robot], ahead, self.left[robot]).0.unwrap_or(Step::Stay)
     }
 
     /// Leaves `robot` no other steps than these; false if some robot then has none.
@@ -215,7 +218,7 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
     /// Strikes out what the steps struck out before entail; false if some robot is left with none, or the budget ends.
     fn follow_up(&mut self, mut wave: Wave<ROBOTS>) -> bool {
         while !wave.is_over && !self.looks.is_over() {
-            let Some(robot) = wave.next(&self.left) else { return true };
+            let Some(robot) = wave.next(&self.decided) else { return true };
             let struck = core::mem::replace(&mut wave.struck[robot], Steps::NONE);
             let left = self.left[robot];
             if let Some(behind) = robot.checked_sub(1) {
@@ -225,10 +228,18 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
             }
             let ahead = robot + 1;
             if ahead < self.team.len() {
-                let agreeing = self.agreeing[ahead];
-                let doubtful = self.left[ahead].filter(|step| !agreeing[step.place()].and(struck).is_empty());
+                let agreeing = &self.agreeing[ahead];
+                let (mut doubtful, mut alone) = (Steps::NONE, Steps::NONE);
+                for step in self.left[ahead].iter() {
+                    let agreeing = agreeing[step.place()];
+                    if !agreeing.and(struck).is_empty() {
+                        doubtful = doubtful.with(step);
+                        if agreeing.and(left).is_empty() {
+                            alone = alone.with(step);
+                        }
+                    }
+                }
                 self.looks.take(doubtful.len());
-                let alone = doubtful.filter(|step| agreeing[step.place()].and(left).is_empty());
                 self.strike(ahead, alone, &mut wave);
             }
             if self.is_distinct {
@@ -241,30 +252,31 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
     /// A robot with one cell left, or two robots with the same two cells left, leave them to no other. Only the base
     /// has room for all.
     fn claim(&mut self, robot: usize, wave: &mut Wave<ROBOTS>) {
-        let (left, team) = (self.left, self.team);
-        let cells = |robot: usize| left[robot].iter().map(move |step| team[robot].after(step));
+        let (own, team) = (self.left[robot], self.team);
+        let cells = own.iter().map(|step| team[robot].after(step));
         let has_the_same = |other: &usize| {
+            let theirs = self.left[*other];
             *other != robot
-                && left[*other].len() == 2
-                && cells(*other).all(|cell| cells(robot).any(|own| own == cell))
+                && theirs.len() == 2
+                && theirs.iter().all(|step| cells.clone().any(|cell| cell == team[*other].after(step)))
         };
-        let other = match left[robot].len() {
+        let other = match own.len() {
             1 => Some(robot),
             2 => (1..team.len()).find(has_the_same),
             _ => None,
         };
         let Some(other) = other else { return };
-        if cells(robot).all(|cell| cell != team[0]) {
-            cells(robot).for_each(|cell| self.take([robot, other], cell, wave));
+        if cells.clone().all(|cell| cell != team[0]) {
+            cells.for_each(|cell| self.take([robot, other], cell, wave));
         }
     }
 
     /// Takes `cell` from all but its `owners`.
     fn take(&mut self, owners: [usize; 2], cell: Cell, wave: &mut Wave<ROBOTS>) {
-        for other in 1..self.team.len() {
-            let at = self.team[other];
-            if !owners.contains(&other) && neighbours(at, cell) {
-                let steps = self.left[other].filter(|step| at.after(step) == cell);
+        let team = self.team;
+        for (other, &at) in team.iter().enumerate().skip(1) {
+            let steps = steps_to(cell, at);
+            if !steps.is_empty() && !owners.contains(&other) {
                 self.strike(other, steps, wave);
             }
         }
@@ -278,7 +290,7 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
         }
         self.trail.as_flattened_mut()[self.trail_length] = (robot as u8, before);
         self.trail_length += 1;
-        self.left[robot] = before.minus(struck);
+        self.leave_exactly(robot, before.minus(struck));
         wave.robots.insert(robot);
         wave.struck[robot] = wave.struck[robot].or(struck);
         if struck == before {
@@ -287,16 +299,23 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
         }
     }
 
+    fn leave_exactly(&mut self, robot: usize, steps: Steps) {
+        self.left[robot] = steps;
+        self.decided.put(robot, !steps.is_choice() && !steps.is_empty());
+        self.undecided.put(robot, steps.is_choice());
+    }
+
     /// The steps of the robot behind that agree with one of the `steps` of `robot`.
     fn agreeing(&self, robot: usize, steps: Steps) -> Steps {
         steps.iter().fold(Steps::NONE, |all, step| all.or(self.agreeing[robot][step.place()]))
     }
 
     fn restore(&mut self, mark: usize) {
-        for &(robot, before) in self.trail.as_flattened()[mark..self.trail_length].iter().rev() {
-            self.left[usize::from(robot)] = before;
+        while self.trail_length > mark {
+            self.trail_length -= 1;
+            let (robot, before) = self.trail.as_flattened()[self.trail_length];
+            self.leave_exactly(usize::from(robot), before);
         }
-        self.trail_length = mark;
     }
 }
 
@@ -304,29 +323,62 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
 const FAILURE: u32 = 60;
 
 impl<const ROBOTS: usize> Wave<ROBOTS> {
-    const NONE: Self = Self { robots: Robots([0; 4]), struck: [Steps::NONE; ROBOTS], is_over: false };
+    const NONE: Self = Self { robots: Robots::NONE, struck: [Steps::NONE; ROBOTS], is_over: false };
 
     /// Takes a robot: if possible one that is decided, as that tells most; else the nearest to the leader.
-    fn next(&mut self, left: &[Steps; ROBOTS]) -> Option<usize> {
-        let robot =
-            self.robots.iter().find(|&robot| left[robot].len() == 1).or_else(|| self.robots.iter().next())?;
+    fn next(&mut self, decided: &Robots<ROBOTS>) -> Option<usize> {
+        let robot = self.robots.last_in(decided).or_else(|| self.robots.last_in(&self.robots))?;
         self.robots.remove(robot);
         Some(robot)
     }
 }
 
-impl Robots {
-    const fn insert(&mut self, robot: usize) {
-        self.0[robot / 64] |= 1 << (robot % 64);
+impl<const ROBOTS: usize> Robots<ROBOTS> {
+    const NONE: Self = Self([0; 4]);
+
+    /// The words that are used.
+    const WORDS: usize = ROBOTS.div_ceil(64);
+
+    /// The word of a robot.
+    #[inline]
+    const fn word(robot: usize) -> usize {
+        if Self::WORDS == 1 { 0 } else { robot / 64 % 4 }
     }
 
+    #[inline]
+    const fn insert(&mut self, robot: usize) {
+        self.0[Self::word(robot)] |= 1 << (robot % 64);
+    }
+
+    #[inline]
     const fn remove(&mut self, robot: usize) {
-        self.0[robot / 64] &= !(1 << (robot % 64));
+        self.0[Self::word(robot)] &= !(1 << (robot % 64));
+    }
+
+    /// Inserts or removes it.
+    #[inline]
+    const fn put(&mut self, robot: usize, is_in: bool) {
+        self.remove(robot);
+        self.0[Self::word(robot)] |= (is_in as u64) << (robot % 64);
+    }
+
+    #[inline]
+    const fn has(&self, robot: usize) -> bool {
+        self.0[Self::word(robot)] >> (robot % 64) & 1 == 1
+    }
+
+    /// The one nearest to the leader that is also in the other set.
+    #[inline]
+    fn last_in(&self, other: &Self) -> Option<usize> {
+        (0..Self::WORDS).rev().find_map(|word| {
+            let both = self.0[word] & other.0[word];
+            both.checked_ilog2().map(|bit| 64 * word + bit as usize)
+        })
     }
 
     /// From the leader backwards.
-    fn iter(&self) -> impl Iterator<Item = usize> {
-        (0..self.0.len()).rev().flat_map(|word| {
+    fn iter(self) -> impl Iterator<Item = usize> {
+        (0..Self::WORDS).rev().flat_map(move |word| {
             let mut rest = self.0[word];
             core::iter::from_fn(move || {
                 let bit = rest.checked_ilog2()?;

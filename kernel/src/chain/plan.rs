@@ -3,6 +3,8 @@
 //! descent from the leader to the base; where one does not, [`Choices`] find the plan that the paper's recursion
 //! would return, without its cost (clauses CHAIN-4, CHAIN-11 and CHAIN-12).
 
+use core::ops::ControlFlow;
+
 use super::choices::Choices;
 use super::planner::{Looks, Planner};
 use super::rule::{Condition, Move, Role};
@@ -60,9 +62,15 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
     /// Makes the plan, and says what is looked at by then. `None` if the leader has no candidate that the others can
     /// follow, or the budget ends before one is found. Refused candidates of the leader become virtual obstacles.
     pub(super) fn make(mut self) -> (Option<[Step; ROBOTS]>, Looks) {
-        mark_occupied(self.grid, self.team.iter().copied(), self.base());
+        let counts_occupants =
+            [Role::Leader, Role::Follower].iter().any(|&role| !self.rule.admits_entry(role, 2));
+        if counts_occupants {
+            mark_occupied(self.grid, self.team.iter().copied(), self.base());
+        }
         let found = self.lead();
-        unmark_occupied(self.grid, self.team.iter().copied());
+        if counts_occupants {
+            unmark_occupied(self.grid, self.team.iter().copied());
+        }
         (found.then_some(self.steps), self.looks)
     }
 
@@ -70,21 +78,44 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
     fn lead(&mut self) -> bool {
         let leader = self.team.len() - 1;
         let (at, behind) = (self.team[leader], self.team[leader - 1]);
-        let (mut list, count) = self.leader_list();
-        for candidate in &mut list[..count] {
-            let (side, step) = *candidate;
-            // A move out of E_C of the robot behind is replaced, in its place, by the null move.
-            if !self.rule.admits_behind(at.after(step), behind) {
-                self.grid.put_edge(EdgeMark::Virtual, Edge::new(at, side));
-                *candidate = (side, Step::Stay);
+        let shut = self.grid.sides(EdgeMark::Wall, at).or(self.grid.sides(EdgeMark::Virtual, at));
+        let steps = Steps::ALL.without(Step::Stay).minus(shut);
+        let admitted = self.rule.steps_behind(at, behind);
+        // Mostly the team can follow the first candidate. Then the others matter only if a move of them is not admitted.
+        let mut has_descended = false;
+        if steps.minus(admitted).is_empty() {
+            let (first, count) = self.leader_list(at, steps, ControlFlow::Break(()));
+            let first = if count == 0 { Steps::NONE } else { Steps::only(Step::Cross(first[0])) };
+            if let Some(step) = self.may_enter(Role::Leader, at, first).iter().next() {
+                self.steps[leader] = step;
+                if self.descend() {
+                    return true;
+                }
+                has_descended = true;
             }
         }
-        let leads = list[..count].iter().fold(Steps::NONE, |steps, &(_, step)| steps.with(step));
+        let (list, count) = self.leader_list(at, steps, ControlFlow::Continue(()));
+        let list = &list[..count];
+        // A move out of E_C of the robot behind is replaced, in its place, by the null move.
+        let replaced = |side| {
+            let step = Step::Cross(side);
+            if admitted.has(step) { step } else { Step::Stay }
+        };
+        let mut leads = Steps::NONE;
+        for &side in list {
+            let step = replaced(side);
+            if step == Step::Stay {
+                self.grid.put_edge(EdgeMark::Virtual, Edge::new(at, side));
+            }
+            leads = leads.with(step);
+        }
+        let enterable = self.may_enter(Role::Leader, at, leads);
         let mut choices = None;
-        for &(side, step) in &list[..count] {
-            if !self.looks.is_over() && self.may_enter(Role::Leader, at, step) {
+        for &side in list {
+            let step = replaced(side);
+            if !self.looks.is_over() && enterable.has(step) {
                 self.steps[leader] = step;
-                if choices.is_none() && self.descend() {
+                if choices.is_none() && !has_descended && self.descend() {
                     return true;
                 }
                 if choices.get_or_insert_with(|| Choices::new(self, leads)).follow(self, step) {
@@ -99,9 +130,8 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
     }
 
     /// PLN_N: the sides that the leader may cross, nearest to the frontier first, then away from the base
-    /// ((P′−P)·P), then in direction order.
-    fn leader_list(&mut self) -> ([(Side, Step); 4], usize) {
-        let at = self.team[self.team.len() - 1];
+    /// ((P′−P)·P), then in direction order. If they are not to be continued, only those nearest to the frontier.
+    fn leader_list(&mut self, at: Cell, steps: Steps, farther: ControlFlow<()>) -> ([Side; 4], usize) {
         let base = self.base();
         let outward = |side| match side {
             Side::East => i32::from(at.x) - i32::from(base.x),
@@ -109,28 +139,29 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
             Side::West => i32::from(base.x) - i32::from(at.x),
             Side::North => i32::from(base.y) - i32::from(at.y),
         };
-        let is_shut = |side| {
-            let edge = Edge::new(at, side);
-            self.grid.edge_has(EdgeMark::Wall, edge) || self.grid.edge_has(EdgeMark::Virtual, edge)
-        };
-        let sides = Side::ALL.into_iter().filter(|&side| !is_shut(side));
-        let steps = sides.fold(Steps::NONE, |steps, side| steps.with(Step::Cross(side)));
-        let distances = self.grid.distances(at, steps, Avoid::WallsAndVirtual);
-        let mut keyed = [((0, 0), Side::East); 4];
-        let mut count = 0;
-        for (side, distance) in Side::ALL.into_iter().zip(distances) {
-            if let Some(distance) = distance {
-                keyed[count] = ((distance, -outward(side)), side);
+        let mut list = [Side::East; 4];
+        let mut count = 0_usize;
+        self.grid.approach(at, steps, Avoid::WallsAndVirtual, |nearest| {
+            let nearer = count;
+            for side in Side::ALL.into_iter().filter(|&side| nearest.has(Step::Cross(side))) {
+                // In its place behind those that are as near and lead as far away from the base.
+                let mut place = count;
+                while place > nearer && outward(list[place - 1]) < outward(side) {
+                    list[place] = list[place - 1];
+                    place -= 1;
+                }
+                list[place] = side;
                 count += 1;
             }
-        }
-        keyed[..count].sort_unstable();
-        (keyed.map(|(_, side)| (side, Step::Cross(side))), count)
+            farther
+        });
+        (list, count)
     }
 
     /// Algorithm 1 as long as every follower finds a step at once: true if all did, and the chain closes.
     fn descend(&mut self) -> bool {
         let leader = self.team.len() - 1;
+        let is_distinct = self.rule.has(Condition::Distinct);
         let mut planned = leader;
         self.claim(leader);
         let mut closes = false;
@@ -141,28 +172,29 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
                 break;
             }
             let at = self.team[robot];
-            let distinct = self.rule.has(Condition::Distinct);
-            let fits = |planner: &mut Self, step| {
-                planner.looks.take(1)
-                    && planner.is_candidate(robot, step)
-                    && planner.rule.admits_ahead(planner.as_move(robot, step), ahead)
-                    && !(distinct && planner.grid.has(CellMark::Planned, at.after(step)))
-            };
-            let Some(step) = self.preferred(robot, ahead, fits) else { break };
+            let mut fit = self.candidates(robot).and(self.rule.steps_ahead(at, ahead));
+            if is_distinct {
+                fit = fit.minus(self.grid.steps_to(CellMark::Planned, at, fit));
+            }
+            let (step, looks) = self.preferred(at, ahead, fit);
+            self.looks.take_each(looks);
+            let Some(step) = step.filter(|_| !self.looks.is_over()) else { break };
             self.steps[robot] = step;
-            self.claim(robot);
             planned = robot;
+            self.claim(robot);
         }
-        for robot in planned..=leader {
-            self.grid.take(CellMark::Planned, self.planned(robot).to());
+        if is_distinct {
+            for robot in planned..=leader {
+                self.grid.take(CellMark::Planned, self.team[robot].after(self.steps[robot]));
+            }
         }
-        closes && !self.looks.is_over()
+        closes
     }
 
     /// Takes the cell that `robot` is to be in.
     fn claim(&mut self, robot: usize) {
-        let to = self.planned(robot).to();
-        if to != self.base() {
+        let to = self.team[robot].after(self.steps[robot]);
+        if self.rule.has(Condition::Distinct) && to != self.base() {
             self.grid.put(CellMark::Planned, to);
         }
     }

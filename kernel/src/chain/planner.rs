@@ -1,7 +1,9 @@
 //! A plan in the making: what is planned so far, what it has cost, and what a robot can do next. The descent and the
 //! [`Choices`](super::choices::Choices) both work on it.
 
-use super::rule::{Budget, Move, Role, Rule};
+use core::ops::ControlFlow;
+
+use super::rule::{Budget, Condition, Move, Role, Rule};
 use crate::ground::{Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Step, Steps};
 
 /// The candidates of followers that a plan has looked at, and may look at.
@@ -34,6 +36,17 @@ impl Looks {
         !self.is_over
     }
 
+    /// Looks at `candidates` more, one by one, as far as there are looks left.
+    pub(super) const fn take_each(&mut self, candidates: u32) {
+        let left = self.most - self.used;
+        if candidates > left {
+            self.used += left;
+            self.is_over = true;
+        } else if !self.is_over {
+            self.used += candidates;
+        }
+    }
+
     pub(super) const fn used(self) -> u32 {
         self.used
     }
@@ -60,50 +73,39 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
         Self { rule, grid, team, steps: [Step::Stay; ROBOTS], looks }
     }
 
-    /// Whether the conditions on a follower alone admit `step`.
-    pub(super) fn is_candidate(&self, robot: usize, step: Step) -> bool {
+    /// The steps that the conditions on a follower alone admit.
+    pub(super) fn candidates(&self, robot: usize) -> Steps {
         let (at, behind) = (self.team[robot], self.team[robot - 1]);
-        !self.meets_wall(at, step)
-            && self.rule.admits_behind(at.after(step), behind)
-            && self.may_enter(Role::Follower, at, step)
+        let free = Steps::ALL.minus(self.grid.sides(EdgeMark::Wall, at));
+        self.may_enter(Role::Follower, at, free.and(self.rule.steps_behind(at, behind)))
     }
 
-    /// The first of a follower's steps that fit, in the order of the paper: staying, if it is in P_high; then
-    /// P_high; then the nearest to the frontier; then in direction order. Steps and distances are only looked at
-    /// where they decide.
-    pub(super) fn preferred(
-        &mut self,
-        robot: usize,
-        ahead: Move,
-        mut fits: impl FnMut(&mut Self, Step) -> bool,
-    ) -> Option<Step> {
-        let at = self.team[robot];
-        let high = Steps::ALL.filter(|step| self.rule.is_high(at.after(step), ahead));
-        if high.has(Step::Stay) && fits(self, Step::Stay) {
-            return Some(Step::Stay);
+    /// The first of the steps that `fit` a follower, in the order of the paper: staying, if it is in P_high; then
+    /// P_high; then the nearest to the frontier; then in direction order. Distances are only looked at where they
+    /// decide. Second, how many steps have been looked at for it, whether they fit or not.
+    pub(super) fn preferred(&mut self, at: Cell, ahead: Move, fit: Steps) -> (Option<Step>, u32) {
+        let high = self.rule.high_steps(at, ahead);
+        let best = fit.and(high);
+        if best.has(Step::Stay) {
+            return (Some(Step::Stay), 1);
         }
-        let mut best = high.without(Step::Stay).filter(|step| fits(self, step));
-        if best.is_empty() {
-            best = Steps::ALL.minus(high).filter(|step| fits(self, step));
+        let (best, looks) = if best.is_empty() { (fit, Steps::ALL.len()) } else { (best, high.len()) };
+        let mut nearest = best;
+        if best.len() > 1 {
+            self.grid.approach(at, best, Avoid::Walls, |first| {
+                nearest = first;
+                ControlFlow::Break(())
+            });
         }
-        if best.len() <= 1 {
-            return best.iter().next();
-        }
-        let distances = self.grid.distances(at, best, Avoid::Walls);
-        best.iter().min_by_key(|&step| distances[step.place()].unwrap_or(u32::MAX))
+        (nearest.iter().next(), looks)
     }
 
-    pub(super) fn may_enter(&self, role: Role, at: Cell, step: Step) -> bool {
-        let occupants =
-            if step != Step::Stay && self.grid.has(CellMark::Full, at.after(step)) { 2 } else { 0 };
-        self.rule.admits_entry(role, occupants)
-    }
-
-    fn meets_wall(&self, at: Cell, step: Step) -> bool {
-        match step {
-            Step::Cross(side) => self.grid.edge_has(EdgeMark::Wall, Edge::new(at, side)),
-            Step::Stay => false,
+    /// Those of the `steps` that do not lead into a cell where there are too many to enter it.
+    pub(super) fn may_enter(&self, role: Role, at: Cell, steps: Steps) -> Steps {
+        if self.rule.admits_entry(role, 2) {
+            return steps;
         }
+        steps.minus(self.grid.steps_to(CellMark::Full, at, steps.without(Step::Stay)))
     }
 
     pub(super) fn base(&self) -> Cell {
@@ -117,8 +119,11 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
     pub(super) fn as_move(&self, robot: usize, step: Step) -> Move {
         let from = self.team[robot];
         let known_open = match step {
-            Step::Cross(side) => self.grid.edge_has(EdgeMark::Open, Edge::new(from, side)),
-            Step::Stay => false,
+            // Of no other condition it matters.
+            Step::Cross(side) if self.rule.has(Condition::UnsureAhead) => {
+                self.grid.edge_has(EdgeMark::Open, Edge::new(from, side))
+            }
+            Step::Cross(_) | Step::Stay => false,
         };
         Move { from, step, known_open }
     }

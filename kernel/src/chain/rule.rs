@@ -1,9 +1,9 @@
 //! The chain's rule as a set of named conditions, and the admission relation: which next positions the
 //! conditions allow, in whatever order one prefers them. The proofs of CHAIN-1, CHAIN-2 and CHAIN-3 speak of
-//! these functions alone; the planner asks them and nothing else.
+//! these functions alone; the planner asks them and nothing else, mostly of all steps of a robot at once.
 
 use crate::conditions;
-use crate::ground::{Cell, Circle, Step, neighbours};
+use crate::ground::{Cell, Circle, Step, Steps, neighbouring_steps, neighbours};
 
 /// One condition of the rule, by the sentence it stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -170,10 +170,29 @@ impl Rule {
         safe && (!unsure || self.covered.covers(ahead.from, own.to()))
     }
 
+    /// The steps from `at` that [`Rule::admits_ahead`] admits.
+    #[inline]
+    pub fn steps_ahead(&self, at: Cell, ahead: Move) -> Steps {
+        let mut steps = Steps::ALL;
+        if self.has(Condition::SafeAhead) {
+            steps = self.safe.covered_steps(ahead.to(), at);
+        }
+        if self.has(Condition::UnsureAhead) && !ahead.is_sure() {
+            steps = steps.and(self.covered.covered_steps(ahead.from, at));
+        }
+        steps
+    }
+
     /// Whether a robot may plan to be at `to` while the robot behind it is at `behind`.
     #[inline]
     pub fn admits_behind(&self, to: Cell, behind: Cell) -> bool {
         !self.has(Condition::CoveredBehind) || self.covered.covers(behind, to)
+    }
+
+    /// The steps from `at` that [`Rule::admits_behind`] admits.
+    #[inline]
+    pub fn steps_behind(&self, at: Cell, behind: Cell) -> Steps {
+        if self.has(Condition::CoveredBehind) { self.covered.covered_steps(behind, at) } else { Steps::ALL }
     }
 
     /// Whether a robot may enter a cell outside the base that `occupants` others occupy now.
@@ -209,6 +228,43 @@ impl Rule {
         match self.high {
             High::Planned => neighbours(ahead.to(), to),
             High::Present => neighbours(ahead.from, to),
+        }
+    }
+    /// The steps of a follower at `at` that lead into P_high.
+    #[inline]
+    pub fn high_steps(&self, at: Cell, ahead: Move) -> Steps {
+        match self.high {
+            High::Planned => neighbouring_steps(ahead.to(), at),
+            High::Present => neighbouring_steps(ahead.from, at),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sets_of_steps_hold_the_steps_that_the_rule_admits_one_by_one() {
+        let at = Cell::new(0, 0);
+        let near = || (-5..=5).flat_map(|x| (-5..=5).map(move |y| Cell::new(x, y)));
+        let present = Rule { high: High::Present, ..Rule::REPAIRED };
+        let wide = Rule { safe: Circle::COVERED, covered: Circle::new(34), ..Rule::REPAIRED };
+        let mutants = Condition::ALL.map(|condition| Rule::REPAIRED.without(condition));
+        for rule in [Rule::PUBLISHED, Rule::REPAIRED, present, wide].iter().chain(&mutants) {
+            for from in near() {
+                let behind = Steps::ALL.filter(|step| rule.admits_behind(at.after(step), from));
+                assert_eq!(rule.steps_behind(at, from), behind, "{rule:?} {from}");
+                for (step, known_open) in Step::ALL.into_iter().flat_map(|step| [(step, false), (step, true)])
+                {
+                    let ahead = Move { from, step, known_open };
+                    let own = |step| Move { from: at, step, known_open: false };
+                    let admitted = Steps::ALL.filter(|step| rule.admits_ahead(own(step), ahead));
+                    assert_eq!(rule.steps_ahead(at, ahead), admitted, "{rule:?} {ahead:?}");
+                    let high = Steps::ALL.filter(|step| rule.is_high(at.after(step), ahead));
+                    assert_eq!(rule.high_steps(at, ahead), high, "{rule:?} {ahead:?}");
+                }
+            }
         }
     }
 }

@@ -258,7 +258,8 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         if log.len() != sent {
             return Err(Damaged::Length { bytes: log.len(), sent });
         }
-        let messages = log.chunks_exact(movers).nth(entry as usize).unwrap_or(&[]);
+        let first = entry as usize * movers;
+        let messages = log.get(first..first + movers).unwrap_or(&[]);
         let mut steps = [Step::Stay; ROBOTS];
         let mut cells = self.cells;
         for (robot, &byte) in (1..).zip(messages) {
@@ -282,20 +283,21 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             }
         }
         let team = &cells[..self.robots];
-        let is_crowded = mark_occupied(&mut self.grid, team.iter().copied(), cells[0]);
-        unmark_occupied(&mut self.grid, team.iter().copied());
-        if is_crowded && self.rule.keeps_apart() {
-            return Err(Damaged::Crowded);
+        if self.rule.keeps_apart() {
+            let is_crowded = mark_occupied(&mut self.grid, team.iter().copied(), cells[0]);
+            unmark_occupied(&mut self.grid, team.iter().copied());
+            if is_crowded {
+                return Err(Damaged::Crowded);
+            }
         }
         // Read backwards, every backtrack pairs with the nearest open move before it.
         let mut taken_back = 0_u32;
-        let earlier = log.chunks_exact(movers).take(entry as usize).enumerate().rev();
         let mut last_open = None;
-        for (index, messages) in earlier {
-            if Message::is_backtrack(messages[0]) {
+        for index in (0..entry).rev() {
+            if log.get(index as usize * movers).is_some_and(|&byte| Message::is_backtrack(byte)) {
                 taken_back += 1;
             } else if taken_back == 0 {
-                last_open = Some(index as u32);
+                last_open = Some(index);
                 break;
             } else {
                 taken_back -= 1;
@@ -313,21 +315,21 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     /// the order of the robots. All robots move at once; one that meets a wall stays, and all learn of it.
     pub fn settle(&mut self, plan: &Plan<ROBOTS>, mut is_open: impl FnMut(Edge) -> bool) -> Settled<ROBOTS> {
         let mut messages = [0; ROBOTS];
-        for (robot, sent) in messages.iter_mut().enumerate().take(self.robots).skip(1) {
-            let step = plan.steps[robot];
+        let movers = 1..self.robots.min(ROBOTS);
+        let team = messages[movers.clone()].iter_mut().zip(&mut self.cells[movers.clone()]);
+        for ((sent, cell), &step) in team.zip(&plan.steps[movers]) {
             let outcome = match (plan.kind, step) {
                 (Kind::Backtrack, _) => Outcome::TookBack,
                 (Kind::Advance, Step::Stay) => Outcome::Arrived,
                 (Kind::Advance, Step::Cross(side)) => {
-                    self.try_edge(Edge::new(self.cells[robot], side), &mut is_open)
+                    try_edge(&mut self.grid, &mut self.stage, Edge::new(*cell, side), &mut is_open)
                 }
             };
             let message = Message { step, outcome };
             *sent = message.encode();
-            let cell = self.cells[robot].after(message.made());
-            self.cells[robot] = cell;
-            if !self.grid.has(CellMark::Explored, cell) {
-                self.grid.put(CellMark::Explored, cell);
+            *cell = cell.after(message.made());
+            if !self.grid.has(CellMark::Explored, *cell) {
+                self.grid.put(CellMark::Explored, *cell);
                 self.stage = Stage::Gained;
             }
         }
@@ -378,21 +380,27 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         });
         Ok(())
     }
+}
 
-    fn try_edge(&mut self, edge: Edge, is_open: &mut impl FnMut(Edge) -> bool) -> Outcome {
-        if self.grid.edge_has(EdgeMark::Open, edge) {
-            return Outcome::Arrived;
-        }
-        if self.grid.edge_has(EdgeMark::Wall, edge) {
-            return Outcome::Blocked;
-        }
-        if is_open(edge) {
-            self.grid.put_edge(EdgeMark::Open, edge);
-            Outcome::Arrived
-        } else {
-            self.grid.put_edge(EdgeMark::Wall, edge);
-            self.stage = Stage::Gained;
-            Outcome::Blocked
-        }
+/// What comes of crossing `edge`.
+fn try_edge(
+    grid: &mut impl Grid,
+    stage: &mut Stage,
+    edge: Edge,
+    is_open: &mut impl FnMut(Edge) -> bool,
+) -> Outcome {
+    if grid.edge_has(EdgeMark::Open, edge) {
+        return Outcome::Arrived;
+    }
+    if grid.edge_has(EdgeMark::Wall, edge) {
+        return Outcome::Blocked;
+    }
+    if is_open(edge) {
+        grid.put_edge(EdgeMark::Open, edge);
+        Outcome::Arrived
+    } else {
+        grid.put_edge(EdgeMark::Wall, edge);
+        *stage = Stage::Gained;
+        Outcome::Blocked
     }
 }

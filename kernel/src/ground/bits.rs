@@ -1,5 +1,7 @@
 //! The grid in machine words: a [`Plane`] for every mark. Distances are flood fills of whole planes at a time.
 
+use core::ops::ControlFlow;
+
 use super::plane::Plane;
 use super::{Area, Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Side, Step, Steps, links};
 
@@ -8,10 +10,8 @@ use super::{Area, Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Side, Step, Steps
 pub struct BitGrid<P> {
     area: Area,
     cells: [P; 4],
-    /// Marks on the east sides.
-    east: [P; 3],
-    /// Marks on the south sides.
-    south: [P; 3],
+    /// Marks on the east sides, and on the south sides.
+    edges: [[P; 2]; 3],
 }
 
 /// The grid of a chain of up to four robots: one word for each mark.
@@ -31,29 +31,68 @@ impl<P: Plane> BitGrid<P> {
         if area.width() > P::COLUMNS || area.height() > P::ROWS {
             return None;
         }
-        let mut grid = Self { area, cells: [P::NONE; 4], east: [P::NONE; 3], south: [P::NONE; 3] };
+        let mut grid = Self { area, cells: [P::NONE; 4], edges: [[P::NONE; 2]; 3] };
         grid.cells[CellMark::Explored as usize] = rectangle::<P>(area.width(), area.height()).not();
         grid.clear_edges(EdgeMark::Wall);
         Some(grid)
     }
 
-    fn edge_plane(&self, mark: EdgeMark, edge: Edge) -> &P {
-        match edge.side() {
-            Side::East | Side::West => &self.east[mark as usize],
-            Side::South | Side::North => &self.south[mark as usize],
-        }
+    /// The cells whose east, and whose south side may be crossed.
+    #[inline]
+    fn open(&self, avoid: Avoid) -> [P; 2] {
+        let walls = &self.edges[EdgeMark::Wall as usize];
+        let obstacles = &self.edges[EdgeMark::Virtual as usize];
+        core::array::from_fn(|axis| match avoid {
+            Avoid::Walls => walls[axis].not(),
+            Avoid::WallsAndVirtual => walls[axis].or(&obstacles[axis]).not(),
+        })
+    }
+}
+
+impl<P: Plane> BitGrid<P> {
+    /// The steps from a cell that leave the area.
+    #[inline]
+    fn leaving(&self, column: usize, row: usize) -> Steps {
+        let east = u8::from(column + 1 == self.area.width());
+        let south = u8::from(row + 1 == self.area.height());
+        Steps::of_bits(east | south << 1 | u8::from(column == 0) << 2 | u8::from(row == 0) << 3)
     }
 
-    /// The cells whose east, and whose south side may be crossed.
-    fn open(&self, avoid: Avoid) -> (P, P) {
-        let [east, south] = [&self.east, &self.south].map(|marks| {
-            let walls = &marks[EdgeMark::Wall as usize];
-            match avoid {
-                Avoid::Walls => walls.not(),
-                Avoid::WallsAndVirtual => walls.or(&marks[EdgeMark::Virtual as usize]).not(),
+    /// Floods the area from the frontier outwards, one cell at a time, until all the cells are reached where `steps` lead
+    /// from `at`, or as many as can be. Hears which are reached by how many cells, and whether that is enough.
+    #[inline]
+    fn flood(
+        &self,
+        at: Cell,
+        steps: Steps,
+        avoid: Avoid,
+        mut arrive: impl FnMut(Steps, u32) -> ControlFlow<()>,
+    ) {
+        let Some((column, row)) = self.area.locate(at) else { return };
+        let [east, south] = self.open(avoid);
+        let mut missing = steps.minus(self.leaving(column, row));
+        let mut reached = self.cells[CellMark::Explored as usize].not();
+        for length in 0.. {
+            let arrived = reached.steps_from(column, row).and(missing);
+            if !arrived.is_empty() && arrive(arrived, length).is_break() {
+                return;
             }
-        });
-        (east, south)
+            missing = missing.minus(arrived);
+            let wider = reached.spread(&east, &south);
+            if missing.is_empty() || wider == reached {
+                return;
+            }
+            reached = wider;
+        }
+    }
+}
+
+/// The place of the planes of an edge's axis.
+#[inline]
+const fn axis(edge: Edge) -> usize {
+    match edge.side() {
+        Side::East | Side::West => 0,
+        Side::South | Side::North => 1,
     }
 }
 
@@ -73,6 +112,7 @@ impl<P: Plane> Grid for BitGrid<P> {
         self.area
     }
 
+    #[inline]
     fn has(&self, mark: CellMark, cell: Cell) -> bool {
         match self.area.locate(cell) {
             Some((column, row)) => self.cells[mark as usize].has(column, row),
@@ -80,49 +120,69 @@ impl<P: Plane> Grid for BitGrid<P> {
         }
     }
 
+    #[inline]
     fn put(&mut self, mark: CellMark, cell: Cell) {
         if let Some((column, row)) = self.area.locate(cell) {
             self.cells[mark as usize].put(column, row);
         }
     }
 
+    #[inline]
     fn take(&mut self, mark: CellMark, cell: Cell) {
         if let Some((column, row)) = self.area.locate(cell) {
             self.cells[mark as usize].take(column, row);
         }
     }
 
+    #[inline]
     fn edge_has(&self, mark: EdgeMark, edge: Edge) -> bool {
         match self.area.locate(edge.cell()) {
-            Some((column, row)) => self.edge_plane(mark, edge).has(column, row),
+            Some((column, row)) => self.edges[mark as usize][axis(edge)].has(column, row),
             None => mark == EdgeMark::Wall,
         }
     }
 
+    #[inline]
+    fn sides(&self, mark: EdgeMark, cell: Cell) -> Steps {
+        match self.area.locate(cell) {
+            // The border is a wall, and nothing else: so is what stands before the first column and row.
+            Some((column, row)) => {
+                let [east, south] = &self.edges[mark as usize];
+                P::steps_across(east, south, column, row)
+            }
+            None if mark == EdgeMark::Wall => Steps::ALL.without(Step::Stay),
+            None => Steps::NONE,
+        }
+    }
+
+    #[inline]
+    fn steps_to(&self, mark: CellMark, at: Cell, steps: Steps) -> Steps {
+        match self.area.locate(at) {
+            Some((column, row)) => steps.and(self.cells[mark as usize].steps_from(column, row)),
+            None if mark == CellMark::Explored => steps,
+            None => Steps::NONE,
+        }
+    }
+
+    #[inline]
     fn put_edge(&mut self, mark: EdgeMark, edge: Edge) {
         if !self.area.contains(edge.cell().beyond(edge.side())) {
             return;
         }
         if let Some((column, row)) = self.area.locate(edge.cell()) {
-            let plane = match edge.side() {
-                Side::East | Side::West => &mut self.east[mark as usize],
-                Side::South | Side::North => &mut self.south[mark as usize],
-            };
-            plane.put(column, row);
+            self.edges[mark as usize][axis(edge)].put(column, row);
         }
     }
 
     fn clear_edges(&mut self, mark: EdgeMark) {
         let (width, height) = (self.area.width(), self.area.height());
         // A side is a wall unless the cells on both sides of it are in the area.
-        let [east, south] = match mark {
+        self.edges[mark as usize] = match mark {
             EdgeMark::Wall => {
                 [rectangle(width - 1, height), rectangle(width, height - 1)].map(|inside: P| inside.not())
             }
             EdgeMark::Open | EdgeMark::Virtual => [P::NONE; 2],
         };
-        self.east[mark as usize] = east;
-        self.south[mark as usize] = south;
     }
 
     fn is_explored(&self) -> bool {
@@ -134,37 +194,30 @@ impl<P: Plane> Grid for BitGrid<P> {
     }
 
     fn distances(&mut self, at: Cell, steps: Steps, avoid: Avoid) -> [Option<u32>; Step::ALL.len()] {
-        // From the frontier outwards: one flood serves all.
-        let (east, south) = self.open(avoid);
-        let mut reached = self.cells[CellMark::Explored as usize].not();
         let mut distances = [None; Step::ALL.len()];
-        let mut places = [(0, 0); Step::ALL.len()];
-        let mut missing = steps.filter(|step| {
-            let place = self.area.locate(at.after(step));
-            places[step.place()] = place.unwrap_or_default();
-            place.is_some()
+        self.flood(at, steps, avoid, |arrived, length| {
+            for step in arrived.iter() {
+                distances[step.place()] = Some(length);
+            }
+            ControlFlow::Continue(())
         });
-        let mut length = 0;
-        loop {
-            for step in missing.iter() {
-                let (column, row) = places[step.place()];
-                if reached.has(column, row) {
-                    distances[step.place()] = Some(length);
-                    missing = missing.without(step);
-                }
-            }
-            let wider = reached.or(&reached.along_rows(&east)).or(&reached.along_columns(&south));
-            if missing.is_empty() || wider == reached {
-                return distances;
-            }
-            reached = wider;
-            length += 1;
-        }
+        distances
+    }
+
+    #[inline]
+    fn approach(
+        &mut self,
+        at: Cell,
+        steps: Steps,
+        avoid: Avoid,
+        mut tell: impl FnMut(Steps) -> ControlFlow<()>,
+    ) {
+        self.flood(at, steps, avoid, |arrived, _| tell(arrived));
     }
 
     fn stops(&mut self, from: Cell, stops: &mut [Cell]) -> Option<usize> {
         let (column, row) = self.area.locate(from)?;
-        let (east, south) = self.open(Avoid::Walls);
+        let [east, south] = self.open(Avoid::Walls);
         let unexplored = self.cells[CellMark::Explored as usize].not();
         let mut reached = P::NONE;
         reached.put(column, row);

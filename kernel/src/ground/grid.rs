@@ -2,6 +2,8 @@
 //! the nearest unexplored cell (paper 000, equation (4)). [`Grid`] is what the rules ask for; [`BitGrid`](super::BitGrid) is
 //! its home in a few machine words, small enough to be copied at every fork of a search.
 
+use core::ops::ControlFlow;
+
 use super::{Cell, Edge, Side, Step, Steps};
 
 /// What is marked on cells.
@@ -49,6 +51,17 @@ pub trait Grid {
     fn take(&mut self, mark: CellMark, cell: Cell);
     /// Whether `edge` carries `mark`. Every edge on or beyond the border is a wall.
     fn edge_has(&self, mark: EdgeMark, edge: Edge) -> bool;
+    /// The sides of `cell` that carry `mark`, as the steps across them.
+    fn sides(&self, mark: EdgeMark, cell: Cell) -> Steps {
+        Steps::ALL.filter(|step| match step {
+            Step::Cross(side) => self.edge_has(mark, Edge::new(cell, side)),
+            Step::Stay => false,
+        })
+    }
+    /// Those of the `steps` from `at`, none of which leaves the area, that lead to a cell with `mark`.
+    fn steps_to(&self, mark: CellMark, at: Cell, steps: Steps) -> Steps {
+        steps.filter(|step| self.has(mark, at.after(step)))
+    }
     /// Puts `mark` on `edge`; no effect on or beyond the border.
     fn put_edge(&mut self, mark: EdgeMark, edge: Edge);
     /// Takes `mark` off every edge inside the area.
@@ -66,6 +79,25 @@ pub trait Grid {
             distances[step.place()] = self.distance(at.after(step), avoid);
         }
         distances
+    }
+    /// Tells of the `steps` from `at`, nearest first, which lead to cells with one and the same distance, until it is told
+    /// to stop; not of those from which there is no path.
+    fn approach(
+        &mut self,
+        at: Cell,
+        steps: Steps,
+        avoid: Avoid,
+        mut tell: impl FnMut(Steps) -> ControlFlow<()>,
+    ) {
+        let distances = self.distances(at, steps, avoid);
+        let mut untold = steps.filter(|step| distances[step.place()].is_some());
+        while let Some(least) = untold.iter().filter_map(|step| distances[step.place()]).min() {
+            let nearest = untold.filter(|step| distances[step.place()] == Some(least));
+            untold = untold.minus(nearest);
+            if tell(nearest).is_break() {
+                return;
+            }
+        }
     }
     /// A walk from `from` to the unexplored cell that is fewest [`links`](super::links) away, the first in row order of these: how
     /// many links it has, at most one less than there are `stops`, and the cells where they begin and end in
@@ -123,26 +155,22 @@ impl Area {
     /// Number of columns.
     #[inline]
     pub const fn width(self) -> usize {
-        self.first.x.abs_diff(self.last.x) as usize + 1
+        self.last.x.wrapping_sub(self.first.x) as u16 as usize + 1
     }
 
     /// Number of rows.
     #[inline]
     pub const fn height(self) -> usize {
-        self.first.y.abs_diff(self.last.y) as usize + 1
+        self.last.y.wrapping_sub(self.first.y) as u16 as usize + 1
     }
 
     /// Column and row of `cell` counted from the north-west corner; `None` outside.
     #[inline]
     pub const fn locate(self, cell: Cell) -> Option<(usize, usize)> {
         // West or north of the area the difference wraps round to more than its width or height.
-        let column = cell.x.wrapping_sub(self.first.x) as u16;
-        let row = cell.y.wrapping_sub(self.first.y) as u16;
-        if column <= self.first.x.abs_diff(self.last.x) && row <= self.first.y.abs_diff(self.last.y) {
-            Some((column as usize, row as usize))
-        } else {
-            None
-        }
+        let (column, row) = (cell.x.wrapping_sub(self.first.x), cell.y.wrapping_sub(self.first.y));
+        let (column, row) = (column as u16 as usize, row as u16 as usize);
+        if column < self.width() && row < self.height() { Some((column, row)) } else { None }
     }
 
     /// Whether `cell` is in the area.

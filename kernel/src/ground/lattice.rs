@@ -29,17 +29,22 @@ impl Cell {
     /// The neighbour beyond `side`. At the rim of the coordinates (±32,767) a cell is its own neighbour.
     #[inline]
     pub const fn beyond(self, side: Side) -> Self {
-        let (columns, rows) = side.offset();
-        Self::new(self.x.saturating_add(columns), self.y.saturating_add(rows))
+        self.moved(side.offset())
+    }
+
+    #[inline]
+    const fn moved(self, (columns, rows): (i16, i16)) -> Self {
+        match (self.x.checked_add(columns), self.y.checked_add(rows)) {
+            (Some(x), Some(y)) => Self::new(x, y),
+            _ => self,
+        }
     }
 
     /// Where `step` leads from here, if nothing is in the way.
     #[inline]
     pub const fn after(self, step: Step) -> Self {
-        match step {
-            Step::Cross(side) => self.beyond(side),
-            Step::Stay => self,
-        }
+        const OFFSETS: [(i16, i16); 8] = [(1, 0), (0, 1), (-1, 0), (0, -1), (0, 0), (0, 0), (0, 0), (0, 0)];
+        self.moved(OFFSETS[step.place() % OFFSETS.len()])
     }
 
     /// Columns and rows between two cells, without sign.
@@ -183,12 +188,10 @@ impl Edge {
     /// The edge on this `side` of `cell`.
     #[inline]
     pub const fn new(cell: Cell, side: Side) -> Self {
-        match side {
-            Side::East => Self { cell, axis: Axis::EastWest },
-            Side::South => Self { cell, axis: Axis::SouthNorth },
-            Side::West => Self { cell: cell.beyond(side), axis: Axis::EastWest },
-            Side::North => Self { cell: cell.beyond(side), axis: Axis::SouthNorth },
-        }
+        // From a cell to the western or northern one of the two.
+        const OFFSETS: [(i16, i16); 4] = [(0, 0), (0, 0), (-1, 0), (0, -1)];
+        const AXES: [Axis; 4] = [Axis::EastWest, Axis::SouthNorth, Axis::EastWest, Axis::SouthNorth];
+        Self { cell: cell.moved(OFFSETS[side as usize]), axis: AXES[side as usize] }
     }
 
     /// The western or northern cell of the two.
@@ -235,17 +238,16 @@ impl Circle {
     /// such cells. The farthest corner decides; it is half a cell beyond the centre in both coordinates.
     #[inline]
     pub const fn covers(self, round: Cell, cell: Cell) -> bool {
-        let (dx, dy) = round.apart(cell);
-        let (x, y) = (2 * dx as u64 + 1, 2 * dy as u64 + 1);
+        let (dx, dy) = (round.x as i64 - cell.x as i64, round.y as i64 - cell.y as i64);
+        let (x, y) = (2 * dx.unsigned_abs() + 1, 2 * dy.unsigned_abs() + 1);
         x * x + y * y <= self.four_radius_squared
     }
 
     /// Whether the centre of `cell` lies inside the circle round the centre of `round`.
     #[inline]
     pub const fn reaches(self, round: Cell, cell: Cell) -> bool {
-        let (dx, dy) = round.apart(cell);
-        let (x, y) = (2 * dx as u64, 2 * dy as u64);
-        x * x + y * y <= self.four_radius_squared
+        let (x, y) = (round.x as i64 - cell.x as i64, round.y as i64 - cell.y as i64);
+        4 * (x * x + y * y) as u64 <= self.four_radius_squared
     }
 }
 

@@ -2,6 +2,8 @@
 
 use core::ops::{BitAnd, BitOr, Not, Shl, Shr};
 
+use super::Steps;
+
 /// A set of cells by column and row, both less than [`Plane::COLUMNS`] and [`Plane::ROWS`].
 ///
 /// Whole sets are moved along open sides: `open` holds the cells whose east side is open, or whose south side is.
@@ -20,6 +22,11 @@ pub trait Plane: Copy + Eq {
     fn put(&mut self, column: usize, row: usize);
     /// Takes the cell out.
     fn take(&mut self, column: usize, row: usize);
+    /// The steps from a cell that lead into the set. A step that leads out of the plane may be among them or not.
+    fn steps_from(&self, column: usize, row: usize) -> Steps;
+    /// The steps across the sides of a cell, if `east` holds the cells of which the east side is meant, and `south` those
+    /// of which the south side is. Before the first column stands what is in the last, before the first row too.
+    fn steps_across(east: &Self, south: &Self, column: usize, row: usize) -> Steps;
     /// The cells in both sets.
     fn and(&self, other: &Self) -> Self;
     /// The cells in either set.
@@ -30,6 +37,11 @@ pub trait Plane: Copy + Eq {
     fn along_rows(&self, open: &Self) -> Self;
     /// The cells beyond the open south and north sides of these.
     fn along_columns(&self, open: &Self) -> Self;
+    /// These and the cells beyond their open sides: the `east` and the `south` ones, from either side.
+    #[inline]
+    fn spread(&self, east: &Self, south: &Self) -> Self {
+        self.or(&self.along_rows(east)).or(&self.along_columns(south))
+    }
 }
 
 /// Small planes in one word, row after row.
@@ -40,34 +52,63 @@ macro_rules! in_one_word {
             const ROWS: usize = $side;
             const NONE: Self = 0;
 
+            #[inline]
             fn has(&self, column: usize, row: usize) -> bool {
                 self >> ($side * row + column) & 1 == 1
             }
 
+            #[inline]
             fn put(&mut self, column: usize, row: usize) {
                 *self |= 1 << ($side * row + column);
             }
 
+            #[inline]
             fn take(&mut self, column: usize, row: usize) {
                 *self &= !(1 << ($side * row + column));
             }
 
+            #[inline]
+            fn steps_from(&self, column: usize, row: usize) -> Steps {
+                // The cell and its neighbours.
+                const CROSS: $word = 0b11 | 1 << $side | 1 << (<$word>::BITS - 1) | 1 << (<$word>::BITS - $side);
+                let round = self.rotate_right(($side * row + column) as u32);
+                if round & CROSS == 0 {
+                    return Steps::NONE;
+                }
+                let [east, south] = [round >> 1 & 1, round >> ($side - 1) & 2];
+                let [west, north] = [round >> (Self::BITS - 3) & 4, round >> (Self::BITS - $side - 3) & 8];
+                Steps::of_bits((east | south | west | north | (round & 1) << 4) as u8)
+            }
+
+            #[inline]
+            fn steps_across(east: &Self, south: &Self, column: usize, row: usize) -> Steps {
+                let place = ($side * row + column) as u32;
+                let (east, south) = (east.rotate_right(place), south.rotate_right(place));
+                let [west, north] = [east >> (Self::BITS - 3) & 4, south >> (Self::BITS - $side - 3) & 8];
+                Steps::of_bits((east & 1 | (south & 1) << 1 | west | north) as u8)
+            }
+
+            #[inline]
             fn and(&self, other: &Self) -> Self {
                 self & other
             }
 
+            #[inline]
             fn or(&self, other: &Self) -> Self {
                 self | other
             }
 
+            #[inline]
             fn not(&self) -> Self {
                 !self
             }
 
+            #[inline]
             fn along_rows(&self, open: &Self) -> Self {
                 (self & open) << 1 | self >> 1 & open
             }
 
+            #[inline]
             fn along_columns(&self, open: &Self) -> Self {
                 (self & open) << $side | self >> $side & open
             }
@@ -92,6 +133,9 @@ pub trait Word:
     const NONE: Self;
     /// The westernmost cell alone.
     const FIRST: Self;
+
+    /// Whether the cell in this column is in the row; the last stands before the first.
+    fn has(self, column: usize) -> bool;
 }
 
 macro_rules! words {
@@ -100,6 +144,11 @@ macro_rules! words {
             const BITS: usize = <$word>::BITS as usize;
             const NONE: Self = 0;
             const FIRST: Self = 1;
+
+            #[inline]
+            fn has(self, column: usize) -> bool {
+                self.rotate_right(column as u32) & 1 == 1
+            }
         }
     )*};
 }
@@ -110,34 +159,75 @@ impl<W: Word, const HEIGHT: usize> Plane for [W; HEIGHT] {
     const ROWS: usize = HEIGHT;
     const NONE: Self = [W::NONE; HEIGHT];
 
+    #[inline]
     fn has(&self, column: usize, row: usize) -> bool {
         self[row] & W::FIRST << column != W::NONE
     }
 
+    #[inline]
     fn put(&mut self, column: usize, row: usize) {
         self[row] = self[row] | W::FIRST << column;
     }
 
+    #[inline]
     fn take(&mut self, column: usize, row: usize) {
         self[row] = self[row] & !(W::FIRST << column);
     }
 
+    #[inline]
+    fn steps_from(&self, column: usize, row: usize) -> Steps {
+        let at = self[row];
+        let south = self[(row + 1) % HEIGHT];
+        let north = self[(row + HEIGHT - 1) % HEIGHT];
+        let [east, south] = [at.has(column + 1), south.has(column)];
+        let [west, north] = [at.has(column + W::BITS - 1), north.has(column)];
+        let bits = [east, south, west, north, at.has(column)];
+        Steps::of_bits(bits.iter().rev().fold(0, |bits, &bit| bits << 1 | u8::from(bit)))
+    }
+
+    #[inline]
+    fn steps_across(east: &Self, south: &Self, column: usize, row: usize) -> Steps {
+        let at = east[row];
+        let (south, north) = (south[row], south[(row + HEIGHT - 1) % HEIGHT]);
+        let bits = [at.has(column), south.has(column), at.has(column + W::BITS - 1), north.has(column)];
+        Steps::of_bits(bits.iter().rev().fold(0, |bits, &bit| bits << 1 | u8::from(bit)))
+    }
+
+    #[inline]
     fn and(&self, other: &Self) -> Self {
         core::array::from_fn(|row| self[row] & other[row])
     }
 
+    #[inline]
     fn or(&self, other: &Self) -> Self {
         core::array::from_fn(|row| self[row] | other[row])
     }
 
+    #[inline]
     fn not(&self) -> Self {
         self.map(W::not)
     }
 
+    #[inline]
     fn along_rows(&self, open: &Self) -> Self {
         core::array::from_fn(|row| (self[row] & open[row]) << 1 | self[row] >> 1 & open[row])
     }
 
+    #[inline]
+    fn spread(&self, east: &Self, south: &Self) -> Self {
+        // Row by row in passes that processors make many rows at a time.
+        let mut wider: Self =
+            core::array::from_fn(|row| self[row] | (self[row] & east[row]) << 1 | self[row] >> 1 & east[row]);
+        for row in 1..HEIGHT {
+            wider[row] = wider[row] | self[row - 1] & south[row - 1];
+        }
+        for row in 1..HEIGHT {
+            wider[row - 1] = wider[row - 1] | self[row] & south[row - 1];
+        }
+        wider
+    }
+
+    #[inline]
     fn along_columns(&self, open: &Self) -> Self {
         let mut beyond = Self::NONE;
         for row in 1..HEIGHT {

@@ -57,7 +57,23 @@ impl Steps {
     /// How many they are.
     #[inline]
     pub const fn len(self) -> u32 {
-        self.0.count_ones()
+        // Most processors' plainest instructions count no bits.
+        const LENGTHS: [u8; 32] = {
+            let mut lengths = [0; 32];
+            let mut bits = 0;
+            while bits < lengths.len() {
+                lengths[bits] = bits.count_ones() as u8;
+                bits += 1;
+            }
+            lengths
+        };
+        LENGTHS[(self.0 & Self::ALL.0) as usize] as u32
+    }
+
+    /// Whether there are two or more.
+    #[inline]
+    pub const fn is_choice(self) -> bool {
+        self.0 & self.0.wrapping_sub(1) != 0
     }
 
     /// Whether there is none.
@@ -72,9 +88,15 @@ impl Steps {
         self.iter().next().unwrap_or(Step::Stay)
     }
 
+    /// A bit for each by its place, the first lowest; more bits than there are steps are left out.
+    #[inline]
+    pub const fn of_bits(bits: u8) -> Self {
+        Self(bits & Self::ALL.0)
+    }
+
     /// In direction order.
     #[inline]
-    pub fn iter(self) -> impl Iterator<Item = Step> {
+    pub fn iter(self) -> impl Iterator<Item = Step> + Clone {
         let mut rest = self.0;
         core::iter::from_fn(move || {
             let step = Step::ALL.get(rest.trailing_zeros() as usize).copied();

@@ -7,7 +7,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, CellMark, EdgeMark, Grid, Step};
 
 use super::bounds::Bounds;
-use super::breach::{Breach, frame};
+use super::breach::{Breach, frame, is_harmless};
 use super::invariant::{Invariant, Moment};
 use super::links::within_reach;
 use super::observed::Deception;
@@ -108,7 +108,10 @@ where
             }
         }
         let moment = Moment { observed, before, planned, after, plan, steps, messages };
-        self.bounds.invariants.iter().find_map(|&invariant| match invariant.check(&moment) {
+        let is_harmless = is_harmless(before.cells(), after.cells());
+        let is_met = |invariant: Invariant| is_harmless && invariant.breach().is_some();
+        let doubtful = self.bounds.invariants.iter().filter(|&&invariant| !is_met(invariant));
+        doubtful.copied().find_map(|invariant| match invariant.check(&moment) {
             Err(Stop::Violated(demand)) => Some((invariant, demand)),
             Err(Stop::Assumed | Stop::GivenUp) | Ok(()) => None,
         })

@@ -109,6 +109,7 @@ impl Invariant {
     }
 
     /// Whether the team move meets the demand.
+    #[inline]
     pub(crate) fn check<G: Grid + Copy + Eq, const ROBOTS: usize>(
         self,
         moment: &Moment<'_, G, ROBOTS>,

@@ -76,6 +76,13 @@ impl Oracle for World<'_> {
     }
 }
 
+/// A team move that is planned.
+struct Ready<'a, G: Game> {
+    before: &'a G::State,
+    planned: &'a G::State,
+    plan: &'a G::Plan,
+}
+
 /// A team move whose outcome was asked for.
 struct Fork<G: Game> {
     before: G::State,
@@ -94,6 +101,13 @@ impl<G: Game> Clone for Fork<G> {
 }
 
 impl<G: Game> Copy for Fork<G> {}
+
+impl<G: Game> Fork<G> {
+    const fn ready(&self) -> Ready<'_, G> {
+        let Self { before, planned, plan, .. } = self;
+        Ready { before, planned, plan }
+    }
+}
 
 /// Where a lane is.
 #[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
@@ -210,20 +224,23 @@ impl<G: Game> Lane<G> {
     /// Makes the team move of `fork` in a run of which all answers are known; `None` if they do not fit.
     fn follow(&mut self, game: &G, fork: &Fork<G>, answers: &[u32]) -> Option<()> {
         self.script.extend_from_slice(answers.get(fork.answered..)?);
-        self.settle(game, fork).then_some(())
+        self.settle(game, &fork.ready()).then_some(())
     }
 
-    /// Makes the team move of `fork`, which is planned, with the answers of the script first; whether they fit its
-    /// questions.
-    fn settle(&mut self, game: &G, fork: &Fork<G>) -> bool {
+    /// Makes the team move that is planned, with the answers of the script first; whether they fit its questions. Only a
+    /// team move whose outcome is asked for is kept.
+    #[inline]
+    fn settle(&mut self, game: &G, ready: &Ready<'_, G>) -> bool {
+        let (steps, sent, answered) = (self.steps, self.log.len(), self.answers.given.len());
         self.steps += 1;
         let mut world = World { answers: &mut self.answers, script: self.script.iter(), fits: true };
-        game.settle(&mut self.state, &fork.plan, &mut self.log, &mut world);
+        game.settle(&mut self.state, ready.plan, &mut self.log, &mut world);
         let fits = world.fits;
         self.script.clear();
-        if self.answers.given.len() > fork.answered {
+        if self.answers.given.len() > answered {
+            let Ready { before, planned, plan } = *ready;
             self.mark = Mark::NONE;
-            self.forks.push(*fork);
+            self.forks.push(Fork { before: *before, planned: *planned, plan: *plan, steps, sent, answered });
         } else {
             self.mark.moved += 1;
         }
@@ -233,27 +250,32 @@ impl<G: Game> Lane<G> {
     /// Searches on until `count` has `made` team moves, or `new` ones that are new.
     pub(super) fn search(&mut self, game: &G, made: u64, new: u64, count: &mut Count<G::Demand>) {
         while count.made < made && count.moves < new {
-            let fork = match self.next {
-                Next::Advance => self.plan(game),
-                Next::Retreat => match self.retreat() {
-                    None => return,
-                    fork => fork,
-                },
-            };
-            match fork {
-                Some(fork) => self.make(game, &fork, count),
-                None => self.end(game.broken_at_end(&self.state, &self.log), count),
+            match self.next {
+                Next::Advance => {
+                    let before = self.state;
+                    let Some(plan) = game.plan(&mut self.state, &self.log) else {
+                        self.end(game.broken_at_end(&self.state, &self.log), count);
+                        continue;
+                    };
+                    let planned = self.state;
+                    self.make(game, &Ready { before: &before, planned: &planned, plan: &plan }, count);
+                }
+                Next::Retreat => {
+                    let Some(fork) = self.retreat() else { return };
+                    self.make(game, &fork.ready(), count);
+                }
             }
         }
     }
 
-    /// Makes the team move of `fork` and checks it.
-    fn make(&mut self, game: &G, fork: &Fork<G>, count: &mut Count<G::Demand>) {
-        self.settle(game, fork);
+    /// Makes the team move that is planned and checks it.
+    fn make(&mut self, game: &G, ready: &Ready<'_, G>, count: &mut Count<G::Demand>) {
+        let sent = self.log.len();
+        self.settle(game, ready);
         self.next = Next::Advance;
         count.made += 1;
         count.moves += u64::from(self.is_new());
-        let turn = self.turn(fork);
+        let turn = self.turn(ready, sent);
         count.covered |= game.occurs(&turn);
         let broken = game.broken_by(&turn);
         if let Some(broken) = broken {
@@ -266,10 +288,10 @@ impl<G: Game> Lane<G> {
         }
     }
 
-    /// The team move of `fork`, which is the latest.
-    fn turn<'a>(&'a self, fork: &'a Fork<G>) -> Turn<'a, G> {
-        let Fork { before, planned, plan, sent, .. } = fork;
-        Turn { before, planned, after: &self.state, plan, sent: &self.log[*sent..] }
+    /// The latest team move, before which the log had `sent` bytes.
+    fn turn<'a>(&'a self, ready: &Ready<'a, G>, sent: usize) -> Turn<'a, G> {
+        let Ready { before, planned, plan } = *ready;
+        Turn { before, planned, after: &self.state, plan, sent: &self.log[sent..] }
     }
 
     /// Whether the run comes back to where it was, and so never ends, and what is broken by that.
@@ -408,7 +430,7 @@ pub(super) fn replay<G: Game>(
             break;
         };
         lane.script.extend_from_slice(answers.get(fork.answered..).unwrap_or_default());
-        if !lane.settle(game, &fork) {
+        if !lane.settle(game, &fork.ready()) {
             let mut given = lane.answers.given.iter().zip(answers);
             let at = given.position(|(given, &answer)| given.value != answer).unwrap_or(fork.answered);
             return Err(Unfit::None { at, of: lane.answers.given[at].below });
@@ -416,7 +438,7 @@ pub(super) fn replay<G: Game>(
         if lane.answers.given.len() > answers.len() {
             return Err(Unfit::Unbroken);
         }
-        let turn = lane.turn(&fork);
+        let turn = lane.turn(&fork.ready(), fork.sent);
         frames.push(game.frame(&turn));
         broken = game.broken_by(&turn).or_else(|| lane.recurs(game).break_value().flatten());
     }
@@ -441,7 +463,7 @@ pub(super) fn record<G: Game>(
     while lane.steps < steps {
         let fork = lane.plan(game)?;
         lane.follow(game, &fork, answers)?;
-        let turn = lane.turn(&fork);
+        let turn = lane.turn(&fork.ready(), fork.sent);
         frames.push(game.frame(&turn));
         broken = game.broken_by(&turn).or_else(|| lane.recurs(game).break_value().flatten());
     }
