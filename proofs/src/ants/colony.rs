@@ -142,13 +142,13 @@ impl Method<Observed> for SmallFloors {
     }
 
     /// The choices of a violation are as those of [`Explored`].
-    fn decide(&self, observed: &Observed, _: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+    fn decide(&self, observed: &Observed, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
         let limits = Limits { room: desk.room, ..Limits::NONE };
         let mut explored = Explored::new();
         for (number, series) in (0..).zip(SERIES) {
             let colonies = series.colonies(*observed);
             let starts = |colony: &Colony| colony.starts(series.ants);
-            if let Some((_, run)) = explored.look(number, &colonies, starts, limits) {
+            if let Some((_, run)) = explored.look(number, &colonies, starts, (limits, until)) {
                 explored.again = run.round().to_vec();
                 break;
             }

@@ -1,6 +1,8 @@
 //! The small floors of the checks of Brick&Mortar: which plans, how many agents, what they miss, and what is demanded of
 //! every state (BRICKS-2 to BRICKS-6).
 
+use std::cmp::Reverse;
+
 use tautline_kernel::bricks::Rule;
 
 use super::team::{Demand, State, Team, Turns};
@@ -76,8 +78,8 @@ impl Series {
     }
 }
 
-/// Steps of a glance at a plan.
-const GLANCE: u64 = 1 << 13;
+/// Steps of a first and of a second glance at a plan.
+const GLANCES: [u64; 2] = [1 << 13, 1 << 16];
 
 /// The small floors of a check, and what is demanded of every state of the agents on them.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -124,13 +126,17 @@ impl Floors {
     }
 
     /// Looks at the states of each plan within `limits`, series by series, until the first violation. Its choices are the
-    /// numbers of the series, the plan and the start, then the steps.
-    fn explore(self, observed: &Observed, limits: Limits<'_>) -> Explored {
+    /// numbers of the series, the plan and the start, then the steps. At a glance more is seen where there are more agents.
+    fn explore(self, observed: &Observed, (limits, until): (Limits<'_>, Until)) -> Explored {
         let mut explored = Explored::new();
-        for (number, series) in (0..).zip(self.series) {
+        let mut series: Vec<(u32, &Series)> = (0..).zip(self.series).collect();
+        if limits.most_steps < u64::MAX {
+            series.sort_by_key(|(_, series)| Reverse(series.agents));
+        }
+        for (number, series) in series {
             let teams = series.teams(observed, self.demand);
             let starts = |team: &Team| team.starts(series.agents).collect();
-            let Some((team, run)) = explored.look(number, &teams, starts, limits) else { continue };
+            let Some((team, run)) = explored.look(number, &teams, starts, (limits, until)) else { continue };
             explored.again = run.round().to_vec();
             explored.course = team.starts(series.agents).nth(run.start).map(|start| team.course(start, &run));
             break;
@@ -166,20 +172,22 @@ impl Method<Observed> for Floors {
     fn decide(&self, observed: &Observed, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
         let limits = Limits { room: desk.room, ..Limits::NONE };
         if until == Until::Violation {
-            let explored = self.explore(observed, Limits { most_steps: GLANCE, ..limits });
-            if explored.tally.violation.is_some() {
-                return Ok(explored.answer(self.shows()));
+            for most_steps in GLANCES {
+                let explored = self.explore(observed, (Limits { most_steps, ..limits }, until));
+                if explored.tally.violation.is_some() {
+                    return Ok(explored.answer(self.shows()));
+                }
             }
         }
         let Some(together) = self.together().filter(|_| until == Until::Exhausted) else {
-            return Ok(self.explore(observed, limits).answer(self.shows()));
+            return Ok(self.explore(observed, (limits, until)).answer(self.shows()));
         };
         let key = (together, *observed);
         let explored: Result<&Explored, Refused> =
-            desk.memory.recall(key, |(floors, observed)| Ok(floors.explore(observed, limits)));
+            desk.memory.recall(key, |(floors, observed)| Ok(floors.explore(observed, (limits, until))));
         let explored = explored?.clone();
         let is_kept = explored.tally.violation.is_none();
-        Ok(if is_kept { explored } else { self.explore(observed, limits) }.answer(self.shows()))
+        Ok(if is_kept { explored } else { self.explore(observed, (limits, until)) }.answer(self.shows()))
     }
 
     fn replay(&self, observed: &Observed, choices: &Choices) -> Result<Played, Unfit> {

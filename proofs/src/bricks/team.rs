@@ -11,7 +11,7 @@ use crate::course::{Course, Scene, Turn};
 use crate::engine::outcomes;
 use crate::engine::states::{self, Bits, Run, System};
 use crate::floor::plans::FloorPlan;
-use crate::floor::small::{self, Misses, Part, Small, marked, shut};
+use crate::floor::small::{self, Misses, Part, Small, Stored, marked, shut};
 
 /// What two agents may do at once.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -109,12 +109,16 @@ impl Team {
         self.marked(state, |mark| mark == Mark::Unexplored) == 0
     }
 
-    /// What is broken in `state`, in which the agent in the cell `ended` has just been done.
-    fn broken(&self, state: &State, ended: Option<Cell>) -> Option<&'static str> {
+    /// What is broken in `state`, in which the agent in the cell `ended` has just been done, and was not in `before`.
+    fn broken(&self, before: &State, state: &State, ended: Option<Cell>) -> Option<&'static str> {
+        let is_torn = || {
+            let is_as_before = Stored::are_marked_alike(&before.sensors, &state.sensors);
+            if is_as_before { None } else { self.is_torn(state) }
+        };
         match self.demand {
-            Demand::Connected => self.is_torn(state),
+            Demand::Connected => is_torn(),
             Demand::Knowing => self.is_wrong(state, ended),
-            Demand::All => self.is_torn(state).or_else(|| self.is_wrong(state, ended)),
+            Demand::All => is_torn().or_else(|| self.is_wrong(state, ended)),
             Demand::Explores | Demand::Ends => None,
         }
     }
@@ -162,11 +166,12 @@ impl Team {
         let is_tired = |agent: usize| {
             awake.count_ones() > 1 && self.max_streak.is_some_and(|most| state.streak == (agent as u8, most))
         };
-        let ready: Vec<usize> = (0..state.bodies.len())
-            .filter(|&agent| is_awake(agent) && !is_locked(agent) && !is_tired(agent))
-            .collect();
-        let agent = ready[if ready.len() > 1 { world.pick(ready.len() as u32) as usize } else { 0 }];
-        let mut state = state.clone();
+        let mut ready =
+            (0..state.bodies.len()).filter(|&agent| is_awake(agent) && !is_locked(agent) && !is_tired(agent));
+        let of = ready.clone().count() as u32;
+        let agent = ready.nth(if of > 1 { world.pick(of) as usize } else { 0 })?;
+        let before = state;
+        let mut state = before.clone();
         if let Some(most) = self.max_streak {
             let again = if state.streak.0 == agent as u8 { state.streak.1 } else { 0 };
             state.streak = (agent as u8, most.min(again + 1));
@@ -197,7 +202,7 @@ impl Team {
         }
         let ended = Some(body.cell).filter(|_| body.is_done);
         self.forget(&mut state);
-        let breaks = self.broken(&state, ended);
+        let breaks = self.broken(before, &state, ended);
         Some(Turned { state, agent, step, unseen, breaks })
     }
 

@@ -152,7 +152,8 @@ impl<'a> Script<'a> {
 
     /// Goes round from `state` once; what is broken by doing so for ever.
     fn round<S: System>(&mut self, system: &S, mut state: S::State) -> Result<Option<S::Demand>, Unfit> {
-        let home = system.canonical(state.clone());
+        let mut home = state.clone();
+        system.make_canonical(&mut home);
         let (mut owed, mut awake, mut acting): (Bits, Bits, Bits) = (Bits::MAX, Bits::MAX, 0);
         let mut is_bound = true;
         while self.of.len() < self.choices.once.len() + self.choices.again.len() {
@@ -163,7 +164,7 @@ impl<'a> Script<'a> {
             is_bound &= step.is_bound;
             state = step.state;
         }
-        let state = system.canonical(state);
+        system.make_canonical(&mut state);
         let comes_back =
             (0..system.places(&home)).all(|place| system.is_part(&state, place, &system.part(&home, place)));
         let is_fair = is_bound && owed != 0 && awake & !acting == 0;

@@ -32,11 +32,9 @@ pub trait System {
     /// What can be broken.
     type Demand: Copy + Eq;
 
-    /// The state that stands for all those that are to be taken for one with `state`, which itself is the only one unless
+    /// Makes of `state` the one that stands for all those that are to be taken for one with it: there are no others unless
     /// there is more to tell.
-    fn canonical(&self, state: Self::State) -> Self::State {
-        state
-    }
+    fn make_canonical(&self, _: &mut Self::State) {}
 
     /// How many parts `state` has: as many as every other state.
     fn places(&self, _: &Self::State) -> usize {

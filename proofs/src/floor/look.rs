@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::course::Course;
 use crate::decide::{Answer, Seen, Verdict};
 use crate::engine::states::{END, Found, Limits, Run, System, search};
-use crate::engine::{Tally, cover};
+use crate::engine::{Tally, Until, cover};
 
 /// What the states of small floors have shown.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -40,16 +40,17 @@ impl Explored {
     }
 
     /// Searches the states of `systems`, which are of the series with this number, from their starts within `limits` each,
-    /// until something is broken: by which system, and how. What is found is the same on any number of threads.
+    /// until something is broken: by which system, and how. The tally is the same on any number of threads.
     pub(crate) fn look<'a, S: System<Demand = &'static str> + Sync>(
         &mut self,
         series: u32,
         systems: &'a [S],
         starts: impl Fn(&S) -> Vec<S::State> + Sync,
-        limits: Limits<'_>,
+        (limits, until): (Limits<'_>, Until),
     ) -> Option<(&'a S, Run<&'static str>)> {
         let mut first = None;
-        for ((place, system), found) in (0..).zip(systems).zip(search_each(systems, starts, limits)) {
+        for ((place, system), found) in (0..).zip(systems).zip(search_each(systems, starts, (limits, until)))
+        {
             let Found { states, covered, broken, is_whole, .. } = found;
             self.tally.cases += states;
             self.is_whole &= is_whole;
@@ -68,11 +69,12 @@ impl Explored {
 /// Systems that are looked at between two looks for a violation.
 const WAVE: usize = 64;
 
-/// What is found in each of `systems`, up to the end of the first wave in which something is broken.
+/// What is found in each of `systems`, up to the first in which something is broken, or for a whole tally up to the end of
+/// its wave.
 fn search_each<S: System<Demand = &'static str> + Sync>(
     systems: &[S],
     starts: impl Fn(&S) -> Vec<S::State> + Sync,
-    limits: Limits<'_>,
+    (limits, until): (Limits<'_>, Until),
 ) -> Vec<Found<&'static str>> {
     let last = AtomicUsize::new(usize::MAX);
     let each = systems.par_iter().enumerate().with_max_len(1).map(|(place, system)| {
@@ -81,7 +83,11 @@ fn search_each<S: System<Demand = &'static str> + Sync>(
         }
         let found = search(system, starts(system), limits);
         if !found.broken.is_empty() {
-            last.fetch_min(place - place % WAVE + WAVE - 1, Ordering::Relaxed);
+            let end = match until {
+                Until::Exhausted => place - place % WAVE + WAVE - 1,
+                Until::Violation => place,
+            };
+            last.fetch_min(end, Ordering::Relaxed);
         }
         Some(found)
     });

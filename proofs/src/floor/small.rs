@@ -42,6 +42,12 @@ impl Stored {
         if self.0 & Self::SHUT == 0 { Sides::NONE } else { self.sensor().shut }
     }
 
+    /// Whether two floors differ in a mark or in a side that is shut.
+    pub(crate) fn are_marked_alike(one: &[Self; CELLS], other: &[Self; CELLS]) -> bool {
+        let marks = Self::MARK | Self::SHUT;
+        one.iter().zip(other).fold(0, |differs, (one, other)| differs | (one.0 ^ other.0) & marks) == 0
+    }
+
     /// The same but for its identifier.
     pub(crate) const fn without_serial(self) -> Self {
         Self(self.0 & !Self::SERIAL)

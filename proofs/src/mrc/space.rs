@@ -193,8 +193,8 @@ impl System for Space {
     type Part = Part;
     type Demand = Demand;
 
-    fn canonical(&self, state: State) -> State {
-        state.canonical()
+    fn make_canonical(&self, state: &mut State) {
+        state.make_canonical();
     }
 
     fn places(&self, _: &State) -> usize {

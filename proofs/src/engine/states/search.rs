@@ -89,8 +89,8 @@ impl<'a, S: System> Search<'a, S> {
         }
     }
 
-    fn meet_start(&mut self, start: u32, state: S::State) {
-        let state = self.system.canonical(state);
+    fn meet_start(&mut self, start: u32, mut state: S::State) {
+        self.system.make_canonical(&mut state);
         if self.known.meet(self.system, &state).1 {
             self.graph.add_start(start);
         }
@@ -131,14 +131,15 @@ impl<'a, S: System> Search<'a, S> {
         self.graph.go_on(|| system.owed(state));
         let (mut is_last, mut is_still) = (true, true);
         for (number, step) in (0..).zip(system.steps(state)) {
-            let Step { state, situation, acting, is_bound, breaks } = step;
+            let Step { mut state, situation, acting, is_bound, breaks } = step;
             if self.steps == most_steps || self.graph.is_full() {
                 return ControlFlow::Break(Stop::TooMany);
             }
             self.steps += 1;
             is_last = false;
             cover(&mut self.covered, situation);
-            let (to, is_new) = self.known.meet(system, &system.canonical(state));
+            system.make_canonical(&mut state);
+            let (to, is_new) = self.known.meet(system, &state);
             if is_new {
                 self.graph.add(node as u32);
             }
@@ -189,8 +190,9 @@ impl<'a, S: System> Search<'a, S> {
         let mut steps = Vec::new();
         for pair in way.windows(2) {
             let Some(state) = self.state(pair[0]) else { break };
-            let number = self.system.steps(&state).position(|step| {
-                self.known.find(self.system, &self.system.canonical(step.state)) == Some(pair[1] as u32)
+            let number = self.system.steps(&state).position(|mut step| {
+                self.system.make_canonical(&mut step.state);
+                self.known.find(self.system, &step.state) == Some(pair[1] as u32)
             });
             steps.extend(number.map(|number| number as u32));
             self.shown = Some((state, Some(pair[0])));

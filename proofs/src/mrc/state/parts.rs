@@ -39,14 +39,20 @@ impl State {
     /// The parts: the robots, the WFRs, the network and the rest.
     pub(in crate::mrc) const PARTS: usize = REST + 1;
 
-    /// The state with epochs by their places among those of the same WFR: one and the same for states that differ in no
-    /// other way. So is what comes of these states.
-    pub(in crate::mrc) fn canonical(mut self) -> Self {
-        if !self.is_renamed() {
-            return self.renamed();
+    /// Names epochs by their places among those of the same WFR: then states that differ in no other way are one. What
+    /// comes of them is one, too.
+    pub(in crate::mrc) fn make_canonical(&mut self) {
+        if self.is_renamed() {
+            self.wfrs = self.wfrs.map(|wfr| wfr.renamed(|call| call));
+        } else {
+            *self = self.renamed();
         }
-        self.wfrs = self.wfrs.map(|wfr| wfr.renamed(|call| call));
-        self
+    }
+
+    fn canonical(&self) -> Self {
+        let mut state = self.clone();
+        state.make_canonical();
+        state
     }
 
     /// The part in this place.
@@ -153,7 +159,7 @@ impl State {
 
 impl PartialEq for State {
     fn eq(&self, other: &Self) -> bool {
-        let (one, other) = (self.clone().canonical(), other.clone().canonical());
+        let (one, other) = (self.canonical(), other.canonical());
         (0..Self::PARTS).all(|place| one.is_part(place, &other.part(place)))
     }
 }
@@ -162,7 +168,7 @@ impl Eq for State {}
 
 impl Hash for State {
     fn hash<H: Hasher>(&self, hasher: &mut H) {
-        let state = self.clone().canonical();
+        let state = self.canonical();
         (0..Self::PARTS).for_each(|place| state.part(place).hash(hasher));
     }
 }
