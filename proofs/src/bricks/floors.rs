@@ -1,8 +1,6 @@
 //! The small floors of the checks of Brick&Mortar: which plans, how many agents, what they miss, and what is demanded of
 //! every state (BRICKS-2 to BRICKS-6).
 
-use std::cmp::Reverse;
-
 use tautline_kernel::bricks::Rule;
 
 use super::team::{Demand, State, Team, Turns};
@@ -78,9 +76,6 @@ impl Series {
     }
 }
 
-/// Steps of a first and of a second glance at a plan.
-const GLANCES: [u64; 2] = [1 << 13, 1 << 16];
-
 /// The small floors of a check, and what is demanded of every state of the agents on them.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Floors {
@@ -126,12 +121,13 @@ impl Floors {
     }
 
     /// Looks at the states of each plan within `limits`, series by series, until the first violation. Its choices are the
-    /// numbers of the series, the plan and the start, then the steps. At a glance more is seen where there are more agents.
+    /// numbers of the series, the plan and the start, then the steps. What is wrong with a mutant is sought in small areas
+    /// first.
     fn explore(self, observed: &Observed, (limits, until): (Limits<'_>, Until)) -> Explored {
         let mut explored = Explored::new();
         let mut series: Vec<(u32, &Series)> = (0..).zip(self.series).collect();
-        if limits.most_steps < u64::MAX {
-            series.sort_by_key(|(_, series)| Reverse(series.agents));
+        if until == Until::Violation {
+            series.sort_by_key(|(_, series)| (series.patience, series.area.cells()));
         }
         for (number, series) in series {
             let teams = series.teams(observed, self.demand);
@@ -165,20 +161,10 @@ impl Method<Observed> for Floors {
         self.together().map(|together| format!("{together:?} {observed:?}"))
     }
 
-    /// What is wrong with a mutant mostly shows within a few steps, so all plans are glanced at first.
-    ///
     /// What several clauses demand of the same floors is looked at in one pass. Where something is broken there, each looks
     /// for its own first violation.
     fn decide(&self, observed: &Observed, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
         let limits = Limits { room: desk.room, ..Limits::NONE };
-        if until == Until::Violation {
-            for most_steps in GLANCES {
-                let explored = self.explore(observed, (Limits { most_steps, ..limits }, until));
-                if explored.tally.violation.is_some() {
-                    return Ok(explored.answer(self.shows()));
-                }
-            }
-        }
         let Some(together) = self.together().filter(|_| until == Until::Exhausted) else {
             return Ok(self.explore(observed, (limits, until)).answer(self.shows()));
         };

@@ -115,6 +115,11 @@ impl Area {
         Self { width, height, drawn: Drawn::Walls }
     }
 
+    /// Its cells, free or blocked.
+    pub(crate) const fn cells(self) -> i16 {
+        self.width * self.height
+    }
+
     /// Every plan of which all free cells are connected.
     pub(crate) fn plans(self) -> Box<dyn Iterator<Item = FloorPlan>> {
         match self.drawn {
