@@ -158,9 +158,9 @@ impl Prove {
                 out.text(last_line(&rows))?;
                 if room.was_too_small() {
                     out.text(format!(
-                        "A search over states would have taken more than {} MiB: its check is open, or its mutant was not \
+                        "A search over states would have taken more than {} KiB: its check is open, or its mutant was not \
                          rejected.\nGive more with --memory: one search gets three quarters of it.\n",
-                        room.most() >> 20
+                        room.most() >> 10
                     ))?;
                 }
             }

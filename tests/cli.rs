@@ -368,6 +368,22 @@ fn clauses_are_decided_by_name() {
 }
 
 #[test]
+fn a_bound_on_memory_leaves_checks_open_and_says_so() {
+    let folder = folder();
+    let enough = printed(folder.path(), &["prove", "MRC-7", "--memory", "1GiB"], 0);
+    assert!(enough.contains("verdicts are the registered ones."), "{enough}");
+    let told = printed(folder.path(), &["prove", "ANTS-1", "--memory", "64KiB"], 3);
+    assert!(told.contains("ANTS-1 as published: open, registered as holds"), "{told}");
+    assert!(told.contains("would have taken more than 48 KiB") && told.contains("--memory"), "{told}");
+    let ledger = json(folder.path(), &["prove", "ANTS-1", "--memory", "64KiB"], 3);
+    assert_eq!((&ledger["out_of_memory"], &ledger["as_registered"]), (&true.into(), &false.into()));
+    for wrong in ["1", "0GiB", "1GB", "-1MiB", "99999999999GiB", "GiB"] {
+        let said = refused(folder.path(), &["prove", "ANTS-1", &format!("--memory={wrong}")]);
+        assert!(said.contains("KiB, MiB or GiB"), "{said}");
+    }
+}
+
+#[test]
 fn the_counterexample_of_a_clause_of_agents_is_drawn() {
     let folder = folder();
     assert_snapshot!("missed_sensors_in_turns", printed(folder.path(), &["prove", "BRICKS-5"], 0));

@@ -68,24 +68,45 @@ impl<P: Plane> BitGrid<P> {
         avoid: Avoid,
         mut arrive: impl FnMut(Steps, u32) -> ControlFlow<()>,
     ) {
+        // From outside at most one step leads into the area: it is reached where that cell is.
+        let way_in = || steps.iter().find(|&step| self.area.contains(at.after(step)));
+        let entering = if self.area.contains(at) { None } else { way_in() };
+        let (at, steps) = entering.map_or((at, steps), |step| (at.after(step), Steps::only(Step::Stay)));
         let Some((column, row)) = self.area.locate(at) else { return };
         let [east, south] = self.open(avoid);
+        let unexplored = self.cells[CellMark::Explored as usize].not();
         let mut missing = steps.minus(self.leaving(column, row));
-        let mut reached = self.cells[CellMark::Explored as usize].not();
-        for length in 0.. {
-            let arrived = reached.steps_from(column, row).and(missing);
-            if !arrived.is_empty() && arrive(arrived, length).is_break() {
+        // A way of so many cells leaves no more rows on either side. Mostly the frontier is near.
+        let near = if P::ROWS > FEW_ROWS { [NEAR_ROWS, P::ROWS] } else { [P::ROWS; 2] };
+        let mut first_length = 0;
+        for reach in near {
+            let rows = (row.saturating_sub(reach), (row + reach).min(P::ROWS - 1));
+            let mut reached = unexplored;
+            for length in 0.. {
+                if length >= first_length {
+                    let arrived = reached.steps_from(column, row).and(missing);
+                    let told = entering.map_or(arrived, Steps::only);
+                    if !arrived.is_empty() && arrive(told, length).is_break() {
+                        return;
+                    }
+                    missing = missing.minus(arrived);
+                    first_length = length + 1;
+                }
+                let is_far = length as usize + 1 >= reach && reach < P::ROWS;
+                if missing.is_empty() || is_far || !reached.spread(&east, &south, rows) {
+                    break;
+                }
+            }
+            if missing.is_empty() || reach >= P::ROWS {
                 return;
             }
-            missing = missing.minus(arrived);
-            let wider = reached.spread(&east, &south);
-            if missing.is_empty() || wider == reached {
-                return;
-            }
-            reached = wider;
         }
     }
 }
+
+/// Planes of more rows than so many are flooded near by first: so many rows to either side.
+const FEW_ROWS: usize = 16;
+const NEAR_ROWS: usize = 8;
 
 /// The place of the planes of an edge's axis.
 #[inline]

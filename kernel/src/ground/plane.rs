@@ -37,10 +37,14 @@ pub trait Plane: Copy + Eq {
     fn along_rows(&self, open: &Self) -> Self;
     /// The cells beyond the open south and north sides of these.
     fn along_columns(&self, open: &Self) -> Self;
-    /// These and the cells beyond their open sides: the `east` and the `south` ones, from either side.
+    /// Adds the cells beyond the open sides of these, the `east` and the `south` ones from either side, in the rows from
+    /// `first` to `last`, and perhaps in others; whether there are any.
     #[inline]
-    fn spread(&self, east: &Self, south: &Self) -> Self {
-        self.or(&self.along_rows(east)).or(&self.along_columns(south))
+    fn spread(&mut self, east: &Self, south: &Self, (_first, _last): (usize, usize)) -> bool {
+        let wider = self.or(&self.along_rows(east)).or(&self.along_columns(south));
+        let is_wider = wider != *self;
+        *self = wider;
+        is_wider
     }
 }
 
@@ -214,17 +218,20 @@ impl<W: Word, const HEIGHT: usize> Plane for [W; HEIGHT] {
     }
 
     #[inline]
-    fn spread(&self, east: &Self, south: &Self) -> Self {
-        // Row by row in passes that processors make many rows at a time.
-        let mut wider: Self =
-            core::array::from_fn(|row| self[row] | (self[row] & east[row]) << 1 | self[row] >> 1 & east[row]);
-        for row in 1..HEIGHT {
-            wider[row] = wider[row] | self[row - 1] & south[row - 1];
+    fn spread(&mut self, east: &Self, south: &Self, (first, last): (usize, usize)) -> bool {
+        // What came in from the north, as it was before.
+        let mut from_north = if first == 0 { W::NONE } else { self[first - 1] & south[first - 1] };
+        let mut is_wider = false;
+        for row in first..=last.min(HEIGHT - 1) {
+            let old = self[row];
+            let from_south = if row + 1 < HEIGHT { self[row + 1] & south[row] } else { W::NONE };
+            let along_row = (old & east[row]) << 1 | old >> 1 & east[row];
+            let wider = old | along_row | from_north | from_south;
+            is_wider |= wider != old;
+            from_north = old & south[row];
+            self[row] = wider;
         }
-        for row in 1..HEIGHT {
-            wider[row - 1] = wider[row - 1] | self[row] & south[row - 1];
-        }
-        wider
+        is_wider
     }
 
     #[inline]
