@@ -144,6 +144,11 @@ fn timed(run: impl Fn() -> u64) -> (u64, f64) {
     if one.1 < other.1 { one } else { other }
 }
 
+#[expect(clippy::cast_precision_loss, reason = "a rate")]
+fn rate((states, seconds): (u64, f64)) -> f64 {
+    1e-6 * states as f64 / seconds
+}
+
 fn main() {
     // A bench is also built and run as a test, which asks for nothing.
     if !std::env::args().any(|argument| argument == "--bench") {
@@ -152,7 +157,7 @@ fn main() {
     let ants = || search(&Ants, [Floor::START], Limits::NONE);
     let rescue = || space::search(&SETTING, Until::Exhausted, Limits::NONE);
     let model = || Rescue(SETTING, Demand::ALL.to_vec());
-    let rows: [(&str, (u64, f64), (u64, f64), u64); 2] = [
+    let rows = [
         (
             "ants",
             timed(|| ants().states),
@@ -172,7 +177,6 @@ fn main() {
     println!("            states   ours  stateright  ratio  bytes");
     for (name, ours, theirs, bytes) in rows {
         assert_eq!(ours.0, theirs.0, "both find the same states");
-        let rate = |(states, seconds): (u64, f64)| 1e-6 * states as f64 / seconds;
         let (mine, other) = (rate(ours), rate(theirs));
         let each = bytes / ours.0;
         println!("  {name:6} {:>9} {mine:>6.2} {other:>11.2} {:>6.1} {each:>6}", ours.0, mine / other);

@@ -268,7 +268,7 @@ mod tests {
     #[test]
     fn bytes_are_those_of_full_pieces_and_of_the_last_one() {
         let mut pile = Pile::new(2);
-        (0..PIECE as u32 + 1).for_each(|entry| pile.push([entry, !entry]));
+        (0..=PIECE as u32).for_each(|entry| pile.push([entry, !entry]));
         assert_eq!((pile.len(), pile.entry(PIECE)), (PIECE + 1, &[PIECE as u32, !(PIECE as u32)][..]));
         let full = (PIECE * 2 * size_of::<u32>()) as u64;
         assert!((full + 8..full + 64).contains(&pile.bytes()), "{}", pile.bytes());

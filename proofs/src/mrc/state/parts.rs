@@ -139,7 +139,9 @@ impl State {
         self.wfrs.iter().for_each(|wfr| of(wfr.call()));
         self.network.iter().for_each(|message| of(message.call()));
         for (wfr, epoch) in self.cut.iter().flat_map(|cut| cut.iter().enumerate()) {
-            epoch.iter().for_each(|&epoch| hear(wfr, epoch));
+            if let &Some(epoch) = epoch {
+                hear(wfr, epoch);
+            }
         }
     }
 
