@@ -69,19 +69,18 @@ impl Scan {
             claims: [None; 4],
             serials: [0; 8],
         };
-        let around = AROUND.map(|(columns, rows, onward)| {
-            let there = moved(cell, columns, rows);
-            let sensor = floor.sensor(there).map(|sensor| match sensor.mark {
+        let mut around = [None; 8];
+        for (sensor, (columns, rows, _)) in around.iter_mut().zip(AROUND) {
+            *sensor = floor.sensor(moved(cell, columns, rows)).map(|sensor| match sensor.mark {
                 Mark::Unexplored => Sensor::default(),
                 Mark::Explored | Mark::Closing | Mark::Visited | Mark::Sealed if world.mishap() => {
                     Sensor::default()
                 }
                 Mark::Explored | Mark::Closing | Mark::Visited | Mark::Sealed => sensor,
             });
-            (there, onward, sensor)
-        });
-        for (place, &(there, onward, sensor)) in around.iter().enumerate() {
-            let Some(sensor) = sensor else { continue };
+        }
+        for (place, (columns, rows, onward)) in AROUND.into_iter().enumerate() {
+            let Some(sensor) = around[place] else { continue };
             let bit = 1 << place;
             match sensor.mark {
                 Mark::Unexplored => scan.unexplored.0 |= bit,
@@ -95,16 +94,18 @@ impl Scan {
             }
             scan.serials[place] = sensor.serial;
             scan.detected += u8::from(sensor.mark != Mark::Unexplored);
-            if let (_, _, Some(next)) = around[(place + 1) % around.len()] {
+            if let Some(next) = around[(place + 1) % around.len()] {
                 let is_shut = sensor.shut.has(onward) || next.shut.has(onward.opposite());
-                if !is_shut && floor.is_open(Edge::new(there, onward)) {
+                if !is_shut && floor.is_open(Edge::new(moved(cell, columns, rows), onward)) {
                     scan.rims.0 |= bit;
                 }
             }
         }
         for (place, side) in COMPASS.into_iter().enumerate() {
-            let (_, _, sensor) = around[2 * place];
-            let Some(sensor) = sensor.filter(|_| floor.is_open(Edge::new(cell, side))) else { continue };
+            let Some(sensor) = around[2 * place] else { continue };
+            if !floor.is_open(Edge::new(cell, side)) {
+                continue;
+            }
             scan.beside.0 |= Ring::of(side).0;
             scan.crossings[place] = sensor.crossings;
             scan.claims[place] = sensor.claim;

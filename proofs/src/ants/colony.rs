@@ -7,7 +7,7 @@ use tautline_kernel::floor::{Mark, Scan, Sensor};
 use tautline_kernel::ground::Cell;
 
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
-use crate::engine::states::{Bits, Limits, Step, System};
+use crate::engine::states::{Bits, Limits, Places, Step, System};
 use crate::engine::{Choices, Script, Unfit, Until, outcomes};
 use crate::floor::look::Explored;
 use crate::floor::plans::{Area, FloorPlan};
@@ -84,8 +84,8 @@ impl System for Colony {
         state.part(place)
     }
 
-    fn is_part(&self, state: &State, place: usize, part: &Part<Cell>) -> bool {
-        state.is_part(place, part)
+    fn differing(&self, one: &State, other: &State) -> Places {
+        one.differing(other)
     }
 
     fn put(&self, state: &mut State, place: usize, part: &Part<Cell>) {

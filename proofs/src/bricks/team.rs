@@ -9,7 +9,7 @@ use tautline_kernel::ground::{Cell, Edge, Side, Step};
 
 use crate::course::{Course, Scene, Turn};
 use crate::engine::outcomes;
-use crate::engine::states::{self, Bits, Run, System};
+use crate::engine::states::{self, Bits, Places, Run, System};
 use crate::floor::plans::FloorPlan;
 use crate::floor::small::{self, Misses, Part, Small, Stored, marked, shut};
 
@@ -268,8 +268,8 @@ impl System for Team {
         state.part(place)
     }
 
-    fn is_part(&self, state: &State, place: usize, part: &Part<Body>) -> bool {
-        state.is_part(place, part)
+    fn differing(&self, one: &State, other: &State) -> Places {
+        one.differing(other)
     }
 
     fn put(&self, state: &mut State, place: usize, part: &Part<Body>) {

@@ -166,7 +166,7 @@ impl<'a> Script<'a> {
         }
         system.make_canonical(&mut state);
         let comes_back =
-            (0..system.places(&home)).all(|place| system.is_part(&state, place, &system.part(&home, place)));
+            (0..system.places(&home)).all(|place| system.part(&state, place) == system.part(&home, place));
         let is_fair = is_bound && owed != 0 && awake & !acting == 0;
         Ok(system.broken_by_endless_runs().filter(|_| comes_back && is_fair))
     }

@@ -7,6 +7,7 @@ use tautline_kernel::floor::{Floor, Mark, Sensor, Sides, settle};
 use tautline_kernel::ground::{Cell, Edge, Side};
 
 use super::plans::{CELLS, Edges, FloorPlan};
+use crate::engine::states::Places;
 
 /// The memory of a sensor in one word. Its identifier counts how many sensors were placed in its cell, and takes the byte
 /// that is left: on a small floor it has no more.
@@ -101,12 +102,12 @@ impl<B: Clone + PartialEq> State<B> {
     /// Leaves identifiers out of the state.
     pub(crate) fn forget_serials(&mut self) {
         self.placed = [0; CELLS];
-        self.sensors = self.sensors.map(Stored::without_serial);
+        self.sensors.iter_mut().for_each(|sensor| *sensor = sensor.without_serial());
     }
 
     /// Leaves crossings out of the state.
     pub(crate) fn forget_crossings(&mut self) {
-        self.sensors = self.sensors.map(Stored::without_crossings);
+        self.sensors.iter_mut().for_each(|sensor| *sensor = sensor.without_crossings());
     }
 
     /// How many parts it has: the quarters, the counts, the bodies.
@@ -127,16 +128,20 @@ impl<B: Clone + PartialEq> State<B> {
         }
     }
 
-    /// Whether `part` is the one in this place.
-    pub(crate) fn is_part(&self, place: usize, part: &Part<B>) -> bool {
-        match part {
-            Part::Floor(sensors, placed) => {
-                let cells = place * QUARTER..(place + 1) * QUARTER;
-                self.sensors[cells.clone()] == *sensors && self.placed[cells] == *placed
-            }
-            Part::Counts { misses, streak } => (self.misses, self.streak) == (*misses, *streak),
-            Part::Body(body) => self.bodies[place - FIRST_BODY] == *body,
+    /// The places whose parts differ.
+    pub(crate) fn differing(&self, other: &Self) -> Places {
+        let mut floor = [0; COUNTS];
+        for (cell, (one, other)) in self.sensors.iter().zip(&other.sensors).enumerate() {
+            floor[cell / QUARTER] |= one.0 ^ other.0;
         }
+        for (cell, (one, other)) in self.placed.iter().zip(&other.placed).enumerate() {
+            floor[cell / QUARTER] |= u64::from(one ^ other);
+        }
+        let floor = floor.into_iter().map(|differs| differs != 0);
+        let counts = (self.misses, self.streak) != (other.misses, other.streak);
+        let bodies = self.bodies.iter().zip(&other.bodies).map(|(one, other)| one != other);
+        let differing = floor.chain([counts]).chain(bodies);
+        (0..).zip(differing).fold(0, |places, (place, differs)| places | Places::from(differs) << place)
     }
 
     /// Makes `part` the one in this place.

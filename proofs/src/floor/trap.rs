@@ -20,7 +20,7 @@ use super::plans::{CELLS, FloorPlan, blocked};
 use super::small::{self, Misses, Part, Small, Stored, marked, shut};
 pub use super::way::Way;
 use crate::engine::outcomes;
-use crate::engine::states::{Bits, Limits, Run, Step, System, search};
+use crate::engine::states::{Bits, Limits, Places, Run, Step, System, search};
 
 /// What to search for, and how far.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -363,8 +363,8 @@ impl<A: Agents> System for Floors<A> {
         state.part(place)
     }
 
-    fn is_part(&self, state: &State<A::Memory>, place: usize, part: &Part<Body<A::Memory>>) -> bool {
-        state.is_part(place, part)
+    fn differing(&self, one: &State<A::Memory>, other: &State<A::Memory>) -> Places {
+        one.differing(other)
     }
 
     fn put(&self, state: &mut State<A::Memory>, place: usize, part: &Part<Body<A::Memory>>) {

@@ -4,7 +4,7 @@
 //! its way, and no message between a robot and a WFR between whom there is one throughout.
 
 use super::state::{Action, Actor, Demand, Message, Part, ROBOTS, Setting, State, WFRS, place};
-use crate::engine::states::{self, Bits, Limits, Run, Step, System};
+use crate::engine::states::{self, Bits, Limits, Places, Run, Step, System};
 use crate::engine::{Choices, Script, Unfit};
 
 /// When to stop.
@@ -205,8 +205,8 @@ impl System for Space {
         state.part(place)
     }
 
-    fn is_part(&self, state: &State, place: usize, part: &Part) -> bool {
-        state.is_part(place, part)
+    fn differing(&self, one: &State, other: &State) -> Places {
+        one.differing(other)
     }
 
     fn put(&self, state: &mut State, place: usize, part: &Part) {

@@ -5,7 +5,7 @@ use std::hash::{BuildHasher, Hash};
 use hashbrown::HashTable;
 use rustc_hash::FxBuildHasher;
 
-use super::System;
+use super::{Places, System};
 
 /// Things in the order in which they came, in pieces, so that none is ever moved.
 pub(super) struct Pile<T> {
@@ -79,6 +79,9 @@ impl<P: Eq + Hash> Parts<P> {
     }
 }
 
+/// The hash of a state.
+type HashOfState = u32;
+
 /// States by the numbers of their parts. A number takes as many bytes as the largest needs.
 pub(super) struct Known<P> {
     parts: Parts<P>,
@@ -87,10 +90,12 @@ pub(super) struct Known<P> {
     /// Parts of a state.
     places: usize,
     codes: Pile<u8>,
-    nodes: HashTable<u32>,
-    /// The numbers of the parts of the state whose steps are made: most are those of the states after them.
-    before: Vec<u32>,
-    /// The numbers of the parts of a state in the making, and as bytes.
+    /// The states by their hashes, each with its own beside it: the table grows without a look at the numbers.
+    nodes: HashTable<(u32, HashOfState)>,
+    /// The numbers of the parts of the state that is shown, of which most are those of the states that follow, and its
+    /// hash. There are none at first.
+    shown: (Vec<u32>, HashOfState),
+    /// The numbers of the parts of the state in the making, and as bytes.
     numbers: Vec<u32>,
     code: Vec<u8>,
 }
@@ -103,7 +108,7 @@ impl<P: Clone + Eq + Hash> Known<P> {
             places: 0,
             codes: Pile::new(0),
             nodes: HashTable::new(),
-            before: Vec::new(),
+            shown: (Vec::new(), 0),
             numbers: Vec::new(),
             code: Vec::new(),
         }
@@ -122,56 +127,110 @@ impl<P: Clone + Eq + Hash> Known<P> {
         self.codes.bytes() + table + parts as u64
     }
 
-    /// Makes ready for the states that steps from this one lead to.
-    pub(super) fn go_on_from(&mut self, node: usize) {
-        let mut before = std::mem::take(&mut self.before);
-        before.clear();
-        before.extend((0..self.places).map(|place| self.number(node, place)));
-        self.before = before;
+    /// Makes a state the one that is shown: `put` gets the parts that it does not share with the one that was before, each
+    /// with its place.
+    pub(super) fn show(&mut self, node: usize, mut put: impl FnMut(usize, &P)) {
+        let Self { parts, codes, width, shown: (shown, hash), .. } = self;
+        for (place, number) in numbers(codes.entry(node), *width).enumerate() {
+            if let Some(before) = shown.get_mut(place)
+                && *before != number
+            {
+                put(place, &parts.parts[number as usize]);
+                *hash ^= hash_at(place, *before) ^ hash_at(place, number);
+                *before = number;
+            }
+        }
     }
 
-    /// The number of `state`, and whether it is new.
-    pub(super) fn meet<S: System<Part = P>>(&mut self, system: &S, state: &S::State) -> (u32, bool) {
-        self.encode(system, state);
-        let hash = hash(&self.code);
-        let (codes, code) = (&self.codes, &self.code[..]);
-        if let Some(&node) = self.nodes.find(hash, |&node| codes.entry(node as usize) == code) {
+    /// Makes the state in the making, whose parts are all put, the one that is shown.
+    pub(super) fn show_last(&mut self) {
+        self.shown.0.clone_from(&self.numbers);
+        self.shown.1 = hash(self.numbers.iter().copied());
+    }
+
+    /// The number of `state`, and whether it is new. It has the parts of the state that is shown, but for those that
+    /// are `differing`.
+    pub(super) fn meet<S: System<Part = P>>(
+        &mut self,
+        system: &S,
+        state: &S::State,
+        differing: Places,
+    ) -> (u32, bool) {
+        let hash = self.take_apart(system, state, differing);
+        if let Some(node) = self.node(hash) {
             return (node, false);
         }
-        let node = codes.len() as u32;
-        self.nodes.insert_unique(hash, node, |&node| self::hash(codes.entry(node as usize)));
+        let node = self.codes.len() as u32;
         self.codes.push(self.code.iter().copied());
+        self.nodes.insert_unique(spread(hash), (node, hash), |&(_, hash)| spread(hash));
         (node, true)
     }
 
     /// The number of `state`, if it is known.
     pub(super) fn find<S: System<Part = P>>(&mut self, system: &S, state: &S::State) -> Option<u32> {
-        self.encode(system, state);
-        let (codes, code) = (&self.codes, &self.code[..]);
-        self.nodes.find(hash(code), |&node| codes.entry(node as usize) == code).copied()
+        let hash = self.take_apart(system, state, Places::MAX);
+        self.node(hash)
     }
 
-    fn encode<S: System<Part = P>>(&mut self, system: &S, state: &S::State) {
-        let Self { numbers, before, parts, .. } = self;
+    /// The number of the state in the making, which has this hash, if it is known.
+    fn node(&self, hash: HashOfState) -> Option<u32> {
+        let is_it = |&(node, other): &(u32, HashOfState)| {
+            other == hash && self.codes.entry(node as usize) == self.code
+        };
+        self.nodes.find(spread(hash), is_it).map(|&(node, _)| node)
+    }
+
+    /// Makes `state` the one in the making; its hash.
+    fn take_apart<S: System<Part = P>>(
+        &mut self,
+        system: &S,
+        state: &S::State,
+        differing: Places,
+    ) -> HashOfState {
+        if self.codes.len() == 0 {
+            self.places = system.places(state);
+            self.codes = Pile::new(self.places * self.width);
+        }
+        assert_eq!(system.places(state), self.places, "all states of a system have the same number of parts");
+        let Self { numbers, shown: (shown, hash), parts, .. } = self;
+        let mut hash = *hash;
         numbers.clear();
-        for place in 0..system.places(state) {
-            let number = match before.get(place) {
-                Some(&number) if system.is_part(state, place, &parts.parts[number as usize]) => number,
-                Some(_) | None => parts.number(system.part(state, place)),
+        for place in 0..self.places {
+            let differs = place >= Places::BITS as usize || differing >> place & 1 == 1;
+            let before = shown.get(place).copied();
+            let number = match before {
+                Some(number) if !differs => {
+                    debug_assert!(
+                        parts.parts[number as usize] == system.part(state, place),
+                        "it does differ"
+                    );
+                    number
+                }
+                Some(_) | None => {
+                    let number = parts.number(system.part(state, place));
+                    hash ^= hash_at(place, number) ^ before.map_or(0, |before| hash_at(place, before));
+                    number
+                }
             };
             numbers.push(number);
         }
-        if self.codes.len() == 0 {
-            self.places = self.numbers.len();
-            self.codes = Pile::new(self.places * self.width);
-        }
-        assert_eq!(self.numbers.len(), self.places, "all states of a system have the same number of parts");
         while self.parts.parts.len() > 1 << (8 * self.width) {
             self.widen();
         }
         self.code.clear();
+        match self.width {
+            1 => self.write::<1>(),
+            2 => self.write::<2>(),
+            3 => self.write::<3>(),
+            _ => self.write::<4>(),
+        }
+        hash
+    }
+
+    /// Writes the numbers of the state in the making, so many bytes each.
+    fn write<const WIDTH: usize>(&mut self) {
         for number in &self.numbers {
-            self.code.extend_from_slice(&number.to_le_bytes()[..self.width]);
+            self.code.extend_from_slice(&number.to_le_bytes()[..WIDTH]);
         }
     }
 
@@ -184,32 +243,40 @@ impl<P: Clone + Eq + Hash> Known<P> {
         }
         self.width += 1;
         self.codes = codes;
-        self.nodes.clear();
-        for node in 0..self.codes.len() {
-            let codes = &self.codes;
-            let hash_of = |&node: &u32| hash(codes.entry(node as usize));
-            self.nodes.insert_unique(hash(codes.entry(node)), node as u32, hash_of);
-        }
-    }
-
-    /// The number of the part of a state in this place.
-    fn number(&self, node: usize, place: usize) -> u32 {
-        let bytes = &self.codes.entry(node)[place * self.width..][..self.width];
-        bytes.iter().rev().fold(0, |number, &byte| number << 8 | u32::from(byte))
-    }
-
-    /// The parts of a state that it does not share with `shown`.
-    pub(super) fn parts(&self, node: usize, shown: Option<usize>) -> impl Iterator<Item = (usize, &P)> {
-        (0..self.places).filter_map(move |place| {
-            let number = self.number(node, place);
-            let is_shown = shown.is_some_and(|shown| self.number(shown, place) == number);
-            (!is_shown).then(|| (place, &self.parts.parts[number as usize]))
-        })
     }
 }
 
-fn hash(code: &[u8]) -> u64 {
-    FxBuildHasher.hash_one(code)
+/// The numbers that are written with `width` bytes each.
+fn numbers(code: &[u8], width: usize) -> impl Iterator<Item = u32> {
+    code.chunks_exact(width).map(number)
+}
+
+fn number(bytes: &[u8]) -> u32 {
+    match *bytes {
+        [a] => u32::from(a),
+        [a, b] => u32::from_le_bytes([a, b, 0, 0]),
+        [a, b, c] => u32::from_le_bytes([a, b, c, 0]),
+        _ => bytes.iter().rev().fold(0, |number, &byte| number << 8 | u32::from(byte)),
+    }
+}
+
+/// The hash of a state by the numbers of its parts. Each place has a share of its own, so that where one part changes,
+/// one share does (Zobrist 1970).
+fn hash(numbers: impl Iterator<Item = u32>) -> HashOfState {
+    numbers.enumerate().fold(0, |hash, (place, number)| hash ^ hash_at(place, number))
+}
+
+/// The share of a place, from splitmix64 (Steele, Lea and Flood 2014) of place and number.
+const fn hash_at(place: usize, number: u32) -> HashOfState {
+    let mixed = ((place as u64 + 1) << u32::BITS | number as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let mixed = (mixed ^ mixed >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    (mixed >> u32::BITS) as HashOfState
+}
+
+/// The bits that a table asks for: it looks at the highest and at the lowest.
+const fn spread(hash: HashOfState) -> u64 {
+    (hash as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15)
 }
 
 #[cfg(test)]
@@ -251,18 +318,24 @@ mod tests {
         let mut known = Known::new();
         let parts = |state: u32| [state, state + 1, 7];
         for state in 0..STATES {
-            assert_eq!(known.meet(&Triples, &parts(state)), (state, true));
-            known.go_on_from(state as usize);
+            let differing = if state == 0 { Places::MAX } else { 0b011 };
+            assert_eq!(known.meet(&Triples, &parts(state), differing), (state, true));
+            known.show_last();
         }
         assert_eq!(known.width, 3);
+        let put = |known: &mut Known<u32>, state: u32| {
+            let mut put = Vec::new();
+            known.show(state as usize, |place, &part| put.push((place, part)));
+            put
+        };
         for state in (0..STATES).step_by(97) {
-            assert_eq!(known.meet(&Triples, &parts(state)), (state, false));
-            let shown: Vec<(usize, &u32)> = known.parts(state as usize, None).collect();
-            assert_eq!(shown, [(0, &state), (1, &(state + 1)), (2, &7)]);
+            put(&mut known, state);
+            assert_eq!(known.meet(&Triples, &parts(state + 1), 0b011), (state + 1, false));
+            assert_eq!(known.meet(&Triples, &[state, 7, 7], 0b010), (known.len() as u32 - 1, true));
         }
         assert_eq!(known.find(&Triples, &[1, 1, 7]), None);
-        let shared: Vec<(usize, &u32)> = known.parts(5, Some(0)).collect();
-        assert_eq!(shared, [(0, &5), (1, &6)]);
+        assert_eq!(put(&mut known, 5), [(0, 5), (1, 6)]);
+        assert_eq!(put(&mut known, 5), []);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use super::graph::{Arc, Graph};
 use super::known::Known;
 use super::limits::{Limits, Taken};
 use super::rounds::TooLarge;
-use super::{Bits, END, Ending, Found, Run, Step, System};
+use super::{Bits, END, Ending, Found, Places, Run, Step, System};
 use crate::engine::cover;
 
 /// Searches all states that `system` gets to from `starts`, until enough is broken or one of the `limits` is reached.
@@ -64,8 +64,8 @@ struct Search<'a, S: System> {
     graph: Graph,
     looked_at: usize,
     steps: u64,
-    /// A state, and which: of the next one only what differs is put.
-    shown: Option<(S::State, Option<usize>)>,
+    /// The state that is shown: of the next one only what differs is put.
+    shown: Option<S::State>,
     taken: Taken<'a>,
     covered: Vec<&'static str>,
     broken: Vec<Broken<S::Demand>>,
@@ -91,18 +91,17 @@ impl<'a, S: System> Search<'a, S> {
 
     fn meet_start(&mut self, start: u32, mut state: S::State) {
         self.system.make_canonical(&mut state);
-        if self.known.meet(self.system, &state).1 {
+        if self.known.meet(self.system, &state, Places::MAX).1 {
             self.graph.add_start(start);
         }
-        self.shown = Some((state, None));
+        self.known.show_last();
+        self.shown = Some(state);
     }
 
     /// The state of a node. It is to be given back as what is shown.
     fn state(&mut self, node: usize) -> Option<S::State> {
-        let (mut state, shown) = self.shown.take()?;
-        for (place, part) in self.known.parts(node, shown) {
-            self.system.put(&mut state, place, part);
-        }
+        let mut state = self.shown.take()?;
+        self.known.show(node, |place, part| self.system.put(&mut state, place, part));
         Some(state)
     }
 
@@ -117,7 +116,7 @@ impl<'a, S: System> Search<'a, S> {
             }
             let node = self.looked_at;
             let flow = self.look(node, &state, most_steps);
-            self.shown = Some((state, Some(node)));
+            self.shown = Some(state);
             flow?;
         }
         ControlFlow::Continue(())
@@ -127,19 +126,18 @@ impl<'a, S: System> Search<'a, S> {
     fn look(&mut self, node: usize, state: &S::State, most_steps: u64) -> ControlFlow<Stop> {
         let system = self.system;
         self.looked_at += 1;
-        self.known.go_on_from(node);
         self.graph.go_on(|| system.owed(state));
         let (mut is_last, mut is_still) = (true, true);
         for (number, step) in (0..).zip(system.steps(state)) {
-            let Step { mut state, situation, acting, is_bound, breaks } = step;
+            let Step { state: mut to, situation, acting, is_bound, breaks } = step;
             if self.steps == most_steps || self.graph.is_full() {
                 return ControlFlow::Break(Stop::TooMany);
             }
             self.steps += 1;
             is_last = false;
             cover(&mut self.covered, situation);
-            system.make_canonical(&mut state);
-            let (to, is_new) = self.known.meet(system, &state);
+            system.make_canonical(&mut to);
+            let (to, is_new) = self.known.meet(system, &to, system.differing(state, &to));
             if is_new {
                 self.graph.add(node as u32);
             }
@@ -195,7 +193,7 @@ impl<'a, S: System> Search<'a, S> {
                 self.known.find(self.system, &step.state) == Some(pair[1] as u32)
             });
             steps.extend(number.map(|number| number as u32));
-            self.shown = Some((state, Some(pair[0])));
+            self.shown = Some(state);
         }
         (start, steps)
     }
@@ -209,7 +207,7 @@ impl<'a, S: System> Search<'a, S> {
             let number =
                 steps.filter(|(_, step)| step.is_bound).nth(bound as usize).map(|(number, _)| number);
             numbers.extend(number);
-            self.shown = Some((state, Some(node)));
+            self.shown = Some(state);
             node = arc.to as usize;
         }
         numbers
@@ -220,11 +218,8 @@ impl<'a, S: System> Search<'a, S> {
     fn look_for_rounds(&mut self, demand: S::Demand) -> Result<(), TooLarge> {
         let Self { system, known, graph, shown, taken, .. } = self;
         let awake = |node: usize| -> Bits {
-            let Some((state, last)) = shown else { return 0 };
-            for (place, part) in known.parts(node, *last) {
-                system.put(state, place, part);
-            }
-            *last = Some(node);
+            let Some(state) = shown else { return 0 };
+            known.show(node, |place, part| system.put(state, place, part));
             system.awake(state)
         };
         let Some((node, round)) = graph.first_round(awake, taken)? else { return Ok(()) };

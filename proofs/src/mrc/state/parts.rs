@@ -2,48 +2,66 @@
 
 use std::hash::{Hash, Hasher};
 
-use tautline_kernel::mrc::{Robot, Task, Wfr};
+use tautline_kernel::mrc::{Bid, Robot, Task, Wfr};
 use tautline_kernel::net::{Call, Epoch};
 
 use super::action::Message;
 use super::demand::Notes;
 use super::setting::{Faults, ROBOTS, WFRS};
-use super::{State, node, place};
+use super::{State, node, place, robot_id};
+use crate::engine::states::Places;
 
-/// A part of a [`State`].
+/// A part of a [`State`]. What concerns one robot or one WFR is a part, and so are the messages between a robot and the
+/// WFRs: of each there are few, and so the many that they make together cost little.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(in crate::mrc) enum Part {
-    Robot(Robot<WFRS>),
-    Wfr(Wfr<ROBOTS>),
+    Robot(OfRobot),
+    Wfr(OfWfr),
     Network(Vec<Message>),
     Rest(Rest),
 }
 
-/// What is neither a machine nor on its way.
+/// A robot and what concerns it alone.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(in crate::mrc) struct Rest {
-    hops: [[u16; WFRS]; ROBOTS],
-    failed: [bool; ROBOTS],
-    cut: [[Option<Epoch>; WFRS]; ROBOTS],
-    left: Faults,
-    events_left: u8,
-    notes: Notes,
+pub(in crate::mrc) struct OfRobot {
+    robot: Robot<WFRS>,
+    hops: [u16; WFRS],
+    has_failed: bool,
+    cut: [Option<Epoch>; WFRS],
+    taken: [Option<Epoch>; WFRS],
 }
 
-/// The places of the first WFR, behind the robots, of the network and of the rest.
+/// A WFR and what concerns it alone.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(in crate::mrc) struct OfWfr {
+    wfr: Wfr<ROBOTS>,
+    best: Option<Bid>,
+    heard: u8,
+    is_open: bool,
+}
+
+/// What concerns all.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(in crate::mrc) struct Rest {
+    left: Faults,
+    events_left: u8,
+    broken: u16,
+}
+
+/// The places of the first WFR, behind the robots, of the first robot's messages, and of the rest.
 const FIRST_WFR: usize = ROBOTS;
 const NETWORK: usize = FIRST_WFR + WFRS;
-const REST: usize = NETWORK + 1;
+const REST: usize = NETWORK + ROBOTS;
 
 impl State {
-    /// The parts: the robots, the WFRs, the network and the rest.
+    /// The parts: the robots, the WFRs, the messages of each robot, and the rest.
     pub(in crate::mrc) const PARTS: usize = REST + 1;
 
     /// Names epochs by their places among those of the same WFR: then states that differ in no other way are one. What
     /// comes of them is one, too.
     pub(in crate::mrc) fn make_canonical(&mut self) {
         if self.is_renamed() {
-            self.wfrs = self.wfrs.map(|wfr| wfr.renamed(|call| call));
+            self.wfrs.iter_mut().for_each(|wfr| *wfr = wfr.renamed(|call| call));
         } else {
             *self = self.renamed();
         }
@@ -58,29 +76,63 @@ impl State {
     /// The part in this place.
     pub(in crate::mrc) fn part(&self, place: usize) -> Part {
         if place < FIRST_WFR {
-            Part::Robot(self.robots[place])
+            Part::Robot(self.of_robot(place))
         } else if place < NETWORK {
-            Part::Wfr(self.wfrs[place - FIRST_WFR])
+            Part::Wfr(self.of_wfr(place - FIRST_WFR))
         } else if place < REST {
-            Part::Network(self.network.clone())
+            Part::Network(self.messages(place - NETWORK).collect())
         } else {
             Part::Rest(self.rest())
         }
     }
 
-    /// Whether `part` is the one in this place.
-    pub(in crate::mrc) fn is_part(&self, place: usize, part: &Part) -> bool {
-        match part {
-            Part::Robot(robot) => self.robots[place] == *robot,
-            Part::Wfr(wfr) => self.wfrs[place - FIRST_WFR] == *wfr,
-            Part::Network(network) => self.network == *network,
-            Part::Rest(rest) => self.rest() == *rest,
+    /// The places whose parts differ.
+    pub(in crate::mrc) fn differing(&self, other: &Self) -> Places {
+        let mut places = 0;
+        let mut tell = |place: usize, differs: bool| places |= Places::from(differs) << place;
+        for robot in 0..ROBOTS {
+            tell(
+                robot,
+                self.robots[robot] != other.robots[robot]
+                    || self.cut[robot] != other.cut[robot]
+                    || self.notes.taken[robot] != other.notes.taken[robot]
+                    || (self.failed[robot], self.hops[robot]) != (other.failed[robot], other.hops[robot]),
+            );
+        }
+        for wfr in 0..WFRS {
+            tell(FIRST_WFR + wfr, self.of_wfr(wfr) != other.of_wfr(wfr));
+        }
+        if self.network != other.network {
+            for robot in 0..ROBOTS {
+                tell(NETWORK + robot, !self.messages(robot).eq(other.messages(robot)));
+            }
+        }
+        tell(REST, self.rest() != other.rest());
+        places
+    }
+
+    const fn of_robot(&self, robot: usize) -> OfRobot {
+        OfRobot {
+            robot: self.robots[robot],
+            hops: self.hops[robot],
+            has_failed: self.failed[robot],
+            cut: self.cut[robot],
+            taken: self.notes.taken[robot],
         }
     }
 
+    const fn of_wfr(&self, wfr: usize) -> OfWfr {
+        let Notes { best, heard, open, .. } = &self.notes;
+        OfWfr { wfr: self.wfrs[wfr], best: best[wfr], heard: heard[wfr], is_open: open[wfr] }
+    }
+
+    /// The messages to and from a robot.
+    fn messages(&self, robot: usize) -> impl Iterator<Item = Message> {
+        self.network.iter().copied().filter(move |message| message.robot() == robot_id(robot))
+    }
+
     const fn rest(&self) -> Rest {
-        let Self { hops, failed, cut, left, events_left, notes, .. } = *self;
-        Rest { hops, failed, cut, left, events_left, notes }
+        Rest { left: self.left, events_left: self.events_left, broken: self.notes.broken }
     }
 
     /// Whether the epochs of each WFR are 1, 2, … without a gap, and leases that were taken are those of present calls.
@@ -120,8 +172,8 @@ impl State {
                 taken[wfr] = taken[wfr].filter(|&of| of == current).map(|of| epoch(wfr, of));
             }
         }
-        state.robots = state.robots.map(|robot| robot.renamed(rename));
-        state.wfrs = state.wfrs.map(|wfr| wfr.renamed(rename));
+        state.robots.iter_mut().for_each(|robot| *robot = robot.renamed(rename));
+        state.wfrs.iter_mut().for_each(|wfr| *wfr = wfr.renamed(rename));
         state.network.iter_mut().for_each(|message| *message = message.renamed(rename));
         state
     }
@@ -148,12 +200,24 @@ impl State {
     /// Makes `part` the one in this place.
     pub(in crate::mrc) fn put(&mut self, place: usize, part: &Part) {
         match part {
-            Part::Robot(robot) => self.robots[place] = *robot,
-            Part::Wfr(wfr) => self.wfrs[place - FIRST_WFR] = *wfr,
-            Part::Network(network) => self.network.clone_from(network),
-            &Part::Rest(Rest { hops, failed, cut, left, events_left, notes }) => {
-                (self.hops, self.failed, self.cut) = (hops, failed, cut);
-                (self.left, self.events_left, self.notes) = (left, events_left, notes);
+            &Part::Robot(OfRobot { robot, hops, has_failed, cut, taken }) => {
+                (self.robots[place], self.hops[place], self.failed[place]) = (robot, hops, has_failed);
+                (self.cut[place], self.notes.taken[place]) = (cut, taken);
+            }
+            &Part::Wfr(OfWfr { wfr, best, heard, is_open }) => {
+                let place = place - FIRST_WFR;
+                self.wfrs[place] = wfr;
+                (self.notes.best[place], self.notes.heard[place]) = (best, heard);
+                self.notes.open[place] = is_open;
+            }
+            Part::Network(messages) => {
+                let robot = robot_id(place - NETWORK);
+                self.network.retain(|message| message.robot() != robot);
+                self.network.extend(messages);
+                self.network.sort_unstable();
+            }
+            &Part::Rest(Rest { left, events_left, broken }) => {
+                (self.left, self.events_left, self.notes.broken) = (left, events_left, broken);
             }
         }
     }
@@ -162,7 +226,7 @@ impl State {
 impl PartialEq for State {
     fn eq(&self, other: &Self) -> bool {
         let (one, other) = (self.canonical(), other.canonical());
-        (0..Self::PARTS).all(|place| one.is_part(place, &other.part(place)))
+        one.differing(&other) == 0
     }
 }
 
