@@ -102,13 +102,8 @@ impl State {
         for wfr in 0..WFRS {
             tell(FIRST_WFR + wfr, self.of_wfr(wfr) != other.of_wfr(wfr));
         }
-        if self.network != other.network {
-            for robot in 0..ROBOTS {
-                tell(NETWORK + robot, !self.messages(robot).eq(other.messages(robot)));
-            }
-        }
-        tell(REST, self.rest() != other.rest());
-        places
+        places |= addressees(&self.network, &other.network) << NETWORK;
+        places | Places::from(self.rest() != other.rest()) << REST
     }
 
     const fn of_robot(&self, robot: usize) -> OfRobot {
@@ -220,6 +215,33 @@ impl State {
                 (self.left, self.events_left, self.notes.broken) = (left, events_left, broken);
             }
         }
+    }
+}
+
+/// The robots, a bit each, whose messages differ in two networks, both sorted.
+fn addressees(mut one: &[Message], mut other: &[Message]) -> Places {
+    let mut robots = 0;
+    loop {
+        let alone = match (one, other) {
+            ([], []) => return robots,
+            ([first, rest @ ..], [second, others @ ..]) if first == second => {
+                (one, other) = (rest, others);
+                continue;
+            }
+            ([first, rest @ ..], [second, ..]) if first < second => {
+                one = rest;
+                first
+            }
+            ([first, rest @ ..], []) => {
+                one = rest;
+                first
+            }
+            (_, [second, others @ ..]) => {
+                other = others;
+                second
+            }
+        };
+        robots |= 1 << alone.robot().0;
     }
 }
 
