@@ -14,6 +14,7 @@ pub mod choice;
 mod conditions;
 pub mod floor;
 pub mod ground;
+pub mod kit;
 pub mod mrc;
 pub mod net;
 pub mod notice;

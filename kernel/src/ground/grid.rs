@@ -107,7 +107,7 @@ pub trait Grid {
 }
 
 /// A rectangle of cells, not empty: what a team is to explore.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Area {
     first: Cell,
     last: Cell,

@@ -3,7 +3,7 @@
 use super::Step;
 
 /// A set of steps, one bit each in direction order.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Steps(u8);
 
 impl Steps {

@@ -1,0 +1,70 @@
+//! Why a team cannot start, and what a robot cannot be told.
+
+use core::fmt;
+
+use super::team::MAX_ROBOTS;
+use crate::ground::Cell;
+
+/// Why a team cannot start.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Refused {
+    /// A team has 1 to [`MAX_ROBOTS`] robots.
+    Robots(usize),
+    /// A robot starts outside of the map.
+    Outside(Cell),
+    /// The map has more nodes than a plan has room for.
+    TooManyNodes {
+        /// Nodes of the map.
+        nodes: usize,
+        /// Nodes that there is room for.
+        most: usize,
+    },
+    /// Two robots start at one node.
+    OneNode(Cell),
+    /// The robots do not hear each other.
+    OutOfContact,
+}
+
+impl fmt::Display for Refused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Robots(robots) => write!(f, "a team has 1 to {MAX_ROBOTS} robots, and not {robots}"),
+            Self::Outside(start) => write!(f, "the start {start} is outside of the map"),
+            Self::TooManyNodes { nodes, most } => {
+                write!(f, "the map has {nodes} nodes, and there is room for {most}")
+            }
+            Self::OneNode(start) => {
+                write!(f, "two robots start at {start}: give each a node of its own")
+            }
+            Self::OutOfContact => f.write_str(
+                "the robots do not hear each other where they start: a node is in reach of another at most 3 columns or rows \
+                 away, and 1 to the side",
+            ),
+        }
+    }
+}
+
+impl core::error::Error for Refused {}
+
+/// A robot was told something that does not fit what it does.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum NotNow {
+    /// It may not decide now: see [`Kit::may_decide`](super::Kit::may_decide).
+    Decides,
+    /// It looks at no side.
+    Looks,
+    /// It does not drive.
+    Drives,
+}
+
+impl fmt::Display for NotNow {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Decides => "the robot may not decide now: ask `may_decide` before",
+            Self::Looks => "the robot looks at no side: `looked` comes after `Next::Looks`",
+            Self::Drives => "the robot does not drive: `arrived` comes after `Next::Drives`",
+        })
+    }
+}
+
+impl core::error::Error for NotNow {}

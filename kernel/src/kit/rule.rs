@@ -1,0 +1,148 @@
+//! KIT's rule as a set of named conditions, with what the paper leaves open as parameters. The first condition is the
+//! paper's; the others repair contact, collisions, deadlocks, coverage and the end of a run.
+
+use crate::conditions;
+
+/// One condition of the rule, by the sentence it stands for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Condition {
+    /// A robot drives to a node in reach of the node where the other one goes (section 4).
+    NextInReach,
+    /// Repair: and in reach of the node that the other one has left, so that both hear each other at any speeds.
+    FromInReach,
+    /// Repair: it never drives to either end of the other one's path.
+    Apart,
+    /// Repair: a robot for which no side is admitted stays; as published it takes the one that leads nearest to the other.
+    Stays,
+    /// Repair: only the robot whose turn it is decides. The turn passes on request, when it drives or stays.
+    Turn,
+    /// Repair: a robot without an admitted uncovered side drives its part of the shortest joint way to one.
+    Regroup,
+    /// Repair: a side that is seen blocked counts as covered, and all know.
+    Marked,
+    /// Repair: while another one drives a new path, it may go alone to an uncovered side, the others where they go.
+    Meanwhile,
+    /// Repair: the four messages have four flags, where the paper has three.
+    Flags,
+    /// Repair: a request without an answer is repeated, and numbered so that what comes late or twice does no harm.
+    Repeats,
+}
+
+impl Condition {
+    /// Every condition.
+    pub const ALL: [Self; 10] = [
+        Self::NextInReach,
+        Self::FromInReach,
+        Self::Apart,
+        Self::Stays,
+        Self::Turn,
+        Self::Regroup,
+        Self::Marked,
+        Self::Meanwhile,
+        Self::Flags,
+        Self::Repeats,
+    ];
+}
+
+conditions!(Condition);
+
+/// Where a robot runs KIT.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Runs {
+    /// At every node.
+    Every,
+    /// Only where the way ahead is blocked: else it drives straight on (section 3).
+    Ahead,
+}
+
+/// Whose records tell a robot which sides of its node are covered.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Records {
+    /// Its own and the others'.
+    Union,
+    /// The others' alone.
+    Others,
+}
+
+/// Which side a robot takes that does not stay although no side is left that is uncovered and in reach.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Fallback {
+    /// The one that leads nearest to where the other one goes (section 4).
+    Nearest,
+    /// Any.
+    Random,
+}
+
+/// Where the conditions on the next node are looked at.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Filter {
+    /// Wherever a robot drives, but in the paper's fallback.
+    Everywhere,
+    /// On a path that was driven before only: a mutant.
+    OldPaths,
+}
+
+/// When a robot answers a request.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Answers {
+    /// While it drives (section 5); under [`Condition::Turn`] also while it stays.
+    Driving,
+    /// Whatever it does: a mutant.
+    Always,
+    /// While it drives; and the second robot also while it asks itself, so that the first one goes first: a mutant.
+    FirstGoesFirst,
+}
+
+/// The rule of a team.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Rule {
+    /// The conditions in force.
+    pub conditions: Conditions,
+    /// Where a robot runs KIT.
+    pub runs: Runs,
+    /// Whose records count.
+    pub records: Records,
+    /// What it does without [`Condition::Stays`].
+    pub fallback: Fallback,
+    /// Where the conditions on the next node are looked at.
+    pub filter: Filter,
+    /// When a robot answers.
+    pub answers: Answers,
+}
+
+impl Rule {
+    /// What the paper publishes, by our main readings.
+    pub const PUBLISHED: Self = Self {
+        conditions: Conditions::of(&[Condition::NextInReach]),
+        runs: Runs::Every,
+        records: Records::Union,
+        fallback: Fallback::Nearest,
+        filter: Filter::Everywhere,
+        answers: Answers::Driving,
+    };
+
+    /// With all repairs.
+    pub const REPAIRED: Self =
+        Self { conditions: Conditions::of(&Condition::ALL), ..Self::PUBLISHED }.without(Condition::Repeats);
+
+    /// With all repairs, in a network that loses messages.
+    pub const ROBUST: Self = Self::REPAIRED.with(Condition::Repeats);
+
+    /// This rule with one condition taken out.
+    #[must_use]
+    pub const fn without(self, condition: Condition) -> Self {
+        Self { conditions: self.conditions.without(condition), ..self }
+    }
+
+    /// This rule with one condition put in.
+    #[must_use]
+    pub const fn with(self, condition: Condition) -> Self {
+        Self { conditions: self.conditions.with(condition), ..self }
+    }
+
+    /// Whether the rule has `condition`.
+    #[inline]
+    pub const fn has(&self, condition: Condition) -> bool {
+        self.conditions.has(condition)
+    }
+}

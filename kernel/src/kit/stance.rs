@@ -1,0 +1,123 @@
+//! Where robots are on the lattice, and who is sure to hear whom (KIT-1, KIT-3). The unit is the path between two nodes,
+//! 3 m; 10 m are between √11 and √12 of it, and no two nodes are √11 apart.
+
+use crate::ground::{Cell, Side};
+
+/// The largest squared distance of two nodes in contact: (10 m / 3 m)² = 11.1.
+const REACH_SQUARED: u32 = 11;
+
+/// Whether robots at these nodes hear each other.
+#[inline]
+pub const fn in_reach(one: Cell, other: Cell) -> bool {
+    let (dx, dy) = one.apart(other);
+    let (dx, dy) = (dx as u32, dy as u32);
+    // Far apart, squares would not fit.
+    dx < 4 && dy < 4 && dx * dx + dy * dy <= REACH_SQUARED
+}
+
+/// Where a robot is.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Stance {
+    /// At this node.
+    Stands(Cell),
+    /// Somewhere on the path between two neighbouring nodes.
+    Drives {
+        /// The node that it has left.
+        from: Cell,
+        /// The node where it will arrive.
+        to: Cell,
+    },
+}
+
+impl Stance {
+    /// The node that it has left last, or where it stands.
+    #[inline]
+    pub const fn from(self) -> Cell {
+        match self {
+            Self::Stands(at) => at,
+            Self::Drives { from, .. } => from,
+        }
+    }
+
+    /// The node where it will be next, or where it stands.
+    #[inline]
+    pub const fn to(self) -> Cell {
+        match self {
+            Self::Stands(at) => at,
+            Self::Drives { to, .. } => to,
+        }
+    }
+
+    /// Whether it stands.
+    #[inline]
+    pub const fn stands(self) -> bool {
+        matches!(self, Self::Stands(_))
+    }
+
+    /// Whether `node` is one of its ends.
+    #[inline]
+    pub fn has(self, node: Cell) -> bool {
+        self.from() == node || self.to() == node
+    }
+
+    /// Whether robots with these stances hear each other at whatever speeds they drive. Their distance is a convex function
+    /// of how far each has come, so it is largest where both are at an end: the four corners decide.
+    #[inline]
+    pub const fn is_sure_of(self, other: Self) -> bool {
+        in_reach(self.from(), other.from())
+            && in_reach(self.from(), other.to())
+            && in_reach(self.to(), other.from())
+            && in_reach(self.to(), other.to())
+    }
+
+    /// Whether robots with these stances are at least one path, 3 m, apart at whatever speeds they drive: two paths of the
+    /// lattice that have no end in common are.
+    #[inline]
+    pub fn is_apart_from(self, other: Self) -> bool {
+        !other.has(self.from()) && !other.has(self.to())
+    }
+}
+
+/// Whether a robot that looks from a node through `side` sees another one within 3.5 m: always, never, or at some speeds
+/// only. It sees as far as the next node and half a metre beyond.
+pub fn touch(node: Cell, side: Side, other: Stance) -> Option<bool> {
+    let ahead = node.beyond(side);
+    let is_on_the_path = |end: Cell| end == node || end == ahead;
+    match (is_on_the_path(other.from()), is_on_the_path(other.to())) {
+        (true, true) => Some(other != Stance::Stands(node)),
+        (false, false) => Some(false),
+        (true, false) | (false, true) => {
+            if other.has(ahead) {
+                None
+            } else {
+                Some(false)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HERE: Cell = Cell::new(0, 0);
+
+    #[test]
+    fn ten_metres_are_three_paths_and_one_to_the_side() {
+        assert!(in_reach(HERE, Cell::new(3, 1)) && in_reach(HERE, Cell::new(-2, 2)));
+        assert!(!in_reach(HERE, Cell::new(3, 2)) && !in_reach(HERE, Cell::new(4, 0)));
+        assert!(!in_reach(Cell::new(i16::MIN, 0), Cell::new(i16::MAX, 0)));
+    }
+
+    #[test]
+    fn a_robot_ahead_is_seen_for_sure_only_on_the_path_ahead() {
+        let ahead = Cell::new(1, 0);
+        let seen = |from, to| touch(HERE, Side::East, Stance::Drives { from, to });
+        assert_eq!(touch(HERE, Side::East, Stance::Stands(ahead)), Some(true));
+        assert_eq!(seen(HERE, ahead), Some(true));
+        assert_eq!(seen(ahead, HERE), Some(true));
+        assert_eq!(seen(Cell::new(2, 0), ahead), None);
+        assert_eq!(seen(HERE, Cell::new(0, 1)), Some(false));
+        assert_eq!(seen(Cell::new(0, 1), Cell::new(1, 1)), Some(false));
+    }
+}
