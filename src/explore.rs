@@ -166,8 +166,9 @@ impl Explore {
         let base = Setup::choose_base(&mut layout, asked)?;
         let limits = Limits { until: self.until, max_moves: self.max_moves, violation: OnViolation::GoOn };
         let starts = match (self.scheme.starts, starts.len()) {
-            (_, 0) | (Starts::Anywhere, 1) => None,
-            (Starts::Base | Starts::Anywhere, _) => Some(starts),
+            (_, 0) => self.scheme.default_starts(&layout, base, robots),
+            (Starts::Anywhere | Starts::Beside, 1) => None,
+            (Starts::Base | Starts::Anywhere | Starts::Beside, _) => Some(starts),
         };
         let (scheme, rule, seed) = (self.scheme, self.rule, self.layout.seed());
         let missed = Vec::new();

@@ -9,6 +9,7 @@ pub mod catalogue;
 pub mod chain;
 mod clause;
 pub mod floor;
+pub mod kit;
 mod misfit;
 mod own;
 mod rule;

@@ -151,10 +151,10 @@ impl Setup {
         match (scheme.starts, starts) {
             (Starts::Base, Some(_)) => return Err(Misfit::StartsAtBase(scheme)),
             (Starts::Base, None) => {}
-            (Starts::Anywhere, Some(starts)) if starts.len() != usize::from(*robots) => {
+            (Starts::Anywhere | Starts::Beside, Some(starts)) if starts.len() != usize::from(*robots) => {
                 return Err(Misfit::Starts { starts: starts.len(), robots: *robots });
             }
-            (Starts::Anywhere, starts) => {
+            (Starts::Anywhere | Starts::Beside, starts) => {
                 let starts = starts.as_deref().unwrap_or(std::slice::from_ref(&self.base));
                 starts.iter().try_for_each(|&start| self.layout.check_start(start)).map_err(Misfit::Start)?;
             }

@@ -14,6 +14,7 @@ use super::run::{Limits, Team, TeamMove};
 use super::stage::{Knowledge, Look, Stage};
 use super::survey::Survey;
 use crate::fault::Fault;
+use crate::kit;
 use crate::layout::generate::Probability;
 use crate::layout::{Layout, Problem};
 
@@ -86,6 +87,8 @@ pub enum Starts {
     Base,
     /// Each in any free cell.
     Anywhere,
+    /// Each in a free cell of its own: without another word the first at the base, and the others beside it.
+    Beside,
 }
 
 /// How robots learn of a layout.
@@ -130,6 +133,14 @@ impl Profile {
     /// The rule with this name, if the scheme offers it.
     pub fn rule(&self, name: RuleId) -> Option<&'static Rule> {
         self.rules.iter().find(|rule| rule.name == name)
+    }
+
+    /// Where `robots` start in `layout` of which nobody says where, if not all start at the base.
+    pub fn default_starts(&self, layout: &Layout, base: Cell, robots: u16) -> Option<Vec<Cell>> {
+        match self.starts {
+            Starts::Base | Starts::Anywhere => None,
+            Starts::Beside => Some(kit::starts(layout, base, robots.into())),
+        }
     }
 
     /// The clause with this id, if its runs can break it.

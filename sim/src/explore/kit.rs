@@ -1,0 +1,191 @@
+//! KIT (paper 001): robots that drive every path between two nodes and keep in touch, 3 m from node to node. Its row, and
+//! its team. A team move is one robot's drive, in the order in which they begin; whoever drives is drawn where it arrives.
+//!
+//! As published no robot knows when everything is driven: whoever watches them ends the run then. A team that has driven no
+//! new path for a thousand drives a path is taken to go round for ever.
+
+use std::collections::BTreeSet;
+
+use tautline_kernel::chain::Kind;
+use tautline_kernel::ground::{Cell, Edge, Step};
+use tautline_kernel::kit::{Refused, Rule as Kit, Stance};
+use tautline_proofs::run::Frame;
+
+use super::clause::ClauseId;
+use super::rule::RuleId;
+use super::run::{End, Team};
+use super::setup::{Clause, Profile, Rule, Senses, Setup, Starts};
+use super::stage::Look;
+use super::survey::Survey;
+use crate::fault::Fault;
+use crate::kit::{Course, MOST_ROBOTS, Pace, course, paths};
+use crate::layout::Layout;
+
+/// Of two robots, one may not hear the other at all speeds.
+pub const CONTACT: ClauseId = ClauseId::new("KIT-1");
+
+/// A robot drives to where another one is or goes.
+pub const APART: ClauseId = ClauseId::new("KIT-3");
+
+/// A path within reach is not driven, and nobody can decide.
+pub const MOVES: ClauseId = ClauseId::new("KIT-6");
+
+/// All robots are done, and a path within reach is not driven.
+pub const COVERS: ClauseId = ClauseId::new("KIT-8");
+
+/// Of three robots and more, one may be cut off at some speeds.
+pub const CONNECTED: ClauseId = ClauseId::new("KIT-12");
+
+const MISSED: &str = "Within reach and not driven to";
+
+/// Drives a path without a new one after which a team is taken to go round.
+const PATIENCE: usize = 1000;
+
+/// Robots that drive every path between two nodes, and keep in touch.
+pub static KIT: Profile = Profile {
+    name: "kit",
+    about: "Keep In Touch: robots that drive every path between two cells, and keep in radio contact",
+    rules: &[
+        Rule {
+            name: RuleId::PUBLISHED,
+            about: "As the paper publishes it",
+            start: |setup| start(setup, Kit::PUBLISHED),
+            hunt: None,
+        },
+        Rule {
+            name: RuleId::REPAIRED,
+            about: "With the repairs of its refuted claims",
+            start: |setup| start(setup, Kit::REPAIRED),
+            hunt: None,
+        },
+    ],
+    team: "team",
+    robots: 1..=MOST_ROBOTS,
+    starts: Starts::Beside,
+    senses: Senses::Bumps,
+    look: Look::Apart,
+    knowledge: None,
+    clauses: &[
+        Clause::new(CONTACT.as_str()),
+        Clause::new(APART.as_str()),
+        Clause { missed: Some(MISSED), ..Clause::new(MOVES.as_str()) },
+        Clause { missed: Some(MISSED), ..Clause::new(COVERS.as_str()) },
+        Clause::new(CONNECTED.as_str()),
+    ],
+};
+
+struct KitTeam {
+    course: Box<dyn Course>,
+    cells: Vec<Cell>,
+    /// The paths within reach.
+    due: Vec<Edge>,
+    /// Drives since the last new path.
+    idle: usize,
+}
+
+/// The team of `setup`, each robot at its start.
+fn start(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Fault> {
+    let cells = setup.starts();
+    let course = course(rule, &setup.layout, &cells, Pace::STEADY, setup.seed).map_err(fault)?;
+    Ok(Box::new(KitTeam { course, due: paths(&setup.layout, setup.base), cells, idle: 0 }))
+}
+
+/// The fault of a team that is refused.
+fn fault(refused: Refused) -> Fault {
+    let (field, remedy) = match refused {
+        Refused::Robots(_) => ("robots", format!("give `robots` a number from 1 to {MOST_ROBOTS}")),
+        Refused::TooManyNodes { .. } => ("layout", "take a layout of at most 64 columns and rows".to_owned()),
+        Refused::Outside(_) | Refused::OneNode(_) | Refused::OutOfContact => {
+            ("starts", "give each robot a start beside another one's".to_owned())
+        }
+    };
+    Fault::of_field(field, refused, remedy)
+}
+
+impl KitTeam {
+    fn is_driven(&self) -> bool {
+        self.course.driven().len() == self.due.len()
+    }
+}
+
+impl Team for KitTeam {
+    fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    fn advance(&mut self, _: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+        let knows_its_end = self.course.knows_its_end();
+        if self.is_driven() && !knows_its_end {
+            return Err(End::Explored);
+        }
+        if self.idle > PATIENCE * self.due.len() {
+            return Err(End::Endless);
+        }
+        let Some(drive) = self.course.drive() else {
+            return Err(if self.is_driven() { End::Explored } else { End::Exhausted });
+        };
+        self.idle = if drive.is_new { 0 } else { self.idle + 1 };
+        let mut steps = vec![Step::Stay; self.cells.len()];
+        let across = Step::ALL.into_iter().find(|&step| drive.from.after(step) == drive.to);
+        steps[drive.robot] = across.unwrap_or(Step::Stay);
+        self.cells[drive.robot] = drive.to;
+        Ok(Frame { kind: Kind::Advance, blocked: vec![false; steps.len()], steps, cells: self.cells.clone() })
+    }
+
+    /// The nodes within reach.
+    fn due(&self, _: &Layout) -> u32 {
+        nodes(&self.due, &self.cells).len() as u32
+    }
+
+    fn missed(&self, _: &Layout, chart: &Survey) -> Vec<Cell> {
+        let mut missed = nodes(&self.due, &self.cells);
+        missed.retain(|&node| chart.step(node).is_none());
+        missed.into_iter().collect()
+    }
+
+    fn broken_in_move(&self, before: &[Cell], frame: &Frame) -> Vec<ClauseId> {
+        let stances = self.course.stances();
+        let driver = before.iter().zip(&frame.cells).position(|(before, after)| before != after);
+        let others = || stances.iter().enumerate().filter(|&(robot, _)| Some(robot) != driver);
+        let is_near = driver.is_some_and(|driver| others().any(|(_, other)| other.has(frame.cells[driver])));
+        let is_whole = is_connected(&stances);
+        let is_cut = |robots: bool, clause: ClauseId| (robots && !is_whole).then_some(clause);
+        [is_cut(before.len() == 2, CONTACT), is_near.then_some(APART), is_cut(before.len() > 2, CONNECTED)]
+            .into_iter()
+            .flatten()
+            .collect()
+    }
+
+    fn broken_at_end(&self, _: &Layout, _: &Survey, end: End) -> Vec<ClauseId> {
+        match end {
+            End::Exhausted if self.course.is_over() => vec![COVERS],
+            End::Exhausted => vec![MOVES],
+            End::Explored | End::Endless => Vec::new(),
+        }
+    }
+
+    fn milliseconds(&self) -> Option<u64> {
+        Some(self.course.clock())
+    }
+}
+
+/// The nodes of these paths, and those where robots are.
+fn nodes(paths: &[Edge], cells: &[Cell]) -> BTreeSet<Cell> {
+    let ends = paths.iter().flat_map(|path| [path.cell(), path.cell().beyond(path.side())]);
+    ends.chain(cells.iter().copied()).collect()
+}
+
+/// Whether robots hear each other at whatever speeds they drive, directly or over others.
+fn is_connected(stances: &[Stance]) -> bool {
+    let Some((&first, rest)) = stances.split_first() else { return true };
+    let (mut reached, mut rest) = (vec![first], rest.to_vec());
+    let mut place = 0;
+    while let Some(&from) = reached.get(place) {
+        let (near, far): (Vec<Stance>, Vec<Stance>) =
+            rest.into_iter().partition(|other| from.is_sure_of(*other));
+        reached.extend(near);
+        rest = far;
+        place += 1;
+    }
+    rest.is_empty()
+}
