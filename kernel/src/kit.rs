@@ -1,4 +1,4 @@
-//! KIT, Keep In Touch [Peiris]: robots on a lattice of nodes 3 m apart, which drive every path between two nodes and keep
+//! KIT, Keep In Touch (Peiris, Al-Jumaily and Jiang): robots on a lattice of nodes 3 m apart, which drive every path between two nodes and keep
 //! radio contact of 10 m. Clauses: KIT-1 … KIT-12.
 //!
 //! [`Kit`] is a team as a plain value: what each robot has recorded, and where each is. [`Kit::decide`] begins a decision
@@ -20,5 +20,5 @@ pub use message::{Damaged, FIELDS, Message};
 pub use refused::{NotNow, Refused};
 pub use rule::{Answers, Condition, Conditions, Fallback, Filter, Records, Rule, Runs};
 pub use stance::{Stance, in_reach, touch};
-pub use talk::{Letter, Phase, Sent, Talk};
+pub use talk::{Letter, NUMBERS, Phase, Sent, Talk};
 pub use team::{Kit, MAX_ROBOTS, Next, Sight};

@@ -11,6 +11,7 @@ pub mod engine;
 pub mod floor;
 pub mod ground;
 pub mod judge;
+pub mod kit;
 pub mod ledger;
 pub mod mrc;
 pub mod notice;

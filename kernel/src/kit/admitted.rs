@@ -7,6 +7,16 @@ use crate::ground::{Cell, EdgeMark, Grid, Step, Steps};
 
 /// What is known, and what is admitted.
 impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
+    /// This team with other records, as they were kept or told.
+    #[must_use]
+    pub const fn with_records(mut self, records: [G; ROBOTS]) -> Self
+    where
+        G: Copy,
+    {
+        self.records = records;
+        self
+    }
+
     /// The sides of `node` that carry `mark` in any record.
     #[inline]
     pub fn known(&self, mark: EdgeMark, node: Cell) -> Steps {
@@ -59,10 +69,12 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         }
         let entered = (1_u32 << self.entered).wrapping_sub(1) as u16;
         let hears = |one: Stance, other: Stance| {
-            if self.rule.has(Condition::FromInReach) && !one.is_sure_of(other) {
-                return false;
-            }
-            !self.rule.has(Condition::NextInReach) || in_reach(one.to(), other.to())
+            let next = in_reach(one.to(), other.to());
+            let from = in_reach(one.from(), other.to())
+                && in_reach(one.to(), other.from())
+                && in_reach(one.from(), other.from());
+            (next || !self.rule.has(Condition::NextInReach))
+                && (from || !self.rule.has(Condition::FromInReach))
         };
         let mut stances = self.robots.map(|robot| robot.stance);
         if let Some(stance) = stances.get_mut(robot) {

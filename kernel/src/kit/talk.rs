@@ -1,4 +1,4 @@
-//! Who says what to whom, and when, between two robots [Peiris, section 5]. A robot that stands asks the other one, is told
+//! Who says what to whom, and when, between two robots (Peiris, section 5). A robot that stands asks the other one, is told
 //! at once that the request has come, and waits for the response, which the other one sends while it drives.
 //! Clauses: KIT-4, KIT-5.
 //!
@@ -8,6 +8,14 @@
 use super::message::Message;
 use super::rule::{Answers, Condition, Rule};
 use crate::ground::{Cell, Steps};
+
+/// Requests are numbered from 0 to one less than this, over and over: no message may be on its way while a robot asks twice.
+pub const NUMBERS: u8 = 4;
+
+/// The number of the request after the one with this number.
+const fn after(number: u8) -> u8 {
+    (number + 1) % NUMBERS
+}
 
 /// A message with the number of its request.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -95,6 +103,11 @@ impl Talk {
         self.told
     }
 
+    /// The number of its latest request.
+    pub const fn number(&self) -> u8 {
+        self.number
+    }
+
     /// Whether it is its turn; without [`Condition::Turn`] this says nothing.
     pub const fn has_turn(&self) -> bool {
         self.has_turn
@@ -128,12 +141,15 @@ impl Talk {
         let Letter { number, message } = letter;
         match message {
             Message::Request { node, .. } => {
-                if self.rule.has(Condition::Repeats)
-                    && let Some(answered) = self.answered
-                    && answered.number == number
-                {
-                    // Answered before. Who has the turn again has been heard.
-                    return [None, (!self.has_turn).then_some(answered), None];
+                if self.rule.has(Condition::Repeats) {
+                    let last = self.answered.map_or(0, |answered| answered.number);
+                    if number == last {
+                        // Answered before. Who has the turn again has been heard.
+                        return [None, self.answered.filter(|_| !self.has_turn), None];
+                    }
+                    if number != after(last) {
+                        return NOTHING;
+                    }
                 }
                 self.owed = Some((number, node));
                 let acknowledged = Letter { number, message: Message::Acknowledged };
@@ -172,7 +188,7 @@ impl Talk {
     fn ask(&mut self, sides: Steps) -> Letter {
         self.phase = Phase::Asks;
         if self.rule.has(Condition::Repeats) {
-            self.number = self.number.wrapping_add(1);
+            self.number = after(self.number);
         }
         self.request(sides)
     }

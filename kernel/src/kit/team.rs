@@ -1,4 +1,4 @@
-//! A team of robots that keep in touch: their records, where they are, and whose turn it is [Peiris, sections 3 and 4].
+//! A team of robots that keep in touch: their records, where they are, and whose turn it is (Peiris, sections 3 and 4).
 
 use super::refused::{NotNow, Refused};
 use super::rule::{Condition, Fallback, Filter, Rule, Runs};
@@ -76,7 +76,7 @@ pub struct Kit<G, const ROBOTS: usize, const NODES: usize> {
     /// What each has driven ([`EdgeMark::Open`]) and seen blocked ([`EdgeMark::Wall`]).
     pub(super) records: [G; ROBOTS],
     pub(super) robots: [Robot; ROBOTS],
-    /// Robots that have entered. Without turns one enters when the one before has left.
+    /// Robots that have entered. Of those that start at one node each enters when the one before has left.
     pub(super) entered: u8,
     turn: u8,
 }
@@ -103,14 +103,13 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         }
         let robot =
             |start| Robot { stance: Stance::Stands(start), task: Task::None, heading: None, is_new: false };
-        let entered = if rule.has(Condition::Turn) { ROBOTS as u8 } else { 1 };
-        let kit = Self { rule, records: [map; ROBOTS], robots: starts.map(robot), entered, turn: 0 };
         let is_taken = |place: usize| starts.iter().take(place).any(|start| *start == starts[place]);
-        if rule.has(Condition::Apart)
-            && let Some(place) = (0..ROBOTS).find(|&place| is_taken(place))
-        {
+        let taken = (0..ROBOTS).find(|&place| is_taken(place));
+        if let Some(place) = taken.filter(|_| rule.has(Condition::Apart)) {
             return Err(Refused::OneNode(starts[place]));
         }
+        let entered = if taken.is_some() { 1 } else { ROBOTS as u8 };
+        let kit = Self { rule, records: [map; ROBOTS], robots: starts.map(robot), entered, turn: 0 };
         let all = (1_u16 << (ROBOTS - 1) << 1).wrapping_sub(1);
         if kit.is_connected(all, Stance::is_sure_of) { Ok(kit) } else { Err(Refused::OutOfContact) }
     }
@@ -201,10 +200,11 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             self.tell_of_change(robot);
             return Ok(Next::Drives(to));
         }
+        self.robots[robot].task = Task::None;
         if sight == Sight::Obstacle && self.rule.has(Condition::Marked) {
             self.records[robot].put_edge(EdgeMark::Wall, edge);
+            self.tell_of_change(robot);
         }
-        self.robots[robot].task = Task::None;
         Ok(match why {
             Why::Ahead => self.keep_in_touch(robot, oracle),
             Why::Uncovered => self.take_uncovered(robot, left, oracle),
@@ -242,19 +242,16 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         if let Some(side) = one_of(left, oracle) {
             return self.look(robot, side, left, Why::Uncovered);
         }
-        if self.rule.has(Condition::Regroup) {
-            let part = self.part(robot);
-            return match part {
-                Some(sides) => self.regroup(robot, sides, oracle),
-                None => self.rest(robot, if self.someone_drives() { Task::Stays } else { Task::Done }),
-            };
+        let part = if self.rule.has(Condition::Regroup) { self.part(robot) } else { Some(Steps::NONE) };
+        if let Some(sides) = part.filter(|sides| !sides.is_empty()) {
+            return self.regroup(robot, sides, oracle);
         }
         if self.rule.has(Condition::Stays) {
-            return self.rest(robot, Task::Stays);
+            let is_over = part.is_none() && !self.someone_drives();
+            return self.rest(robot, if is_over { Task::Done } else { Task::Stays });
         }
-        let all =
-            Steps::ALL.without(Step::Stay).minus(self.known(EdgeMark::Wall, self.robots[robot].stance.to()));
-        self.fall_back(robot, all, oracle)
+        let blocked = self.known(EdgeMark::Wall, self.robots[robot].stance.to());
+        self.fall_back(robot, Steps::ALL.without(Step::Stay).minus(blocked), oracle)
     }
 
     /// Any of the sides that are `left` of its part of the joint way.
@@ -298,7 +295,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         if task == Task::Done { Next::Done } else { Next::Stays }
     }
 
-    /// Whoever stays decides anew when another robot leaves or arrives.
+    /// Whoever stays decides anew when another robot leaves, arrives, or marks a side.
     fn tell_of_change(&mut self, robot: usize) {
         for (other, Robot { task, .. }) in self.robots.iter_mut().enumerate() {
             if other != robot && *task == Task::Stays {

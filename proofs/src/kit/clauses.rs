@@ -1,0 +1,301 @@
+//! The clauses of KIT, in the order of `SPEC.md`.
+
+use tautline_kernel::kit::Condition::{
+    Apart, Flags, FromInReach, Marked, NextInReach, Regroup, Repeats, Stays, Turn,
+};
+use tautline_kernel::kit::{Answers as Answering, Filter, Records, Rule, Runs};
+
+use super::lattices::{Lattices, Pass, Size};
+use super::pairs::{self, Sure};
+use super::talks::{self, Talks};
+use super::world::{Answers, Demand, Speeds};
+use crate::clause::{Check, Clause, Named};
+use crate::decide::{EveryState, Verdict};
+use crate::step_checks;
+
+const PUBLISHED: Named<Rule> = Named::new("published", Rule::PUBLISHED);
+const REPAIRED: Named<Rule> = Named::new("repaired", Rule::REPAIRED);
+const ROBUST: Named<Rule> = Named::new("robust", Rule::ROBUST);
+
+const NO_NEXT: Named<Rule> =
+    Named::new("where the other goes does not count", Rule::REPAIRED.without(NextInReach));
+const NO_FROM: Named<Rule> =
+    Named::new("where the other was does not count", Rule::REPAIRED.without(FromInReach));
+const NOT_APART: Named<Rule> = Named::new("to where the other is or goes", Rule::REPAIRED.without(Apart));
+const NO_STAY: Named<Rule> = Named::new("never stays", Rule::REPAIRED.without(Stays));
+const NO_TURN: Named<Rule> = Named::new("no turns", Rule::REPAIRED.without(Turn));
+const NO_REGROUP: Named<Rule> = Named::new("no joint way", Rule::REPAIRED.without(Regroup));
+const UNMARKED: Named<Rule> = Named::new("blocked sides are not marked", Rule::REPAIRED.without(Marked));
+const OLD_PATHS: Named<Rule> =
+    Named::new("old paths alone are filtered", Rule { filter: Filter::OldPaths, ..Rule::REPAIRED });
+const OTHERS: Named<Rule> =
+    Named::new("the other's record alone counts", Rule { records: Records::Others, ..Rule::REPAIRED });
+const AHEAD: Rule = Rule { runs: Runs::Ahead, ..Rule::PUBLISHED };
+
+step_checks! { Sure;
+    contact: pairs::contact, Named::new("repaired", Sure::OURS), pairs::pairs,
+        covers ["both drive", "both stand", "one drives"], unwind 9, mutants {
+            ends: "where both go alone counts" => Sure::ENDS,
+            next: "where a robot was does not count" => Sure::NEXT_OF_ONE,
+        };
+    apart: pairs::apart, Named::new("repaired", Sure::OURS), pairs::pairs,
+        covers ["both drive", "both stand", "one drives"], unwind 9, mutants {
+            ends: "where both go alone counts" => Sure::ENDS,
+            next: "where a robot was does not count" => Sure::NEXT_OF_ONE,
+        };
+}
+
+step_checks! { Rule;
+    read_back: pairs::read_back, REPAIRED, pairs::messages,
+        covers ["a request", "a response", "an acknowledgement"], unwind 9, mutants {
+            published: "three flags" => Rule::REPAIRED.without(Flags),
+        };
+}
+
+/// The lattices on which the published rule is looked at.
+const LINES: [Size; 4] = [(2, 1, 1), (3, 1, 2), (4, 1, 3), (5, 1, 4)];
+/// Two rows, few walls.
+const ROWS: [Size; 2] = [(5, 1, 4), (5, 2, 2)];
+/// The lattices on which the repaired rule is looked at.
+const SMALL: [Size; 6] = [(2, 1, 1), (3, 1, 2), (2, 2, 4), (4, 1, 3), (5, 1, 4), (3, 2, 7)];
+/// Those for three robots.
+const THREE: [Size; 4] = [(2, 2, 4), (4, 1, 3), (5, 1, 4), (6, 1, 1)];
+
+/// What a run of the published rule does before it goes wrong.
+const ANY: [&str; 0] = [];
+/// What happens in the runs of the repaired rule.
+const ALL: [&str; 5] = ["a new path", "a stay", "an arrival", "an old path", "done"];
+
+const fn published(demand: Demand) -> Lattices<2> {
+    let (speeds, answers) = (Speeds::Any, Answers::AnyTime);
+    Lattices { sizes: &LINES, speeds, answers, demand, pass: Pass::Alone, covers: &ANY }
+}
+
+const fn repaired(demand: Demand) -> Lattices<2> {
+    Lattices { sizes: &SMALL, pass: Pass::Together, covers: &ALL, ..published(demand) }
+}
+
+const fn three(demand: Demand) -> Lattices<3> {
+    let (speeds, answers) = (Speeds::Any, Answers::AnyTime);
+    Lattices { sizes: &THREE, speeds, answers, demand, pass: Pass::Alone, covers: &ALL }
+}
+
+const AT_EQUAL_SPEEDS: Lattices<2> =
+    Lattices { sizes: &ROWS, speeds: Speeds::Equal, ..published(Demand::Contact) };
+const REPAIRED_AT_EQUAL_SPEEDS: Lattices<2> =
+    Lattices { speeds: Speeds::Equal, pass: Pass::Alone, ..repaired(Demand::Contact) };
+
+/// Two robots that talk, none of whose messages is lost or comes twice.
+const fn talks(rule: &Rule, demand: talks::Demand) -> Talks {
+    Talks { rule: *rule, demand, max_lost: 0, max_doubled: 0 }
+}
+
+const fn every_talk(range: fn() -> String, system: fn(&Rule) -> Talks) -> EveryState<Rule, Talks> {
+    EveryState {
+        range,
+        system,
+        starts: |talks| vec![talks.start()],
+        most_steps: 40_000_000,
+        covers: &["a drive", "a message", "a stay", "an arrival"],
+        tell: talks::tell,
+    }
+}
+
+const ANSWERED: EveryState<Rule, Talks> =
+    every_talk(|| words(0, 0), |rule| talks(rule, talks::Demand::Answered));
+const ANSWERED_THOUGH_LOST: EveryState<Rule, Talks> =
+    every_talk(|| words(1, 0), |rule| Talks { max_lost: 1, ..talks(rule, talks::Demand::Answered) });
+const FRESH: EveryState<Rule, Talks> = every_talk(|| words(0, 0), |rule| talks(rule, talks::Demand::Fresh));
+const FRESH_THOUGH_LOST: EveryState<Rule, Talks> =
+    every_talk(|| words(1, 0), |rule| Talks { max_lost: 1, ..talks(rule, talks::Demand::Fresh) });
+const FRESH_THOUGH_DOUBLED: EveryState<Rule, Talks> =
+    every_talk(|| words(0, 1), |rule| Talks { max_doubled: 1, ..talks(rule, talks::Demand::Fresh) });
+
+/// What is looked at when so many messages are lost, and so many come twice.
+fn words(lost: u8, doubled: u8) -> String {
+    let messages = |count: u8| if count == 1 { "1 message".to_owned() } else { format!("{count} messages") };
+    format!("2 robots, every order of messages, {} lost, {} twice", messages(lost), messages(doubled))
+}
+
+/// The clauses.
+pub static CLAUSES: [Clause; 12] = [
+    Clause {
+        id: "KIT-1",
+        sentence: "Two robots MUST hear each other all the time, at whatever speeds they drive.",
+        checks: &[
+            &contact::CHECK,
+            &Check::new(PUBLISHED, &published(Demand::Contact), Verdict::Refuted, &[]),
+            &Check::new(Named::new("ahead", AHEAD), &published(Demand::Contact), Verdict::Refuted, &[]),
+            &Check::new(
+                REPAIRED,
+                &repaired(Demand::Contact),
+                Verdict::Holds,
+                &[NO_NEXT, NO_FROM, NO_STAY, OLD_PATHS],
+            ),
+        ],
+    },
+    Clause {
+        id: "KIT-2",
+        sentence: "Two robots that drive at equal speeds MUST hear each other all the time.",
+        checks: &[
+            &Check::new(PUBLISHED, &AT_EQUAL_SPEEDS, Verdict::Refuted, &[]),
+            &Check::new(REPAIRED, &REPAIRED_AT_EQUAL_SPEEDS, Verdict::Holds, &[NO_NEXT, NO_STAY, OLD_PATHS]),
+        ],
+    },
+    Clause {
+        id: "KIT-3",
+        sentence: "Two robots MUST never be nearer to each other than 3 m, once both have left their starts.",
+        checks: &[
+            &apart::CHECK,
+            &Check::new(PUBLISHED, &published(Demand::Apart), Verdict::Refuted, &[]),
+            &Check::new(REPAIRED, &repaired(Demand::Apart), Verdict::Holds, &[NOT_APART, NO_STAY]),
+        ],
+    },
+    Clause {
+        id: "KIT-4",
+        sentence: "A robot that waits for an answer MUST be answered in the end.",
+        checks: &[
+            &Check::new(PUBLISHED, &ANSWERED, Verdict::Refuted, &[]),
+            &Check::new(REPAIRED, &ANSWERED, Verdict::Holds, &[NO_TURN]),
+            &Check::new(REPAIRED, &ANSWERED_THOUGH_LOST, Verdict::Refuted, &[]),
+            &Check::new(
+                ROBUST,
+                &ANSWERED_THOUGH_LOST,
+                Verdict::Holds,
+                &[Named::new("no repeats", Rule::ROBUST.without(Repeats))],
+            ),
+        ],
+    },
+    Clause {
+        id: "KIT-5",
+        sentence: "A robot that decides MUST know where the other one goes or stands.",
+        checks: &[
+            &Check::new(
+                PUBLISHED,
+                &FRESH,
+                Verdict::Holds,
+                &[
+                    Named::new("answers always", Rule { answers: Answering::Always, ..Rule::PUBLISHED }),
+                    Named::new(
+                        "the first goes first",
+                        Rule { answers: Answering::FirstGoesFirst, ..Rule::PUBLISHED },
+                    ),
+                ],
+            ),
+            &Check::new(
+                REPAIRED,
+                &FRESH,
+                Verdict::Holds,
+                &[Named::new("answers always", Rule { answers: Answering::Always, ..Rule::REPAIRED })],
+            ),
+            &Check::new(REPAIRED, &FRESH_THOUGH_DOUBLED, Verdict::Refuted, &[]),
+            &Check::new(
+                ROBUST,
+                &FRESH_THOUGH_LOST,
+                Verdict::Holds,
+                &[Named::new("answers always", Rule { answers: Answering::Always, ..Rule::ROBUST })],
+            ),
+        ],
+    },
+    Clause {
+        id: "KIT-6",
+        sentence: "While an uncovered side is within reach, a robot MUST drive or be able to decide.",
+        checks: &[
+            &Check::new(PUBLISHED, &published(Demand::Moves), Verdict::Refuted, &[]),
+            &Check::new(REPAIRED, &repaired(Demand::Moves), Verdict::Holds, &[NO_TURN, NO_REGROUP]),
+        ],
+    },
+    Clause {
+        id: "KIT-7",
+        sentence: "Every run MUST end.",
+        checks: &[
+            &Check::new(PUBLISHED, &published(Demand::Ends), Verdict::Refuted, &[]),
+            &Check::new(REPAIRED, &repaired(Demand::Ends), Verdict::Holds, &[NO_STAY]),
+        ],
+    },
+    Clause {
+        id: "KIT-8",
+        sentence: "When a run ends, every side within reach MUST be driven or seen blocked, and every robot MUST know it.",
+        checks: &[
+            &Check::new(PUBLISHED, &published(Demand::Covers), Verdict::Refuted, &[]),
+            &Check::new(REPAIRED, &repaired(Demand::Covers), Verdict::Holds, &[NO_REGROUP, UNMARKED]),
+            &Check::new(REPAIRED, &three(Demand::Covers), Verdict::Refuted, &[]),
+        ],
+    },
+    Clause {
+        id: "KIT-9",
+        sentence: "Every message MUST be read as it was sent, and fields that are no message MUST be refused.",
+        checks: &[
+            &Check { about: PUBLISHED, expected: Verdict::Refuted, mutants: &[], ..read_back::CHECK },
+            &read_back::CHECK,
+        ],
+    },
+    Clause {
+        id: "KIT-10",
+        sentence: "A side MUST count as covered for every robot if any of them has driven through it or seen it blocked, and \
+                   no other side.",
+        checks: &[
+            &Check::new(PUBLISHED, &published(Demand::Marks), Verdict::Refuted, &[]),
+            &Check::new(REPAIRED, &repaired(Demand::Marks), Verdict::Holds, &[UNMARKED, OTHERS]),
+        ],
+    },
+    Clause {
+        id: "KIT-11",
+        sentence: "A robot that drives a path again MUST shorten the joint way to an uncovered side, or its own while another \
+                   one drives a new path.",
+        checks: &[
+            &Check::new(PUBLISHED, &published(Demand::Shortens), Verdict::Refuted, &[]),
+            &Check::new(REPAIRED, &repaired(Demand::Shortens), Verdict::Holds, &[NO_STAY]),
+        ],
+    },
+    Clause {
+        id: "KIT-12",
+        sentence: "Robots that hear each other directly or over others when they start MUST do so all the time.",
+        checks: &[&Check::new(
+            REPAIRED,
+            &three(Demand::Contact),
+            Verdict::Holds,
+            &[NO_NEXT, NO_FROM, OLD_PATHS],
+        )],
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::decide::{Desk, Memory, Method, Seen};
+    use crate::engine::Until;
+    use crate::engine::states::Room;
+    use crate::engine::tree::unwatched;
+
+    #[test]
+    fn whatever_two_robots_say_the_clauses_come_out_as_registered() {
+        for clause in CLAUSES.iter().filter(|clause| ["KIT-4", "KIT-5"].contains(&clause.id)) {
+            for check in clause.checks.iter().filter(|check| check.rule() != "robust") {
+                let decision =
+                    check.decide(&mut Memory::default(), &mut unwatched).expect("it can be decided");
+                assert!(decision.is_as_registered(*check), "{}: {decision:?}", clause.id);
+            }
+        }
+    }
+
+    /// The smallest counterexamples to the published rule: drives, and what is told of them last.
+    #[test]
+    fn the_published_rule_goes_wrong_in_few_drives() {
+        let story = |method: &Lattices<2>, rule: &Rule| {
+            let memory = &mut Memory::default();
+            let desk = &mut Desk { memory, watch: &mut unwatched, room: Room::any() };
+            let answer = method.decide(rule, Until::Exhausted, desk).expect("it can be decided");
+            let found = answer.counterexample.expect("a counterexample");
+            let Seen::Story(story) = &found.seen else { panic!("it is told") };
+            let played = method.replay(rule, &found.choices).expect("it can be played again");
+            assert_eq!(played.evidence, found);
+            (story.matches("drives").count(), story.lines().next().unwrap_or_default().to_owned())
+        };
+        let size = |size: &str| format!("{size} nodes, 3 m apart");
+        assert_eq!(story(&published(Demand::Contact), &Rule::PUBLISHED), (5, size("5×1")));
+        assert_eq!(story(&published(Demand::Contact), &AHEAD), (4, size("5×1")));
+        assert_eq!(story(&published(Demand::Apart), &Rule::PUBLISHED), (3, size("3×1")));
+        assert_eq!(story(&published(Demand::Moves), &Rule::PUBLISHED), (1, size("3×1")));
+    }
+}

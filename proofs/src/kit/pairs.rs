@@ -1,0 +1,162 @@
+//! Two robots anywhere on the lattice, at any speeds (KIT-1, KIT-3), and what they send each other (KIT-9).
+
+use tautline_kernel::choice::{Oracle, one_of};
+use tautline_kernel::ground::{Cell, Side, Step, Steps};
+use tautline_kernel::kit::{Message, Rule, Stance};
+
+use crate::engine::{Outcome, assume, require};
+
+/// Offsets of the second robot that are looked at: columns and rows, from −4 on. Farther off no stance is in reach.
+const OFFSETS: u32 = 9;
+
+/// Parts of a path at which robots are looked at.
+const PARTS: i64 = 3;
+
+/// Where the first of two robots is: at a node, or on one of its paths.
+fn stance(at: Cell, oracle: &mut dyn Oracle) -> Stance {
+    match one_of(oracle, &Step::ALL) {
+        Step::Cross(side) => Stance::Drives { from: at, to: at.beyond(side) },
+        Step::Stay => Stance::Stands(at),
+    }
+}
+
+/// Two robots, the first at 0,0.
+fn pair(oracle: &mut dyn Oracle) -> [Stance; 2] {
+    let one = stance(Cell::new(0, 0), oracle);
+    let [columns, rows] = [(); 2].map(|()| oracle.pick(OFFSETS) as i16 - 4);
+    [one, stance(Cell::new(columns, rows), oracle)]
+}
+
+/// The squared distance of two robots that have made so many parts of their paths, in squared parts.
+fn distance_squared([one, other]: [Stance; 2], [of_one, of_other]: [i64; 2]) -> i64 {
+    let place = |stance: Stance, parts: i64| {
+        let (from, to) = (stance.from(), stance.to());
+        let at = |from: i16, to: i16| (PARTS - parts) * i64::from(from) + parts * i64::from(to);
+        (at(from.x, to.x), at(from.y, to.y))
+    };
+    let ((x, y), (other_x, other_y)) = (place(one, of_one), place(other, of_other));
+    (x - other_x).pow(2) + (y - other_y).pow(2)
+}
+
+/// How far two robots are on their paths.
+fn parts(oracle: &mut dyn Oracle) -> [i64; 2] {
+    [(); 2].map(|()| i64::from(oracle.pick(PARTS as u32 + 1)))
+}
+
+fn situation(stances: [Stance; 2]) -> &'static str {
+    match stances.map(Stance::stands) {
+        [true, true] => "both stand",
+        [false, false] => "both drive",
+        [true, false] | [false, true] => "one drives",
+    }
+}
+
+/// What [`contact`] and [`apart`] look at.
+pub(super) fn pairs() -> String {
+    let (stances, offsets) = (Step::ALL.len() as u32, OFFSETS.pow(2));
+    format!(
+        "two robots, {} places of one round the other, each at every quarter of its path",
+        stances * stances * offsets
+    )
+}
+
+/// KIT-1: who is sure to hear another one is at most 10 m from it, wherever the two are on their paths.
+pub(super) fn contact(sure: &Sure, oracle: &mut dyn Oracle) -> Outcome {
+    let [one, other] = pair(oracle);
+    assume((sure.contact)(one, other))?;
+    // 10 m are 10/3 of a path.
+    let squared = distance_squared([one, other], parts(oracle));
+    require(
+        9 * squared <= 100 * PARTS.pow(2),
+        "robots that are sure to hear each other are at most 10 m apart",
+    )?;
+    Ok(situation([one, other]))
+}
+
+/// KIT-3: who is sure to be apart from another one is at least 3 m from it, wherever the two are on their paths.
+pub(super) fn apart(sure: &Sure, oracle: &mut dyn Oracle) -> Outcome {
+    let [one, other] = pair(oracle);
+    assume((sure.apart)(one, other))?;
+    let squared = distance_squared([one, other], parts(oracle));
+    require(squared >= PARTS.pow(2), "robots that are sure to be apart are at least 3 m apart")?;
+    Ok(situation([one, other]))
+}
+
+/// What two robots are sure of by where they are.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sure {
+    contact: fn(Stance, Stance) -> bool,
+    apart: fn(Stance, Stance) -> bool,
+}
+
+impl Sure {
+    /// What the kernel says.
+    pub(super) const OURS: Self = Self { contact: Stance::is_sure_of, apart: Stance::is_apart_from };
+    /// Only where both go counts.
+    pub(super) const ENDS: Self = Self {
+        contact: |one, other| Stance::Stands(one.to()).is_sure_of(Stance::Stands(other.to())),
+        apart: |one, other| one.to() != other.to(),
+    };
+    /// Where the other one has left counts, and where a robot itself has left does not.
+    pub(super) const NEXT_OF_ONE: Self = Self {
+        contact: |one, other| Stance::Stands(one.to()).is_sure_of(other),
+        apart: |one, other| !other.has(one.to()),
+    };
+}
+
+/// What [`read_back`] looks at.
+pub(super) fn messages() -> String {
+    format!("4 messages, {} nodes, 16 sets of sides, 3 numbers; of each one field spoilt", NODES.len())
+}
+
+/// Nodes that are told.
+const NODES: [Cell; 4] = [Cell::new(0, 0), Cell::new(3, 3), Cell::new(-2, 7), Cell::new(i16::MAX, i16::MIN)];
+
+/// KIT-9: what is sent is what is read.
+pub(super) fn read_back(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
+    let kind = oracle.pick(4);
+    let node = one_of(oracle, &NODES);
+    let sides = Side::ALL
+        .into_iter()
+        .fold(Steps::NONE, |sides, side| if oracle.flip() { sides.with(Step::Cross(side)) } else { sides });
+    let number = one_of(oracle, &[0, 1, u8::MAX]);
+    let (message, situation) = match kind {
+        0 => (Message::Request { node, sides }, "a request"),
+        1 => (Message::Acknowledged, "an acknowledgement"),
+        2 => (Message::Response { next: node, sides }, "a response"),
+        _ => (Message::ResponseAcknowledged, "an acknowledgement"),
+    };
+    let fields = message.encode(number, rule);
+    require(Message::decode(fields, rule) == Ok((message, number)), "what is sent is what is read")?;
+    let mut spoilt = fields;
+    let (place, by) = one_of(oracle, &[(0, -2000), (3, 2), (4, -2), (5, 7), (6, 2)]);
+    spoilt[place] += by;
+    require(Message::decode(spoilt, rule).is_err(), "fields that are no message are refused")?;
+    Ok(situation)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::outcomes;
+
+    /// The pairs of stances, the first robot at 0,0, of which that is so, and the largest and the least squared distance of
+    /// their ends.
+    fn count(is: impl Fn(Stance, Stance) -> bool) -> (usize, i64, i64) {
+        let pairs: Vec<[Stance; 2]> = outcomes(pair).filter(|&[one, other]| is(one, other)).collect();
+        let corners = [[0, 0], [0, PARTS], [PARTS, 0], [PARTS, PARTS]];
+        let distances = || {
+            let all = pairs.iter().flat_map(|&pair| corners.map(|parts| distance_squared(pair, parts)));
+            all.map(|squared| squared / PARTS.pow(2))
+        };
+        (pairs.len(), distances().max().unwrap_or(0), distances().min().unwrap_or(0))
+    }
+
+    #[test]
+    fn there_are_653_pairs_in_contact_at_most_9_49_m_and_580_of_them_at_least_3_m_apart() {
+        // √10 paths of 3 m are 9.49 m.
+        assert_eq!(count(Stance::is_sure_of), (653, 10, 0));
+        let both = |one: Stance, other: Stance| one.is_sure_of(other) && one.is_apart_from(other);
+        assert_eq!(count(both), (580, 10, 1));
+    }
+}

@@ -1,0 +1,112 @@
+//! Which uncovered sides a team could come to, in plain arithmetic: it shares nothing with the rule but cells. Robots stand in
+//! contact and drive one at a time over driven paths, until one of them could drive a path that is new. A side counts as
+//! open unless it is known to be blocked.
+
+use std::collections::HashSet;
+
+use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side, TinyGrid};
+
+/// What robots have found of a lattice.
+#[derive(Clone, Copy)]
+pub(super) struct Found<'a, const ROBOTS: usize> {
+    /// Paths that were driven ([`EdgeMark::Open`]) and walls that were met.
+    pub(super) map: &'a TinyGrid,
+    /// Where a robot is besides the node that is told, if it is on a path.
+    pub(super) left: [Option<Cell>; ROBOTS],
+}
+
+/// Whether robots at these nodes, 3 m apart, are at most 10 m apart.
+fn hear(one: Cell, other: Cell) -> bool {
+    let metres = |nodes: u16| 3 * u32::from(nodes);
+    let (dx, dy) = one.apart(other);
+    metres(dx).pow(2) + metres(dy).pow(2) <= 100
+}
+
+impl<const ROBOTS: usize> Found<'_, ROBOTS> {
+    fn is_driven(&self, node: Cell, side: Side) -> bool {
+        self.map.edge_has(EdgeMark::Open, Edge::new(node, side))
+    }
+
+    /// Whether a robot could drive there once more, or for the first time: no wall, nobody in the way, and all connected.
+    fn admits(&self, cells: &[Cell; ROBOTS], robot: usize, side: Side) -> bool {
+        let (from, to) = (cells[robot], cells[robot].beyond(side));
+        if self.map.edge_has(EdgeMark::Wall, Edge::new(from, side))
+            || cells.contains(&to)
+            || self.left.contains(&Some(to))
+        {
+            return false;
+        }
+        let are_linked = |one: usize, other: usize| {
+            let ends = |which: usize| {
+                if which == robot {
+                    [from, to]
+                } else {
+                    [cells[which], self.left[which].unwrap_or(cells[which])]
+                }
+            };
+            ends(one).iter().all(|&one| ends(other).iter().all(|&other| hear(one, other)))
+        };
+        let mut reached = vec![0];
+        let mut place = 0;
+        while place < reached.len() {
+            let near =
+                (0..ROBOTS).filter(|other| !reached.contains(other) && are_linked(reached[place], *other));
+            let near: Vec<usize> = near.collect();
+            reached.extend(near);
+            place += 1;
+        }
+        reached.len() == ROBOTS
+    }
+
+    /// The fewest drives of `movers`, a bit for each, from `cells` until one of them could drive a new path; `None` if they
+    /// never can.
+    pub(super) fn distance(&self, cells: [Cell; ROBOTS], movers: u8) -> Option<u32> {
+        let mut known = HashSet::from([cells]);
+        let mut now = vec![cells];
+        for length in 0.. {
+            let mut next = Vec::new();
+            for cells in &now {
+                for robot in (0..ROBOTS).filter(|robot| movers >> robot & 1 == 1) {
+                    for side in Side::ALL.into_iter().filter(|&side| self.admits(cells, robot, side)) {
+                        if !self.is_driven(cells[robot], side) {
+                            return Some(length);
+                        }
+                        let mut after = *cells;
+                        after[robot] = cells[robot].beyond(side);
+                        if known.insert(after) {
+                            next.push(after);
+                        }
+                    }
+                }
+            }
+            if next.is_empty() {
+                return None;
+            }
+            now = next;
+        }
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tautline_kernel::ground::Area;
+
+    use super::*;
+
+    #[test]
+    fn two_robots_in_a_row_reach_what_is_ahead_of_either() {
+        let area = Area::new(Cell::new(0, 0), Cell::new(5, 0)).expect("an area");
+        let mut map = TinyGrid::new(area).expect("a map");
+        let found = |map: &TinyGrid, cells: [i16; 2]| {
+            Found { map, left: [None; 2] }.distance(cells.map(|x| Cell::new(x, 0)), 0b11)
+        };
+        assert_eq!(found(&map, [0, 1]), Some(0));
+        for x in 0..4 {
+            map.put_edge(EdgeMark::Open, Edge::new(Cell::new(x, 0), Side::East));
+        }
+        assert_eq!(found(&map, [0, 1]), Some(5), "three drives ahead, and two of the robot behind");
+        map.put_edge(EdgeMark::Wall, Edge::new(Cell::new(4, 0), Side::East));
+        assert_eq!(found(&map, [0, 1]), None);
+    }
+}

@@ -1,0 +1,317 @@
+//! Two robots that talk: the kernel's robots, the messages between them, which take any time and overtake each other, and as
+//! many that are lost or come twice as a setting lets. Nodes are numbers: what matters is whether a robot knows where the
+//! other one goes when it decides (KIT-4, KIT-5).
+
+use tautline_kernel::ground::{Cell, Steps};
+use tautline_kernel::kit::{Letter, Message, NUMBERS, Phase, Rule, Sent, Talk};
+
+use crate::engine::states::{Bits, Step, System};
+
+/// What is demanded.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Demand {
+    /// KIT-4
+    Answered,
+    /// KIT-5
+    Fresh,
+}
+
+/// What goes on.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Talks {
+    pub(super) rule: Rule,
+    pub(super) demand: Demand,
+    /// Messages that are lost in one run at most.
+    pub(super) max_lost: u8,
+    /// Messages that come twice in one run at most.
+    pub(super) max_doubled: u8,
+}
+
+/// Two robots and what is on its way between them.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub(super) struct State {
+    robots: [Talk; 2],
+    /// What is on its way, sorted.
+    letters: Vec<Sealed>,
+    lost: u8,
+    doubled: u8,
+    last: Event,
+}
+
+/// A letter on its way: to whom, its fields, and a bit for each robot that has acted since it was sent. A copy of a letter
+/// takes any time.
+type Sealed = (usize, [i16; 8], Bits);
+
+/// The bit of a copy.
+const COPY: Bits = 4;
+
+/// What happened last. It is told and not compared.
+#[derive(Clone, Copy, Debug)]
+enum Event {
+    Start,
+    Arrives(usize),
+    Drives(usize),
+    Stays(usize),
+    Hears(usize, Letter),
+    Loses(usize, Letter),
+    Doubles(usize, Letter),
+    Repeats(usize),
+}
+
+impl PartialEq for Event {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Eq for Event {}
+
+impl std::hash::Hash for Event {
+    fn hash<H: std::hash::Hasher>(&self, _: &mut H) {}
+}
+
+/// Nodes that a robot goes to, one after the other, over and over.
+const NODES: i16 = 2;
+
+const WAITS: &str = "a robot that waits is answered";
+const STALE: &str = "a robot that decides knows where the other one goes";
+
+fn nothing(_: Cell) -> Steps {
+    Steps::NONE
+}
+
+impl Talks {
+    /// The fields of a letter, and its number again: the order of what is on its way.
+    fn fields(&self, letter: Letter) -> [i16; 8] {
+        let [flag, x, y, north, east, south, west] = letter.message.encode(0, &self.rule);
+        let kind = match letter.message {
+            Message::ResponseAcknowledged => 3,
+            Message::Request { .. } | Message::Acknowledged | Message::Response { .. } => flag,
+        };
+        [kind, x, y, north, east, south, west, letter.number.into()]
+    }
+
+    fn letter(fields: [i16; 8]) -> Letter {
+        let [kind, x, y, .., number] = fields;
+        let node = Cell::new(x, y);
+        let sides = Steps::NONE;
+        let message = match kind {
+            0 => Message::Request { node, sides },
+            1 => Message::Acknowledged,
+            2 => Message::Response { next: node, sides },
+            _ => Message::ResponseAcknowledged,
+        };
+        Letter { number: number as u8, message }
+    }
+
+    /// The start: the first robot decides, the second one has asked.
+    pub(super) fn start(&self) -> State {
+        let at = |robot: i16| Cell::new(0, robot);
+        let (second, sent) = Talk::second(self.rule, at(1), Steps::NONE);
+        let robots = [Talk::first(self.rule, at(0)), second];
+        let mut state = State { robots, letters: Vec::new(), lost: 0, doubled: 0, last: Event::Start };
+        self.send(&mut state, 1, sent);
+        state
+    }
+
+    /// `from` has acted and says so.
+    fn act(&self, state: &mut State, from: usize, sent: Sent) {
+        for (_, _, age) in &mut state.letters {
+            *age |= 1 << from;
+        }
+        self.send(state, from, sent);
+    }
+
+    fn send(&self, state: &mut State, from: usize, sent: Sent) {
+        // Who hears that its response has come does nothing then.
+        let counts = |letter: &Letter| letter.message != Message::ResponseAcknowledged;
+        let letters = sent.into_iter().flatten().filter(counts);
+        state.letters.extend(letters.map(|letter| (1 - from, self.fields(letter), 0)));
+        state.letters.sort_unstable();
+    }
+
+    /// Whether `robot` may act: a message takes less time than a robot from one act to the one after the next, and a copy of
+    /// one less than half of the numbers.
+    fn may_act(state: &State, robot: usize) -> bool {
+        state.letters.iter().all(|&(to, fields, age)| {
+            if age & COPY == 0 {
+                return age >> robot & 1 == 0;
+            }
+            let Letter { number, message } = Self::letter(fields);
+            let asker = match message {
+                Message::Request { .. } | Message::ResponseAcknowledged => 1 - to,
+                Message::Acknowledged | Message::Response { .. } => to,
+            };
+            (state.robots[asker].number() + NUMBERS - number) % NUMBERS < NUMBERS / 2
+        })
+    }
+
+    /// What two robots can do.
+    fn acts(&self, state: &State) -> Vec<(State, Bits, &'static str, Option<&'static str>)> {
+        let mut acts = Vec::new();
+        for robot in 0..2 {
+            let bit = 1 << robot;
+            let talk = state.robots[robot];
+            match talk.phase() {
+                Phase::Drives if Self::may_act(state, robot) => {
+                    let mut after = State { last: Event::Arrives(robot), ..state.clone() };
+                    let sent = after.robots[robot].arrived(Steps::NONE);
+                    self.act(&mut after, robot, sent);
+                    acts.push((after, bit, "an arrival", None));
+                }
+                Phase::Decides if Self::may_act(state, robot) => {
+                    let is_stale = talk.told().is_some_and(|told| told != state.robots[1 - robot].next());
+                    let broken = (is_stale && self.demand == Demand::Fresh).then_some(STALE);
+                    let mut after = State { last: Event::Drives(robot), ..state.clone() };
+                    let to = Cell::new((talk.next().x + 1) % NODES, talk.next().y);
+                    let sent = after.robots[robot].drives(to, nothing);
+                    self.act(&mut after, robot, sent);
+                    acts.push((after, bit, "a drive", broken));
+                    let mut after = State { last: Event::Stays(robot), ..state.clone() };
+                    let sent = after.robots[robot].stays(nothing);
+                    self.act(&mut after, robot, sent);
+                    acts.push((after, bit, "a stay", broken));
+                }
+                Phase::Drives | Phase::Decides | Phase::Asks | Phase::Waits | Phase::Stays => {}
+            }
+            if state.letters.is_empty()
+                && let Some(letter) = talk.again(Steps::NONE)
+            {
+                let mut after = State { last: Event::Repeats(robot), ..state.clone() };
+                self.send(&mut after, robot, [Some(letter), None, None]);
+                acts.push((after, 16 << robot, "a repeated request", None));
+            }
+        }
+        acts
+    }
+
+    /// What becomes of the messages on their way.
+    fn letters(&self, state: &State) -> Vec<(State, Bits, &'static str, bool)> {
+        let mut steps = Vec::new();
+        let mut before = None;
+        for (place, &(to, fields, age)) in state.letters.iter().enumerate() {
+            if before == Some((to, fields, age)) {
+                continue;
+            }
+            before = Some((to, fields, age));
+            let letter = Self::letter(fields);
+            let mut gone = state.clone();
+            gone.letters.remove(place);
+            let mut after = State { last: Event::Hears(to, letter), ..gone.clone() };
+            let sent = after.robots[to].hears(letter, nothing);
+            self.send(&mut after, to, sent);
+            steps.push((after, 4 << to, "a message", true));
+            if state.lost < self.max_lost {
+                let lost = state.lost + 1;
+                steps.push((State { last: Event::Loses(to, letter), lost, ..gone }, 0, "a loss", false));
+            }
+            if state.doubled < self.max_doubled {
+                let mut twice = State { last: Event::Doubles(to, letter), ..state.clone() };
+                twice.letters.push((to, fields, age | COPY));
+                twice.letters.sort_unstable();
+                twice.doubled += 1;
+                steps.push((twice, 0, "a double", false));
+            }
+        }
+        steps
+    }
+
+    fn waiting(&self, state: &State) -> Bits {
+        let waits = |robot: &usize| matches!(state.robots[*robot].phase(), Phase::Asks | Phase::Waits);
+        match self.demand {
+            Demand::Answered => (0..2).filter(waits).fold(0, |set, robot| set | 1 << robot),
+            Demand::Fresh => 0,
+        }
+    }
+}
+
+impl System for Talks {
+    type State = State;
+    type Part = State;
+    type Demand = &'static str;
+
+    fn part(&self, state: &State, _: usize) -> State {
+        state.clone()
+    }
+
+    fn put(&self, state: &mut State, _: usize, part: &State) {
+        state.clone_from(part);
+    }
+
+    fn steps(&self, state: &State) -> impl Iterator<Item = Step<State, &'static str>> {
+        let acts = self.acts(state).into_iter().map(|(state, acting, situation, broken)| Step {
+            state,
+            situation,
+            acting,
+            is_bound: true,
+            breaks: broken.into_iter().collect(),
+        });
+        let letters = self.letters(state).into_iter().map(|(state, acting, situation, is_bound)| Step {
+            state,
+            situation,
+            acting,
+            is_bound,
+            breaks: Vec::new(),
+        });
+        acts.chain(letters).collect::<Vec<_>>().into_iter()
+    }
+
+    fn broken_at_end(&self, state: &State) -> Option<&'static str> {
+        (self.waiting(state) != 0).then_some(WAITS)
+    }
+
+    fn broken_by_endless_runs(&self) -> Option<&'static str> {
+        (self.demand == Demand::Answered).then_some(WAITS)
+    }
+
+    fn owed(&self, state: &State) -> Bits {
+        self.waiting(state)
+    }
+
+    /// Robots that drive or decide, each way that has a message on it, and the timers of those that wait.
+    fn awake(&self, state: &State) -> Bits {
+        let is_busy = |robot: &usize| matches!(state.robots[*robot].phase(), Phase::Drives | Phase::Decides);
+        let busy = (0..2).filter(is_busy).fold(0, |set: Bits, robot| set | 1 << robot);
+        let repeats = |robot: &usize| state.robots[*robot].again(Steps::NONE).is_some();
+        let awake = (0..2).filter(repeats).fold(busy, |set, robot| set | 16 << robot);
+        state.letters.iter().fold(awake, |set, &(to, ..)| set | 4 << to)
+    }
+}
+
+/// A step in words.
+pub(super) fn tell(_: &State, after: &State) -> String {
+    let name = |robot: usize| format!("R{}", robot + 1);
+    let says = |letter: Letter| match letter.message {
+        Message::Request { .. } => "a request",
+        Message::Acknowledged => "that its request has come",
+        Message::Response { .. } => "a response",
+        Message::ResponseAcknowledged => "that its response has come",
+    };
+    match after.last {
+        Event::Start => String::new(),
+        Event::Arrives(robot) => format!("{} arrives and asks", name(robot)),
+        Event::Drives(robot) => format!("{} decides and drives", name(robot)),
+        Event::Stays(robot) => format!("{} decides and stays", name(robot)),
+        Event::Hears(robot, letter) => format!("{} hears {}", name(robot), says(letter)),
+        Event::Loses(robot, letter) => format!("{} misses {}", name(robot), says(letter)),
+        Event::Doubles(robot, letter) => format!("{} will hear twice {}", name(robot), says(letter)),
+        Event::Repeats(robot) => format!("{} asks again", name(robot)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::states::{Limits, search};
+
+    #[test]
+    #[ignore = "takes seconds: cargo test --release -p tautline-proofs -- --ignored --nocapture comes_twice"]
+    fn robust_robots_survive_a_message_that_comes_twice() {
+        for demand in [Demand::Answered, Demand::Fresh] {
+            let talks = Talks { rule: Rule::ROBUST, demand, max_lost: 0, max_doubled: 1 };
+            let found = search(&talks, [talks.start()], Limits::NONE);
+            println!("{demand:?}: {} states", found.states);
+            assert!(found.is_whole && found.broken.is_empty(), "{:?}", found.broken);
+        }
+    }
+}
