@@ -8,7 +8,7 @@ use tautline_kernel::kit::{Condition, Kit, Next, Records, Rule, Sight, Stance, t
 
 use super::plain::Found;
 use crate::engine::outcomes;
-use crate::engine::states::{self, Bits, System};
+use crate::engine::states::{self, Bits, Places, System};
 
 /// A team on a small lattice.
 pub(super) type Team<const ROBOTS: usize> = Kit<TinyGrid, ROBOTS, 64>;
@@ -406,12 +406,11 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
         }
     }
 
-    fn is_part(&self, state: &World<ROBOTS>, place: usize, part: &Part<ROBOTS>) -> bool {
-        match part {
-            Part::Map(map) if place == ROBOTS => state.truth == *map,
-            Part::Map(map) => state.team.records().get(place) == Some(map),
-            Part::Rest(rest) => place > ROBOTS && self.bare(state) == **rest,
-        }
+    /// Nearly every step changes something beside the maps.
+    fn differing(&self, one: &World<ROBOTS>, other: &World<ROBOTS>) -> Places {
+        let records = one.team.records().iter().zip(other.team.records()).map(|(one, other)| one != other);
+        let differing = records.chain([one.truth != other.truth, true]);
+        (0..).zip(differing).fold(0, |places, (place, differs)| places | Places::from(differs) << place)
     }
 
     fn put(&self, state: &mut World<ROBOTS>, place: usize, part: &Part<ROBOTS>) {
