@@ -261,7 +261,7 @@ mod tests {
     #[test]
     #[ignore = "takes minutes: cargo test --release -p tautline-proofs -- --ignored --nocapture two_robots_keep"]
     fn two_robots_keep_every_promise_on_three_by_three_nodes() {
-        for walls in [0, 1, 2, 3] {
+        for walls in [0, 1] {
             all_states((3, 3, walls));
         }
     }
