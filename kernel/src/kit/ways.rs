@@ -61,19 +61,31 @@ fn offsets(places: Places) -> impl Iterator<Item = (i16, i16)> {
 /// No way.
 const FAR: u16 = u16::MAX;
 
+/// What all robots know of each node, gathered once for a decision.
+struct Map<const NODES: usize> {
+    /// The sides that were driven.
+    open: [Steps; NODES],
+    /// The sides that nobody has covered, of nodes where robots have been or go.
+    uncovered: [Steps; NODES],
+}
+
 impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// The sides that `robot`, which stands, can take as its part of a shortest way of the team to an uncovered side: none if
     /// others have to go first. `None` if there is no way.
     pub(super) fn part(&self, robot: usize) -> Option<Steps> {
         let goes_alone =
             ROBOTS == 1 || self.rule().has(Condition::Meanwhile) && self.another_drives_a_new_path(robot);
-        if goes_alone && let Some((_, sides)) = self.alone(robot) {
+        if ROBOTS == 2 && !goes_alone {
+            return self.joint(robot).map(|(_, sides)| sides);
+        }
+        let map = self.map();
+        if goes_alone && let Some((_, sides)) = self.alone(robot, &map) {
             return Some(sides);
         }
         match ROBOTS {
             0 | 1 => None,
             2 => self.joint(robot).map(|(_, sides)| sides),
-            _ => self.convoy(robot),
+            _ => self.convoy(robot, &map),
         }
     }
 
@@ -161,24 +173,24 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 
     /// The drives that `robot` has to make alone, the others where they go, before an uncovered side is admitted for it, and
     /// the sides with which it can begin.
-    fn alone(&self, robot: usize) -> Option<(u16, Steps)> {
+    fn alone(&self, robot: usize, map: &Map<NODES>) -> Option<(u16, Steps)> {
         let at = self.stance(robot)?.to();
         let is_admitted = |node: Cell, step: Step| {
             self.admits_path(robot, Stance::Drives { from: node, to: node.after(step) })
         };
         let is_goal = |node: Cell, uncovered: Steps| uncovered.iter().any(|step| is_admitted(node, step));
-        let ways = self.flood([at; 2], is_goal, |node| self.admits_path(robot, Stance::Stands(node)));
+        let ways = self.flood(map, is_goal, |node| self.admits_path(robot, Stance::Stands(node)));
         let length = ways[self.place(at)?];
         (length != FAR).then(|| (length, self.shortening(robot, &ways)))
     }
 
     /// The part of `robot` in a team of three and more.
-    fn convoy(&self, robot: usize) -> Option<Steps> {
-        let alone = |robot: usize| Some((self.alone(robot)?.0, robot));
+    fn convoy(&self, robot: usize, map: &Map<NODES>) -> Option<Steps> {
+        let alone = |robot: usize| Some((self.alone(robot, map)?.0, robot));
         if let Some((_, first)) = (0..ROBOTS).filter_map(alone).min() {
-            return Some(if first == robot { self.alone(robot)?.1 } else { Steps::NONE });
+            return Some(if first == robot { self.alone(robot, map)?.1 } else { Steps::NONE });
         }
-        let to_goals = self.flood_from(|_, uncovered| !uncovered.is_empty());
+        let to_goals = self.flood(map, |_, uncovered| !uncovered.is_empty(), |_| true);
         let way = |robot: usize| Some((to_goals[self.place(self.stance(robot)?.to())?], robot));
         let (_, leader) = (0..ROBOTS).filter_map(way).min().filter(|&(length, _)| length != FAR)?;
         let lead = self.shortening(leader, &to_goals);
@@ -186,7 +198,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             return Some(if leader == robot { lead } else { Steps::NONE });
         }
         let goal = self.stance(leader)?.to();
-        let to_leader = self.flood_from(|node, _| node == goal);
+        let to_leader = self.flood(map, |node, _| node == goal, |_| true);
         let others = (0..ROBOTS).filter(|&other| other != leader);
         let (follower, sides) = others
             .map(|other| (other, self.shortening(other, &to_leader)))
@@ -204,28 +216,34 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         self.known(EdgeMark::Open, at).filter(is_nearer)
     }
 
-    /// Of each node the fewest drives over known paths to a goal.
-    fn flood_from(&self, is_goal: impl Fn(Cell, Steps) -> bool) -> [u16; NODES] {
-        let at = |robot| self.stance(robot).map_or(Cell::new(0, 0), Stance::to);
-        self.flood([at(0), at(ROBOTS - 1)], is_goal, |_| true)
+    /// What all robots know.
+    fn map(&self) -> Map<NODES> {
+        let mut map = Map { open: [Steps::NONE; NODES], uncovered: [Steps::NONE; NODES] };
+        for node in self.records()[0].area().cells() {
+            let Some(place) = self.place(node) else { continue };
+            let open = self.known(EdgeMark::Open, node);
+            if !open.is_empty() || self.robots.iter().any(|robot| robot.stance.to() == node) {
+                (map.open[place], map.uncovered[place]) = (open, self.uncovered_by_all(node));
+            }
+        }
+        map
     }
 
-    /// The same through nodes that are admitted only.
+    /// Of each node the fewest drives over known paths, through nodes that are admitted, to a goal: a visited node, by its
+    /// uncovered sides.
     fn flood(
         &self,
-        ends: [Cell; 2],
+        map: &Map<NODES>,
         is_goal: impl Fn(Cell, Steps) -> bool,
         is_admitted: impl Fn(Cell) -> bool,
     ) -> [u16; NODES] {
         let mut ways = [FAR; NODES];
         let mut queue = [0_u16; NODES];
         let (mut first, mut last) = (0, 0);
-        for node in self.visited(ends) {
-            let uncovered = self.uncovered_by_all(node);
-            if let Some(place) = self.place(node)
-                && is_admitted(node)
-                && is_goal(node, uncovered)
-            {
+        for (place, (&open, &uncovered)) in map.open.iter().zip(&map.uncovered).enumerate() {
+            let is_visited = !open.is_empty() || !uncovered.is_empty();
+            let node = self.node(place);
+            if is_visited && is_goal(node, uncovered) && is_admitted(node) {
                 (ways[place], queue[last]) = (0, place as u16);
                 last += 1;
             }
@@ -234,7 +252,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             let from = usize::from(queue[first]);
             first += 1;
             let node = self.node(from);
-            for step in self.known(EdgeMark::Open, node).iter() {
+            for step in map.open[from].iter() {
                 let beyond = node.after(step);
                 if let Some(place) = self.place(beyond)
                     && ways[place] == FAR
