@@ -157,7 +157,10 @@ impl Team for KitTeam {
     }
 
     fn broken_at_end(&self, _: &Layout, _: &Survey, end: End) -> Vec<ClauseId> {
+        let is_full = nodes(&self.due, &self.cells).len() == self.cells.len();
         match end {
+            // Nobody can leave where every node is taken.
+            End::Exhausted if is_full => Vec::new(),
             End::Exhausted if self.course.is_over() => vec![COVERS],
             End::Exhausted => vec![MOVES],
             End::Explored | End::Endless => Vec::new(),
