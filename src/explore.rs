@@ -166,7 +166,7 @@ impl Explore {
         let base = Setup::choose_base(&mut layout, asked)?;
         let limits = Limits { until: self.until, max_moves: self.max_moves, violation: OnViolation::GoOn };
         let starts = match (self.scheme.starts, starts.len()) {
-            (_, 0) => self.scheme.default_starts(&layout, base, robots),
+            (_, 0) => self.scheme.default_starts(self.rule, &layout, base, robots),
             (Starts::Anywhere | Starts::Beside, 1) => None,
             (Starts::Base | Starts::Anywhere | Starts::Beside, _) => Some(starts),
         };

@@ -16,7 +16,7 @@ fn generated(description: &str, seed: u64) -> Layout {
 
 fn setup(rule: RuleName, robots: u16, layout: Layout, seed: u64) -> Setup {
     let base = layout.default_base().expect("a free cell");
-    let starts = KIT.default_starts(&layout, base, robots);
+    let starts = KIT.default_starts(rule.into(), &layout, base, robots);
     Setup { seed, starts, ..Setup::new(&KIT, rule, robots, layout, base) }
 }
 

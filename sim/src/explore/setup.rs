@@ -87,7 +87,8 @@ pub enum Starts {
     Base,
     /// Each in any free cell.
     Anywhere,
-    /// Each in a free cell of its own: without another word the first at the base, and the others beside it.
+    /// Each in any free cell: without another word as published all at the base, and else the first one there and the others
+    /// beside it.
     Beside,
 }
 
@@ -135,11 +136,17 @@ impl Profile {
         self.rules.iter().find(|rule| rule.name == name)
     }
 
-    /// Where `robots` start in `layout` of which nobody says where, if not all start at the base.
-    pub fn default_starts(&self, layout: &Layout, base: Cell, robots: u16) -> Option<Vec<Cell>> {
+    /// Where `robots` of this rule start in `layout` of which nobody says where, if not all start at the base.
+    pub fn default_starts(
+        &self,
+        rule: RuleId,
+        layout: &Layout,
+        base: Cell,
+        robots: u16,
+    ) -> Option<Vec<Cell>> {
         match self.starts {
-            Starts::Base | Starts::Anywhere => None,
-            Starts::Beside => Some(kit::starts(layout, base, robots.into())),
+            Starts::Beside if rule != RuleId::PUBLISHED => Some(kit::starts(layout, base, robots.into())),
+            Starts::Base | Starts::Anywhere | Starts::Beside => None,
         }
     }
 
