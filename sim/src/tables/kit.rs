@@ -276,10 +276,13 @@ impl Table for Kit {
         Ok(printed::text(self.figure, settings, merged))
     }
 
-    /// A repaired team always keeps in touch and drives every path.
+    /// A repaired team always keeps in touch, and one or two of its robots drive every path.
     fn is_broken(&self, merged: &Merged) -> bool {
-        let repaired = merged.lines.iter().filter(|line| line.team.rule == RuleName::Repaired);
-        repaired.into_iter().any(|line| line.ended > 0 || line.cut.is_some_and(|cut| cut.mean > 0.0))
+        let is_broken = |line: &&Line| {
+            line.ended > 0 && line.team.robots < 3 || line.cut.is_some_and(|cut| cut.mean > 0.0)
+        };
+        let mut repaired = merged.lines.iter().filter(|line| line.team.rule == RuleName::Repaired);
+        repaired.any(|line| is_broken(&line))
     }
 }
 
