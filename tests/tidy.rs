@@ -17,7 +17,7 @@ const BELOW: &str = "
 const KNOWN_TO: &str = "
     kernel choice conditions floor ground net: *
     kernel ants: bricks
-    kernel bricks chain mrc notice perception tan:
+    kernel bricks chain mrc notice perception position tan:
     proofs clause course decide engine run step_check team words: *
     proofs judge ledger:
     proofs floor: ants bricks
