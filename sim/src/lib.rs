@@ -8,6 +8,7 @@ pub mod draw;
 pub mod explore;
 pub mod fault;
 pub mod layout;
+pub mod position;
 pub mod radio;
 pub mod reading;
 pub mod rescue;

@@ -72,41 +72,52 @@ pub enum Refusal {
     NoParticle,
 }
 
+impl Refusal {
+    /// What would be right.
+    pub const fn remedy(self) -> &'static str {
+        match self {
+            Self::Anchors { .. } => "give at least three anchors, and exactly three for the closed form",
+            Self::NotFinite { .. } => "give metres, at most 10⁹ of them",
+            Self::Negative { .. } => "give distances from 0",
+            Self::Zero { .. } => "give a distance above a micrometre, or ask for residuals in metres",
+            Self::Coincident { .. } => "give three anchors at different places",
+            Self::Collinear => "move an anchor off the line of the others",
+            Self::Division => "name the anchors in another order, or solve by linear least squares",
+            Self::Apart { .. } => "measure again, or allow for more noise",
+            Self::NoParticle => "give at least one particle",
+        }
+    }
+}
+
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Anchors { count } => {
-                write!(f, "{count} anchors give no position: at least three do, and the closed form takes exactly three")
+                write!(f, "anchors, of which there are {count}, do not tell a position")
             }
             Self::NotFinite { anchor } => {
-                write!(f, "anchor {} has a number that is not finite or above 10⁹ m: give metres", anchor + 1)
+                write!(f, "a number of anchor {} is infinite, too large or none", anchor + 1)
             }
-            Self::Negative { anchor } => {
-                write!(f, "the distance of anchor {} is negative: distances are 0 or more", anchor + 1)
-            }
+            Self::Negative { anchor } => write!(f, "the distance of anchor {} is negative", anchor + 1),
             Self::Zero { anchor } => {
-                write!(f, "the distance of anchor {} is less than a micrometre, for which no level is high enough: use metres", anchor + 1)
+                write!(f, "the distance of anchor {} is too small for a level in decibels", anchor + 1)
             }
             Self::Coincident { first, second } => {
-                let (first, second) = (first + 1, second + 1);
-                write!(f, "anchors {first} and {second} are at the same place: three different ones are needed")
+                write!(f, "anchors {} and {} are at the same place", first + 1, second + 1)
             }
             Self::Collinear => {
-                f.write_str("the anchors are on one line, so that a position and its mirror image fit alike: move one off it")
+                f.write_str("the anchors are on one line, so that a position and its mirror image fit alike")
             }
             Self::Division => f.write_str(
-                "the second and the third anchor have the same x, by whose difference equation (8) divides: name the \
-                 anchors in another order",
+                "the second and the third anchor have the same x, by whose difference equation (8) divides",
             ),
-            Self::Apart { first, second } => {
-                let (first, second) = (first + 1, second + 1);
-                write!(
-                    f,
-                    "the circles of anchors {first} and {second} do not meet, not even with errors of four standard \
-                     deviations: the distances contradict each other, or the noise is greater"
-                )
-            }
-            Self::NoParticle => f.write_str("a swarm needs at least one particle"),
+            Self::Apart { first, second } => write!(
+                f,
+                "the circles of anchors {} and {} do not meet, not even with errors of four standard deviations",
+                first + 1,
+                second + 1
+            ),
+            Self::NoParticle => f.write_str("the swarm has no particle"),
         }
     }
 }
