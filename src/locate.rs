@@ -7,6 +7,7 @@ use clap::Args;
 use serde::Serialize;
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{Point, Signal};
+use tautline_proofs::words::counted;
 use tautline_sim::columns::{Column, Columns, Width};
 use tautline_sim::draw;
 use tautline_sim::explore::RuleName;
@@ -266,8 +267,10 @@ fn advice(advice: &Advice) -> String {
     let Advice { side_m, p99_m, cells_believed, cells_tracked } = advice;
     format!(
         "\n99 % of the errors are below {p99_m:.3} m. Across {side_m} m a floor can have\n\
-         at most {cells_believed} cells where a robot believes each fix,\n\
-         at most {cells_tracked} cells where it counts its cells by moves and lets fixes correct its place within one.\n"
+         at most {} where a robot believes each fix,\n\
+         at most {} where it counts its cells by moves and lets fixes correct its place within one.\n",
+        counted(*cells_believed as usize, "cell"),
+        counted(*cells_tracked as usize, "cell")
     )
 }
 

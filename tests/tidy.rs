@@ -22,7 +22,7 @@ const KNOWN_TO: &str = "
     proofs judge ledger:
     proofs floor: ants bricks
     proofs ground: ledger chain
-    proofs ants bricks chain mrc notice tan: ledger
+    proofs ants bricks chain mrc notice position tan: ledger
     sim tables:";
 
 /// By crate and rooms: the only rooms that they may import.

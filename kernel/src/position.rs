@@ -1,4 +1,4 @@
-//! Where a robot is, by the strength of the signals of anchors (paper 002, 4, “Self-Localization” and “Localization Error
+//! Where a robot is, by the strength of the signals of anchors (Rajesh et al. 2024, 4, “Self-Localization” and “Localization Error
 //! Optimization with PSO”; clauses POSITION-1 to POSITION-6).
 //!
 //! Each anchor gives a [`Range`]: its place, and a distance that a [`Signal`] makes of the strength with which it is
@@ -16,6 +16,7 @@
 
 mod bound;
 mod closed;
+mod descent;
 mod linear;
 mod locate;
 mod normal;

@@ -5,12 +5,12 @@ mod jobs;
 use std::fmt::{self, Write};
 
 use crate::clause::{AnyCheck, Clause, Decision};
-use crate::{ants, bricks, chain, ground, mrc, notice, tan};
+use crate::{ants, bricks, chain, ground, mrc, notice, position, tan};
 
 pub use jobs::{Hear, Heard, decide, decide_all};
 
 /// The clauses of each room.
-pub static ROOMS: [&[Clause]; 7] = [
+pub static ROOMS: [&[Clause]; 8] = [
     &ground::clauses::CLAUSES,
     &chain::clauses::CLAUSES,
     &ants::clauses::CLAUSES,
@@ -18,6 +18,7 @@ pub static ROOMS: [&[Clause]; 7] = [
     &notice::clauses::CLAUSES,
     &mrc::clauses::CLAUSES,
     &tan::clauses::CLAUSES,
+    &position::clauses::CLAUSES,
 ];
 
 /// Every clause of our own.

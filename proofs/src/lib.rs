@@ -14,6 +14,7 @@ pub mod judge;
 pub mod ledger;
 pub mod mrc;
 pub mod notice;
+pub mod position;
 pub mod run;
 mod step_check;
 pub mod tan;

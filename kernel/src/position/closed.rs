@@ -1,4 +1,4 @@
-//! The closed form of paper 002, equations (5) to (8), as it is printed.
+//! The closed form of Rajesh et al. 2024, equations (5) to (8), as it is printed.
 
 use super::range::check;
 use super::{Layout, Point, Range, Refusal};

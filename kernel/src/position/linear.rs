@@ -1,4 +1,4 @@
-//! Linear least squares for any number of anchors: the circles' equations (2) to (4) of paper 002 less their mean, in the
+//! Linear least squares for any number of anchors: the circles' equations (2) to (4) of Rajesh et al. 2024 less their mean, in the
 //! frame in which the anchors' places are uncorrelated. One Jacobi rotation finds it, so that no matrix is inverted and none is
 //! squared.
 

@@ -2,7 +2,7 @@
 //! two of them.
 
 use super::bound::{Precision, precision};
-use super::normal::Normal;
+use super::descent::{Descent, Landing};
 use super::range::{LEAST_M, check, count};
 use super::{Area, Layout, Point, Range, Refusal, Signal};
 
@@ -68,22 +68,28 @@ const AMBIGUOUS: f64 = 3.84;
 /// Above this dilution of precision a position is called weak, as is the habit with satellites.
 const MOST_DILUTION: f64 = 20.0;
 
-/// A step below this, in proportion to the spread of the anchors, is the last.
+/// A step below this, in proportion to the spread of the anchors, is the last. Where the sum of the squares is convex the error is
+/// then about the square of it.
 const LAST_STEP: f64 = 1e-5;
 
 /// Minima nearer to each other than this, in the same proportion, are one.
-const ONE_PLACE: f64 = 1e-4;
+const ONE_PLACE: f64 = 1e-2;
 
 /// Costs nearer to each other than this, in the same proportion squared, are one.
 const ONE_COST: f64 = 1e-12;
 
-/// Steps at most.
-const MOST_STEPS: u32 = 60;
+/// An image promises a second minimum if the next step from it leads this near to the best one, in units of the difference at
+/// which two are told apart: steps are not straight.
+const PROMISING: f64 = 32.0;
+
+/// Where a better minimum is found, it is mirrored again, at most this often.
+const MOST_ROUNDS: u32 = 3;
 
 /// The position from which the residuals are least, or two.
 ///
-/// Steps begin on both sides of the line along which the anchors are spread most, as far from it as the distances say on average:
-/// so a mirror image is found even if it is not exactly one.
+/// Steps begin on one side of the line along which the anchors are spread most, as far from it as the distances say on average. Where
+/// they end is then mirrored, in that line and in those through two anchors that follow each other: from an image the two
+/// distances fit as well, and where the others promise to, too, steps begin anew.
 ///
 /// # Errors
 /// [`Refusal`] if there are fewer than three anchors at three places, if a distance is no number from 0, or is less than a
@@ -101,10 +107,6 @@ pub fn locate(
         return Err(Refusal::Zero { anchor });
     }
     let layout = Layout::of(ranges);
-    let descent = Descent { ranges, residual, area, last_m: LAST_STEP * layout.spread_m[0] };
-    let [one, other] = starts(ranges, &layout).map(|start| descent.from(start));
-    let (best, second) = if one.normal.cost <= other.normal.cost { (one, other) } else { (other, one) };
-    let estimate = |landing: &Landing| landing.estimate(ranges, residual, signal);
     let squared_m = ranges.iter().map(|range| range.distance_m * range.distance_m).sum::<f64>();
     let (variance, rounding) = match residual {
         Residual::Metres => (squared_m / count(ranges), squared_m),
@@ -112,16 +114,40 @@ pub fn locate(
     };
     let error = signal.relative_error();
     let ambiguous = AMBIGUOUS * error * error * variance + ONE_COST * rounding;
-    let is_apart = best.at.distance_m(second.at) > ONE_PLACE * layout.spread_m[0];
-    Ok(if is_apart && second.normal.cost - best.normal.cost <= ambiguous {
-        Fix::Two(estimate(&best), estimate(&second))
-    } else {
-        Fix::One(estimate(&best))
+    let descent = Descent { ranges, residual, area: None, last_m: LAST_STEP * layout.spread_m[0] };
+    let mut minima = Minima::new(start(&descent, &layout), ONE_PLACE * layout.spread_m[0]);
+    let mut mirrored = None;
+    for _ in 0..MOST_ROUNDS {
+        let best = minima.best.at;
+        if mirrored == Some(best) {
+            break;
+        }
+        mirrored = Some(best);
+        for image in images(ranges, best) {
+            // Within a rectangle also a minimum counts that is worse elsewhere.
+            let most =
+                if area.is_some() { f64::INFINITY } else { minima.best.normal.cost + PROMISING * ambiguous };
+            let normal = descent.normal(image);
+            if !minima.has(image) && normal.promise() <= most {
+                minima.add(descent.from(image, normal, |at| minima.has(at)));
+            }
+        }
+    }
+    if let Some(area) = area {
+        minima = minima.within(area, &descent);
+    }
+    let estimate = |landing: &Landing| landing.estimate(ranges, residual, signal);
+    Ok(match &minima.second {
+        Some(second) if second.normal.cost - minima.best.normal.cost <= ambiguous => {
+            Fix::Two(estimate(&minima.best), estimate(second))
+        }
+        Some(_) | None => Fix::One(estimate(&minima.best)),
     })
 }
 
-/// A place on either side of the anchors' line.
-fn starts(ranges: &[Range], layout: &Layout) -> [Point; 2] {
+/// The better one of the places on both sides of the anchors' line.
+fn start(descent: &Descent<'_>, layout: &Layout) -> Landing {
+    let ranges = descent.ranges;
     let (along_m, _) = layout.solve(ranges);
     let squared_m = ranges.iter().map(|range| {
         let (u, v) = layout.about_centre(range.anchor);
@@ -130,77 +156,74 @@ fn starts(ranges: &[Range], layout: &Layout) -> [Point; 2] {
     let mean = squared_m.sum::<f64>() / count(ranges);
     // A place on the line itself is no start: no step leads away from it.
     let across_m = libm::sqrt(mean.max(0.0)).max(layout.spread_m[0] / 16.0);
-    [layout.place(along_m, across_m), layout.place(along_m, -across_m)]
+    let [one, other] = [across_m, -across_m].map(|across_m| layout.place(along_m, across_m));
+    let (of_one, of_other) = (descent.normal(one), descent.normal(other));
+    let (at, normal) = if of_one.cost <= of_other.cost { (one, of_one) } else { (other, of_other) };
+    descent.from(at, normal, |_| false)
 }
 
-/// A way downhill.
-struct Descent<'a> {
-    ranges: &'a [Range],
-    residual: Residual,
-    area: Option<Area>,
-    last_m: f64,
+/// `at` mirrored in the lines through two anchors that follow each other.
+fn images(ranges: &[Range], at: Point) -> impl Iterator<Item = Point> {
+    let anchors = ranges.iter().map(|range| range.anchor);
+    let pairs = anchors.clone().zip(anchors.cycle().skip(1));
+    pairs.map(move |(from, to)| {
+        let (x, y) = (to.x_m - from.x_m, to.y_m - from.y_m);
+        let across =
+            (x * (at.y_m - from.y_m) - y * (at.x_m - from.x_m)) / (x * x + y * y).max(LEAST_M * LEAST_M);
+        Point::new(at.x_m + 2.0 * across * y, at.y_m - 2.0 * across * x)
+    })
 }
 
-/// Where it ended.
-struct Landing {
-    at: Point,
-    normal: Normal,
-    steps: u32,
-    is_outside: bool,
-    is_unsettled: bool,
+/// The two best minima so far.
+struct Minima {
+    best: Landing,
+    second: Option<Landing>,
+    /// What is nearer to each other is one.
+    apart_m: f64,
 }
 
-impl Descent<'_> {
-    fn from(&self, start: Point) -> Landing {
-        let mut at = self.area.map_or(start, |area| area.nearest(start));
-        let mut normal = Normal::at(self.ranges, self.residual, at);
-        let mut damping = 0.0;
-        let mut steps = 0;
-        let mut is_unsettled = true;
-        while is_unsettled && steps < MOST_STEPS {
-            steps += 1;
-            let to = self.step(at, &normal, damping);
-            is_unsettled = at.squared_distance(to) > self.last_m * self.last_m;
-            let next = Normal::at(self.ranges, self.residual, to);
-            if next.cost <= normal.cost {
-                (at, normal, damping) = (to, next, if damping < 1e-6 { 0.0 } else { damping / 10.0 });
-            } else {
-                damping = (damping * 8.0).max(1e-2);
-            }
+impl Minima {
+    const fn new(best: Landing, apart_m: f64) -> Self {
+        Self { best, second: None, apart_m }
+    }
+
+    fn is_one(&self, one: Point, other: Point) -> bool {
+        one.squared_distance(other) <= self.apart_m * self.apart_m
+    }
+
+    fn has(&self, place: Point) -> bool {
+        let is_second = self.second.as_ref().is_some_and(|second| self.is_one(second.at, place));
+        is_second || self.is_one(self.best.at, place)
+    }
+
+    fn add(&mut self, landing: Landing) {
+        if self.is_one(self.best.at, landing.at) {
+            return;
         }
-        let is_outside = self.area.is_some_and(|area| pressed(area, at, &normal) != [false; 2]);
-        Landing { at, normal, steps, is_outside, is_unsettled }
+        if landing.normal.cost < self.best.normal.cost {
+            self.second = Some(core::mem::replace(&mut self.best, landing));
+        } else if self.second.as_ref().is_none_or(|second| landing.normal.cost < second.normal.cost) {
+            self.second = Some(landing);
+        }
     }
 
-    /// Where the next step leads. A coordinate that is pressed against the rim stays there.
-    #[inline]
-    fn step(&self, at: Point, normal: &Normal, damping: f64) -> Point {
-        let (x, y) = normal.downhill;
-        let alone = |along: f64, xx: f64| if xx > 0.0 { along / (xx * (1.0 + damping)) } else { 0.0 };
-        let (dx, dy) = match self.area.map_or([false; 2], |area| pressed(area, at, normal)) {
-            [false, false] => {
-                let inverse = normal.inverse(damping);
-                (inverse.xx * x + inverse.xy * y, inverse.xy * x + inverse.yy * y)
+    /// The same within a rectangle: from minima outside, steps go on from the nearest place in it.
+    fn within(self, area: Area, descent: &Descent<'_>) -> Self {
+        let descent = Descent { area: Some(area), ..*descent };
+        let inside = |landing: Landing| {
+            let nearest = area.nearest(landing.at);
+            if nearest == landing.at {
+                landing
+            } else {
+                descent.from(nearest, descent.normal(nearest), |_| false)
             }
-            [true, false] => (0.0, alone(y, normal.matrix.yy)),
-            [false, true] => (alone(x, normal.matrix.xx), 0.0),
-            [true, true] => (0.0, 0.0),
         };
-        let to = Point::new(at.x_m + dx, at.y_m + dy);
-        self.area.map_or(to, |area| area.nearest(to))
+        let mut minima = Self::new(inside(self.best), self.apart_m);
+        if let Some(second) = self.second {
+            minima.add(inside(second));
+        }
+        minima
     }
-}
-
-/// Whether the way downhill leads out of `area`, along x and along y.
-fn pressed(area: Area, at: Point, normal: &Normal) -> [bool; 2] {
-    let (least, greatest) = (area.least(), area.greatest());
-    let leads_out = |at: f64, least: f64, greatest: f64, to: f64| {
-        (at <= least && to < 0.0) || (at >= greatest && to > 0.0)
-    };
-    [
-        leads_out(at.x_m, least.x_m, greatest.x_m, normal.downhill.0),
-        leads_out(at.y_m, least.y_m, greatest.y_m, normal.downhill.1),
-    ]
 }
 
 impl Landing {

@@ -71,6 +71,13 @@ impl Normal {
         let inverse = self.matrix.damped(damping).inverse();
         inverse.or_else(|| self.matrix.damped(LEAST_DAMPING).inverse()).unwrap_or_default()
     }
+
+    /// About how small the sum becomes with the next step.
+    #[inline]
+    pub(super) fn promise(&self) -> f64 {
+        let (inverse, (x, y)) = (self.matrix.inverse().unwrap_or_default(), self.downhill);
+        self.cost - (inverse.xx * x * x + 2.0 * inverse.xy * x * y + inverse.yy * y * y)
+    }
 }
 
 /// The damping of a matrix that has no inverse.

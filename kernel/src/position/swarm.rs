@@ -1,4 +1,4 @@
-//! Particle swarm optimisation of a position (paper 002, equations (9) and (10), and the algorithm of section 5).
+//! Particle swarm optimisation of a position (Rajesh et al. 2024, equations (9) and (10), and the algorithm of section 5).
 //!
 //! What the paper leaves open: a particle starts within 1 m of the closed form along each axis, with a velocity of 0 to v_max
 //! along each; the fitness is the sum of the squared residuals of the distances; `rand()` is one number for each term and
@@ -200,6 +200,11 @@ impl<'a> Swarm<'a> {
             self.step(oracle);
         }
         self.best
+    }
+
+    /// Where the particles are.
+    pub fn places(&self) -> impl Iterator<Item = Point> {
+        self.particles.iter().map(|particle| particle.at)
     }
 
     /// The best position so far.

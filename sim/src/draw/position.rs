@@ -7,7 +7,7 @@ use tautline_kernel::position::Point;
 
 use super::svg::{MARGIN, SERIES_STYLE, document, escaped, text_width};
 use crate::position::analysis::Ellipse;
-use crate::position::{Found, Spot};
+use crate::position::{Found, Place, Spot};
 
 /// The longest side of the ground.
 const SIDE: f64 = 600.0;
@@ -53,12 +53,12 @@ pub fn spots(title: &str, anchors: &[Point], spots: &[Spot]) -> String {
 /// The picture of positions found in measurements.
 pub fn found(title: &str, anchors: &[Point], found: &[Found]) -> String {
     let places = || found.iter().flat_map(|found| &found.positions);
-    let ground = Ground::of(anchors.iter().copied().chain(places().map(|place| place.at())));
+    let ground = Ground::of(anchors.iter().copied().chain(places().map(Place::at)));
     let mut body = ground.anchors(anchors);
     for place in places() {
         body += &place.ellipse.map_or_else(String::new, |ellipse| ground.ellipse("errors", &ellipse));
     }
-    body += &ground.points("found", &places().map(|place| place.at()).collect::<Vec<_>>());
+    body += &ground.points("found", &places().map(Place::at).collect::<Vec<_>>());
     let key = [
         (format!("<path class=\"anchor\" d=\"M8 2{ANCHOR}\"/>"), "anchor"),
         ("<path class=\"found\" d=\"M8 0h0\"/>".to_owned(), "position found"),
