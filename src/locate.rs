@@ -1,7 +1,7 @@
 //! `tautline locate`: how exact positions are that signals tell, and the positions of measurements.
 
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde::Serialize;
@@ -121,7 +121,8 @@ struct Fixes<'a> {
     solver: Solver,
     noise_db: f64,
     exponent: f64,
-    fixes: &'a [Found],
+    #[serde(rename = "fixes")]
+    found: &'a [Found],
 }
 
 impl Locate {
@@ -179,7 +180,7 @@ impl Locate {
         Ok(Exit::Expected)
     }
 
-    fn measured(&self, file: &PathBuf, signal: &Signal, out: &mut Output) -> Result<Exit, Halt> {
+    fn measured(&self, file: &Path, signal: &Signal, out: &mut Output) -> Result<Exit, Halt> {
         let given = [
             ("--anchors", !self.anchors.is_empty()),
             ("--at", self.at.is_some()),
@@ -191,7 +192,7 @@ impl Locate {
         if let Some((option, _)) = given.into_iter().find(|(_, is_given)| *is_given) {
             return Err(needless(option, "the positions of measurements are found").into());
         }
-        let [picture] = self.force.files([&self.svg], [file.clone()])?;
+        let [picture] = self.force.files([&self.svg], [file.to_path_buf()])?;
         let measured = Measured::read(file)?;
         let found = measured.locate(self.solver, self.rule(), signal, self.seed.unwrap_or(0))?;
         if let Some(mut picture) = picture {
@@ -202,7 +203,7 @@ impl Locate {
         match self.format.format {
             Format::Json => {
                 let (noise_db, exponent) = (self.noise_db, self.exponent.exponent());
-                out.json(&Fixes { solver: self.solver, noise_db, exponent, fixes: &found })?;
+                out.json(&Fixes { solver: self.solver, noise_db, exponent, found: &found })?;
             }
             Format::Text => out.text(positions(&found))?,
         }

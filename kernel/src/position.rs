@@ -32,4 +32,4 @@ pub use locate::{Estimate, Fix, Flags, Residual, locate};
 pub use place::{Area, Point, Symmetric};
 pub use range::{Range, Refusal, check, check_meeting};
 pub use signal::Signal;
-pub use swarm::{Inertia, Order, Parameters, Particle, Swarm};
+pub use swarm::{Draws, Inertia, Order, Parameters, Particle, Swarm};

@@ -8,7 +8,9 @@ mod solver;
 mod trials;
 
 pub use measured::{Found, Measured, Place};
+pub(crate) use solver::PARTICLES;
 pub use solver::Solver;
+pub(crate) use trials::distances;
 pub use trials::{Advice, Anchors, Errors, Quantiles, Report, Setting, Spot};
 
 use tautline_kernel::position::Refusal;

@@ -7,6 +7,8 @@ pub mod antenna_fig4;
 pub mod atlas;
 mod entry;
 pub mod journeys;
+pub mod locate_convergence;
+pub mod locate_fig8;
 pub mod notice_fig5;
 pub mod optimum;
 pub mod parameter;
@@ -42,6 +44,8 @@ pub const TABLES: &[&dyn Entry] = &[
     &rescue_fig8::RescueFig8,
     &journeys::RESCUE_FIG9,
     &journeys::RESCUE_FIG10,
+    &locate_fig8::LocateFig8,
+    &locate_convergence::LocateConvergence,
 ];
 
 /// A table or a figure that can be measured. Its results depend on its settings alone, and not on who measures which of

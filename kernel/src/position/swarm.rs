@@ -2,7 +2,7 @@
 //!
 //! What the paper leaves open: a particle starts within 1 m of the closed form along each axis, with a velocity of 0 to v_max
 //! along each; the fitness is the sum of the squared residuals of the distances; `rand()` is one number for each term and
-//! particle; v_max is 1 m along each axis, and holds after each update. Equation (10) adds the velocity of time t, the
+//! particle, or one for each axis besides ([`Draws`]); v_max is 1 m along each axis, and holds after each update. Equation (10) adds the velocity of time t, the
 //! algorithm updates the velocity first: [`Order`].
 
 use super::range::check;
@@ -16,6 +16,15 @@ pub enum Order {
     Published,
     /// x(t+1) = x(t) + v(t+1): the order of the algorithm.
     Corrected,
+}
+
+/// What `rand()` of equation (9) is drawn for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Draws {
+    /// Each term and particle: a velocity stays in the plane of what draws it.
+    Particle,
+    /// Each term, particle and axis.
+    Axis,
 }
 
 /// w, by which a velocity is kept.
@@ -49,6 +58,8 @@ pub struct Parameters {
     pub iterations: u32,
     /// Which velocity moves a particle.
     pub order: Order,
+    /// What random numbers are drawn for.
+    pub draws: Draws,
 }
 
 impl Parameters {
@@ -61,6 +72,7 @@ impl Parameters {
         most_speed_m: 1.0,
         iterations: 20,
         order: Order::Corrected,
+        draws: Draws::Particle,
     };
 
     /// Those of Shi and Eberhart: w from 0.9 to 0.4, c1 = c2 = 2.
@@ -171,18 +183,23 @@ impl<'a> Swarm<'a> {
 
     /// One iteration: equations (9) and (10) for every particle, then the best positions.
     pub fn step<O: Oracle + ?Sized>(&mut self, oracle: &mut O) {
-        let Parameters { own, team, most_speed_m, order, .. } = self.parameters;
+        let Parameters { own, team, most_speed_m, order, draws, .. } = self.parameters;
         let (inertia, best) = (self.parameters.inertia(self.iteration), self.best);
         for particle in &mut *self.particles {
-            let (own, team) = (own * draw(oracle), team * draw(oracle));
-            let faster = |velocity: f64, at: f64, mine: f64, best: f64| {
+            let mut pulls = || (own * draw(oracle), team * draw(oracle));
+            let along_x = pulls();
+            let along_y = match draws {
+                Draws::Particle => along_x,
+                Draws::Axis => pulls(),
+            };
+            let faster = |(own, team): (f64, f64), velocity: f64, at: f64, mine: f64, best: f64| {
                 let velocity = inertia * velocity + own * (mine - at) + team * (best - at);
                 velocity.min(most_speed_m).max(-most_speed_m)
             };
             let before = particle.velocity;
             particle.velocity = Point {
-                x_m: faster(before.x_m, particle.at.x_m, particle.best.x_m, best.x_m),
-                y_m: faster(before.y_m, particle.at.y_m, particle.best.y_m, best.y_m),
+                x_m: faster(along_x, before.x_m, particle.at.x_m, particle.best.x_m, best.x_m),
+                y_m: faster(along_y, before.y_m, particle.at.y_m, particle.best.y_m, best.y_m),
             };
             let by = match order {
                 Order::Published => before,

@@ -38,15 +38,15 @@ impl Worded for Solver {
 }
 
 /// Particles of a swarm.
-pub(super) const PARTICLES: usize = 30;
+pub(crate) const PARTICLES: usize = 30;
 
 /// A position, and another one that fits as well.
-pub(super) type Solved = (Point, Option<Fix>);
+pub(crate) type Solved = (Point, Option<Fix>);
 
 impl Solver {
     /// The position that the distances tell. The closed form alone is restricted to three anchors; a swarm begins about the linear
     /// solution where there are more, or where the closed form divides by 0.
-    pub(super) fn solve(
+    pub(crate) fn solve(
         self,
         rule: RuleName,
         ranges: &[Range],
@@ -79,7 +79,7 @@ fn fixed(fix: Fix) -> Result<Solved, Refusal> {
 }
 
 /// The constants of the paper's swarm, with the updates in the printed order or in the corrected one.
-pub(crate) const fn parameters(rule: RuleName) -> Parameters {
+pub(super) const fn parameters(rule: RuleName) -> Parameters {
     let order = match rule {
         RuleName::Published => Order::Published,
         RuleName::Repaired => Order::Corrected,

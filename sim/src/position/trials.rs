@@ -60,6 +60,15 @@ impl Anchors {
     }
 }
 
+impl Anchors {
+    /// A random place in that rectangle.
+    pub(crate) fn somewhere(&self, oracle: &mut dyn Oracle) -> Point {
+        let (least, [width_m, height_m]) = (self.area.least(), self.sides_m());
+        let mut part = || f64::from(oracle.pick(STEPS)) / f64::from(STEPS);
+        Point::new(least.x_m + width_m * part(), least.y_m + height_m * part())
+    }
+}
+
 impl Serialize for Anchors {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(self.places.iter().map(|place| [place.x_m, place.y_m]))
@@ -272,12 +281,7 @@ impl Setting {
 
     /// Where the robot is in a trial.
     fn place(&self, oracle: &mut dyn Oracle) -> Point {
-        let (least, [width_m, height_m]) = (self.anchors.area().least(), self.anchors.sides_m());
-        let mut part = || f64::from(oracle.pick(STEPS)) / f64::from(STEPS);
-        self.at_m.map_or_else(
-            || Point::new(least.x_m + width_m * part(), least.y_m + height_m * part()),
-            |[x_m, y_m]| Point::new(x_m, y_m),
-        )
+        self.at_m.map_or_else(|| self.anchors.somewhere(oracle), |[x_m, y_m]| Point::new(x_m, y_m))
     }
 
     /// The trial of this number, and the trace of the bound where it is.
