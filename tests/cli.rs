@@ -12,6 +12,8 @@ use tempfile::TempDir;
 
 #[path = "cli/files.rs"]
 mod files;
+#[path = "cli/locate.rs"]
+mod locate;
 
 fn tautline(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_tautline"));
@@ -619,6 +621,8 @@ fn the_tables_are_listed_and_have_help_with_examples() {
         "antenna-fig4",
         "rescue-fig7",
         "rescue-fig8",
+        "locate-fig8",
+        "locate-convergence",
     ] {
         let help = printed(folder.path(), &["reproduce", table, "--help"], 0);
         assert!(help.contains("Example"), "{table}");
@@ -1148,6 +1152,7 @@ fn every_command_has_help_with_examples() {
         "hunt",
         "minimise",
         "rescue",
+        "locate",
         "replay",
         "show",
         "reproduce",

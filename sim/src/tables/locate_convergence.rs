@@ -59,7 +59,7 @@ pub struct Field {
 
 impl Default for Field {
     fn default() -> Self {
-        Self { noise_db: 1.0, exponent: 2.0, trials: 2_000, seed: 0 }
+        Self { noise_db: 1.0, exponent: 2.0, trials: 10_000, seed: 0 }
     }
 }
 
@@ -175,7 +175,7 @@ impl Table for LocateConvergence {
             more: "Anchors stand at 0,0, at 20,0 and at 0,20 metres, the robot at random places between 0,0 and 20,20.",
             examples: &[
                 "locate-convergence --svg convergence.svg",
-                "locate-convergence --trials 10000 --format json",
+                "locate-convergence --noise-db 4 --trials 1000 --format json",
             ],
             doing: "locating",
         }
