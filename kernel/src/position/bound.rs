@@ -17,6 +17,11 @@ impl Precision {
     pub fn rms_m(&self) -> f64 {
         libm::sqrt(self.covariance.trace())
     }
+
+    /// This, unless it is too large for a number: then one direction is not told.
+    fn told(self) -> Option<Self> {
+        self.covariance.is_finite().then_some(self)
+    }
 }
 
 /// The Cramér–Rao bound of a robot at `at`: no unbiased way to find it from the levels of these anchors has a smaller
@@ -27,7 +32,7 @@ pub fn bound(anchors: impl Iterator<Item = Point> + Clone, at: Point, signal: &S
     let error = signal.relative_error();
     let covariance =
         information(anchors.clone(), at, |squared_m| 1.0 / squared_m).inverse()?.times(error * error);
-    Some(Precision { covariance, dilution: dilution(anchors, at)? })
+    Precision { covariance, dilution: dilution(anchors, at)? }.told()
 }
 
 fn dilution(anchors: impl Iterator<Item = Point>, at: Point) -> Option<f64> {
@@ -48,8 +53,12 @@ pub(super) fn precision(
         Residual::Metres => {
             let inverse = information(anchors.clone(), at, |_| 1.0).inverse()?;
             let error = signal.relative_error();
-            let noise = information(anchors, at, |squared_m| error * error * squared_m);
-            Some(Precision { covariance: inverse.around(noise), dilution: libm::sqrt(inverse.trace()) })
+            // The outer products of what each distance moves, so that no rounding makes a variance negative.
+            let covariance = anchors.fold(Symmetric::default(), |sum, anchor| {
+                let (x, y) = (at.x_m - anchor.x_m, at.y_m - anchor.y_m);
+                sum.plus(error * error, inverse.xx * x + inverse.xy * y, inverse.xy * x + inverse.yy * y)
+            });
+            Precision { covariance, dilution: libm::sqrt(inverse.trace()) }.told()
         }
     }
 }

@@ -108,22 +108,16 @@ impl Symmetric {
     #[inline]
     pub(super) fn inverse(self) -> Option<Self> {
         let determinant = self.xx * self.yy - self.xy * self.xy;
-        let is_regular = determinant > 4.0 * f64::EPSILON * self.xx * self.yy && determinant.is_finite();
-        is_regular.then(|| {
-            let factor = 1.0 / determinant;
-            Self { xx: self.yy * factor, xy: -self.xy * factor, yy: self.xx * factor }
-        })
+        let factor = 1.0 / determinant;
+        let inverse = Self { xx: self.yy * factor, xy: -self.xy * factor, yy: self.xx * factor };
+        let is_regular = determinant > 4.0 * f64::EPSILON * self.xx * self.yy;
+        (is_regular && inverse.is_finite()).then_some(inverse)
     }
 
-    /// This matrix on both sides of `inner`.
-    pub(super) fn around(self, inner: Self) -> Self {
-        let (xx, xy) = (self.xx * inner.xx + self.xy * inner.xy, self.xx * inner.xy + self.xy * inner.yy);
-        let (yx, yy) = (self.xy * inner.xx + self.yy * inner.xy, self.xy * inner.xy + self.yy * inner.yy);
-        Self {
-            xx: xx * self.xx + xy * self.xy,
-            xy: xx * self.xy + xy * self.yy,
-            yy: yx * self.xy + yy * self.yy,
-        }
+    /// Whether all of it are numbers, and not too large for their sum.
+    #[inline]
+    pub(super) fn is_finite(self) -> bool {
+        (self.trace().abs() + self.xy.abs()).is_finite()
     }
 
     /// This matrix times `factor`.
