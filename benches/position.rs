@@ -168,9 +168,9 @@ fn main() {
 
     println!("\nMicroseconds for a position, the fastest of the samples");
     for (name, ours, crate_name, theirs) in rows {
-        let ratio = theirs.micros / ours.micros;
+        let (ratio, of) = (theirs.micros / ours.micros, common::Work::parts(&ours.work));
         println!(
-            "  {name:36} tautline {:>6.2}   {crate_name} {:>6.2}   {ratio:>5.1} times",
+            "  {name:36} of {of}: tautline {:>6.2}   {crate_name} {:>6.2}   {ratio:>5.1} times",
             ours.micros, theirs.micros
         );
     }
