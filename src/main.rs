@@ -7,6 +7,7 @@ mod evidence;
 mod explore;
 mod hunt;
 mod interrupt;
+mod locate;
 mod manual;
 mod minimise;
 mod output;
@@ -109,6 +110,7 @@ enum Command {
     Hunt(hunt::Hunt),
     Minimise(minimise::Minimise),
     Rescue(rescue::Rescue),
+    Locate(locate::Locate),
     Replay(replay::Replay),
     Show(show::Show),
     Reproduce(reproduce::Reproduce),
@@ -360,6 +362,7 @@ impl Command {
             Self::Hunt(hunt) => hunt.run(out),
             Self::Minimise(minimise) => minimise.run(out),
             Self::Rescue(rescue) => rescue.run(out),
+            Self::Locate(locate) => locate.run(out),
             Self::Replay(replay) => replay.run(out),
             Self::Show(show) => show.run(out),
             Self::Reproduce(reproduce) => reproduce.run(out),

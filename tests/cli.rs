@@ -12,6 +12,8 @@ use tempfile::TempDir;
 
 #[path = "cli/files.rs"]
 mod files;
+#[path = "cli/locate.rs"]
+mod locate;
 
 fn tautline(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_tautline"));
@@ -363,7 +365,7 @@ fn clauses_are_decided_by_name() {
     );
     assert_snapshot!(refused(folder.path(), &["prove", "CHAIN-99"]), @r#"
     Error: there is no clause "CHAIN-99"
-     Help: the clauses are LATTICE-1, LATTICE-2, CHAIN-1, CHAIN-2, CHAIN-3, CHAIN-4, CHAIN-5, CHAIN-6, CHAIN-7, CHAIN-8, CHAIN-9, CHAIN-10, CHAIN-11, CHAIN-12, CHAIN-13, CHAIN-14, CHAIN-15, ANTS-1, BRICKS-1, BRICKS-2, BRICKS-3, BRICKS-4, BRICKS-5, BRICKS-6, BRICKS-7, NOTICE-1, NOTICE-2, NOTICE-3, NOTICE-4, NOTICE-5, NOTICE-6, MRC-1, MRC-2, MRC-3, MRC-4, MRC-5, MRC-6, MRC-7, MRC-8, MRC-9, MRC-10, MRC-11, MRC-12, TAN-1, TAN-2, KIT-1, KIT-2, KIT-3, KIT-4, KIT-5, KIT-6, KIT-7, KIT-8, KIT-9, KIT-10, KIT-11, KIT-12
+     Help: the clauses are LATTICE-1, LATTICE-2, CHAIN-1, CHAIN-2, CHAIN-3, CHAIN-4, CHAIN-5, CHAIN-6, CHAIN-7, CHAIN-8, CHAIN-9, CHAIN-10, CHAIN-11, CHAIN-12, CHAIN-13, CHAIN-14, CHAIN-15, ANTS-1, BRICKS-1, BRICKS-2, BRICKS-3, BRICKS-4, BRICKS-5, BRICKS-6, BRICKS-7, NOTICE-1, NOTICE-2, NOTICE-3, NOTICE-4, NOTICE-5, NOTICE-6, MRC-1, MRC-2, MRC-3, MRC-4, MRC-5, MRC-6, MRC-7, MRC-8, MRC-9, MRC-10, MRC-11, MRC-12, TAN-1, TAN-2, KIT-1, KIT-2, KIT-3, KIT-4, KIT-5, KIT-6, KIT-7, KIT-8, KIT-9, KIT-10, KIT-11, KIT-12, POSITION-1, POSITION-2, POSITION-3, POSITION-4, POSITION-5, POSITION-6
     "#);
 }
 
@@ -619,6 +621,8 @@ fn the_tables_are_listed_and_have_help_with_examples() {
         "antenna-fig4",
         "rescue-fig7",
         "rescue-fig8",
+        "locate-fig8",
+        "locate-convergence",
     ] {
         let help = printed(folder.path(), &["reproduce", table, "--help"], 0);
         assert!(help.contains("Example"), "{table}");
@@ -1148,6 +1152,7 @@ fn every_command_has_help_with_examples() {
         "hunt",
         "minimise",
         "rescue",
+        "locate",
         "replay",
         "show",
         "reproduce",
@@ -1173,7 +1178,7 @@ fn completions_and_the_manual_pages_are_printed_and_stored() {
     assert_eq!(printed(folder, &["man", "--out", "man1"], 0), "");
     let stored = names(&folder.join("man1"));
     let of_tables = stored.iter().filter(|name| name.starts_with("tautline-reproduce-")).count();
-    assert_eq!((stored.len(), of_tables), (1 + 10 + 13, 13), "{stored:?}");
+    assert_eq!((stored.len(), of_tables), (1 + 11 + 15, 15), "{stored:?}");
     for name in stored {
         let page = fs::read_to_string(folder.join("man1").join(&name)).expect("a page");
         let title = name.strip_suffix(".1").expect("section 1");

@@ -140,6 +140,17 @@ fn the_ways_of_robots_are_those_of_the_page() {
 }
 
 #[test]
+fn the_errors_of_positions_are_those_of_the_page() {
+    for table in ["locate-fig8", "locate-convergence"] {
+        shows("docs/position.md", &printed(&["reproduce", table], 0));
+    }
+    for solver in ["closed-form", "pso", "least-squares", "decibel"] {
+        shows("docs/position.md", &printed(&["locate", "--solver", solver], 0));
+    }
+    shows("docs/position.md", &printed(&["locate", "--noise-db", "0.25", "--advice"], 0));
+}
+
+#[test]
 fn a_thousand_rescues_are_those_of_the_page() {
     let rescues =
         ["rescue", "--wfr", "3", "--robots", "3", "--loss", "0.1", "--failing", "1", "--seeds", "0..999"];
@@ -159,6 +170,8 @@ fn the_pictures_are_drawn_by_the_commands_beside_them() {
         ("docs/tan.md", "ways.svg", "reproduce rescue-fig6 --svg", 0),
         ("docs/tan.md", "lakes.svg", "reproduce rescue-fig10 --svg", 0),
         ("docs/rescue.md", "rescue.svg", "reproduce rescue-fig8 --svg", 0),
+        ("docs/position.md", "positions.svg", "locate --svg", 0),
+        ("docs/position.md", "convergence.svg", "reproduce locate-convergence --svg", 0),
         ("README.md", "crowding.svg", "replay docs/chain-2-published-n4.jsonl --svg", 1),
         ("docs/chain.md", "crowding.svg", "replay docs/chain-2-published-n4.jsonl --svg", 1),
         ("docs/chain.md", "dear.svg", "replay docs/chain-12-published-n47.jsonl --svg", 1),

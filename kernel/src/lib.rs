@@ -19,4 +19,5 @@ pub mod mrc;
 pub mod net;
 pub mod notice;
 pub mod perception;
+pub mod position;
 pub mod tan;

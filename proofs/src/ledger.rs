@@ -5,12 +5,12 @@ mod jobs;
 use std::fmt::{self, Write};
 
 use crate::clause::{AnyCheck, Clause, Decision};
-use crate::{ants, bricks, chain, ground, kit, mrc, notice, tan};
+use crate::{ants, bricks, chain, ground, kit, mrc, notice, position, tan};
 
 pub use jobs::{Hear, Heard, decide, decide_all};
 
 /// The clauses of each room.
-pub static ROOMS: [&[Clause]; 8] = [
+pub static ROOMS: &[&[Clause]] = &[
     &ground::clauses::CLAUSES,
     &chain::clauses::CLAUSES,
     &ants::clauses::CLAUSES,
@@ -19,11 +19,12 @@ pub static ROOMS: [&[Clause]; 8] = [
     &mrc::clauses::CLAUSES,
     &tan::clauses::CLAUSES,
     &kit::clauses::CLAUSES,
+    &position::clauses::CLAUSES,
 ];
 
 /// Every clause of our own.
 pub fn clauses() -> impl Iterator<Item = &'static Clause> {
-    ROOMS.into_iter().flatten()
+    ROOMS.iter().copied().flatten()
 }
 
 /// Two clauses of one id.
@@ -167,7 +168,7 @@ mod tests {
 
     #[test]
     fn every_id_is_there_once_and_every_clause_has_a_mutant() {
-        for clause in register(&ROOMS).expect("ids of their own") {
+        for clause in register(ROOMS).expect("ids of their own") {
             let has_mutant = clause.checks.iter().any(|check| !check.mutants().is_empty());
             assert!(has_mutant, "{} has no mutant", clause.id);
             assert!(clause.sentence.contains("MUST"), "{}", clause.id);

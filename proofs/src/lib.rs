@@ -15,6 +15,7 @@ pub mod kit;
 pub mod ledger;
 pub mod mrc;
 pub mod notice;
+pub mod position;
 pub mod run;
 mod step_check;
 pub mod tan;

@@ -5,6 +5,7 @@
 pub mod chart;
 pub mod field;
 pub mod page;
+pub mod position;
 pub mod rescue;
 pub mod story;
 pub mod svg;

@@ -9,6 +9,7 @@ pub mod explore;
 pub mod fault;
 pub mod kit;
 pub mod layout;
+pub mod position;
 pub mod radio;
 pub mod reading;
 pub mod rescue;

@@ -153,6 +153,18 @@ fn student(degrees_of_freedom: u32) -> f64 {
     }
 }
 
+/// The value below which a share of `sorted` lies, and its 95 % interval: the ranks between which the true one is with that
+/// probability, whatever the distribution. 0 of nothing.
+pub(crate) fn quantile(sorted: &[f64], share: f64) -> (f64, [f64; 2]) {
+    let count = f64::from(u32::try_from(sorted.len()).unwrap_or(u32::MAX));
+    let at = |rank: f64| {
+        let place = rank.clamp(1.0, count.max(1.0)) as usize - 1;
+        sorted.get(place).copied().unwrap_or(0.0)
+    };
+    let margin = NORMAL * (count * share * (1.0 - share)).sqrt();
+    (at((count * share).ceil()), [at((count * share - margin).floor()), at((count * share + margin).ceil())])
+}
+
 /// Rounded to two decimals.
 pub(crate) fn hundredths(number: f64) -> f64 {
     decimals(number, 100.0)

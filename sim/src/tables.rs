@@ -8,6 +8,8 @@ pub mod atlas;
 mod entry;
 pub mod journeys;
 pub mod kit;
+pub mod locate_convergence;
+pub mod locate_fig8;
 pub mod notice_fig5;
 pub mod optimum;
 pub mod parameter;
@@ -45,6 +47,8 @@ pub const TABLES: &[&dyn Entry] = &[
     &journeys::RESCUE_FIG10,
     &kit::KIT_FIG9,
     &kit::KIT_FIG14,
+    &locate_fig8::LocateFig8,
+    &locate_convergence::LocateConvergence,
 ];
 
 /// A table or a figure that can be measured. Its results depend on its settings alone, and not on who measures which of

@@ -1,0 +1,246 @@
+//! Damped Gauss–Newton (Levenberg's damping): the positions at which the squares of what the distances miss are least, at most
+//! two of them.
+
+use super::bound::{Precision, precision};
+use super::descent::{Descent, Landing};
+use super::range::{LEAST_M, check, count};
+use super::{Area, Layout, Point, Range, Refusal, Signal};
+
+/// What is made small.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Residual {
+    /// What a distance misses, in metres.
+    Metres,
+    /// What a level misses, in decibels: for noise in decibels this is the most likely position.
+    Decibels,
+}
+
+/// What is to be said with an estimate.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub struct Flags {
+    /// The anchors tell one direction badly: the dilution of precision is above 20, or there is none.
+    pub is_weak: bool,
+    /// The distances lead out of the rectangle: the estimate is on its rim.
+    pub is_outside: bool,
+    /// The steps ended before they were small.
+    pub is_unsettled: bool,
+}
+
+/// A position, and how far it can be trusted.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Estimate {
+    /// Where.
+    pub at: Point,
+    /// How exact; `None` if one direction is not told at all.
+    pub precision: Option<Precision>,
+    /// The sum of the squared residuals, in m² or dB².
+    pub cost: f64,
+    /// The root mean square residual, in metres or decibels.
+    pub residual: f64,
+    /// Steps that were tried.
+    pub steps: u32,
+    /// What is to be said with it.
+    pub flags: Flags,
+}
+
+/// The positions that fit.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Fix {
+    /// One.
+    One(Estimate),
+    /// Two that cannot be told apart: a mirror image, or a second minimum whose cost is as good within 3.84 times the variance of
+    /// the noise, that is at 95 %. The first one fits no worse.
+    Two(Estimate, Estimate),
+}
+
+impl Fix {
+    /// The one that fits best.
+    pub const fn best(&self) -> &Estimate {
+        match self {
+            Self::One(estimate) | Self::Two(estimate, _) => estimate,
+        }
+    }
+}
+
+/// The 95 % quantile of χ² with one degree of freedom.
+const AMBIGUOUS: f64 = 3.84;
+
+/// Above this dilution of precision a position is called weak, as is the habit with satellites.
+const MOST_DILUTION: f64 = 20.0;
+
+/// A step below this, in proportion to the spread of the anchors, is the last. Where the sum of the squares is convex the error is
+/// then about the square of it.
+const LAST_STEP: f64 = 1e-5;
+
+/// Minima nearer to each other than this, in the same proportion, are one.
+const ONE_PLACE: f64 = 1e-2;
+
+/// Costs nearer to each other than this, in the same proportion squared, are one.
+const ONE_COST: f64 = 1e-12;
+
+/// An image promises a second minimum if the next step from it leads this near to the best one, in units of the difference at
+/// which two are told apart: steps are not straight.
+const PROMISING: f64 = 32.0;
+
+/// Where a better minimum is found, it is mirrored again, at most this often.
+const MOST_ROUNDS: u32 = 3;
+
+/// The position from which the residuals are least, or two.
+///
+/// Steps begin on one side of the line along which the anchors are spread most, as far from it as the distances say on average. Where
+/// they end is then mirrored, in that line and in those through two anchors that follow each other: from an image the two
+/// distances fit as well, and where the others promise to, too, steps begin anew.
+///
+/// # Errors
+/// [`Refusal`] if there are fewer than three anchors at three places, if a distance is no number from 0, or is less than a
+/// micrometre and decibels are asked for.
+pub fn locate(
+    ranges: &[Range],
+    residual: Residual,
+    signal: &Signal,
+    area: Option<Area>,
+) -> Result<Fix, Refusal> {
+    check(ranges)?;
+    if residual == Residual::Decibels
+        && let Some(anchor) = ranges.iter().position(|range| range.distance_m < LEAST_M)
+    {
+        return Err(Refusal::Zero { anchor });
+    }
+    let layout = Layout::of(ranges);
+    let squared_m = ranges.iter().map(|range| range.distance_m * range.distance_m).sum::<f64>();
+    let (variance, rounding) = match residual {
+        Residual::Metres => (squared_m / count(ranges), squared_m),
+        Residual::Decibels => (1.0, 1.0),
+    };
+    let error = signal.relative_error();
+    let ambiguous = AMBIGUOUS * error * error * variance + ONE_COST * rounding;
+    let descent = Descent { ranges, residual, area: None, last_m: LAST_STEP * layout.spread_m[0] };
+    let mut minima = Minima::new(start(&descent, &layout), ONE_PLACE * layout.spread_m[0]);
+    let mut mirrored = None;
+    for _ in 0..MOST_ROUNDS {
+        let best = minima.best.at;
+        if mirrored == Some(best) {
+            break;
+        }
+        mirrored = Some(best);
+        for image in images(ranges, best) {
+            // Within a rectangle also a minimum counts that is worse elsewhere.
+            let most =
+                if area.is_some() { f64::INFINITY } else { minima.best.normal.cost + PROMISING * ambiguous };
+            let normal = descent.normal(image);
+            if !minima.has(image) && normal.promise() <= most {
+                minima.add(descent.from(image, normal, |at| minima.has(at)));
+            }
+        }
+    }
+    if let Some(area) = area {
+        minima = minima.within(area, &descent);
+    }
+    let estimate = |landing: &Landing| landing.estimate(ranges, residual, signal);
+    Ok(match &minima.second {
+        Some(second) if second.normal.cost - minima.best.normal.cost <= ambiguous => {
+            Fix::Two(estimate(&minima.best), estimate(second))
+        }
+        Some(_) | None => Fix::One(estimate(&minima.best)),
+    })
+}
+
+/// The better one of the places on both sides of the anchors' line.
+fn start(descent: &Descent<'_>, layout: &Layout) -> Landing {
+    let ranges = descent.ranges;
+    let (along_m, _) = layout.solve(ranges);
+    let squared_m = ranges.iter().map(|range| {
+        let (u, v) = layout.about_centre(range.anchor);
+        range.distance_m * range.distance_m - (along_m - u) * (along_m - u) - v * v
+    });
+    let mean = squared_m.sum::<f64>() / count(ranges);
+    // A place on the line itself is no start: no step leads away from it.
+    let across_m = libm::sqrt(mean.max(0.0)).max(layout.spread_m[0] / 16.0);
+    let [one, other] = [across_m, -across_m].map(|across_m| layout.place(along_m, across_m));
+    let (of_one, of_other) = (descent.normal(one), descent.normal(other));
+    let (at, normal) = if of_one.cost <= of_other.cost { (one, of_one) } else { (other, of_other) };
+    descent.from(at, normal, |_| false)
+}
+
+/// `at` mirrored in the lines through two anchors that follow each other.
+fn images(ranges: &[Range], at: Point) -> impl Iterator<Item = Point> {
+    let anchors = ranges.iter().map(|range| range.anchor);
+    let pairs = anchors.clone().zip(anchors.cycle().skip(1));
+    pairs.map(move |(from, to)| {
+        let (x, y) = (to.x_m - from.x_m, to.y_m - from.y_m);
+        let across =
+            (x * (at.y_m - from.y_m) - y * (at.x_m - from.x_m)) / (x * x + y * y).max(LEAST_M * LEAST_M);
+        Point::new(at.x_m + 2.0 * across * y, at.y_m - 2.0 * across * x)
+    })
+}
+
+/// The two best minima so far.
+struct Minima {
+    best: Landing,
+    second: Option<Landing>,
+    /// What is nearer to each other is one.
+    apart_m: f64,
+}
+
+impl Minima {
+    const fn new(best: Landing, apart_m: f64) -> Self {
+        Self { best, second: None, apart_m }
+    }
+
+    fn is_one(&self, one: Point, other: Point) -> bool {
+        one.squared_distance(other) <= self.apart_m * self.apart_m
+    }
+
+    fn has(&self, place: Point) -> bool {
+        let is_second = self.second.as_ref().is_some_and(|second| self.is_one(second.at, place));
+        is_second || self.is_one(self.best.at, place)
+    }
+
+    fn add(&mut self, landing: Landing) {
+        if self.is_one(self.best.at, landing.at) {
+            return;
+        }
+        if landing.normal.cost < self.best.normal.cost {
+            self.second = Some(core::mem::replace(&mut self.best, landing));
+        } else if self.second.as_ref().is_none_or(|second| landing.normal.cost < second.normal.cost) {
+            self.second = Some(landing);
+        }
+    }
+
+    /// The same within a rectangle: from minima outside, steps go on from the nearest place in it.
+    fn within(self, area: Area, descent: &Descent<'_>) -> Self {
+        let descent = Descent { area: Some(area), ..*descent };
+        let inside = |landing: Landing| {
+            let nearest = area.nearest(landing.at);
+            if nearest == landing.at {
+                landing
+            } else {
+                descent.from(nearest, descent.normal(nearest), |_| false)
+            }
+        };
+        let mut minima = Self::new(inside(self.best), self.apart_m);
+        if let Some(second) = self.second {
+            minima.add(inside(second));
+        }
+        minima
+    }
+}
+
+impl Landing {
+    fn estimate(&self, ranges: &[Range], residual: Residual, signal: &Signal) -> Estimate {
+        let precision = precision(ranges, residual, signal, self.at);
+        let cost = match residual {
+            Residual::Metres => self.normal.cost,
+            Residual::Decibels => self.normal.cost * signal.decibels() * signal.decibels(),
+        };
+        let is_weak = precision.is_none_or(|precision| precision.dilution > MOST_DILUTION);
+        Estimate {
+            at: self.at,
+            precision,
+            cost,
+            residual: libm::sqrt(cost / count(ranges)),
+            steps: self.steps,
+            flags: Flags { is_weak, is_outside: self.is_outside, is_unsettled: self.is_unsettled },
+        }
+    }
+}

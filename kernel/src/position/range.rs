@@ -1,0 +1,198 @@
+//! What a robot knows of an anchor, and what cannot be taken for it.
+
+use core::fmt;
+
+use super::{Point, Signal};
+
+/// An anchor, and how far from it the robot is by the strength of its signal.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Range {
+    /// Where the anchor is.
+    pub anchor: Point,
+    /// How far it is.
+    pub distance_m: f64,
+}
+
+impl Range {
+    /// The distance to the anchor at `anchor`.
+    pub const fn new(anchor: Point, distance_m: f64) -> Self {
+        Self { anchor, distance_m }
+    }
+}
+
+/// Coordinates and distances beyond this are refused, so that none of their squares overflows.
+const MOST_M: f64 = 1e9;
+
+/// A micrometre: distances below it are taken for it, anchors nearer to each other are at one place, and so little is not told by
+/// a level. So an anchor at the robot's own place has a logarithm and a direction, and no square is lost.
+pub(super) const LEAST_M: f64 = 1e-6;
+
+/// Why there is no position. Anchors are counted from 0 in the order of the ranges.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Refusal {
+    /// There are fewer than three anchors, or, for the closed form, another number.
+    Anchors {
+        /// How many there are.
+        count: usize,
+    },
+    /// A coordinate or a distance is infinite or no number, or is above a million kilometres.
+    NotFinite {
+        /// Of which anchor.
+        anchor: usize,
+    },
+    /// A distance is below 0.
+    Negative {
+        /// Of which anchor.
+        anchor: usize,
+    },
+    /// A distance is less than a micrometre, so little that no level is as high.
+    Zero {
+        /// Of which anchor.
+        anchor: usize,
+    },
+    /// The anchors stand at fewer than three places: these two are within a micrometre.
+    Coincident {
+        /// The first.
+        first: usize,
+        /// The second.
+        second: usize,
+    },
+    /// The anchors stand on one line, to the precision of the numbers: a position and its mirror image fit alike.
+    Collinear,
+    /// The second and the third anchor have the same x, and equation (8) divides by the difference.
+    Division,
+    /// Two circles do not meet, not even with errors of four standard deviations.
+    Apart {
+        /// The first.
+        first: usize,
+        /// The second.
+        second: usize,
+    },
+    /// There is no particle.
+    NoParticle,
+}
+
+impl Refusal {
+    /// What would be right.
+    pub const fn remedy(self) -> &'static str {
+        match self {
+            Self::Anchors { .. } => "give at least three anchors, and exactly three for the closed form",
+            Self::NotFinite { .. } => "give metres, at most 10⁹ of them",
+            Self::Negative { .. } => "give distances from 0",
+            Self::Zero { .. } => "give a distance above a micrometre, or ask for residuals in metres",
+            Self::Coincident { .. } => "give three anchors at different places",
+            Self::Collinear => "move an anchor off the line of the others",
+            Self::Division => "name the anchors in another order, or solve by linear least squares",
+            Self::Apart { .. } => "measure again, or allow for more noise",
+            Self::NoParticle => "give at least one particle",
+        }
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Anchors { count } => {
+                write!(f, "anchors, of which there are {count}, do not tell a position")
+            }
+            Self::NotFinite { anchor } => {
+                write!(f, "a number of anchor {} is infinite, too large or none", anchor + 1)
+            }
+            Self::Negative { anchor } => write!(f, "the distance of anchor {} is negative", anchor + 1),
+            Self::Zero { anchor } => {
+                write!(f, "the distance of anchor {} is too small for a level in decibels", anchor + 1)
+            }
+            Self::Coincident { first, second } => {
+                write!(f, "anchors {} and {} are at the same place", first + 1, second + 1)
+            }
+            Self::Collinear => {
+                f.write_str("the anchors are on one line, so that a position and its mirror image fit alike")
+            }
+            Self::Division => f.write_str(
+                "the second and the third anchor have the same x, by whose difference equation (8) divides",
+            ),
+            Self::Apart { first, second } => write!(
+                f,
+                "the circles of anchors {} and {} do not meet, not even with errors of four standard deviations",
+                first + 1,
+                second + 1
+            ),
+            Self::NoParticle => f.write_str("the swarm has no particle"),
+        }
+    }
+}
+
+impl core::error::Error for Refusal {}
+
+/// Whether a position can be asked of these ranges: at least three anchors at three places, and distances that are numbers
+/// from 0.
+///
+/// # Errors
+/// [`Refusal`] if it cannot.
+pub fn check(ranges: &[Range]) -> Result<(), Refusal> {
+    if ranges.len() < 3 {
+        return Err(Refusal::Anchors { count: ranges.len() });
+    }
+    let is_told = |number: f64| number.abs() <= MOST_M;
+    for (anchor, range) in ranges.iter().enumerate() {
+        if ![range.anchor.x_m, range.anchor.y_m, range.distance_m].into_iter().all(is_told) {
+            return Err(Refusal::NotFinite { anchor });
+        }
+        if range.distance_m < 0.0 {
+            return Err(Refusal::Negative { anchor });
+        }
+    }
+    let mut places = ranges.iter().map(|range| range.anchor);
+    let is_other = |place: Point, than: Option<Point>| than.is_none_or(|than| !is_at(place, than));
+    let first = places.next();
+    let second = places.find(|&place| is_other(place, first));
+    if places.any(|place| is_other(place, first) && is_other(place, second)) {
+        return Ok(());
+    }
+    let (first, second) = coincident(ranges);
+    Err(Refusal::Coincident { first, second })
+}
+
+/// How many ranges there are.
+pub(super) fn count(ranges: &[Range]) -> f64 {
+    f64::from(u32::try_from(ranges.len()).unwrap_or(u32::MAX))
+}
+
+/// Whether two anchors are at one place.
+fn is_at(one: Point, other: Point) -> bool {
+    one.squared_distance(other) <= LEAST_M * LEAST_M
+}
+
+/// The first two anchors at one place.
+fn coincident(ranges: &[Range]) -> (usize, usize) {
+    let first = |anchor| ranges.iter().position(|range| is_at(range.anchor, anchor)).unwrap_or(0);
+    let mut firsts = ranges.iter().enumerate().map(|(second, range)| (first(range.anchor), second));
+    firsts.find(|(first, second)| first < second).unwrap_or_default()
+}
+
+/// Standard deviations that an error may have before two circles that it keeps apart are refused.
+const MOST_DEVIATIONS: f64 = 4.0;
+
+/// How far two circles may miss each other in proportion, for the rounding of numbers.
+const ROUNDING: f64 = 1e-9;
+
+/// Whether every two circles meet, if each distance may be wrong by four standard deviations of `signal`.
+///
+/// # Errors
+/// [`Refusal::Apart`] if two do not, and what [`check`] returns.
+pub fn check_meeting(ranges: &[Range], signal: &Signal) -> Result<(), Refusal> {
+    check(ranges)?;
+    let most = libm::exp(MOST_DEVIATIONS * signal.relative_error()) * (1.0 + ROUNDING);
+    for (second, other) in ranges.iter().enumerate() {
+        for (first, one) in ranges.iter().enumerate().take(second) {
+            let between_m = one.anchor.distance_m(other.anchor);
+            let (one_m, other_m) = (one.distance_m, other.distance_m);
+            let is_outside = (one_m + other_m) * most < between_m;
+            let is_inside = one_m.max(other_m) / most > between_m + one_m.min(other_m) * most;
+            if is_outside || is_inside {
+                return Err(Refusal::Apart { first, second });
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,334 @@
+//! Positions from ranges (POSITION): what each way gives, what is refused, and that results are the same bits everywhere.
+
+use core::mem::size_of;
+
+use proptest::prelude::*;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::net::Propagation;
+use tautline_kernel::position::{
+    Area, Estimate, Fix, Layout, Order, Parameters, Particle, Point, Range, Refusal, Residual, Signal, Swarm,
+    bound, check, check_meeting, closed_form, linear, locate,
+};
+
+const SQUARE: [Point; 3] = [Point::new(0.0, 0.0), Point::new(20.0, 0.0), Point::new(0.0, 20.0)];
+
+fn signal(noise_db: f64) -> Signal {
+    Signal::new(Propagation::FREE_SPACE, noise_db).expect("a noise")
+}
+
+fn ranges(anchors: &[Point], at: Point) -> Vec<Range> {
+    anchors.iter().map(|&anchor| Range::new(anchor, anchor.distance_m(at))).collect()
+}
+
+/// Answers that a linear congruence makes of the ones before.
+struct Drawn(u64);
+
+impl Oracle for Drawn {
+    fn pick(&mut self, below: u32) -> u32 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (((self.0 >> 32) * u64::from(below)) >> 32) as u32
+    }
+}
+
+/// Ranges from a place in the square, each wrong by at most a third.
+fn wrong(drawn: &mut Drawn) -> Vec<Range> {
+    let mut part = || f64::from(drawn.pick(1 << 20)) / f64::from(1 << 20);
+    let at = Point::new(20.0 * part(), 20.0 * part());
+    let anchors =
+        SQUARE.iter().map(|&anchor| Range::new(anchor, anchor.distance_m(at) * (1.0 + (part() - 0.5) / 1.5)));
+    anchors.collect()
+}
+
+fn swarm(ranges: &[Range], parameters: Parameters, oracle: &mut Drawn) -> Point {
+    let around = closed_form(ranges).expect("anchors that stand well");
+    let mut particles = [Particle::UNUSED; 30];
+    Swarm::start(ranges, around, parameters, &mut particles, oracle).expect("ranges").run(oracle)
+}
+
+#[test]
+fn results_are_the_same_bits_at_every_optimisation_level_and_on_every_machine() {
+    // FNV-1a over the bits of some thousand positions; the checks run this at every level, see `.ci/run`.
+    let mut digest = 0xCBF2_9CE4_8422_2325_u64;
+    let mut add = |number: f64| {
+        for byte in number.to_bits().to_le_bytes() {
+            digest = (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3);
+        }
+    };
+    let mut drawn = Drawn(1);
+    let area = Area::new(SQUARE[0], Point::new(20.0, 20.0));
+    for round in 0..200 {
+        let ranges = wrong(&mut drawn);
+        let signal = Signal::new(Propagation::new(2.0 + 0.01 * f64::from(round)).expect("an exponent"), 1.5);
+        let signal = signal.expect("a noise");
+        let mut points =
+            vec![closed_form(&ranges).expect("a triangle"), linear(&ranges).expect("a triangle")];
+        for order in [Order::Published, Order::Corrected] {
+            points.push(swarm(&ranges, Parameters { order, ..Parameters::FALLING }, &mut drawn));
+        }
+        for residual in [Residual::Metres, Residual::Decibels] {
+            for area in [None, area] {
+                let fix = locate(&ranges, residual, &signal, area).expect("a fix");
+                let Estimate { at, cost, precision, .. } = *fix.best();
+                points.push(at);
+                add(cost);
+                add(precision.expect("a triangle").rms_m());
+            }
+        }
+        for point in points {
+            add(point.x_m);
+            add(point.y_m);
+        }
+        add(signal.distance_m(signal.level_db(ranges[0].distance_m + 0.1)));
+    }
+    assert_eq!(digest, 5_530_388_900_432_379_196);
+}
+
+#[test]
+fn distances_without_noise_give_the_position_by_every_way() {
+    for (x, y) in [(1.0, 2.0), (10.0, 10.0), (19.0, 3.0), (-7.0, 40.0), (20.0, 20.0)] {
+        let at = Point::new(x, y);
+        let ranges = ranges(&SQUARE, at);
+        let near =
+            |found: Point, most_m: f64| assert!(found.distance_m(at) < most_m, "{found:?}, not {at:?}");
+        near(closed_form(&ranges).expect("a triangle"), 1e-12);
+        near(linear(&ranges).expect("a triangle"), 1e-12);
+        for residual in [Residual::Metres, Residual::Decibels] {
+            let fix = locate(&ranges, residual, &signal(0.0), None).expect("a fix");
+            assert!(matches!(fix, Fix::One(_)), "{fix:?}");
+            near(fix.best().at, 1e-9);
+            assert!(fix.best().residual < 1e-8 && !fix.best().flags.is_unsettled, "{fix:?}");
+        }
+    }
+}
+
+#[test]
+fn equation_8_divides_by_0_for_anchors_that_stand_well() {
+    let anchors = [SQUARE[1], SQUARE[0], SQUARE[2]];
+    let ranges = ranges(&anchors, Point::new(3.0, 4.0));
+    assert_eq!(closed_form(&ranges), Err(Refusal::Division));
+    let found = linear(&ranges).expect("a triangle");
+    assert!(found.distance_m(Point::new(3.0, 4.0)) < 1e-12);
+    let four = [ranges.clone(), ranges].concat();
+    assert_eq!(closed_form(&four), Err(Refusal::Anchors { count: 6 }));
+}
+
+#[test]
+fn what_gives_no_position_is_refused_by_every_way() {
+    let at = Point::new(3.0, 4.0);
+    let good = ranges(&SQUARE, at);
+    let with = |anchor: usize, change: fn(&mut Range)| {
+        let mut ranges = good.clone();
+        change(&mut ranges[anchor]);
+        ranges
+    };
+    let cases = [
+        (good[..2].to_vec(), Refusal::Anchors { count: 2 }),
+        (Vec::new(), Refusal::Anchors { count: 0 }),
+        (with(1, |range| range.distance_m = f64::NAN), Refusal::NotFinite { anchor: 1 }),
+        (with(2, |range| range.distance_m = f64::INFINITY), Refusal::NotFinite { anchor: 2 }),
+        (with(0, |range| range.anchor.x_m = 2e9), Refusal::NotFinite { anchor: 0 }),
+        (with(2, |range| range.distance_m = -0.5), Refusal::Negative { anchor: 2 }),
+        (with(2, |range| range.anchor = SQUARE[0]), Refusal::Coincident { first: 0, second: 2 }),
+    ];
+    for (ranges, refusal) in cases {
+        assert_eq!(check(&ranges), Err(refusal));
+        assert_eq!(closed_form(&ranges), Err(refusal));
+        assert_eq!(linear(&ranges), Err(refusal));
+        assert_eq!(locate(&ranges, Residual::Metres, &signal(1.0), None), Err(refusal));
+        let mut particles = [Particle::UNUSED; 3];
+        let swarm = Swarm::start(&ranges, at, Parameters::FALLING, &mut particles, &mut Drawn(1));
+        assert_eq!(swarm.err(), Some(refusal));
+        assert!(refusal.to_string().contains("anchor") && !refusal.remedy().is_empty(), "{refusal}");
+    }
+    let swarm = Swarm::start(&good, at, Parameters::FALLING, &mut [], &mut Drawn(1));
+    assert_eq!(swarm.err(), Some(Refusal::NoParticle));
+    let zero = with(1, |range| range.distance_m = 0.0);
+    assert_eq!(locate(&zero, Residual::Decibels, &signal(1.0), None), Err(Refusal::Zero { anchor: 1 }));
+    assert!(locate(&zero, Residual::Metres, &signal(1.0), None).is_ok());
+    let near = with(2, |range| range.anchor = Point::new(20.0, 1e-7));
+    assert_eq!(linear(&near), Err(Refusal::Coincident { first: 1, second: 2 }));
+}
+
+#[test]
+fn circles_that_do_not_meet_are_told_unless_the_noise_explains_it() {
+    let apart = |distances_m: [f64; 3], noise_db: f64| {
+        let ranges: Vec<Range> = SQUARE
+            .iter()
+            .zip(distances_m)
+            .map(|(&anchor, distance_m)| Range::new(anchor, distance_m))
+            .collect();
+        check_meeting(&ranges, &signal(noise_db)).err()
+    };
+    let exact = ranges(&SQUARE, Point::new(3.0, 4.0));
+    assert_eq!(check_meeting(&exact, &signal(0.0)), Ok(()));
+    assert_eq!(apart([5.0, 14.0, 16.0], 0.0), Some(Refusal::Apart { first: 0, second: 1 }));
+    assert_eq!(apart([5.0, 14.0, 16.0], 1.0), None);
+    assert_eq!(apart([5.0, 5.0, 20.0], 1.0), Some(Refusal::Apart { first: 0, second: 1 }));
+    // One circle within the other.
+    assert_eq!(apart([15.0, 15.0, 90.0], 1.0), Some(Refusal::Apart { first: 0, second: 2 }));
+}
+
+#[test]
+fn anchors_on_a_line_leave_two_positions_and_the_closed_form_none() {
+    let anchors = [0.0, 7.0, 20.0].map(|along| Point::new(along, 2.0 * along + 1.0));
+    let at = Point::new(3.0, 15.0);
+    let ranges = ranges(&anchors, at);
+    assert_eq!(closed_form(&ranges), Err(Refusal::Collinear));
+    assert_eq!(linear(&ranges), Err(Refusal::Collinear));
+    for residual in [Residual::Metres, Residual::Decibels] {
+        let Ok(Fix::Two(one, other)) = locate(&ranges, residual, &signal(1.0), None) else {
+            panic!("a mirror image fits as well");
+        };
+        let mirror = Point::new(9.4, 11.8);
+        for place in [at, mirror] {
+            let nearest_m = one.at.distance_m(place).min(other.at.distance_m(place));
+            assert!(nearest_m < 1e-6, "{one:?}, {other:?}");
+        }
+    }
+    // A rectangle that has only one of them decides.
+    let area = Area::new(Point::new(0.0, 13.0), Point::new(20.0, 41.0));
+    assert!(matches!(locate(&ranges, Residual::Metres, &signal(0.0), area), Ok(Fix::One(_))));
+}
+
+#[test]
+fn a_robot_on_the_line_of_its_anchors_is_told_with_no_precision_across() {
+    let anchors = [0.0, 7.0, 20.0].map(|along| Point::new(along, 0.0));
+    let fix =
+        locate(&ranges(&anchors, Point::new(3.0, 0.0)), Residual::Metres, &signal(1.0), None).expect("a fix");
+    assert!(fix.best().at.distance_m(Point::new(3.0, 0.0)) < 0.1 && fix.best().flags.is_weak, "{fix:?}");
+    assert_eq!(bound(anchors.into_iter(), Point::new(3.0, 0.0), &signal(1.0)), None);
+}
+
+#[test]
+fn nearly_collinear_anchors_give_far_positions_that_are_numbers() {
+    for off_m in [1e-3, 1e-7, 1e-11, 1e-13] {
+        let anchors = [Point::new(0.0, 0.0), Point::new(10.0, off_m), Point::new(20.0, 0.0)];
+        let mut ranges = ranges(&anchors, Point::new(3.0, 4.0));
+        ranges[0].distance_m += 0.5;
+        let found = linear(&ranges).expect("no line");
+        assert!(found.is_finite(), "{found:?}");
+        let fix = locate(&ranges, Residual::Metres, &signal(1.0), None).expect("a fix");
+        assert!(matches!(fix, Fix::Two(..)), "{fix:?}");
+    }
+}
+
+#[test]
+fn a_covariance_too_large_for_a_number_is_none() {
+    let far = Point::new(1e8, 1e-160);
+    let ranges = [Point::new(-1.5, 0.0), Point::new(0.0, 0.0), far].map(|anchor| Range::new(anchor, 0.0));
+    let area = Area::new(Point::new(-5.0, -5.0), Point::new(5.0, 7.0));
+    let fix = locate(&ranges, Residual::Metres, &signal(0.0), area).expect("a fix");
+    assert!(fix.best().precision.is_none() && fix.best().flags.is_weak, "{fix:?}");
+}
+
+#[test]
+fn an_estimate_outside_the_rectangle_is_on_its_rim_and_says_so() {
+    let area = Area::new(SQUARE[0], Point::new(20.0, 20.0)).expect("a rectangle");
+    let outside = ranges(&SQUARE, Point::new(23.0, 8.0));
+    for residual in [Residual::Metres, Residual::Decibels] {
+        let fix = locate(&outside, residual, &signal(1.0), Some(area)).expect("a fix");
+        let at = fix.best().at;
+        assert!(
+            (at.x_m - 20.0).abs() < 1e-12 && (at.y_m - 8.0).abs() < 2.0 && fix.best().flags.is_outside,
+            "{fix:?}"
+        );
+        let inside = locate(&ranges(&SQUARE, Point::new(3.0, 8.0)), residual, &signal(1.0), Some(area))
+            .expect("a fix");
+        assert!(!inside.best().flags.is_outside, "{inside:?}");
+    }
+    assert_eq!(area.nearest(Point::new(30.0, -1.0)), Point::new(20.0, 0.0));
+    assert_eq!(Area::new(SQUARE[1], SQUARE[0]), None);
+    assert_eq!(Area::new(SQUARE[0], Point::new(f64::INFINITY, 1.0)), None);
+}
+
+#[test]
+fn the_corrected_order_comes_nearer_to_the_optimum_than_the_printed_one() {
+    let mean_m = |order: Order| {
+        let mut drawn = Drawn(5);
+        let mut sum = 0.0;
+        for _ in 0..300 {
+            let ranges = wrong(&mut drawn);
+            let optimum = locate(&ranges, Residual::Metres, &signal(1.0), None).expect("a fix").best().at;
+            sum += swarm(&ranges, Parameters { order, ..Parameters::CONTRACTING }, &mut drawn)
+                .distance_m(optimum)
+                .min(1.0);
+        }
+        sum / 300.0
+    };
+    assert!(4.0 * mean_m(Order::Corrected) < mean_m(Order::Published));
+}
+
+#[test]
+fn sizes_are_those_of_the_docs() {
+    assert_eq!((size_of::<Range>(), size_of::<Particle>()), (24, 56));
+    assert!(size_of::<Fix>() <= 200, "{}", size_of::<Fix>());
+}
+
+/// Numbers of every kind, among them those that are none.
+fn any_number() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        -30.0..30.0_f64,
+        any::<f64>(),
+        Just(0.0),
+        Just(f64::MIN_POSITIVE),
+        -1e9..1e9_f64,
+        Just(1e-160)
+    ]
+}
+
+proptest! {
+    #[test]
+    fn no_position_has_a_coordinate_that_is_no_number(
+        numbers in prop::collection::vec((any_number(), any_number(), any_number()), 0..6),
+        noise_db in 0.0..100.0_f64,
+        exponent in 2.0..5.0_f64,
+    ) {
+        let ranges: Vec<Range> = numbers.into_iter().map(|(x, y, d)| Range::new(Point::new(x, y), d)).collect();
+        let signal = Signal::new(Propagation::new(exponent).expect("an exponent"), noise_db).expect("a noise");
+        for found in [closed_form(&ranges), linear(&ranges)].into_iter().flatten() {
+            prop_assert!(found.is_finite(), "{:?} of {:?}", found, ranges);
+        }
+        let area = Area::new(Point::new(-5.0, -5.0), Point::new(5.0, 7.0));
+        for (residual, area) in [(Residual::Metres, None), (Residual::Decibels, None), (Residual::Metres, area), (Residual::Decibels, area)] {
+            let fix = locate(&ranges, residual, &signal, area);
+            let estimates = match &fix {
+                Ok(Fix::One(one)) => vec![one],
+                Ok(Fix::Two(one, other)) => vec![one, other],
+                Err(_) => Vec::new(),
+            };
+            for estimate in estimates {
+                let precision = estimate.precision.is_none_or(|precision| precision.rms_m() >= 0.0 && precision.dilution >= 0.0);
+                prop_assert!(estimate.at.is_finite() && estimate.cost >= 0.0 && precision, "{:?} of {:?}", estimate, ranges);
+            }
+        }
+        let mut particles = [Particle::UNUSED; 4];
+        if let Ok(swarm) = Swarm::start(&ranges, Point::default(), Parameters::FALLING, &mut particles, &mut Drawn(2)) {
+            prop_assert!(swarm.run(&mut Drawn(3)).is_finite());
+        }
+    }
+
+    #[test]
+    fn the_best_of_a_swarm_never_worsens(seed in any::<u64>(), is_published in any::<bool>()) {
+        let mut drawn = Drawn(seed);
+        let order = if is_published { Order::Published } else { Order::Corrected };
+        let ranges = wrong(&mut drawn);
+        let mut particles = [Particle::UNUSED; 5];
+        let parameters = Parameters { order, ..Parameters::CONTRACTING };
+        let mut swarm = Swarm::start(&ranges, SQUARE[1], parameters, &mut particles, &mut drawn).expect("ranges");
+        let mut before = f64::INFINITY;
+        for _ in 0..20 {
+            prop_assert!(swarm.best_cost() <= before);
+            before = swarm.best_cost();
+            swarm.step(&mut drawn);
+        }
+    }
+
+    #[test]
+    fn a_layout_keeps_distances(places in prop::collection::vec((-50.0..50.0_f64, -50.0..50.0_f64), 3..8)) {
+        let ranges: Vec<Range> = places.iter().map(|&(x, y)| Range::new(Point::new(x, y), 1.0)).collect();
+        let Layout { centre, along, spread_m: [most, least] } = Layout::of(&ranges);
+        let squares: f64 = ranges.iter().map(|range| range.anchor.distance_m(centre).powi(2)).sum();
+        prop_assert!((squares - most * most - least * least).abs() < 1e-9 * squares);
+        prop_assert!(most >= least && (along.distance_m(Point::default()) - 1.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,9 @@
+//! Positions by signal strength (POSITION): what is promised of the ways from distances to a position.
+
+mod broken;
+pub mod clauses;
+mod lattice;
+mod minima;
+mod refused;
+mod swarm;
+mod way;

@@ -1,0 +1,204 @@
+//! The clauses of POSITION, in the order of `SPEC.md`.
+
+use super::broken;
+use super::lattice;
+use super::minima;
+use super::refused;
+use super::swarm::{self, Best, Conduct};
+use super::way::{self, Way};
+use crate::clause::{Check, Clause, Named};
+use crate::decide::{Exhaustive, Sampled, Verdict};
+
+const PUBLISHED: Named<Way> = Named::new("published", way::published);
+const REPAIRED: Named<Way> = Named::new("repaired", way::repaired);
+const METRES: Named<Way> = Named::new("metres", way::metres);
+const DECIBELS: Named<Way> = Named::new("decibels", way::decibels);
+
+/// Random triples of anchors.
+const TRIPLES: u64 = 20_000;
+
+/// Random swarms.
+const SWARMS: u64 = 2_000;
+
+const EXACT: Exhaustive<Way> = Exhaustive {
+    body: lattice::is_exact,
+    range: lattice::places,
+    covers: &["four anchors", "three anchors"],
+};
+
+const INEXACT: [Named<Way>; 2] = [
+    Named::new("each anchor takes the distance of the next", broken::exchanged),
+    Named::new("the last distance is that of the first", broken::without_the_last),
+];
+
+const REFUSES: Exhaustive<Way> = Exhaustive {
+    body: refused::is_refused_or_told,
+    range: refused::numbers,
+    covers: &["refused for want of anchors or numbers", "told"],
+};
+
+const CREDULOUS: [Named<Way>; 2] = [
+    Named::new("nobody looks at what is divided by", broken::unchecked),
+    Named::new("a distance that is no number is 0", broken::lenient),
+];
+
+const MIRRORED: Exhaustive<Way> = Exhaustive {
+    body: minima::tells_the_mirror_image,
+    range: minima::lines,
+    covers: &["a slanting line", "a straight line"],
+};
+
+const FOLLOWS: Exhaustive<Way> =
+    Exhaustive { body: lattice::follows, range: lattice::moves, covers: &["one position"] };
+
+const FOLLOWS_TWO: Exhaustive<Way> =
+    Exhaustive { body: lattice::follows, range: lattice::moves, covers: &["one position", "two positions"] };
+
+const UNMOVED: [Named<Way>; 2] = [
+    Named::new("places are told from the first anchor", broken::from_the_first),
+    Named::new("distances along y count twice", broken::stretched),
+];
+
+const COARSE: Exhaustive<Conduct> = Exhaustive {
+    body: swarm::never_worsens,
+    range: swarm::coarse_draws,
+    covers: &["it does not improve", "it improves"],
+};
+
+const FORGETFUL: [Named<Conduct>; 2] = [
+    Named::new("the best of the present positions", Conduct { best: Best::Now, ..Conduct::REPAIRED }),
+    Named::new("the position of the first particle", Conduct { best: Best::First, ..Conduct::REPAIRED }),
+];
+
+const INSIDE: Exhaustive<Way> =
+    Exhaustive { body: lattice::keeps_inside, range: lattice::rectangles, covers: &["inside", "on the rim"] };
+
+/// The clauses.
+pub static CLAUSES: [Clause; 6] = [
+    Clause {
+        id: "POSITION-1",
+        sentence: "From distances without error a way MUST return where the robot is, wherever anchors are that are not on one \
+                   line.",
+        checks: &[
+            &Check::new(
+                PUBLISHED,
+                &Exhaustive {
+                    body: lattice::is_exact_of_three,
+                    range: lattice::places_of_three,
+                    covers: &["three anchors"],
+                },
+                Verdict::Refuted,
+                &[],
+            ),
+            &Check::new(REPAIRED, &EXACT, Verdict::Holds, &INEXACT),
+            &Check::new(METRES, &EXACT, Verdict::Holds, &INEXACT),
+            &Check::new(DECIBELS, &EXACT, Verdict::Holds, &INEXACT),
+        ],
+    },
+    Clause {
+        id: "POSITION-2",
+        sentence: "Anchors at fewer than three places, and distances that are negative, infinite or no numbers, MUST be refused; \
+                   anchors on one line never give one position beside it, and every coordinate is a number.",
+        checks: &[
+            &Check::new(PUBLISHED, &REFUSES, Verdict::Holds, &CREDULOUS),
+            &Check::new(REPAIRED, &REFUSES, Verdict::Holds, &CREDULOUS),
+            &Check::new(METRES, &REFUSES, Verdict::Holds, &CREDULOUS),
+            &Check::new(DECIBELS, &REFUSES, Verdict::Holds, &CREDULOUS),
+        ],
+    },
+    Clause {
+        id: "POSITION-3",
+        sentence: "Two positions that fit alike MUST both be told.",
+        checks: &[
+            &Check::new(
+                METRES,
+                &MIRRORED,
+                Verdict::Holds,
+                &[Named::new("the better one alone", broken::better_alone)],
+            ),
+            &Check::new(
+                DECIBELS,
+                &MIRRORED,
+                Verdict::Holds,
+                &[Named::new("the better one alone", broken::better_level_alone)],
+            ),
+            &Check::new(
+                METRES,
+                &Sampled {
+                    body: minima::tells_second_minima,
+                    runs: TRIPLES,
+                    range: minima::random_anchors,
+                    covers: &["one minimum", "two minima"],
+                },
+                Verdict::Refuted,
+                &[],
+            ),
+        ],
+    },
+    Clause {
+        id: "POSITION-4",
+        sentence: "When anchors are moved, turned and mirrored, positions MUST be moved, turned and mirrored with them.",
+        checks: &[
+            &Check::new(PUBLISHED, &FOLLOWS, Verdict::Refuted, &[]),
+            &Check::new(REPAIRED, &FOLLOWS, Verdict::Holds, &UNMOVED),
+            &Check::new(METRES, &FOLLOWS_TWO, Verdict::Holds, &UNMOVED),
+            &Check::new(DECIBELS, &FOLLOWS_TWO, Verdict::Holds, &UNMOVED),
+        ],
+    },
+    Clause {
+        id: "POSITION-5",
+        sentence: "The best position of a swarm MUST never fit worse than the one before, nor than any particle does.",
+        checks: &[
+            &Check::new(Named::new("published", Conduct::PUBLISHED), &COARSE, Verdict::Holds, &FORGETFUL),
+            &Check::new(Named::new("repaired", Conduct::REPAIRED), &COARSE, Verdict::Holds, &FORGETFUL),
+            &Check::new(
+                Named::new("repaired", Conduct::REPAIRED),
+                &Sampled {
+                    body: swarm::never_worsens_at_random,
+                    runs: SWARMS,
+                    range: swarm::random_swarms,
+                    covers: &["it improves"],
+                },
+                Verdict::Unrefuted,
+                &FORGETFUL,
+            ),
+        ],
+    },
+    Clause {
+        id: "POSITION-6",
+        sentence: "A position that is asked for within a rectangle MUST be in it, and the same as without the rectangle if that one \
+                   is in it.",
+        checks: &[
+            &Check::new(
+                METRES,
+                &INSIDE,
+                Verdict::Holds,
+                &[Named::new("the rectangle is forgotten", broken::anywhere)],
+            ),
+            &Check::new(
+                DECIBELS,
+                &INSIDE,
+                Verdict::Holds,
+                &[Named::new("the rectangle is forgotten", broken::any_level)],
+            ),
+        ],
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::decide::Memory;
+    use crate::engine::tree::unwatched;
+
+    #[test]
+    fn the_checks_come_out_as_they_are_registered() {
+        for clause in &CLAUSES {
+            for check in clause.checks {
+                let decision =
+                    check.decide(&mut Memory::default(), &mut unwatched).expect("a body can be decided");
+                assert!(decision.is_as_registered(*check), "{} {check:?}: {decision:?}", clause.id);
+            }
+        }
+    }
+}

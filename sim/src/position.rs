@@ -1,0 +1,24 @@
+//! Where robots are, by the strength of anchors' signals (POSITION): trials with a robot at random places, positions from
+//! measured distances, and how exact they are. The kernel's rules find the positions; the analyses about them, covariance,
+//! error ellipse, dilution of precision, Cramér–Rao bound and singular values, are nalgebra's.
+
+pub mod analysis;
+mod measured;
+mod solver;
+mod trials;
+
+pub use measured::{Found, Measured, Place};
+pub(crate) use solver::PARTICLES;
+pub use solver::Solver;
+pub(crate) use trials::distances;
+pub use trials::{Advice, Anchors, Errors, Quantiles, Report, Setting, Spot};
+
+use tautline_kernel::position::Refusal;
+
+use crate::fault::Fault;
+
+impl From<Refusal> for Fault {
+    fn from(refusal: Refusal) -> Self {
+        Self::usage(refusal, refusal.remedy())
+    }
+}

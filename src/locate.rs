@@ -1,0 +1,303 @@
+//! `tautline locate`: how exact positions are that signals tell, and the positions of measurements.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde::Serialize;
+use tautline_kernel::net::Propagation;
+use tautline_kernel::position::{Point, Signal};
+use tautline_proofs::words::counted;
+use tautline_sim::columns::{Column, Columns, Width};
+use tautline_sim::draw;
+use tautline_sim::explore::RuleName;
+use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::position::{Advice, Anchors, Errors, Found, Measured, Place, Report, Setting, Solver};
+use tautline_sim::reading::{Metres, within};
+use tautline_sim::words::Worded;
+
+use super::output::Output;
+use super::{Exit, ForceArgs, Format, FormatArgs, needless, number, progress};
+use crate::chosen::chosen;
+
+const EXAMPLES: &str = "\
+Examples:
+  tautline locate
+  tautline locate --solver closed-form --format json
+  tautline locate --anchors 0,0 --anchors 30,0 --anchors 0,20 --anchors 30,20 --noise-db 2 --exponent 3
+  tautline locate --solver pso --rule published --at 5,5 --svg positions.svg
+  tautline locate --noise-db 0.25 --advice
+  tautline locate measurements.csv --noise-db 2 --format json
+
+FILE holds measurements: its first line is fix,x_m,y_m,range_m, and each other line has one distance, with the name of the \
+position that it belongs to, the place of the anchor, and the metres measured.
+
+What the JSON says: error_m is how far positions are from where the robot is, optimum_m how far they are from where the \
+distances miss least, each with median, p95 and rms and the 95 % interval of these; crlb_rms_m is the Cramér-Rao bound, below \
+which no unbiased way comes; spread_m are the singular values of the anchors' places; two, weak, outside and unsettled \
+count positions of which there were two, that the anchors tell badly, that the distances put outside the rectangle, and of which the \
+steps did not end; advice is what --advice prints.
+
+Advice: a robot may believe each fix if its error is below a quarter of a cell, and correct its place within a cell that it \
+counts by moves if the error is below half a cell. It is about the 99th percentile of the errors.";
+
+/// Tell how exact positions are that the strength of anchors' signals tells, or find the positions of measurements.
+///
+/// A robot anywhere in the rectangle that the anchors span hears them with noise, and takes levels for distances.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Locate {
+    /// A file of measurements whose positions are to be found.
+    #[arg(value_name = "FILE")]
+    file: Option<PathBuf>,
+    /// Where an anchor is, in metres; once for each. Without it 0,0 and 20,0 and 0,20.
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    anchors: Vec<Metres<2>>,
+    /// Where the robot is, in metres. Without it anywhere, each time anew.
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    at: Option<Metres<2>>,
+    /// The standard deviation of the levels, in dB.
+    #[arg(long, value_name = "DB", allow_hyphen_values = true, default_value = "1", value_parser = noise)]
+    noise_db: f64,
+    /// Power falls with the distance to the power of this, from 2 to 5.
+    #[arg(long, value_name = "ALPHA", allow_hyphen_values = true, default_value = "2", value_parser = propagation)]
+    exponent: Propagation,
+    /// How a position is found.
+    #[arg(long, value_parser = chosen::<Solver>(), default_value = "decibel")]
+    solver: Solver,
+    /// For pso: equation (10) as it is printed, or with the updates in the order of the algorithm. Without it repaired.
+    #[arg(long, value_parser = chosen::<RuleName>())]
+    rule: Option<RuleName>,
+    /// For least-squares and decibel: the robot is known to be within the rectangle that the anchors span.
+    #[arg(long)]
+    inside: bool,
+    /// How many positions are found. Without it 10000.
+    #[arg(long, value_name = "COUNT", allow_hyphen_values = true, value_parser = trials)]
+    trials: Option<u32>,
+    /// The seed of whatever is left to chance. Without it 0.
+    #[arg(long, value_parser = number::<u64>)]
+    seed: Option<u64>,
+    /// Print how many cells across a floor can have.
+    #[arg(long)]
+    advice: bool,
+    /// Store a picture: anchors, positions found, their error ellipse and that of the bound.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    #[command(flatten)]
+    force: ForceArgs,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+fn noise(text: &str) -> Result<f64, &'static str> {
+    let noise_db =
+        text.parse().ok().filter(|&noise_db| Signal::new(Propagation::FREE_SPACE, noise_db).is_some());
+    noise_db.ok_or("write decibels from 0 to 100")
+}
+
+fn propagation(text: &str) -> Result<Propagation, &'static str> {
+    text.parse().ok().and_then(Propagation::new).ok_or("write a number from 2 to 5")
+}
+
+fn trials(text: &str) -> Result<u32, String> {
+    within::<i64, u32>(text, &(1..=1_000_000))
+}
+
+/// The anchors where none are named: three corners of a square.
+const SQUARE: [Point; 3] = [Point::new(0.0, 0.0), Point::new(20.0, 0.0), Point::new(0.0, 20.0)];
+
+/// The JSON of trials.
+#[derive(Serialize)]
+struct Located<'a> {
+    #[serde(flatten)]
+    setting: &'a Setting,
+    #[serde(flatten)]
+    report: &'a Report,
+}
+
+/// The JSON of measurements.
+#[derive(Serialize)]
+struct Fixes<'a> {
+    solver: Solver,
+    noise_db: f64,
+    exponent: f64,
+    #[serde(rename = "fixes")]
+    found: &'a [Found],
+}
+
+impl Locate {
+    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        let signal = Signal::new(self.exponent, self.noise_db)
+            .ok_or_else(|| Fault::usage("there is no such noise", "write decibels from 0 to 100"))?;
+        if self.rule.is_some() && self.solver != Solver::Pso {
+            return Err(needless("--rule", &format!("{} has no order of updates", self.solver.word())).into());
+        }
+        if self.inside && !self.solver.has_area() {
+            return Err(needless("--inside", &format!("{} keeps to no rectangle", self.solver.word())).into());
+        }
+        match &self.file {
+            Some(file) => self.measured(file, &signal, out),
+            None => self.tried(signal, out),
+        }
+    }
+
+    fn rule(&self) -> RuleName {
+        self.rule.unwrap_or(RuleName::Repaired)
+    }
+
+    fn tried(&self, signal: Signal, out: &mut Output) -> Result<Exit, Halt> {
+        let [picture] = self.force.files([&self.svg], [])?;
+        let named = self.anchors.iter().map(|&Metres([x_m, y_m])| Point::new(x_m, y_m));
+        let places = if self.anchors.is_empty() { SQUARE.to_vec() } else { named.collect() };
+        let setting = Setting {
+            anchors: Anchors::new(places).map_err(Fault::from)?,
+            at_m: self.at.map(|Metres(at)| at),
+            signal,
+            solver: self.solver,
+            rule: self.rule(),
+            inside: self.inside,
+            trials: self.trials.unwrap_or(10_000),
+            seed: self.seed.unwrap_or(0),
+        };
+        let report = progress::during("locating", setting.parts(), |watch| setting.run(watch))?;
+        if let Some(mut picture) = picture {
+            picture.append(draw::position::spots(
+                &title(&setting),
+                setting.anchors.places(),
+                &setting.spots(),
+            ));
+            out.keep(picture);
+        }
+        match self.format.format {
+            Format::Json => out.json(&Located { setting: &setting, report: &report })?,
+            Format::Text => {
+                out.text(text(&setting, &report))?;
+                if self.advice {
+                    out.text(advice(&report.advice))?;
+                }
+            }
+        }
+        Ok(Exit::Expected)
+    }
+
+    fn measured(&self, file: &Path, signal: &Signal, out: &mut Output) -> Result<Exit, Halt> {
+        let given = [
+            ("--anchors", !self.anchors.is_empty()),
+            ("--at", self.at.is_some()),
+            ("--trials", self.trials.is_some()),
+            ("--inside", self.inside),
+            ("--advice", self.advice),
+            ("--seed", self.seed.is_some() && self.solver != Solver::Pso),
+        ];
+        if let Some((option, _)) = given.into_iter().find(|(_, is_given)| *is_given) {
+            return Err(needless(option, "the positions of measurements are found").into());
+        }
+        let [picture] = self.force.files([&self.svg], [file.to_path_buf()])?;
+        let measured = Measured::read(file)?;
+        let found = measured.locate(self.solver, self.rule(), signal, self.seed.unwrap_or(0))?;
+        if let Some(mut picture) = picture {
+            let title = format!("Positions by {}", self.solver.word());
+            picture.append(draw::position::found(&title, &measured.anchors(), &found));
+            out.keep(picture);
+        }
+        match self.format.format {
+            Format::Json => {
+                let (noise_db, exponent) = (self.noise_db, self.exponent.exponent());
+                out.json(&Fixes { solver: self.solver, noise_db, exponent, found: &found })?;
+            }
+            Format::Text => out.text(positions(&found))?,
+        }
+        Ok(Exit::Expected)
+    }
+}
+
+fn title(setting: &Setting) -> String {
+    let Setting { signal, solver, rule, .. } = setting;
+    let order = if *solver == Solver::Pso { format!(" ({rule})") } else { String::new() };
+    let (noise_db, exponent) = (signal.noise_db(), signal.propagation().exponent());
+    format!("{}{order}, noise {noise_db} dB, exponent {exponent}", solver.word())
+}
+
+fn text(setting: &Setting, report: &Report) -> String {
+    let anchors = setting.anchors.places().len();
+    let [width_m, height_m] = setting.anchors.sides_m();
+    let place = setting.at_m.map_or_else(
+        || format!("a robot anywhere in {width_m}×{height_m} m"),
+        |[x_m, y_m]| format!("a robot at {x_m},{y_m}"),
+    );
+    let mut columns =
+        Columns::new([Column::left(Width::Fit)].into_iter().chain([Column::left(Width::Fit); 3]));
+    columns.row(["metres", "median", "95th percentile", "root mean square"]);
+    let row = |name: &str, errors: &Errors| {
+        let Errors { of, interval } = errors;
+        let cell = |number: f64, [least, most]: [f64; 2]| format!("{number:.3} [{least:.3}, {most:.3}]");
+        [
+            name.to_owned(),
+            cell(of.median, interval.median),
+            cell(of.p95, interval.p95),
+            cell(of.rms, interval.rms),
+        ]
+    };
+    columns.row(row("error", &report.error_m));
+    columns.row(row("distance to the least squares", &report.optimum_m));
+    let bound = report.crlb_rms_m.map_or_else(|| "none".to_owned(), |rms_m| format!("{rms_m:.3}"));
+    columns.row(["Cramér–Rao bound".to_owned(), String::new(), String::new(), bound]);
+    let inside = if setting.inside { ", kept inside" } else { "" };
+    let mut text = format!(
+        "{anchors} anchors, {place}; {}{inside}; {} trials, seed {}\n\n{}\n[…]: the 95 % interval\n",
+        title(setting),
+        setting.trials,
+        setting.seed,
+        columns.text()
+    );
+    let counts = [
+        (report.two, "in which two positions fit"),
+        (report.weak, "that the anchors tell badly"),
+        (report.outside, "on the rim of the rectangle"),
+        (report.unsettled, "that did not settle"),
+        (report.refused, "whose distances were refused"),
+    ];
+    for (count, what) in counts.into_iter().filter(|(count, _)| *count > 0) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{count} {what}");
+    }
+    text
+}
+
+fn advice(advice: &Advice) -> String {
+    let Advice { side_m, p99_m, cells_believed, cells_tracked } = advice;
+    format!(
+        "\n99 % of the errors are below {p99_m:.3} m. Across {side_m} m a floor can have\n\
+         at most {} where a robot believes each fix,\n\
+         at most {} where it counts its cells by moves and lets fixes correct its place within one.\n",
+        counted(*cells_believed as usize, "cell"),
+        counted(*cells_tracked as usize, "cell")
+    )
+}
+
+fn positions(found: &[Found]) -> String {
+    let mut columns = Columns::new(
+        [Column::left(Width::Fit)]
+            .into_iter()
+            .chain([Column::right(Width::Fit); 5])
+            .chain([Column::left(Width::Fit)]),
+    );
+    columns.row(["fix", "x, m", "y, m", "± rms, m", "dilution", "residual", ""]);
+    let told = |number: Option<f64>| number.map_or_else(|| "-".to_owned(), |number| format!("{number:.3}"));
+    for Found { fix, positions } in found {
+        for (number, place) in positions.iter().enumerate() {
+            let Place { x_m, y_m, rms_m, dilution, residual, flags, .. } = place;
+            let or = if number == 0 { Vec::new() } else { vec!["or here"] };
+            columns.row([
+                fix.clone(),
+                told(Some(*x_m)),
+                told(Some(*y_m)),
+                told(*rms_m),
+                told(*dilution),
+                told(*residual),
+                or.into_iter().chain(flags.iter().copied()).collect::<Vec<_>>().join(", "),
+            ]);
+        }
+    }
+    columns.text()
+}

@@ -1,0 +1,163 @@
+//! `tautline locate`: positions, their errors, and what is refused.
+
+use std::fs;
+
+use insta::assert_snapshot;
+
+use super::{folder, json, names, printed, refused, tautline};
+
+#[test]
+fn errors_are_those_that_theory_and_an_independent_program_expect() {
+    let folder = folder();
+    let told = |solver: &str| json(folder.path(), &["locate", "--solver", solver], 0);
+    // Medians of 10,000 trials of an independent program with noise of its own.
+    for (solver, median_m) in
+        [("closed-form", 2.42), ("pso", 1.87), ("least-squares", 1.87), ("decibel", 1.70)]
+    {
+        let told = told(solver);
+        let found_m = told["error_m"]["median"].as_f64().expect("a number");
+        assert!((found_m - median_m).abs() < 0.06, "{solver}: {found_m}, not {median_m}");
+        let bound_m = told["crlb_rms_m"].as_f64().expect("a number");
+        assert!((bound_m - 2.35).abs() < 0.02, "{bound_m}");
+        for name in ["median", "p95", "rms"] {
+            let ends = &told["error_m"]["interval"][name];
+            let (least, most) = (ends[0].as_f64().expect("a number"), ends[1].as_f64().expect("a number"));
+            assert!(
+                (least..=most).contains(&told["error_m"][name].as_f64().expect("a number")),
+                "{solver} {name}"
+            );
+        }
+    }
+    let swarm = told("pso")["optimum_m"]["median"].as_f64().expect("a number");
+    assert!((0.0027..0.0044).contains(&swarm), "{swarm}");
+    let inside = json(folder.path(), &["locate", "--inside"], 0);
+    assert!(
+        inside["error_m"]["rms"].as_f64() < inside["crlb_rms_m"].as_f64(),
+        "a biased way beats the bound"
+    );
+}
+
+#[test]
+fn the_report_is_the_same_on_any_number_of_threads() {
+    let folder = folder();
+    let printed = |threads: &str| {
+        let mut command =
+            tautline(folder.path(), &["locate", "--solver", "pso", "--trials", "3000", "--advice"]);
+        let output = command.env("RAYON_NUM_THREADS", threads).output().expect("the program runs");
+        String::from_utf8(output.stdout).expect("text")
+    };
+    let one = printed("1");
+    assert!(one == printed("2") && one == printed("7"));
+    assert_snapshot!("positions_of_a_swarm", one);
+}
+
+#[test]
+fn advice_says_how_many_cells_a_floor_can_have() {
+    let folder = folder();
+    let cells = |noise_db: &str| {
+        let advice =
+            json(folder.path(), &["locate", "--noise-db", noise_db, "--advice"], 0)["advice"].clone();
+        let number = |name: &str| advice[name].as_f64().expect("a number");
+        assert!(number("cells_believed") <= number("side_m") / (4.0 * number("p99_m")));
+        assert!(number("cells_tracked") <= number("side_m") / (2.0 * number("p99_m")));
+        [number("cells_believed") as u32, number("cells_tracked") as u32]
+    };
+    assert_eq!([cells("1"), cells("0.25"), cells("0.1")], [[0, 1], [3, 6], [8, 16]]);
+}
+
+/// Three robots: the second one on the line of its anchors' mirror, the third one with four anchors.
+const MEASUREMENTS: &str = "fix,x_m,y_m,range_m\n\
+    a,0,0,5\na,20,0,17.5\na,0,20,16.5\n\
+    b,0,0,5\nb,10,0,8.062\nb,20,0,17.464\n\
+    c,0,0,10\nc,20,0,14.2\nc,0,20,14\nc,20,20,17.4\n";
+
+#[test]
+fn positions_of_measurements_are_found_and_drawn() {
+    let folder = folder();
+    let folder = folder.path();
+    fs::write(folder.join("m.csv"), MEASUREMENTS).expect("a file");
+    assert_snapshot!(printed(folder, &["locate", "m.csv"], 0));
+    let picture = ["locate", "m.csv", "--solver", "least-squares", "--svg", "m.svg", "--format", "json"];
+    printed(folder, &picture, 0);
+    let picture = ["locate", "--at", "5,5", "--trials", "10", "--svg", "at.svg"];
+    printed(folder, &picture, 0);
+    for (name, ellipses) in [("m.svg", 5), ("at.svg", 4)] {
+        let drawn = fs::read_to_string(folder.join(name)).expect("a picture");
+        assert_eq!(drawn.matches("<ellipse").count(), ellipses, "{name}");
+        assert!(!drawn.contains("NaN") && !drawn.contains("inf"), "{name}");
+    }
+    // The columns may stand in any order, with others between them, and a byte order mark before them.
+    let other = "\u{feff}range_m,time,y_m,x_m,fix\r\n5,1,0,0,a\r\n17.5,2,0,20,a\r\n16.5,3,20,0,a\r\n";
+    fs::write(folder.join("other.csv"), other).expect("a file");
+    let found = |file: &str| json(folder, &["locate", file], 0)["fixes"][0].clone();
+    assert_eq!(found("m.csv"), found("other.csv"));
+}
+
+#[test]
+fn what_tells_no_position_is_refused_with_what_would_be_right() {
+    let folder = folder();
+    let folder = folder.path();
+    let wrong: [&[&str]; 17] = [
+        &["--anchors", "0,0", "--anchors", "20,0"],
+        &["--anchors", "0,0", "--anchors", "20,0", "--anchors", "0,0"],
+        &["--anchors", "0,0", "--anchors", "10,10", "--anchors", "20,20"],
+        &["--anchors", "0,0", "--anchors", "NaN,10", "--anchors", "20,0"],
+        &["--anchors", "0,0", "--anchors", "inf,10", "--anchors", "20,0"],
+        &["--anchors", "0"],
+        &["--anchors", "20,0", "--anchors", "0,0", "--anchors", "0,20", "--solver", "closed-form"],
+        &[
+            "--solver",
+            "closed-form",
+            "--anchors",
+            "0,0",
+            "--anchors",
+            "9,1",
+            "--anchors",
+            "1,9",
+            "--anchors",
+            "7,7",
+        ],
+        &["--exponent", "0"],
+        &["--exponent", "NaN"],
+        &["--noise-db", "-1"],
+        &["--trials", "0"],
+        &["--at", "0,0"],
+        &["--rule", "published"],
+        &["--inside", "--solver", "pso"],
+        &["nowhere.csv"],
+        &["nowhere.csv", "--trials", "5"],
+    ];
+    let said = wrong.map(|arguments| {
+        format!(
+            "$ tautline locate {}\n{}\n",
+            arguments.join(" "),
+            refused(folder, &[&["locate"], arguments].concat())
+        )
+    });
+    assert_snapshot!("wrong_positions", said.join("\n"));
+    let head = "fix,x_m,y_m,range_m\n";
+    let contents = [
+        String::new(),
+        "fix,x_m,y_m\n1,0,0\n".to_owned(),
+        head.to_owned(),
+        format!("{head}1,0,0,5\n1,20,0\n"),
+        format!("{head}1,0,0,5\n1,20,here,17\n"),
+        format!("{head}1,0,0,5\n1,20,0,17\n"),
+        format!("{head}1,0,0,5\n1,20,0,-17\n1,0,20,16\n"),
+        format!("{head}1,0,0,5\n1,20,0,NaN\n1,0,20,16\n"),
+        format!("{head}1,0,0,inf\n1,20,0,17\n1,0,20,16\n"),
+        format!("{head}1,0,0,5\n1,20,0,0\n1,0,20,16\n"),
+        format!("{head}1,0,0,5\n1,20,0,17\n1,0,0,16\n"),
+        format!("{head}1,0,0,2\n1,20,0,2\n1,0,20,19\n"),
+        format!("{head}1,0,0,90\n1,20,0,17\n1,0,20,16\n"),
+    ];
+    let said = contents.map(|content| {
+        fs::write(folder.join("m.csv"), &content).expect("a file");
+        format!("{content}\n{}\n", refused(folder, &["locate", "m.csv"]))
+    });
+    assert_snapshot!("wrong_measurements", said.join("\n"));
+    fs::write(folder.join("m.csv"), MEASUREMENTS).expect("a file");
+    // The closed form knows no mirror images.
+    assert!(refused(folder, &["locate", "m.csv", "--solver", "pso"]).contains("on one line"));
+    assert_eq!(names(folder), ["m.csv"]);
+}
