@@ -80,7 +80,8 @@ impl<P: Plane> BitGrid<P> {
         let near = if P::ROWS > FEW_ROWS { [NEAR_ROWS, P::ROWS] } else { [P::ROWS; 2] };
         let mut first_length = 0;
         for reach in near {
-            let rows = (row.saturating_sub(reach), (row + reach).min(P::ROWS - 1));
+            let (top, bottom) = (row.saturating_sub(reach), (row + reach).min(P::ROWS - 1));
+            let mut rows = (top, bottom);
             let mut reached = unexplored;
             for length in 0.. {
                 if length >= first_length {
@@ -93,9 +94,12 @@ impl<P: Plane> BitGrid<P> {
                     first_length = length + 1;
                 }
                 let is_far = length as usize + 1 >= reach && reach < P::ROWS;
-                if missing.is_empty() || is_far || !reached.spread(&east, &south, rows) {
+                if missing.is_empty() || is_far {
                     break;
                 }
+                // The next cells are beside those that come now.
+                let Some((first, last)) = reached.spread(&east, &south, rows) else { break };
+                rows = (first.saturating_sub(1).max(top), (last + 1).min(bottom));
             }
             if missing.is_empty() || reach >= P::ROWS {
                 return;

@@ -37,14 +37,15 @@ pub trait Plane: Copy + Eq {
     fn along_rows(&self, open: &Self) -> Self;
     /// The cells beyond the open south and north sides of these.
     fn along_columns(&self, open: &Self) -> Self;
-    /// Adds the cells beyond the open sides of these, the `east` and the `south` ones from either side, in the rows from
-    /// `first` to `last`, and perhaps in others; whether there are any.
+    /// Adds the cells beyond the open sides of these, the `east` and the `south` ones from either side, in the `rows` from
+    /// the first to the last, and perhaps in others. Returns rows, the first and the last, that hold all the new cells;
+    /// `None` if there are no new cells.
     #[inline]
-    fn spread(&mut self, east: &Self, south: &Self, (_first, _last): (usize, usize)) -> bool {
+    fn spread(&mut self, east: &Self, south: &Self, rows: (usize, usize)) -> Option<(usize, usize)> {
         let wider = self.or(&self.along_rows(east)).or(&self.along_columns(south));
         let is_wider = wider != *self;
         *self = wider;
-        is_wider
+        is_wider.then_some(rows)
     }
 }
 
@@ -218,20 +219,22 @@ impl<W: Word, const HEIGHT: usize> Plane for [W; HEIGHT] {
     }
 
     #[inline]
-    fn spread(&mut self, east: &Self, south: &Self, (first, last): (usize, usize)) -> bool {
+    fn spread(&mut self, east: &Self, south: &Self, (first, last): (usize, usize)) -> Option<(usize, usize)> {
         // What came in from the north, as it was before.
         let mut from_north = if first == 0 { W::NONE } else { self[first - 1] & south[first - 1] };
-        let mut is_wider = false;
+        let mut wider_rows = None;
         for row in first..=last.min(HEIGHT - 1) {
             let old = self[row];
             let from_south = if row + 1 < HEIGHT { self[row + 1] & south[row] } else { W::NONE };
             let along_row = (old & east[row]) << 1 | old >> 1 & east[row];
             let wider = old | along_row | from_north | from_south;
-            is_wider |= wider != old;
+            if wider != old {
+                wider_rows = Some((wider_rows.map_or(row, |(first, _)| first), row));
+            }
             from_north = old & south[row];
             self[row] = wider;
         }
-        is_wider
+        wider_rows
     }
 
     #[inline]
