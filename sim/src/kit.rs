@@ -9,7 +9,6 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU32;
 
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::Rng;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, Grid, MediumGrid, Side, SmallGrid};
 use tautline_kernel::kit::{Condition, Kit, Next, Refused, Rule, Sight, Stance, touch};
@@ -146,7 +145,7 @@ struct Dice(ChaCha8Rng);
 
 impl Oracle for Dice {
     fn pick(&mut self, below: u32) -> u32 {
-        ((u128::from(self.0.next_u64()) * u128::from(below)) >> 64) as u32
+        generate::below(below, &mut self.0)
     }
 }
 

@@ -56,8 +56,8 @@ pub(super) fn random_anchors() -> String {
     )
 }
 
-/// The sum of the squared residuals in metres, and above which difference two positions are told apart.
-fn cost(ranges: &[Range], at: Point) -> f64 {
+/// The sum of the squared residuals, in square metres.
+pub(super) fn cost(ranges: &[Range], at: Point) -> f64 {
     ranges
         .iter()
         .map(|range| range.distance_m - at.distance_m(range.anchor))

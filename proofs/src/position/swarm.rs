@@ -3,6 +3,7 @@
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::position::{Order, Parameters, Particle, Point, Range, Swarm};
 
+use super::minima::cost;
 use crate::engine::{Outcome, Stop, require};
 
 /// How a swarm is moved, and what of it counts as its best position.
@@ -42,15 +43,6 @@ impl Conduct {
             Best::First => swarm.places().next().unwrap_or_default(),
         }
     }
-}
-
-/// The sum of the squared residuals.
-fn cost(ranges: &[Range], at: Point) -> f64 {
-    ranges
-        .iter()
-        .map(|range| range.distance_m - at.distance_m(range.anchor))
-        .map(|residual| residual * residual)
-        .sum()
 }
 
 /// Anchors, in metres.

@@ -7,7 +7,6 @@
 //! among all that are asked about.
 
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::Rng;
 use tautline_kernel::ants;
 use tautline_kernel::bricks::{self, Agent, Condition, Next};
 use tautline_kernel::chain::Kind;
@@ -74,7 +73,7 @@ impl Misses {
 
 impl Oracle for Misses {
     fn pick(&mut self, below: u32) -> u32 {
-        ((u128::from(self.generator.next_u64()) * u128::from(below)) >> 64) as u32
+        generate::below(below, &mut self.generator)
     }
 
     fn mishap(&mut self) -> bool {

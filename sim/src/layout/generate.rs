@@ -156,8 +156,8 @@ pub(crate) fn source(seed: u64, tag: [u8; 8]) -> ChaCha8Rng {
 }
 
 /// A number below `n`: the high half of n times 64 random bits.
-fn below(n: i16, rng: &mut ChaCha8Rng) -> i16 {
-    ((u128::from(rng.next_u64()) * n as u128) >> 64) as i16
+pub(crate) fn below(n: u32, rng: &mut ChaCha8Rng) -> u32 {
+    ((u128::from(rng.next_u64()) * u128::from(n)) >> 64) as u32
 }
 
 fn walls(size: Size, probability: Probability, rng: &mut ChaCha8Rng) -> Layout {
@@ -186,13 +186,13 @@ fn office(size: Size, rooms: Rooms, rng: &mut ChaCha8Rng) -> Layout {
     let down = divide(size.height(), rooms.down, rng);
     for (rows, columns) in down.iter().flat_map(|rows| across.iter().map(move |columns| (rows, columns))) {
         if columns.end < size.width() {
-            let door = rows.start + below(rows.end - rows.start, rng);
+            let door = rows.start + below((rows.end - rows.start) as u32, rng) as i16;
             for y in rows.clone().filter(|&y| y != door) {
                 layout.build_wall(Edge::new(Cell::new(columns.end, y), Side::West));
             }
         }
         if rows.end < size.height() {
-            let door = columns.start + below(columns.end - columns.start, rng);
+            let door = columns.start + below((columns.end - columns.start) as u32, rng) as i16;
             for x in columns.clone().filter(|&x| x != door) {
                 layout.build_wall(Edge::new(Cell::new(x, rows.end), Side::North));
             }
@@ -208,7 +208,7 @@ fn divide(cells: i16, rooms: i16, rng: &mut ChaCha8Rng) -> Vec<Range<i16>> {
     let (mut walls, mut spare) = (rooms - 1, cells - rooms * least);
     let (mut divided, mut room) = (Vec::new(), 0..least);
     while walls > 0 {
-        if below(walls + spare, rng) < walls {
+        if below((walls + spare) as u32, rng) < walls as u32 {
             walls -= 1;
             divided.push(room.clone());
             room = room.end..room.end + least;

@@ -49,9 +49,7 @@ impl<T: Copy> Pile<T> {
         let first = place % PIECE * self.width;
         &self.pieces[place / PIECE][first..first + self.width]
     }
-}
 
-impl<T: Copy> Pile<T> {
     /// The only thing of an entry.
     pub(super) fn at(&self, place: usize) -> T {
         self.entry(place)[0]

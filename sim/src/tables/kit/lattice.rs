@@ -1,7 +1,5 @@
 //! Random lattices of 26 paths, all within reach of each other.
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::Rng;
 use tautline_kernel::ground::{Cell, Edge};
 
 use super::PATHS;
@@ -24,20 +22,16 @@ pub(super) const FAMILIES: [Family; 4] = [
     Family { name: "9x3, a tree", columns: 9, rows: 3 },
 ];
 
-/// A number below `below`.
-fn draw(dice: &mut ChaCha8Rng, below: usize) -> usize {
-    ((u128::from(dice.next_u64()) * below as u128) >> 64) as usize
-}
-
 impl Family {
     /// The layout of this seed, and the node where the team starts: paths in an order that is drawn, first those that connect
     /// nodes which are not connected yet, then others until there are 26.
     pub(super) fn layout(self, seed: u64) -> Result<(Layout, Cell), Problem> {
         let mut layout = Layout::open(self.columns, self.rows)?;
         let mut dice = generate::source(seed, *b"lattice ");
+        let mut draw = |below: usize| generate::below(below as u32, &mut dice) as usize;
         let mut paths: Vec<Edge> = layout.edges().collect();
         for place in (1..paths.len()).rev() {
-            paths.swap(place, draw(&mut dice, place + 1));
+            paths.swap(place, draw(place + 1));
         }
         let nodes: Vec<Cell> = layout.cells().collect();
         let place = |node: Cell| nodes.iter().position(|&other| other == node).unwrap_or(0);
@@ -54,7 +48,7 @@ impl Family {
         }
         let more = PATHS.saturating_sub(open.len()).min(spare.len());
         spare.drain(more..).for_each(|path| layout.build_wall(path));
-        let start = nodes[draw(&mut dice, nodes.len())];
+        let start = nodes[draw(nodes.len())];
         Ok((layout, start))
     }
 }
