@@ -2,8 +2,9 @@
 
     `make` compares what this file prints with audit.expected. *)
 From Coq Require Import ZArith QArith List.
-From Tautline Require Import Lattice Rule Team Contact Base Crowding Coverage Rings Unfolding Hold Marking Notice Kit Mrc Leases
-  Replay Mutants MrcMutants ChainTie Replayed NoticeTie MrcTie KitTie.
+From Tautline Require Import Lattice Rule Plane Team Contact Base Crowding Coverage Rings Unfolding.
+From Tautline Require Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie MrcTie KitTie.
+Local Open Scope nat_scope.
 Set Printing Width 110.
 
 (** The clauses. *)
@@ -25,84 +26,86 @@ Check CHAIN_10.
 Print Assumptions CHAIN_10.
 Check CHAIN_13_step.
 Print Assumptions CHAIN_13_step.
-Check hold_keeps_contact.
-Print Assumptions hold_keeps_contact.
-Check hold_keeps_coverage.
-Print Assumptions hold_keeps_coverage.
-Check BRICKS_2_marking.
-Print Assumptions BRICKS_2_marking.
-Check NOTICE_1.
-Print Assumptions NOTICE_1.
-Check MRC_1.
-Print Assumptions MRC_1.
-Check MRC_2.
-Print Assumptions MRC_2.
-Check MRC_4.
-Print Assumptions MRC_4.
-Check MRC_6.
-Print Assumptions MRC_6.
-Check MRC_8.
-Print Assumptions MRC_8.
-Check KIT_1.
-Print Assumptions KIT_1.
-Check KIT_3.
-Print Assumptions KIT_3.
-Check KIT_12.
-Print Assumptions KIT_12.
+Check Hold.hold_keeps_contact.
+Print Assumptions Hold.hold_keeps_contact.
+Check Hold.hold_keeps_coverage.
+Print Assumptions Hold.hold_keeps_coverage.
+Check Marking.BRICKS_2_marking.
+Print Assumptions Marking.BRICKS_2_marking.
+Check Notice.NOTICE_1.
+Print Assumptions Notice.NOTICE_1.
+Check Leases.MRC_1.
+Print Assumptions Leases.MRC_1.
+Check Leases.MRC_2.
+Print Assumptions Leases.MRC_2.
+Check Leases.MRC_4.
+Print Assumptions Leases.MRC_4.
+Check Leases.MRC_6.
+Print Assumptions Leases.MRC_6.
+Check Leases.MRC_8.
+Print Assumptions Leases.MRC_8.
+Check Kit.KIT_1.
+Print Assumptions Kit.KIT_1.
+Check Kit.KIT_3.
+Print Assumptions Kit.KIT_3.
+Check Kit.KIT_12.
+Print Assumptions Kit.KIT_12.
+Check Kit.arrivals_keep_admitted.
+Print Assumptions Kit.arrivals_keep_admitted.
 
 (** What each condition is needed for. *)
-Check published_breaks_CHAIN_1.
-Print Assumptions published_breaks_CHAIN_1.
-Check published_breaks_CHAIN_2.
-Print Assumptions published_breaks_CHAIN_2.
-Check without_SafeAhead_breaks_CHAIN_1.
-Print Assumptions without_SafeAhead_breaks_CHAIN_1.
-Check without_CoveredBehind_breaks_CHAIN_1.
-Print Assumptions without_CoveredBehind_breaks_CHAIN_1.
-Check without_UnsureAhead_breaks_CHAIN_1.
-Print Assumptions without_UnsureAhead_breaks_CHAIN_1.
-Check without_Distinct_breaks_CHAIN_2.
-Print Assumptions without_Distinct_breaks_CHAIN_2.
-Check without_FullForFollower_breaks_CHAIN_2.
-Print Assumptions without_FullForFollower_breaks_CHAIN_2.
-Check without_FullForLeader_breaks_CHAIN_2.
-Print Assumptions without_FullForLeader_breaks_CHAIN_2.
-Check without_SafeAhead_breaks_CHAIN_3.
-Print Assumptions without_SafeAhead_breaks_CHAIN_3.
-Check unsure_ahead_does_not_hold.
-Print Assumptions unsure_ahead_does_not_hold.
-Check without_FrozenOnceForwarded_breaks_NOTICE_1.
-Print Assumptions without_FrozenOnceForwarded_breaks_NOTICE_1.
-Check without_ChoiceStands_breaks_MRC_1.
-Print Assumptions without_ChoiceStands_breaks_MRC_1.
-Check without_Epochs_breaks_MRC_2.
-Print Assumptions without_Epochs_breaks_MRC_2.
-Check without_Consent_breaks_MRC_4.
-Print Assumptions without_Consent_breaks_MRC_4.
-Check without_NextInReach_breaks_KIT_1.
-Print Assumptions without_NextInReach_breaks_KIT_1.
-Check without_FromInReach_breaks_KIT_1.
-Print Assumptions without_FromInReach_breaks_KIT_1.
-Check without_Apart_breaks_KIT_3.
-Print Assumptions without_Apart_breaks_KIT_3.
+Check Mutants.published_breaks_CHAIN_1.
+Print Assumptions Mutants.published_breaks_CHAIN_1.
+Check Mutants.published_breaks_CHAIN_2.
+Print Assumptions Mutants.published_breaks_CHAIN_2.
+Check Mutants.without_SafeAhead_breaks_CHAIN_1.
+Print Assumptions Mutants.without_SafeAhead_breaks_CHAIN_1.
+Check Mutants.without_CoveredBehind_breaks_CHAIN_1.
+Print Assumptions Mutants.without_CoveredBehind_breaks_CHAIN_1.
+Check Mutants.without_UnsureAhead_breaks_CHAIN_1.
+Print Assumptions Mutants.without_UnsureAhead_breaks_CHAIN_1.
+Check Mutants.without_Distinct_breaks_CHAIN_2.
+Print Assumptions Mutants.without_Distinct_breaks_CHAIN_2.
+Check Mutants.without_FullForFollower_breaks_CHAIN_2.
+Print Assumptions Mutants.without_FullForFollower_breaks_CHAIN_2.
+Check Mutants.without_FullForLeader_breaks_CHAIN_2.
+Print Assumptions Mutants.without_FullForLeader_breaks_CHAIN_2.
+Check Mutants.without_SafeAhead_breaks_CHAIN_3.
+Print Assumptions Mutants.without_SafeAhead_breaks_CHAIN_3.
+Check Hold.unsure_ahead_does_not_hold.
+Print Assumptions Hold.unsure_ahead_does_not_hold.
+Check Notice.without_FrozenOnceForwarded_breaks_NOTICE_1.
+Print Assumptions Notice.without_FrozenOnceForwarded_breaks_NOTICE_1.
+Check MrcMutants.without_ChoiceStands_breaks_MRC_1.
+Print Assumptions MrcMutants.without_ChoiceStands_breaks_MRC_1.
+Check MrcMutants.without_Epochs_breaks_MRC_2.
+Print Assumptions MrcMutants.without_Epochs_breaks_MRC_2.
+Check MrcMutants.without_Consent_breaks_MRC_4.
+Print Assumptions MrcMutants.without_Consent_breaks_MRC_4.
+Check Kit.without_NextInReach_breaks_KIT_1.
+Print Assumptions Kit.without_NextInReach_breaks_KIT_1.
+Check Kit.without_FromInReach_breaks_KIT_1.
+Print Assumptions Kit.without_FromInReach_breaks_KIT_1.
+Check Kit.without_Apart_breaks_KIT_3.
+Print Assumptions Kit.without_Apart_breaks_KIT_3.
 
 (** The tie to the kernel. *)
-Check chain_answers_agree.
-Print Assumptions chain_answers_agree.
-Check every_question_is_in_the_table.
-Print Assumptions every_question_is_in_the_table.
-Check kernel_answers_as_the_relation.
-Print Assumptions kernel_answers_as_the_relation.
-Check replay_reachable.
-Print Assumptions replay_reachable.
-Check kernel_runs_are_runs.
-Print Assumptions kernel_runs_are_runs.
-Check notice_answers_agree.
-Print Assumptions notice_answers_agree.
-Check mrc_answers_agree.
-Print Assumptions mrc_answers_agree.
-Check kit_answers_agree.
-Print Assumptions kit_answers_agree.
-Check every_drive_is_in_the_table.
-Print Assumptions every_drive_is_in_the_table.
+Check ChainTie.chain_answers_agree.
+Print Assumptions ChainTie.chain_answers_agree.
+Check ChainTie.every_question_is_in_the_table.
+Print Assumptions ChainTie.every_question_is_in_the_table.
+Check ChainTie.kernel_answers_as_the_relation.
+Print Assumptions ChainTie.kernel_answers_as_the_relation.
+Check Replay.replay_reachable.
+Print Assumptions Replay.replay_reachable.
+Check Replayed.kernel_runs_are_runs.
+Print Assumptions Replayed.kernel_runs_are_runs.
+Check NoticeTie.notice_answers_agree.
+Print Assumptions NoticeTie.notice_answers_agree.
+Check MrcTie.mrc_answers_agree.
+Print Assumptions MrcTie.mrc_answers_agree.
+Check KitTie.kit_answers_agree.
+Print Assumptions KitTie.kit_answers_agree.
+Check KitTie.every_drive_is_in_the_table.
+Print Assumptions KitTie.every_drive_is_in_the_table.
 

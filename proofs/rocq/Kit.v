@@ -3,7 +3,8 @@
 
     A robot stands at a node or drives from one to a neighbour. The team starts connected, at different nodes. One robot at a
     time decides, as Turn demands, and knows where the others are, as KIT-5 says. It may drive through any side that the
-    conditions admit, whatever it prefers and whatever it sees there, or stay. Arrivals come at any time. So walls, records,
+    conditions admit, whatever it prefers and whatever it sees there, or stay. Arrivals come at any time, also between a
+    decision and the drive. So walls, records,
     the joint way and the messages play no part. The unit is the path between two nodes, 3 m. *)
 From Coq Require Import ZArith QArith Lia Lqa Bool List Arith.
 From Tautline Require Import Lattice Plane.
@@ -115,6 +116,26 @@ Section Robots.
     - now rewrite I2.
   Qed.
 End Robots.
+
+(** An arrival leaves admitted what was admitted before: a robot may decide first and look at the side then. *)
+Lemma touch_same : forall N t u i j, (forall k, t k = u k) -> touch N t i j -> touch N u i j.
+Proof.
+  intros N t u i j E T; induction T as [i L | i j k Li Lj S T IH]; [now apply touch_self|].
+  apply touch_over with (j := j); auto. now rewrite <- !E.
+Qed.
+
+Theorem arrivals_keep_admitted : forall N t i s j c s', admits N t i s -> j < N -> j <> i -> t j = Drives c s' ->
+  admits N (put t j (Stands (beyond c s'))) i s.
+Proof.
+  intros N t i s j c s' [A C] L D E; split.
+  - intros k Lk Dk; rewrite (put_other t j _ i) by congruence; specialize (A k Lk Dk).
+    destruct (Nat.eq_dec k j) as [->|K]; [|now rewrite put_other].
+    rewrite put_same, E in *; unfold has in *; cbn in *; apply orb_false_iff in A; destruct A as [_ A]; now rewrite A.
+  - rewrite (put_other t j _ i) by congruence. set (path := Drives (left_ (t i)) s) in *.
+    intros k l Lk Ll; apply touch_same with (t := put (put t i path) j (Stands (beyond c s'))).
+    + intros m; unfold put; destruct (Nat.eqb_spec m j), (Nat.eqb_spec m i); subst; auto; contradiction.
+    + apply touch_arrive; [|now apply C]. now rewrite put_other.
+Qed.
 
 (** ** Distances. Where a robot is: some part of its path. *)
 Definition whereabouts (x : stance) (part : Q) : point := between part (centre (left_ x)) (centre (next x)).
