@@ -1,9 +1,11 @@
-(** What is proved, and from what: for each theorem its statement, and that it rests on no assumption but the definitions.
+(** What is proved, and from what: for each theorem its statement,
+    and that it rests on no assumption but the definitions.
 
     `make` compares what this file prints with audit.expected. *)
 From Coq Require Import ZArith QArith List.
 From Tautline Require Import Lattice Rule Plane Team Contact Base Crowding Coverage Rings Unfolding.
-From Tautline Require Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie MrcTie KitTie.
+From Tautline Require Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie MrcTie
+  KitTie.
 Local Open Scope nat_scope.
 Set Printing Width 110.
 
@@ -34,6 +36,8 @@ Check Marking.BRICKS_2_marking.
 Print Assumptions Marking.BRICKS_2_marking.
 Check Notice.NOTICE_1.
 Print Assumptions Notice.NOTICE_1.
+Check Notice.NOTICE_2.
+Print Assumptions Notice.NOTICE_2.
 Check Leases.MRC_1.
 Print Assumptions Leases.MRC_1.
 Check Leases.MRC_2.

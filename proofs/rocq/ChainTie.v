@@ -1,5 +1,7 @@
-(** The tie between the kernel and the chain's definitions: what the kernel has answered to every question about two neighbours,
-    in generated/ChainAnswers.v, is what Lattice.v, Rule.v, Message.v and Unfolding.v say; and in no state that can be reached
+(** The tie between the kernel and the chain's definitions: what the kernel has answered to every question about two
+    neighbours,
+    in generated/ChainAnswers.v, is what Lattice.v, Rule.v, Message.v and Unfolding.v say;
+      and in no state that can be reached
     is another question asked. *)
 From Coq Require Import ZArith NArith Lia Bool List Arith.
 From Tautline Require Import Lattice Rule Team Contact Message Unfolding.
@@ -117,7 +119,8 @@ Lemma relation_agrees :
   && agree without_SafeAhead ahead_without_SafeAhead behind_without_SafeAhead entry_without_SafeAhead
   && agree without_CoveredBehind ahead_without_CoveredBehind behind_without_CoveredBehind entry_without_CoveredBehind
   && agree without_UnsureAhead ahead_without_UnsureAhead behind_without_UnsureAhead entry_without_UnsureAhead
-  && agree without_FullForFollower ahead_without_FullForFollower behind_without_FullForFollower entry_without_FullForFollower
+  && agree without_FullForFollower ahead_without_FullForFollower behind_without_FullForFollower
+    entry_without_FullForFollower
   && agree without_FullForLeader ahead_without_FullForLeader behind_without_FullForLeader entry_without_FullForLeader
   = true.
 Proof. vm_compute; reflexivity. Qed.
@@ -152,14 +155,17 @@ Proof.
 Qed.
 
 (** So the kernel's answers for REPAIRED are those of the relation, in every state that can be reached. *)
-Theorem kernel_answers_as_the_relation : forall N base wall st pl i, (2 <= N)%nat -> reachable N REPAIRED base wall st -> (S i < N)%nat ->
-  admits_ahead REPAIRED (as_move st pl i) (as_move st pl (S i)) = answer ahead_REPAIRED (as_move st pl i) (as_move st pl (S i)).
+Theorem kernel_answers_as_the_relation : forall N base wall st pl i, (2 <= N)%nat ->
+  reachable N REPAIRED base wall st -> (S i < N)%nat ->
+  admits_ahead REPAIRED (as_move st pl i) (as_move st pl (S i)) = answer ahead_REPAIRED (as_move st pl i) (as_move st
+    pl (S i)).
 Proof.
   intros N base wall st pl i L R Li; apply ahead_tied; [vm_compute; reflexivity|].
   destruct (every_question_is_in_the_table N base wall st i L R Li) as [W _]; exact W.
 Qed.
 
-(** Every answer in the table is that of the definitions: of circles, steps and edges; of the relation, by seven rules; of messages;
+(** Every answer in the table is that of the definitions: of circles, steps and edges; of the relation,
+    by seven rules; of messages;
     of walks. *)
 Theorem chain_answers_agree :
   (agree_covers SAFE covers_SAFE = true /\ agree_covers COVERED covers_COVERED = true)
@@ -168,13 +174,16 @@ Theorem chain_answers_agree :
   /\ (agree PUBLISHED ahead_PUBLISHED behind_PUBLISHED entry_PUBLISHED
       && agree REPAIRED ahead_REPAIRED behind_REPAIRED entry_REPAIRED
       && agree without_SafeAhead ahead_without_SafeAhead behind_without_SafeAhead entry_without_SafeAhead
-      && agree without_CoveredBehind ahead_without_CoveredBehind behind_without_CoveredBehind entry_without_CoveredBehind
+      && agree without_CoveredBehind ahead_without_CoveredBehind behind_without_CoveredBehind
+        entry_without_CoveredBehind
       && agree without_UnsureAhead ahead_without_UnsureAhead behind_without_UnsureAhead entry_without_UnsureAhead
       && agree without_FullForFollower ahead_without_FullForFollower behind_without_FullForFollower
            entry_without_FullForFollower
-      && agree without_FullForLeader ahead_without_FullForLeader behind_without_FullForLeader entry_without_FullForLeader
+      && agree without_FullForLeader ahead_without_FullForLeader behind_without_FullForLeader
+        entry_without_FullForLeader
       = true)
   /\ map (fun byte => word (decode (N.of_nat byte))) (seq 0 256) = words.
 Proof.
-  exact (conj circles_agree (conj (conj steps_agree (conj edges_agree reverse_agrees)) (conj relation_agrees messages_agree))).
+  exact (conj circles_agree (conj (conj steps_agree (conj edges_agree reverse_agrees)) (conj relation_agrees
+    messages_agree))).
 Qed.

@@ -1,6 +1,7 @@
 (** CHAIN-3: during every team move, at whatever speeds, the centres of neighbours in the chain stay within r_cov.
 
-    For every number of robots, every layout and every order of preference, under every rule that has SafeAhead: so also as
+    For every number of robots, every layout and every order of preference,
+      under every rule that has SafeAhead: so also as
     published. A robot is at any moment somewhere on the straight way between the centres of two cells. *)
 From Coq Require Import ZArith QArith Lia Bool List Arith.
 From Tautline Require Import Lattice Rule Team Contact Plane.
@@ -9,7 +10,8 @@ Local Open Scope nat_scope.
 
 (** Neighbours in two placements: each corner of the parallelogram of offsets is within r_cov. *)
 Definition corners (p q p' q' : cell) : Prop :=
-  reaches COVERED p p' = true /\ reaches COVERED p q' = true /\ reaches COVERED q p' = true /\ reaches COVERED q q' = true.
+  reaches COVERED p p' = true /\ reaches COVERED p q' = true /\ reaches COVERED q p' = true /\
+    reaches COVERED q q' = true.
 
 Lemma reaches_near : forall a b, (apart_x a b <= 2)%Z -> (apart_y a b <= 2)%Z -> (apart_x a b + apart_y a b <= 3)%Z ->
   reaches COVERED a b = true.
@@ -30,7 +32,8 @@ Proof.
   repeat split; auto; apply reaches_near; unfold apart_x, apart_y in *; lia.
 Qed.
 
-(** Each robot is somewhere on the straight way between its two cells: their centres are within r_cov, 4 r_cov^2 = 26. *)
+(** Each robot is somewhere on the straight way between its two cells: their centres are within r_cov,
+    4 r_cov^2 = 26. *)
 Lemma on_the_way : forall p q p' q' s t, corners p q p' q' -> (0 <= s <= 1)%Q -> (0 <= t <= 1)%Q ->
   (norm2 (minus (between s (centre p) (centre q)) (between t (centre p') (centre q'))) <= 26 # 4)%Q.
 Proof.

@@ -1,6 +1,7 @@
 (** CHAIN-2: there are never three robots or more in one cell other than the base.
 
-    For every number of robots, every layout and every order of preference. Of three robots in one cell at most one has just
+    For every number of robots,
+      every layout and every order of preference. Of three robots in one cell at most one has just
     come there as planned (Distinct); the others were there, and then it would have found the cell full. *)
 From Coq Require Import ZArith Lia Bool List Arith.
 From Tautline Require Import Lattice Rule Team Contact.
@@ -65,7 +66,8 @@ Section Crowding.
     { intros a b La Lb D Pa Pb; apply NB; rewrite <- Pa; eapply admitted_distinct with (j := b); eauto; congruence. }
     assert (forall a b d, a < N -> b < N -> d < N -> b <> d ->
               planned st pl a = c -> pos st a <> c -> pos st b = c -> pos st d = c -> False) as Entry.
-    { intros a b d La Lb Ld D Pa Oa Pb Pd. apply admitted_entry with (st := st) (pl := pl) (i := a) (j := b) (k := d); auto; congruence. }
+    { intros a b d La Lb Ld D Pa Oa Pb Pd. apply admitted_entry with (st := st) (pl := pl) (i := a) (j := b) (k := d);
+        auto; congruence. }
     assert (pos st i = c -> pos st j = c -> pos st k = c -> False) as Now.
     { intros Pi Pj Pk; apply NB; rewrite <- Pi; apply U with (j := j) (k := k); auto; congruence. }
     assert (moved wall (pos st) pl j = c) as Ej by congruence.
@@ -104,9 +106,11 @@ Proof.
   unfold occupants, count.
   assert (NoDup (filter (fun j => cell_eqb (pos st j) c) (seq 0 N))) as ND by (apply NoDup_filter, seq_NoDup).
   assert (forall j, In j (filter (fun j => cell_eqb (pos st j) c) (seq 0 N)) -> j < N /\ pos st j = c) as IN.
-  { intros j H; apply filter_In in H; destruct H as [H E]; apply in_seq in H; apply cell_eqb_spec in E; split; [lia|auto]. }
+  { intros j H; apply filter_In in H; destruct H as [H E]; apply in_seq in H; apply cell_eqb_spec in E; split;
+      [lia|auto]. }
   destruct (filter _ _) as [|i [|j [|k rest]]]; cbn; try lia; exfalso.
   inversion ND as [|? ? N1 ND1]; inversion ND1 as [|? ? N2 ND2]; subst; cbn in N1, N2.
-  destruct (IN i) as [Li Pi]; [cbn; auto|]. destruct (IN j) as [Lj Pj]; [cbn; auto|]. destruct (IN k) as [Lk Pk]; [cbn; auto|].
+  destruct (IN i) as [Li Pi]; [cbn; auto|]. destruct (IN j) as [Lj Pj]; [cbn; auto|]. destruct (IN k) as [Lk Pk];
+    [cbn; auto|].
   apply NB; rewrite <- Pi; apply U with (j := j) (k := k); auto; try congruence; intuition.
 Qed.

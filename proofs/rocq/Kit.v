@@ -1,7 +1,9 @@
-(** KIT-1, KIT-3 and KIT-12: robots that keep in touch on a lattice after [Peiris], for every number of robots, every map and
+(** KIT-1, KIT-3 and KIT-12: robots that keep in touch on a lattice after [Peiris], for every number of robots,
+    every map and
     every run.
 
-    A robot stands at a node or drives from one to a neighbour. The team starts connected, at different nodes. One robot at a
+    A robot stands at a node or drives from one to a neighbour. The team starts connected,
+      at different nodes. One robot at a
     time decides, as Turn demands, and knows where the others are, as KIT-5 says. It may drive through any side that the
     conditions admit, whatever it prefers and whatever it sees there, or stay. Arrivals come at any time, also between a
     decision and the drive. So walls, records,
@@ -23,7 +25,8 @@ Definition in_reach (a b : cell) : bool :=
 
 (** Contact: all four corners are in reach. *)
 Definition is_sure_of (x y : stance) : bool :=
-  in_reach (left_ x) (left_ y) && in_reach (left_ x) (next y) && in_reach (next x) (left_ y) && in_reach (next x) (next y).
+  in_reach (left_ x) (left_ y) && in_reach (left_ x) (next y) && in_reach (next x) (left_ y) && in_reach (next x) (next
+    y).
 
 Definition has (x : stance) (c : cell) : bool := cell_eqb (left_ x) c || cell_eqb (next x) c.
 
@@ -45,7 +48,8 @@ Section Robots.
   Definition connected (t : team) : Prop := forall i j, i < N -> j < N -> touch t i j.
   Definition apart (t : team) : Prop := forall i j, i < N -> j < N -> i <> j -> is_apart_from (t i) (t j) = true.
 
-  (** The drives that NextInReach, FromInReach and Apart admit: to no end of another one's path, and so that the team stays
+  (** The drives that NextInReach, FromInReach and Apart admit: to no end of another one's path,
+      and so that the team stays
       connected. *)
   Definition admits (t : team) (i : nat) (s : side) : Prop :=
     (forall j, j < N -> j <> i -> has (t j) (next (Drives (left_ (t i)) s)) = false)
@@ -97,7 +101,8 @@ Section Robots.
       (cell_eqb (next x) (next y)); auto.
   Qed.
 
-  Lemma apart_put : forall t i x, apart t -> (forall j, j < N -> j <> i -> is_apart_from x (t j) = true) -> apart (put t i x).
+  Lemma apart_put : forall t i x, apart t -> (forall j, j < N -> j <> i -> is_apart_from x (t j) = true) ->
+    apart (put t i x).
   Proof.
     intros t i x A H j k Lj Lk D.
     destruct (Nat.eq_dec j i) as [->|J], (Nat.eq_dec k i) as [->|K]; rewrite ?put_same, ?put_other by assumption.
@@ -180,7 +185,8 @@ Proof.
   { intros [a1 a2] [b1 b2]; unfold cell_eqb; cbn [fst snd]; rewrite andb_false_iff, !Z.eqb_neq; auto. }
   intros x y H; unfold is_apart_from, has in H; rewrite andb_true_iff, !negb_true_iff, !orb_false_iff in H.
   destruct H as [[A B] [C D]]; apply NE in A, B, C, D.
-  destruct x as [[a b]|[a b] []], y as [[c d]|[c d] []]; unfold left_, next, beyond in *; cbn [fst snd offset] in *; lia.
+  destruct x as [[a b]|[a b] []], y as [[c d]|[c d] []]; unfold left_, next, beyond in *; cbn [fst snd offset] in *;
+    lia.
 Qed.
 
 Lemma apart_distance : forall x y s t, is_apart_from x y = true -> (0 <= s <= 1)%Q -> (0 <= t <= 1)%Q ->
@@ -191,11 +197,15 @@ Proof.
   assert (forall u v : Q, 1 <= v * v -> 1 <= u * u + v * v)%Q as R by (intros u v H; pose proof (square_le u); lra).
   assert (forall u : Q, 1 <= u \/ u <= -1 -> 1 <= u * u)%Q as G.
   { intros u [H|H].
-    - setoid_replace (u * u)%Q with ((u - 1) * (u - 1) + 2 * (u - 1) + 1)%Q by ring. pose proof (square_le (u - 1)); lra.
-    - setoid_replace (u * u)%Q with ((u + 1) * (u + 1) + 2 * (-1 - u) + 1)%Q by ring. pose proof (square_le (u + 1)); lra. }
+    - setoid_replace (u * u)%Q with ((u - 1) * (u - 1) + 2 * (u - 1) + 1)%Q by ring. pose proof (square_le (u - 1));
+        lra.
+    - setoid_replace (u * u)%Q with ((u + 1) * (u + 1) + 2 * (-1 - u) + 1)%Q by ring. pose proof (square_le (u + 1));
+        lra. }
   unfold whereabouts, norm2, minus, between, centre; cbn [fst snd].
-  pose proof (between_whole (fst (left_ x)) (fst (next x)) s S); pose proof (between_whole (fst (left_ y)) (fst (next y)) t T).
-  pose proof (between_whole (snd (left_ x)) (snd (next x)) s S); pose proof (between_whole (snd (left_ y)) (snd (next y)) t T).
+  pose proof (between_whole (fst (left_ x)) (fst (next x)) s S);
+    pose proof (between_whole (fst (left_ y)) (fst (next y)) t T).
+  pose proof (between_whole (snd (left_ x)) (snd (next x)) s S);
+    pose proof (between_whole (snd (left_ y)) (snd (next y)) t T).
   destruct A as [A|[A|[A|A]]]; rewrite Zle_Qle, inject_Z_plus in A; change (inject_Z 1) with 1%Q in A;
     [apply L | apply L | apply R | apply R]; apply G; lra.
 Qed.
@@ -206,7 +216,8 @@ Proof. intros a b; unfold in_reach; f_equal; ring. Qed.
 Lemma is_sure_of_sym : forall x y, is_sure_of x y = is_sure_of y x.
 Proof.
   intros x y; unfold is_sure_of.
-  rewrite (in_reach_sym (left_ x)), (in_reach_sym (left_ x) (next y)), (in_reach_sym (next x)), (in_reach_sym (next x) (next y)).
+  rewrite (in_reach_sym (left_ x)), (in_reach_sym (left_ x) (next y)), (in_reach_sym (next x)),
+    (in_reach_sym (next x) (next y)).
   destruct (in_reach (left_ y) (left_ x)), (in_reach (next y) (left_ x)), (in_reach (left_ y) (next x)),
     (in_reach (next y) (next x)); reflexivity.
 Qed.
@@ -230,7 +241,8 @@ Qed.
 Theorem KIT_12 : forall N t, run N t -> connected N t.
 Proof. intros N t R; now apply connected_always. Qed.
 
-(** Two robots hear each other all the time: whatever parts of their paths they have driven, they are at most 10 m apart, paths
+(** Two robots hear each other all the time: whatever parts of their paths they have driven,
+    they are at most 10 m apart, paths
     being 3 m. *)
 Theorem KIT_1 : forall t, run 2 t ->
   is_sure_of (t 0) (t 1) = true
@@ -252,7 +264,8 @@ Proof.
   intros; now apply apart_distance.
 Qed.
 
-(** ** Two robots. Which drives some of the conditions admit, as a function that computes: [i] drives, [j] is the other robot. *)
+(** ** Two robots. Which drives some of the conditions admit, as a function that computes: [i] drives,
+    [j] is the other robot. *)
 Record rule := { next_in_reach : bool; from_in_reach : bool; apart_ : bool }.
 
 Definition REPAIRED : rule := Build_rule true true true.
@@ -280,7 +293,8 @@ Proof.
   destruct i as [|[|i]]; [| |lia]; cbn [Nat.sub]; rewrite put_same, put_other by lia.
   - split; [intros [A C]; split; [exact C | apply A; lia]|]. intros [C A]; split; [|exact C].
     intros [|[|j]] Lj D; [lia | exact A | lia].
-  - rewrite (is_sure_of_sym (t 0)). split; [intros [A C]; split; [exact C | apply A; lia]|]. intros [C A]; split; [|exact C].
+  - rewrite (is_sure_of_sym (t 0)). split; [intros [A C]; split; [exact C | apply A; lia]|]. intros [C A]; split;
+      [|exact C].
     intros [|[|j]] Lj D; [exact A | lia | lia].
 Qed.
 

@@ -1,8 +1,11 @@
-(** The tie between the kernel and Kit.v: what the kernel has answered of nodes in reach, of paths that are sure to be in contact
-    or apart, and of the drives that it admits to a robot, in generated/KitAnswers.v, is what the definitions say; and two robots
+(** The tie between the kernel and Kit.v: what the kernel has answered of nodes in reach,
+    of paths that are sure to be in contact
+    or apart, and of the drives that it admits to a robot, in generated/KitAnswers.v, is what the definitions say;
+      and two robots
     in a state that can be reached ask nothing else.
 
-    The drives are those of the kernel's second robot, while the first one stands or drives, by the repaired rule and without each
+    The drives are those of the kernel's second robot, while the first one stands or drives,
+      by the repaired rule and without each
     of the three conditions. *)
 From Coq Require Import ZArith NArith Lia Bool List Arith.
 From Tautline Require Import Lattice Kit.
@@ -69,7 +72,8 @@ Proof.
   split; [vm_compute; reflexivity|]. intros t R; destruct (KIT_1 t R) as [S _].
   unfold is_sure_of in S; rewrite !andb_true_iff in S; destruct S as [[[S _] _] _]; unfold in_reach in S.
   rewrite Z.leb_le in S. assert (reach = 5) as -> by reflexivity.
-  set (d := fst (left_ (t 0%nat)) - fst (left_ (t 1%nat))) in *; set (e := snd (left_ (t 0%nat)) - snd (left_ (t 1%nat))) in *.
+  set (d := fst (left_ (t 0%nat)) - fst (left_ (t 1%nat))) in *; set (e :=
+    snd (left_ (t 0%nat)) - snd (left_ (t 1%nat))) in *.
   clearbody d e. pose proof (Z.square_nonneg d); pose proof (Z.square_nonneg e).
   assert (d * d <= 11) as D by lia; assert (e * e <= 11) as E by lia; clear - D E; split; nia.
 Qed.

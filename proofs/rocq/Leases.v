@@ -1,6 +1,8 @@
-(** MRC-1, MRC-2, MRC-4, MRC-6 and MRC-8, repaired, for any number of robots, WFRs, events and calls, whatever the network does.
+(** MRC-1, MRC-2, MRC-4, MRC-6 and MRC-8, repaired, for any number of robots, WFRs, events and calls,
+    whatever the network does.
 
-    The clauses follow from ten sentences that every event keeps: [inv]. The two that carry the others: for one call a WFR never
+    The clauses follow from ten sentences that every event keeps: [inv]. The two that carry the others: for one call a
+      WFR never
     names two robots, and who has accepted the present call of a WFR that waits for it holds its lease. *)
 From Coq Require Import List Bool Arith Lia.
 From Tautline Require Import Mrc.
@@ -82,7 +84,8 @@ Proof.
 Qed.
 
 Lemma serve_record : forall w x v,
-  record_of (serve w x) v = option_map (fun q => if v =? w then {| wfr_of := wfr_of q; epoch := epoch q; served := true |} else q)
+  record_of (serve w x) v = option_map (fun q => if v =? w then {| wfr_of := wfr_of q; epoch := epoch q; served :=
+    true |} else q)
                                        (record_of x v).
 Proof.
   intros w x v; unfold record_of, serve; cbn [requests]. rewrite find_change by auto.
@@ -119,7 +122,8 @@ Proof.
       destruct (K v f T') as [p [P E]]; exists p; split; [|exact E].
       unfold record_of in *; cbn [requests]. rewrite find_change by auto.
       apply Nat.eqb_neq in D; now rewrite D.
-    + intros p P; cbn in P; apply in_change in P; destruct P as [p' [P [->|[E ->]]]]; [left; eauto | right; reflexivity].
+    + intros p P; cbn in P; apply in_change in P; destruct P as [p' [P [->|[E ->]]]]; [left; eauto | right;
+        reflexivity].
     + cbn. destruct (is_own (doing x) w) eqn:O; [right | left; reflexivity].
       split; [split; [reflexivity|]|].
       * intros f F; destruct (K w f (or_intror F)) as [p [P E]]. rewrite R in P; injection P as <-. lia.
@@ -127,7 +131,8 @@ Proof.
   - unfold adds in H; apply in_map_iff in H; destruct H as [l [<- H]]; cbn [requests doing].
     set (q := {| wfr_of := w; epoch := e; served := false |}) in *.
     assert ((forall p, In p l -> p = q \/ In p (requests x))
-            /\ (forall v, is_own (doing x) v = true -> wfr_of q <> v -> find (about v) l = find (about v) (requests x))) as [A B].
+            /\ (forall v, is_own (doing x) v = true -> wfr_of q <> v ->
+              find (about v) l = find (about v) (requests x))) as [A B].
     { destruct H as [<-|[<-|H]].
       - split; auto.
       - split; [intros p P; apply in_app_or in P; destruct P as [P|[<-|[]]]; auto|].
@@ -212,7 +217,8 @@ Proof.
       * assert (f = e) as -> by (apply (Known w f); auto).
         constructor; [| apply FS | | |]; cbn; rewrite ?D; try (intros; discriminate).
         -- intros u g [T|T]; [discriminate|]; injection T as <- <-.
-           change (record_of (now (serve w x) (Leased w e)) w) with (record_of (serve w x) w); rewrite serve_record, R; cbn.
+           change (record_of (now (serve w x) (Leased w e)) w) with (record_of (serve w x) w); rewrite serve_record,
+             R; cbn.
            eexists; split; [reflexivity|]; now rewrite Nat.eqb_refl.
         -- intros m [<-|[]]; right; right; exists w, e; auto.
         -- intros u g [= <- <-]; auto.
@@ -231,11 +237,14 @@ Proof.
     + constructor; auto; [apply records_same | intros m [<-|[]]; left; eauto].
     + eapply asks_goes; [exact H | apply serve_known; auto | apply serve_from | |]; cbn; intros; congruence.
   - destruct (doing x) as [|w e|w e] eqn:D;
-      (eapply asks_goes; [exact H | first [exact K | apply now_known; exact K] | first [apply records_now | apply records_same] | |]);
+      (eapply asks_goes; [exact H | first [exact K | apply now_known;
+        exact K] | first [apply records_now | apply records_same] | |]);
       cbn; intros; auto; congruence.
   - destruct (doing x) as [|v f|v f] eqn:D; try (apply nothing_goes; assumption).
-    destruct (Nat.eqb_spec v w) as [->|], (Nat.eqb_spec f e) as [->|]; cbn [andb] in H; try (apply nothing_goes; assumption).
-    eapply asks_goes; [exact H | apply now_known; exact K | first [apply records_now | apply records_same] | |]; cbn; intros u g T; [discriminate|].
+    destruct (Nat.eqb_spec v w) as [->|], (Nat.eqb_spec f e) as [->|]; cbn [andb] in H; try (apply nothing_goes;
+      assumption).
+    eapply asks_goes; [exact H | apply now_known; exact K | first [apply records_now | apply records_same] | |]; cbn;
+      intros u g T; [discriminate|].
     rewrite D in T; injection T as <- <-; auto.
 Qed.
 
@@ -261,7 +270,8 @@ Lemma wfr_changes : forall w x i y out, In (y, out) (wfr_outcomes REPAIRED w x i
 Proof.
   intros w x i y out H; unfold wfr_outcomes in H; cbn [epochs REPAIRED negb orb] in H.
   destruct i as [|[v e|v e r|v e r c|v e r|v e r]| |]; try (apply same_changes; assumption).
-  - destruct (stage x) eqn:P; try (apply same_changes; assumption); destruct H as [[= <- <-]|[]]; apply calls; cbn; auto.
+  - destruct (stage x) eqn:P; try (apply same_changes; assumption); destruct H as [[= <- <-]|[]]; apply calls; cbn;
+      auto.
   - destruct ((v =? w) && (e =? call x)) eqn:M; [|apply same_changes; assumption].
     unfold hears_move in H; cbn [choice_stands REPAIRED] in H.
     destruct (stage x) as [|best|c|c|] eqn:P; try (apply same_changes; assumption).
@@ -332,7 +342,8 @@ Lemma inv_wfr : forall s w i y out, inv s -> (i = Reached \/ wfr_may s i) ->
 Proof.
   intros s w i y out V M H; apply wfr_changes in H.
   (* the number of the call never falls *)
-  assert (call (wfrs s w) <= call y) as Grow by (destruct H as [-> _ _|b -> _ _ _|[[-> _]| ->] _ _|c _ _ -> _ _|_ -> _ _]; lia).
+  assert (call (wfrs s w) <= call y) as Grow by (destruct H as [-> _ _|b -> _ _ _|[[-> _]| ->] _ _|c _ _ -> _ _|_ ->
+    _ _]; lia).
   assert (forall v, call (wfrs s v) <= call (put (wfrs s) w y v)) as GrowAll.
   { intros v; destruct (Nat.eq_dec v w) as [->|D]; [now rewrite put_same | now rewrite put_other]. }
   (* what it sends *)
@@ -375,9 +386,12 @@ Proof.
     + rewrite put_other in * by exact D; apply App in I; destruct I as [I|I].
       * destruct (Out _ I) as [E|[r' [c' [E _]]]]; congruence.
       * now apply (choice_is_stage s V v r c).
-  - assert (forall v e r r' c c', In (Resb v e r (Some c)) out -> In (Resb v e r' (Some c')) (out ++ sent s) -> c = c') as One.
-    { intros v e r r' c c' I J; destruct (Out _ I) as [E|[r1 [c1 [E [F C]]]]]; [discriminate|]. injection E as -> -> -> <-.
-      assert (stage (wfrs s w) = Offered c \/ stage (wfrs s w) = CountsOn c \/ stage (wfrs s w) = Collecting (Some c)) as X
+  - assert (forall v e r r' c c', In (Resb v e r (Some c)) out -> In (Resb v e r' (Some c')) (out ++ sent s) ->
+      c = c') as One.
+    { intros v e r r' c c' I J; destruct (Out _ I) as [E|[r1 [c1 [E [F C]]]]]; [discriminate|]. injection E as -> ->
+        -> <-.
+      assert (stage (wfrs s w) = Offered c \/ stage (wfrs s w) = CountsOn c \/ stage (wfrs s w) = Collecting (Some c))
+        as X
         by (destruct (C c eq_refl) as [X|[X|[X _]]]; auto).
       apply App in J; destruct J as [J|J].
       - destruct (Out _ J) as [E|[r2 [c2 [E [F' C']]]]]; [discriminate|]. injection E as -> <-.
@@ -394,7 +408,8 @@ Proof.
     { destruct (Out _ I) as [E|[r' [c' [E _]]]]; discriminate. }
     destruct (Nat.eq_dec v w) as [->|D]; [|rewrite put_other in * by exact D; now apply (accepted_holds s V)].
     rewrite put_same in *; unfold waits in W.
-    destruct H as [E [Q|[b [b' [P Q]]]] _|b E P Q _|[[E P]|E] Q _|c' _ P E Q _|_ E Q _]; rewrite ?E, ?Q in *; try contradiction.
+    destruct H as [E [Q|[b [b' [P Q]]]] _|b E P Q _|[[E P]|E] Q _|c' _ P E Q _|_ E Q _]; rewrite ?E, ?Q in *;
+      try contradiction.
     + apply (accepted_holds s V); [exact I | exact W].
     + exfalso; apply (accepted_chosen s V) in I; revert I; apply Unnamed; congruence.
     + apply (accepted_holds s V); [exact I | unfold waits; now rewrite P].
@@ -422,18 +437,22 @@ Proof.
   assert (forall w e c, In (Notice w e) out \/ (exists to, In (Resb w e to c) out) -> False) as NoCall.
   { intros w e c [I|[to I]]; destruct (O _ I) as [[v [f E]]|[[v [f E]]|[v [f [E _]]]]]; discriminate. }
   constructor; cbn [robots wfrs sent].
-  - intros w e I; apply App in I; destruct I as [I|I]; [exfalso; eapply (NoCall w e None); eauto | now apply (notices_called s V)].
-  - intros w e a c I; apply App in I; destruct I as [I|I]; [exfalso; eapply NoCall; eauto | eapply (choices_called s V); eauto].
+  - intros w e I; apply App in I; destruct I as [I|I]; [exfalso; eapply (NoCall w e None);
+      eauto | now apply (notices_called s V)].
+  - intros w e a c I; apply App in I; destruct I as [I|I]; [exfalso; eapply NoCall;
+      eauto | eapply (choices_called s V); eauto].
   - intros a q I; destruct (Nat.eq_dec a r) as [->|D].
     + rewrite put_same in I; destruct (F q I) as [[p [P [W E]]]|J].
       * rewrite <- W, <- E; now apply (records_called s V r).
       * rewrite J in M; cbn in M; now apply (notices_called s V).
     + rewrite put_other in I by exact D; now apply (records_called s V a).
-  - intros w a c I; apply App in I; destruct I as [I|I]; [exfalso; eapply NoCall; eauto | eapply (choice_is_stage s V); eauto].
+  - intros w a c I; apply App in I; destruct I as [I|I]; [exfalso; eapply NoCall;
+      eauto | eapply (choice_is_stage s V); eauto].
   - intros w e a a' c c' I J; apply App in I, J.
     destruct I as [I|I]; [exfalso; eapply NoCall; eauto|]. destruct J as [J|J]; [exfalso; eapply NoCall; eauto|].
     eapply (one_choice s V); eauto.
-  - intros a; destruct (Nat.eq_dec a r) as [->|D]; [now rewrite put_same | rewrite put_other by exact D; apply (tasks_known s V)].
+  - intros a; destruct (Nat.eq_dec a r) as [->|D]; [now rewrite put_same | rewrite put_other by exact D;
+      apply (tasks_known s V)].
   - intros a w e X; apply Old; destruct (Nat.eq_dec a r) as [->|D].
     + rewrite put_same in X; destruct (T w e X) as [Y|[J _]]; [now apply (leased_chosen s V)|].
       rewrite J in M; exact M.
@@ -441,7 +460,8 @@ Proof.
   - intros w e a I; apply App in I; apply Old; destruct I as [I|I]; [|now apply (accepted_chosen s V)].
     destruct (O _ I) as [[v [f E]]|[[v [f E]]|[v [f [[= -> -> ->] [J _]]]]]]; try discriminate. rewrite J in M; exact M.
   - intros w a I W; apply App in I; destruct I as [I|I].
-    { destruct (O _ I) as [[v [f E]]|[[v [f E]]|[v [f [[= -> <- ->] [_ D]]]]]]; try discriminate. now rewrite put_same. }
+    { destruct (O _ I) as [[v [f E]]|[[v [f E]]|[v [f [[= -> <- ->] [_ D]]]]]];
+        try discriminate. now rewrite put_same. }
     pose proof (accepted_holds s V w a I W) as X.
     destruct (Nat.eq_dec a r) as [->|D]; [rewrite put_same | now rewrite put_other].
     destruct (L w _ X) as [Y|[J|[J|[f [J G]]]]]; [exact Y | exfalso | exfalso | exfalso]; rewrite J in M; cbn in M.
@@ -453,7 +473,8 @@ Qed.
 
 Lemma inv_always : forall s, reached REPAIRED s -> inv s.
 Proof.
-  intros s R; induction R as [|s s' R V E]; [apply inv_start|]. destruct E as [w i x out M H|r i x out M H|r w e x out y none D H G].
+  intros s R; induction R as [|s s' R V E];
+    [apply inv_start|]. destruct E as [w i x out M H|r i x out M H|r w e x out y none D H G].
   - eapply inv_wfr; eauto.
   - apply inv_robot with (i := i); auto. destruct i; cbn in M |- *; try exact M; contradiction.
   - pose proof (inv_wfr s w Reached y none V (or_introl eq_refl) G) as V'.
@@ -488,12 +509,14 @@ Proof.
 Qed.
 
 (** A robot takes the lease of a call only when it is told, while it asks for that call, that it is chosen. *)
-Theorem MRC_8 : forall s, reached REPAIRED s -> forall r i x out, In (x, out) (robot_outcomes REPAIRED r (robots s r) i) ->
+Theorem MRC_8 : forall s, reached REPAIRED s -> forall r i x out, In (x,
+  out) (robot_outcomes REPAIRED r (robots s r) i) ->
   forall w e, doing x = Leased w e -> doing (robots s r) <> Leased w e ->
   i = Told (Resb w e r (Some r)) /\ doing (robots s r) = Asking w e.
 Proof.
   intros s R r i x out H w e L N; pose proof (inv_always s R) as V.
-  apply robot_goes in H; [|apply (tasks_known s V)]. destruct (goes_takes _ _ _ _ _ H w e L); [contradiction | assumption].
+  apply robot_goes in H; [|apply (tasks_known s V)]. destruct (goes_takes _ _ _ _ _ H w e L);
+    [contradiction | assumption].
 Qed.
 
 (** A robot that hears a call under a new epoch has its SBit clear. *)

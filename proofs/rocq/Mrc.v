@@ -1,17 +1,23 @@
-(** MRC, repaired, after section 3.3 of [Jiang 2011]: any number of robots and of nodes that wait for rescue (WFRs), any number
+(** MRC, repaired, after section 3.3 of [Jiang 2011]: any number of robots and of nodes that wait for rescue (WFRs),
+    any number
     of events and of calls, and a network that delays, loses, repeats and reorders messages as it likes.
 
-    Leases.v speaks of this file. A robot and a WFR are functions from what they are and what happens to the list of what may
-    come of it, as in kernel/src/mrc/robot.rs and wfr.rs; where the kernel decides (the nearest call, the best bid, whose record
-    makes room), the list has every decision. Hop counts and parents are left out. Tie.v shows that whatever the kernel's robots
+    Leases.v speaks of this file. A robot and a WFR are functions from what they are and what happens to the list of
+      what may
+    come of it, as in kernel/src/mrc/robot.rs and wfr.rs; where the kernel decides (the nearest call, the best bid,
+      whose record
+    makes room), the list has every decision. Hop counts and parents are left out. Tie.v shows that whatever the
+      kernel's robots
     and WFRs do in a table of situations is in these lists.
 
-    Whatever was sent may arrive at any time, again, late or never. Timers go off at any time, too, with one exception, which
+    Whatever was sent may arrive at any time, again, late or never. Timers go off at any time, too,
+      with one exception, which
     SPEC.md names: a robot's lease does not lapse while its WFR waits for it. *)
 From Coq Require Import List Bool Arith.
 Import ListNotations.
 
-(** The conditions that the clauses of Leases.v need, as in kernel/src/mrc/rule.rs; the others are in force or play no part. *)
+(** The conditions that the clauses of Leases.v need, as in kernel/src/mrc/rule.rs;
+    the others are in force or play no part. *)
 Record rule := {
   (** A MOVE after the choice does not change it. *)
   choice_stands : bool;
@@ -26,7 +32,8 @@ Definition without_ChoiceStands : rule := Build_rule false true true.
 Definition without_Epochs : rule := Build_rule true false true.
 Definition without_Consent : rule := Build_rule true true false.
 
-(** WFRs, robots and epochs have numbers. [Resb w e r c]: WFR [w] tells robot [r] that for its call [e] it has chosen [c]. *)
+(** WFRs, robots and epochs have numbers. [Resb w e r c]: WFR [w] tells robot [r] that for its call [e] it has chosen
+    [c]. *)
 Inductive message :=
 | Notice (w e : nat)
 | Move (w e r : nat)
@@ -87,7 +94,8 @@ Definition wfr_outcomes (rl : rule) (w : nat) (x : wfr) (i : wfr_input) : list (
   | Hears (Accept v e r) =>
       match stage x with
       | Offered c =>
-          if is_mine v e && (c =? r) then [({| call := call x; stage := CountsOn c; asked := asked x |}, [])] else [(x, [])]
+          if is_mine v e && (c =? r) then [({| call := call x; stage := CountsOn c; asked := asked x |},
+            [])] else [(x, [])]
       | Idle | Collecting _ | CountsOn _ | Rescued => [(x, [])]
       end
   | Hears (Decline v e r) =>
@@ -127,7 +135,8 @@ Definition record_of (x : robot) (w : nat) : option request := find (about w) (r
 Definition change (w : nat) (f : request -> request) (l : list request) : list request :=
   map (fun q => if about w q then f q else q) l.
 Definition serve (w : nat) (x : robot) : robot :=
-  {| requests := change w (fun q => {| wfr_of := wfr_of q; epoch := epoch q; served := true |}) (requests x); doing := doing x |}.
+  {| requests := change w (fun q => {| wfr_of := wfr_of q; epoch := epoch q; served := true |}) (requests x);
+    doing := doing x |}.
 Definition now (x : robot) (t : task) : robot := {| requests := requests x; doing := t |}.
 
 (** A free robot may send MOVE for a call whose SBit is clear. *)
@@ -153,7 +162,8 @@ Fixpoint making_room (own : nat -> bool) (q : request) (l : list request) : list
   | p :: l => (if served p && negb (own (wfr_of p)) then [q :: l] else []) ++ map (cons p) (making_room own q l)
   end.
 
-(** It hears a call that it has no record of: it adds one, in the place of a served one if the table is full, or none. *)
+(** It hears a call that it has no record of: it adds one, in the place of a served one if the table is full,
+    or none. *)
 Definition adds (x : robot) (q : request) : list robot :=
   map (fun l => {| requests := l; doing := doing x |})
     (requests x :: (requests x ++ [q]) :: making_room (is_own (doing x)) q (requests x)).
@@ -167,7 +177,8 @@ Definition notes (rl : rule) (x : robot) (w e : nat) : list robot :=
           [{| requests := change w (fun _ => {| wfr_of := w; epoch := e; served := false |}) (requests x);
               doing := if is_own (doing x) w then Free else doing x |}]
         else [x]
-      else [{| requests := change w (fun q => {| wfr_of := w; epoch := max (epoch q) e; served := served q |}) (requests x);
+      else [{| requests := change w (fun q => {| wfr_of := w; epoch := max (epoch q) e; served :=
+        served q |}) (requests x);
                doing := doing x |}]
   end.
 
@@ -216,7 +227,8 @@ Record rescue := { robots : nat -> robot; wfrs : nat -> wfr; sent : list message
 Definition put {A : Type} (f : nat -> A) (n : nat) (x : A) : nat -> A := fun m => if m =? n then x else f m.
 
 (** Whether a WFR waits for the robot that it has chosen. *)
-Definition waits (x : wfr) : Prop := match stage x with Offered _ | CountsOn _ => True | Idle | Collecting _ | Rescued => False end.
+Definition waits (x : wfr) : Prop := match stage x with Offered _ | CountsOn _ =>
+  True | Idle | Collecting _ | Rescued => False end.
 
 Definition wfr_may (s : rescue) (i : wfr_input) : Prop :=
   match i with Hears m => In m (sent s) | Raised | Expires => True | Reached => False end.

@@ -1,4 +1,5 @@
-(** MRC's conditions are needed: without ChoiceStands, Epochs or Consent a rescue comes where MRC-1, MRC-2 or MRC-4 forbids.
+(** MRC's conditions are needed: without ChoiceStands, Epochs or Consent a rescue comes where MRC-1,
+    MRC-2 or MRC-4 forbids.
 
     Each theorem is a run from the start, whose events are checked by computation. *)
 From Coq Require Import List Bool Arith.
@@ -16,7 +17,8 @@ Definition was_sent (m : message) (s : rescue) : bool :=
 
 Lemma was_sent_in : forall m s, was_sent m s = true -> In m (sent s).
 Proof.
-  intros m s H; apply existsb_exists in H; destruct H as [n [I E]]; destruct (eq_messages [m] [n]) as [[= ->]|]; congruence.
+  intros m s H; apply existsb_exists in H; destruct H as [n [I E]]; destruct (eq_messages [m] [n]) as [[= ->]|];
+    congruence.
 Qed.
 
 (** Leases that lapse, and robots that come without a lease, occur in none of the runs. *)
@@ -40,7 +42,8 @@ Definition acted (rl : rule) (s : rescue) (a : act) : option rescue :=
   | Both r k =>
       match doing (robots s r) with
       | Leased w _ =>
-          match nth_error (robot_outcomes rl r (robots s r) Arrives) k, nth_error (wfr_outcomes rl w (wfrs s w) Reached) 0 with
+          match nth_error (robot_outcomes rl r (robots s r) Arrives) k,
+            nth_error (wfr_outcomes rl w (wfrs s w) Reached) 0 with
           | Some (x, out), Some (y, none) =>
               Some {| robots := put (robots s) r x; wfrs := put (wfrs s) w y; sent := out ++ none ++ sent s |}
           | _, _ => None
@@ -99,7 +102,8 @@ Proof.
   vm_compute; auto.
 Qed.
 
-(** The robot has come. At the next event of the WFR an old MOVE and an old acceptance arrive once more, while the robot is on its
+(** The robot has come. At the next event of the WFR an old MOVE and an old acceptance arrive once more,
+    while the robot is on its
     way to another WFR. *)
 Theorem without_Epochs_breaks_MRC_2 : exists s, reached without_Epochs s
   /\ stage (wfrs s 1) = CountsOn 1 /\ stage (wfrs s 2) = CountsOn 1.

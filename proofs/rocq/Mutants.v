@@ -1,6 +1,7 @@
 (** Every condition of the chain is needed: with one taken out, a team comes where CHAIN-1, CHAIN-2 or CHAIN-3 forbids.
 
-    Each theorem is a counterexample that begins in the base: plans that the weaker rule admits, in a layout with at most three
+    Each theorem is a counterexample that begins in the base: plans that the weaker rule admits,
+      in a layout with at most three
     walls. Each run is checked by computation, and Replay.v shows that what the check accepts can be reached. *)
 From Coq Require Import ZArith Lia Bool List Arith.
 From Tautline Require Import Lattice Rule Team Replay.
@@ -17,7 +18,8 @@ Definition o := Stay.
 Fixpoint follow (N : nat) (rl : rule) (walls : list edge) (t : listed) (plans : list (list step)) : option listed :=
   match plans with
   | [] => Some t
-  | pl :: plans => match next N rl (0, 0) walls t (Advance pl) with Some t => follow N rl walls t plans | None => None end
+  | pl :: plans => match next N rl (0, 0) walls t (Advance pl) with Some t => follow N rl walls t plans | None =>
+    None end
   end.
 
 Definition comes_to (N : nat) (rl : rule) (walls : list edge) (plans : list (list step)) : option (list cell) :=
@@ -26,7 +28,8 @@ Definition comes_to (N : nat) (rl : rule) (walls : list edge) (plans : list (lis
 Lemma follow_reachable : forall N rl walls plans t t', reachable N rl (0, 0) (stands walls) (state_of t) ->
   follow N rl walls t plans = Some t' -> reachable N rl (0, 0) (stands walls) (state_of t').
 Proof.
-  intros N rl walls plans; induction plans as [|pl plans IH]; intros t t' R E; cbn [follow] in E; [now injection E as <-|].
+  intros N rl walls plans; induction plans as [|pl plans IH]; intros t t' R E; cbn [follow] in E;
+    [now injection E as <-|].
   destruct (next N rl (0, 0) walls t (Advance pl)) as [u|] eqn:X; [|discriminate].
   eapply IH; [|exact E]. eapply next_reachable; eauto.
 Qed.
@@ -75,11 +78,14 @@ Theorem without_CoveredBehind_breaks_CHAIN_1 : breaks_CHAIN_1 without_CoveredBeh
 Proof. by_run 3%nat without_CoveredBehind [((0, 0), true)] [[o; o; s]; [o; o; e]; [o; e; e]]. Qed.
 (** Four robots and three walls. *)
 Theorem published_breaks_CHAIN_2 : breaks_CHAIN_2 PUBLISHED.
-Proof. by_run 4%nat PUBLISHED [((0, 1), true); ((1, 1), true); ((1, 1), false)] [[o; o; o; e]; [o; o; e; s]; [o; e; s; w]; [o; s; s; e]]. Qed.
+Proof. by_run 4%nat PUBLISHED [((0, 1), true); ((1, 1), true); ((1, 1), false)] [[o; o; o; e]; [o; o; e; s]; [o; e; s;
+  w]; [o; s; s; e]]. Qed.
 Theorem without_FullForFollower_breaks_CHAIN_2 : breaks_CHAIN_2 without_FullForFollower.
-Proof. by_run 4%nat without_FullForFollower [((0, 1), true); ((1, 1), true); ((1, 1), false)] [[o; o; o; e]; [o; o; e; s]; [o; e; s; w]; [o; s; s; e]]. Qed.
+Proof. by_run 4%nat without_FullForFollower [((0, 1), true); ((1, 1), true); ((1, 1), false)] [[o; o; o; e]; [o; o; e;
+  s]; [o; e; s; w]; [o; s; s; e]]. Qed.
 Theorem without_FullForLeader_breaks_CHAIN_2 : breaks_CHAIN_2 without_FullForLeader.
-Proof. by_run 4%nat without_FullForLeader [((1, 0), false); ((1, 0), true); ((1, -1), false)] [[o; o; e; o]; [o; e; s; o]; [o; n; e; e]]. Qed.
+Proof. by_run 4%nat without_FullForLeader [((1, 0), false); ((1, 0), true); ((1, -1), false)] [[o; o; e; o]; [o; e; s;
+  o]; [o; n; e; e]]. Qed.
 (** Four robots, no wall. *)
 Theorem without_Distinct_breaks_CHAIN_2 : breaks_CHAIN_2 without_Distinct.
 Proof. by_run 4%nat without_Distinct (@nil edge) [[o; e; e; e]]. Qed.

@@ -1,9 +1,13 @@
-(** NOTICE-1: at every moment the parent pointers form a tree rooted at the source, each node one hop farther from it than its
-    parent; after section 3.2 of [Jiang 2011].
+(** NOTICE-1: at every moment the parent pointers form a tree rooted at the source,
+    each node one hop farther from it than its
+    parent; after section 3.2 of [Jiang 2011]. NOTICE-2: a node forwards an event at most once.
 
-    In every network, also an infinite one, whose nodes have any numbers; under every scheme, in every order of arrival and of the
-    ends of waits, whatever is lost or repeated. A node may take any NOTICE that it hears while it waits, so the theorem needs
-    neither the least hop count nor the first heard. NoticeTie.v shows that whatever a node of the kernel makes of a NOTICE is in
+    In every network, also an infinite one, whose nodes have any numbers; under every scheme,
+      in every order of arrival and of the
+    ends of waits, whatever is lost or repeated. A node may take any NOTICE that it hears while it waits,
+      so the theorem needs
+    neither the least hop count nor the first heard. NoticeTie.v shows that whatever a node of the kernel makes of a
+      NOTICE is in
     [hears]. There is one event of one source. *)
 From Coq Require Import Lia Bool List Arith.
 Import ListNotations.
@@ -12,7 +16,8 @@ Import ListNotations.
 Inductive phase := Unaware | Waiting | Silent | Forwarded.
 Record node := { stage : phase; parent : nat; hops : nat }.
 
-(** What a NOTICE of sender [s] with hop count [h] may make of a node: it waits, or is silent at once; one that waits takes it or
+(** What a NOTICE of sender [s] with hop count [h] may make of a node: it waits, or is silent at once;
+    one that waits takes it or
     not, and is silent or not; it is ignored. What has fallen silent or forwarded stays as it is. *)
 Definition hears (x : node) (s h : nat) : list node :=
   let nearer next := {| stage := next; parent := s; hops := S h |} in
@@ -29,7 +34,8 @@ Section Network.
   Variable link : nat -> nat -> Prop.
   Variable source : nat.
 
-  (** The nodes, and every NOTICE ever sent: its sender and hop count. What was sent may arrive at any time, over any link,
+  (** The nodes, and every NOTICE ever sent: its sender and hop count. What was sent may arrive at any time,
+      over any link,
       any number of times, or never. *)
   Record net := { nodes : nat -> node; sent : list (nat * nat) }.
 
@@ -56,7 +62,8 @@ Section Network.
     (stage (nodes w source) = Forwarded /\ parent (nodes w source) = source /\ hops (nodes w source) = 0)
     /\ (forall s h, In (s, h) (sent w) -> stage (nodes w s) = Forwarded /\ hops (nodes w s) = h)
     /\ (forall n, knows w n -> n <> source ->
-          In (parent (nodes w n), pred (hops (nodes w n))) (sent w) /\ 1 <= hops (nodes w n) /\ link (parent (nodes w n)) n).
+          In (parent (nodes w n), pred (hops (nodes w n))) (sent w) /\ 1 <= hops (nodes w n) /\
+            link (parent (nodes w n)) n).
 
   Lemma put_same : forall f n x, put f n x n = x.
   Proof. intros; unfold put; now rewrite Nat.eqb_refl. Qed.
@@ -108,7 +115,8 @@ Section Network.
       + exfalso; unfold knows in H; cbn in H; rewrite put_other in H by exact H0; now apply H.
       + exfalso; unfold knows in H; cbn in H; rewrite put_other in H by exact H0; now apply H.
     - assert (forall n, stage (nodes w n) = Waiting ->
-        In (parent (nodes w n), pred (hops (nodes w n))) (sent w) /\ 1 <= hops (nodes w n) /\ link (parent (nodes w n)) n) as P.
+        In (parent (nodes w n), pred (hops (nodes w n))) (sent w) /\ 1 <= hops (nodes w n) /\
+          link (parent (nodes w n)) n) as P.
       { intros n W; apply I; [unfold knows; congruence|].
         intros ->; destruct I as [[F _] _]; congruence. }
       destruct E as [s n h x In_ L H | n W].
@@ -132,7 +140,8 @@ Section Network.
   Fixpoint ancestor (w : net) (k : nat) (n : nat) : nat :=
     match k with 0 => n | S k => ancestor w k (parent (nodes w n)) end.
 
-  (** At every moment, of every node that knows of the event: its parent knows of it, too, has forwarded, is linked to it and
+  (** At every moment, of every node that knows of the event: its parent knows of it, too, has forwarded,
+      is linked to it and
       one hop nearer; and after as many parents as it has hops stands the source, and no earlier. *)
   Theorem NOTICE_1 : forall w, reaches_net w -> forall n, knows w n ->
     (n <> source -> stage (nodes w (parent (nodes w n))) = Forwarded
@@ -142,7 +151,8 @@ Section Network.
   Proof.
     intros w R n K; pose proof (inv_always w R) as [[S0 [P0 H0]] [I1 I2]].
     assert (forall m, knows w m -> m <> source -> stage (nodes w (parent (nodes w m))) = Forwarded
-                    /\ hops (nodes w m) = S (hops (nodes w (parent (nodes w m)))) /\ link (parent (nodes w m)) m) as One.
+                    /\ hops (nodes w m) = S (hops (nodes w (parent (nodes w m)))) /\
+                      link (parent (nodes w m)) m) as One.
     { intros m Km D; destruct (I2 m Km D) as [A [B L]]; destruct (I1 _ _ A) as [F H]; repeat split; auto; lia. }
     split; [now apply One|].
     remember (hops (nodes w n)) as h eqn:E; revert n K E; induction h as [|h IH]; intros n K E; cbn.
@@ -153,9 +163,19 @@ Section Network.
       destruct (IH (parent (nodes w n))) as [A B]; [unfold knows; congruence | lia |].
       split; [exact A|]. intros [|k] Lk; cbn; [exact D|]. apply B; lia.
   Qed.
+
+  (** A node forwards the event at most once. *)
+  Theorem NOTICE_2 : forall w, reaches_net w -> NoDup (map fst (sent w)).
+  Proof.
+    intros w R; induction R as [|w w' R N E]; [cbn; repeat constructor; intros []|].
+    destruct E as [s n h x I L H | n W]; cbn [sent]; [exact N|].
+    cbn; constructor; [|exact N]. intros I; apply in_map_iff in I; destruct I as [[s h] [E I]]; cbn in E; subst s.
+    destruct (inv_always w R) as [_ [I1 _]]; destruct (I1 n h I) as [F _]; congruence.
+  Qed.
 End Network.
 
-(** Without the freezing, FrozenOnceForwarded: what has forwarded still takes a NOTICE with a hop count up to its own. *)
+(** Without the freezing,
+    FrozenOnceForwarded: what has forwarded still takes a NOTICE with a hop count up to its own. *)
 Definition hears_thawed (x : node) (s h : nat) : list node :=
   match stage x with
   | Forwarded => if h <=? hops x then [x; {| stage := Forwarded; parent := s; hops := S h |}] else [x]

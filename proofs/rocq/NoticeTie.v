@@ -1,7 +1,9 @@
-(** The tie between the kernel and Notice.v: whatever the kernel's nodes have made of NOTICEs in generated/NoticeAnswers.v is in
+(** The tie between the kernel and Notice.v: whatever the kernel's nodes have made of NOTICEs in
+    generated/NoticeAnswers.v is in
     [hears], and what they have sent is what they say of themselves.
 
-    The table has every state that NOTICEs of three senders with three hop counts lead a node to, under nine schemes, with the
+    The table has every state that NOTICEs of three senders with three hop counts lead a node to, under nine schemes,
+      with the
     repaired conditions and without each of those that the theorem does not need. *)
 From Coq Require Import List Bool Arith.
 From Tautline Require Import Notice.
@@ -16,16 +18,19 @@ Definition eq_node (x y : node) : {x = y} + {x <> y}.
 Proof. repeat decide equality. Defined.
 Definition is_node (x y : node) : bool := if eq_node x y then true else false.
 
-Definition is_heard (hears : node -> nat -> nat -> list node) (row : (nat * nat * nat) * (nat * nat) * (nat * nat * nat)) : bool :=
+Definition is_heard (hears : node -> nat -> nat ->
+  list node) (row : (nat * nat * nat) * (nat * nat) * (nat * nat * nat)) : bool :=
   let '(before, (s, h), after) := row in existsb (is_node (node_of after)) (hears (node_of before) s h).
 
 (** A node that waits says its own hop count, and has forwarded then. *)
 Definition is_sent (row : (nat * nat * nat) * ((nat * nat * nat) * nat)) : bool :=
   let '(before, (after, h)) := row in
   let x := node_of before in
-  is_node (node_of after) (forwards x) && (h =? hops x) && match stage x with Waiting => true | Unaware | Silent | Forwarded => false end.
+  is_node (node_of after) (forwards x) && (h =? hops x) && match stage x with Waiting =>
+    true | Unaware | Silent | Forwarded => false end.
 
-(** What the kernel does without the freezing is not in [hears], but in [hears_thawed]: the table tells the two apart. *)
+(** What the kernel does without the freezing is not in [hears],
+    but in [hears_thawed]: the table tells the two apart. *)
 Theorem notice_answers_agree :
   forallb (is_heard hears) heard = true /\ forallb is_sent sent = true
   /\ forallb (fun row => negb (is_heard hears row)) heard_without_FrozenOnceForwarded = true

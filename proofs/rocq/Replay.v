@@ -8,7 +8,8 @@ Inductive team_move := Advance (steps : list step) | Backtrack (steps : list ste
 
 Definition step_eqb (a b : step) : bool :=
   match a, b with
-  | Stay, Stay | Cross East, Cross East | Cross South, Cross South | Cross West, Cross West | Cross North, Cross North => true
+  | Stay, Stay | Cross East, Cross East | Cross South, Cross South | Cross West, Cross West | Cross North,
+    Cross North => true
   | _, _ => false
   end.
 
@@ -48,7 +49,8 @@ Section Replay.
        made_so_far := m :: made_so_far s |}.
 
   Definition list_backtrack (s : listed) (pl : list step) (rest : list (list step)) : listed :=
-    {| places := tabulate (moved stands (team_of (places s)) (undo (plan_of pl))); opened := opened s; made_so_far := rest |}.
+    {| places := tabulate (moved stands (team_of (places s)) (undo (plan_of pl))); opened := opened s;
+      made_so_far := rest |}.
 
   (** One team move, if it is one, and the team is then where it is said to be. *)
   Definition next (s : listed) (m : team_move) : option listed :=
@@ -56,7 +58,8 @@ Section Replay.
     | Advance steps => if admitted N rl base (state_of s) (plan_of steps) then Some (list_advance s steps) else None
     | Backtrack steps =>
         match made_so_far s with
-        | pl :: rest => if list_eqb step_eqb steps (tabulate (undo (plan_of pl))) then Some (list_backtrack s pl rest) else None
+        | pl :: rest => if list_eqb step_eqb steps (tabulate (undo (plan_of pl))) then Some (list_backtrack s pl rest)
+          else None
         | [] => None
         end
     end.
@@ -104,7 +107,8 @@ Section Replay.
   Lemma has_crossed : forall p pl e, has (crossed p pl) e = some N (crosses p pl e).
   Proof.
     intros p pl e; unfold crossed, some, has; induction (seq 0 N) as [|i l IH]; cbn; [reflexivity|].
-    rewrite existsb_app, IH; f_equal. unfold crosses; destruct (pl i); cbn; [rewrite orb_false_r; apply edge_eqb_sym | reflexivity].
+    rewrite existsb_app, IH; f_equal. unfold crosses; destruct (pl i); cbn; [rewrite orb_false_r;
+      apply edge_eqb_sym | reflexivity].
   Qed.
 
   Lemma same_plan_refl : forall l, Forall2 (same_plan N) l l.
@@ -140,7 +144,8 @@ Section Replay.
   Lemma alike_start : alike N (start base) (state_of list_start).
   Proof.
     split; [|split]; cbn.
-    - intros i L; cbn; unfold team_of. rewrite nth_indep with (d' := base) by (now rewrite repeat_length). now rewrite nth_repeat.
+    - intros i L; cbn; unfold team_of. rewrite nth_indep with (d' :=
+        base) by (now rewrite repeat_length). now rewrite nth_repeat.
     - reflexivity.
     - constructor.
   Qed.

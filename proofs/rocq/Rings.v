@@ -1,6 +1,7 @@
 (** CHAIN-10: a chain of N robots needs at least 9(N-1)-1 team moves to explore (2N-1)^2 cells, whatever it does.
 
-    Ring r of the base has 8r cells. By SafeAhead R_i comes at most to ring i-1, so that the leader alone explores ring N-1, one
+    Ring r of the base has 8r cells. By SafeAhead R_i comes at most to ring i-1,
+      so that the leader alone explores ring N-1, one
     cell in a team move, and it needs N-1 team moves to be there at all. *)
 From Coq Require Import ZArith Lia Bool List Arith.
 From Tautline Require Import Lattice Rule Team Contact.
@@ -100,11 +101,14 @@ Section Rings.
     (exists older, past = pos st :: older) /\
     forall i, (i < N)%nat -> ring base (pos st i) <= Z.of_nat (pred (length past)).
   Proof.
-    intros past st R; induction R as [st Al|past st pl st' R [[older ->] T] A Al|past st pl rest st' R [[older ->] T] G Al];
+    intros past st R; induction R as [st Al|past st pl st' R [[older ->] T] A Al|past st pl rest st' R [[older ->] T] G
+      Al];
       (split; [eauto|]); intros i Li; destruct Al as [S _]; rewrite <- (S i Li); cbn.
     - unfold ring, apart_x, apart_y; lia.
-    - specialize (T i Li); cbn in T; unfold moved. pose proof (ring_step base (pos st i) (made wall (pos st) pl i)); lia.
-    - specialize (T i Li); cbn in T; unfold moved. pose proof (ring_step base (pos st i) (made wall (pos st) (undo pl) i)); lia.
+    - specialize (T i Li); cbn in T; unfold moved. pose proof (ring_step base (pos st i) (made wall (pos st) pl i));
+        lia.
+    - specialize (T i Li); cbn in T;
+        unfold moved. pose proof (ring_step base (pos st i) (made wall (pos st) (undo pl) i)); lia.
   Qed.
 
   (** Of the places of the leader, those in the outermost ring are no more than the team moves after the first N-2. *)
@@ -113,9 +117,11 @@ Section Rings.
 
   Lemma outer_step : forall past st, run N rl base wall (pos st :: past) st ->
     (length (filter outer past) + (N - 1) <= length past \/ filter outer past = [])%nat ->
-    (length (filter outer (pos st :: past)) + (N - 1) <= length (pos st :: past) \/ filter outer (pos st :: past) = [])%nat.
+    (length (filter outer (pos st :: past)) + (N - 1) <= length (pos st :: past) \/ filter outer (pos st :: past) =
+      [])%nat.
   Proof.
-    intros past st R IH; apply ring_by_time in R; destruct R as [_ T]; specialize (T (pred N) ltac:(lia)); cbn [length pred] in T.
+    intros past st R IH; apply ring_by_time in R; destruct R as [_ T]; specialize (T (pred N) ltac:(lia));
+      cbn [length pred] in T.
     cbn [filter]; destruct (outer (pos st)) eqn:O; cbn [length].
     - left; unfold outer, leader in O; apply Z.eqb_eq in O; destruct IH as [IH|IH]; [lia|rewrite IH; cbn; lia].
     - destruct IH as [IH|IH]; [left; lia | right; exact IH].

@@ -1,9 +1,12 @@
 (** A team of N robots in any layout: admitted plans, what comes of them, backtracks, and all that can be reached.
 
-    Lattice.v, Rule.v and this file up to [reachable] are what the theorems about the chain speak of. Robots are counted from
+    Lattice.v, Rule.v and this file up to [reachable] are what the theorems about the chain speak of. Robots are
+      counted from
     0: robot 0 is the base R_1, robot N-1 the leader R_N. A run begins with all robots in the base. An advance is any
-    admitted plan, whatever preferred it; each robot that meets a wall stays. A backtrack may come at any time, and the world
-    is asked again. The rest of the file is the composition that all theorems share: what admitted advances keep holds in
+    admitted plan, whatever preferred it; each robot that meets a wall stays. A backtrack may come at any time,
+      and the world
+    is asked again. The rest of the file is the composition that all theorems share: what admitted advances keep holds
+      in
     every run, backtracks included. *)
 From Coq Require Import ZArith Lia Bool List Arith.
 From Tautline Require Import Lattice Rule.
@@ -19,7 +22,8 @@ Definition count (n : nat) (p : nat -> bool) : nat := length (filter p (seq 0 n)
 
 Lemma some_spec : forall n p, some n p = true <-> exists i, i < n /\ p i = true.
 Proof.
-  intros n p; unfold some; rewrite existsb_exists; split; intros [i [H E]]; exists i; rewrite in_seq in *; split; auto; lia.
+  intros n p; unfold some; rewrite existsb_exists; split; intros [i [H E]]; exists i; rewrite in_seq in *; split;
+    auto; lia.
 Qed.
 
 Lemma every_spec : forall n p, every n p = true <-> forall i, i < n -> p i = true.
@@ -64,7 +68,8 @@ Section Layout.
 
   Definition stays (pl : plan) (i : nat) : bool := match pl i with Stay => true | _ => false end.
 
-  (** What the conditions say of robot i alone, i >= 1: CoveredBehind, the leader's null move excepted, and the full cell. *)
+  (** What the conditions say of robot i alone, i >= 1: CoveredBehind, the leader's null move excepted,
+      and the full cell. *)
   Definition admits_robot (st : state) (pl : plan) (i : nat) : bool :=
     ((is_leader i && stays pl i) || admits_behind rl (planned st pl i) (pos st (pred i)))
     && (stays pl i || cell_eqb (planned st pl i) base
@@ -192,9 +197,11 @@ Section Layout.
         + eapply Link_same; [apply same_refl | exact S | exact K].
     Qed.
 
-    Lemma explains_log : forall p l, explains Inv0 Link p l -> forall l', Forall2 same_plan l l' -> explains Inv0 Link p l'.
+    Lemma explains_log : forall p l, explains Inv0 Link p l -> forall l', Forall2 same_plan l l' ->
+      explains Inv0 Link p l'.
     Proof.
-      intros p l E; induction E as [p I | p o pl rest I S A K E IH]; intros l' F; inversion F as [|? pl' ? rest' SP F']; subst.
+      intros p l E; induction E as [p I | p o pl rest I S A K E IH]; intros l' F;
+        inversion F as [|? pl' ? rest' SP F']; subst.
       - now constructor.
       - apply explains_cons with (q := o); auto.
         + intros i L; rewrite (S i L); unfold moved, made; now rewrite (SP i L).

@@ -1,6 +1,7 @@
 (** The step of CHAIN-13: unfolding the chain along a walk keeps to the admission relation, and so to CHAIN-1, 2 and 3.
 
-    For every number of robots, every walk none of whose cells comes twice, and every set of last stops one link apart. That
+    For every number of robots, every walk none of whose cells comes twice,
+      and every set of last stops one link apart. That
     the kernel's search for stops returns such a walk, and the argument about the end of a run, are not proved here. *)
 From Coq Require Import ZArith Lia Bool List Arith.
 From Tautline Require Import Lattice Rule Team Contact.
@@ -21,7 +22,8 @@ Section Unfolding.
   Hypothesis walk_steps : forall k, k < length -> exists s, walk (S k) = beyond (walk k) s.
   Hypothesis walk_once : forall j k, j <= length -> k <= length -> walk j = walk k -> j = k.
 
-  (** The last stop of each robot along the walk: 0 for those that stay in the base. One link apart: a cell farther, or two
+  (** The last stop of each robot along the walk: 0 for those that stay in the base. One link apart: a cell farther,
+      or two
       round a corner. *)
   Variable last : nat -> nat.
   Hypothesis last_base : last 0 = 0.
@@ -29,7 +31,8 @@ Section Unfolding.
   Hypothesis last_links : forall i, S i < N ->
     last i <= last (S i) <= S (last i)
     \/ (last (S i) = last i + 2
-        /\ (apart_x (walk (last i)) (walk (last i + 2)) <= 1)%Z /\ (apart_y (walk (last i)) (walk (last i + 2)) <= 1)%Z).
+        /\ (apart_x (walk (last i)) (walk (last i + 2)) <= 1)%Z /\
+          (apart_y (walk (last i)) (walk (last i + 2)) <= 1)%Z).
 
   Lemma last_le : forall i, S i < N -> last i <= last (S i).
   Proof. intros i L; destruct (last_links i L) as [H|[H _]]; lia. Qed.
@@ -38,7 +41,8 @@ Section Unfolding.
   Proof.
     intros i L. assert (forall d, i + d < N -> last i <= last (i + d)) as M.
     { induction d as [|d IH]; intros D; [replace (i + 0) with i by lia; lia|].
-      pose proof (last_le (i + d) ltac:(lia)) as H; replace (i + S d) with (S (i + d)) by lia; specialize (IH ltac:(lia)); lia. }
+      pose proof (last_le (i + d) ltac:(lia)) as H; replace (i + S d) with (S (i + d)) by lia;
+        specialize (IH ltac:(lia)); lia. }
     specialize (M (pred N - i) ltac:(lia)); replace (i + (pred N - i)) with (pred N) in M by lia; lia.
   Qed.
 
@@ -60,7 +64,8 @@ Section Unfolding.
     end.
   Definition planned_place (a : nat -> nat) (i : nat) : nat := planned_from a (pred N - i).
 
-  Lemma planned_leader : forall a, planned_place a (pred N) = if a (pred N) <? last (pred N) then S (a (pred N)) else a (pred N).
+  Lemma planned_leader : forall a,
+    planned_place a (pred N) = if a (pred N) <? last (pred N) then S (a (pred N)) else a (pred N).
   Proof. intros a; unfold planned_place; rewrite Nat.sub_diag; cbn; now rewrite Nat.sub_0_r. Qed.
 
   Lemma planned_follower : forall a i, S i < N ->
@@ -87,7 +92,8 @@ Section Unfolding.
     - destruct (planned_bounds a 0 ltac:(lia) O) as [_ H]; rewrite last_base in H; lia.
     - intros i L; now apply planned_bounds.
     - intros i L; pose proof (planned_bounds a i ltac:(lia) O) as Bi; pose proof (planned_bounds a (S i) L O) as Bj.
-      destruct O as [A0 [B P]]; destruct (P i L) as [G H]; pose proof (B i ltac:(lia)) as Li; pose proof (B (S i) L) as Lj.
+      destruct O as [A0 [B P]]; destruct (P i L) as [G H]; pose proof (B i ltac:(lia)) as Li;
+        pose proof (B (S i) L) as Lj.
       pose proof (last_links i L) as K.
       rewrite (planned_follower a i L) in *; unfold goes_on in *.
       destruct (Nat.ltb_spec (a i) (last i)), (Nat.leb_spec (a i + 2) (planned_place a (S i))); cbn in *; lia.
@@ -103,7 +109,8 @@ Section Unfolding.
   Definition follows (a : nat -> nat) (st : state) (pl : plan) : Prop :=
     forall i, i < N -> pos st i = walk (a i) /\ after (pos st i) (pl i) = walk (planned_place a i).
 
-  Lemma near_one : forall c s, (apart_x c (beyond c s) <= 1 /\ apart_y c (beyond c s) <= 1)%Z /\ (apart_x c (beyond c s) + apart_y c (beyond c s) = 1)%Z.
+  Lemma near_one : forall c s, (apart_x c (beyond c s) <= 1 /\ apart_y c (beyond c s) <= 1)%Z /\
+    (apart_x c (beyond c s) + apart_y c (beyond c s) = 1)%Z.
   Proof. intros [x y] []; unfold apart_x, apart_y; cbn; lia. Qed.
 
   Lemma walk_next : forall k, k < length -> covers SAFE (walk k) (walk (S k)) = true.
@@ -134,10 +141,12 @@ Section Unfolding.
       rewrite B, P0. replace (planned_place a 0) with 0 by lia. exact walk_starts.
     - apply every_spec; intros i L. assert (S i < N) as Li by lia.
       unfold admits_ahead, to, as_move; cbn. fold (as_move st pl i).
-      change (after (pos st i) (pl i)) with (planned st pl i); change (after (pos st (S i)) (pl (S i))) with (planned st pl (S i)).
+      change (after (pos st i) (pl i)) with (planned st pl i);
+        change (after (pos st (S i)) (pl (S i))) with (planned st pl (S i)).
       rewrite (PL i), (PL (S i)), (PO (S i)) by lia.
       destruct (planned_bounds a i ltac:(lia) O) as [Bi Ci]; destruct (planned_bounds a (S i) Li O) as [Bj Cj].
-      destruct O as [A0 [B P]]; destruct (P i Li) as [G H]; pose proof (last_links i Li) as K; pose proof (B i ltac:(lia)) as Di.
+      destruct O as [A0 [B P]]; destruct (P i Li) as [G H]; pose proof (last_links i Li) as K;
+        pose proof (B i ltac:(lia)) as Di.
       pose proof (last_length (S i) Li) as LL.
       pose proof (planned_follower a i Li) as Q; unfold goes_on in Q.
       assert (planned_place a (S i) = planned_place a i \/ planned_place a (S i) = S (planned_place a i)
@@ -181,7 +190,8 @@ Section Unfolding.
           assert (forall j, In j (filter f (seq 0 N)) -> j < N /\ a j = planned_place a (S i)) as IN.
           { intros j J; apply filter_In in J; destruct J as [J E]; apply in_seq in J; split; [lia|].
             unfold f in E; apply cell_eqb_spec in E. rewrite PO, PL in E by lia.
-            apply walk_once in E; auto; [|lia]. destruct O as [_ [B _]]; pose proof (B j ltac:(lia)); pose proof (last_length j ltac:(lia)); lia. }
+            apply walk_once in E; auto; [|lia]. destruct O as [_ [B _]]; pose proof (B j ltac:(lia));
+              pose proof (last_length j ltac:(lia)); lia. }
           assert (0 < planned_place a (S i)) as POS.
           { destruct (Nat.eq_dec (planned_place a (S i)) (a (S i))) as [E|E]; [|lia]. exfalso.
             assert (pl (S i) = Stay) as X.
@@ -195,7 +205,8 @@ Section Unfolding.
           - destruct (places_grow a O j k C Lk); lia.
           - destruct (places_grow a O k j C Lj); lia. }
         destruct (role_of N (S i)); cbn [full_for_leader full_for_follower REPAIRED negb orb]; now apply Nat.ltb_lt.
-    - apply every_spec; intros i Li; apply every_spec; intros j Lj. unfold admits_both; cbn [distinct REPAIRED negb orb].
+    - apply every_spec; intros i Li; apply every_spec; intros j Lj. unfold admits_both;
+        cbn [distinct REPAIRED negb orb].
       destruct (Nat.eqb_spec i j) as [|D]; [reflexivity|]. cbn [orb].
       destruct (cell_eqb (planned st pl i) (planned st pl j)) eqn:E; [|reflexivity]. cbn.
       apply cell_eqb_spec in E; rewrite !PL in E by lia.
@@ -217,7 +228,8 @@ Record is_walk (base : cell) (walk : nat -> cell) (length : nat) : Prop := {
   walk_comes_once : forall j k, j <= length -> k <= length -> walk j = walk k -> j = k;
 }.
 
-(** Where robots stop along it, the base in the base: each at most one link farther than the robot behind it, that is one cell,
+(** Where robots stop along it, the base in the base: each at most one link farther than the robot behind it,
+    that is one cell,
     or two round a corner. *)
 Record are_stops (N : nat) (walk : nat -> cell) (length : nat) (last : nat -> nat) : Prop := {
   stops_begin : last 0 = 0;
@@ -225,10 +237,12 @@ Record are_stops (N : nat) (walk : nat -> cell) (length : nat) (last : nat -> na
   stops_link : forall i, S i < N ->
     last i <= last (S i) <= S (last i)
     \/ (last (S i) = last i + 2
-        /\ (apart_x (walk (last i)) (walk (last i + 2)%nat) <= 1)%Z /\ (apart_y (walk (last i)) (walk (last i + 2)%nat) <= 1)%Z);
+        /\ (apart_x (walk (last i)) (walk (last i + 2)%nat) <= 1)%Z /\
+          (apart_y (walk (last i)) (walk (last i + 2)%nat) <= 1)%Z);
 }.
 
-(** In the base all robots are on the walk. If they are on it, the plan that unfolds the chain further is admitted, and they
+(** In the base all robots are on the walk. If they are on it, the plan that unfolds the chain further is admitted,
+    and they
     are on it again where that plan sends them. *)
 Theorem CHAIN_13_step : forall N base walk length last,
   2 <= N -> is_walk base walk length -> are_stops N walk length last ->
@@ -237,7 +251,9 @@ Theorem CHAIN_13_step : forall N base walk length last,
      on_the_walk N last (planned_place N last a)
      /\ forall st pl, follows N walk last a st pl -> pos st 0 = base -> admitted N REPAIRED base st pl = true.
 Proof.
-  intros N base walk length last L [W1 W2 W3] [S1 S2 S3]; split; [apply starts_on_the_walk with (length := length); assumption|].
+  intros N base walk length last L [W1 W2 W3] [S1 S2 S3]; split; [apply starts_on_the_walk with (length := length);
+    assumption|].
   intros a O; split; [eapply on_the_walk_kept with (walk := walk) (length := length); eauto|].
-  intros st pl F B; apply unfolding_is_admitted with (walk := walk) (length := length) (last := last) (a := a); assumption.
+  intros st pl F B; apply unfolding_is_admitted with (walk := walk) (length := length) (last := last) (a := a);
+    assumption.
 Qed.
