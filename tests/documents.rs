@@ -91,6 +91,55 @@ fn shows(name: &str, text: &str) {
 }
 
 #[test]
+fn the_theorems_of_the_page_are_those_of_the_audit() {
+    let (audit, page) = (document("proofs/rocq/audit.expected"), document("docs/machine-checked.md"));
+    let statements: Vec<String> = audit
+        .split("Closed under the global context\n")
+        .map(|statement| statement.trim_end().to_owned())
+        .filter(|statement| !statement.is_empty())
+        .collect();
+    assert!(statements.len() >= 40, "{}", statements.len());
+    for statement in statements {
+        assert!(page.contains(&format!("\n{statement}\n")), "docs/machine-checked.md has not\n{statement}");
+    }
+}
+
+/// The modules of Kani harnesses in the `clauses.rs` of a scheme: the name, the unwind, and the mutants, as a table's columns.
+fn harnesses(scheme: &str, text: &str) -> Vec<String> {
+    let macros = text.split("\nstep_checks! {").skip(1).filter_map(|text| text.split("\n}\n").next());
+    let bodies = macros.flat_map(|text| text.split("        };\n"));
+    let row = |body: &str| {
+        let (head, mutants) = body.split_once(" mutants {")?;
+        let name = head
+            .lines()
+            .rev()
+            .find_map(|line| line.strip_prefix("    ").filter(|line| !line.starts_with(' ')))?;
+        let (name, _) = name.split_once(':')?;
+        let unwind = head.rsplit_once("unwind ")?.1.trim_end_matches(',');
+        let mutants =
+            mutants.lines().filter_map(|line| line.strip_prefix("            ")?.split_once(": \""));
+        let mutants: Vec<String> = mutants.map(|(mutant, _)| format!("`{mutant}`")).collect();
+        Some(format!("| `{scheme}::clauses::{name}` | {unwind} | {} |", mutants.join(", ")))
+    };
+    bodies.filter_map(row).collect()
+}
+
+#[test]
+fn the_harnesses_of_the_page_are_those_of_the_code() {
+    let page = document("docs/kani.md");
+    let listed = page.lines().filter(|line| line.contains("::clauses::")).count();
+    let mut found = 0;
+    for scheme in ["ground", "chain", "bricks", "notice", "kit", "ants", "mrc", "tan", "position"] {
+        for row in harnesses(scheme, &document(&format!("proofs/src/{scheme}/clauses.rs"))) {
+            assert!(page.contains(&row), "docs/kani.md has not\n{row}");
+            found += 1;
+        }
+    }
+    assert_eq!(found, listed, "docs/kani.md lists harnesses that are not in the code");
+    assert!(found > 10, "{found}");
+}
+
+#[test]
 fn the_exit_codes_of_the_documents_are_those_of_the_help() {
     let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     let help = printed(&["--help"], 0);

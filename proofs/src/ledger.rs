@@ -1,12 +1,15 @@
 //! The ledger: the clauses of all rooms, in the order of `SPEC.md`, and what came of clauses, whosever they are.
 
+mod composition;
 mod jobs;
 
 use std::fmt::{self, Write};
 
 use crate::clause::{AnyCheck, Clause, Decision};
+use crate::decide::Verdict;
 use crate::{ants, bricks, chain, ground, kit, mrc, notice, position, tan};
 
+pub use composition::{Theorem, theorems};
 pub use jobs::{Hear, Heard, decide, decide_all};
 
 /// The clauses of each room.
@@ -82,6 +85,11 @@ impl Row {
             given_up => format!("{bound}; {given_up} given up"),
         }
     }
+
+    /// What is machine-checked beyond the bound, if the clause holds within it.
+    fn composition(&self) -> Option<String> {
+        (self.decision.verdict == Verdict::Holds).then(|| composition::words(self.clause.id)).flatten()
+    }
 }
 
 /// The checks of `clauses`, in order: the clause, and the number of the check.
@@ -94,7 +102,7 @@ const HEAD: [&str; 6] = ["clause", "rule", "engine", "cases", "verdict", "mutant
 /// The column of the cases, which are numbers.
 const CASES: usize = 3;
 
-/// The ledger: a line for each check, and its bound below. What takes time is not in it, so that it is the same
+/// The ledger: a line for each check, and below it its bound and what is machine-checked beyond. What takes time is not in it, so that it is the same
 /// everywhere.
 pub fn table(rows: &[Row]) -> String {
     let cells = |row: &Row| {
@@ -117,9 +125,11 @@ pub fn table(rows: &[Row]) -> String {
     let widths: [usize; 6] = std::array::from_fn(|column| {
         lines.iter().map(|line| line[column].chars().count()).max().unwrap_or(0)
     });
-    let bounds = ["bound".to_owned()].into_iter().chain(rows.iter().map(Row::bound));
+    let below = [("bound".to_owned(), None)]
+        .into_iter()
+        .chain(rows.iter().map(|row| (row.bound(), row.composition())));
     let mut text = String::new();
-    for (line, bound) in lines.iter().zip(bounds) {
+    for (line, (bound, composition)) in lines.iter().zip(below) {
         let padded: Vec<String> = (0..)
             .zip(line.iter().zip(widths))
             .map(|(column, (cell, width))| match column {
@@ -129,7 +139,9 @@ pub fn table(rows: &[Row]) -> String {
             .collect();
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}", padded.join("  ").trim_end());
-        text.push_str(&indented(widths[0] + 2, &bound));
+        for words in [Some(bound), composition].into_iter().flatten() {
+            text.push_str(&indented(widths[0] + 2, &words));
+        }
     }
     text
 }
@@ -164,7 +176,6 @@ pub fn indented(indent: usize, text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::decide::Verdict;
 
     #[test]
     fn every_id_is_there_once_and_every_clause_has_a_mutant() {

@@ -248,12 +248,19 @@ impl<const CALLS: usize> Robot<CALLS> {
         }
     }
 
-    /// Adds a record, in the place of a served one if the table is full. Where none is served the call is left to others,
-    /// and heard again under its next epoch.
+    /// Adds a record, in the place of a served one if the table is full, but not of the one whose lease the robot holds: with
+    /// that, an older call of the same WFR that comes late would pass for the newest, and the next for a newer one. Where none
+    /// can go the call is left to others, and heard again under its next epoch.
     fn add(&mut self, heard: Request) {
-        let is_served = |place: &Option<Request>| place.is_some_and(|request| request.served == Served::Yes);
+        let own = match self.task {
+            Task::Free => None,
+            Task::Asking { call, .. } | Task::Leased { call } => Some(call.wfr),
+        };
+        let may_go = |place: &Option<Request>| {
+            place.is_some_and(|request| request.served == Served::Yes && Some(request.call.wfr) != own)
+        };
         let empty = self.requests.iter().position(Option::is_none);
-        let place = empty.or_else(|| self.requests.iter().position(is_served));
+        let place = empty.or_else(|| self.requests.iter().position(may_go));
         if let Some(place) = place.and_then(|place| self.requests.get_mut(place)) {
             *place = Some(heard);
         }
@@ -415,5 +422,16 @@ mod tests {
         let (robot, _) = robot.receive(resb(call(0, 0), ME, OTHER));
         let (robot, _) = robot.receive(notice(call(2, 0), 1, 10));
         assert!(robot.requests().map(|request| request.call.wfr.0).eq([2, 1]));
+    }
+
+    #[test]
+    fn a_robot_keeps_the_record_of_its_lease_though_its_table_is_full() {
+        let heard = [notice(call(1, 2), 1, 3), resb(call(1, 2), ME, ME)];
+        let fresh = (Robot::<1>::new(Rule::REPAIRED, ME), None);
+        let (robot, _) = heard.iter().fold(fresh, |(robot, _), &message| robot.receive(message));
+        // Another WFR calls, and then two old NOTICEs of the first come once more.
+        let late = [notice(call(2, 1), 1, 3), notice(call(1, 1), 1, 3), notice(call(1, 2), 1, 3)];
+        let (robot, sent) = late.iter().fold((robot, None), |(robot, _), &message| robot.receive(message));
+        assert_eq!((robot.task(), sent), (Task::Leased { call: call(1, 2) }, None));
     }
 }

@@ -1,0 +1,115 @@
+(** What is proved, and from what: for each theorem its statement,
+    and that it rests on no assumption but the definitions.
+
+    `make` compares what this file prints with audit.expected. *)
+From Coq Require Import ZArith QArith List.
+From Tautline Require Import Lattice Rule Plane Team Contact Base Crowding Coverage Rings Unfolding.
+From Tautline Require Hold Marking Notice Kit Mrc Leases Replay Mutants MrcMutants ChainTie Replayed NoticeTie MrcTie
+  KitTie.
+Local Open Scope nat_scope.
+Set Printing Width 110.
+
+(** The clauses. *)
+Check LATTICE_1.
+Print Assumptions LATTICE_1.
+Check CHAIN_1.
+Print Assumptions CHAIN_1.
+Check CHAIN_2.
+Print Assumptions CHAIN_2.
+Check CHAIN_3.
+Print Assumptions CHAIN_3.
+Check CHAIN_3_towards_a_wall.
+Print Assumptions CHAIN_3_towards_a_wall.
+Check CHAIN_6.
+Print Assumptions CHAIN_6.
+Check backtrack_meets_no_wall.
+Print Assumptions backtrack_meets_no_wall.
+Check CHAIN_10.
+Print Assumptions CHAIN_10.
+Check CHAIN_13_step.
+Print Assumptions CHAIN_13_step.
+Check Hold.hold_keeps_contact.
+Print Assumptions Hold.hold_keeps_contact.
+Check Hold.hold_keeps_coverage.
+Print Assumptions Hold.hold_keeps_coverage.
+Check Marking.BRICKS_2_marking.
+Print Assumptions Marking.BRICKS_2_marking.
+Check Notice.NOTICE_1.
+Print Assumptions Notice.NOTICE_1.
+Check Notice.NOTICE_2.
+Print Assumptions Notice.NOTICE_2.
+Check Leases.MRC_1.
+Print Assumptions Leases.MRC_1.
+Check Leases.MRC_2.
+Print Assumptions Leases.MRC_2.
+Check Leases.MRC_4.
+Print Assumptions Leases.MRC_4.
+Check Leases.MRC_6.
+Print Assumptions Leases.MRC_6.
+Check Leases.MRC_8.
+Print Assumptions Leases.MRC_8.
+Check Kit.KIT_1.
+Print Assumptions Kit.KIT_1.
+Check Kit.KIT_3.
+Print Assumptions Kit.KIT_3.
+Check Kit.KIT_12.
+Print Assumptions Kit.KIT_12.
+Check Kit.arrivals_keep_admitted.
+Print Assumptions Kit.arrivals_keep_admitted.
+
+(** What each condition is needed for. *)
+Check Mutants.published_breaks_CHAIN_1.
+Print Assumptions Mutants.published_breaks_CHAIN_1.
+Check Mutants.published_breaks_CHAIN_2.
+Print Assumptions Mutants.published_breaks_CHAIN_2.
+Check Mutants.without_SafeAhead_breaks_CHAIN_1.
+Print Assumptions Mutants.without_SafeAhead_breaks_CHAIN_1.
+Check Mutants.without_CoveredBehind_breaks_CHAIN_1.
+Print Assumptions Mutants.without_CoveredBehind_breaks_CHAIN_1.
+Check Mutants.without_UnsureAhead_breaks_CHAIN_1.
+Print Assumptions Mutants.without_UnsureAhead_breaks_CHAIN_1.
+Check Mutants.without_Distinct_breaks_CHAIN_2.
+Print Assumptions Mutants.without_Distinct_breaks_CHAIN_2.
+Check Mutants.without_FullForFollower_breaks_CHAIN_2.
+Print Assumptions Mutants.without_FullForFollower_breaks_CHAIN_2.
+Check Mutants.without_FullForLeader_breaks_CHAIN_2.
+Print Assumptions Mutants.without_FullForLeader_breaks_CHAIN_2.
+Check Mutants.without_SafeAhead_breaks_CHAIN_3.
+Print Assumptions Mutants.without_SafeAhead_breaks_CHAIN_3.
+Check Hold.unsure_ahead_does_not_hold.
+Print Assumptions Hold.unsure_ahead_does_not_hold.
+Check Notice.without_FrozenOnceForwarded_breaks_NOTICE_1.
+Print Assumptions Notice.without_FrozenOnceForwarded_breaks_NOTICE_1.
+Check MrcMutants.without_ChoiceStands_breaks_MRC_1.
+Print Assumptions MrcMutants.without_ChoiceStands_breaks_MRC_1.
+Check MrcMutants.without_Epochs_breaks_MRC_2.
+Print Assumptions MrcMutants.without_Epochs_breaks_MRC_2.
+Check MrcMutants.without_Consent_breaks_MRC_4.
+Print Assumptions MrcMutants.without_Consent_breaks_MRC_4.
+Check Kit.without_NextInReach_breaks_KIT_1.
+Print Assumptions Kit.without_NextInReach_breaks_KIT_1.
+Check Kit.without_FromInReach_breaks_KIT_1.
+Print Assumptions Kit.without_FromInReach_breaks_KIT_1.
+Check Kit.without_Apart_breaks_KIT_3.
+Print Assumptions Kit.without_Apart_breaks_KIT_3.
+
+(** The tie to the kernel. *)
+Check ChainTie.chain_answers_agree.
+Print Assumptions ChainTie.chain_answers_agree.
+Check ChainTie.every_question_is_in_the_table.
+Print Assumptions ChainTie.every_question_is_in_the_table.
+Check ChainTie.kernel_answers_as_the_relation.
+Print Assumptions ChainTie.kernel_answers_as_the_relation.
+Check Replay.replay_reachable.
+Print Assumptions Replay.replay_reachable.
+Check Replayed.kernel_runs_are_runs.
+Print Assumptions Replayed.kernel_runs_are_runs.
+Check NoticeTie.notice_answers_agree.
+Print Assumptions NoticeTie.notice_answers_agree.
+Check MrcTie.mrc_answers_agree.
+Print Assumptions MrcTie.mrc_answers_agree.
+Check KitTie.kit_answers_agree.
+Print Assumptions KitTie.kit_answers_agree.
+Check KitTie.every_drive_is_in_the_table.
+Print Assumptions KitTie.every_drive_is_in_the_table.
+

@@ -1,0 +1,94 @@
+(** Runs of the kernel's own planner, in generated/Runs.v, with walls, backtracks and unfolding among them,
+    are runs of Team.v.
+
+    A run is given by its walls and by the bytes that the robots sent. Each byte is decoded;
+      each advance must be admitted, each
+    robot that says that it met a wall must have one in its way, and no other;
+      each backtrack must take back the last advance
+    that was not; and at the end the robots must be where the kernel has them. *)
+From Coq Require Import ZArith NArith Lia Bool List Arith.
+From Tautline Require Import Lattice Rule Team Message Replay.
+From Tautline.generated Require Import Runs.
+Import ListNotations.
+
+(** What the robots ahead of the base say of one team move. *)
+Fixpoint decoded (l : list N) : option (list (step * outcome)) :=
+  match l with
+  | [] => Some []
+  | byte :: l =>
+      match decode byte, decoded l with Some m, Some more => Some (m :: more) | _, _ => None end
+  end.
+
+Definition is_back (m : step * outcome) : bool := match snd m with TookBack => true | Arrived | Blocked => false end.
+Definition is_blocked (m : step * outcome) : bool := match snd m with Blocked => true | Arrived | TookBack => false end.
+
+(** The team move, if they agree on what it was. The base stays. *)
+Definition team_move_of (l : list (step * outcome)) : option team_move :=
+  if forallb is_back l then Some (Backtrack (Stay :: map fst l))
+  else if existsb is_back l then None else Some (Advance (Stay :: map fst l)).
+
+(** Whether just those met a wall that say so. *)
+Definition says_so (n : nat) (walls : list edge) (s : listed) (l : list (step * outcome)) : bool :=
+  list_eqb Bool.eqb (map is_blocked l)
+    (map (fun i => negb (arrives (stands walls) (team_of (places s) i) (fst (nth (pred i) l (Stay, Arrived)))))
+         (seq 1 (pred n))).
+
+Fixpoint replayed (n : nat) (base : cell) (walls : list edge) (s : listed) (sent : list N) : option listed :=
+  match sent with
+  | [] => Some s
+  | number :: sent =>
+      match decoded (bytes (pred n) number) with
+      | None => None
+      | Some l =>
+          match team_move_of l with
+          | None => None
+          | Some m =>
+              match next n REPAIRED base walls s m with
+              | Some t => if says_so n walls s l then replayed n base walls t sent else None
+              | None => None
+              end
+          end
+      end
+  end.
+
+Definition run_of_kernel : Type := nat * cell * list edge * list N * list cell.
+
+(** Where the definitions have the robots at the end of a run, and what they have of it. *)
+Definition end_of (r : run_of_kernel) : option listed :=
+  let '(n, base, walls, sent, _) := r in replayed n base walls (list_start n base) sent.
+
+Definition is_run (r : run_of_kernel) : bool :=
+  let '(_, _, _, _, last) := r in
+  match end_of r with Some s => list_eqb cell_eqb (places s) last | None => false end.
+
+Lemma replayed_reachable : forall n base walls sent s t, reachable n REPAIRED base (stands walls) (state_of s) ->
+  replayed n base walls s sent = Some t -> reachable n REPAIRED base (stands walls) (state_of t).
+Proof.
+  intros n base walls sent; induction sent as [|number sent IH]; intros s t R E; cbn [replayed] in E;
+    [now injection E as <-|].
+  destruct (decoded _) as [l|]; [|discriminate]. destruct (team_move_of l) as [m|]; [|discriminate].
+  destruct (next n REPAIRED base walls s m) as [u|] eqn:X; [|discriminate]. destruct (says_so n walls s l);
+    [|discriminate].
+  eapply IH; [|exact E]. eapply next_reachable; eauto.
+Qed.
+
+Lemma all_are_runs : forallb is_run runs = true.
+Proof. vm_compute; reflexivity. Qed.
+
+Lemma list_eqb_cells : forall a b, list_eqb cell_eqb a b = true -> a = b.
+Proof.
+  intros a; induction a as [|x a IH]; intros [|y b] E; cbn in E; try discriminate; [reflexivity|].
+  apply andb_true_iff in E; destruct E as [E F]; apply cell_eqb_spec in E; subst; f_equal; now apply IH.
+Qed.
+
+(** Every run of the kernel ends in a state that can be reached by the relation,
+    with the robots where the kernel has them. *)
+Theorem kernel_runs_are_runs : forall n base walls sent last, In (n, base, walls, sent, last) runs ->
+  exists st, reachable n REPAIRED base (stands walls) st /\ forall i, pos st i = nth i last (0, 0)%Z.
+Proof.
+  intros n base walls sent last I; pose proof all_are_runs as A; rewrite forallb_forall in A; specialize (A _ I).
+  unfold is_run in A; destruct (end_of _) as [s|] eqn:E; [|discriminate]; apply list_eqb_cells in A.
+  exists (state_of s); split.
+  - unfold end_of in E; eapply replayed_reachable; [|exact E]. eexists; apply run_start, alike_start.
+  - intros i; cbn; unfold team_of; now rewrite A.
+Qed.

@@ -1,0 +1,69 @@
+//! The tie between the kernel and the proofs of `proofs/rocq`: what the kernel answers is written down as Rocq terms, and Rocq
+//! compares it with the definitions that the theorems speak of. Here the committed files are compared byte by byte with
+//! fresh ones. So neither the kernel nor the definitions can move alone.
+
+#[path = "rocq/chain.rs"]
+mod chain;
+#[path = "rocq/kit.rs"]
+mod kit;
+#[path = "rocq/mrc.rs"]
+mod mrc;
+#[path = "rocq/notice.rs"]
+mod notice;
+#[path = "rocq/runs.rs"]
+mod runs;
+#[path = "rocq/term.rs"]
+mod term;
+
+use std::env;
+use std::fs;
+use std::path::Path;
+
+/// The command that writes the files anew.
+const RENEW: &str = "ROCQ_UPDATE=always cargo test -p tautline-proofs --test rocq";
+
+/// The committed file says what the kernel says now.
+fn is_up_to_date(name: &str, terms: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("rocq/generated").join(name);
+    let fresh = format!(
+        "(** What the kernel answers, written by `{RENEW}`. Do not edit. *)\n{}\n{terms}",
+        term::HEAD
+    );
+    if env::var_os("ROCQ_UPDATE").is_some_and(|value| value == "always") {
+        fs::write(&path, fresh).expect("a file that can be written");
+        return;
+    }
+    // A checkout may have changed the ends of lines.
+    let committed = fs::read_to_string(&path).unwrap_or_default().replace("\r\n", "\n");
+    assert!(
+        committed == fresh,
+        "the kernel answers otherwise than {} says. If that is meant, write the file anew with\n    {RENEW}\nand let \
+         Rocq compare it with the proofs: make -C proofs/rocq",
+        path.display()
+    );
+}
+
+#[test]
+fn the_chain_answers_as_the_proofs_have_it() {
+    is_up_to_date("ChainAnswers.v", &chain::terms());
+}
+
+#[test]
+fn chains_run_as_the_proofs_have_it() {
+    is_up_to_date("Runs.v", &runs::terms());
+}
+
+#[test]
+fn nodes_answer_as_the_proofs_have_it() {
+    is_up_to_date("NoticeAnswers.v", &notice::terms());
+}
+
+#[test]
+fn robots_and_wfrs_answer_as_the_proofs_have_it() {
+    is_up_to_date("MrcAnswers.v", &mrc::terms());
+}
+
+#[test]
+fn robots_keep_in_touch_as_the_proofs_have_it() {
+    is_up_to_date("KitAnswers.v", &kit::terms());
+}
