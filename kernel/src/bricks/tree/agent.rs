@@ -107,10 +107,10 @@ impl Agent {
         if rule.has(Condition::Bricks) && view.unexplored() != Ring::default() {
             return here;
         }
-        match Label::new(self.founded % rule.trees, self.id) {
+        match Label::new(self.founded, self.id) {
             Some(label) => {
                 self.founded += 1;
-                here.of_tree(label, None)
+                here.of_tree(label.lowest(rule.label_bits), None)
             }
             None => here,
         }

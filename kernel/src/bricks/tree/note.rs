@@ -33,6 +33,15 @@ impl Label {
         if founded < Self::TREES { Some(Self((Self::TREES - 1 - founded) << 8 | id as u32)) } else { None }
     }
 
+    /// So many bits of it, the lowest ones.
+    #[must_use]
+    pub const fn lowest(self, bits: u8) -> Self {
+        match 1_u32.checked_shl(bits as u32) {
+            Some(end) => Self(self.0 & (end - 1)),
+            None => self,
+        }
+    }
+
     /// The label as a number.
     pub const fn number(self) -> u32 {
         self.0

@@ -28,8 +28,8 @@ conditions!(Condition);
 pub struct Rule {
     /// The conditions in force.
     pub conditions: Conditions,
-    /// The trees that an agent founds before their labels come again.
-    pub trees: u32,
+    /// The lowest bits of a label that a sensor stores: all but in a mutant.
+    pub label_bits: u8,
 }
 
 impl Rule {
@@ -42,7 +42,7 @@ impl Rule {
             Condition::LowerOnly,
             Condition::Exit,
         ]),
-        trees: u32::MAX,
+        label_bits: 32,
     };
 
     /// Depth first search with helpers, for sensors that are not missed.
