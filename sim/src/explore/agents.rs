@@ -85,7 +85,7 @@ impl Oracle for Misses {
 }
 
 /// How agents on a floor decide, and what their sensors store.
-pub trait Kind: Copy + 'static {
+pub trait Crew: Copy + 'static {
     /// What a sensor stores.
     type Stored: Stored;
     /// What an agent remembers.
@@ -133,7 +133,7 @@ pub struct Acted {
     pub is_done: bool,
 }
 
-impl Kind for Way {
+impl Crew for Way {
     type Stored = Sensor;
     type Mind = Agent;
     type View = Scan;
@@ -213,7 +213,7 @@ fn milliseconds(scan: &Scan, step: Step) -> u64 {
 
 /// A team of agents on a floor.
 #[derive(Clone)]
-pub struct Agents<K: Kind = Way> {
+pub struct Agents<K: Crew = Way> {
     way: K,
     floor: SensorFloor<K::Stored>,
     bodies: Vec<Body<K::Mind>>,
@@ -229,7 +229,7 @@ pub struct Agents<K: Kind = Way> {
     unseen: Vec<Cell>,
 }
 
-impl<K: Kind> Agents<K> {
+impl<K: Crew> Agents<K> {
     /// A team in `layout`, an agent in each of `starts`: at most 255, and in free cells. They miss sensors by `chance`, drawn
     /// from `seed`.
     pub fn new(way: K, layout: &Layout, starts: &[Cell], chance: Probability, seed: u64) -> Self {
@@ -278,6 +278,11 @@ impl<K: Kind> Agents<K> {
     /// How many agents are not done. Ants are never done.
     pub fn active(&self) -> u32 {
         self.sum(|component| component.active.into())
+    }
+
+    /// Whether in the last team move an agent was done although it could have got to an unexplored cell.
+    pub const fn is_premature(&self) -> bool {
+        self.is_premature
     }
 
     /// Makes one team move.
@@ -347,13 +352,13 @@ impl<K: Kind> Agents<K> {
 }
 
 /// Agents that may go round for ever.
-struct Watched<K: Kind> {
+struct Watched<K: Crew> {
     team: Agents<K>,
     watch: Option<Watch<K::Mind>>,
 }
 
 /// The agents of `setup`, each at its start.
-pub(super) fn start<K: Kind>(setup: &Setup, way: K) -> Box<dyn Team> {
+pub(super) fn start<K: Crew>(setup: &Setup, way: K) -> Box<dyn Team> {
     let team = Agents::of(setup, way);
     let watch = team.repeats().then(|| Watch::new(&team));
     Box::new(Watched { team, watch })
@@ -370,7 +375,7 @@ fn unvisited<S: Stored>(floor: &SensorFloor<S>, chart: &Survey) -> Vec<Cell> {
     due.filter(|&cell| !is_visited(chart.mark(cell, u32::MAX))).collect()
 }
 
-impl<K: Kind> Team for Watched<K> {
+impl<K: Crew> Team for Watched<K> {
     fn cells(&self) -> &[Cell] {
         self.team.cells()
     }
@@ -436,7 +441,7 @@ struct Watch<M> {
 }
 
 impl<M: Copy + PartialEq> Watch<M> {
-    fn new<K: Kind<Mind = M>>(team: &Agents<K>) -> Self {
+    fn new<K: Crew<Mind = M>>(team: &Agents<K>) -> Self {
         Self {
             bodies: team.bodies.clone(),
             cells: team.cells.clone(),
@@ -448,7 +453,7 @@ impl<M: Copy + PartialEq> Watch<M> {
     }
 
     /// Whether the team, which has made a team move since the last call, is where it was.
-    fn has_come_round<K: Kind<Mind = M>>(&mut self, team: &Agents<K>) -> bool {
+    fn has_come_round<K: Crew<Mind = M>>(&mut self, team: &Agents<K>) -> bool {
         if self.gains != team.floor.gains() || !team.misses.is_over() {
             *self = Self { moves: 1, ..Self::new(team) };
             return false;

@@ -6,7 +6,7 @@ use tautline_kernel::floor::Scan;
 use tautline_kernel::ground::{Cell, Step};
 use tautline_proofs::bricks::tree::{Memory, Way};
 
-use super::agents::{Acted, Kind, Misses};
+use super::agents::{Acted, Crew, Misses};
 use super::floor::SensorFloor;
 
 /// Brick-tree.
@@ -16,7 +16,7 @@ pub const HELPERS_TRUSTING: Way = Way::Trees(Trees::HELPERS);
 /// Helpers, robust against missed sensors.
 pub const HELPERS_ROBUST: Way = Way::Trees(Trees::ROBUST);
 
-impl Kind for Way {
+impl Crew for Way {
     type Stored = Note;
     type Mind = Memory;
     type View = View;

@@ -1,6 +1,6 @@
 //! The checks of agents that search in trees, by clause.
 
-use tautline_kernel::bricks::tree::Condition::{Childless, Exit, LowerOnly, Underfoot};
+use tautline_kernel::bricks::tree::Condition::{Bricks, Childless, Exit, LowerOnly, Underfoot};
 use tautline_kernel::bricks::tree::Rule;
 
 use super::floors::Floors;
@@ -10,7 +10,7 @@ use crate::decide::Verdict;
 
 const TREE: Named<Observed> = Named::new("tree", Observed::following(Rule::TREE));
 const HELPERS: Named<Observed> = Named::new("helpers", Observed::following(Rule::HELPERS));
-const ROBUST: Named<Observed> = Named::new("helpers, robust", Observed::following(Rule::ROBUST));
+const ROBUST: Named<Observed> = Named::new("careful", Observed::following(Rule::ROBUST));
 const MDFS: Named<Observed> = Named::new("mdfs", Observed { way: Way::Mdfs, at_once: false });
 const AT_ONCE: Observed = Observed { at_once: true, ..TREE.rule };
 
@@ -26,8 +26,11 @@ const ALL_ADOPTED: Named<Observed> =
 const REPLACING: Named<Observed> =
     Named::new("sensors placed on others", Observed::following(Rule::ROBUST.without(Underfoot)));
 
-const TRUSTING: Named<Observed> =
-    Named::new("nothing remembered, sensors placed on others", HELPERS.rule);
+const WITH_BRICKS: Named<Observed> = Named::new(
+    "cells marked that do not block, as far as is seen",
+    Observed::following(Rule { conditions: Rule::ROBUST.conditions.with(Bricks), ..Rule::ROBUST }),
+);
+const TRUSTING: Named<Observed> = Named::new("what is seen is believed", TREE.rule);
 
 /// A check that holds.
 const fn holds(
@@ -50,7 +53,7 @@ pub(in crate::bricks) static TREE_CONNECTED: Check<Observed> =
 pub(in crate::bricks) static HELPERS_CONNECTED: Check<Observed> = holds(HELPERS, &Floors::HELPERS_CONNECTED, &[]);
 /// BRICKS-2, sensors missed.
 pub(in crate::bricks) static ROBUST_CONNECTED: Check<Observed> =
-    holds(ROBUST, &Floors::CONNECTED_HALF_BLIND, &[TRUSTING]);
+    holds(ROBUST, &Floors::CONNECTED_HALF_BLIND, &[WITH_BRICKS]);
 /// BRICKS-3
 pub(in crate::bricks) static IN_TURNS: Check<Observed> = holds(
     TREE,
@@ -59,7 +62,7 @@ pub(in crate::bricks) static IN_TURNS: Check<Observed> = holds(
 );
 /// BRICKS-3, the smallest break.
 pub(in crate::bricks) static BOTH_AT_ONCE: Check<Observed> =
-    refuted(Named::new("tree, two at once", AT_ONCE), &Floors::CONNECTED_IN_TURNS);
+    refuted(Named::new("at-once", AT_ONCE), &Floors::CONNECTED_IN_TURNS);
 /// BRICKS-4
 pub(in crate::bricks) static TREE_KNOWING: Check<Observed> = holds(TREE, &Floors::KNOWING, &[NO_EXITS]);
 /// BRICKS-4
@@ -80,7 +83,7 @@ pub(in crate::bricks) static TREE_ENDS: Check<Observed> = holds(TREE, &Floors::E
 pub(in crate::bricks) static HELPERS_ENDS: Check<Observed> = holds(HELPERS, &Floors::HELPERS_END, &[]);
 /// BRICKS-6, sensors missed.
 pub(in crate::bricks) static ROBUST_ENDS: Check<Observed> =
-    holds(ROBUST, &Floors::ENDS_HALF_BLIND, &[REPLACING]);
+    holds(ROBUST, &Floors::ENDS_HALF_BLIND, &[TRUSTING, REPLACING]);
 /// BRICKS-8
 pub(in crate::bricks) static TREES_WHOLE: Check<Observed> = holds(TREE, &Floors::WHOLE, &[WRAPPING]);
 /// BRICKS-9
