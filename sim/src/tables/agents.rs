@@ -23,8 +23,8 @@ use crate::explore::rivals::{HELPERS, MDFS};
 use crate::explore::trees::{HELPERS_ROBUST, TREE};
 use crate::explore::{Profile, RuleId};
 use crate::fault::Halt;
-use crate::layout::{Generator, Layout};
 use crate::layout::generate::Probability;
+use crate::layout::{Generator, Layout};
 use crate::reading::{number, within};
 use crate::stats::Estimate;
 
@@ -60,12 +60,8 @@ impl Team {
         max_steps: u32,
     ) -> Outcome {
         match self.way {
-            Explorer::Marks(way) => {
-                follow(explore::Agents::new(way, layout, starts, miss, seed), max_steps)
-            }
-            Explorer::Trees(way) => {
-                follow(explore::Agents::new(way, layout, starts, miss, seed), max_steps)
-            }
+            Explorer::Marks(way) => follow(explore::Agents::new(way, layout, starts, miss, seed), max_steps),
+            Explorer::Trees(way) => follow(explore::Agents::new(way, layout, starts, miss, seed), max_steps),
         }
     }
 }
@@ -346,7 +342,8 @@ impl Table for Agents {
 
 fn follow<K: Crew>(mut team: explore::Agents<K>, max_steps: u32) -> Outcome {
     let (mut team_moves, mut steps, mut exploration, mut is_early) = (0, 0, None, false);
-    let now = |team: &explore::Agents<K>, team_moves| Moment { team_moves, milliseconds: team.milliseconds() };
+    let now =
+        |team: &explore::Agents<K>, team_moves| Moment { team_moves, milliseconds: team.milliseconds() };
     while !team.is_over() && steps < max_steps {
         team_moves += 1;
         steps += team.active();

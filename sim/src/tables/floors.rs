@@ -203,7 +203,8 @@ impl Table for Floors {
             };
             TEAMS.into_iter().enumerate().map(line).collect::<Vec<_>>()
         };
-        let points = (0..settings.maps.len()).flat_map(|map| settings.agents.iter().map(move |&agents| (map, agents)));
+        let points =
+            (0..settings.maps.len()).flat_map(|map| settings.agents.iter().map(move |&agents| (map, agents)));
         Ok(Merged { settings: settings.clone(), lines: points.flat_map(of).collect() })
     }
 
@@ -219,7 +220,8 @@ impl Line {
             moment.map(|moment| f64::from(moment.team_moves) / bound)
         };
         let estimate = |of: fn(&Outcome) -> Option<Moment>| {
-            let ratios: Vec<f64> = outcomes.iter().filter_map(|outcome| ratio(outcome, of(outcome))).collect();
+            let ratios: Vec<f64> =
+                outcomes.iter().filter_map(|outcome| ratio(outcome, of(outcome))).collect();
             Estimate::of_values(&ratios)
         };
         let needed = |outcome: &Outcome| {
@@ -339,9 +341,13 @@ fn chart(settings: &Settings, lines: &[Line]) -> LineChart {
         let points: Vec<Point> = settings.agents.iter().filter_map(at).collect();
         Series { name: team.name(), stroke: Stroke::Solid, points }
     };
-    let drawn: Vec<Series> = TEAMS.into_iter().map(series).filter(|series| !series.points.is_empty()).collect();
+    let drawn: Vec<Series> =
+        TEAMS.into_iter().map(series).filter(|series| !series.points.is_empty()).collect();
     LineChart {
-        title: format!("Moves that are needed, of those made until all agents know rightly that they are done: {} layouts", settings.maps.len()),
+        title: format!(
+            "Moves that are needed, of those made until all agents know rightly that they are done: {} layouts",
+            settings.maps.len()
+        ),
         x: Axis::new("agents", ""),
         y: Axis::new("moves", "%").showing([0.0, 100.0]),
         series: drawn,

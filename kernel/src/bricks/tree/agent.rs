@@ -121,8 +121,8 @@ impl Agent {
 fn may_mark(rule: Rule, view: &View) -> bool {
     let is_childless = !rule.has(Condition::Childless) || view.children().next().is_none();
     let own = view.here.tree();
-    let is_one = !rule.has(Condition::OneLabel)
-        || own.is_none_or(|own| view.trees().all(|(_, label)| label == own));
+    let is_one =
+        !rule.has(Condition::OneLabel) || own.is_none_or(|own| view.trees().all(|(_, label)| label == own));
     is_childless && is_one
 }
 

@@ -114,7 +114,8 @@ impl Note {
     /// What it stores once one agent more has entered.
     #[inline]
     pub(super) const fn entered(self) -> Self {
-        let crossings = if self.crossings < Self::MOST_CROSSINGS { self.crossings + 1 } else { self.crossings };
+        let crossings =
+            if self.crossings < Self::MOST_CROSSINGS { self.crossings + 1 } else { self.crossings };
         let state = match self.state {
             State::Unexplored => State::Explored,
             state @ (State::Explored | State::Open | State::Visited) => state,

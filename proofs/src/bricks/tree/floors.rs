@@ -34,6 +34,11 @@ impl Series {
         Self { may_fail: true, ..Self::new(area, agents) }
     }
 
+    /// Scanning and writing are two steps.
+    const fn taking_turns(area: Area) -> Self {
+        Self { turns: Turns::Overlapping, ..Self::new(area, 2) }
+    }
+
     /// The teams, one in each plan.
     fn teams(self, observed: &Observed, demand: Demand) -> Vec<Team> {
         let Self { area, agents: _, max_misses, turns, may_fail } = self;
@@ -76,6 +81,8 @@ impl Floors {
     pub(super) const CONNECTED_HALF_BLIND: Self = Self { series: &HALF_BLIND, demand: Demand::Connected };
     /// BRICKS-3
     pub(super) const CONNECTED_IN_TURNS: Self = Self { series: &IN_TURNS, demand: Demand::Connected };
+    /// BRICKS-3, the smallest break.
+    pub(super) const CONNECTED_AT_ONCE: Self = Self { series: &AT_ONCE, demand: Demand::Connected };
     /// BRICKS-4
     pub(super) const KNOWING: Self = Self { series: &TOGETHER, demand: Demand::Knowing };
     /// BRICKS-4, more orders for each floor.
@@ -189,7 +196,8 @@ const HELPING: [Series; 3] = [
 ];
 
 /// Sensors missed.
-const HALF_BLIND: [Series; 4] = [
+const HALF_BLIND: [Series; 5] = [
+    Series::missing(Area::blocked(2, 2), 1, 1),
     Series::missing(Area::blocked(3, 2), 1, 4),
     Series::missing(Area::walled(3, 2), 1, 2),
     Series::missing(Area::blocked(3, 3), 1, 2),
@@ -197,7 +205,16 @@ const HALF_BLIND: [Series; 4] = [
 ];
 
 /// Scanning and writing are two steps.
-const IN_TURNS: [Series; 1] = [Series { turns: Turns::Overlapping, ..Series::new(Area::blocked(5, 2), 2) }];
+const IN_TURNS: [Series; 1] = [Series::taking_turns(Area::blocked(5, 2))];
+
+/// The same, small areas first.
+const AT_ONCE: [Series; 5] = [
+    Series::taking_turns(Area::blocked(2, 1)),
+    Series::taking_turns(Area::blocked(3, 1)),
+    Series::taking_turns(Area::blocked(2, 2)),
+    Series::taking_turns(Area::blocked(4, 1)),
+    Series::taking_turns(Area::blocked(3, 2)),
+];
 
 /// Moves are counted.
 const COUNTED: [Series; 3] = [
@@ -209,3 +226,33 @@ const COUNTED: [Series; 3] = [
 /// Agents fail.
 const FAILING: [Series; 2] =
     [Series::failing(Area::blocked(3, 2), 3), Series::failing(Area::blocked(4, 2), 2)];
+
+#[cfg(test)]
+mod tests {
+    use tautline_kernel::bricks::tree::Rule;
+
+    use super::*;
+    use crate::engine::states::search;
+
+    #[test]
+    #[ignore = "takes minutes: cargo test --release -p tautline-proofs --lib -- --ignored --nocapture trees"]
+    fn trees_hold_on_larger_floors() {
+        let larger = [
+            (Rule::TREE, Series::new(Area::blocked(4, 3), 2)),
+            (Rule::HELPERS, Series::new(Area::blocked(3, 3), 2)),
+            (Rule::HELPERS, Series::new(Area::blocked(3, 2), 3)),
+            (Rule::ROBUST, Series::missing(Area::blocked(3, 3), 2, 1)),
+        ];
+        for (rule, series) in larger {
+            let teams = series.teams(&Observed::following(rule), Demand::All);
+            let (mut states, mut most) = (0, 0);
+            for team in &teams {
+                let found = search(team, team.starts(series.agents), Limits::NONE);
+                assert!(found.is_whole && found.broken.is_empty(), "{series:?}");
+                states += found.states;
+                most = most.max(found.bytes);
+            }
+            println!("{rule:?}, {}: {states} states, at most {} MiB", series.words(" agents"), most >> 20);
+        }
+    }
+}

@@ -6,8 +6,8 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 
-use super::state::{Body, Part, Small, State};
 use super::Way;
+use super::state::{Body, Part, Small, State};
 use crate::course::{Course, Scene, Turn};
 use crate::engine::outcomes;
 use crate::engine::states::{self, Bits, Places, Run, System};
@@ -116,8 +116,7 @@ impl Team {
                     other.pending.is_some() && dx.max(dy) <= 2
                 })
         };
-        let mut ready =
-            (0..state.bodies.len()).filter(|&agent| awake >> agent & 1 == 1 && !is_locked(agent));
+        let mut ready = (0..state.bodies.len()).filter(|&agent| awake >> agent & 1 == 1 && !is_locked(agent));
         let of = ready.clone().count() as u32;
         let may_fail = self.may_fail && awake.count_ones() > 1;
         let pick = if of > 1 || may_fail { world.pick(of << u32::from(may_fail)) } else { 0 };
@@ -126,7 +125,14 @@ impl Team {
         let body = &mut state.bodies[agent];
         if pick >= of {
             body.has_failed = true;
-            return Some(Turned { state, agent, step: Step::Stay, unseen: Vec::new(), fails: true, breaks: None });
+            return Some(Turned {
+                state,
+                agent,
+                step: Step::Stay,
+                unseen: Vec::new(),
+                fails: true,
+                breaks: None,
+            });
         }
         let mut floor = Small { plan: &self.plan, notes: &mut state.notes };
         let mut unseen = Vec::new();
@@ -243,8 +249,9 @@ impl System for Team {
         match self.demand {
             Demand::Connected | Demand::Knowing | Demand::Whole | Demand::Rising | Demand::Bounded => None,
             Demand::Explores => (!state.is_explored(&self.plan)).then_some("every cell is explored"),
-            Demand::Ends | Demand::All => (state.left(&self.plan) != 0)
-                .then_some("when all agents are done, every cell is visited"),
+            Demand::Ends | Demand::All => {
+                (state.left(&self.plan) != 0).then_some("when all agents are done, every cell is visited")
+            }
         }
     }
 
@@ -259,6 +266,9 @@ impl System for Team {
     }
 
     fn awake(&self, state: &State) -> Bits {
-        (0..).zip(&state.bodies).filter(|(_, body)| body.is_awake()).fold(0, |set, (agent, _)| set | 1 << agent)
+        (0..)
+            .zip(&state.bodies)
+            .filter(|(_, body)| body.is_awake())
+            .fold(0, |set, (agent, _)| set | 1 << agent)
     }
 }

@@ -34,7 +34,8 @@ pub(super) fn chart(figure: Figure, lines: &[Line]) -> LineChart {
                 drawn.push(series(format!("{word}: until done"), team, &done));
             }
         }
-        let printed: &[(&str, f64)] = match (figure, (team.scheme, team.rule) == (&BRICKS, RuleId::REPAIRED)) {
+        let printed: &[(&str, f64)] = match (figure, (team.scheme, team.rule) == (&BRICKS, RuleId::REPAIRED))
+        {
             (Figure::Agents, true) => &[("explored", 50.0), ("visited", 40.0)],
             (Figure::Agents | Figure::Area | Figure::Ideal, _) => &[],
         };
