@@ -6,7 +6,8 @@ mod common;
 use criterion::{BenchmarkId, Criterion};
 use tautline_kernel::ants;
 use tautline_kernel::bricks::Rule;
-use tautline_sim::explore::agents::{Agents, Way};
+use tautline_sim::explore::agents::{Agents, Crew, Way};
+use tautline_sim::explore::trees::{HELPERS_ROBUST, TREE};
 use tautline_sim::layout::Generator;
 use tautline_sim::layout::generate::Probability;
 
@@ -37,11 +38,14 @@ const SCHEMES: [(&str, Way); 3] = [
     ("ants", Way::Ants(ants::Rule::Repaired)),
 ];
 
+const TREES: [(&str, tautline_proofs::bricks::tree::Way); 2] =
+    [("bricks (tree)", TREE), ("helpers", HELPERS_ROBUST)];
+
 const LAYOUTS: [&str; 4] = ["office:30x30:4x4", "open:30x30", "office:512x512:16x16", "open:512x512"];
 
 /// A team of ants and one that marks cells as visited are both followed to the end of exploration; the latter until all
 /// agents are done.
-fn follow(mut team: Agents) -> Work {
+fn follow<C: Crew>(mut team: Agents<C>) -> Work {
     let mut work = Work::default();
     while work.team_moves < MOST && !team.is_over() {
         work.team_moves += 1;
@@ -64,6 +68,11 @@ fn main() {
             let cost = measure(&mut group, BenchmarkId::from_parameter(scheme), || follow(team.clone()));
             rows.push((described, scheme, cost));
         }
+        for (scheme, way) in TREES {
+            let team = Agents::new(way, &layout, &starts, Probability::NEVER, 0);
+            let cost = measure(&mut group, BenchmarkId::from_parameter(scheme), || follow(team.clone()));
+            rows.push((described, scheme, cost));
+        }
     }
     criterion.final_summary();
 
@@ -71,6 +80,6 @@ fn main() {
     for (described, scheme, cost) in rows {
         let seconds = 1e-6 * cost.micros * f64::from(cost.work.team_moves);
         let millions = 1e-6 * f64::from(cost.work.agent_steps) / seconds;
-        println!("  {described:22} {scheme:12} {:>8} steps {millions:>7.2} million/s", cost.work.agent_steps);
+        println!("  {described:22} {scheme:13} {:>8} steps {millions:>7.2} million/s", cost.work.agent_steps);
     }
 }

@@ -7,6 +7,7 @@ mod agent;
 mod lap;
 mod marking;
 mod rule;
+pub mod tree;
 
 pub use agent::{Act, Agent, Next, Pass, act, carry_out};
 pub use lap::Lap;

@@ -5,6 +5,7 @@ pub mod clauses;
 mod floors;
 mod marking;
 mod team;
+pub mod tree;
 mod walk;
 
 use tautline_kernel::bricks::{Condition, Rule};

@@ -12,11 +12,13 @@ pub mod floor;
 pub mod kit;
 mod misfit;
 mod own;
+pub mod rivals;
 mod rule;
 mod run;
 mod setup;
 mod stage;
 mod survey;
+pub mod trees;
 
 pub use self::clause::ClauseId;
 pub use self::misfit::Misfit;

@@ -6,6 +6,7 @@ pub mod agents;
 pub mod antenna_fig4;
 pub mod atlas;
 mod entry;
+pub mod floors;
 pub mod journeys;
 pub mod kit;
 pub mod locate_convergence;
@@ -38,6 +39,7 @@ pub const TABLES: &[&dyn Entry] = &[
     &agents::BRICKS_FIG11,
     &agents::BRICKS_FIG12,
     &agents::BRICKS_IDEAL,
+    &floors::Floors,
     &antenna_fig4::AntennaFig4,
     &notice_fig5::NoticeFig5,
     &journeys::RESCUE_FIG6,

@@ -12,10 +12,12 @@ use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::course::{Course, Scene, Turn};
 use tautline_sim::draw::story;
-use tautline_sim::explore::agents::{Agents, Way};
+use tautline_sim::explore::agents::{Agents, Crew, Way};
 use tautline_sim::explore::ants::ANTS;
 use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};
-use tautline_sim::explore::{Report, RuleName, Setup, Stopped, explore};
+use tautline_sim::explore::rivals::{HELPERS, MDFS};
+use tautline_sim::explore::trees::{HELPERS_ROBUST, HELPERS_TRUSTING, TREE};
+use tautline_sim::explore::{Report, RuleId, RuleName, Setup, Stopped, explore};
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::layout::{self, Generator, Layout};
 
@@ -93,6 +95,34 @@ proptest! {
     }
 
     #[test]
+    fn agents_that_search_in_trees_visit_every_cell_and_know_it(
+        setup in setups(),
+        (scheme, rule) in prop::sample::select(vec![
+            (&BRICKS, RuleId::new("tree")),
+            (&HELPERS, RuleId::new("trusting")),
+            (&HELPERS, RuleId::REPAIRED),
+        ]),
+    ) {
+        let report = run(&Setup { scheme, rule, ..setup.clone() });
+        prop_assert_eq!(&report.violations, &[]);
+        prop_assert_eq!(report.stopped, Stopped::Explored);
+        let whole = report.whole();
+        prop_assert_eq!((whole.visited, whole.explored, whole.active), (report.cells, report.cells, 0));
+    }
+
+    #[test]
+    fn careful_helpers_visit_every_cell_and_know_it_although_sensors_are_missed(
+        setup in setups(),
+        miss in 0.0..0.2_f64,
+    ) {
+        let miss = Probability::new(miss).expect("a probability");
+        let report = run(&Setup { scheme: &HELPERS, miss, ..setup });
+        prop_assert_eq!(&report.violations, &[]);
+        let whole = report.whole();
+        prop_assert_eq!((whole.visited, whole.explored, whole.active), (report.cells, report.cells, 0));
+    }
+
+    #[test]
     fn ants_explore_everything(setup in setups(), rule in prop::sample::select(RuleName::ALL.to_vec())) {
         let report = run(&Setup { scheme: &ANTS, rule: rule.into(), ..setup });
         prop_assert_eq!((report.stopped, report.explored), (Stopped::Explored, report.cells));
@@ -113,9 +143,9 @@ proptest! {
 }
 
 /// The end of a team in `layout`, all agents starting in `start`: cells, visited cells, and agents that are not done.
-fn ended(rule: Rule, layout: &Layout, start: Cell, agents: usize) -> (u32, u32, u32) {
+fn ended(way: impl Crew, layout: &Layout, start: Cell, agents: usize) -> (u32, u32, u32) {
     let starts = vec![start; agents];
-    let mut team = Agents::new(Way::Bricks(rule), layout, &starts, Probability::NEVER, 0);
+    let mut team = Agents::new(way, layout, &starts, Probability::NEVER, 0);
     while !team.is_over() {
         team.advance();
     }
@@ -148,10 +178,13 @@ fn is_visited(name: &str, layout: &Layout, (start, cells): (Cell, u32)) {
     };
     for (rule, agents) in teams {
         assert_eq!(
-            ended(rule, layout, start, agents),
+            ended(Way::Bricks(rule), layout, start, agents),
             (cells, cells, 0),
             "{name}, {agents} agents, {rule:?}"
         );
+    }
+    for (way, agents) in [TREE, HELPERS_TRUSTING, HELPERS_ROBUST].into_iter().zip([4, 20, 1]) {
+        assert_eq!(ended(way, layout, start, agents), (cells, cells, 0), "{name}, {agents} agents, {way:?}");
     }
 }
 
@@ -164,6 +197,20 @@ fn built_in_layouts_are_visited() {
         let layout = generator.generate(1).expect("a layout");
         is_visited(described, &layout, largest_part(&layout));
     }
+}
+
+#[test]
+fn an_agent_with_a_tree_of_its_own_is_done_too_early() {
+    let generator: Generator = "open:3x2".parse().expect("a generator");
+    let mut layout = generator.generate(0).expect("a layout");
+    let base = Setup::choose_base(&mut layout, None).expect("a free cell");
+    let ends_early = |starts: [(i16, i16); 2]| {
+        let starts = Some(starts.map(|(x, y)| Cell::new(x, y)).to_vec());
+        let setup = Setup::new(&MDFS, RuleName::Published, 2, layout.clone(), base);
+        !run(&Setup { starts, ..setup }).violations.is_empty()
+    };
+    let places = [(0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1)];
+    assert!(places.iter().any(|&one| places.iter().any(|&other| ends_early([one, other]))));
 }
 
 #[test]

@@ -6,8 +6,10 @@ use tautline_sim::tables::parameter::Values;
 use tautline_sim::tables::{Asked, Entry, Made, TABLES, find};
 
 /// Values that make any table quick.
-const SMALL: [(&str, &[&str]); 6] = [
+const SMALL: [(&str, &[&str]); 8] = [
+    ("agents", &["1", "3"]),
     ("layouts", &["3"]),
+    ("map", &["open:4x3"]),
     ("max-steps", &["400"]),
     ("max-walls", &["1"]),
     ("nodes", &["150"]),
@@ -125,7 +127,7 @@ fn what_stands_for_an_option_that_is_not_given_is_what_its_settings_have() {
 
 #[test]
 fn every_option_can_be_wrong_and_changes_the_settings() {
-    let values = ["7", "2", "5", "shared", "1,2,3,4"];
+    let values = ["7", "2", "5", "shared", "1,2,3,4", "open:4x3", "0.25"];
     for table in TABLES {
         let unasked = table.asked(&[]).and_then(|asked| asked.settings()).expect("settings");
         for (option, _) in table.options() {

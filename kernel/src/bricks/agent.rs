@@ -297,7 +297,7 @@ fn entry(rule: Rule, scan: &Scan, side: Side) -> Entry {
 
 /// The unexplored neighbour with the most inaccessible sides, as far as the scan shows them; ties in the order of the
 /// compass.
-fn most_walled(scan: &Scan) -> Option<Side> {
+pub(super) fn most_walled(scan: &Scan) -> Option<Side> {
     let unexplored = scan.reachable().and(scan.unexplored);
     let flanks = |side| Ring::of(side).beside(scan.rims).and(scan.accessible()).count();
     COMPASS.into_iter().filter(|&side| unexplored.has(side)).min_by_key(|&side| flanks(side))

@@ -82,6 +82,15 @@ impl Ring {
         self.0.count_ones()
     }
 
+    /// What is known in the cell beyond `side` of those in the set and of the cell that they are around: the cells around that
+    /// one which are in the set, and the cell itself.
+    #[inline]
+    pub const fn seen_beyond(self, side: Side) -> Self {
+        let turned = self.0.rotate_right(Self::place(side));
+        let ahead = (turned & 0b110) << 1 | 1 << 4 | (turned & 0b1100_0000) >> 1;
+        Self(ahead.rotate_left(Self::place(side)))
+    }
+
     /// The cells one step along the ring from those of the set, where `rims` are the edges that can be crossed; edge
     /// *i* lies between the cells in places *i* and *i*+1.
     #[inline]

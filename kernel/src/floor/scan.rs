@@ -55,8 +55,19 @@ impl Scan {
     /// Scans from `cell`, which has a sensor. Whether a sensor is missed is asked of `world`, once for each that an
     /// agent has been at.
     pub fn new(floor: &impl Floor, cell: Cell, world: &mut (impl Oracle + ?Sized)) -> Self {
+        Self::read(|cell| floor.sensor(cell), |edge| floor.is_open(edge), cell, world)
+    }
+
+    /// Scans from `cell`, `sensor` and `is_open` saying what a [`Floor`] would.
+    #[inline]
+    pub(crate) fn read(
+        sensor: impl Fn(Cell) -> Option<Sensor>,
+        is_open: impl Fn(Edge) -> bool,
+        cell: Cell,
+        world: &mut (impl Oracle + ?Sized),
+    ) -> Self {
         let mut scan = Self {
-            here: floor.sensor(cell).unwrap_or_default(),
+            here: sensor(cell).unwrap_or_default(),
             unexplored: Ring::default(),
             explored: Ring::default(),
             closing: Ring::default(),
@@ -70,8 +81,8 @@ impl Scan {
             serials: [0; 8],
         };
         let mut around = [None; 8];
-        for (sensor, (columns, rows, _)) in around.iter_mut().zip(AROUND) {
-            *sensor = floor.sensor(moved(cell, columns, rows)).map(|sensor| match sensor.mark {
+        for (seen, (columns, rows, _)) in around.iter_mut().zip(AROUND) {
+            *seen = sensor(moved(cell, columns, rows)).map(|sensor| match sensor.mark {
                 Mark::Unexplored => Sensor::default(),
                 Mark::Explored | Mark::Closing | Mark::Visited | Mark::Sealed if world.mishap() => {
                     Sensor::default()
@@ -96,14 +107,14 @@ impl Scan {
             scan.detected += u8::from(sensor.mark != Mark::Unexplored);
             if let Some(next) = around[(place + 1) % around.len()] {
                 let is_shut = sensor.shut.has(onward) || next.shut.has(onward.opposite());
-                if !is_shut && floor.is_open(Edge::new(moved(cell, columns, rows), onward)) {
+                if !is_shut && is_open(Edge::new(moved(cell, columns, rows), onward)) {
                     scan.rims.0 |= bit;
                 }
             }
         }
         for (place, side) in COMPASS.into_iter().enumerate() {
             let Some(sensor) = around[2 * place] else { continue };
-            if !floor.is_open(Edge::new(cell, side)) {
+            if !is_open(Edge::new(cell, side)) {
                 continue;
             }
             scan.beside.0 |= Ring::of(side).0;
@@ -141,12 +152,11 @@ impl Scan {
         self.claims.into_iter().zip(COMPASS).find_map(|(claim, at)| claim.filter(|_| at == side))
     }
 
-    /// The cells around `cell`, from which this is a scan on `floor`, that read as unexplored and are not.
-    pub fn misread(&self, floor: &impl Floor, cell: Cell) -> impl Iterator<Item = Cell> {
+    /// The cells around `cell`, from which this is a scan, that read as unexplored and are not, as `mark` says.
+    pub fn misread(&self, mark: impl Fn(Cell) -> Mark, cell: Cell) -> impl Iterator<Item = Cell> {
         let unexplored = self.unexplored;
         let reads = (0..).zip(AROUND).filter(move |(place, _)| unexplored.0 >> place & 1 == 1);
-        let is_known =
-            |&cell: &Cell| floor.sensor(cell).is_some_and(|sensor| sensor.mark != Mark::Unexplored);
+        let is_known = move |&cell: &Cell| mark(cell) != Mark::Unexplored;
         reads.map(move |(_, (columns, rows, _))| moved(cell, columns, rows)).filter(is_known)
     }
 

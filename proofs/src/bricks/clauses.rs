@@ -4,6 +4,7 @@ use tautline_kernel::bricks::Condition::{Alone, Corners, Laps, LeastCrossed, Sec
 use tautline_kernel::bricks::{Precedence, Rule};
 
 use super::floors::Floors;
+use super::tree::checks as tree;
 use super::{Deception, Observed, marking};
 use crate::clause::{Check, Clause, Named};
 use crate::decide::Verdict;
@@ -55,7 +56,7 @@ step_checks! { Observed;
 }
 
 /// The clauses.
-pub static CLAUSES: [Clause; 7] = [
+pub static CLAUSES: [Clause; 11] = [
     Clause {
         id: "BRICKS-1",
         sentence: "Marking a cell MUST leave its accessible side neighbours connected with each other through the \
@@ -82,17 +83,27 @@ pub static CLAUSES: [Clause; 7] = [
                 ],
             ),
             &Check::new(ROBUST, &Floors::CONNECTED_HALF_BLIND, Verdict::Holds, &[TRUSTING, ONCE_OVER]),
+            &tree::TREE_CONNECTED,
+            &tree::HELPERS_CONNECTED,
+            &tree::ROBUST_CONNECTED,
         ],
     },
     Clause {
         id: "BRICKS-3",
         sentence: "It MUST be enough for BRICKS-2 that two agents take turns whose scans overlap.",
-        checks: &[&Check::new(
-            REPAIRED,
-            &Floors::CONNECTED_IN_TURNS,
-            Verdict::Holds,
-            &[Named::new("agents beside each other act at once", Observed::deceiving(Deception::ActsAtOnce))],
-        )],
+        checks: &[
+            &Check::new(
+                REPAIRED,
+                &Floors::CONNECTED_IN_TURNS,
+                Verdict::Holds,
+                &[Named::new(
+                    "agents beside each other act at once",
+                    Observed::deceiving(Deception::ActsAtOnce),
+                )],
+            ),
+            &tree::IN_TURNS,
+            &tree::BOTH_AT_ONCE,
+        ],
     },
     Clause {
         id: "BRICKS-4",
@@ -112,6 +123,11 @@ pub static CLAUSES: [Clause; 7] = [
                 Verdict::Holds,
                 &[TRUSTING, ONCE_OVER, EARLY_LAPS],
             ),
+            &tree::TREE_KNOWING,
+            &tree::HELPERS_KNOWING,
+            &tree::MDFS_KNOWING,
+            &tree::TREE_HALF_BLIND,
+            &tree::ROBUST_KNOWING,
         ],
     },
     Clause {
@@ -120,6 +136,7 @@ pub static CLAUSES: [Clause; 7] = [
         checks: &[
             &Check::new(PUBLISHED, &Floors::EXPLORES_HALF_BLIND, Verdict::Refuted, &[]),
             &Check::new(ROBUST, &Floors::EXPLORES_HALF_BLIND, Verdict::Holds, &[TRUSTING, ONCE_OVER]),
+            &tree::ROBUST_EXPLORES,
         ],
     },
     Clause {
@@ -146,6 +163,9 @@ pub static CLAUSES: [Clause; 7] = [
             ),
             &Check::new(PUBLISHED, &Floors::ENDS_HALF_BLIND, Verdict::Refuted, &[]),
             &Check::new(ROBUST, &Floors::ENDS_HALF_BLIND, Verdict::Holds, &[TRUSTING, ONCE_OVER, EARLY_LAPS]),
+            &tree::TREE_ENDS,
+            &tree::HELPERS_ENDS,
+            &tree::ROBUST_ENDS,
         ],
     },
     Clause {
@@ -153,5 +173,25 @@ pub static CLAUSES: [Clause; 7] = [
         sentence: "A sensor that is localised with an error of less than half a cell MUST be taken for the one of its \
                    cell.",
         checks: &[&localised::CHECK],
+    },
+    Clause {
+        id: "BRICKS-8",
+        sentence: "The cells of a tree MUST stay connected through cells of trees whose labels are not lower.",
+        checks: &[&tree::TREES_WHOLE],
+    },
+    Clause {
+        id: "BRICKS-9",
+        sentence: "Labels MUST never fall from a cell of a tree to its parent.",
+        checks: &[&tree::LABELS_RISE],
+    },
+    Clause {
+        id: "BRICKS-10",
+        sentence: "As long as there has been one tree at most, an agent MUST make at most two moves a cell.",
+        checks: &[&tree::TREE_BOUNDED, &tree::HELPERS_BOUNDED],
+    },
+    Clause {
+        id: "BRICKS-11",
+        sentence: "Agents that fail MUST not keep the others from an end with every cell visited.",
+        checks: &[&tree::SURVIVES],
     },
 ];

@@ -4,7 +4,7 @@
 
 use tautline_kernel::bricks::{Act, Agent, Condition, Next, Rule, carry_out};
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::floor::{Mark, Scan};
+use tautline_kernel::floor::{Floor, Mark, Scan};
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 
 use crate::course::{Course, Scene, Turn};
@@ -186,7 +186,8 @@ impl Team {
             let mut world = Misses { world, count: &mut state.misses, most: self.max_misses };
             let scan = Scan::new(&floor, body.cell, &mut world);
             if state.misses > missed {
-                unseen = scan.misread(&floor, body.cell).collect();
+                let mark = |cell| floor.sensor(cell).map_or(Mark::Unexplored, |sensor| sensor.mark);
+                unseen = scan.misread(mark, body.cell).collect();
             }
             (body.agent.decide(self.rule, &scan), self.turns == Turns::Whole)
         };

@@ -11,14 +11,14 @@ use tautline_kernel::ants;
 use tautline_kernel::bricks::{self, Agent, Condition, Next};
 use tautline_kernel::chain::Kind;
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::floor::{Claim, Mark, Scan, settle};
+use tautline_kernel::floor::{Claim, Mark, Scan, Sensor, settle};
 use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_kernel::perception::time;
 pub use tautline_proofs::floor::trap::Way;
 use tautline_proofs::run::Frame;
 
 use super::clause::ClauseId;
-use super::floor::{Component, SensorFloor, is_visited};
+use super::floor::{Component, SensorFloor, Stored, is_visited};
 use super::run::{End, Team};
 use super::setup::{Profile, Senses, Setup, Starts};
 use super::stage::Look;
@@ -51,7 +51,7 @@ pub const UNVISITED: ClauseId = ClauseId::new("BRICKS-6");
 
 /// The world: which sensors are missed, by chance or as it is written down.
 #[derive(Clone)]
-struct Misses {
+pub struct Misses {
     chance: Probability,
     generator: ChaCha8Rng,
     /// The numbers of the questions, counted from 1, that are answered yes; in order.
@@ -83,10 +83,122 @@ impl Oracle for Misses {
     }
 }
 
-/// An agent on the floor.
+/// How agents on a floor decide, and what their sensors store.
+pub trait Crew: Copy + 'static {
+    /// What a sensor stores.
+    type Stored: Stored;
+    /// What an agent remembers.
+    type Mind: Copy + PartialEq;
+    /// What it sees.
+    type View;
+
+    /// What the agent with this id remembers at the start.
+    fn mind(&self, id: u8) -> Self::Mind;
+
+    /// Puts agents into the cells where they start.
+    fn settle(&self, floor: &mut SensorFloor<Self::Stored>, starts: &[Cell]);
+
+    /// A scan from `cell`; `world` says which sensors are missed.
+    fn look(&self, floor: &SensorFloor<Self::Stored>, cell: Cell, world: &mut Misses) -> Self::View;
+
+    /// The marks that were seen.
+    fn scan(view: &Self::View) -> &Scan;
+
+    /// One action of an agent in `cell` that has seen `view`.
+    fn act(
+        &self,
+        floor: &mut SensorFloor<Self::Stored>,
+        mind: &mut Self::Mind,
+        cell: Cell,
+        view: &Self::View,
+    ) -> Acted;
+
+    /// Whether agents may go on for ever although nothing is left to explore; sensors are missed by chance, or none is.
+    fn may_roam(&self, by_chance: bool) -> bool;
+
+    /// Whether agents that are where they were do as they did, as long as no sensor is missed.
+    fn repeats(&self) -> bool;
+
+    /// Whether it is promised that in the end every cell is visited; sensors are missed, or none is.
+    fn promises(&self, is_blind: bool) -> bool;
+}
+
+/// What an agent did.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-struct Body {
-    agent: Agent,
+pub struct Acted {
+    /// Where it went.
+    pub step: Step,
+    /// Whether it is done.
+    pub is_done: bool,
+}
+
+impl Crew for Way {
+    type Stored = Sensor;
+    type Mind = Agent;
+    type View = Scan;
+
+    fn mind(&self, id: u8) -> Agent {
+        Agent::new(id)
+    }
+
+    fn settle(&self, floor: &mut SensorFloor, starts: &[Cell]) {
+        settle(floor, starts);
+    }
+
+    fn look(&self, floor: &SensorFloor, cell: Cell, world: &mut Misses) -> Scan {
+        Scan::new(floor, cell, world)
+    }
+
+    fn scan(view: &Scan) -> &Scan {
+        view
+    }
+
+    fn act(&self, floor: &mut SensorFloor, agent: &mut Agent, cell: Cell, scan: &Scan) -> Acted {
+        let crosses = |side| Acted { step: Step::Cross(side), is_done: false };
+        let stays = |is_done| Acted { step: Step::Stay, is_done };
+        match *self {
+            Self::Ants(rule) => ants::act(rule, floor, cell, scan).map_or(stays(false), crosses),
+            Self::Bricks(rule) => {
+                let act = agent.decide(rule, scan);
+                bricks::carry_out(floor, cell, &act);
+                match act.next {
+                    Next::Goes(side, ..) => crosses(side),
+                    Next::Waits => stays(false),
+                    Next::Done => stays(true),
+                }
+            }
+        }
+    }
+
+    /// Ants, and those that go over visited cells again, to whom missed sensors always show something.
+    fn may_roam(&self, by_chance: bool) -> bool {
+        match self {
+            Self::Ants(_) => true,
+            Self::Bricks(rule) => rule.has(Condition::SecondPass) && by_chance,
+        }
+    }
+
+    /// Unless an agent reads the crossings, which only grow.
+    fn repeats(&self) -> bool {
+        match self {
+            Self::Ants(_) => false,
+            Self::Bricks(rule) => !rule.has(Condition::LeastCrossed),
+        }
+    }
+
+    /// By those who mark cells, where no sensor is missed.
+    fn promises(&self, is_blind: bool) -> bool {
+        match self {
+            Self::Ants(_) => false,
+            Self::Bricks(_) => !is_blind,
+        }
+    }
+}
+
+/// An agent on the floor.
+#[derive(Clone, Copy, PartialEq)]
+struct Body<M> {
+    mind: M,
     is_done: bool,
 }
 
@@ -100,10 +212,10 @@ fn milliseconds(scan: &Scan, step: Step) -> u64 {
 
 /// A team of agents on a floor.
 #[derive(Clone)]
-pub struct Agents {
-    way: Way,
-    floor: SensorFloor,
-    bodies: Vec<Body>,
+pub struct Agents<K: Crew = Way> {
+    way: K,
+    floor: SensorFloor<K::Stored>,
+    bodies: Vec<Body<K::Mind>>,
     cells: Vec<Cell>,
     /// What each agent did in the last team move.
     steps: Vec<Step>,
@@ -116,13 +228,13 @@ pub struct Agents {
     unseen: Vec<Cell>,
 }
 
-impl Agents {
+impl<K: Crew> Agents<K> {
     /// A team in `layout`, an agent in each of `starts`: at most 255, and in free cells. They miss sensors by `chance`, drawn
     /// from `seed`.
-    pub fn new(way: Way, layout: &Layout, starts: &[Cell], chance: Probability, seed: u64) -> Self {
+    pub fn new(way: K, layout: &Layout, starts: &[Cell], chance: Probability, seed: u64) -> Self {
         let mut floor = SensorFloor::new(layout, starts);
-        settle(&mut floor, starts);
-        let bodies = (0..=u8::MAX).zip(starts).map(|(id, _)| Body { agent: Agent::new(id), is_done: false });
+        way.settle(&mut floor, starts);
+        let bodies = (0..=u8::MAX).zip(starts).map(|(id, _)| Body { mind: way.mind(id), is_done: false });
         Self {
             way,
             floor,
@@ -142,7 +254,7 @@ impl Agents {
     }
 
     /// The team of `setup` at its start, which explores by `way`.
-    pub(super) fn of(setup: &Setup, way: Way) -> Self {
+    pub(super) fn of(setup: &Setup, way: K) -> Self {
         let team = Self::new(way, &setup.layout, &setup.starts(), setup.miss, setup.seed);
         Self { misses: Misses { written: setup.missed.clone(), ..team.misses }, ..team }
     }
@@ -158,13 +270,18 @@ impl Agents {
     }
 
     /// The floor.
-    pub const fn floor(&self) -> &SensorFloor {
+    pub const fn floor(&self) -> &SensorFloor<K::Stored> {
         &self.floor
     }
 
     /// How many agents are not done. Ants are never done.
     pub fn active(&self) -> u32 {
         self.sum(|component| component.active.into())
+    }
+
+    /// Whether in the last team move an agent was done although it could have got to an unexplored cell.
+    pub const fn is_premature(&self) -> bool {
+        self.is_premature
     }
 
     /// Makes one team move.
@@ -179,31 +296,21 @@ impl Agents {
 
     /// An agent acts; what it does.
     fn act(&mut self, number: usize) -> Step {
-        let (body, cell) = (&mut self.bodies[number], &mut self.cells[number]);
-        let scan = Scan::new(&self.floor, *cell, &mut self.misses);
+        let (body, cell) = (&mut self.bodies[number], self.cells[number]);
+        let view = self.way.look(&self.floor, cell, &mut self.misses);
+        let scan = K::scan(&view);
         if !self.misses.is_never() {
-            self.unseen.extend(scan.misread(&self.floor, *cell));
+            self.unseen.extend(scan.misread(|cell| self.floor.mark(cell), cell));
         }
-        let step = match self.way {
-            Way::Ants(rule) => ants::act(rule, &mut self.floor, *cell, &scan).map_or(Step::Stay, |side| {
-                *cell = cell.beyond(side);
-                Step::Cross(side)
-            }),
-            Way::Bricks(rule) => {
-                let act = body.agent.decide(rule, &scan);
-                *cell = bricks::carry_out(&mut self.floor, *cell, &act);
-                match act.next {
-                    Next::Goes(side, ..) => Step::Cross(side),
-                    Next::Waits => Step::Stay,
-                    Next::Done => {
-                        body.is_done = true;
-                        self.is_premature |= self.floor.retire(*cell);
-                        Step::Stay
-                    }
-                }
-            }
-        };
-        self.milliseconds[number] += milliseconds(&scan, step);
+        let Acted { step, is_done } = self.way.act(&mut self.floor, &mut body.mind, cell, &view);
+        if let Step::Cross(side) = step {
+            self.cells[number] = cell.beyond(side);
+        }
+        if is_done {
+            body.is_done = true;
+            self.is_premature |= self.floor.retire(cell);
+        }
+        self.milliseconds[number] += milliseconds(scan, step);
         step
     }
 
@@ -233,36 +340,24 @@ impl Agents {
 
     /// Whether the run is over: every agent is done or, where some may never know that they are, everything is explored.
     pub fn is_over(&self) -> bool {
-        self.active() == 0 || self.explored() == self.due() && self.may_roam()
+        let may_roam = || self.way.may_roam(!self.misses.chance.is_never());
+        self.active() == 0 || self.explored() == self.due() && may_roam()
     }
 
-    /// Whether agents may go on for ever although nothing is left to explore: ants, and those that go over visited cells
-    /// again, to whom missed sensors always show something.
-    fn may_roam(&self) -> bool {
-        match self.way {
-            Way::Ants(_) => true,
-            Way::Bricks(rule) => rule.has(Condition::SecondPass) && !self.misses.chance.is_never(),
-        }
-    }
-
-    /// Whether a run that comes back to where it was goes on for ever: nothing is left to chance, and no agent reads
-    /// the crossings, which only grow.
+    /// Whether a run that comes back to where it was goes on for ever: nothing is left to chance.
     fn repeats(&self) -> bool {
-        match self.way {
-            Way::Ants(_) => false,
-            Way::Bricks(rule) => !rule.has(Condition::LeastCrossed) && self.misses.chance.is_never(),
-        }
+        self.way.repeats() && self.misses.chance.is_never()
     }
 }
 
 /// Agents that may go round for ever.
-struct Watched {
-    team: Agents,
-    watch: Option<Watch>,
+struct Watched<K: Crew> {
+    team: Agents<K>,
+    watch: Option<Watch<K::Mind>>,
 }
 
 /// The agents of `setup`, each at its start.
-pub(super) fn start(setup: &Setup, way: Way) -> Box<dyn Team> {
+pub(super) fn start<K: Crew>(setup: &Setup, way: K) -> Box<dyn Team> {
     let team = Agents::of(setup, way);
     let watch = team.repeats().then(|| Watch::new(&team));
     Box::new(Watched { team, watch })
@@ -270,16 +365,16 @@ pub(super) fn start(setup: &Setup, way: Way) -> Box<dyn Team> {
 
 /// The cells that an agent of `setup` can get to and that are not visited, as `chart` shows.
 pub(super) fn missed(setup: &Setup, chart: &Survey) -> Vec<Cell> {
-    unvisited(&SensorFloor::new(&setup.layout, &setup.starts()), chart)
+    unvisited(&SensorFloor::<Sensor>::new(&setup.layout, &setup.starts()), chart)
 }
 
 /// The cells that an agent can get to and that are not visited, as `chart` shows.
-fn unvisited(floor: &SensorFloor, chart: &Survey) -> Vec<Cell> {
+fn unvisited<S: Stored>(floor: &SensorFloor<S>, chart: &Survey) -> Vec<Cell> {
     let due = chart.area().cells().filter(|&cell| floor.component(cell).is_some());
     due.filter(|&cell| !is_visited(chart.mark(cell, u32::MAX))).collect()
 }
 
-impl Team for Watched {
+impl<K: Crew> Team for Watched<K> {
     fn cells(&self) -> &[Cell] {
         self.team.cells()
     }
@@ -309,12 +404,8 @@ impl Team for Watched {
         if self.team.is_premature { vec![PREMATURE] } else { Vec::new() }
     }
 
-    /// That every cell is visited is promised where no sensor is missed, and by those who mark cells.
     fn broken_at_end(&self, _: &Layout, _: &Survey, _: End) -> Vec<ClauseId> {
-        let is_promised = match self.team.way {
-            Way::Ants(_) => false,
-            Way::Bricks(_) => self.team.misses.is_never(),
-        };
+        let is_promised = self.team.way.promises(!self.team.misses.is_never());
         let is_broken = is_promised && self.team.visited() < self.team.due();
         if is_broken { vec![UNVISITED] } else { Vec::new() }
     }
@@ -338,8 +429,8 @@ impl Team for Watched {
 
 /// Looks for runs that go on for ever: agents and claims that are as they were, with no mark and no side changed in
 /// between, go round (Brent 1980).
-struct Watch {
-    bodies: Vec<Body>,
+struct Watch<M> {
+    bodies: Vec<Body<M>>,
     cells: Vec<Cell>,
     claims: Vec<(usize, Claim)>,
     gains: u64,
@@ -348,8 +439,8 @@ struct Watch {
     due: u64,
 }
 
-impl Watch {
-    fn new(team: &Agents) -> Self {
+impl<M: Copy + PartialEq> Watch<M> {
+    fn new<K: Crew<Mind = M>>(team: &Agents<K>) -> Self {
         Self {
             bodies: team.bodies.clone(),
             cells: team.cells.clone(),
@@ -361,7 +452,7 @@ impl Watch {
     }
 
     /// Whether the team, which has made a team move since the last call, is where it was.
-    fn has_come_round(&mut self, team: &Agents) -> bool {
+    fn has_come_round<K: Crew<Mind = M>>(&mut self, team: &Agents<K>) -> bool {
         if self.gains != team.floor.gains() || !team.misses.is_over() {
             *self = Self { moves: 1, ..Self::new(team) };
             return false;

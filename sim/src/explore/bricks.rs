@@ -8,10 +8,12 @@ use tautline_proofs::floor::trap::Way;
 use tautline_proofs::words::counted;
 
 use super::agents::{AGENTS, PREMATURE, UNVISITED, missed, start};
+use super::rule::RuleId;
 use super::run::TeamMove;
 use super::setup::{Clause, Judge, Profile, Quarry, Rule, Setup};
 use super::stage::Knowledge;
 use super::survey::Survey;
+use super::trees::TREE;
 
 const PUBLISHED: Way = Way::Bricks(Bricks::PUBLISHED);
 const REPAIRED: Way = Way::Bricks(Bricks::REPAIRED);
@@ -24,6 +26,12 @@ pub static BRICKS: Profile = Profile {
     rules: &[
         Rule::published(|setup| Ok(start(setup, PUBLISHED)), Quarry::Traps(PUBLISHED)),
         Rule::repaired(|setup| Ok(start(setup, REPAIRED)), Quarry::Traps(REPAIRED)),
+        Rule {
+            name: RuleId::new("tree"),
+            about: "Trees close the loops in place of laps",
+            start: |setup| Ok(start(setup, TREE)),
+            hunt: None,
+        },
     ],
     ..MARKING
 };
@@ -37,7 +45,7 @@ pub static BRICKS_ANTS: Profile = Profile {
 };
 
 /// What is the same of all agents that mark cells as visited.
-const MARKING: Profile = Profile {
+pub(super) const MARKING: Profile = Profile {
     knowledge: Some(Knowledge::Visited),
     clauses: &[
         Clause { judge: Some(Judge::Agent), told: premature, ..Clause::new(PREMATURE.as_str()) },

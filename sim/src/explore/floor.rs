@@ -3,6 +3,7 @@
 
 use std::mem;
 
+use tautline_kernel::bricks::tree::{Note, Notes};
 use tautline_kernel::floor::{Claim, Floor, Mark, Sensor};
 use tautline_kernel::ground::{Cell, Edge, Side};
 
@@ -31,21 +32,39 @@ pub const fn is_visited(mark: Mark) -> bool {
     }
 }
 
+/// What a sensor stores, whatever that is.
+pub trait Stored: Copy + Default + PartialEq {
+    /// The state of its cell.
+    fn mark(&self) -> Mark;
+}
+
+impl Stored for Sensor {
+    fn mark(&self) -> Mark {
+        self.mark
+    }
+}
+
+impl Stored for Note {
+    fn mark(&self) -> Mark {
+        Self::mark(*self)
+    }
+}
+
 /// The number of a component, counted from 1; 0 stands for the cells that no agent can get to.
 type Number = u8;
 
 /// A cell, or the rim outside the cells.
 #[derive(Clone, Copy, Default)]
-struct Place {
-    sensor: Sensor,
+struct Place<S> {
+    sensor: S,
     /// How many sensors were placed here.
     placed: u16,
-    /// One bit for each open side, and [`Place::FREE`].
+    /// One bit for each open side, and `FREE`.
     open: u8,
     component: Number,
 }
 
-impl Place {
+impl<S> Place<S> {
     const FREE: u8 = 1 << 4;
 
     const fn is_free(&self) -> bool {
@@ -55,10 +74,10 @@ impl Place {
 
 /// The floor of a layout.
 #[derive(Clone)]
-pub struct SensorFloor {
+pub struct SensorFloor<S = Sensor> {
     size: Size,
     /// Row by row, with a rim of one cell all round.
-    places: Vec<Place>,
+    places: Vec<Place<S>>,
     components: Vec<Component>,
     /// By place, in order.
     claims: Vec<(usize, Claim)>,
@@ -67,7 +86,7 @@ pub struct SensorFloor {
     marked: Vec<(Cell, Mark)>,
 }
 
-impl SensorFloor {
+impl<S: Stored> SensorFloor<S> {
     /// The floor of `layout` for agents that start in `starts`, which are free; there are at most 255.
     pub(super) fn new(layout: &Layout, starts: &[Cell]) -> Self {
         let size = layout.size();
@@ -83,7 +102,7 @@ impl SensorFloor {
         for cell in layout.cells().filter(|&cell| layout.is_free(cell)) {
             let sides = Side::ALL.into_iter().filter(|&side| layout.is_open(Edge::new(cell, side)));
             let index = floor.index(cell);
-            floor.places[index].open = sides.fold(Place::FREE, |open, side| open | 1 << side as u8);
+            floor.places[index].open = sides.fold(Place::<S>::FREE, |open, side| open | 1 << side as u8);
         }
         for &start in starts {
             let number = floor.number(start);
@@ -127,7 +146,7 @@ impl SensorFloor {
         (cell.y + 1) as usize * stride + (cell.x + 1) as usize
     }
 
-    fn place(&self, cell: Cell) -> Option<&Place> {
+    fn place(&self, cell: Cell) -> Option<&Place<S>> {
         self.places.get(self.index(cell))
     }
 
@@ -138,7 +157,7 @@ impl SensorFloor {
 
     /// The mark of `cell`; unexplored where there is no sensor.
     pub fn mark(&self, cell: Cell) -> Mark {
-        self.place(cell).map_or(Mark::Unexplored, |place| place.sensor.mark)
+        self.place(cell).map_or(Mark::Unexplored, |place| place.sensor.mark())
     }
 
     /// The parts of the layout in which agents start, in the order of the first agent of each.
@@ -187,7 +206,9 @@ impl SensorFloor {
             component.visited -= u32::from(is_visited(was));
         }
     }
+}
 
+impl SensorFloor {
     fn claim(&mut self, index: usize, claim: Option<Claim>) {
         let at = self.claims.binary_search_by_key(&index, |&(index, _)| index);
         match (at, claim) {
@@ -231,6 +252,29 @@ impl Floor for SensorFloor {
             place.placed = place.placed.checked_add(1).unwrap_or(1);
             place.placed
         })
+    }
+
+    #[inline]
+    fn is_open(&self, edge: Edge) -> bool {
+        self.has_open(edge.cell(), edge.side())
+    }
+}
+
+impl Notes for SensorFloor<Note> {
+    #[inline]
+    fn note(&self, cell: Cell) -> Option<Note> {
+        self.place(cell).filter(|place| place.is_free()).map(|place| place.sensor)
+    }
+
+    #[inline]
+    fn write(&mut self, cell: Cell, note: Note) {
+        let index = self.index(cell);
+        let Some(place) = self.places.get_mut(index).filter(|place| place.is_free()) else { return };
+        let component = place.component;
+        let was = mem::replace(&mut place.sensor, note);
+        if was.mark() != note.mark() {
+            self.count(cell, component, was.mark(), note.mark());
+        }
     }
 
     #[inline]

@@ -9,18 +9,22 @@ mod drawn;
 mod printed;
 
 use serde::{Deserialize, Serialize};
+use tautline_kernel::ground::Cell;
 use tautline_kernel::{ants, bricks};
+use tautline_proofs::bricks::tree;
 
 use self::printed::Printed;
 use super::parameter::{Parameter, put, shown};
 use super::{About, Chart, Observer, Table, unfit};
-use crate::explore::agents::{self as explore, Way};
+use crate::explore::agents::{self as explore, Crew, Way};
 use crate::explore::ants::ANTS;
 use crate::explore::bricks::{BRICKS, BRICKS_ANTS};
-use crate::explore::{Profile, RuleName};
+use crate::explore::rivals::{HELPERS, MDFS};
+use crate::explore::trees::{HELPERS_ROBUST, TREE};
+use crate::explore::{Profile, RuleId};
 use crate::fault::Halt;
-use crate::layout::Generator;
 use crate::layout::generate::Probability;
+use crate::layout::{Generator, Layout};
 use crate::reading::{number, within};
 use crate::stats::Estimate;
 
@@ -30,17 +34,52 @@ pub struct Team {
     /// The scheme.
     pub scheme: &'static Profile,
     /// Its rule.
-    pub rule: RuleName,
+    pub rule: RuleId,
     #[serde(skip)]
-    way: Way,
+    way: Explorer,
 }
 
+/// How the agents of a team decide.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Explorer {
+    Marks(Way),
+    Trees(tree::Way),
+}
+
+impl Team {
+    const fn new(scheme: &'static Profile, rule: RuleId, way: Explorer) -> Self {
+        Self { scheme, rule, way }
+    }
+
+    /// A run of agents that start in these cells of `layout`, of at most so many steps of all of them.
+    pub(super) fn run(
+        self,
+        layout: &Layout,
+        starts: &[Cell],
+        (miss, seed): (Probability, u64),
+        max_steps: u32,
+    ) -> Outcome {
+        match self.way {
+            Explorer::Marks(way) => follow(explore::Agents::new(way, layout, starts, miss, seed), max_steps),
+            Explorer::Trees(way) => follow(explore::Agents::new(way, layout, starts, miss, seed), max_steps),
+        }
+    }
+}
+
+const REPAIRED: Explorer = Explorer::Marks(Way::Bricks(bricks::Rule::REPAIRED));
+const ROBUST: Explorer = Explorer::Marks(Way::Bricks(bricks::Rule::ROBUST));
+const ANTS_REPAIRED: Explorer = Explorer::Marks(Way::Ants(ants::Rule::Repaired));
+const ANTS_PUBLISHED: Explorer = Explorer::Marks(Way::Ants(ants::Rule::Published));
+
 /// The teams that are compared.
-pub const TEAMS: [Team; 4] = [
-    Team { scheme: &BRICKS, rule: RuleName::Repaired, way: Way::Bricks(bricks::Rule::REPAIRED) },
-    Team { scheme: &BRICKS_ANTS, rule: RuleName::Repaired, way: Way::Bricks(bricks::Rule::ROBUST) },
-    Team { scheme: &ANTS, rule: RuleName::Repaired, way: Way::Ants(ants::Rule::Repaired) },
-    Team { scheme: &ANTS, rule: RuleName::Published, way: Way::Ants(ants::Rule::Published) },
+pub const TEAMS: [Team; 7] = [
+    Team::new(&BRICKS, RuleId::REPAIRED, REPAIRED),
+    Team::new(&BRICKS_ANTS, RuleId::REPAIRED, ROBUST),
+    Team::new(&ANTS, RuleId::REPAIRED, ANTS_REPAIRED),
+    Team::new(&ANTS, RuleId::PUBLISHED, ANTS_PUBLISHED),
+    Team::new(&BRICKS, RuleId::new("tree"), Explorer::Trees(TREE)),
+    Team::new(&HELPERS, RuleId::REPAIRED, Explorer::Trees(HELPERS_ROBUST)),
+    Team::new(&MDFS, RuleId::PUBLISHED, Explorer::Trees(tree::Way::Mdfs)),
 ];
 
 /// The sensors that the paper's agents miss, of all.
@@ -186,20 +225,22 @@ pub struct Duration {
 
 /// When something was so.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-struct Moment {
-    team_moves: u32,
+pub(super) struct Moment {
+    pub(super) team_moves: u32,
     milliseconds: u64,
 }
 
 /// What came of one run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 pub struct Outcome {
-    cells: u32,
+    pub(super) cells: u32,
     explored: u32,
     visited: u32,
-    exploration: Option<Moment>,
-    termination: Option<Moment>,
-    is_ended: bool,
+    pub(super) exploration: Option<Moment>,
+    pub(super) termination: Option<Moment>,
+    pub(super) is_ended: bool,
+    /// Whether an agent was done although it could have got to an unexplored cell.
+    pub(super) is_early: bool,
 }
 
 impl Table for Agents {
@@ -274,7 +315,7 @@ impl Table for Agents {
         let miss = self.figure.miss();
         let run = |team: Team| {
             let starts = vec![start; agents.into()];
-            follow(explore::Agents::new(team.way, &layout, &starts, miss, seed), settings.max_steps)
+            team.run(&layout, &starts, (miss, seed), settings.max_steps)
         };
         Ok(TEAMS.map(run))
     }
@@ -299,13 +340,15 @@ impl Table for Agents {
     }
 }
 
-fn follow(mut team: explore::Agents, max_steps: u32) -> Outcome {
-    let (mut team_moves, mut steps, mut exploration) = (0, 0, None);
-    let now = |team: &explore::Agents, team_moves| Moment { team_moves, milliseconds: team.milliseconds() };
+fn follow<K: Crew>(mut team: explore::Agents<K>, max_steps: u32) -> Outcome {
+    let (mut team_moves, mut steps, mut exploration, mut is_early) = (0, 0, None, false);
+    let now =
+        |team: &explore::Agents<K>, team_moves| Moment { team_moves, milliseconds: team.milliseconds() };
     while !team.is_over() && steps < max_steps {
         team_moves += 1;
         steps += team.active();
         team.advance();
+        is_early |= team.is_premature();
         if exploration.is_none() && team.explored() == team.due() {
             exploration = Some(now(&team, team_moves));
         }
@@ -317,15 +360,16 @@ fn follow(mut team: explore::Agents, max_steps: u32) -> Outcome {
         exploration,
         termination: (team.active() == 0).then(|| now(&team, team_moves)),
         is_ended: !team.is_over(),
+        is_early,
     }
 }
 
 impl Team {
-    /// Its name: the scheme, with its rule where that is the published one.
+    /// Its name: the scheme, with its rule where that is not the repaired one.
     pub fn name(self) -> String {
         match self.rule {
-            RuleName::Repaired => self.scheme.name.to_owned(),
-            RuleName::Published => format!("{} ({})", self.scheme.name, self.rule),
+            RuleId::REPAIRED => self.scheme.name.to_owned(),
+            rule => format!("{} ({rule})", self.scheme.name),
         }
     }
 }
@@ -337,8 +381,8 @@ impl Line {
             Estimate::of_values(&outcomes.iter().map(share).collect::<Vec<_>>())
         };
         let visited = match team.way {
-            Way::Ants(_) => None,
-            Way::Bricks(_) => percent(|outcome| outcome.visited),
+            Explorer::Marks(Way::Ants(_)) => None,
+            Explorer::Marks(Way::Bricks(_)) | Explorer::Trees(_) => percent(|outcome| outcome.visited),
         };
         Some(Self {
             team,

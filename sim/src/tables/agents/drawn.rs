@@ -3,6 +3,7 @@
 use super::super::point;
 use super::{Figure, Line, TEAMS, Team};
 use crate::draw::chart::{Axis, LineChart, Point, Series, Stroke};
+use crate::explore::RuleId;
 use crate::explore::bricks::BRICKS;
 use crate::stats::Estimate;
 
@@ -33,7 +34,8 @@ pub(super) fn chart(figure: Figure, lines: &[Line]) -> LineChart {
                 drawn.push(series(format!("{word}: until done"), team, &done));
             }
         }
-        let printed: &[(&str, f64)] = match (figure, team.scheme == &BRICKS) {
+        let printed: &[(&str, f64)] = match (figure, (team.scheme, team.rule) == (&BRICKS, RuleId::REPAIRED))
+        {
             (Figure::Agents, true) => &[("explored", 50.0), ("visited", 40.0)],
             (Figure::Agents | Figure::Area | Figure::Ideal, _) => &[],
         };

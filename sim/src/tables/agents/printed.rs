@@ -18,7 +18,7 @@ pub(super) struct Printed {
 
 /// What the paper says in numbers: of Brick&Mortar in Fig. 11, and that Ants explore everything.
 pub(super) fn of(figure: Figure, lines: &[Line]) -> Vec<Printed> {
-    let [bricks, _, ants, ants_published] = TEAMS;
+    let [bricks, _, ants, ants_published, ..] = TEAMS;
     let one = lines.iter().find(|line| (line.team, line.agents) == (bricks, 1));
     let one = one.filter(|_| figure == Figure::Agents);
     let least = |team: Team| {

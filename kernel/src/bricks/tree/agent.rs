@@ -1,0 +1,233 @@
+//! One action of an agent that searches in trees: it scans, writes into the sensor of its cell and of the one that it
+//! enters, and goes there. Reading and writing are one step: two agents whose scans overlap take turns (BRICKS-3).
+
+use super::note::{Label, Note, Notes, State};
+use super::rule::{Condition, Rule};
+use super::view::View;
+use crate::bricks::marking::blocks;
+use crate::bricks::rule as paper;
+use crate::choice::Oracle;
+use crate::floor::Ring;
+use crate::ground::{Cell, Side};
+
+/// What an agent remembers. It has no map and knows no place.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Agent {
+    /// No two agents have the same.
+    pub id: u8,
+    /// The trees that it has founded.
+    pub founded: u32,
+    /// The side that leads back, if it has gone to a cell that read as unexplored.
+    back: Option<Side>,
+    /// The cells around its cell that it knows to have sensors.
+    known: Ring,
+}
+
+/// What an agent does after a scan.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct Act {
+    /// What the sensor of its cell stores from now on.
+    pub here: Note,
+    /// What becomes of the agent.
+    pub next: Next,
+}
+
+/// What becomes of an agent after an action.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Next {
+    /// It goes through a side, to a cell whose sensor it has seen.
+    Goes(Side),
+    /// It goes through a side, to a cell that it makes a child of the one it leaves, in its tree.
+    Adopts(Side),
+    /// It goes through a side, to a cell that reads as unexplored, where it places a sensor.
+    Explores(Side),
+    /// It stays, and scans again: it has missed a sensor that it knows of.
+    Waits,
+    /// All is visited.
+    Done,
+}
+
+impl Next {
+    /// The side that it goes through.
+    pub const fn side(self) -> Option<Side> {
+        match self {
+            Self::Goes(side) | Self::Adopts(side) | Self::Explores(side) => Some(side),
+            Self::Waits | Self::Done => None,
+        }
+    }
+}
+
+impl Agent {
+    /// An agent before its first action.
+    pub const fn new(id: u8) -> Self {
+        Self { id, founded: 0, back: None, known: Ring(0) }
+    }
+
+    /// What it does after a scan.
+    pub fn decide(&mut self, rule: Rule, view: &View) -> Act {
+        let view = view.knowing(self.known);
+        let act = self.choose(rule, &view);
+        if rule.has(Condition::Remembers) {
+            self.known = act.next.side().map_or(view.known, |side| view.known.seen_beyond(side));
+        }
+        self.back = match act.next {
+            Next::Explores(side) if rule.has(Condition::Underfoot) => Some(side.opposite()),
+            Next::Waits => self.back,
+            Next::Goes(_) | Next::Adopts(_) | Next::Explores(_) | Next::Done => None,
+        };
+        act
+    }
+
+    fn choose(&mut self, rule: Rule, view: &View) -> Act {
+        if let Some(back) = self.back.filter(|_| !view.here.is_new()) {
+            return Act { here: view.here, next: Next::Goes(back) };
+        }
+        if view.here.state == State::Visited {
+            return Act { here: view.here, next: follow(rule, view) };
+        }
+        let is_brick = rule.has(Condition::Bricks) && !blocks(paper::Rule::PUBLISHED, &view.scan);
+        if is_brick && may_mark(rule, view) {
+            let next = leave(view);
+            return Act { here: mark(rule, view.here, next.side()), next };
+        }
+        let here = self.join(rule, view);
+        go_on(rule, view, here)
+    }
+
+    /// The sensor of its cell, which blocks, as one of a tree: the one it belongs to; or that with the greatest label beside
+    /// it; or, if nothing beside it is unexplored, a new one.
+    fn join(&mut self, rule: Rule, view: &View) -> Note {
+        let here = view.here;
+        if here.state == State::Open {
+            return here;
+        }
+        if let Some((side, label)) = view.trees().max_by_key(|&(_, label)| label) {
+            return here.of_tree(label, Some(side));
+        }
+        if rule.has(Condition::Bricks) && view.unexplored() != Ring::default() {
+            return here;
+        }
+        match Label::new(self.founded, self.id) {
+            Some(label) => {
+                self.founded += 1;
+                here.of_tree(label.lowest(rule.label_bits), None)
+            }
+            None => here,
+        }
+    }
+}
+
+/// Whether the trees allow that the cell is marked.
+fn may_mark(rule: Rule, view: &View) -> bool {
+    let is_childless = !rule.has(Condition::Childless) || view.children().next().is_none();
+    let own = view.here.tree();
+    let is_one =
+        !rule.has(Condition::OneLabel) || own.is_none_or(|own| view.trees().all(|(_, label)| label == own));
+    is_childless && is_one
+}
+
+/// The sensor of a cell that is marked, `exit` leading to where more is left to do.
+fn mark(rule: Rule, here: Note, exit: Option<Side>) -> Note {
+    here.visited(exit.filter(|_| rule.has(Condition::Exit)))
+}
+
+/// Where an agent goes that has marked its cell: where something is left to do.
+fn leave(view: &View) -> Next {
+    view.way_on().map(Next::Explores).or_else(|| back_to_work(view)).unwrap_or(Next::Done)
+}
+
+/// To a neighbour that is not visited: one that belongs to no tree, else the parent, else any.
+fn back_to_work(view: &View) -> Option<Next> {
+    let beside = |state| view.neighbours().find(|(_, note)| note.state == state).map(|(side, _)| side);
+    let parent = || view.here.tree().and(view.here.side);
+    beside(State::Explored).or_else(parent).or_else(|| beside(State::Open)).map(Next::Goes)
+}
+
+/// Where an agent goes from a cell that another one has marked. Only bricks have something unexplored beside them; elsewhere
+/// that is a sensor that was missed.
+fn follow(rule: Rule, view: &View) -> Next {
+    let way_on = view.way_on().filter(|_| rule.has(Condition::Bricks)).map(Next::Explores);
+    let on = way_on.or_else(|| back_to_work(view));
+    on.or_else(|| view.here.side.map(Next::Goes)).unwrap_or(Next::Done)
+}
+
+/// What an agent does in a cell that it cannot mark as it stands, and whose sensor is to store `here`.
+fn go_on(rule: Rule, view: &View, here: Note) -> Act {
+    let act = |next| Act { here, next };
+    if let Some(side) = view.way_on() {
+        return act(Next::Explores(side));
+    }
+    let misses = view.unexplored() != Ring::default();
+    let Some(own) = here.tree() else {
+        // It may have missed a tree beside it; or no label is left, and it goes to any cell that is not visited.
+        let anywhere = back_to_work(view).unwrap_or(Next::Done);
+        return act(if misses { Next::Waits } else { anywhere });
+    };
+    if let Some(side) = adopted(rule, view, here, own) {
+        return act(Next::Adopts(side));
+    }
+    if let Some(side) = least(view.children()).filter(|_| rule.has(Condition::Childless)) {
+        return act(Next::Goes(side));
+    }
+    let higher = view.trees().filter(|&(_, label)| label > own).max_by_key(|&(_, label)| label);
+    if let Some((side, _)) = higher {
+        return act(Next::Goes(side));
+    }
+    if misses {
+        return act(Next::Waits);
+    }
+    Act { here: mark(rule, here, here.side), next: here.side.map_or(Next::Done, Next::Goes) }
+}
+
+/// The neighbour that becomes a child of the cell, which is one of the tree `own` as `here` says: one that belongs to no
+/// tree, or else to one with a lower label.
+fn adopted(rule: Rule, view: &View, here: Note, own: Label) -> Option<Side> {
+    let is_lower = |&(side, note): &(Side, Note)| {
+        let is_other = || !note.is_child_beyond(side) && here.side != Some(side);
+        note.tree().is_some_and(|label| label < own || !rule.has(Condition::LowerOnly) && is_other())
+    };
+    let explored = view.neighbours().filter(|(_, note)| note.state == State::Explored);
+    least(explored).or_else(|| least(view.neighbours().filter(is_lower)))
+}
+
+/// The one of `notes` that was entered least, ties in the order of the compass.
+fn least(notes: impl Iterator<Item = (Side, Note)>) -> Option<Side> {
+    notes.min_by_key(|(_, note)| note.crossings).map(|(side, _)| side)
+}
+
+/// Writes what an agent in `cell` has decided; where it is then.
+pub fn carry_out(rule: Rule, floor: &mut impl Notes, cell: Cell, act: &Act) -> Cell {
+    let Act { here, next } = *act;
+    floor.write(cell, here);
+    let Some(side) = next.side() else { return cell };
+    let beyond = cell.beyond(side);
+    let there = floor.note(beyond).unwrap_or_default();
+    let is_child = match next {
+        Next::Goes(_) | Next::Waits | Next::Done => false,
+        Next::Adopts(_) => true,
+        Next::Explores(_) => !rule.has(Condition::Bricks),
+    };
+    let found = match next {
+        Next::Explores(_) if !rule.has(Condition::Underfoot) => Note::default(),
+        Next::Goes(_) | Next::Adopts(_) | Next::Explores(_) | Next::Waits | Next::Done => there,
+    };
+    let entered = found.entered();
+    let is_new = found.state == State::Unexplored;
+    let is_adopted = is_child && (is_new || matches!(next, Next::Adopts(_)));
+    let entered = if is_adopted { entered.of_tree(here.label, Some(side.opposite())) } else { entered };
+    floor.write(beyond, entered);
+    beyond
+}
+
+/// One action of `agent` in `cell`: what it did, and where it is then. Whether sensors are missed is asked of `world`.
+pub fn act(
+    rule: Rule,
+    floor: &mut impl Notes,
+    agent: &mut Agent,
+    cell: Cell,
+    world: &mut (impl Oracle + ?Sized),
+) -> (Act, Cell) {
+    let view = View::new(floor, cell, world);
+    let act = agent.decide(rule, &view);
+    (act, carry_out(rule, floor, cell, &act))
+}

@@ -1,0 +1,215 @@
+//! What one sensor stores for agents that search in trees, in 48 bits.
+
+use core::hash::{Hash, Hasher};
+
+use crate::floor::Mark;
+use crate::ground::{Cell, Edge, Side};
+
+/// What has become of a cell.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+pub enum State {
+    /// No agent has been in it.
+    #[default]
+    Unexplored,
+    /// Agents have been in it, and it belongs to no tree.
+    Explored,
+    /// It belongs to a tree.
+    Open,
+    /// It is done with: nobody needs to go through it again.
+    Visited,
+}
+
+/// The name of a tree. No two trees have the same, and of trees that meet the one with the greater label grows.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+pub struct Label(u32);
+
+impl Label {
+    /// How many trees an agent can found: as many as the largest layout has cells, since no cell is founded on twice.
+    pub const TREES: u32 = 1 << 24;
+
+    /// The label of the tree that the agent `id` founds after so many others; `None` after [`Label::TREES`]. Earlier trees
+    /// have greater labels.
+    pub const fn new(founded: u32, id: u8) -> Option<Self> {
+        if founded < Self::TREES { Some(Self((Self::TREES - 1 - founded) << 8 | id as u32)) } else { None }
+    }
+
+    /// So many bits of it, the lowest ones.
+    #[must_use]
+    pub const fn lowest(self, bits: u8) -> Self {
+        match 1_u32.checked_shl(bits as u32) {
+            Some(end) => Self(self.0 & (end - 1)),
+            None => self,
+        }
+    }
+
+    /// The label as a number.
+    pub const fn number(self) -> u32 {
+        self.0
+    }
+}
+
+/// The memory of one sensor.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
+pub struct Note {
+    /// What has become of the cell.
+    pub state: State,
+    /// Of an open cell, the tree that it belongs to.
+    pub label: Label,
+    /// Of an open cell, the side of its parent, if it is not the root; of a visited one the side that leads to where more was
+    /// left to do, if there was.
+    pub side: Option<Side>,
+    /// How many times an agent has entered; it stays at [`Note::MOST_CROSSINGS`].
+    pub crossings: u16,
+}
+
+impl Note {
+    /// The bits that a sensor stores: 2 for the state, 32 for the label, 3 for the side, 11 for the crossings.
+    pub const BITS: u32 = 48;
+
+    /// The greatest number of crossings that fits.
+    pub const MOST_CROSSINGS: u16 = (1 << 11) - 1;
+
+    /// The cell as other schemes name it: one of a tree is explored.
+    #[inline]
+    pub const fn mark(self) -> Mark {
+        match self.state {
+            State::Unexplored => Mark::Unexplored,
+            State::Explored | State::Open => Mark::Explored,
+            State::Visited => Mark::Visited,
+        }
+    }
+
+    /// Whether an agent has just placed it, and no other has been here since.
+    #[inline]
+    pub const fn is_new(self) -> bool {
+        self.crossings == 1
+    }
+
+    /// Whether the cell, beyond `side` of another, is a child of that one.
+    #[inline]
+    pub fn is_child_beyond(self, side: Side) -> bool {
+        self.state == State::Open && self.side == Some(side.opposite())
+    }
+
+    /// The label, if the cell belongs to a tree.
+    #[inline]
+    pub fn tree(self) -> Option<Label> {
+        (self.state == State::Open).then_some(self.label)
+    }
+
+    /// What it stores as a cell of the tree `label`, with its parent beyond `side`.
+    #[inline]
+    #[must_use]
+    pub const fn of_tree(self, label: Label, side: Option<Side>) -> Self {
+        Self { state: State::Open, label, side, ..self }
+    }
+
+    /// What it stores once it is done with, `side` leading to where more is left to do.
+    #[inline]
+    #[must_use]
+    pub const fn visited(self, side: Option<Side>) -> Self {
+        Self { state: State::Visited, label: Label(0), side, ..self }
+    }
+
+    /// What it stores once one agent more has entered.
+    #[inline]
+    pub(super) const fn entered(self) -> Self {
+        let crossings =
+            if self.crossings < Self::MOST_CROSSINGS { self.crossings + 1 } else { self.crossings };
+        let state = match self.state {
+            State::Unexplored => State::Explored,
+            state @ (State::Explored | State::Open | State::Visited) => state,
+        };
+        Self { state, crossings, ..self }
+    }
+
+    /// All that it stores, in the lowest [`Note::BITS`] bits.
+    #[inline]
+    pub const fn to_bits(self) -> u64 {
+        let side = match self.side {
+            None => 0,
+            Some(side) => 1 + side as u64,
+        };
+        self.state as u64 | side << 2 | (self.crossings as u64) << 5 | (self.label.0 as u64) << 16
+    }
+
+    /// The sensor that stores `bits`; `None` if no sensor does.
+    #[inline]
+    pub const fn from_bits(bits: u64) -> Option<Self> {
+        let state = match bits & 0b11 {
+            0 => State::Unexplored,
+            1 => State::Explored,
+            2 => State::Open,
+            _ => State::Visited,
+        };
+        let side = match bits >> 2 & 0b111 {
+            0 => None,
+            side @ 1..=4 => Some(Side::ALL[side as usize - 1]),
+            _ => return None,
+        };
+        if bits >> Self::BITS != 0 {
+            return None;
+        }
+        Some(Self {
+            state,
+            label: Label((bits >> 16) as u32),
+            side,
+            crossings: (bits >> 5) as u16 & Self::MOST_CROSSINGS,
+        })
+    }
+}
+
+/// In one word, not field by field: searches spend much of their time hashing floors.
+impl Hash for Note {
+    #[inline]
+    fn hash<H: Hasher>(&self, hasher: &mut H) {
+        hasher.write_u64(self.to_bits());
+    }
+}
+
+/// The sensors of an area and the walls between them.
+pub trait Notes {
+    /// What the sensor in `cell` stores; `None` if the cell is a wall or outside.
+    fn note(&self, cell: Cell) -> Option<Note>;
+    /// Changes what the sensor in `cell` stores; no effect where there is none.
+    fn write(&mut self, cell: Cell, note: Note);
+    /// Whether no wall stands on `edge`, which is between two cells that have sensors.
+    fn is_open(&self, edge: Edge) -> bool;
+}
+
+/// Puts agents into the cells where they start.
+pub fn settle(floor: &mut impl Notes, starts: &[Cell]) {
+    for &start in starts {
+        let note = floor.note(start).unwrap_or_default();
+        floor.write(start, note.entered());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_note_fits_into_its_bits_and_comes_back() {
+        let full = Note {
+            state: State::Open,
+            label: Label(u32::MAX),
+            side: Some(Side::North),
+            crossings: Note::MOST_CROSSINGS,
+        };
+        assert_eq!(full.to_bits() >> Note::BITS, 0);
+        for note in [full, full.visited(None), Note::default().entered(), Note::default()] {
+            assert_eq!(Note::from_bits(note.to_bits()), Some(note));
+        }
+        assert_eq!((full.entered(), Note::from_bits(1 << Note::BITS)), (full, None));
+        assert_eq!(Note::from_bits(7 << 2), None);
+    }
+
+    #[test]
+    fn no_two_trees_have_the_same_label_and_the_earlier_one_has_the_greater() {
+        let label = |founded, id| Label::new(founded, id).expect("a label");
+        assert!(label(0, 0) > label(1, 255) && label(0, 1) > label(0, 0));
+        assert_eq!(label(Label::TREES - 1, 0).number(), 0);
+        assert_eq!(Label::new(Label::TREES, 0), None);
+    }
+}

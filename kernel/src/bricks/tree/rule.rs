@@ -1,0 +1,67 @@
+//! The rule of agents that search in trees, as a set of named conditions.
+
+use crate::conditions;
+
+/// One condition of the rule, by the sentence it stands for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Condition {
+    /// An agent marks its cell as soon as the cell does not block (BRICKS-1), and a cell joins a tree only if it blocks.
+    Bricks,
+    /// A cell that has a child is not marked.
+    Childless,
+    /// A cell of a tree is marked only if all cells of trees beside it are of its own.
+    OneLabel,
+    /// A cell becomes another one's child only if it belongs to no tree, or to one with a lower label.
+    LowerOnly,
+    /// A cell that is marked says which side leads to where more is left to do.
+    Exit,
+    /// Robustness: an agent remembers which cells around it have sensors. What reads as unexplored and is none it scans again.
+    Remembers,
+    /// Robustness: an agent that has come into a cell places a sensor only if there is none underfoot.
+    Underfoot,
+}
+
+conditions!(Condition);
+
+/// The rule of a team of agents.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Rule {
+    /// The conditions in force.
+    pub conditions: Conditions,
+    /// The lowest bits of a label that a sensor stores: all but in a mutant.
+    pub label_bits: u8,
+}
+
+impl Rule {
+    /// Brick-tree, for sensors that are not missed.
+    pub const TREE: Self = Self {
+        conditions: Conditions::of(&[
+            Condition::Bricks,
+            Condition::Childless,
+            Condition::OneLabel,
+            Condition::LowerOnly,
+            Condition::Exit,
+        ]),
+        label_bits: 32,
+    };
+
+    /// Depth first search with helpers, for sensors that are not missed.
+    pub const HELPERS: Self = Self::TREE.without(Condition::Bricks);
+
+    /// Helpers, robust against missed sensors.
+    pub const ROBUST: Self = Self {
+        conditions: Self::HELPERS.conditions.with(Condition::Remembers).with(Condition::Underfoot),
+        ..Self::TREE
+    };
+
+    /// The rule without `condition`.
+    pub const fn without(self, condition: Condition) -> Self {
+        Self { conditions: self.conditions.without(condition), ..self }
+    }
+
+    /// Whether `condition` is in force.
+    #[inline]
+    pub const fn has(self, condition: Condition) -> bool {
+        self.conditions.has(condition)
+    }
+}

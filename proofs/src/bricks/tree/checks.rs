@@ -1,0 +1,155 @@
+//! The checks of agents that search in trees, by clause.
+
+use tautline_kernel::bricks::tree::Condition::{Bricks, Childless, Exit, LowerOnly, Underfoot};
+use tautline_kernel::bricks::tree::Rule;
+
+use super::floors::Floors;
+use super::{Observed, Way};
+use crate::clause::{Check, Named};
+use crate::decide::Verdict;
+
+const TREE: Named<Observed> = Named::new("tree", Observed::following(Rule::TREE));
+const HELPERS: Named<Observed> = Named::new("helpers", Observed::following(Rule::HELPERS));
+const ROBUST: Named<Observed> = Named::new("careful", Observed::following(Rule::ROBUST));
+const MDFS: Named<Observed> = Named::new("mdfs", Observed { way: Way::Mdfs, at_once: false });
+const AT_ONCE: Observed = Observed { at_once: true, ..TREE.rule };
+
+/// Agents whose trees all have the same label.
+const WRAPPING: Named<Observed> =
+    Named::new("labels that come again", Observed::following(Rule { label_bits: 0, ..Rule::TREE }));
+const NO_EXITS: Named<Observed> =
+    Named::new("cells marked without the side left through", Observed::following(Rule::TREE.without(Exit)));
+const PARENTS_MARKED: Named<Observed> =
+    Named::new("cells marked that have children", Observed::following(Rule::TREE.without(Childless)));
+const ALL_ADOPTED: Named<Observed> =
+    Named::new("cells of the own tree adopted", Observed::following(Rule::TREE.without(LowerOnly)));
+const REPLACING: Named<Observed> =
+    Named::new("sensors placed on others", Observed::following(Rule::ROBUST.without(Underfoot)));
+
+const WITH_BRICKS: Named<Observed> = Named::new(
+    "cells marked that do not block, as far as is seen",
+    Observed::following(Rule { conditions: Rule::ROBUST.conditions.with(Bricks), ..Rule::ROBUST }),
+);
+const TRUSTING: Named<Observed> = Named::new("what is seen is believed", TREE.rule);
+
+/// A check that holds.
+const fn holds(
+    about: Named<Observed>,
+    floors: &'static Floors,
+    mutants: &'static [Named<Observed>],
+) -> Check<Observed> {
+    Check::new(about, floors, Verdict::Holds, mutants)
+}
+
+/// A check that is refuted.
+const fn refuted(about: Named<Observed>, floors: &'static Floors) -> Check<Observed> {
+    Check::new(about, floors, Verdict::Refuted, &[])
+}
+
+/// BRICKS-2
+pub(in crate::bricks) static TREE_CONNECTED: Check<Observed> =
+    holds(TREE, &Floors::CONNECTED, &[PARENTS_MARKED, WRAPPING]);
+/// BRICKS-2
+pub(in crate::bricks) static HELPERS_CONNECTED: Check<Observed> =
+    holds(HELPERS, &Floors::HELPERS_CONNECTED, &[]);
+/// BRICKS-2, sensors missed.
+pub(in crate::bricks) static ROBUST_CONNECTED: Check<Observed> =
+    holds(ROBUST, &Floors::CONNECTED_HALF_BLIND, &[WITH_BRICKS]);
+/// BRICKS-3
+pub(in crate::bricks) static IN_TURNS: Check<Observed> =
+    holds(TREE, &Floors::CONNECTED_IN_TURNS, &[Named::new("agents beside each other act at once", AT_ONCE)]);
+/// BRICKS-3, the smallest break.
+pub(in crate::bricks) static BOTH_AT_ONCE: Check<Observed> =
+    refuted(Named::new("at-once", AT_ONCE), &Floors::CONNECTED_AT_ONCE);
+/// BRICKS-4
+pub(in crate::bricks) static TREE_KNOWING: Check<Observed> = holds(TREE, &Floors::KNOWING, &[NO_EXITS]);
+/// BRICKS-4
+pub(in crate::bricks) static HELPERS_KNOWING: Check<Observed> = holds(HELPERS, &Floors::HELPERS_KNOWING, &[]);
+/// BRICKS-4
+pub(in crate::bricks) static MDFS_KNOWING: Check<Observed> = refuted(MDFS, &Floors::KNOWING);
+/// BRICKS-4, sensors missed.
+pub(in crate::bricks) static TREE_HALF_BLIND: Check<Observed> = refuted(TREE, &Floors::KNOWING_HALF_BLIND);
+/// BRICKS-4, sensors missed.
+pub(in crate::bricks) static ROBUST_KNOWING: Check<Observed> =
+    holds(ROBUST, &Floors::KNOWING_HALF_BLIND, &[TRUSTING]);
+/// BRICKS-5, sensors missed.
+pub(in crate::bricks) static ROBUST_EXPLORES: Check<Observed> =
+    holds(ROBUST, &Floors::EXPLORES_HALF_BLIND, &[TRUSTING]);
+/// BRICKS-6
+pub(in crate::bricks) static TREE_ENDS: Check<Observed> = holds(TREE, &Floors::ENDS, &[PARENTS_MARKED]);
+/// BRICKS-6
+pub(in crate::bricks) static HELPERS_ENDS: Check<Observed> = holds(HELPERS, &Floors::HELPERS_END, &[]);
+/// BRICKS-6, sensors missed.
+pub(in crate::bricks) static ROBUST_ENDS: Check<Observed> =
+    holds(ROBUST, &Floors::ENDS_HALF_BLIND, &[TRUSTING, REPLACING]);
+/// BRICKS-8
+pub(in crate::bricks) static TREES_WHOLE: Check<Observed> = holds(TREE, &Floors::WHOLE, &[WRAPPING]);
+/// BRICKS-9
+pub(in crate::bricks) static LABELS_RISE: Check<Observed> = holds(TREE, &Floors::RISING, &[PARENTS_MARKED]);
+/// BRICKS-10
+pub(in crate::bricks) static TREE_BOUNDED: Check<Observed> = holds(TREE, &Floors::BOUNDED, &[ALL_ADOPTED]);
+/// BRICKS-10
+pub(in crate::bricks) static HELPERS_BOUNDED: Check<Observed> = holds(HELPERS, &Floors::BOUNDED, &[]);
+/// BRICKS-11
+pub(in crate::bricks) static SURVIVES: Check<Observed> = holds(TREE, &Floors::SURVIVES, &[NO_EXITS]);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::clause::AnyCheck;
+    use crate::decide::Memory;
+
+    #[test]
+    fn each_is_as_registered() {
+        let all: [(&str, &dyn AnyCheck); 19] = [
+            ("connected", &TREE_CONNECTED),
+            ("connected", &HELPERS_CONNECTED),
+            ("connected", &ROBUST_CONNECTED),
+            ("in turns", &IN_TURNS),
+            ("at once", &BOTH_AT_ONCE),
+            ("knowing", &TREE_KNOWING),
+            ("knowing", &HELPERS_KNOWING),
+            ("knowing", &MDFS_KNOWING),
+            ("half blind", &TREE_HALF_BLIND),
+            ("knowing", &ROBUST_KNOWING),
+            ("explores", &ROBUST_EXPLORES),
+            ("ends", &TREE_ENDS),
+            ("ends", &HELPERS_ENDS),
+            ("ends", &ROBUST_ENDS),
+            ("whole", &TREES_WHOLE),
+            ("rise", &LABELS_RISE),
+            ("bounded", &TREE_BOUNDED),
+            ("bounded", &HELPERS_BOUNDED),
+            ("survives", &SURVIVES),
+        ];
+        let mut memory = Memory::default();
+        let mut failed = 0;
+        for (what, check) in all {
+            let began = std::time::Instant::now();
+            let decision =
+                check.decide(&mut memory, &mut |_| std::ops::ControlFlow::Continue(())).expect("a decision");
+            eprintln!(
+                "{what} {check:?} {:?} {} killed {:?} survived {:?} {:?}",
+                decision.verdict,
+                decision.cases,
+                decision.killed,
+                decision.survived,
+                began.elapsed()
+            );
+            if let Some(evidence) = decision.counterexample {
+                if let crate::decide::Seen::Agents(course) = evidence.seen {
+                    eprintln!(
+                        "   {} {}x{} blocked {:?} turns {}",
+                        evidence.demand,
+                        course.width,
+                        course.height,
+                        course.blocked,
+                        course.turns.len()
+                    );
+                }
+            }
+            failed += u32::from(decision.verdict != check.expected() || !decision.survived.is_empty());
+        }
+        assert_eq!(failed, 0);
+    }
+}

@@ -1,0 +1,274 @@
+//! Agents that search in trees on one plan: which agent acts next, which sensors it misses and which agents fail are
+//! choices. What the clauses demand is in plain arithmetic; of the kernel's rule only the agents' actions are used.
+
+use tautline_kernel::bricks::tree::{Next, View};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::floor::Mark;
+use tautline_kernel::ground::{Cell, Edge, Side, Step};
+
+use super::Way;
+use super::state::{Body, Part, Small, State};
+use crate::course::{Course, Scene, Turn};
+use crate::engine::outcomes;
+use crate::engine::states::{self, Bits, Places, Run, System};
+use crate::floor::plans::{Edges, FloorPlan};
+use crate::floor::small::Misses;
+
+pub(super) use crate::bricks::team::Turns;
+
+/// What a team is looked at for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Demand {
+    /// BRICKS-2, BRICKS-3
+    Connected,
+    /// BRICKS-4
+    Knowing,
+    /// BRICKS-5
+    Explores,
+    /// BRICKS-6, BRICKS-11
+    Ends,
+    /// BRICKS-8
+    Whole,
+    /// BRICKS-9
+    Rising,
+    /// BRICKS-10
+    Bounded,
+    /// BRICKS-2, BRICKS-4, BRICKS-5, BRICKS-6, BRICKS-8 and BRICKS-9, looked at in one pass.
+    All,
+}
+
+/// Agents that decide in one way on a plan.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Team {
+    pub(super) plan: FloorPlan,
+    pub(super) way: Way,
+    pub(super) turns: Turns,
+    /// Sensors that are missed in one run at most.
+    pub(super) max_misses: u8,
+    /// Whether agents may fail, all but one.
+    pub(super) may_fail: bool,
+    pub(super) demand: Demand,
+}
+
+impl Team {
+    /// The start with the agents in these cells.
+    pub(super) fn start(&self, cells: &[Cell]) -> State {
+        let body = |(id, &cell)| Body::new(self.way.memory(id), cell);
+        State::start(&self.plan, cells, (0..).zip(cells).map(body).collect())
+    }
+
+    /// The starts of `agents`, each in any free cell.
+    pub(super) fn starts(&self, agents: u32) -> impl Iterator<Item = State> {
+        self.plan.starts(agents).map(|cells| self.start(&cells))
+    }
+
+    /// What is broken in `state`, in which `agent` has just acted.
+    fn broken(&self, state: &State, agent: usize) -> Option<&'static str> {
+        let Self { plan, demand, .. } = self;
+        let is_asked = |one| *demand == one || *demand == Demand::All;
+        if is_asked(Demand::Connected) {
+            let left = state.left(plan);
+            if plan.spread(left, Edges::default()) != left {
+                return Some("the accessible cells stay connected");
+            }
+        }
+        let Body { cell, is_done, moves, .. } = state.bodies[agent];
+        if is_asked(Demand::Knowing) && is_done {
+            let here = plan.place(cell).map_or(0, |place| 1 << place);
+            if !state.is_explored(plan) {
+                return Some("an agent is done only when every cell is explored");
+            }
+            if state.left(plan) & !here != 0 {
+                return Some("an agent is done only when no other cell is left");
+            }
+        }
+        if is_asked(Demand::Whole) && !state.are_trees_whole(plan) {
+            return Some("the cells of a tree stay connected through trees whose labels are not lower");
+        }
+        if is_asked(Demand::Rising) && !state.do_labels_rise(plan) {
+            return Some("labels never fall towards the root");
+        }
+        let founded: u32 = state.bodies.iter().map(|body| body.memory.founded()).sum();
+        let is_far = u32::from(moves) > 2 * plan.free.count_ones();
+        (*demand == Demand::Bounded && founded <= 1 && is_far)
+            .then_some("with one tree an agent makes at most two moves a cell")
+    }
+}
+
+impl Team {
+    /// Every turn from `state`; none once the run is over.
+    fn turns(&self, state: &State) -> impl Iterator<Item = Turned> {
+        outcomes(|world| self.turn(state, world)).flatten()
+    }
+
+    fn turn(&self, state: &State, world: &mut dyn Oracle) -> Option<Turned> {
+        let awake = self.awake(state);
+        let is_over = self.demand == Demand::Explores && state.is_explored(&self.plan);
+        if awake == 0 || is_over {
+            return None;
+        }
+        let is_locked = |agent: usize| {
+            let Body { pending, cell, .. } = state.bodies[agent];
+            self.turns == Turns::Overlapping
+                && pending.is_none()
+                && state.bodies.iter().any(|other| {
+                    let (dx, dy) = cell.apart(other.cell);
+                    other.pending.is_some() && dx.max(dy) <= 2
+                })
+        };
+        let mut ready = (0..state.bodies.len()).filter(|&agent| awake >> agent & 1 == 1 && !is_locked(agent));
+        let of = ready.clone().count() as u32;
+        let may_fail = self.may_fail && awake.count_ones() > 1;
+        let pick = if of > 1 || may_fail { world.pick(of << u32::from(may_fail)) } else { 0 };
+        let agent = ready.nth((pick % of) as usize)?;
+        let mut state = state.clone();
+        let body = &mut state.bodies[agent];
+        if pick >= of {
+            body.has_failed = true;
+            return Some(Turned {
+                state,
+                agent,
+                step: Step::Stay,
+                unseen: Vec::new(),
+                fails: true,
+                breaks: None,
+            });
+        }
+        let mut floor = Small { plan: &self.plan, notes: &mut state.notes };
+        let mut unseen = Vec::new();
+        let (act, is_due) = if let Some(act) = body.pending.take() {
+            (act, true)
+        } else {
+            let missed = state.misses;
+            let mut world = Misses { world, count: &mut state.misses, most: self.max_misses };
+            let view = View::new(&floor, body.cell, &mut world);
+            if state.misses > missed {
+                let mark = |cell| self.plan.place(cell).map_or(Mark::Unexplored, |at| floor.notes[at].mark());
+                unseen = view.scan.misread(mark, body.cell).collect();
+            }
+            (self.way.decide(&mut body.memory, &view), self.turns == Turns::Whole)
+        };
+        let mut step = Step::Stay;
+        if is_due {
+            body.cell = self.way.carry_out(&mut floor, body.cell, &act);
+            body.is_done = act.next == Next::Done;
+            if let Some(side) = act.next.side() {
+                body.moves = if self.demand == Demand::Bounded { body.moves.saturating_add(1) } else { 0 };
+                step = Step::Cross(side);
+            }
+        } else {
+            body.pending = Some(act);
+        }
+        let breaks = self.broken(&state, agent);
+        Some(Turned { state, agent, step, unseen, fails: false, breaks })
+    }
+
+    fn scene(&self, state: &State) -> Scene {
+        let mark = |cell| Some((cell, state.notes[self.plan.place(cell)?].mark()));
+        Scene {
+            cells: state.bodies.iter().map(|body| body.cell).collect(),
+            marks: self.plan.cells().filter_map(mark).collect(),
+        }
+    }
+
+    /// What happens in `run`, which begins in `start`.
+    pub(super) fn course(&self, start: State, run: &Run<&str>) -> Course {
+        let mut state = start;
+        let round = run.round();
+        let mut turns = Vec::new();
+        for &number in run.steps.iter().chain(round) {
+            let Some(turned) = self.turns(&state).nth(number as usize) else { break };
+            let Turned { agent, step, unseen, fails, .. } = turned;
+            let is_done = turned.state.bodies[agent].is_done || fails;
+            turns.push(Turn { before: self.scene(&state), agent, step, is_done, unseen });
+            state = turned.state;
+        }
+        let FloorPlan { width, height, .. } = self.plan;
+        let area = (0..width * height).map(|place| self.plan.cell(place as usize));
+        let sides = |cell| [Side::East, Side::South].map(|side| Edge::new(cell, side));
+        let is_wall = |edge: &Edge| {
+            self.plan.place(edge.cell().beyond(edge.side())).is_some() && !self.plan.is_open(*edge)
+        };
+        Course {
+            width,
+            height,
+            blocked: area.filter(|&cell| self.plan.place(cell).is_none()).collect(),
+            walls: self.plan.cells().flat_map(sides).filter(is_wall).collect(),
+            turns,
+            round: round.len(),
+            end: self.scene(&state),
+        }
+    }
+}
+
+/// What a turn leads to.
+struct Turned {
+    state: State,
+    /// Whose turn it is, and where it goes.
+    agent: usize,
+    step: Step,
+    /// The cells of the sensors that it misses.
+    unseen: Vec<Cell>,
+    /// Whether the agent fails instead of acting.
+    fails: bool,
+    breaks: Option<&'static str>,
+}
+
+impl System for Team {
+    type State = State;
+    type Part = Part;
+    type Demand = &'static str;
+
+    fn places(&self, state: &State) -> usize {
+        state.places()
+    }
+
+    fn part(&self, state: &State, place: usize) -> Part {
+        state.part(place)
+    }
+
+    fn differing(&self, one: &State, other: &State) -> Places {
+        one.differing(other)
+    }
+
+    fn put(&self, state: &mut State, place: usize, part: &Part) {
+        state.put(place, part);
+    }
+
+    fn steps(&self, state: &State) -> impl Iterator<Item = states::Step<State, &'static str>> {
+        self.turns(state).map(|Turned { state, agent, fails, breaks, .. }| states::Step {
+            state,
+            situation: if fails { "a failure" } else { "a step" },
+            acting: if fails { 0 } else { 1 << agent },
+            is_bound: !fails,
+            breaks: breaks.into_iter().collect(),
+        })
+    }
+
+    fn broken_at_end(&self, state: &State) -> Option<&'static str> {
+        match self.demand {
+            Demand::Connected | Demand::Knowing | Demand::Whole | Demand::Rising | Demand::Bounded => None,
+            Demand::Explores => (!state.is_explored(&self.plan)).then_some("every cell is explored"),
+            Demand::Ends | Demand::All => {
+                (state.left(&self.plan) != 0).then_some("when all agents are done, every cell is visited")
+            }
+        }
+    }
+
+    fn broken_by_endless_runs(&self) -> Option<&'static str> {
+        match self.demand {
+            Demand::Connected | Demand::Knowing | Demand::Whole | Demand::Rising | Demand::Bounded => None,
+            Demand::Explores => Some("every cell is explored: no run goes on for ever before"),
+            Demand::Ends | Demand::All => {
+                Some("no run goes on for ever in which every agent acts again and again")
+            }
+        }
+    }
+
+    fn awake(&self, state: &State) -> Bits {
+        (0..)
+            .zip(&state.bodies)
+            .filter(|(_, body)| body.is_awake())
+            .fold(0, |set, (agent, _)| set | 1 << agent)
+    }
+}
