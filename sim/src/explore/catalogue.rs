@@ -9,8 +9,8 @@ use super::ants::ANTS;
 use super::bricks::{BRICKS, BRICKS_ANTS};
 use super::chain::CHAIN;
 use super::clause::ClauseId;
+use super::depth_first::{HELPERS, MDFS};
 use super::kit::KIT;
-use super::rivals::{HELPERS, MDFS};
 use super::rule::RuleId;
 use super::setup::{Profile, Rule, Senses};
 

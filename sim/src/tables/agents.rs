@@ -19,7 +19,7 @@ use super::{About, Chart, Observer, Table, unfit};
 use crate::explore::agents::{self as explore, Crew, Way};
 use crate::explore::ants::ANTS;
 use crate::explore::bricks::{BRICKS, BRICKS_ANTS};
-use crate::explore::rivals::{HELPERS, MDFS};
+use crate::explore::depth_first::{HELPERS, MDFS};
 use crate::explore::trees::{HELPERS_ROBUST, TREE};
 use crate::explore::{Profile, RuleId};
 use crate::fault::Halt;
