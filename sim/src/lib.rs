@@ -13,6 +13,7 @@ pub mod position;
 pub mod radio;
 pub mod reading;
 pub mod rescue;
+pub mod rivals;
 pub mod stats;
 pub mod tables;
 pub mod tan;

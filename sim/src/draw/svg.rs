@@ -361,6 +361,7 @@ pub(super) fn team(look: Look, frame: Frame, made: &TeamMove<'_>) -> String {
     let mut body: String = made.unseen.iter().map(|&cell| unseen(frame, cell)).collect();
     body += &match look {
         Look::Linked { is_lost } => links(frame, is_lost, before, after) + &base_with(frame, after),
+        Look::Tree { is_linked } => tree(frame, is_linked, after) + &base_with(frame, after),
         Look::Apart => String::new(),
     };
     for (robot, &from) in before.iter().enumerate().skip(first_drawn(look)) {
@@ -382,6 +383,25 @@ fn links(frame: Frame, is_lost: fn(&[Cell], &[Cell]) -> bool, before: &[Cell], a
         if (x, y) != (to_x, to_y) {
             let _ = write!(body, "<path class=\"{class}\" d=\"M{x} {y}L{to_x} {to_y}\"/>");
         }
+    }
+    body
+}
+
+/// A tree of links from the base to all robots that links join to it, by the fewest links.
+fn tree(frame: Frame, is_linked: fn(Cell, Cell) -> bool, team: &[Cell]) -> String {
+    let mut body = String::new();
+    let (mut joined, mut rest) = (team[..1].to_vec(), team[1..].to_vec());
+    let mut place = 0;
+    while let Some(&from) = joined.get(place) {
+        let (near, far): (Vec<Cell>, Vec<Cell>) = rest.into_iter().partition(|&cell| is_linked(from, cell));
+        let (x, y) = frame.centre(from);
+        for &cell in near.iter().filter(|&&cell| cell != from) {
+            let (to_x, to_y) = frame.centre(cell);
+            let _ = write!(body, "<path class=\"link\" d=\"M{x} {y}L{to_x} {to_y}\"/>");
+        }
+        joined.extend(near);
+        rest = far;
+        place += 1;
     }
     body
 }
@@ -441,9 +461,9 @@ fn robot(look: Look, frame: Frame, team: &[Cell], robot: usize) -> String {
         (_, _, None) => return String::new(),
     };
     let class = match (look, all > 2 && !is_base, robot + 1 == team.len()) {
-        (Look::Linked { .. }, true, _) => "crowded",
+        (Look::Linked { .. } | Look::Tree { .. }, true, _) => "crowded",
         (Look::Linked { .. }, false, true) => "leader",
-        (Look::Linked { .. }, false, false) | (Look::Apart, ..) => "robot",
+        (Look::Linked { .. }, false, false) | (Look::Tree { .. }, false, _) | (Look::Apart, ..) => "robot",
     };
     let radius = if all == 1 && !is_base { 9 } else { 6 };
     let at = (x + dx, y + dy);

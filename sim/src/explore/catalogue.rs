@@ -10,11 +10,12 @@ use super::bricks::{BRICKS, BRICKS_ANTS};
 use super::chain::CHAIN;
 use super::clause::ClauseId;
 use super::kit::KIT;
+use super::rivals::{FULL_SEARCH, ROOKER_BIRK};
 use super::rule::RuleId;
 use super::setup::{Profile, Rule, Senses};
 
 /// Every scheme that this program knows.
-pub const SCHEMES: &[&Profile] = &[&CHAIN, &ANTS, &BRICKS, &BRICKS_ANTS, &KIT];
+pub const SCHEMES: &[&Profile] = &[&CHAIN, &ANTS, &BRICKS, &BRICKS_ANTS, &KIT, &FULL_SEARCH, &ROOKER_BIRK];
 
 /// The scheme with this name.
 pub fn scheme(name: &str) -> Option<&'static Profile> {

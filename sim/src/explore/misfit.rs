@@ -5,6 +5,7 @@ use std::fmt;
 use tautline_proofs::words::counted;
 
 use super::catalogue::sensing;
+use super::rule::RuleId;
 use super::setup::{Profile, Rule, Senses, Setup, Starts};
 use crate::fault::Fault;
 use crate::layout::Problem;
@@ -20,7 +21,12 @@ pub enum Misfit {
         robots: u64,
     },
     /// The scheme does not offer the rule.
-    Rule(&'static Profile),
+    Rule {
+        /// The scheme.
+        scheme: &'static Profile,
+        /// The rule.
+        rule: RuleId,
+    },
     /// The scheme has no sensors to miss.
     Miss(&'static Profile),
     /// The same, one by one.
@@ -47,7 +53,7 @@ impl Misfit {
     pub const fn field(&self) -> &'static str {
         match self {
             Self::Robots { .. } => "robots",
-            Self::Rule(_) => "rule",
+            Self::Rule { .. } => "rule",
             Self::Miss(_) | Self::MissAll => "miss",
             Self::MissedByNone(_) | Self::Missed => "missed",
             Self::StartsAtBase(_) | Self::Starts { .. } | Self::Start(_) => "starts",
@@ -62,7 +68,7 @@ impl Misfit {
                 let base = if look.has_base() { ", the base counted" } else { "" };
                 format!("a {team} has {} to {} {}s{base}", robots.start(), robots.end(), look.robot())
             }
-            Self::Rule(scheme) => {
+            Self::Rule { scheme, .. } => {
                 let names: Vec<&str> = scheme.rules.iter().map(|rule| rule.name.as_str()).collect();
                 format!("take the rule {}, or another scheme than {}", names.join(" or "), scheme.name)
             }
@@ -94,7 +100,10 @@ impl fmt::Display for Misfit {
                     (robots, false) => write!(f, "{robots} {robot}s are too many for a {team}"),
                 }
             }
-            Self::Rule(scheme) => write!(f, "{} is ours: nobody has published it", scheme.name),
+            Self::Rule { scheme, rule: RuleId::PUBLISHED } => {
+                write!(f, "{} is ours: nobody has published it", scheme.name)
+            }
+            Self::Rule { scheme, rule } => write!(f, "{} has no rule {rule}", scheme.name),
             Self::Miss(scheme) | Self::MissedByNone(scheme) => {
                 write!(f, "the {}s of a {} have no floor sensors to miss", scheme.look.robot(), scheme.team)
             }
@@ -136,7 +145,7 @@ impl Setup {
     pub fn check(&self) -> Result<&'static Rule, Misfit> {
         let Self { scheme, rule, robots, starts, .. } = self;
         Self::count(scheme, (*robots).into())?;
-        let rule = scheme.rule(*rule).ok_or(Misfit::Rule(scheme))?;
+        let rule = scheme.rule(*rule).ok_or(Misfit::Rule { scheme, rule: *rule })?;
         match scheme.senses {
             Senses::Bumps if !self.miss.is_never() => return Err(Misfit::Miss(scheme)),
             Senses::Bumps if !self.missed.is_empty() => return Err(Misfit::MissedByNone(scheme)),
