@@ -121,7 +121,11 @@ struct Stored {
 
 impl Hunt {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        let rule = self.scheme.rule(self.rule).ok_or(Misfit::Rule { scheme: self.scheme, rule: self.rule }).map_err(Fault::from)?;
+        let rule = self
+            .scheme
+            .rule(self.rule)
+            .ok_or(Misfit::Rule { scheme: self.scheme, rule: self.rule })
+            .map_err(Fault::from)?;
         match rule.hunt {
             Some(Quarry::Walls(subject)) => self.run_walls(subject, out),
             Some(Quarry::Traps(way)) => trap::run(self, way, out),

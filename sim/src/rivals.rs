@@ -11,5 +11,5 @@ pub mod parameters;
 pub mod pool;
 pub mod team;
 
-pub use self::parameters::{Cells, Deadlock, Links, Moves, Parameters, Search, Unfit, Weights};
+pub use self::parameters::{Cells, Deadlock, Links, Moves, Null, Parameters, Search, Unfit, Weights};
 pub use self::team::{Over, Team};

@@ -80,7 +80,8 @@ pub fn best(position: &Position<'_>) -> Solved {
         return Solved::Impossible;
     }
     let is_distinct = position.rule.has(Condition::Distinct);
-    let mut search = Search { table: &table, is_distinct, nodes: 0, best: None, steps: Vec::new(), taken: Vec::new() };
+    let mut search =
+        Search { table: &table, is_distinct, nodes: 0, best: None, steps: Vec::new(), taken: Vec::new() };
     let is_done = search.descend(leader, None, 0);
     let plan = search.best;
     match (is_done, plan) {
@@ -281,7 +282,10 @@ mod tests {
                     met += 1;
                     assert_eq!(due, Some(plan.value), "{position:?}");
                     let values = plan.steps.iter().zip(&options).skip(1);
-                    assert_eq!(plan.value, values.map(|(step, option)| option.values[step.place()]).sum::<i64>());
+                    assert_eq!(
+                        plan.value,
+                        values.map(|(step, option)| option.values[step.place()]).sum::<i64>()
+                    );
                 }
                 Solved::Impossible => {
                     impossible += 1;

@@ -12,7 +12,8 @@ use super::parameters::{Cells, MOST_SEARCHED};
 /// Bits of a set of candidates: one for each candidate, and the base's.
 const BITS: usize = 64;
 const BASE: usize = BITS - 1;
-const _: () = assert!(5 * (MOST_SEARCHED - 1) < BASE, "the candidates of the largest team have bits of their own");
+const _: () =
+    assert!(5 * (MOST_SEARCHED - 1) < BASE, "the candidates of the largest team have bits of their own");
 
 /// The best joint moves.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -32,21 +33,11 @@ pub fn best(joint: &Joint, dice: &mut ChaCha8Rng) -> Option<Found> {
     }
     let space = Space::new(joint);
     // Where the team could stay without fault, nothing worse is of interest.
-    let mut price = 0;
-    let stays: Option<Vec<_>> = joint
-        .robots
-        .iter()
-        .map(|robot| {
-            let stay = robot.iter().find(|candidate| candidate.step == Step::Stay)?;
-            price += stay.price;
-            Some(stay.to)
-        })
-        .collect();
-    let within = stays.map_or(WORST, |team| joint.score(&team, price));
+    let within = joint.staying().unwrap_or(WORST);
     let mut search = Search { space: &space, best: Best::within(within), dice };
     search.descend(0, Branch { alive: space.all, chosen: 0, score: Score { faults: 0, price: 0 } });
     let Search { best, .. } = search;
-    let (score, ties) = (best.score, best.ties());
+    let (score, ties) = (best.score(), best.ties());
     let set = best.chosen()?;
     let steps = space.groups.iter().map(|&group| {
         let place = (set & group).trailing_zeros() as usize;
@@ -93,7 +84,8 @@ impl Space {
                 space.linked[place] |= 1 << BASE;
                 space.linked[BASE] |= bit;
             }
-            for (other, &(whose, that)) in listed.iter().enumerate().filter(|(_, (whose, _))| *whose != robot) {
+            for (other, &(whose, that)) in listed.iter().enumerate().filter(|(_, (whose, _))| *whose != robot)
+            {
                 debug_assert_ne!(whose, robot);
                 if circle.covers(candidate.to, that.to) {
                     space.linked[place] |= 1 << other;
@@ -146,15 +138,16 @@ impl Search<'_> {
         let joined = space.joined(alive);
         let lost = space.groups.iter().filter(|&&group| joined & group == 0).count() as u32;
         let faults = score.faults + lost;
-        if faults > self.best.score.faults {
+        if faults > self.best.score().faults {
             return;
         }
-        if self.best.score.faults == 0 {
+        if self.best.score().faults == 0 {
             alive &= joined;
         }
         let rest = space.groups.get(robot..).unwrap_or_default();
-        let least: i64 = rest.iter().map(|group| space.prices[(alive & group).trailing_zeros() as usize % BITS]).sum();
-        if (Score { faults, price: score.price + least }) > self.best.score {
+        let least: i64 =
+            rest.iter().map(|group| space.prices[(alive & group).trailing_zeros() as usize % BITS]).sum();
+        if (Score { faults, price: score.price + least }) > self.best.score() {
             return;
         }
         let Some(&group) = rest.first() else {
@@ -168,7 +161,7 @@ impl Search<'_> {
             left &= left - 1;
             let shared = u32::from(space.clashes[place] & chosen != 0);
             let mut alive = alive & !group | bit;
-            if self.best.score.faults == 0 {
+            if self.best.score().faults == 0 {
                 if shared > 0 {
                     continue;
                 }

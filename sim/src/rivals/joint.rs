@@ -49,6 +49,16 @@ impl Joint {
         Score { faults: shared + unlinked(self.base, team, self.links.circle()), price }
     }
 
+    /// How good it is to stay, if all robots can.
+    pub fn staying(&self) -> Option<Score> {
+        let stays =
+            self.robots.iter().map(|robot| robot.iter().find(|candidate| candidate.step == Step::Stay));
+        let stays: Option<Vec<&Candidate>> = stays.collect();
+        let stays = stays?;
+        let team: Vec<Cell> = stays.iter().map(|stay| stay.to).collect();
+        Some(self.score(&team, stays.iter().map(|stay| stay.price).sum()))
+    }
+
     /// Robots in a cell outside the base that another one has already.
     fn sharing(&self, team: &[Cell]) -> u32 {
         let has_company = |(robot, cell): (usize, &Cell)| *cell != self.base && team[..robot].contains(cell);
@@ -81,7 +91,7 @@ pub(super) fn draw(dice: &mut ChaCha8Rng, below: u64) -> u64 {
 /// The best joint move met so far, each of those as good as likely.
 #[derive(Clone, Debug)]
 pub(super) struct Best<T> {
-    pub(super) score: Score,
+    score: Score,
     ties: u64,
     chosen: Option<T>,
 }
@@ -104,6 +114,11 @@ impl<T> Best<T> {
         if draw(dice, self.ties) == 0 {
             self.chosen = Some(chosen());
         }
+    }
+
+    /// How good the best one is.
+    pub(super) const fn score(&self) -> Score {
+        self.score
     }
 
     /// How many are as good as the best one.

@@ -3,11 +3,12 @@
 //! | parameter | the paper | the default |
 //! |---|---|---|
 //! | [`Search`] | “the pool population of 1000”; “the pool of all of the possible team-moves” | 1000, or all |
+//! | [`Null`] | “a random factor, which helps the team out” (E) | it stands by |
 //! | [`Links`] | “E_S … This restriction is applied for all of the tested algorithms” (D) | E_S |
 //! | [`Cells`] | “punishes the configurations in which the robots come too close” (I.B) | distinct outside the base |
 //! | [`Moves`] | “4^(N−1) team-configurations” (C) | 5: seven robots cannot leave the base by four sides |
 //! | [`Weights`] | the distance to the frontier, “with equal weight” (C) | 1 for the distance, 0 for a new cell |
-//! | [`Deadlock`] | “a random factor, which helps the team out” (E) | nothing but ties at random |
+//! | [`Deadlock`] | “sooner or later” (E) | nothing but chance |
 //! | `patience` | not given | 1000 team moves without gain: the team is taken to be stuck |
 
 use std::fmt;
@@ -83,6 +84,17 @@ pub enum Search {
     Pool(u32),
 }
 
+/// What the null move is to a pool.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Null {
+    /// It stands by: it is made if all that are drawn have more faults than it has. So a team leaves a place where every
+    /// team move makes its utility less: the paper's “random factor” (E).
+    StandsBy,
+    /// It counts with those that are drawn: a team in such a place never leaves it.
+    Competes,
+}
+
 /// How a robot's next cell is valued.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Weights {
@@ -112,6 +124,8 @@ pub enum Deadlock {
 pub struct Parameters {
     /// Which team moves are compared.
     pub search: Search,
+    /// What the null move is to a pool.
+    pub null: Null,
     /// Which two robots have a link.
     pub links: Links,
     /// Whether they may share cells.
@@ -145,6 +159,7 @@ impl Parameters {
     /// Full search under E_S.
     pub const FULL: Self = Self {
         search: Search::Full,
+        null: Null::StandsBy,
         links: Links::Safe,
         cells: Cells::Distinct,
         moves: Moves::Five,
@@ -182,9 +197,7 @@ impl Parameters {
         if !(2..=MAX_ROBOTS).contains(&robots) {
             return Err(Unfit::Robots(robots));
         }
-        for (name, weight) in
-            [("distance", self.weights.distance), ("new cell", self.weights.new_cell)]
-        {
+        for (name, weight) in [("distance", self.weights.distance), ("new cell", self.weights.new_cell)] {
             // A weight that is no number is not within either.
             if weight.is_nan() || weight.abs() > MOST_WEIGHT {
                 return Err(Unfit::Weight { name, weight });

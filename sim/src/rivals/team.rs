@@ -76,7 +76,9 @@ impl Team {
         };
         let map = &self.map;
         let options = |&from: &Cell| {
-            let free = steps.iter().filter(|&&step| !matches!(step, Step::Cross(side) if map.is_wall(Edge::new(from, side))));
+            let free = steps
+                .iter()
+                .filter(|&&step| !matches!(step, Step::Cross(side) if map.is_wall(Edge::new(from, side))));
             let mut options: Vec<Candidate> = free
                 .filter_map(|&step| {
                     let to = from.after(step);
@@ -109,7 +111,7 @@ impl Team {
         };
         let chosen = match self.parameters.search {
             Search::Full => full::best(&joint, &mut self.dice).map(|found| found.steps),
-            Search::Pool(pool) => pool::best(&joint, pool, moves, &mut self.dice),
+            Search::Pool(pool) => pool::best(&joint, pool, self.parameters.null, moves, &mut self.dice),
         };
         let mut steps = vec![Step::Stay];
         // A pool in which every team move crosses a wall leaves the team where it is.
@@ -136,7 +138,9 @@ impl Team {
         self.idle = if gains { 0 } else { self.idle + 1 };
         self.scattered = match self.parameters.deadlock {
             Deadlock::Scatter { .. } if gains => 0,
-            Deadlock::Scatter { after, moves } if self.scattered == 0 && self.idle % after.max(1) == 0 && self.idle > 0 => {
+            Deadlock::Scatter { after, moves }
+                if self.scattered == 0 && self.idle % after.max(1) == 0 && self.idle > 0 =>
+            {
                 moves
             }
             Deadlock::Wait | Deadlock::Scatter { .. } => self.scattered.saturating_sub(1),
