@@ -15,6 +15,7 @@ pub mod optimum;
 pub mod parameter;
 pub mod repair_cost;
 pub mod rescue_fig8;
+pub mod rivals;
 
 use std::fmt;
 
@@ -35,6 +36,8 @@ pub const TABLES: &[&dyn Entry] = &[
     &repair_cost::RepairCost,
     &optimum::Optimum,
     &atlas::Atlas,
+    &rivals::ChainTable1,
+    &rivals::ChainFig3,
     &agents::BRICKS_FIG11,
     &agents::BRICKS_FIG12,
     &agents::BRICKS_IDEAL,
