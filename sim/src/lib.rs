@@ -18,6 +18,7 @@ pub mod stats;
 pub mod tables;
 pub mod tan;
 pub mod trace;
+pub mod tribot;
 pub mod wide;
 pub mod words;
 

@@ -5,6 +5,8 @@
 pub mod agents;
 pub mod antenna_fig4;
 pub mod atlas;
+pub mod chain_fig4;
+pub mod chain_radio;
 mod entry;
 pub mod journeys;
 pub mod kit;
@@ -38,6 +40,8 @@ pub const TABLES: &[&dyn Entry] = &[
     &atlas::Atlas,
     &rivals::ChainTable1,
     &rivals::ChainFig3,
+    &chain_fig4::ChainFig4,
+    &chain_radio::ChainRadio,
     &agents::BRICKS_FIG11,
     &agents::BRICKS_FIG12,
     &agents::BRICKS_IDEAL,

@@ -192,6 +192,30 @@ pub fn team_move(run: &dyn Play, chart: &Survey, made: &TeamMove<'_>) -> Panel {
     panel(area, super::title(made), body)
 }
 
+/// The ways of robots from cell to cell, beside each other where they go the same way.
+pub fn trajectories(layout: &Layout, area: Area, caption: &str, ways: &[Vec<Cell>]) -> Panel {
+    let frame = Frame(area);
+    let mut body = format!("<style>{SERIES_STYLE}</style>") + &ground(layout, area);
+    for (robot, way) in (0_i32..).zip(ways) {
+        let aside = 2 * robot - ways.len() as i32 + 1;
+        let points = way.iter().map(|&cell| frame.centre(cell)).fold(String::new(), |mut points, (x, y)| {
+            let _ = write!(points, "{},{} ", x + aside, y + aside);
+            points
+        });
+        let colour = robot as usize % SERIES;
+        let dashes = if robot as usize >= SERIES { "stroke-dasharray:5 3;" } else { "" };
+        let _ = write!(
+            body,
+            "<polyline points=\"{}\" style=\"fill:none;{dashes}stroke-width:1.5;stroke:var(--series-{colour})\"/>",
+            points.trim_end()
+        );
+    }
+    if let Some(base) = layout.base() {
+        body.push_str(&base_mark(frame, base));
+    }
+    panel(area, escaped(caption), body + &walls(layout, area))
+}
+
 /// The three environments.
 pub fn environments() -> Vec<Panel> {
     let centre = Cell::new(0, 0);
