@@ -32,6 +32,10 @@ pub const fn legend(look: Look) -> &'static str {
             "B is the base, with the robots beside it or +K for K of them; 2, 3, … are the robots, the last one leads; \
              · is explored, ## blocked; x stands where a robot met a wall."
         }
+        Look::Tree { .. } => {
+            "B is the base, with the robots beside it or +K for K of them; 2, 3, … are the robots; \
+             · is explored, ## blocked; x stands where a robot met a wall."
+        }
         Look::Apart => {
             "1, 2, … are the agents, K× stands for K of them in one cell; · is explored, : explored and entered by \
              nobody any more, ░░░ visited, ▒▒▒ sealed, ## blocked; ? is a sensor that an agent missed."
@@ -306,7 +310,7 @@ impl Labels<'_> {
             },
             (Look::Apart, here) if self.unseen.contains(&cell) => format!("{}?", self.team(here)),
             (Look::Apart, here) => self.team(here),
-            (Look::Linked { .. }, here) => self.names(here),
+            (Look::Linked { .. } | Look::Tree { .. }, here) => self.names(here),
         }
     }
 
@@ -384,7 +388,7 @@ fn bare(look: Look, area: Area, team: &[Cell], mark: impl Fn(Cell) -> Mark) -> V
 pub fn order(run: &dyn Play, chart: &Survey) -> String {
     let Stage { layout, look, .. } = run.stage();
     let label = |cell| match (chart.step(cell), look) {
-        (Some(0), Look::Linked { .. }) => "B".to_owned(),
+        (Some(0), Look::Linked { .. } | Look::Tree { .. }) => "B".to_owned(),
         (Some(step), _) => step.to_string(),
         (None, _) => String::new(),
     };

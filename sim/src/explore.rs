@@ -13,6 +13,7 @@ pub mod floor;
 pub mod kit;
 mod misfit;
 mod own;
+pub mod rivals;
 mod rule;
 mod run;
 mod setup;

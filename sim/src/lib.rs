@@ -13,10 +13,12 @@ pub mod position;
 pub mod radio;
 pub mod reading;
 pub mod rescue;
+pub mod rivals;
 pub mod stats;
 pub mod tables;
 pub mod tan;
 pub mod trace;
+pub mod tribot;
 pub mod wide;
 pub mod words;
 

@@ -5,6 +5,8 @@
 pub mod agents;
 pub mod antenna_fig4;
 pub mod atlas;
+pub mod chain_fig4;
+pub mod chain_radio;
 mod entry;
 pub mod floors;
 pub mod journeys;
@@ -16,6 +18,7 @@ pub mod optimum;
 pub mod parameter;
 pub mod repair_cost;
 pub mod rescue_fig8;
+pub mod rivals;
 
 use std::fmt;
 
@@ -36,6 +39,10 @@ pub const TABLES: &[&dyn Entry] = &[
     &repair_cost::RepairCost,
     &optimum::Optimum,
     &atlas::Atlas,
+    &rivals::ChainTable1,
+    &rivals::ChainFig3,
+    &chain_fig4::ChainFig4,
+    &chain_radio::ChainRadio,
     &agents::BRICKS_FIG11,
     &agents::BRICKS_FIG12,
     &agents::BRICKS_IDEAL,

@@ -15,7 +15,7 @@ use tautline_sim::draw::story;
 use tautline_sim::explore::agents::{Agents, Crew, Way};
 use tautline_sim::explore::ants::ANTS;
 use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};
-use tautline_sim::explore::rivals::{HELPERS, MDFS};
+use tautline_sim::explore::depth_first::{HELPERS, MDFS};
 use tautline_sim::explore::trees::{HELPERS_ROBUST, HELPERS_TRUSTING, TREE};
 use tautline_sim::explore::{Report, RuleId, RuleName, Setup, Stopped, explore};
 use tautline_sim::layout::generate::Probability;

@@ -6,13 +6,15 @@ use tautline_sim::tables::parameter::Values;
 use tautline_sim::tables::{Asked, Entry, Made, TABLES, find};
 
 /// Values that make any table quick.
-const SMALL: [(&str, &[&str]); 8] = [
+const SMALL: [(&str, &[&str]); 10] = [
     ("agents", &["1", "3"]),
     ("layouts", &["3"]),
     ("map", &["open:4x3"]),
     ("max-steps", &["400"]),
     ("max-walls", &["1"]),
     ("nodes", &["150"]),
+    ("patience", &["20"]),
+    ("runs", &["2"]),
     ("scans", &["20"]),
     ("topologies", &["3"]),
 ];

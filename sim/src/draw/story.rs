@@ -33,7 +33,7 @@ pub fn of(run: &dyn Play, chart: &Survey, made: &TeamMove<'_>) -> String {
     text.push('\n');
     let look = run.stage().look;
     let who = match look {
-        Look::Linked { .. } => "R_",
+        Look::Linked { .. } | Look::Tree { .. } => "R_",
         Look::Apart => "Agent ",
     };
     for (robot, &from) in made.before.iter().enumerate().skip(first_drawn(look)) {

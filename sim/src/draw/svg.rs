@@ -192,6 +192,30 @@ pub fn team_move(run: &dyn Play, chart: &Survey, made: &TeamMove<'_>) -> Panel {
     panel(area, super::title(made), body)
 }
 
+/// The ways of robots from cell to cell, beside each other where they go the same way.
+pub fn trajectories(layout: &Layout, area: Area, caption: &str, ways: &[Vec<Cell>]) -> Panel {
+    let frame = Frame(area);
+    let mut body = format!("<style>{SERIES_STYLE}</style>") + &ground(layout, area);
+    for (robot, way) in (0_i32..).zip(ways) {
+        let aside = 2 * robot - ways.len() as i32 + 1;
+        let points = way.iter().map(|&cell| frame.centre(cell)).fold(String::new(), |mut points, (x, y)| {
+            let _ = write!(points, "{},{} ", x + aside, y + aside);
+            points
+        });
+        let colour = robot as usize % SERIES;
+        let dashes = if robot as usize >= SERIES { "stroke-dasharray:5 3;" } else { "" };
+        let _ = write!(
+            body,
+            "<polyline points=\"{}\" style=\"fill:none;{dashes}stroke-width:1.5;stroke:var(--series-{colour})\"/>",
+            points.trim_end()
+        );
+    }
+    if let Some(base) = layout.base() {
+        body.push_str(&base_mark(frame, base));
+    }
+    panel(area, escaped(caption), body + &walls(layout, area))
+}
+
 /// The three environments.
 pub fn environments() -> Vec<Panel> {
     let centre = Cell::new(0, 0);
@@ -361,6 +385,7 @@ pub(super) fn team(look: Look, frame: Frame, made: &TeamMove<'_>) -> String {
     let mut body: String = made.unseen.iter().map(|&cell| unseen(frame, cell)).collect();
     body += &match look {
         Look::Linked { is_lost } => links(frame, is_lost, before, after) + &base_with(frame, after),
+        Look::Tree { is_linked } => tree(frame, is_linked, after) + &base_with(frame, after),
         Look::Apart => String::new(),
     };
     for (robot, &from) in before.iter().enumerate().skip(first_drawn(look)) {
@@ -382,6 +407,25 @@ fn links(frame: Frame, is_lost: fn(&[Cell], &[Cell]) -> bool, before: &[Cell], a
         if (x, y) != (to_x, to_y) {
             let _ = write!(body, "<path class=\"{class}\" d=\"M{x} {y}L{to_x} {to_y}\"/>");
         }
+    }
+    body
+}
+
+/// A tree of links from the base to all robots that links join to it, by the fewest links.
+fn tree(frame: Frame, is_linked: fn(Cell, Cell) -> bool, team: &[Cell]) -> String {
+    let mut body = String::new();
+    let (mut joined, mut rest) = (team[..1].to_vec(), team[1..].to_vec());
+    let mut place = 0;
+    while let Some(&from) = joined.get(place) {
+        let (near, far): (Vec<Cell>, Vec<Cell>) = rest.into_iter().partition(|&cell| is_linked(from, cell));
+        let (x, y) = frame.centre(from);
+        for &cell in near.iter().filter(|&&cell| cell != from) {
+            let (to_x, to_y) = frame.centre(cell);
+            let _ = write!(body, "<path class=\"link\" d=\"M{x} {y}L{to_x} {to_y}\"/>");
+        }
+        joined.extend(near);
+        rest = far;
+        place += 1;
     }
     body
 }
@@ -441,9 +485,9 @@ fn robot(look: Look, frame: Frame, team: &[Cell], robot: usize) -> String {
         (_, _, None) => return String::new(),
     };
     let class = match (look, all > 2 && !is_base, robot + 1 == team.len()) {
-        (Look::Linked { .. }, true, _) => "crowded",
+        (Look::Linked { .. } | Look::Tree { .. }, true, _) => "crowded",
         (Look::Linked { .. }, false, true) => "leader",
-        (Look::Linked { .. }, false, false) | (Look::Apart, ..) => "robot",
+        (Look::Linked { .. }, false, false) | (Look::Tree { .. }, false, _) | (Look::Apart, ..) => "robot",
     };
     let radius = if all == 1 && !is_base { 9 } else { 6 };
     let at = (x + dx, y + dy);

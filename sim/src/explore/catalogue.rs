@@ -11,11 +11,13 @@ use super::chain::CHAIN;
 use super::clause::ClauseId;
 use super::depth_first::{HELPERS, MDFS};
 use super::kit::KIT;
+use super::rivals::{FULL_SEARCH, ROOKER_BIRK};
 use super::rule::RuleId;
 use super::setup::{Profile, Rule, Senses};
 
 /// Every scheme that this program knows.
-pub const SCHEMES: &[&Profile] = &[&CHAIN, &ANTS, &BRICKS, &BRICKS_ANTS, &MDFS, &HELPERS, &KIT];
+pub const SCHEMES: &[&Profile] =
+    &[&CHAIN, &FULL_SEARCH, &ROOKER_BIRK, &ANTS, &BRICKS, &BRICKS_ANTS, &MDFS, &HELPERS, &KIT];
 
 /// The scheme with this name.
 pub fn scheme(name: &str) -> Option<&'static Profile> {

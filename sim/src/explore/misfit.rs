@@ -103,7 +103,7 @@ impl fmt::Display for Misfit {
             Self::Rule { scheme, rule: RuleId::PUBLISHED } => {
                 write!(f, "{} is ours: nobody has published it", scheme.name)
             }
-            Self::Rule { scheme, rule } => write!(f, "no rule of {} is called {rule}", scheme.name),
+            Self::Rule { scheme, rule } => write!(f, "{} has no rule {rule}", scheme.name),
             Self::Miss(scheme) | Self::MissedByNone(scheme) => {
                 write!(f, "the {}s of a {} have no floor sensors to miss", scheme.look.robot(), scheme.team)
             }

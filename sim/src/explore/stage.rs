@@ -17,6 +17,11 @@ pub enum Look {
         /// Whether the link of two robots is lost that go from the first to the second of these pairs of cells.
         is_lost: fn(&[Cell], &[Cell]) -> bool,
     },
+    /// The first robot is the base, and links join the robots in a tree.
+    Tree {
+        /// Whether robots in these cells have a link.
+        is_linked: fn(Cell, Cell) -> bool,
+    },
     /// Every robot is an agent for itself.
     Apart,
 }
@@ -25,7 +30,7 @@ impl Look {
     /// Whether the first robot is the base.
     pub const fn has_base(self) -> bool {
         match self {
-            Self::Linked { .. } => true,
+            Self::Linked { .. } | Self::Tree { .. } => true,
             Self::Apart => false,
         }
     }
@@ -33,7 +38,7 @@ impl Look {
     /// What a robot is called.
     pub const fn robot(self) -> &'static str {
         match self {
-            Self::Linked { .. } => "robot",
+            Self::Linked { .. } | Self::Tree { .. } => "robot",
             Self::Apart => "agent",
         }
     }

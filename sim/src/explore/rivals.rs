@@ -1,0 +1,149 @@
+//! The rivals of the chain [Kovács 2011, C]: their rows, and their teams. No clause is about them: what a robot that meets a
+//! wall does to their links is measured, not promised.
+
+use tautline_kernel::chain::{self, MAX_ROBOTS};
+use tautline_kernel::ground::{Area, Cell, Circle, Edge};
+use tautline_proofs::run::Frame;
+
+use super::rule::RuleId;
+use super::run::{End, Team};
+use super::setup::{Profile, Rule, Senses, Setup, Starts};
+use super::stage::Look;
+use crate::fault::Fault;
+use crate::layout::{Layout, Problem};
+use crate::rivals::{self, Cells, Deadlock, Links, Moves, Over, Parameters, Unfit};
+
+/// Links by E_C.
+pub const COVERED: RuleId = RuleId::new("covered");
+/// Robots may share cells.
+pub const SHARED: RuleId = RuleId::new("shared");
+/// Both.
+pub const COVERED_SHARED: RuleId = RuleId::new("covered-shared");
+/// A team that is stuck goes its ways at random for a while.
+pub const SCATTER: RuleId = RuleId::new("scatter");
+
+/// How a stuck team scatters.
+pub const SCATTERING: Deadlock = Deadlock::Scatter { after: 20, moves: 5 };
+
+/// The row of a rival.
+macro_rules! rival {
+    ($name:literal, $about:literal, $parameters:expr) => {
+        Profile {
+            name: $name,
+            about: $about,
+            rules: &[
+                Rule {
+                    name: RuleId::PUBLISHED,
+                    about: "As the paper publishes it",
+                    start: |setup| start(setup, $parameters.with_moves(Moves::Four)),
+                    hunt: None,
+                },
+                Rule {
+                    name: RuleId::REPAIRED,
+                    about: "With the repairs of its refuted claims",
+                    start: |setup| start(setup, $parameters),
+                    hunt: None,
+                },
+                Rule {
+                    name: COVERED,
+                    about: "A rival of the chain, repaired, with links by E_C instead of E_S",
+                    start: |setup| start(setup, $parameters.linked(Links::Covered)),
+                    hunt: None,
+                },
+                Rule {
+                    name: SHARED,
+                    about: "A rival of the chain, repaired, whose robots may plan to share a cell",
+                    start: |setup| start(setup, $parameters.in_cells(Cells::Shared)),
+                    hunt: None,
+                },
+                Rule {
+                    name: COVERED_SHARED,
+                    about: "A rival of the chain, covered and shared",
+                    start: |setup| start(setup, $parameters.linked(Links::Covered).in_cells(Cells::Shared)),
+                    hunt: None,
+                },
+                Rule {
+                    name: SCATTER,
+                    about: "A rival of the chain, covered, that makes 5 legal team moves at random after every 20 without gain",
+                    start: |setup| {
+                        let parameters = $parameters.linked(Links::Covered);
+                        start(setup, Parameters { deadlock: SCATTERING, ..parameters })
+                    },
+                    hunt: None,
+                },
+            ],
+            team: "team of rivals",
+            robots: 2..=MAX_ROBOTS,
+            starts: Starts::Base,
+            senses: Senses::Bumps,
+            look: Look::Tree { is_linked: |one, other| Circle::COVERED.covers(one, other) },
+            knowledge: None,
+            clauses: &[],
+        }
+    };
+}
+
+/// The best of all team moves.
+pub static FULL_SEARCH: Profile = rival!(
+    "full-search",
+    "A rival of the chain: links are a tree, and each team move is the best of all",
+    Parameters::FULL
+);
+
+/// The best of a pool of team moves.
+pub static ROOKER_BIRK: Profile = rival!(
+    "rooker-birk",
+    "A rival of the chain: links are a tree, and each team move is the best of 1000 drawn at random",
+    Parameters::POOL
+);
+
+struct Rivals(rivals::Team);
+
+/// The team of `setup`, all robots at the base.
+fn start(setup: &Setup, parameters: Parameters) -> Result<Box<dyn Team>, Fault> {
+    rival(parameters, setup.robots, &setup.layout, setup.base, setup.seed)
+}
+
+/// A team with these parameters, the base counted, in the area that a chain of as many would explore: “this restriction is
+/// applied for all of the tested algorithms” (D).
+///
+/// # Errors
+/// A [`Fault`] if the parameters do not fit, or the base is outside.
+pub fn rival(
+    parameters: Parameters,
+    robots: u16,
+    layout: &Layout,
+    base: Cell,
+    seed: u64,
+) -> Result<Box<dyn Team>, Fault> {
+    let robots = usize::from(robots);
+    let area = chain::area(layout.size().area(), base, robots).ok_or_else(|| {
+        let outside = Problem::BaseOutside { base, size: layout.size() };
+        Fault::of_field("base", &outside, outside.remedy())
+    })?;
+    let team = rivals::Team::new(parameters, robots, base, area, seed).map_err(|unfit| fault(&unfit))?;
+    Ok(Box::new(Rivals(team)))
+}
+
+/// The fault of a team that does not fit.
+pub(crate) fn fault(unfit: &Unfit) -> Fault {
+    Fault::of_field(unfit.field(), unfit, unfit.remedy())
+}
+
+impl Team for Rivals {
+    fn cells(&self) -> &[Cell] {
+        self.0.cells()
+    }
+
+    fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+        self.0.advance(is_open).map_err(|over| match over {
+            Over::Explored => End::Explored,
+            Over::Enclosed => End::Exhausted,
+            Over::Stuck => End::Endless,
+        })
+    }
+
+    fn area(&self, _: &Layout) -> Area {
+        self.0.area()
+    }
+}
