@@ -59,7 +59,7 @@ fn drives(rule: Rule) -> [String; 2] {
 fn comes_to(kit: Pair, wanted: Stance) -> Option<Pair> {
     let Stance::Drives { to, .. } = wanted else { return Some(kit) };
     (0..4).find_map(|answer| {
-        let (mut kit, mut oracle) = (kit.clone(), Always(answer));
+        let (mut kit, mut oracle) = (kit, Always(answer));
         let Ok(Next::Looks(side)) = kit.decide(0, &mut oracle) else { return None };
         let from = kit.stance(0)?.to();
         kit.looked(0, Sight::Free, &mut oracle).ok()?;
