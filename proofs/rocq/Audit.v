@@ -1,5 +1,5 @@
-(** What is proved, and from what: for each theorem its statement,
-    and that it rests on no assumption but the definitions.
+(** What is proved, and from what: for each theorem its statement, and that it rests on no assumption but the
+    definitions.
 
     `make` compares what this file prints with audit.expected. *)
 From Coq Require Import ZArith QArith List.

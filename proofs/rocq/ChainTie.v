@@ -1,8 +1,6 @@
-(** The tie between the kernel and the chain's definitions: what the kernel has answered to every question about two
-    neighbours,
-    in generated/ChainAnswers.v, is what Lattice.v, Rule.v, Message.v and Unfolding.v say;
-      and in no state that can be reached
-    is another question asked. *)
+(** The tie between the kernel and the chain's definitions: what the kernel has answered to every question about
+    two neighbours, in generated/ChainAnswers.v, is what Lattice.v, Rule.v, Message.v and Unfolding.v say; and
+    in no state that can be reached is another question asked. *)
 From Coq Require Import ZArith NArith Lia Bool List Arith.
 From Tautline Require Import Lattice Rule Team Contact Message Unfolding.
 From Tautline.generated Require Import ChainAnswers.
@@ -164,9 +162,8 @@ Proof.
   destruct (every_question_is_in_the_table N base wall st i L R Li) as [W _]; exact W.
 Qed.
 
-(** Every answer in the table is that of the definitions: of circles, steps and edges; of the relation,
-    by seven rules; of messages;
-    of walks. *)
+(** Every answer in the table is that of the definitions: of circles, steps and edges; of the relation, by seven
+    rules; of messages; of walks. *)
 Theorem chain_answers_agree :
   (agree_covers SAFE covers_SAFE = true /\ agree_covers COVERED covers_COVERED = true)
   /\ (map (after (0, 0)) all_steps = leads /\ map (edge_of (0, 0)) all_sides = edges

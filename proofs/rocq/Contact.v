@@ -1,17 +1,14 @@
 (** CHAIN-1: after every team move each robot is in E_C of its neighbours in the chain.
 
-    For every number of robots, every layout,
-      every order of preference and every choice of when to take a move back. The
-    pair lemma is what proofs/src/chain/pair.rs checks case by case; here it needs no case but four,
-      since E_S is a subset of
-    E_C and E_C is symmetric. *)
+    For every number of robots, every layout, every order of preference and every choice of when to take a move
+    back. The pair lemma is what proofs/src/chain/pair.rs checks case by case; here it needs no case but four,
+    since E_S is a subset of E_C and E_C is symmetric. *)
 From Coq Require Import ZArith Lia Bool List Arith.
 From Tautline Require Import Lattice Rule Team.
 Import ListNotations.
 
-(** One pair of neighbours in one team move. [arr] and [arr'] are where the two end: where they planned to be or where
-    they
-    were; a robot that is sure to arrive is where it planned to be. *)
+(** One pair of neighbours in one team move. [arr] and [arr'] are where the two end: where they planned to be or
+    where they were; a robot that is sure to arrive is where it planned to be. *)
 Lemma pair_contact : forall r own ahead arr arr',
   safe_ahead r = true -> covered_behind r = true -> unsure_ahead r = true ->
   covers COVERED (from own) (from ahead) = true ->

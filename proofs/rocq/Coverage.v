@@ -1,8 +1,9 @@
-(** CHAIN-3: during every team move, at whatever speeds, the centres of neighbours in the chain stay within r_cov.
+(** CHAIN-3: during every team move, at whatever speeds, the centres of neighbours in the chain stay within
+    r_cov.
 
-    For every number of robots, every layout and every order of preference,
-      under every rule that has SafeAhead: so also as
-    published. A robot is at any moment somewhere on the straight way between the centres of two cells. *)
+    For every number of robots, every layout and every order of preference, under every rule that has SafeAhead:
+    so also as published. A robot is at any moment somewhere on the straight way between the centres of two
+    cells. *)
 From Coq Require Import ZArith QArith Lia Bool List Arith.
 From Tautline Require Import Lattice Rule Team Contact Plane.
 Import ListNotations.
@@ -32,8 +33,8 @@ Proof.
   repeat split; auto; apply reaches_near; unfold apart_x, apart_y in *; lia.
 Qed.
 
-(** Each robot is somewhere on the straight way between its two cells: their centres are within r_cov,
-    4 r_cov^2 = 26. *)
+(** Each robot is somewhere on the straight way between its two cells: their centres are within r_cov, 4 r_cov^2
+    = 26. *)
 Lemma on_the_way : forall p q p' q' s t, corners p q p' q' -> (0 <= s <= 1)%Q -> (0 <= t <= 1)%Q ->
   (norm2 (minus (between s (centre p) (centre q)) (between t (centre p') (centre q'))) <= 26 # 4)%Q.
 Proof.
@@ -81,8 +82,9 @@ Section Coverage.
   Qed.
 End Coverage.
 
-(** During every team move, an advance or a backtrack, the centres of neighbours stay within r_cov: whatever part [s],
-    [t] of their straight ways the two have gone at some moment. It needs SafeAhead alone, so it holds as published. *)
+(** During every team move, an advance or a backtrack, the centres of neighbours stay within r_cov: whatever
+    part [s], [t] of their straight ways the two have gone at some moment. It needs SafeAhead alone, so it holds
+    as published. *)
 Theorem CHAIN_3 : forall N rl base wall past after_ before_ st,
   2 <= N -> safe_ahead rl = true -> run N rl base wall (after_ :: before_ :: past) st ->
   forall i s t, S i < N -> (0 <= s <= 1)%Q -> (0 <= t <= 1)%Q ->

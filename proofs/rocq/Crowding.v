@@ -1,8 +1,8 @@
 (** CHAIN-2: there are never three robots or more in one cell other than the base.
 
-    For every number of robots,
-      every layout and every order of preference. Of three robots in one cell at most one has just
-    come there as planned (Distinct); the others were there, and then it would have found the cell full. *)
+    For every number of robots, every layout and every order of preference. Of three robots in one cell at most
+    one has just come there as planned (Distinct); the others were there, and then it would have found the cell
+    full. *)
 From Coq Require Import ZArith Lia Bool List Arith.
 From Tautline Require Import Lattice Rule Team Contact.
 Import ListNotations.

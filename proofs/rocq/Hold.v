@@ -1,16 +1,11 @@
-(** Contact whichever robots do not go,
-    and in whatever order they go: what follows when the exception of UnsureAhead is dropped,
-    so that P'_i is always in E_C of P_{i+1}.
+(** Contact whichever robots do not go, and in whatever order they go: what follows when the exception of
+    UnsureAhead is dropped, so that P'_i is always in E_C of P_{i+1}.
 
     A robot that the message of a move does not reach, that breaks down, that meets a wall where there was none,
-      or that is slow,
-    is where it was while others have gone on. Here the world picks in every team move any set of robots that go,
-      in an advance
-    and in a take-back alike; no layout is needed,
-      since a wall is one reason among others. When a move is only taken back in
-    part, what lay before it in the history is forgotten. The rule is no condition of the kernel: its two conditions
-      are, by
-    their circles, compared in Tie.v. *)
+    or that is slow, is where it was while others have gone on. Here the world picks in every team move any set
+    of robots that go, in an advance and in a take-back alike; no layout is needed, since a wall is one reason
+    among others. When a move is only taken back in part, what lay before it in the history is forgotten. The
+    rule is no condition of the kernel: its two conditions are, by their circles, compared in ChainTie.v. *)
 From Coq Require Import ZArith QArith Lia Bool List Arith.
 From Tautline Require Import Lattice Rule Team Plane.
 Import ListNotations.
@@ -20,8 +15,8 @@ Local Open Scope nat_scope.
 Definition close (p q p' q' : cell) : Prop :=
   covers COVERED p p' = true /\ covers COVERED p q' = true /\ covers COVERED q p' = true /\ covers COVERED q q' = true.
 
-(** What the conditions ask of two neighbours: SafeAhead; P'_i in E_C of P_{i+1}, always; CoveredBehind,
-    the null move excepted. *)
+(** What the conditions ask of two neighbours: SafeAhead; P'_i in E_C of P_{i+1}, always; CoveredBehind, the
+    null move excepted. *)
 Definition admits_hold (own ahead : move) : bool :=
   covers SAFE (to ahead) (to own)
   && covers COVERED (from ahead) (to own)
@@ -54,8 +49,8 @@ Section Team.
 
   Definition sent_by (p : team) (pl : plan) : team := fun i => after (p i) (pl i).
 
-  (** [tries h q] : the team is about to go from [places h] to [q],
-      by an admitted plan or by taking its last advance back. *)
+  (** [tries h q] : the team is about to go from [places h] to [q], by an admitted plan or by taking its last
+      advance back. *)
   Inductive tries (h : holding) : team -> Prop :=
   | tries_plan : forall pl, admitted_hold (places h) pl -> tries h (sent_by (places h) pl)
   | tries_back : forall q rest, before h = q :: rest -> tries h q.
@@ -123,9 +118,8 @@ Section Team.
   Qed.
 End Team.
 
-(** Under HOLD neighbours are in E_C of each other at every moment of every team move,
-    whichever robots have gone by then and in
-    whatever order, and whichever never go: after a plan and after a take-back. *)
+(** Under HOLD neighbours are in E_C of each other at every moment of every team move, whichever robots have
+    gone by then and in whatever order, and whichever never go: after a plan and after a take-back. *)
 Theorem hold_keeps_contact : forall N base h q gone, holds_on N base h -> tries N h q ->
   forall i, S i < N -> covers COVERED (partly gone (places h) q i) (partly gone (places h) q (S i)) = true.
 Proof.
@@ -133,8 +127,8 @@ Proof.
   destruct (close_partly N gone gone _ _ (tries_close N base h q H T) i L) as [C _]; exact C.
 Qed.
 
-(** And while they drive, at whatever speeds and with whatever pauses, their centres are within r_cov,
-    4 r_cov^2 = 26. *)
+(** And while they drive, at whatever speeds and with whatever pauses, their centres are within r_cov, 4 r_cov^2
+    = 26. *)
 Theorem hold_keeps_coverage : forall N base h q, holds_on N base h -> tries N h q ->
   forall i s t, S i < N -> (0 <= s <= 1)%Q -> (0 <= t <= 1)%Q ->
   (norm2 (minus (between s (centre (places h i)) (centre (q i)))
@@ -146,9 +140,8 @@ Proof.
   apply corners_decide; auto.
 Qed.
 
-(** With the exception of UnsureAhead it is not so: R_3 goes south over a side that is known to be open and R_2 goes
-    east. If R_3
-    does not go, R_2 is not in E_C of it. *)
+(** With the exception of UnsureAhead it is not so: R_3 goes south over a side that is known to be open and R_2
+    goes east. If R_3 does not go, R_2 is not in E_C of it. *)
 Theorem unsure_ahead_does_not_hold : exists own ahead,
   covers COVERED (from own) (from ahead) = true
   /\ admits_ahead REPAIRED own ahead = true /\ admits_behind REPAIRED (to ahead) (from own) = true

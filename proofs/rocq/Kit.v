@@ -1,13 +1,11 @@
 (** KIT-1, KIT-3 and KIT-12: robots that keep in touch on a lattice after [Peiris], for every number of robots,
-    every map and
-    every run.
+    every map and every run.
 
-    A robot stands at a node or drives from one to a neighbour. The team starts connected,
-      at different nodes. One robot at a
-    time decides, as Turn demands, and knows where the others are, as KIT-5 says. It may drive through any side that the
-    conditions admit, whatever it prefers and whatever it sees there, or stay. Arrivals come at any time, also between a
-    decision and the drive. So walls, records,
-    the joint way and the messages play no part. The unit is the path between two nodes, 3 m. *)
+    A robot stands at a node or drives from one to a neighbour. The team starts connected, at different nodes.
+    One robot at a time decides, as Turn demands, and knows where the others are, as KIT-5 says. It may drive
+    through any side that the conditions admit, whatever it prefers and whatever it sees there, or stay.
+    Arrivals come at any time, also between a decision and the drive. So walls, records, the joint way and the
+    messages play no part. The unit is the path between two nodes, 3 m. *)
 From Coq Require Import ZArith QArith Lia Lqa Bool List Arith.
 From Tautline Require Import Lattice Plane.
 Import ListNotations.
@@ -48,9 +46,8 @@ Section Robots.
   Definition connected (t : team) : Prop := forall i j, i < N -> j < N -> touch t i j.
   Definition apart (t : team) : Prop := forall i j, i < N -> j < N -> i <> j -> is_apart_from (t i) (t j) = true.
 
-  (** The drives that NextInReach, FromInReach and Apart admit: to no end of another one's path,
-      and so that the team stays
-      connected. *)
+  (** The drives that NextInReach, FromInReach and Apart admit: to no end of another one's path, and so that the
+      team stays connected. *)
   Definition admits (t : team) (i : nat) (s : side) : Prop :=
     (forall j, j < N -> j <> i -> has (t j) (next (Drives (left_ (t i)) s)) = false)
     /\ connected (put t i (Drives (left_ (t i)) s)).
@@ -241,9 +238,8 @@ Qed.
 Theorem KIT_12 : forall N t, run N t -> connected N t.
 Proof. intros N t R; now apply connected_always. Qed.
 
-(** Two robots hear each other all the time: whatever parts of their paths they have driven,
-    they are at most 10 m apart, paths
-    being 3 m. *)
+(** Two robots hear each other all the time: whatever parts of their paths they have driven, they are at most 10
+    m apart, paths being 3 m. *)
 Theorem KIT_1 : forall t, run 2 t ->
   is_sure_of (t 0) (t 1) = true
   /\ forall part part', (0 <= part <= 1)%Q -> (0 <= part' <= 1)%Q ->
@@ -264,8 +260,8 @@ Proof.
   intros; now apply apart_distance.
 Qed.
 
-(** ** Two robots. Which drives some of the conditions admit, as a function that computes: [i] drives,
-    [j] is the other robot. *)
+(** ** Two robots. Which drives some of the conditions admit, as a function that computes: [i] drives, [j] is
+    the other robot. *)
 Record rule := { next_in_reach : bool; from_in_reach : bool; apart_ : bool }.
 
 Definition REPAIRED : rule := Build_rule true true true.

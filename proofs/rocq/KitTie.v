@@ -1,12 +1,9 @@
-(** The tie between the kernel and Kit.v: what the kernel has answered of nodes in reach,
-    of paths that are sure to be in contact
-    or apart, and of the drives that it admits to a robot, in generated/KitAnswers.v, is what the definitions say;
-      and two robots
-    in a state that can be reached ask nothing else.
+(** The tie between the kernel and Kit.v: what the kernel has answered of nodes in reach, of paths that are sure
+    to be in contact or apart, and of the drives that it admits to a robot, in generated/KitAnswers.v, is what
+    the definitions say; and two robots in a state that can be reached ask nothing else.
 
-    The drives are those of the kernel's second robot, while the first one stands or drives,
-      by the repaired rule and without each
-    of the three conditions. *)
+    The drives are those of the kernel's second robot, while the first one stands or drives, by the repaired
+    rule and without each of the three conditions. *)
 From Coq Require Import ZArith NArith Lia Bool List Arith.
 From Tautline Require Import Lattice Kit.
 From Tautline.generated Require Import KitAnswers.

@@ -1,9 +1,9 @@
-(** Cells, steps, edges and environments of [Kovács 2011], section III.A, equation (1),
-    as in kernel/src/ground/lattice.rs.
+(** Cells, steps, edges and environments of [Kovács 2011], section III.A, equation (1), as in
+    kernel/src/ground/lattice.rs.
 
-    A cell is a column and a row, whole numbers without bounds. A circle is given by four times its squared radius,
-      so that
-    all arithmetic is exact. LATTICE-1: the environments derived from the radii are the sets that the paper draws. *)
+    A cell is a column and a row, whole numbers without bounds. A circle is given by four times its squared
+    radius, so that all arithmetic is exact. LATTICE-1: the environments derived from the radii are the sets
+    that the paper draws. *)
 From Coq Require Import ZArith Lia Bool List.
 Import ListNotations.
 Local Open Scope Z_scope.
@@ -123,8 +123,8 @@ Proof.
       cbn [fst snd] in *; lia.
 Qed.
 
-(** E_N is a cell and its four side neighbours, E_S the block of nine,
-    E_C that block and the four two steps straight ahead. *)
+(** E_N is a cell and its four side neighbours, E_S the block of nine, E_C that block and the four two steps
+    straight ahead. *)
 Theorem LATTICE_1 : forall a b,
   (neighbours a b = true <-> exists s, b = after a s)
   /\ (covers SAFE a b = true <-> apart_x a b <= 1 /\ apart_y a b <= 1)

@@ -1,9 +1,9 @@
-(** MRC-1, MRC-2, MRC-4, MRC-6 and MRC-8, repaired, for any number of robots, WFRs, events and calls,
-    whatever the network does.
+(** MRC-1, MRC-2, MRC-4, MRC-6 and MRC-8, repaired, for any number of robots, WFRs, events and calls, whatever
+    the network does.
 
-    The clauses follow from ten sentences that every event keeps: [inv]. The two that carry the others: for one call a
-      WFR never
-    names two robots, and who has accepted the present call of a WFR that waits for it holds its lease. *)
+    The clauses follow from ten sentences that every event keeps: [inv]. The two that carry the others: for one
+    call a WFR never names two robots, and who has accepted the present call of a WFR that waits for it holds
+    its lease. *)
 From Coq Require Import List Bool Arith Lia.
 From Tautline Require Import Mrc.
 Import ListNotations.

@@ -1,10 +1,9 @@
-(** The marking half of BRICKS-2: the accessible cells stay connected when an agent marks a cell as BRICKS-1 demands.
+(** The marking half of BRICKS-2: the accessible cells stay connected when an agent marks a cell as BRICKS-1
+    demands.
 
-    On every floor, of any size and shape,
-      and on any graph: nothing is planar here. BRICKS-1 says that the accessible side
-    neighbours of the cell stay connected with each other without it;
-      its 256 neighbourhoods are checked in Rust. Shutting a
-    side, the other half of BRICKS-2, is not proved here. *)
+    On every floor, of any size and shape, and on any graph: nothing is planar here. BRICKS-1 says that the
+    accessible side neighbours of the cell stay connected with each other without it; its 256 neighbourhoods are
+    checked in Rust. Shutting a side, the other half of BRICKS-2, is not proved here. *)
 From Coq Require Import List Lia Arith.
 Import ListNotations.
 
@@ -47,9 +46,8 @@ Section Marking.
   Qed.
 End Marking.
 
-(** The accessible cells stay connected,
-    however many cells are marked one after the other. [marks] leads from one set of
-    accessible cells to the next by marking one cell, as BRICKS-1 demands. *)
+(** The accessible cells stay connected, however many cells are marked one after the other. [marks] leads from
+    one set of accessible cells to the next by marking one cell, as BRICKS-1 demands. *)
 Section Run.
   Variable cell : Type.
   Variable beside : cell -> cell -> Prop.

@@ -1,23 +1,20 @@
-(** MRC, repaired, after section 3.3 of [Jiang 2011]: any number of robots and of nodes that wait for rescue (WFRs),
-    any number
-    of events and of calls, and a network that delays, loses, repeats and reorders messages as it likes.
+(** MRC, repaired, after section 3.3 of [Jiang 2011]: any number of robots and of nodes that wait for rescue
+    (WFRs), any number of events and of calls, and a network that delays, loses, repeats and reorders messages
+    as it likes.
 
-    Leases.v speaks of this file. A robot and a WFR are functions from what they are and what happens to the list of
-      what may
-    come of it, as in kernel/src/mrc/robot.rs and wfr.rs; where the kernel decides (the nearest call, the best bid,
-      whose record
-    makes room), the list has every decision. Hop counts and parents are left out. Tie.v shows that whatever the
-      kernel's robots
-    and WFRs do in a table of situations is in these lists.
+    Leases.v speaks of this file. A robot and a WFR are functions from what they are and what happens to the
+    list of what may come of it, as in kernel/src/mrc/robot.rs and wfr.rs; where the kernel decides (the nearest
+    call, the best bid, whose record makes room), the list has every decision. Hop counts and parents are left
+    out. MrcTie.v shows that whatever the kernel's robots and WFRs do in a table of situations is in these
+    lists.
 
-    Whatever was sent may arrive at any time, again, late or never. Timers go off at any time, too,
-      with one exception, which
-    SPEC.md names: a robot's lease does not lapse while its WFR waits for it. *)
+    Whatever was sent may arrive at any time, again, late or never. Timers go off at any time, too, with one
+    exception, which SPEC.md names: a robot's lease does not lapse while its WFR waits for it. *)
 From Coq Require Import List Bool Arith.
 Import ListNotations.
 
-(** The conditions that the clauses of Leases.v need, as in kernel/src/mrc/rule.rs;
-    the others are in force or play no part. *)
+(** The conditions that the clauses of Leases.v need, as in kernel/src/mrc/rule.rs; the others are in force or
+    play no part. *)
 Record rule := {
   (** A MOVE after the choice does not change it. *)
   choice_stands : bool;
@@ -32,8 +29,8 @@ Definition without_ChoiceStands : rule := Build_rule false true true.
 Definition without_Epochs : rule := Build_rule true false true.
 Definition without_Consent : rule := Build_rule true true false.
 
-(** WFRs, robots and epochs have numbers. [Resb w e r c]: WFR [w] tells robot [r] that for its call [e] it has chosen
-    [c]. *)
+(** WFRs, robots and epochs have numbers. [Resb w e r c]: WFR [w] tells robot [r] that for its call [e] it has
+    chosen [c]. *)
 Inductive message :=
 | Notice (w e : nat)
 | Move (w e r : nat)
@@ -162,8 +159,8 @@ Fixpoint making_room (own : nat -> bool) (q : request) (l : list request) : list
   | p :: l => (if served p && negb (own (wfr_of p)) then [q :: l] else []) ++ map (cons p) (making_room own q l)
   end.
 
-(** It hears a call that it has no record of: it adds one, in the place of a served one if the table is full,
-    or none. *)
+(** It hears a call that it has no record of: it adds one, in the place of a served one if the table is full, or
+    none. *)
 Definition adds (x : robot) (q : request) : list robot :=
   map (fun l => {| requests := l; doing := doing x |})
     (requests x :: (requests x ++ [q]) :: making_room (is_own (doing x)) q (requests x)).

@@ -1,5 +1,5 @@
-(** MRC's conditions are needed: without ChoiceStands, Epochs or Consent a rescue comes where MRC-1,
-    MRC-2 or MRC-4 forbids.
+(** MRC's conditions are needed: without ChoiceStands, Epochs or Consent a rescue comes where MRC-1, MRC-2 or
+    MRC-4 forbids.
 
     Each theorem is a run from the start, whose events are checked by computation. *)
 From Coq Require Import List Bool Arith.
@@ -102,9 +102,8 @@ Proof.
   vm_compute; auto.
 Qed.
 
-(** The robot has come. At the next event of the WFR an old MOVE and an old acceptance arrive once more,
-    while the robot is on its
-    way to another WFR. *)
+(** The robot has come. At the next event of the WFR an old MOVE and an old acceptance arrive once more, while
+    the robot is on its way to another WFR. *)
 Theorem without_Epochs_breaks_MRC_2 : exists s, reached without_Epochs s
   /\ stage (wfrs s 1) = CountsOn 1 /\ stage (wfrs s 2) = CountsOn 1.
 Proof.

@@ -1,10 +1,8 @@
-(** The tie between the kernel and Mrc.v: whatever the kernel's robots and WFRs have done in generated/MrcAnswers.v,
-    repaired, is
-    in the lists of outcomes that Leases.v speaks of.
+(** The tie between the kernel and Mrc.v: whatever the kernel's robots and WFRs have done in
+    generated/MrcAnswers.v, repaired, is in the lists of outcomes that Leases.v speaks of.
 
-    The table has every state of a robot with room for one record and for two that two epochs of two WFRs lead to,
-      and every state
-    of a WFR with two robots up to its second call. *)
+    The table has every state of a robot with room for one record and for two that two epochs of two WFRs lead
+    to, and every state of a WFR with two robots up to its second call. *)
 From Coq Require Import List Bool Arith.
 From Tautline Require Import Mrc.
 From Tautline.generated Require Import MrcAnswers.
@@ -53,8 +51,8 @@ Definition robots_agree (rl : rule) : bool :=
 Definition wfrs_agree (rl : rule) : bool :=
   agrees wfr wfr_input eq_wfr (wfr_outcomes rl 1) wfr_states wfr_inputs wfr_says wfr_answers.
 
-(** Every answer in the table is among the outcomes; by the other rules not every one is,
-    so that the table tells rules apart. *)
+(** Every answer in the table is among the outcomes; by the other rules not every one is, so that the table
+    tells rules apart. *)
 Theorem mrc_answers_agree :
   robots_agree REPAIRED = true /\ wfrs_agree REPAIRED = true
   /\ wfrs_agree without_ChoiceStands = false

@@ -1,8 +1,9 @@
-(** Every condition of the chain is needed: with one taken out, a team comes where CHAIN-1, CHAIN-2 or CHAIN-3 forbids.
+(** Every condition of the chain is needed: with one taken out, a team comes where CHAIN-1, CHAIN-2 or CHAIN-3
+    forbids.
 
-    Each theorem is a counterexample that begins in the base: plans that the weaker rule admits,
-      in a layout with at most three
-    walls. Each run is checked by computation, and Replay.v shows that what the check accepts can be reached. *)
+    Each theorem is a counterexample that begins in the base: plans that the weaker rule admits, in a layout
+    with at most three walls. Each run is checked by computation, and Replay.v shows that what the check accepts
+    can be reached. *)
 From Coq Require Import ZArith Lia Bool List Arith.
 From Tautline Require Import Lattice Rule Team Replay.
 Import ListNotations.

@@ -1,14 +1,10 @@
-(** NOTICE-1: at every moment the parent pointers form a tree rooted at the source,
-    each node one hop farther from it than its
-    parent; after section 3.2 of [Jiang 2011]. NOTICE-2: a node forwards an event at most once.
+(** NOTICE-1: at every moment the parent pointers form a tree rooted at the source, each node one hop farther
+    from it than its parent; after section 3.2 of [Jiang 2011]. NOTICE-2: a node forwards an event at most once.
 
-    In every network, also an infinite one, whose nodes have any numbers; under every scheme,
-      in every order of arrival and of the
-    ends of waits, whatever is lost or repeated. A node may take any NOTICE that it hears while it waits,
-      so the theorem needs
-    neither the least hop count nor the first heard. NoticeTie.v shows that whatever a node of the kernel makes of a
-      NOTICE is in
-    [hears]. There is one event of one source. *)
+    In every network, also an infinite one, whose nodes have any numbers; under every scheme, in every order of
+    arrival and of the ends of waits, whatever is lost or repeated. A node may take any NOTICE that it hears
+    while it waits, so the theorem needs neither the least hop count nor the first heard. NoticeTie.v shows that
+    whatever a node of the kernel makes of a NOTICE is in [hears]. There is one event of one source. *)
 From Coq Require Import Lia Bool List Arith.
 Import ListNotations.
 
@@ -16,9 +12,9 @@ Import ListNotations.
 Inductive phase := Unaware | Waiting | Silent | Forwarded.
 Record node := { stage : phase; parent : nat; hops : nat }.
 
-(** What a NOTICE of sender [s] with hop count [h] may make of a node: it waits, or is silent at once;
-    one that waits takes it or
-    not, and is silent or not; it is ignored. What has fallen silent or forwarded stays as it is. *)
+(** What a NOTICE of sender [s] with hop count [h] may make of a node: it waits, or is silent at once; one that
+    waits takes it or not, and is silent or not; it is ignored. What has fallen silent or forwarded stays as it
+    is. *)
 Definition hears (x : node) (s h : nat) : list node :=
   let nearer next := {| stage := next; parent := s; hops := S h |} in
   match stage x with
@@ -35,8 +31,7 @@ Section Network.
   Variable source : nat.
 
   (** The nodes, and every NOTICE ever sent: its sender and hop count. What was sent may arrive at any time,
-      over any link,
-      any number of times, or never. *)
+      over any link, any number of times, or never. *)
   Record net := { nodes : nat -> node; sent : list (nat * nat) }.
 
   Definition put (f : nat -> node) (n : nat) (x : node) : nat -> node := fun m => if m =? n then x else f m.
@@ -140,9 +135,9 @@ Section Network.
   Fixpoint ancestor (w : net) (k : nat) (n : nat) : nat :=
     match k with 0 => n | S k => ancestor w k (parent (nodes w n)) end.
 
-  (** At every moment, of every node that knows of the event: its parent knows of it, too, has forwarded,
-      is linked to it and
-      one hop nearer; and after as many parents as it has hops stands the source, and no earlier. *)
+  (** At every moment, of every node that knows of the event: its parent knows of it, too, has forwarded, is
+      linked to it and one hop nearer; and after as many parents as it has hops stands the source, and no
+      earlier. *)
   Theorem NOTICE_1 : forall w, reaches_net w -> forall n, knows w n ->
     (n <> source -> stage (nodes w (parent (nodes w n))) = Forwarded
                     /\ hops (nodes w n) = S (hops (nodes w (parent (nodes w n)))) /\ link (parent (nodes w n)) n)
@@ -174,8 +169,8 @@ Section Network.
   Qed.
 End Network.
 
-(** Without the freezing,
-    FrozenOnceForwarded: what has forwarded still takes a NOTICE with a hop count up to its own. *)
+(** Without the freezing, FrozenOnceForwarded: what has forwarded still takes a NOTICE with a hop count up to
+    its own. *)
 Definition hears_thawed (x : node) (s h : nat) : list node :=
   match stage x with
   | Forwarded => if h <=? hops x then [x; {| stage := Forwarded; parent := s; hops := S h |}] else [x]

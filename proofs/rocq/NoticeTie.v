@@ -1,10 +1,8 @@
 (** The tie between the kernel and Notice.v: whatever the kernel's nodes have made of NOTICEs in
-    generated/NoticeAnswers.v is in
-    [hears], and what they have sent is what they say of themselves.
+    generated/NoticeAnswers.v is in [hears], and what they have sent is what they say of themselves.
 
-    The table has every state that NOTICEs of three senders with three hop counts lead a node to, under nine schemes,
-      with the
-    repaired conditions and without each of those that the theorem does not need. *)
+    The table has every state that NOTICEs of three senders with three hop counts lead a node to, under nine
+    schemes, with the repaired conditions and without each of those that the theorem does not need. *)
 From Coq Require Import List Bool Arith.
 From Tautline Require Import Notice.
 From Tautline.generated Require Import NoticeAnswers.
@@ -29,8 +27,8 @@ Definition is_sent (row : (nat * nat * nat) * ((nat * nat * nat) * nat)) : bool 
   is_node (node_of after) (forwards x) && (h =? hops x) && match stage x with Waiting =>
     true | Unaware | Silent | Forwarded => false end.
 
-(** What the kernel does without the freezing is not in [hears],
-    but in [hears_thawed]: the table tells the two apart. *)
+(** What the kernel does without the freezing is not in [hears], but in [hears_thawed]: the table tells the two
+    apart. *)
 Theorem notice_answers_agree :
   forallb (is_heard hears) heard = true /\ forallb is_sent sent = true
   /\ forallb (fun row => negb (is_heard hears row)) heard_without_FrozenOnceForwarded = true

@@ -1,10 +1,8 @@
-(** Points between cells, and that distance is convex: where two robots are at any moment,
-    whatever parts of their straight
-    ways they have gone, they are no farther from each other than the ends of their ways.
+(** Points between cells, and that distance is convex: where two robots are at any moment, whatever parts of
+    their straight ways they have gone, they are no farther from each other than the ends of their ways.
 
-    Points have rational coordinates. A part of a way is a rational number from 0 to 1;
-      what holds of all of them holds of
-    real ones, too, since distance is continuous. *)
+    Points have rational coordinates. A part of a way is a rational number from 0 to 1; what holds of all of
+    them holds of real ones, too, since distance is continuous. *)
 From Coq Require Import ZArith QArith Lia Lqa.
 From Tautline Require Import Lattice.
 

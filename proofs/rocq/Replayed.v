@@ -1,11 +1,10 @@
-(** Runs of the kernel's own planner, in generated/Runs.v, with walls, backtracks and unfolding among them,
-    are runs of Team.v.
+(** Runs of the kernel's own planner, in generated/Runs.v, with walls, backtracks and unfolding among them, are
+    runs of Team.v.
 
-    A run is given by its walls and by the bytes that the robots sent. Each byte is decoded;
-      each advance must be admitted, each
-    robot that says that it met a wall must have one in its way, and no other;
-      each backtrack must take back the last advance
-    that was not; and at the end the robots must be where the kernel has them. *)
+    A run is given by its walls and by the bytes that the robots sent. Each byte is decoded; each advance must
+    be admitted, each robot that says that it met a wall must have one in its way, and no other; each backtrack
+    must take back the last advance that was not; and at the end the robots must be where the kernel has them.
+    *)
 From Coq Require Import ZArith NArith Lia Bool List Arith.
 From Tautline Require Import Lattice Rule Team Message Replay.
 From Tautline.generated Require Import Runs.
@@ -81,8 +80,8 @@ Proof.
   apply andb_true_iff in E; destruct E as [E F]; apply cell_eqb_spec in E; subst; f_equal; now apply IH.
 Qed.
 
-(** Every run of the kernel ends in a state that can be reached by the relation,
-    with the robots where the kernel has them. *)
+(** Every run of the kernel ends in a state that can be reached by the relation, with the robots where the
+    kernel has them. *)
 Theorem kernel_runs_are_runs : forall n base walls sent last, In (n, base, walls, sent, last) runs ->
   exists st, reachable n REPAIRED base (stands walls) st /\ forall i, pos st i = nth i last (0, 0)%Z.
 Proof.

@@ -1,8 +1,8 @@
-(** CHAIN-10: a chain of N robots needs at least 9(N-1)-1 team moves to explore (2N-1)^2 cells, whatever it does.
+(** CHAIN-10: a chain of N robots needs at least 9(N-1)-1 team moves to explore (2N-1)^2 cells, whatever it
+    does.
 
-    Ring r of the base has 8r cells. By SafeAhead R_i comes at most to ring i-1,
-      so that the leader alone explores ring N-1, one
-    cell in a team move, and it needs N-1 team moves to be there at all. *)
+    Ring r of the base has 8r cells. By SafeAhead R_i comes at most to ring i-1, so that the leader alone
+    explores ring N-1, one cell in a team move, and it needs N-1 team moves to be there at all. *)
 From Coq Require Import ZArith Lia Bool List Arith.
 From Tautline Require Import Lattice Rule Team Contact.
 Import ListNotations.

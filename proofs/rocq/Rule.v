@@ -1,10 +1,8 @@
 (** The conditions of the chain's admission relation: the functions of kernel/src/chain/rule.rs, one by one.
 
     A rule is a set of conditions. The three others that the kernel has (RefusedIsVirtual, EpochMustGain,
-      Unfold) and the
-    order of preference only choose among admitted plans;
-      nothing here depends on them. Tie.v compares each function with
-    the kernel's answers. *)
+    Unfold) and the order of preference only choose among admitted plans; nothing here depends on them.
+    ChainTie.v compares each function with the kernel's answers. *)
 From Coq Require Import ZArith Lia Bool List Arith.
 From Tautline Require Import Lattice.
 Import ListNotations.
@@ -37,8 +35,8 @@ Definition without_FullForLeader := Build_rule true true true true true false.
 
 Inductive role := Leader | Follower.
 
-(** A robot's planned move, as its neighbours see it: where it is, its step,
-    and whether its side is known to be open. *)
+(** A robot's planned move, as its neighbours see it: where it is, its step, and whether its side is known to be
+    open. *)
 Record move := { from : cell; does : step; known_open : bool }.
 
 (** P': where the plan sends it. *)

@@ -1,13 +1,11 @@
-(** A team of N robots in any layout: admitted plans, what comes of them, backtracks, and all that can be reached.
+(** A team of N robots in any layout: admitted plans, what comes of them, backtracks, and all that can be
+    reached.
 
     Lattice.v, Rule.v and this file up to [reachable] are what the theorems about the chain speak of. Robots are
-      counted from
-    0: robot 0 is the base R_1, robot N-1 the leader R_N. A run begins with all robots in the base. An advance is any
-    admitted plan, whatever preferred it; each robot that meets a wall stays. A backtrack may come at any time,
-      and the world
-    is asked again. The rest of the file is the composition that all theorems share: what admitted advances keep holds
-      in
-    every run, backtracks included. *)
+    counted from 0: robot 0 is the base R_1, robot N-1 the leader R_N. A run begins with all robots in the base.
+    An advance is any admitted plan, whatever preferred it; each robot that meets a wall stays. A backtrack may
+    come at any time, and the world is asked again. The rest of the file is the composition that all theorems
+    share: what admitted advances keep holds in every run, backtracks included. *)
 From Coq Require Import ZArith Lia Bool List Arith.
 From Tautline Require Import Lattice Rule.
 Import ListNotations.
@@ -68,8 +66,8 @@ Section Layout.
 
   Definition stays (pl : plan) (i : nat) : bool := match pl i with Stay => true | _ => false end.
 
-  (** What the conditions say of robot i alone, i >= 1: CoveredBehind, the leader's null move excepted,
-      and the full cell. *)
+  (** What the conditions say of robot i alone, i >= 1: CoveredBehind, the leader's null move excepted, and the
+      full cell. *)
   Definition admits_robot (st : state) (pl : plan) (i : nat) : bool :=
     ((is_leader i && stays pl i) || admits_behind rl (planned st pl i) (pos st (pred i)))
     && (stays pl i || cell_eqb (planned st pl i) base
@@ -166,9 +164,9 @@ Section Layout.
     apply edge_eqb_spec in H; cbn in A; rewrite H in A; now destruct (wall e).
   Qed.
 
-  (** The composition, once for all clauses. [Inv] speaks of where the team is, [Link] of where it was before and after
-      a team move. If admitted advances keep [Inv] and bring about [Link], both hold of every run: of every number of
-      robots, layout, order of preference, and choice of when to take back. *)
+  (** The composition, once for all clauses. [Inv] speaks of where the team is, [Link] of where it was before
+      and after a team move. If admitted advances keep [Inv] and bring about [Link], both hold of every run: of
+      every number of robots, layout, order of preference, and choice of when to take back. *)
   Section Composition.
     Variable Inv : team -> Prop.
     Variable Link : team -> team -> Prop.

@@ -1,13 +1,14 @@
-(** The step of CHAIN-13: unfolding the chain along a walk keeps to the admission relation, and so to CHAIN-1, 2 and 3.
+(** The step of CHAIN-13: unfolding the chain along a walk keeps to the admission relation, and so to CHAIN-1, 2
+    and 3.
 
-    For every number of robots, every walk none of whose cells comes twice,
-      and every set of last stops one link apart. That
-    the kernel's search for stops returns such a walk, and the argument about the end of a run, are not proved here. *)
+    For every number of robots, every walk none of whose cells comes twice, and every set of last stops one link
+    apart. That the kernel's search for stops returns such a walk, and the argument about the end of a run, are
+    not proved here. *)
 From Coq Require Import ZArith Lia Bool List Arith.
 From Tautline Require Import Lattice Rule Team Contact.
 Import ListNotations.
 
-(** Whether a follower goes on: [goes_on] of kernel/src/chain/unfold.rs, compared with its answers in Tie.v. *)
+(** Whether a follower goes on: [goes_on] of kernel/src/chain/unfold.rs, compared with its answers in ChainTie.v. *)
 Definition goes_on (own last ahead : nat) : bool := (own <? last) && (own + 2 <=? ahead).
 
 Section Unfolding.
@@ -22,9 +23,8 @@ Section Unfolding.
   Hypothesis walk_steps : forall k, k < length -> exists s, walk (S k) = beyond (walk k) s.
   Hypothesis walk_once : forall j k, j <= length -> k <= length -> walk j = walk k -> j = k.
 
-  (** The last stop of each robot along the walk: 0 for those that stay in the base. One link apart: a cell farther,
-      or two
-      round a corner. *)
+  (** The last stop of each robot along the walk: 0 for those that stay in the base. One link apart: a cell
+      farther, or two round a corner. *)
   Variable last : nat -> nat.
   Hypothesis last_base : last 0 = 0.
   Hypothesis last_leader : last (pred N) <= length.
@@ -229,8 +229,7 @@ Record is_walk (base : cell) (walk : nat -> cell) (length : nat) : Prop := {
 }.
 
 (** Where robots stop along it, the base in the base: each at most one link farther than the robot behind it,
-    that is one cell,
-    or two round a corner. *)
+    that is one cell, or two round a corner. *)
 Record are_stops (N : nat) (walk : nat -> cell) (length : nat) (last : nat -> nat) : Prop := {
   stops_begin : last 0 = 0;
   stops_end : last (pred N) <= length;
@@ -241,9 +240,8 @@ Record are_stops (N : nat) (walk : nat -> cell) (length : nat) (last : nat -> na
           (apart_y (walk (last i)) (walk (last i + 2)%nat) <= 1)%Z);
 }.
 
-(** In the base all robots are on the walk. If they are on it, the plan that unfolds the chain further is admitted,
-    and they
-    are on it again where that plan sends them. *)
+(** In the base all robots are on the walk. If they are on it, the plan that unfolds the chain further is
+    admitted, and they are on it again where that plan sends them. *)
 Theorem CHAIN_13_step : forall N base walk length last,
   2 <= N -> is_walk base walk length -> are_stops N walk length last ->
   on_the_walk N last (fun _ => 0)

@@ -46,7 +46,7 @@ fn drives(rule: Rule) -> [String; 2] {
     for (offset, there) in offsets(REACH).flat_map(|offset| Step::ALL.map(move |there| (offset, there))) {
         let map = MediumGrid::new(area).expect("it is small");
         let kit = Pair::new(rule, map, [at(here, offset), here]).ok().filter(|_| offset != (0, 0));
-        let kit = kit.and_then(|kit| comes_to(kit, stance(at(here, offset), there)));
+        let kit = kit.and_then(|kit| comes_to(&kit, stance(at(here, offset), there)));
         for side in Step::ALL.into_iter().filter(|&step| step != Step::Stay) {
             asked.push(kit.is_some());
             admitted.push(kit.as_ref().is_some_and(|kit| kit.admits(1, side)));
@@ -56,10 +56,10 @@ fn drives(rule: Rule) -> [String; 2] {
 }
 
 /// The team in which the first robot has left, if it is to; `None` if it does not come to do so.
-fn comes_to(kit: Pair, wanted: Stance) -> Option<Pair> {
-    let Stance::Drives { to, .. } = wanted else { return Some(kit) };
+fn comes_to(kit: &Pair, wanted: Stance) -> Option<Pair> {
+    let Stance::Drives { to, .. } = wanted else { return Some(*kit) };
     (0..4).find_map(|answer| {
-        let (mut kit, mut oracle) = (kit.clone(), Always(answer));
+        let (mut kit, mut oracle) = (*kit, Always(answer));
         let Ok(Next::Looks(side)) = kit.decide(0, &mut oracle) else { return None };
         let from = kit.stance(0)?.to();
         kit.looked(0, Sight::Free, &mut oracle).ok()?;

@@ -58,8 +58,11 @@ fn run(robots: usize, draw: &mut Draw, met: &mut Met) -> String {
             chain.cells().iter().zip(plan.steps()).map(|(cell, &step)| cell.after(step)).collect();
         let settled = chain.settle(&plan, |edge| !inside.contains(&edge));
         met.blocked += planned.iter().zip(chain.cells()).filter(|(planned, now)| planned != now).count();
-        let bytes: String = settled.messages().iter().rev().map(|byte| format!("{byte:02x}")).collect();
-        sent.push(format!("0x{bytes}"));
+        // R_2 in the lowest byte.
+        let number =
+            settled.messages().iter().rev().fold(0_u64, |number, &byte| number << 8 | u64::from(byte));
+        let digits = 2 * settled.messages().len();
+        sent.push(format!("0x{number:0digits$x}"));
         log.extend_from_slice(settled.messages());
     }
     let last = chain.cells().iter().copied().map(cell);
