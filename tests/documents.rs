@@ -225,6 +225,7 @@ fn the_pictures_are_drawn_by_the_commands_beside_them() {
         ("docs/chain.md", "crowding.svg", "replay docs/chain-2-published-n4.jsonl --svg", 1),
         ("docs/chain.md", "dear.svg", "replay docs/chain-12-published-n47.jsonl --svg", 1),
         ("docs/own-rule.md", "follow-1.svg", "replay docs/follow-1-written.jsonl --svg", 1),
+        ("docs/floor.md", "floors.svg", "reproduce floors --starts 3 --max-steps 100000 --svg", 0),
         ("docs/floor.md", "trap.svg", "replay docs/bricks-4-repaired-n1.jsonl --moves 1..5 --svg", 1),
     ] {
         shows(page, &format!("tautline {arguments} docs/{picture}"));

@@ -192,6 +192,6 @@ pub static CLAUSES: [Clause; 11] = [
     Clause {
         id: "BRICKS-11",
         sentence: "Agents that fail MUST not keep the others from an end with every cell visited.",
-        checks: &[&tree::SURVIVES],
+        checks: &[&Check::new(REPAIRED, &Floors::SURVIVES, Verdict::Refuted, &[]), &tree::SURVIVES],
     },
 ];

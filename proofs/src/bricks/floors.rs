@@ -19,6 +19,7 @@ struct Series {
     max_misses: u8,
     max_streak: Option<u8>,
     turns: Turns,
+    may_fail: bool,
     /// Idle moves before an agent goes round; none where what it gains before can only come earlier.
     patience: u8,
     /// Moves after which a lap is cut short: few, so that in small layouts some are and some are not.
@@ -33,7 +34,7 @@ impl Series {
     /// Every action one step, every schedule, nothing missed, no patience.
     const fn new(area: Area, agents: u32) -> Self {
         let turns = Turns::Whole;
-        Self { area, agents, max_misses: 0, max_streak: None, turns, patience: 0, reach: 4 }
+        Self { area, agents, max_misses: 0, max_streak: None, turns, may_fail: false, patience: 0, reach: 4 }
     }
 
     /// The same with missed sensors; no agent acts more than twice while another waits.
@@ -49,16 +50,17 @@ impl Series {
 
     /// The teams, one in each plan.
     fn teams(self, observed: &Observed, demand: Demand) -> Vec<Team> {
-        let Self { area, agents: _, max_misses, max_streak, turns, patience, reach } = self;
+        let Self { area, agents: _, max_misses, max_streak, turns, may_fail, patience, reach } = self;
         let rule = Rule { patience, reach, ..observed.rule };
         let is_atomic = observed.deception != Deception::ActsAtOnce;
         let turns = if turns == Turns::Overlapping && !is_atomic { Turns::Free } else { turns };
-        area.plans().map(|plan| Team { plan, rule, turns, max_misses, max_streak, demand }).collect()
+        let team = |plan| Team { plan, rule, turns, max_misses, max_streak, may_fail, demand };
+        area.plans().map(team).collect()
     }
 
     /// What it is, `who` standing for its agents.
     fn words(self, who: &str) -> String {
-        let Self { area, agents, max_misses, max_streak, turns, patience, reach: _ } = self;
+        let Self { area, agents, max_misses, max_streak, turns, may_fail, patience, reach: _ } = self;
         let turns = match turns {
             Turns::Whole => None,
             Turns::Overlapping => Some("scans and writes in every order unless scans overlap".to_owned()),
@@ -69,6 +71,7 @@ impl Series {
             Some(format!("{agents}{who} to {area}")),
             (max_misses > 0).then(|| format!("{max_misses} missed")),
             (patience > 0).then(|| format!("patience {patience}")),
+            may_fail.then(|| "all but one may fail".to_owned()),
             turns,
             streak.map(|most| format!("at most {most} acts in a row")),
         ];
@@ -106,6 +109,9 @@ impl Floors {
     pub(super) const ENDS_TWICE: Self = Self { series: &TWICE, demand: Demand::Ends };
     /// BRICKS-6, sensors missed.
     pub(super) const ENDS_HALF_BLIND: Self = Self { series: &HALF_BLIND, demand: Demand::Ends };
+
+    /// BRICKS-11, small areas first.
+    pub(super) const SURVIVES: Self = Self { series: &FAILING, demand: Demand::Ends };
 
     /// The same floors with the demands of all clauses that are about them, if these are several.
     fn together(self) -> Option<Self> {
@@ -218,6 +224,13 @@ const HALF_BLIND: [Series; 7] = [
 
 /// Scanning and writing are two steps.
 const IN_TURNS: [Series; 1] = [Series { turns: Turns::Overlapping, ..Series::new(Area::blocked(5, 2), 2) }];
+
+/// Agents fail.
+const FAILING: [Series; 3] = [
+    Series { may_fail: true, ..Series::new(Area::blocked(2, 1), 2) },
+    Series { may_fail: true, ..Series::new(Area::blocked(3, 1), 2) },
+    Series { may_fail: true, ..Series::new(Area::blocked(2, 2), 2) },
+];
 
 /// Nothing missed, and all gone over twice.
 const TWICE: [Series; 5] = [

@@ -62,6 +62,8 @@ pub(crate) struct Team {
     pub(crate) max_misses: u8,
     /// How many times in a row an agent may act while another waits.
     pub(crate) max_streak: Option<u8>,
+    /// Whether agents may fail, all but one: they act no more, and have not left.
+    pub(crate) may_fail: bool,
     pub(crate) demand: Demand,
 }
 
@@ -169,7 +171,9 @@ impl Team {
         let mut ready =
             (0..state.bodies.len()).filter(|&agent| is_awake(agent) && !is_locked(agent) && !is_tired(agent));
         let of = ready.clone().count() as u32;
-        let agent = ready.nth(if of > 1 { world.pick(of) as usize } else { 0 })?;
+        let may_fail = self.may_fail && awake.count_ones() > 1;
+        let pick = if of > 1 || may_fail { world.pick(of << u32::from(may_fail)) } else { 0 };
+        let agent = ready.nth(if of > 1 { (pick % of) as usize } else { 0 })?;
         let before = state;
         let mut state = before.clone();
         if let Some(most) = self.max_streak {
@@ -177,6 +181,10 @@ impl Team {
             state.streak = (agent as u8, most.min(again + 1));
         }
         let body = &mut state.bodies[agent];
+        if pick >= of {
+            body.is_done = true;
+            return Some(Turned { state, agent, step: Step::Stay, unseen: Vec::new(), breaks: None });
+        }
         let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors, placed: &mut state.placed };
         let mut unseen = Vec::new();
         let (act, is_due) = if let Some(act) = body.pending.take() {

@@ -58,9 +58,9 @@ pub(in crate::bricks) static ROBUST_CONNECTED: Check<Observed> =
 /// BRICKS-3
 pub(in crate::bricks) static IN_TURNS: Check<Observed> =
     holds(TREE, &Floors::CONNECTED_IN_TURNS, &[Named::new("agents beside each other act at once", AT_ONCE)]);
-/// BRICKS-3, the smallest break.
+/// BRICKS-3, the shortest break.
 pub(in crate::bricks) static BOTH_AT_ONCE: Check<Observed> =
-    refuted(Named::new("at-once", AT_ONCE), &Floors::CONNECTED_AT_ONCE);
+    refuted(Named::new("at-once", AT_ONCE), &Floors::CONNECTED_IN_TURNS);
 /// BRICKS-4
 pub(in crate::bricks) static TREE_KNOWING: Check<Observed> = holds(TREE, &Floors::KNOWING, &[NO_EXITS]);
 /// BRICKS-4

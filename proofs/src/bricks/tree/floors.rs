@@ -81,8 +81,6 @@ impl Floors {
     pub(super) const CONNECTED_HALF_BLIND: Self = Self { series: &HALF_BLIND, demand: Demand::Connected };
     /// BRICKS-3
     pub(super) const CONNECTED_IN_TURNS: Self = Self { series: &IN_TURNS, demand: Demand::Connected };
-    /// BRICKS-3, the smallest break.
-    pub(super) const CONNECTED_AT_ONCE: Self = Self { series: &AT_ONCE, demand: Demand::Connected };
     /// BRICKS-4
     pub(super) const KNOWING: Self = Self { series: &TOGETHER, demand: Demand::Knowing };
     /// BRICKS-4, more orders for each floor.
@@ -206,15 +204,6 @@ const HALF_BLIND: [Series; 5] = [
 
 /// Scanning and writing are two steps.
 const IN_TURNS: [Series; 1] = [Series::taking_turns(Area::blocked(5, 2))];
-
-/// The same, small areas first.
-const AT_ONCE: [Series; 5] = [
-    Series::taking_turns(Area::blocked(2, 1)),
-    Series::taking_turns(Area::blocked(3, 1)),
-    Series::taking_turns(Area::blocked(2, 2)),
-    Series::taking_turns(Area::blocked(4, 1)),
-    Series::taking_turns(Area::blocked(3, 2)),
-];
 
 /// Moves are counted.
 const COUNTED: [Series; 3] = [

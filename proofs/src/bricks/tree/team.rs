@@ -88,9 +88,8 @@ impl Team {
         if is_asked(Demand::Rising) && !state.do_labels_rise(plan) {
             return Some("labels never fall towards the root");
         }
-        let founded: u32 = state.bodies.iter().map(|body| body.memory.founded()).sum();
         let is_far = u32::from(moves) > 2 * plan.free.count_ones();
-        (*demand == Demand::Bounded && founded <= 1 && is_far)
+        (*demand == Demand::Bounded && founded(state) <= 1 && is_far)
             .then_some("with one tree an agent makes at most two moves a cell")
     }
 }
@@ -103,7 +102,16 @@ impl Team {
 
     fn turn(&self, state: &State, world: &mut dyn Oracle) -> Option<Turned> {
         let awake = self.awake(state);
-        let is_over = self.demand == Demand::Explores && state.is_explored(&self.plan);
+        let is_over = match self.demand {
+            Demand::Explores => state.is_explored(&self.plan),
+            Demand::Bounded => founded(state) > 1,
+            Demand::Connected
+            | Demand::Knowing
+            | Demand::Ends
+            | Demand::Whole
+            | Demand::Rising
+            | Demand::All => false,
+        };
         if awake == 0 || is_over {
             return None;
         }
@@ -199,6 +207,11 @@ impl Team {
             end: self.scene(&state),
         }
     }
+}
+
+/// The trees that there have been.
+fn founded(state: &State) -> u32 {
+    state.bodies.iter().map(|body| body.memory.founded()).sum()
 }
 
 /// What a turn leads to.
