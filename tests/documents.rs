@@ -179,6 +179,13 @@ fn the_distance_from_the_optimum_is_that_of_the_page() {
 }
 
 #[test]
+fn the_robots_and_radios_of_the_chain_are_those_of_the_page() {
+    for table in ["chain-fig4", "chain-radio"] {
+        shows("docs/rivals.md", &printed(&["reproduce", table], 0));
+    }
+}
+
+#[test]
 fn the_reach_of_broadcasts_is_that_of_the_page() {
     shows("docs/notice.md", &printed(&["reproduce", "notice-fig5"], 0));
 }
@@ -213,6 +220,8 @@ fn the_pictures_are_drawn_by_the_commands_beside_them() {
         ("docs/chain.md", "environments.svg", "show environments --svg", 0),
         ("docs/chain.md", "move.svg", "replay docs/open-7x7.jsonl --moves 5..5 --svg", 0),
         ("docs/chain.md", "spiral.svg", "explore open:15x15 --robots 8 --draw order --svg", 0),
+        ("docs/rivals.md", "trajectories-open.svg", "reproduce chain-fig4 --svg-open", 0),
+        ("docs/rivals.md", "trajectories-obstacles.svg", "reproduce chain-fig4 --svg-obstacles", 0),
         ("docs/notice.md", "notice-reach.svg", "reproduce notice-fig5 --svg-reach", 0),
         ("docs/notice.md", "notice-rebroadcasts.svg", "reproduce notice-fig5 --svg-rebroadcasts", 0),
         ("docs/tan.md", "walked.svg", "reproduce rescue-fig7 --svg", 0),

@@ -139,7 +139,7 @@ impl Team {
         self.scattered = match self.parameters.deadlock {
             Deadlock::Scatter { .. } if gains => 0,
             Deadlock::Scatter { after, moves }
-                if self.scattered == 0 && self.idle % after.max(1) == 0 && self.idle > 0 =>
+                if self.scattered == 0 && self.idle.is_multiple_of(after.max(1)) && self.idle > 0 =>
             {
                 moves
             }

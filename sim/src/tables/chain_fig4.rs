@@ -230,7 +230,7 @@ impl Table for ChainFig4 {
         text += "\nThe paper prints no figure of these runs. What it says of them:\n";
         for run in merged.runs.iter().filter(|run| run.rule == RuleName::Published) {
             let Run { on_squares, places, passed, .. } = run;
-            text += &match run.place {
+            let said = match run.place {
                 Place::Open => format!(
                     "“a regular pattern with concentric squares”: {}, {on_squares} of {places} places of R_i are i-1 cells off the \
                      base from team move {} on\n",
@@ -242,6 +242,7 @@ impl Table for ChainFig4 {
                     counted(*passed, "contact")
                 ),
             };
+            text.push_str(&said);
         }
         Ok(text)
     }
