@@ -128,7 +128,14 @@ fn rectangle<P: Plane>(width: usize, height: usize) -> P {
     plane
 }
 
+/// The cells by their distance from one of them, modulo 3: the distances of two cells with an open side between them
+/// differ by one.
+#[derive(Clone, Copy, Debug)]
+pub struct Layers<P>([P; 3]);
+
 impl<P: Plane> Grid for BitGrid<P> {
+    type Bearings = Layers<P>;
+
     fn area(&self) -> Area {
         self.area
     }
@@ -267,5 +274,59 @@ impl<P: Plane> Grid for BitGrid<P> {
         }
         *stops.first_mut()? = stop;
         Some(count)
+    }
+
+    fn next_unexplored(&self, from: Cell, last: Option<(u32, Cell)>, most: u32) -> Option<(u32, Cell)> {
+        let (column, row) = self.area.locate(from)?;
+        let [east, south] = self.open(Avoid::Walls);
+        let unexplored = self.cells[CellMark::Explored as usize].not();
+        let mut reached = P::NONE;
+        reached.put(column, row);
+        let mut ring = reached;
+        let is_behind = |distance, cell: Cell| match last {
+            None => true,
+            Some((last, before)) => distance > last || (before.y, before.x) < (cell.y, cell.x),
+        };
+        for distance in 0..=most {
+            let found = ring.and(&unexplored);
+            if last.is_none_or(|(last, _)| distance >= last) && found != P::NONE {
+                let is_in = |cell| self.area.locate(cell).is_some_and(|(column, row)| found.has(column, row));
+                let mut cells = self.area.cells();
+                if let Some(cell) = cells.find(|&cell| is_in(cell) && is_behind(distance, cell)) {
+                    return Some((distance, cell));
+                }
+            }
+            let before = reached;
+            if !reached.spread(&east, &south, (0, P::ROWS - 1)) {
+                return None;
+            }
+            ring = reached.and(&before.not());
+        }
+        None
+    }
+
+    fn bearings(&self, to: Cell, most: u32) -> Layers<P> {
+        let [east, south] = self.open(Avoid::Walls);
+        let mut reached = P::NONE;
+        if let Some((column, row)) = self.area.locate(to) {
+            reached.put(column, row);
+        }
+        let mut layers = [reached, P::NONE, P::NONE];
+        for distance in 1..=most as usize {
+            let before = reached;
+            if !reached.spread(&east, &south, (0, P::ROWS - 1)) {
+                break;
+            }
+            let layer = &mut layers[distance % 3];
+            *layer = layer.or(&reached.and(&before.not()));
+        }
+        Layers(layers)
+    }
+
+    fn nearer(&self, Layers(layers): &Layers<P>, at: Cell) -> Steps {
+        let Some((column, row)) = self.area.locate(at) else { return Steps::NONE };
+        let own = (0..3).find(|&layer| layers[layer].has(column, row));
+        let open = Steps::ALL.without(Step::Stay).minus(self.sides(EdgeMark::Wall, at));
+        own.map_or(Steps::NONE, |own| open.and(layers[(own + 2) % 3].steps_from(column, row)))
     }
 }

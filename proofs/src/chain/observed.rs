@@ -53,6 +53,9 @@ impl Observed {
     /// Repaired, with so small a budget that many plans use it up, also in small areas.
     pub const SPARING: Self = Self::honest(Rule { budget: Budget::LooksPerRobot(4), ..Rule::REPAIRED });
 
+    /// The reel.
+    pub const REEL: Self = Self::honest(Rule::REEL);
+
     /// A chain that follows the rule that it claims to follow.
     pub const fn honest(rule: Rule) -> Self {
         Self { rule, intended: rule, deception: Deception::None }

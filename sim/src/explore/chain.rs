@@ -10,6 +10,7 @@ use tautline_proofs::run::Frame;
 use tautline_proofs::words::counted;
 
 use super::clause::ClauseId;
+use super::rule::RuleId;
 use super::run::{End, Team, TeamMove};
 use super::setup::{Clause, Judge, Profile, Quarry, Rule, Senses, Setup, Starts};
 use super::stage::Look;
@@ -25,6 +26,12 @@ pub static CHAIN: Profile = Profile {
     rules: &[
         Rule::published(|setup| start(setup, chain::Rule::PUBLISHED), Quarry::Walls(Observed::PUBLISHED)),
         Rule::repaired(|setup| start(setup, chain::Rule::REPAIRED), Quarry::Walls(Observed::REPAIRED)),
+        Rule {
+            name: RuleId::new("reel"),
+            about: "Within the repaired conditions, the shortest rehearsed way to an unexplored cell",
+            start: |setup| start(setup, chain::Rule::REEL),
+            hunt: Some(Quarry::Walls(Observed::REEL)),
+        },
     ],
     team: "chain",
     robots: 2..=MAX_ROBOTS,
