@@ -11,7 +11,7 @@
 //! B and C are **tasks**: a task is begun only if a rehearsal on the known map, in which no wall is met, ends with an
 //! unexplored cell explored, and it is kept until then, or until something else is gained: a cell explored or a wall
 //! found. So the number of its team moves is known, and falls. From the base C always finds a walk to whatever is
-//! within reach. Clauses CHAIN-16 to CHAIN-19.
+//! within reach. Clauses CHAIN-16 to CHAIN-18.
 
 use super::habit::{Habit, Habits};
 use super::plan::{mark_occupied, unmark_occupied};
@@ -83,10 +83,16 @@ impl<const ROBOTS: usize> Reel<ROBOTS> {
             Task::DrawIn { .. } | Task::LetOut => self.walk.follow(leader),
             Task::None | Task::Approach { .. } | Task::TakeBack => {}
         }
-        if self.left == 0 {
-            self.task = Task::None;
-            self.walk = Walk::NONE;
+        if self.left == 0 && self.task != Task::TakeBack {
+            *self = Self { doublings: self.doublings, ..Self::NONE };
         }
+    }
+
+    /// What falls, in this order, from one team move to the next as long as nothing is gained: how often the history can
+    /// still be begun to be taken back; whether it is being taken back; and the team moves left of that, or of the task.
+    pub(super) fn measure(&self) -> [u32; 3] {
+        let is_taking_back = u32::from(self.task == Task::TakeBack);
+        [u32::from(u8::MAX - self.doublings), is_taking_back, self.left]
     }
 }
 
@@ -104,7 +110,7 @@ impl<G: Grid, const ROBOTS: usize> Winder<'_, G, ROBOTS> {
         if !self.habits.has(Habit::KeepsTask) && reel.task != Task::TakeBack {
             reel = Reel { doublings: reel.doublings, ..Reel::NONE };
         }
-        if reel.task == Task::TakeBack && has_history {
+        if reel.task == Task::TakeBack && reel.left > 0 && has_history {
             return (Next::TakeBack, reel);
         }
         if let Some(next) = self.go_on(&mut reel) {
@@ -124,9 +130,9 @@ impl<G: Grid, const ROBOTS: usize> Winder<'_, G, ROBOTS> {
         if !has_history {
             return (Next::Done, reel);
         }
-        let doublings = if self.habits.has(Habit::Doubles) { reel.doublings } else { 0 };
-        let left = 1_u32.checked_shl(doublings.into()).unwrap_or(u32::MAX);
-        reel = Reel { task: Task::TakeBack, left, doublings: reel.doublings.saturating_add(1), ..Reel::NONE };
+        let left = 1_u32.checked_shl(reel.doublings.into()).unwrap_or(u32::MAX);
+        let doublings = reel.doublings.saturating_add(u8::from(self.habits.has(Habit::Doubles)));
+        reel = Reel { task: Task::TakeBack, left, doublings, ..Reel::NONE };
         (Next::TakeBack, reel)
     }
 

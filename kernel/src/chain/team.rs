@@ -210,20 +210,28 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         self.refused
     }
 
-    /// What is left of what the reel is at, if the chain has one: a run falls in this order from one team move to the next,
-    /// but where it gains. `None` if the next team move begins something new.
-    pub const fn left(&self) -> Option<u32> {
+    /// Team moves until what the reel has begun and rehearsed explores a cell, unless it meets a wall before: the next one
+    /// is among them. `None` if the chain is at nothing that was rehearsed.
+    pub const fn until_gain(&self) -> Option<u32> {
         match self.reel.task {
-            Task::None => None,
-            Task::Approach { .. } | Task::DrawIn { .. } | Task::LetOut | Task::TakeBack => {
-                Some(self.reel.left)
-            }
+            Task::None | Task::TakeBack => None,
+            Task::Approach { .. } | Task::DrawIn { .. } | Task::LetOut => Some(self.reel.left),
         }
     }
 
-    /// How often the reel has begun to take moves back since the last gain.
-    pub const fn doublings(&self) -> u8 {
-        self.reel.doublings
+    /// What falls lexicographically from one team move of the reel to the next, as long as nothing is gained (CHAIN-17).
+    pub fn measure(&self) -> [u32; 3] {
+        self.reel.measure()
+    }
+
+    /// Whether it is where the `other` chain is, knows as much, and is at the same.
+    pub fn is_where(&self, other: &Self) -> bool
+    where
+        G: PartialEq,
+    {
+        self.cells() == other.cells()
+            && (self.stage, self.reel) == (other.stage, other.reel)
+            && self.grid == other.grid
     }
 
     /// What the team intends. `log` holds the messages of all team moves so far, as [`Settled::messages`]
@@ -289,6 +297,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         let (steps, looks) = Planner::<G, ROBOTS>::new(&self.rule, &mut self.grid, team, self.looks).touch();
         self.looks = looks;
         if let Some(steps) = steps {
+            self.reel = Reel::NONE;
             return Ok(Intent::Go(self.advance(steps)));
         }
         let mut winder = Winder::<G, ROBOTS> { rule: &self.rule, habits, grid: &mut self.grid, team };
