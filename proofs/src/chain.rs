@@ -1,6 +1,7 @@
 //! The chain (CHAIN): what is promised of it, the search over all layouts that it is played in, what it can reach, and in how
 //! few team moves.
 
+mod barrier;
 pub mod bounds;
 pub mod breach;
 pub mod clauses;
@@ -11,6 +12,7 @@ pub mod invariant;
 pub mod links;
 mod observed;
 pub mod optimum;
+pub mod ours;
 mod pair;
 pub mod plain;
 pub mod reach;

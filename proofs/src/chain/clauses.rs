@@ -4,7 +4,7 @@ use tautline_kernel::chain::Condition::{
     CoveredBehind, Distinct, EpochMustGain, FullForFollower, FullForLeader, RefusedIsVirtual, SafeAhead,
     Unfold, UnsureAhead,
 };
-use tautline_kernel::chain::{Budget, Habit, High, Rule};
+use tautline_kernel::chain::{Budget, High, Rule};
 use tautline_kernel::ground::Circle;
 
 use super::breach::Breach;
@@ -17,11 +17,11 @@ use crate::decide::{Exhaustive, Sampled, Verdict};
 use crate::ground::clauses::{NARROWER, WIDER};
 use crate::step_checks;
 
-const PUBLISHED: Named<Observed> = Named::new("published", Observed::PUBLISHED);
-const REPAIRED: Named<Observed> = Named::new("repaired", Observed::REPAIRED);
+pub(super) const PUBLISHED: Named<Observed> = Named::new("published", Observed::PUBLISHED);
+pub(super) const REPAIRED: Named<Observed> = Named::new("repaired", Observed::REPAIRED);
 const UNCOVERED: Named<Observed> = Named::new("uncovered", Observed::UNCOVERED);
-const REEL: Named<Observed> = Named::new("reel", Observed::REEL);
-const UNHELD: Named<Observed> = Named::new("unheld", Observed::UNHELD);
+pub(super) const REEL: Named<Observed> = Named::new("reel", Observed::REEL);
+pub(super) const UNHELD: Named<Observed> = Named::new("unheld", Observed::UNHELD);
 const SPARING: Named<Observed> = Named::new("sparing", Observed::SPARING);
 
 step_checks! { Observed;
@@ -40,13 +40,6 @@ step_checks! { Observed;
             without_full_for_follower: "without full cell for followers" => Observed::without(FullForFollower),
             without_full_for_leader: "without full cell for the leader" => Observed::without(FullForLeader),
             without_distinct: "without distinctness" => Observed::without(Distinct),
-        };
-    hold: pair::hold, REEL, pair::goers,
-        covers ["both have gone", "neither has gone", "the robot ahead has gone", "the robot behind has gone"],
-        unwind 6, mutants {
-            without_hold: "without hold" => Observed::UNHELD,
-            without_safe_ahead: "without E_S ahead" => Observed::reeling(Rule::REEL.without(SafeAhead)),
-            without_covered_behind: "without E_C behind" => Observed::reeling(Rule::REEL.without(CoveredBehind)),
         };
     coverage: pair::coverage, PUBLISHED, pair::neighbours,
         covers ["both are blocked", "both arrive", "the robot ahead is blocked", "the robot behind is blocked"],
@@ -82,7 +75,7 @@ step_checks! { Observed;
 const FOUR_ROBOTS: (usize, u32) = (4, 4);
 
 /// The bound of the planner's clauses: four robots, too, but one wall fewer.
-const FOUR_FEWER_WALLS: (usize, u32) = (4, 3);
+pub(super) const FOUR_FEWER_WALLS: (usize, u32) = (4, 3);
 
 /// The bound of the clause about chains of three.
 const THREE_ROBOTS: (usize, u32) = (3, 5);
@@ -92,17 +85,6 @@ const ENDLESS: [Named<Observed>; 2] = [
     Named::new("epochs need no gain", Observed::without(EpochMustGain)),
     Named::new("refusals leave no obstacle", Observed::without(RefusedIsVirtual)),
 ];
-
-/// Reels that do not end, or gain nothing where they said so.
-const UNREHEARSED: Named<Observed> =
-    Named::new("tasks are not rehearsed", Observed::without_habits(&[Habit::Rehearses]));
-const FICKLE: Named<Observed> = Named::new("stages go back", Observed::without_habits(&[Habit::KeepsTask]));
-const NO_NEARER: Named<Observed> = Named::new(
-    "an approach gets no nearer",
-    Observed::without_habits(&[Habit::Rehearses, Habit::ComesNearer]),
-);
-const TAKES_BACK_ONE: Named<Observed> =
-    Named::new("take-backs always of one", Observed::without_habits(&[Habit::Doubles]));
 
 const ENDS: [&str; 2] = ["everything explored", "exhausted"];
 
@@ -162,7 +144,7 @@ const DEAR: Check<Observed> = Check::new(
 );
 
 /// The clauses.
-pub static CLAUSES: [Clause; 19] = [
+pub static CLAUSES: [Clause; 15] = [
     Clause {
         id: "CHAIN-1",
         sentence: "After every team move each robot MUST be in E_C of its neighbours in the chain.",
@@ -436,80 +418,6 @@ pub static CLAUSES: [Clause; 19] = [
                 &EveryLayout(Invariant::Without(Breach::Crowding), THREE_ROBOTS),
                 Verdict::Holds,
                 &[],
-            ),
-        ],
-    },
-    Clause {
-        id: "CHAIN-16",
-        sentence: "A planner MUST make no plan that the admission relation refuses.",
-        checks: &[
-            &Check::new(PUBLISHED, &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
-            &Check::new(UNHELD, &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
-            &Check::new(
-                REEL,
-                &EveryLayout(Invariant::Certified, FOUR_FEWER_WALLS),
-                Verdict::Holds,
-                &[UNREHEARSED],
-            ),
-        ],
-    },
-    Clause {
-        id: "CHAIN-17",
-        sentence: "Each team move of the reel MUST gain, or bring its measure down; so every run ends.",
-        checks: &[
-            &Check::new(UNHELD, &EveryLayout(Invariant::Falls, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
-            &Check::new(
-                REEL,
-                &EveryLayout(Invariant::Falls, FOUR_FEWER_WALLS),
-                Verdict::Holds,
-                &[UNREHEARSED, FICKLE, NO_NEARER, TAKES_BACK_ONE],
-            ),
-            &Check::new(
-                REEL,
-                &EveryLayout(Invariant::Ends, FOUR_FEWER_WALLS),
-                Verdict::Holds,
-                &[UNREHEARSED, FICKLE, NO_NEARER, TAKES_BACK_ONE],
-            ),
-        ],
-    },
-    Clause {
-        id: "CHAIN-18",
-        sentence: "A rehearsal of the reel that meets no surprise MUST explore a cell in exactly its number of team \
-                   moves.",
-        checks: &[
-            &Check::new(UNHELD, &EveryLayout(Invariant::Arrives, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
-            &Check::new(
-                REEL,
-                &EveryLayout(Invariant::Arrives, FOUR_FEWER_WALLS),
-                Verdict::Holds,
-                &[UNREHEARSED],
-            ),
-        ],
-    },
-    Clause {
-        id: "CHAIN-19",
-        sentence: "Whichever robots go, and in whatever order, each robot MUST be in E_C of its neighbours in the \
-                   chain before, between and after their moves.",
-        checks: &[
-            &Check::new(REPAIRED, &EveryLayout(Invariant::AnyOrder, FOUR_FEWER_WALLS), Verdict::Refuted, &[]),
-            &hold::CHECK,
-            &Check::new(
-                REEL,
-                &EveryLayout(Invariant::AnyOrder, FOUR_FEWER_WALLS),
-                Verdict::Holds,
-                &[Named::new("without hold", Observed::UNHELD)],
-            ),
-            &Check::new(
-                REEL,
-                &Sampled {
-                    body: whole::any_order,
-                    runs: 200,
-                    range: whole::orders,
-                    covers: &["a whole run"],
-                },
-                Verdict::Unrefuted,
-                &[Named::new("without hold", Observed::UNHELD)],
             ),
         ],
     },
