@@ -1,7 +1,6 @@
 //! The chain (CHAIN): what is promised of it, the search over all layouts that it is played in, what it can reach, and in how
 //! few team moves.
 
-mod barrier;
 pub mod bounds;
 pub mod breach;
 pub mod clauses;

@@ -1,17 +1,16 @@
-//! The clauses of what is ours in the chain: certified plans, the reel, contact in any order, and the barrier. They follow
+//! The clauses of what is ours in the chain: certified plans, the reel, and contact in any order. They follow
 //! those of [`super::clauses`] in the order of `SPEC.md`.
 
 use tautline_kernel::chain::Condition::{CoveredBehind, SafeAhead};
 use tautline_kernel::chain::{Habit, Rule};
 
-use super::barrier::{self, Reading};
 use super::clauses::{FOUR_FEWER_WALLS, PUBLISHED, REEL, REPAIRED, UNHELD};
 use super::invariant::Invariant;
 use super::observed::Observed;
 use super::search::EveryLayout;
 use super::{pair, whole};
 use crate::clause::{Check, Clause, Named};
-use crate::decide::{Exhaustive, Sampled, Verdict};
+use crate::decide::{Sampled, Verdict};
 use crate::ground::clauses::NARROWER;
 use crate::step_checks;
 
@@ -36,28 +35,8 @@ const NO_NEARER: Named<Observed> = Named::new(
 const TAKES_BACK_ONE: Named<Observed> =
     Named::new("take-backs always of one", Observed::without_habits(&[Habit::Doubles]));
 
-const BARRIER: Check<Reading> = Check::new(
-    Named::new("reel", Reading::True),
-    &Exhaustive {
-        body: barrier::barrier,
-        range: barrier::losses,
-        covers: &[
-            "a byte is lost",
-            "a byte of the team move before",
-            "a byte once more",
-            "a byte that was missing",
-        ],
-    },
-    Verdict::Holds,
-    &[
-        Named::new("team moves are not told apart", Reading::Present),
-        Named::new("one bit counts team moves", Reading::OneBit),
-        Named::new("nobody says a byte again", Reading::Mute),
-    ],
-);
-
 /// The clauses.
-pub static CLAUSES: [Clause; 5] = [
+pub static CLAUSES: [Clause; 4] = [
     Clause {
         id: "CHAIN-16",
         sentence: "A planner MUST make no plan that the admission relation refuses.",
@@ -140,27 +119,13 @@ pub static CLAUSES: [Clause; 5] = [
             ),
         ],
     },
-    Clause {
-        id: "CHAIN-20",
-        sentence: "Whichever bytes are lost, repeated or late, robots at the barrier MUST go on with the same messages of all, \
-                   and go on once no byte is lost.",
-        checks: &[&BARRIER],
-    },
 ];
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::chain::search::{Bounds, search};
-    use crate::clause::AnyCheck;
-    use crate::decide::Memory;
     use crate::engine::tree::unwatched;
-
-    #[test]
-    fn whatever_is_lost_the_robots_at_the_barrier_go_on_and_its_mutants_are_rejected() {
-        let decision = BARRIER.decide(&mut Memory::default(), &mut unwatched).expect("a body can be decided");
-        assert!(decision.is_as_registered(&BARRIER), "{}: {decision:?}", BARRIER.bound());
-    }
 
     /// Runs, team moves, and the longest run of both reels.
     fn searched(robots: usize, walls: u32) -> [(u64, u64, u32); 2] {
@@ -175,7 +140,7 @@ mod tests {
 
     #[test]
     fn two_walls_break_nothing_of_a_reel_of_three_robots() {
-        assert_eq!(searched(3, 2).map(|(runs, ..)| runs), [676, 676]);
+        assert_eq!(searched(3, 2).map(|(runs, ..)| runs), [363, 363]);
     }
 
     #[test]
