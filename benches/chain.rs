@@ -26,10 +26,19 @@ impl common::Work for Work {
     }
 }
 
-/// A chain of `ROBOTS` in a layout of its own size, followed for `most` team moves.
+/// A repaired chain of `ROBOTS` in a layout of its own size, followed for `most` team moves.
 fn run<G: Grid, const ROBOTS: usize>(layout: &Layout, grid: fn(Area) -> G, most: u32) -> Work {
+    run_by::<G, ROBOTS>(Rule::REPAIRED, layout, grid, most)
+}
+
+/// A reel of `ROBOTS` in a layout of its own size, followed for `most` team moves.
+fn run_reel<G: Grid, const ROBOTS: usize>(layout: &Layout, grid: fn(Area) -> G, most: u32) -> Work {
+    run_by::<G, ROBOTS>(Rule::REEL, layout, grid, most)
+}
+
+fn run_by<G: Grid, const ROBOTS: usize>(rule: Rule, layout: &Layout, grid: fn(Area) -> G, most: u32) -> Work {
     let (area, base) = area_of(layout);
-    let mut chain = Chain::<G, ROBOTS>::new(Rule::REPAIRED, ROBOTS, base, grid(area)).expect("a chain");
+    let mut chain = Chain::<G, ROBOTS>::new(rule, ROBOTS, base, grid(area)).expect("a chain");
     let mut log = Vec::new();
     let mut work = Work::default();
     while work.team_moves < most {
@@ -132,11 +141,69 @@ fn random_walls(criterion: &mut Criterion) -> Vec<(u16, f64, Cost<Work>)> {
     costs
 }
 
+/// Whole runs of the reel without obstacles, by the number of robots.
+fn open_areas_by_reel(criterion: &mut Criterion) -> [(u16, Cost<Work>); 6] {
+    let mut group = group(criterion, "open area, reel");
+    macro_rules! each {
+        ($($robots:literal),*) => {[$({
+            let side = 2 * $robots - 1;
+            let layout = Layout::open(side, side).expect("a layout");
+            let id = BenchmarkId::from_parameter($robots);
+            ($robots, measure(&mut group, id, || run_reel::<_, $robots>(&layout, WideGrid::new, u32::MAX)))
+        }),*]};
+    }
+    each!(8, 16, 32, 64, 128, 256)
+}
+
+/// The first team moves of the reel in random layouts, by the number of robots and the share of walls.
+fn random_walls_by_reel(criterion: &mut Criterion) -> Vec<(u16, f64, Cost<Work>)> {
+    const TEAM_MOVES: u32 = 500;
+    let mut group = group(criterion, "random walls, reel");
+    let mut costs = Vec::new();
+    for walls in [0.05, 0.1, 0.2] {
+        macro_rules! each {
+            ($($robots:literal in $grid:expr),*) => {$(
+                let layouts = random_layouts($robots, walls, 3);
+                let cost = measure(&mut group, BenchmarkId::new($robots.to_string(), walls), || {
+                    in_all(&layouts, |layout| run_reel::<_, $robots>(layout, $grid, TEAM_MOVES))
+                });
+                costs.push(($robots, walls, cost));
+            )*};
+        }
+        each!(8 in small, 16 in medium, 32 in medium, 64 in WideGrid::new);
+    }
+    costs
+}
+
+/// What it costs to certify the plans of a repaired run of 8 robots, and how many they are.
+fn certificates(criterion: &mut Criterion) -> Cost<Work> {
+    let layout = &random_layouts(8, 0.1, 1)[0];
+    let (area, base) = area_of(layout);
+    let mut chain = Chain::<_, 8>::new(Rule::REPAIRED, 8, base, small(area)).expect("a chain");
+    let (mut log, mut plans) = (Vec::new(), Vec::new());
+    while let Intent::Go(plan) = chain.plan(&log).expect("messages of the chain") {
+        plans.push((*chain.grid(), chain.cells().to_vec(), plan));
+        log.extend_from_slice(chain.settle(&plan, |edge| layout.is_open(edge)).messages());
+    }
+    let mut group = group(criterion, "certificates");
+    measure(&mut group, BenchmarkId::from_parameter(8), || {
+        let admitted = plans
+            .iter_mut()
+            .map(|(grid, team, plan)| Rule::REPAIRED.admits_plan(grid, team, plan.steps()))
+            .filter(|&admitted| admitted);
+        std::hint::black_box(admitted.count());
+        Work { team_moves: plans.len() as u32, most_looked_at: 0 }
+    })
+}
+
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     let [kernel, plain] = against_the_plain_recursion(&mut criterion);
     let open = open_areas(&mut criterion);
     let random = random_walls(&mut criterion);
+    let open_by_reel = open_areas_by_reel(&mut criterion);
+    let random_by_reel = random_walls_by_reel(&mut criterion);
+    let certificates = certificates(&mut criterion);
     criterion.final_summary();
 
     println!("\nA team move, N = 8, 10 % walls, in {} moves", kernel.work.team_moves);
@@ -157,4 +224,20 @@ fn main() {
         let each = micros / f64::from(robots);
         println!("  {robots:>3} {:>4.0} % {micros:>8.2} {each:>8.4} {candidates:>8.1}", 100.0 * walls);
     }
+
+    println!("\nA team move of the reel in an open area of (2N−1)² cells");
+    println!("    N   moves       µs     µs/N");
+    for (robots, Cost { work, micros }) in open_by_reel {
+        println!("  {robots:>3} {:>7} {micros:>8.2} {:>8.4}", work.team_moves, micros / f64::from(robots));
+    }
+
+    println!("\nA team move of the reel in random layouts (below 30 µs is asked for at N = 8)");
+    println!("    N  walls       µs     µs/N");
+    for (robots, walls, Cost { micros, .. }) in random_by_reel {
+        println!("  {robots:>3} {:>4.0} % {micros:>8.2} {:>8.4}", 100.0 * walls, micros / f64::from(robots));
+    }
+
+    println!("\nA certificate of a plan, N = 8, {} plans", certificates.work.team_moves);
+    println!("  certificate      {:>9.3} µs", certificates.micros);
+    println!("  of a team move   {:>9.1} %", 100.0 * certificates.micros / kernel.micros);
 }

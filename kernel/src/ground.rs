@@ -10,7 +10,7 @@ mod plane;
 mod steps;
 
 pub use around::{neighbouring_steps, steps_to};
-pub use bits::{BitGrid, CompactGrid, LargeGrid, MediumGrid, SmallGrid, TinyGrid};
+pub use bits::{BitGrid, CompactGrid, LargeGrid, Layers, MediumGrid, SmallGrid, TinyGrid};
 pub use grid::{Area, Avoid, CellMark, EdgeMark, Grid};
 pub use lattice::{Cell, Circle, Edge, Side, Step, neighbours};
 pub use link::{Link, link, links};

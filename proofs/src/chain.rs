@@ -11,6 +11,7 @@ pub mod invariant;
 pub mod links;
 mod observed;
 pub mod optimum;
+pub mod ours;
 mod pair;
 pub mod plain;
 pub mod reach;

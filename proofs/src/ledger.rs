@@ -16,6 +16,7 @@ pub use jobs::{Hear, Heard, decide, decide_all};
 pub static ROOMS: &[&[Clause]] = &[
     &ground::clauses::CLAUSES,
     &chain::clauses::CLAUSES,
+    &chain::ours::CLAUSES,
     &ants::clauses::CLAUSES,
     &bricks::clauses::CLAUSES,
     &notice::clauses::CLAUSES,

@@ -16,6 +16,7 @@ pub mod locate_fig8;
 pub mod notice_fig5;
 pub mod optimum;
 pub mod parameter;
+pub mod reel;
 pub mod repair_cost;
 pub mod rescue_fig8;
 pub mod rivals;
@@ -37,6 +38,7 @@ use crate::stats::Estimate;
 /// Every table, in the order in which they are listed.
 pub const TABLES: &[&dyn Entry] = &[
     &repair_cost::RepairCost,
+    &reel::Reel,
     &optimum::Optimum,
     &atlas::Atlas,
     &rivals::ChainTable1,

@@ -5,7 +5,9 @@
 //! and Likhachev 2005): a path that still stands is walked straight down, and a region without a way out is
 //! searched once.
 
-use tautline_kernel::ground::{Area, Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Side, links};
+use std::collections::{HashMap, HashSet};
+
+use tautline_kernel::ground::{Area, Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Side, Step, Steps, links};
 
 /// The marks of one cell: four bits for the cell, then for each mark of edges four bits, one a side. An edge is
 /// marked in both its cells, so that one word tells a search all about a cell.
@@ -100,7 +102,13 @@ impl WideGrid {
     }
 }
 
+/// The distances of the cells near one of them, by place.
+#[derive(Clone, Debug)]
+pub struct Near(HashMap<usize, u32>);
+
 impl Grid for WideGrid {
+    type Bearings = Near;
+
     fn area(&self) -> Area {
         self.area
     }
@@ -224,6 +232,44 @@ impl Grid for WideGrid {
         stops[..found.len()].copy_from_slice(found);
         Some(found.len() - 1)
     }
+
+    fn next_unexplored(&self, from: Cell, last: Option<(u32, Cell)>, most: u32) -> Option<(u32, Cell)> {
+        let from = self.place(from)?;
+        let last = last.map(|(distance, cell)| (distance, (cell.y, cell.x)));
+        let mut found = None;
+        self.map.flood(from, most, |place, distance| {
+            if found.is_some_and(|(nearest, _)| nearest < distance) {
+                return false;
+            }
+            let cell = self.cell(place);
+            let is_next = last.is_none_or(|last| (distance, (cell.y, cell.x)) > last);
+            if self.map.marks[place] & EXPLORED == 0 && is_next {
+                let nearer =
+                    found.is_none_or(|(_, other): (u32, Cell)| (cell.y, cell.x) < (other.y, other.x));
+                found = if nearer { Some((distance, cell)) } else { found };
+            }
+            true
+        });
+        found
+    }
+
+    fn bearings(&self, to: Cell, most: u32) -> Near {
+        let mut near = HashMap::new();
+        if let Some(to) = self.place(to) {
+            self.map.flood(to, most, |place, distance| {
+                near.insert(place, distance);
+                true
+            });
+        }
+        Near(near)
+    }
+
+    fn nearer(&self, Near(near): &Near, at: Cell) -> Steps {
+        let distance = |cell: Cell| self.place(cell).and_then(|place| near.get(&place));
+        let open = Steps::ALL.without(Step::Stay).minus(self.sides(EdgeMark::Wall, at));
+        let own = distance(at).copied();
+        open.filter(|step| distance(at.after(step)).zip(own).is_some_and(|(there, own)| *there < own))
+    }
 }
 
 /// The marks of all cells, row by row.
@@ -265,6 +311,24 @@ impl Map {
             .into_iter()
             .filter(move |&side| closed & edge_sides(side) == 0)
             .map(move |side| beyond(place, side, width))
+    }
+
+    /// Tells of the cells at most `most` steps from the one at `from` over sides without a wall, nearest first, with their
+    /// distances, until `tell` says that it has heard enough.
+    fn flood(&self, from: usize, most: u32, mut tell: impl FnMut(usize, u32) -> bool) {
+        let mut reached = HashSet::from([from]);
+        let mut ring = vec![from];
+        for distance in 0..=most {
+            let mut next = Vec::new();
+            for place in ring {
+                if !tell(place, distance) {
+                    return;
+                }
+                let beyond = self.neighbours(place, all_sides(EdgeMark::Wall));
+                next.extend(beyond.filter(|&place| reached.insert(place)));
+            }
+            ring = next;
+        }
     }
 
     /// The neighbours of the cell at `place` that are one link away: beyond its sides, and round its corners.

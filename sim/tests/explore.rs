@@ -10,7 +10,7 @@ use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::run::Frame;
 use tautline_sim::aside::{Aside, Replaceable};
-use tautline_sim::explore::chain::CHAIN;
+use tautline_sim::explore::chain::{CHAIN, REEL, UNHELD};
 use tautline_sim::explore::{
     ClauseId, Limits, Milestone, OnViolation, Report, RuleName, Setup, Stopped, TeamMove, explore,
 };
@@ -129,6 +129,15 @@ proptest! {
     }
 
     #[test]
+    fn a_reel_breaks_nothing_and_leaves_nothing_out(
+        setup in setups(),
+        rule in prop::sample::select(vec![REEL, UNHELD]),
+    ) {
+        let (report, _) = run(&Setup { rule, ..setup });
+        prop_assert_eq!(report.violations, vec![]);
+    }
+
+    #[test]
     fn a_run_does_what_its_layout_allows_and_counts_what_it_sees(setup in setups()) {
         let mut seen = BTreeSet::from([setup.base]);
         let report = explore(&setup, &mut |made| {
@@ -199,6 +208,16 @@ fn open_areas_take_the_optimum_under_both_rules() {
             assert_eq!((report.explored, report.stopped), (report.cells, Stopped::Explored));
             assert_eq!(report.violations, []);
         }
+    }
+}
+
+#[test]
+fn a_reel_needs_the_optimum_in_the_open_and_at_most_so_many_team_moves_in_the_buildings() {
+    for (ground, most) in [("open:15x15", 62), ("rooms-a", 260), ("rooms-b", 500)] {
+        let reel = Setup { rule: REEL, ..setup(RuleName::Repaired, 8, generated(ground, 0)) };
+        let report = explore(&reel, &mut |_| Ok(())).expect("a run");
+        assert!(report.steps <= most, "{ground}: {} team moves", report.steps);
+        assert_eq!(report.violations, []);
     }
 }
 

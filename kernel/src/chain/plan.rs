@@ -61,13 +61,24 @@ pub(super) fn unmark_occupied(grid: &mut impl Grid, team: impl Iterator<Item = C
 impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
     /// Makes the plan, and says what is looked at by then. `None` if the leader has no candidate that the others can
     /// follow, or the budget ends before one is found. Refused candidates of the leader become virtual obstacles.
-    pub(super) fn make(mut self) -> (Option<[Step; ROBOTS]>, Looks) {
+    pub(super) fn make(self) -> (Option<[Step; ROBOTS]>, Looks) {
+        self.among_occupants(Self::lead)
+    }
+
+    /// The same for the candidates of the leader that are unexplored cells beside it, in the same order; none of them
+    /// becomes a virtual obstacle.
+    pub(super) fn touch(self) -> (Option<[Step; ROBOTS]>, Looks) {
+        self.among_occupants(Self::lead_beside)
+    }
+
+    /// Plans by `lead`, the cells that are occupied being marked.
+    fn among_occupants(mut self, lead: impl Fn(&mut Self) -> bool) -> (Option<[Step; ROBOTS]>, Looks) {
         let counts_occupants =
             [Role::Leader, Role::Follower].iter().any(|&role| !self.rule.admits_entry(role, 2));
         if counts_occupants {
             mark_occupied(self.grid, self.team.iter().copied(), self.base());
         }
-        let found = self.lead();
+        let found = lead(&mut self);
         if counts_occupants {
             unmark_occupied(self.grid, self.team.iter().copied());
         }
@@ -124,6 +135,31 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
             }
             if self.rule.has(Condition::RefusedIsVirtual) {
                 self.grid.put_edge(EdgeMark::Virtual, Edge::new(at, side));
+            }
+        }
+        false
+    }
+
+    /// The first unexplored cell beside the leader into which it can go, the others following.
+    fn lead_beside(&mut self) -> bool {
+        let leader = self.team.len() - 1;
+        let (at, behind) = (self.team[leader], self.team[leader - 1]);
+        let steps = Steps::ALL.without(Step::Stay).minus(self.grid.sides(EdgeMark::Wall, at));
+        let steps = steps.minus(self.grid.steps_to(CellMark::Explored, at, steps));
+        let leads = self.may_enter(Role::Leader, at, steps.and(self.rule.steps_behind(at, behind)));
+        if leads.is_empty() {
+            return false;
+        }
+        let (list, count) = self.leader_list(at, leads, ControlFlow::Break(()));
+        let mut choices = None;
+        for &side in &list[..count] {
+            let step = Step::Cross(side);
+            self.steps[leader] = step;
+            if choices.is_none() && self.descend() {
+                return true;
+            }
+            if choices.get_or_insert_with(|| Choices::new(self, leads)).follow(self, step) {
+                return true;
             }
         }
         false

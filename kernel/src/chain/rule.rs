@@ -2,6 +2,7 @@
 //! conditions allow, in whatever order one prefers them. The proofs of CHAIN-1, CHAIN-2 and CHAIN-3 speak of
 //! these functions alone; the planner asks them and nothing else, mostly of all steps of a robot at once.
 
+use super::habit::{Habit, Habits};
 use crate::conditions;
 use crate::ground::{Cell, Circle, Step, Steps, neighbouring_steps, neighbours};
 
@@ -28,11 +29,14 @@ pub enum Condition {
     /// Repair: when an epoch is over and an unexplored cell is within reach, the next begins by unfolding the chain
     /// towards it. Within reach is what is at most N−1 links from the base in the map known so far.
     Unfold,
+    /// Ours: a follower plans to be in E_C of the present position ahead, also where the robot ahead is sure to arrive:
+    /// P′_i ∈ E_C(P_{i+1}). So contact holds whichever robots do not go, and in whatever order they go.
+    Hold,
 }
 
 impl Condition {
     /// Every condition.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::SafeAhead,
         Self::CoveredBehind,
         Self::Distinct,
@@ -42,6 +46,7 @@ impl Condition {
         Self::FullForFollower,
         Self::FullForLeader,
         Self::Unfold,
+        Self::Hold,
     ];
 }
 
@@ -66,7 +71,16 @@ pub enum Role {
     Follower,
 }
 
-/// The rule of a chain: its conditions, the two circles, how P_high is read, and what a plan may cost.
+/// How a chain chooses among the team moves that the conditions admit.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Pursuit {
+    /// As the paper does: virtual obstacles, backtracks and epochs.
+    Epochs,
+    /// Ours: straight to the nearest unexplored cell, by the shortest way that a rehearsal finds.
+    Reel(Habits),
+}
+
+/// The rule of a chain: its conditions, the two circles, how P_high is read, what a plan may cost, and how it chooses.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Rule {
     /// The conditions in force.
@@ -79,6 +93,8 @@ pub struct Rule {
     pub high: High,
     /// How many candidates of followers one plan looks at, at the most.
     pub budget: Budget,
+    /// How it chooses among the admitted team moves.
+    pub pursuit: Pursuit,
 }
 
 /// What a plan may cost (clause CHAIN-12). A look is a candidate of a follower that is tested against the conditions, or
@@ -141,13 +157,21 @@ impl Rule {
         covered: Circle::COVERED,
         high: High::Planned,
         budget: Budget::Unlimited,
+        pursuit: Pursuit::Epochs,
     };
 
     /// The chain with the four repairs: of contact, of crowding, of what is left unexplored, and of what a plan costs.
     pub const REPAIRED: Self = Self {
-        conditions: Conditions::of(&Condition::ALL),
+        conditions: Conditions::of(&Condition::ALL).without(Condition::Hold),
         budget: Budget::LooksPerRobot(100),
         ..Self::PUBLISHED
+    };
+
+    /// The repaired chain that reels itself in and out instead of backtracking, and holds contact whoever fails.
+    pub const REEL: Self = Self {
+        conditions: Self::REPAIRED.conditions.with(Condition::Hold),
+        pursuit: Pursuit::Reel(Habits::of(&Habit::ALL)),
+        ..Self::REPAIRED
     };
 
     /// This rule with one condition taken out.
@@ -166,8 +190,13 @@ impl Rule {
     #[inline]
     pub fn admits_ahead(&self, own: Move, ahead: Move) -> bool {
         let safe = !self.has(Condition::SafeAhead) || self.safe.covers(ahead.to(), own.to());
-        let unsure = self.has(Condition::UnsureAhead) && !ahead.is_sure();
-        safe && (!unsure || self.covered.covers(ahead.from, own.to()))
+        safe && (!self.doubts(ahead) || self.covered.covers(ahead.from, own.to()))
+    }
+
+    /// Whether the rule reckons with it that the robot ahead stays where it is.
+    #[inline]
+    const fn doubts(&self, ahead: Move) -> bool {
+        self.has(Condition::Hold) || self.has(Condition::UnsureAhead) && !ahead.is_sure()
     }
 
     /// The steps from `at` that [`Rule::admits_ahead`] admits.
@@ -177,7 +206,7 @@ impl Rule {
         if self.has(Condition::SafeAhead) {
             steps = self.safe.covered_steps(ahead.to(), at);
         }
-        if self.has(Condition::UnsureAhead) && !ahead.is_sure() {
+        if self.doubts(ahead) {
             steps = steps.and(self.covered.covered_steps(ahead.from, at));
         }
         steps
@@ -209,7 +238,7 @@ impl Rule {
     /// each other if it has the repair of contact (CHAIN-1), else within r_cov, centre to centre (CHAIN-3).
     #[inline]
     pub fn keeps_contact(&self, behind: Cell, ahead: Cell) -> bool {
-        if self.has(Condition::UnsureAhead) {
+        if self.has(Condition::UnsureAhead) || self.has(Condition::Hold) {
             self.covered.covers(behind, ahead)
         } else {
             self.covered.reaches(behind, ahead)
@@ -251,7 +280,7 @@ mod tests {
         let present = Rule { high: High::Present, ..Rule::REPAIRED };
         let wide = Rule { safe: Circle::COVERED, covered: Circle::new(34), ..Rule::REPAIRED };
         let mutants = Condition::ALL.map(|condition| Rule::REPAIRED.without(condition));
-        for rule in [Rule::PUBLISHED, Rule::REPAIRED, present, wide].iter().chain(&mutants) {
+        for rule in [Rule::PUBLISHED, Rule::REPAIRED, Rule::REEL, present, wide].iter().chain(&mutants) {
             for from in near() {
                 let behind = Steps::ALL.filter(|step| rule.admits_behind(at.after(step), from));
                 assert_eq!(rule.steps_behind(at, from), behind, "{rule:?} {from}");

@@ -3,10 +3,12 @@
 use core::fmt;
 
 use super::MAX_ROBOTS;
+use super::habit::Habits;
 use super::message::{Damaged, Message, Outcome};
 use super::plan::{Kind, Plan, mark_occupied, unmark_occupied};
 use super::planner::{Looks, Planner};
-use super::rule::{Condition, Rule};
+use super::reel::{Next, Reel, Task, Winder};
+use super::rule::{Condition, Pursuit, Rule};
 use super::unfold::unfold;
 use crate::ground::{Area, Cell, CellMark, Edge, EdgeMark, Grid, Step};
 
@@ -115,6 +117,10 @@ pub struct Chain<G, const ROBOTS: usize> {
     stage: Stage,
     /// What the last plan cost.
     looks: Looks,
+    /// What the reel is at, if the chain has one.
+    reel: Reel<ROBOTS>,
+    /// Whether the last plan that was made was not admitted.
+    refused: bool,
 }
 
 impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
@@ -147,6 +153,8 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             epochs: 0,
             stage: Stage::Gained,
             looks: Looks::new(rule.budget, robots),
+            reel: Reel::NONE,
+            refused: false,
         })
     }
 
@@ -196,6 +204,36 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         matches!(self.stage, Stage::Unfolding)
     }
 
+    /// Whether the last call of [`Chain::plan`] made a plan that [`Rule::admits_plan`] refused, and returned the null move in
+    /// its place.
+    pub const fn is_refused(&self) -> bool {
+        self.refused
+    }
+
+    /// Team moves until what the reel has begun and rehearsed explores a cell, unless it meets a wall before: the next one
+    /// is among them. `None` if the chain is at nothing that was rehearsed.
+    pub const fn until_gain(&self) -> Option<u32> {
+        match self.reel.task {
+            Task::None | Task::TakeBack => None,
+            Task::Approach { .. } | Task::DrawIn { .. } | Task::LetOut => Some(self.reel.left),
+        }
+    }
+
+    /// What falls lexicographically from one team move of the reel to the next, as long as nothing is gained (CHAIN-17).
+    pub fn measure(&self) -> [u32; 3] {
+        self.reel.measure()
+    }
+
+    /// Whether it is where the `other` chain is, knows as much, and is at the same.
+    pub fn is_where(&self, other: &Self) -> bool
+    where
+        G: PartialEq,
+    {
+        self.cells() == other.cells()
+            && (self.stage, self.reel) == (other.stage, other.reel)
+            && self.grid == other.grid
+    }
+
     /// What the team intends. `log` holds the messages of all team moves so far, as [`Settled::messages`]
     /// gave them.
     ///
@@ -208,9 +246,18 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     /// messages are of a move that the team cannot have made.
     pub fn plan(&mut self, log: &[u8]) -> Result<Intent<ROBOTS>, Damaged> {
         self.looks = Looks::new(self.rule.budget, self.robots);
+        self.refused = false;
         if self.grid.is_explored() {
             return Ok(Intent::Done(End::Explored));
         }
+        match self.rule.pursuit {
+            Pursuit::Epochs => self.plan_by_epochs(log),
+            Pursuit::Reel(habits) => self.plan_by_reel(log, habits),
+        }
+    }
+
+    /// The paper's plan: the leader's, or a backtrack, or both in a new epoch.
+    fn plan_by_epochs(&mut self, log: &[u8]) -> Result<Intent<ROBOTS>, Damaged> {
         let mut fresh_epoch = false;
         loop {
             if self.is_unfolding()
@@ -240,6 +287,29 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         }
     }
 
+    /// The reel's plan: see the module `reel`.
+    fn plan_by_reel(&mut self, log: &[u8], habits: Habits) -> Result<Intent<ROBOTS>, Damaged> {
+        if self.gained() {
+            self.stage = Stage::Seeking;
+            self.reel = Reel::NONE;
+        }
+        let team = &self.cells[..self.robots];
+        let (steps, looks) = Planner::<G, ROBOTS>::new(&self.rule, &mut self.grid, team, self.looks).touch();
+        self.looks = looks;
+        if let Some(steps) = steps {
+            self.reel = Reel::NONE;
+            return Ok(Intent::Go(self.advance(steps)));
+        }
+        let mut winder = Winder::<G, ROBOTS> { rule: &self.rule, habits, grid: &mut self.grid, team };
+        let (next, reel) = winder.wind(self.reel, self.last_open.is_some());
+        self.reel = reel;
+        match (next, self.last_open) {
+            (Next::Go(steps), _) => Ok(Intent::Go(self.advance(steps))),
+            (Next::TakeBack, Some(entry)) => self.backtrack(log, entry).map(Intent::Go),
+            (Next::TakeBack | Next::Done, _) => Ok(Intent::Done(End::Exhausted)),
+        }
+    }
+
     /// Whether there is an unexplored cell to unfold the chain towards.
     fn has_target(&mut self) -> bool {
         let mut stops = self.cells;
@@ -247,7 +317,11 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             && self.grid.stops(self.cells[0], &mut stops[..self.robots]).is_some()
     }
 
-    fn advance(&self, steps: [Step; ROBOTS]) -> Plan<ROBOTS> {
+    /// The plan that makes these `steps`, if they are admitted; else the null move.
+    fn advance(&mut self, steps: [Step; ROBOTS]) -> Plan<ROBOTS> {
+        let team = &self.cells[..self.robots];
+        self.refused = !self.rule.admits_plan(&mut self.grid, team, &steps[..self.robots]);
+        let steps = if self.refused { [Step::Stay; ROBOTS] } else { steps };
         Plan { kind: Kind::Advance, steps, robots: self.robots, last_open: Some(self.moves) }
     }
 
@@ -335,6 +409,9 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         }
         self.moves += 1;
         self.last_open = plan.last_open;
+        if !self.gained() {
+            self.reel.went_on(self.cells[self.robots - 1]);
+        }
         Settled { messages, robots: self.robots }
     }
 

@@ -97,9 +97,9 @@ impl<P: Plane> BitGrid<P> {
                 if missing.is_empty() || is_far {
                     break;
                 }
-                // The next cells are beside those that come now.
-                let Some((first, last)) = reached.spread(&east, &south, rows) else { break };
-                rows = (first.saturating_sub(1).max(top), (last + 1).min(bottom));
+                let Some(wider) = reached.spread(&east, &south, rows) else { break };
+                let (first, last) = beside::<P>(wider);
+                rows = (first.max(top), last.min(bottom));
             }
             if missing.is_empty() || reach >= P::ROWS {
                 return;
@@ -111,6 +111,12 @@ impl<P: Plane> BitGrid<P> {
 /// Planes of more rows than so many are flooded near by first: so many rows to either side.
 const FEW_ROWS: usize = 16;
 const NEAR_ROWS: usize = 8;
+
+/// The rows into which cells in the rows from `first` to `last` spread.
+#[inline]
+const fn beside<P: Plane>((first, last): (usize, usize)) -> (usize, usize) {
+    (first.saturating_sub(1), if last + 1 < P::ROWS { last + 1 } else { last })
+}
 
 /// The place of the planes of an edge's axis.
 #[inline]
@@ -132,7 +138,14 @@ fn rectangle<P: Plane>(width: usize, height: usize) -> P {
     plane
 }
 
+/// The cells by their distance from one of them, modulo 3: the distances of two cells with an open side between them
+/// differ by one.
+#[derive(Clone, Copy, Debug)]
+pub struct Layers<P>([P; 3]);
+
 impl<P: Plane> Grid for BitGrid<P> {
+    type Bearings = Layers<P>;
+
     fn area(&self) -> Area {
         self.area
     }
@@ -271,5 +284,55 @@ impl<P: Plane> Grid for BitGrid<P> {
         }
         *stops.first_mut()? = stop;
         Some(count)
+    }
+
+    fn next_unexplored(&self, from: Cell, last: Option<(u32, Cell)>, most: u32) -> Option<(u32, Cell)> {
+        let (column, row) = self.area.locate(from)?;
+        let [east, south] = self.open(Avoid::Walls);
+        let unexplored = self.cells[CellMark::Explored as usize].not();
+        let mut reached = P::NONE;
+        reached.put(column, row);
+        let (mut ring, mut rows) = (reached, beside::<P>((row, row)));
+        let is_behind = |distance, cell: Cell| match last {
+            None => true,
+            Some((last, before)) => distance > last || (before.y, before.x) < (cell.y, cell.x),
+        };
+        for distance in 0..=most {
+            let found = ring.and(&unexplored);
+            if last.is_none_or(|(last, _)| distance >= last) && found != P::NONE {
+                let is_in = |cell| self.area.locate(cell).is_some_and(|(column, row)| found.has(column, row));
+                let mut cells = self.area.cells();
+                if let Some(cell) = cells.find(|&cell| is_in(cell) && is_behind(distance, cell)) {
+                    return Some((distance, cell));
+                }
+            }
+            let before = reached;
+            rows = beside::<P>(reached.spread(&east, &south, rows)?);
+            ring = reached.and(&before.not());
+        }
+        None
+    }
+
+    fn bearings(&self, to: Cell, most: u32) -> Layers<P> {
+        let [east, south] = self.open(Avoid::Walls);
+        let mut layers = [P::NONE; 3];
+        let Some((column, row)) = self.area.locate(to) else { return Layers(layers) };
+        layers[0].put(column, row);
+        let (mut reached, mut rows) = (layers[0], beside::<P>((row, row)));
+        for distance in 1..=most as usize {
+            let before = reached;
+            let Some(wider) = reached.spread(&east, &south, rows) else { break };
+            rows = beside::<P>(wider);
+            let layer = &mut layers[distance % 3];
+            *layer = layer.or(&reached.and(&before.not()));
+        }
+        Layers(layers)
+    }
+
+    fn nearer(&self, Layers(layers): &Layers<P>, at: Cell) -> Steps {
+        let Some((column, row)) = self.area.locate(at) else { return Steps::NONE };
+        let own = (0..3).find(|&layer| layers[layer].has(column, row));
+        let open = Steps::ALL.without(Step::Stay).minus(self.sides(EdgeMark::Wall, at));
+        own.map_or(Steps::NONE, |own| open.and(layers[(own + 2) % 3].steps_from(column, row)))
     }
 }

@@ -41,6 +41,8 @@ pub enum Avoid {
 
 /// The knowledge of a team about its area. The grid owns the distance, since it knows best how to find it.
 pub trait Grid {
+    /// How far cells are from one of them: see [`Grid::bearings`].
+    type Bearings;
     /// The cells it spans.
     fn area(&self) -> Area;
     /// Whether `cell` carries `mark`.
@@ -104,6 +106,14 @@ pub trait Grid {
     /// `stops`, `from` first. Going back, each stop is the first of those linked to the one after it that is
     /// nearer to `from`. `None` if all cells so near are explored.
     fn stops(&mut self, from: Cell, stops: &mut [Cell]) -> Option<usize>;
+    /// The unexplored cell that comes next behind `last` in the order of the number of steps on the shortest path from
+    /// `from` over sides that are not known to be walls, at most `most`, and then of rows; with its distance. The first if
+    /// there is no `last`; `None` if there is no more.
+    fn next_unexplored(&self, from: Cell, last: Option<(u32, Cell)>, most: u32) -> Option<(u32, Cell)>;
+    /// The distances to `to`, over sides that are not known to be walls, of all cells at most `most` steps away.
+    fn bearings(&self, to: Cell, most: u32) -> Self::Bearings;
+    /// The steps from `at` that lead one step nearer; none if `at` is too far, or there.
+    fn nearer(&self, bearings: &Self::Bearings, at: Cell) -> Steps;
 }
 
 /// A rectangle of cells, not empty: what a team is to explore.

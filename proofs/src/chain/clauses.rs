@@ -17,9 +17,11 @@ use crate::decide::{Exhaustive, Sampled, Verdict};
 use crate::ground::clauses::{NARROWER, WIDER};
 use crate::step_checks;
 
-const PUBLISHED: Named<Observed> = Named::new("published", Observed::PUBLISHED);
-const REPAIRED: Named<Observed> = Named::new("repaired", Observed::REPAIRED);
+pub(super) const PUBLISHED: Named<Observed> = Named::new("published", Observed::PUBLISHED);
+pub(super) const REPAIRED: Named<Observed> = Named::new("repaired", Observed::REPAIRED);
 const UNCOVERED: Named<Observed> = Named::new("uncovered", Observed::UNCOVERED);
+pub(super) const REEL: Named<Observed> = Named::new("reel", Observed::REEL);
+pub(super) const UNHELD: Named<Observed> = Named::new("unheld", Observed::UNHELD);
 const SPARING: Named<Observed> = Named::new("sparing", Observed::SPARING);
 
 step_checks! { Observed;
@@ -73,7 +75,7 @@ step_checks! { Observed;
 const FOUR_ROBOTS: (usize, u32) = (4, 4);
 
 /// The bound of the planner's clauses: four robots, too, but one wall fewer.
-const FOUR_FEWER_WALLS: (usize, u32) = (4, 3);
+pub(super) const FOUR_FEWER_WALLS: (usize, u32) = (4, 3);
 
 /// The bound of the clause about chains of three.
 const THREE_ROBOTS: (usize, u32) = (3, 5);
@@ -163,6 +165,18 @@ pub static CLAUSES: [Clause; 15] = [
                     Named::new("without unsure neighbour", Observed::without(UnsureAhead)),
                 ],
             ),
+            &Check::new(
+                UNHELD,
+                &EveryLayout(Invariant::Without(Breach::Contact), FOUR_FEWER_WALLS),
+                Verdict::Holds,
+                &[],
+            ),
+            &Check::new(
+                REEL,
+                &EveryLayout(Invariant::Without(Breach::Contact), FOUR_FEWER_WALLS),
+                Verdict::Holds,
+                &[],
+            ),
         ],
     },
     Clause {
@@ -182,6 +196,18 @@ pub static CLAUSES: [Clause; 15] = [
                 Verdict::Holds,
                 &[Named::new("as published", Observed::PUBLISHED)],
             ),
+            &Check::new(
+                UNHELD,
+                &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_FEWER_WALLS),
+                Verdict::Holds,
+                &[],
+            ),
+            &Check::new(
+                REEL,
+                &EveryLayout(Invariant::Without(Breach::Crowding), FOUR_FEWER_WALLS),
+                Verdict::Holds,
+                &[],
+            ),
         ],
     },
     Clause {
@@ -197,6 +223,12 @@ pub static CLAUSES: [Clause; 15] = [
                 &[Named::new("without E_S ahead", Observed::following(Rule::PUBLISHED.without(SafeAhead)))],
             ),
             &Check { about: UNCOVERED, ..coverage::CHECK },
+            &Check::new(
+                REEL,
+                &EveryLayout(Invariant::Without(Breach::Coverage), FOUR_FEWER_WALLS),
+                Verdict::Holds,
+                &[],
+            ),
         ],
     },
     Clause {
@@ -216,6 +248,7 @@ pub static CLAUSES: [Clause; 15] = [
                     Named::new("without full cell for the leader", Observed::without(FullForLeader)),
                 ],
             ),
+            &Check::new(REEL, &EveryLayout(Invariant::Admitted, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
         ],
     },
     Clause {
@@ -229,6 +262,7 @@ pub static CLAUSES: [Clause; 15] = [
                 Verdict::Holds,
                 &[Named::new("without distinctness", Observed::without(Distinct))],
             ),
+            &Check::new(REEL, &EveryLayout(Invariant::Distinct, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
         ],
     },
     Clause {
@@ -253,6 +287,7 @@ pub static CLAUSES: [Clause; 15] = [
             ),
             &Check::new(PUBLISHED, &EveryLayout(Invariant::Ends, FOUR_ROBOTS), Verdict::Holds, &[]),
             &Check::new(REPAIRED, &EveryLayout(Invariant::Ends, FOUR_ROBOTS), Verdict::Holds, &ENDLESS),
+            &Check::new(REEL, &EveryLayout(Invariant::BaseStays, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
         ],
     },
     Clause {
@@ -266,6 +301,7 @@ pub static CLAUSES: [Clause; 15] = [
                 Verdict::Holds,
                 &[Named::new("message bits swapped", Observed::deceiving(Deception::SwappedBits))],
             ),
+            &Check::new(REEL, &EveryLayout(Invariant::Heard, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
         ],
     },
     Clause {
@@ -280,6 +316,7 @@ pub static CLAUSES: [Clause; 15] = [
                 Verdict::Holds,
                 &[Named::new("P_high from present positions", Observed::high_from_present())],
             ),
+            &Check::new(REEL, &SPIRALS, Verdict::Holds, &[]),
         ],
     },
     Clause {
@@ -336,6 +373,18 @@ pub static CLAUSES: [Clause; 15] = [
                 &EveryLayout(Invariant::Without(Breach::Completeness), FOUR_ROBOTS),
                 Verdict::Holds,
                 &[Named::new("without unfolding", Observed::without(Unfold))],
+            ),
+            &Check::new(
+                UNHELD,
+                &EveryLayout(Invariant::Without(Breach::Completeness), FOUR_FEWER_WALLS),
+                Verdict::Holds,
+                &[],
+            ),
+            &Check::new(
+                REEL,
+                &EveryLayout(Invariant::Without(Breach::Completeness), FOUR_FEWER_WALLS),
+                Verdict::Holds,
+                &[],
             ),
         ],
     },

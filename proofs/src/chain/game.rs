@@ -153,10 +153,7 @@ where
         now: &Self::State,
         log: &[u8],
     ) -> ControlFlow<Option<Broken<Self>>> {
-        let is_back = then.cells() == now.cells()
-            && (then.gained(), then.is_unfolding()) == (now.gained(), now.is_unfolding())
-            && then.grid() == now.grid();
-        if !is_back {
+        if !now.is_where(then) {
             return ControlFlow::Continue(());
         }
         let (mut height, mut lowest) = (0_i64, 0_i64);

@@ -2,7 +2,7 @@
 //! their own: of the kernel's rule only the names of its conditions are used.
 
 use serde::{Deserialize, Serialize};
-use tautline_kernel::chain::{Budget, Chain, Condition, Kind, Message, Outcome, Plan};
+use tautline_kernel::chain::{Budget, Chain, Condition, Kind, Message, Outcome, Plan, Pursuit, Rule};
 use tautline_kernel::ground::{Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Step};
 
 use super::breach::Breach;
@@ -49,6 +49,14 @@ pub enum Invariant {
     Cheap,
     /// CHAIN-14: at the end of a run, every cell that a chain can reach at all is explored.
     Exhausts,
+    /// CHAIN-16: the planner makes no plan that is not admitted.
+    Certified,
+    /// CHAIN-17: the measure that makes every run of the reel end.
+    Falls,
+    /// CHAIN-18: what is rehearsed comes so.
+    Arrives,
+    /// CHAIN-19: contact, whoever goes first or not at all.
+    AnyOrder,
 }
 
 impl Invariant {
@@ -65,11 +73,41 @@ impl Invariant {
     const OF_PLANS: [Self; 6] =
         [Self::Admitted, Self::Distinct, Self::BaseStays, Self::Progress, Self::Heard, Self::Cheap];
 
+    /// Those of the reel.
+    const OF_REELS: [Self; 12] = [
+        Self::Without(Breach::Contact),
+        Self::Without(Breach::Crowding),
+        Self::Without(Breach::Coverage),
+        Self::Without(Breach::Completeness),
+        Self::Admitted,
+        Self::Distinct,
+        Self::BaseStays,
+        Self::Ends,
+        Self::Heard,
+        Self::Falls,
+        Self::Arrives,
+        Self::AnyOrder,
+    ];
+
+    /// Those that are looked for in one search with this one, of a chain that claims to follow `rule`. A run ends where it
+    /// breaks one of them: so only those are among them that the rule promises.
+    pub(super) const fn companions(self, rule: &Rule) -> &'static [Self] {
+        match (self, rule.pursuit, Self::OF_REELS.split_last()) {
+            (Self::Certified, ..) => &[Self::Certified],
+            (Self::AnyOrder, ..) => &[Self::AnyOrder],
+            (_, Pursuit::Reel(_), Some((Self::AnyOrder, others))) if !rule.has(Condition::Hold) => others,
+            (_, Pursuit::Reel(_), _) => &Self::OF_REELS,
+            (_, Pursuit::Epochs, _) => self.family(),
+        }
+    }
+
     /// Those that are looked for in one search with this one.
-    pub const fn family(self) -> &'static [Self] {
+    const fn family(self) -> &'static [Self] {
         match self {
             Self::Without(_) | Self::Ends => &Self::OF_RUNS,
             Self::Exhausts => &[Self::Exhausts],
+            Self::Certified => &[Self::Certified],
+            Self::Falls | Self::Arrives | Self::AnyOrder => &Self::OF_REELS,
             Self::Admitted
             | Self::Distinct
             | Self::BaseStays
@@ -90,7 +128,11 @@ impl Invariant {
             | Self::Ends
             | Self::Heard
             | Self::Cheap
-            | Self::Exhausts => None,
+            | Self::Exhausts
+            | Self::Certified
+            | Self::Falls
+            | Self::Arrives
+            | Self::AnyOrder => None,
         }
     }
 
@@ -105,6 +147,10 @@ impl Invariant {
             Self::Heard => "CHAIN-8",
             Self::Cheap => "CHAIN-12",
             Self::Exhausts => "CHAIN-14",
+            Self::Certified => "CHAIN-16",
+            Self::Falls => "CHAIN-17",
+            Self::Arrives => "CHAIN-18",
+            Self::AnyOrder => "CHAIN-19",
         }
     }
 
@@ -139,6 +185,10 @@ impl Invariant {
             Self::Ends | Self::Exhausts => Ok(()),
             Self::Heard => moment.is_heard(),
             Self::Cheap => moment.is_cheap(),
+            Self::Certified => require(!moment.planned.is_refused(), "no plan is refused"),
+            Self::Falls => moment.falls(),
+            Self::Arrives => moment.arrives(),
+            Self::AnyOrder => moment.holds_in_any_order(),
         }
     }
 }
@@ -221,13 +271,7 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
             !turned || self.before.gained() || unfolds,
             "an epoch without gain is the last, or the next unfolds the chain",
         )?;
-        let explores =
-            self.after.cells().iter().any(|&cell| !self.planned.grid().has(CellMark::Explored, cell));
-        let finds_wall = self
-            .messages
-            .iter()
-            .any(|&byte| Message::decode(byte).is_ok_and(|message| message.outcome == Outcome::Blocked));
-        let gains = explores || finds_wall;
+        let gains = self.explores() || self.finds_wall();
         require(
             self.after.gained() == (self.planned.gained() || gains),
             "a cell explored and a wall found are gains, and nothing else is",
@@ -266,6 +310,49 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
                 )
             }
         }
+    }
+
+    fn explores(&self) -> bool {
+        self.after.cells().iter().any(|&cell| !self.planned.grid().has(CellMark::Explored, cell))
+    }
+
+    fn finds_wall(&self) -> bool {
+        let is_blocked = |message: Message| message.outcome == Outcome::Blocked;
+        self.messages.iter().any(|&byte| Message::decode(byte).is_ok_and(is_blocked))
+    }
+
+    /// A cell explored and a wall found can be counted: between two of them the measure of the reel falls.
+    fn falls(&self) -> Result<(), Stop> {
+        let gains = self.explores() || self.finds_wall();
+        require(
+            gains || self.after.measure() < self.planned.measure(),
+            "a team move gains, or the measure falls",
+        )?;
+        require(
+            self.before.gained() || gains || self.planned.measure() <= self.before.measure(),
+            "what is begun without a gain has a lesser measure",
+        )
+    }
+
+    /// Where no wall is met, a cell is explored in the last of the rehearsed team moves, and not before.
+    fn arrives(&self) -> Result<(), Stop> {
+        match self.planned.until_gain() {
+            Some(left) if !self.finds_wall() => require(
+                self.explores() == (left == 1),
+                "a rehearsal without surprise arrives in its number of moves",
+            ),
+            Some(_) | None => Ok(()),
+        }
+    }
+
+    /// Each of two neighbours has gone, or not yet.
+    fn holds_in_any_order(&self) -> Result<(), Stop> {
+        let (before, after) = (self.before.cells(), self.after.cells());
+        let holds = (1..after.len()).all(|ahead| {
+            let [behind, ahead] = [ahead - 1, ahead].map(|robot| [before[robot], after[robot]]);
+            behind.iter().all(|&behind| ahead.iter().all(|&ahead| in_covered(behind, ahead)))
+        });
+        require(holds, "neighbours keep contact in whatever order they go")
     }
 
     /// The cells of the walk from the base to the nearest unexplored cell, by links; none if it is out of reach. It

@@ -1,7 +1,7 @@
 //! A chain as a check observes it: the rule that it follows, the rule that it claims to follow, and what no set of
 //! conditions can express, done to a mutant on the way from the rule to the check.
 
-use tautline_kernel::chain::{Budget, Condition, High, Rule};
+use tautline_kernel::chain::{Budget, Condition, Habit, Habits, High, Pursuit, Rule};
 use tautline_kernel::ground::Circle;
 
 /// How the observer of a mutant is deceived.
@@ -53,6 +53,12 @@ impl Observed {
     /// Repaired, with so small a budget that many plans use it up, also in small areas.
     pub const SPARING: Self = Self::honest(Rule { budget: Budget::LooksPerRobot(4), ..Rule::REPAIRED });
 
+    /// The reel.
+    pub const REEL: Self = Self::honest(Rule::REEL);
+
+    /// The reel without *Hold*: within the repaired conditions.
+    pub const UNHELD: Self = Self::honest(Rule::REEL.without(Condition::Hold));
+
     /// A chain that follows the rule that it claims to follow.
     pub const fn honest(rule: Rule) -> Self {
         Self { rule, intended: rule, deception: Deception::None }
@@ -66,6 +72,22 @@ impl Observed {
     /// The repaired chain without one condition.
     pub const fn without(condition: Condition) -> Self {
         Self::following(Rule::REPAIRED.without(condition))
+    }
+
+    /// A chain that claims to follow the reel, but follows `rule`.
+    pub const fn reeling(rule: Rule) -> Self {
+        Self { rule, ..Self::REEL }
+    }
+
+    /// The reel without some of its habits.
+    pub const fn without_habits(habits: &[Habit]) -> Self {
+        let mut left = Habits::of(&Habit::ALL);
+        let mut place = 0;
+        while place < habits.len() {
+            left = left.without(habits[place]);
+            place += 1;
+        }
+        Self::reeling(Rule { pursuit: Pursuit::Reel(left), ..Rule::REEL })
     }
 
     /// The repaired chain, deceiving.

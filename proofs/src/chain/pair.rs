@@ -126,6 +126,41 @@ pub(super) fn contact(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
     Ok(pair.situation())
 }
 
+/// What [`hold`] looks at.
+pub(super) fn goers() -> String {
+    format!("every pair of neighbours up to {FAR} apart, every plan, and who has gone")
+}
+
+/// CHAIN-19, inductive step: neighbours in E_C of each other are so whoever of them has gone to where the plan sends it,
+/// and whoever has not, and so are their centres within r_cov on the way.
+///
+/// # Errors
+/// [`Stop`] if the choices are no case, or break the clause.
+pub(super) fn hold(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    let behind = Cell::new(0, 0);
+    let mut offset = || oracle.pick(2 * FAR + 1) as i16 - FAR as i16;
+    let ahead = Cell::new(offset(), offset());
+    assume(Circle::COVERED.covers(behind, ahead))?;
+    let mut plan = |from| Move { from, step: one_of(oracle, &Step::ALL), known_open: oracle.flip() };
+    let (own, ahead) = (plan(behind), plan(ahead));
+    assume(ahead.step == Step::Stay || observed.rule.admits_behind(ahead.to(), own.from))?;
+    assume(observed.rule.admits_ahead(own, ahead))?;
+    let (has_gone, has_gone_ahead) = (oracle.flip(), oracle.flip());
+    let at = |plan: Move, has_gone: bool| if has_gone { plan.to() } else { plan.from };
+    require(
+        Circle::COVERED.covers(at(own, has_gone), at(ahead, has_gone_ahead)),
+        "each neighbour's cell is wholly covered, whoever of the two has gone",
+    )?;
+    let on_the_way = stays_in_range([own.from, own.to()], [ahead.from, ahead.to()]);
+    require(on_the_way, "the neighbours' centres stay within r_cov, at whatever speeds they move")?;
+    Ok(match (has_gone, has_gone_ahead) {
+        (false, false) => "neither has gone",
+        (true, false) => "the robot behind has gone",
+        (false, true) => "the robot ahead has gone",
+        (true, true) => "both have gone",
+    })
+}
+
 /// CHAIN-3, inductive step: neighbours whose centres are within r_cov are so during the whole move.
 ///
 /// # Errors

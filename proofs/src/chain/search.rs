@@ -137,7 +137,8 @@ pub struct EveryLayout(pub Invariant, pub (usize, u32));
 impl EveryLayout {
     fn bounds(&self, observed: &Observed) -> Bounds {
         let (robots, max_walls) = self.1;
-        Bounds { invariants: self.0.family().to_vec(), ..Bounds::new(*observed, robots, max_walls) }
+        let companions = self.0.companions(&observed.intended);
+        Bounds { invariants: companions.to_vec(), ..Bounds::new(*observed, robots, max_walls) }
     }
 
     /// What `found` shows, within `bounds`.

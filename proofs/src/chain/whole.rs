@@ -73,6 +73,37 @@ pub(super) fn spiral(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
     Ok("an open area")
 }
 
+/// Robots, and walls in percent, of [`any_order`].
+const ORDERS: (usize, [u32; 5]) = (8, [1, 5, 10, 15, 20]);
+
+/// What [`any_order`] draws.
+pub(super) fn orders() -> String {
+    format!("random layouts, N = {}, walls of {} %, the robots one by one", ORDERS.0, listed(ORDERS.1))
+}
+
+/// CHAIN-19 in a random layout: the robots go one by one, in a new order each time.
+///
+/// # Errors
+/// [`Stop::Violated`] if two neighbours are ever out of contact.
+pub(super) fn any_order(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    let walls_percent = one_of(oracle, &ORDERS.1);
+    let mut chain = start::<_, 8>(observed, ORDERS.0, SmallGrid::new)?;
+    let mut log = Vec::new();
+    while let Intent::Go(plan) = chain.plan(&log).map_err(|_| NO_MESSAGE)? {
+        let mut team = chain.cells().to_vec();
+        let settled = chain.settle(&plan, |_| oracle.pick(100) >= walls_percent);
+        log.extend_from_slice(settled.messages());
+        let mut waiting: Vec<usize> = (1..team.len()).collect();
+        while !waiting.is_empty() {
+            let robot = waiting.swap_remove(oracle.pick(waiting.len() as u32) as usize);
+            team[robot] = chain.cells()[robot];
+            let holds = team.windows(2).all(|pair| observed.intended.keeps_contact(pair[0], pair[1]));
+            require(holds, "neighbours are in contact after each robot that goes")?;
+        }
+    }
+    Ok("a whole run")
+}
+
 /// Robots, and most walls, of [`same_plan_in_all_layouts`].
 const FEW_WALLS: [(usize, u32); 3] = [(2, 3), (3, 2), (4, 2)];
 
@@ -259,6 +290,16 @@ fn plain_run(observed: &Observed, robots: usize, is_open: &mut dyn FnMut(Edge) -
 
 #[cfg(test)]
 mod tests {
+    #[test]
+    #[ignore = "a thousand runs a density take minutes"]
+    fn no_order_of_going_breaks_contact_in_a_thousand_runs_a_density() {
+        let runs = |observed: &Observed| {
+            (0..5_000).filter(|&seed| any_order(observed, &mut Seeded::new(19, seed)).is_err()).count()
+        };
+        assert_eq!(runs(&Observed::REEL), 0);
+        assert!(runs(&Observed::UNHELD) > 0);
+    }
+
     use tautline_kernel::chain::{Budget, Rule};
     use tautline_kernel::ground::CellMark;
 

@@ -10,6 +10,7 @@ use tautline_proofs::run::Frame;
 use tautline_proofs::words::counted;
 
 use super::clause::ClauseId;
+use super::rule::RuleId;
 use super::run::{End, Team, TeamMove};
 use super::setup::{Clause, Judge, Profile, Quarry, Rule, Senses, Setup, Starts};
 use super::stage::Look;
@@ -18,6 +19,11 @@ use crate::fault::Fault;
 use crate::layout::Layout;
 use crate::wide::WideGrid;
 
+/// The rule that reels the chain in and out instead of backtracking, and holds contact whoever fails.
+pub const REEL: RuleId = RuleId::new("reel");
+/// The same without *Hold*.
+pub const UNHELD: RuleId = RuleId::new("unheld");
+
 /// A base, a leader that seeks the frontier, and followers that keep radio contact.
 pub static CHAIN: Profile = Profile {
     name: "chain",
@@ -25,6 +31,18 @@ pub static CHAIN: Profile = Profile {
     rules: &[
         Rule::published(|setup| start(setup, chain::Rule::PUBLISHED), Quarry::Walls(Observed::PUBLISHED)),
         Rule::repaired(|setup| start(setup, chain::Rule::REPAIRED), Quarry::Walls(Observed::REPAIRED)),
+        Rule {
+            name: REEL,
+            about: "Within the repaired conditions, the shortest rehearsed way to an unexplored cell",
+            start: |setup| start(setup, chain::Rule::REEL),
+            hunt: Some(Quarry::Walls(Observed::REEL)),
+        },
+        Rule {
+            name: UNHELD,
+            about: "The reel without the condition that holds contact whoever fails",
+            start: |setup| start(setup, Observed::UNHELD.rule),
+            hunt: Some(Quarry::Walls(Observed::UNHELD)),
+        },
     ],
     team: "chain",
     robots: 2..=MAX_ROBOTS,

@@ -1,0 +1,71 @@
+//! Certified plans: the admission relation of a whole team move, decided in O(N) where a plan is returned (CHAIN-4,
+//! CHAIN-5). [`Chain::plan`](super::Chain::plan) returns nothing else, whoever made the plan. So the lemmas about the
+//! relation, CHAIN-1, CHAIN-2 and CHAIN-3, speak of every run of every planner.
+
+use super::plan::{mark_occupied, unmark_occupied};
+use super::rule::{Condition, Move, Role, Rule};
+use crate::ground::{Cell, CellMark, Edge, EdgeMark, Grid, Step};
+
+impl Rule {
+    /// Whether the conditions of this rule admit the `steps` of the robots in `team`, both base first, all at once, if
+    /// the team knows what `grid` knows: the base stays, no robot crosses a known wall, every robot is where the rule
+    /// wants it behind and ahead of its neighbours, enters no full cell, and has a planned cell of its own. The grid is
+    /// left as it was.
+    pub fn admits_plan(&self, grid: &mut impl Grid, team: &[Cell], steps: &[Step]) -> bool {
+        let Some(&base) = team.first() else { return steps.is_empty() };
+        if team.len() != steps.len() || steps[0] != Step::Stay {
+            return false;
+        }
+        let planned = || team.iter().zip(steps).map(|(cell, &step)| cell.after(step));
+        let is_distinct = !self.has(Condition::Distinct) || are_distinct(grid, planned(), base);
+        is_distinct && self.admits_pairs(grid, team, steps) && self.admits_entries(grid, team, steps)
+    }
+
+    /// The conditions on each robot and its neighbours.
+    fn admits_pairs(&self, grid: &impl Grid, team: &[Cell], steps: &[Step]) -> bool {
+        let mut behind = Move::stay(team[0]);
+        (1..team.len()).all(|robot| {
+            let (from, step) = (team[robot], steps[robot]);
+            let (mut is_wall, mut known_open) = (false, false);
+            if let Step::Cross(side) = step {
+                let edge = Edge::new(from, side);
+                is_wall = grid.edge_has(EdgeMark::Wall, edge);
+                known_open = grid.edge_has(EdgeMark::Open, edge);
+            }
+            let own = Move { from, step, known_open };
+            // The leader may always fall back on the null move.
+            let is_null = robot + 1 == team.len() && step == Step::Stay;
+            let is_covered = is_null || self.admits_behind(own.to(), behind.from);
+            let admits = !is_wall && is_covered && self.admits_ahead(behind, own);
+            behind = own;
+            admits
+        })
+    }
+
+    /// The conditions on cells that two others occupy.
+    fn admits_entries(&self, grid: &mut impl Grid, team: &[Cell], steps: &[Step]) -> bool {
+        if [Role::Leader, Role::Follower].iter().all(|&role| self.admits_entry(role, 2)) {
+            return true;
+        }
+        mark_occupied(grid, team.iter().copied(), team[0]);
+        let admits = (1..team.len()).all(|robot| {
+            let role = if robot + 1 == team.len() { Role::Leader } else { Role::Follower };
+            let to = team[robot].after(steps[robot]);
+            steps[robot] == Step::Stay || self.admits_entry(role, 2) || !grid.has(CellMark::Full, to)
+        });
+        unmark_occupied(grid, team.iter().copied());
+        admits
+    }
+}
+
+/// Whether no two of the planned cells are the same, the base excepted.
+fn are_distinct(grid: &mut impl Grid, planned: impl Iterator<Item = Cell> + Clone, base: Cell) -> bool {
+    let outside = || planned.clone().skip(1).filter(|&cell| cell != base);
+    let are_distinct = outside().all(|cell| {
+        let is_free = !grid.has(CellMark::Planned, cell);
+        grid.put(CellMark::Planned, cell);
+        is_free
+    });
+    outside().for_each(|cell| grid.take(CellMark::Planned, cell));
+    are_distinct
+}

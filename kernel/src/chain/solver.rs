@@ -1,0 +1,168 @@
+//! The step solver: of all the team moves that the conditions admit, one that costs least, as far as the steps of neighbours
+//! in the chain decide it. What a robot's step costs hangs on its own and its neighbour's step alone, so the cheapest
+//! move is found robot by robot from the base up, in O(N) (25 pairs of steps each). That every robot has a planned cell
+//! of its own is no matter of neighbours: where the cheapest move breaks it, the next cheapest step behind is tried,
+//! within a bound.
+
+use super::rule::{Condition, Move, Role, Rule};
+use crate::ground::{Cell, CellMark, EdgeMark, Grid, Step, Steps, neighbouring_steps, steps_to};
+
+/// What a robot may do, and what it costs.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wish {
+    /// The steps that are wished for.
+    pub(super) steps: Steps,
+    /// What each costs, by its place.
+    pub(super) cost: [i32; Step::ALL.len()],
+}
+
+impl Wish {
+    /// To stay.
+    pub(super) const STAY: Self = Self { steps: Steps::only(Step::Stay), cost: [0; Step::ALL.len()] };
+}
+
+/// What it costs that two neighbours in the chain do not plan to be side by side, or in one cell.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Apart(pub(super) i32);
+
+/// Steps that are tried beyond one for each robot, for each robot.
+const PATIENCE: usize = 4;
+
+/// A team move in the making.
+struct Solver<'a, const ROBOTS: usize> {
+    rule: &'a Rule,
+    /// P_1 … P_N.
+    team: &'a [Cell],
+    wishes: &'a [Wish; ROBOTS],
+    apart: Apart,
+    /// The steps of each robot that its present neighbours, walls and full cells leave.
+    left: [Steps; ROBOTS],
+    /// By robot and place of its step: the least that it and all behind it cost.
+    least: [[Option<i32>; Step::ALL.len()]; ROBOTS],
+}
+
+/// The steps of the robots in `team`, base first, that `rule` admits and that cost least by `wishes` and `apart`; `None` if
+/// none is found. A side that is not known to be a wall is never taken for open: so what is found does not hang on what
+/// a team finds open on its way.
+pub(super) fn solve<G: Grid, const ROBOTS: usize>(
+    rule: &Rule,
+    grid: &mut G,
+    team: &[Cell],
+    wishes: &[Wish; ROBOTS],
+    apart: Apart,
+) -> Option<[Step; ROBOTS]> {
+    let left = [Steps::only(Step::Stay); ROBOTS];
+    let mut solver = Solver { rule, team, wishes, apart, left, least: [[None; Step::ALL.len()]; ROBOTS] };
+    solver.leave(grid);
+    solver.cost();
+    solver.choose(grid)
+}
+
+impl<const ROBOTS: usize> Solver<'_, ROBOTS> {
+    /// Leaves the steps that nobody else's steps matter to.
+    fn leave(&mut self, grid: &impl Grid) {
+        let leader = self.team.len() - 1;
+        for robot in 1..=leader {
+            let (at, behind) = (self.team[robot], self.team[robot - 1]);
+            let role = if robot == leader { Role::Leader } else { Role::Follower };
+            let mut steps = self.rule.steps_behind(at, behind);
+            if robot == leader {
+                steps = steps.with(Step::Stay);
+            }
+            steps = steps.and(self.wishes[robot].steps).minus(grid.sides(EdgeMark::Wall, at));
+            if !self.rule.admits_entry(role, 2) {
+                steps = steps.minus(grid.steps_to(CellMark::Full, at, steps.without(Step::Stay)));
+            }
+            self.left[robot] = steps;
+        }
+    }
+
+    /// The steps of the robot behind `robot` that agree with its `step`.
+    fn agreeing(&self, robot: usize, step: Step) -> Steps {
+        let (own, at) = (self.as_move(robot, step), self.team[robot - 1]);
+        let steps = self.left[robot - 1].and(self.rule.steps_ahead(at, own));
+        let to = own.to();
+        if self.rule.has(Condition::Distinct) && to != self.team[0] {
+            steps.minus(steps_to(to, at))
+        } else {
+            steps
+        }
+    }
+
+    const fn as_move(&self, robot: usize, step: Step) -> Move {
+        Move { from: self.team[robot], step, known_open: false }
+    }
+
+    /// What `step` of the robot behind `robot` costs, and all behind it, if `robot` does its `own`.
+    fn behind(&self, robot: usize, own: Step, step: Step) -> Option<i32> {
+        let at = self.team[robot - 1];
+        let together = neighbouring_steps(self.team[robot].after(own), at).has(step);
+        let apart = if together { 0 } else { self.apart.0 };
+        self.least[robot - 1][step.place()].map(|least| least + apart)
+    }
+
+    fn cost(&mut self) {
+        self.least[0][Step::Stay.place()] = Some(0);
+        for robot in 1..self.team.len() {
+            for step in self.left[robot].iter() {
+                let agreeing = self.agreeing(robot, step).iter();
+                let least = agreeing.filter_map(|behind| self.behind(robot, step, behind)).min();
+                self.least[robot][step.place()] =
+                    least.map(|least| least + self.wishes[robot].cost[step.place()]);
+            }
+        }
+    }
+
+    /// The cheapest steps from the leader backwards, each with a planned cell of its own.
+    fn choose(&self, grid: &mut impl Grid) -> Option<[Step; ROBOTS]> {
+        let leader = self.team.len() - 1;
+        let is_distinct = self.rule.has(Condition::Distinct);
+        let mut steps = [Step::Stay; ROBOTS];
+        let mut tried = [Steps::NONE; ROBOTS];
+        let claimed = |robot: usize, step| {
+            Some(self.team[robot].after(step)).filter(|&to| is_distinct && to != self.team[0])
+        };
+        let (mut robot, mut left) = (leader, (PATIENCE + 1) * self.team.len());
+        while robot > 0 {
+            let at = self.team[robot];
+            let mut fit =
+                if robot == leader { self.left[leader] } else { self.agreeing(robot + 1, steps[robot + 1]) };
+            fit = fit.minus(tried[robot]);
+            if is_distinct {
+                fit = fit.minus(grid.steps_to(CellMark::Planned, at, fit));
+            }
+            let cost = |step: Step| {
+                if robot == leader {
+                    self.least[leader][step.place()]
+                } else {
+                    self.behind(robot + 1, steps[robot + 1], step)
+                }
+            };
+            let costs = fit.iter().filter_map(|step| cost(step).map(|cost| (cost, step.place(), step)));
+            if let Some((_, _, step)) = costs.min_by_key(|&(cost, place, _)| (cost, place))
+                && left > 0
+            {
+                left -= 1;
+                tried[robot] = tried[robot].with(step);
+                steps[robot] = step;
+                claimed(robot, step).into_iter().for_each(|to| grid.put(CellMark::Planned, to));
+                robot -= 1;
+            } else {
+                tried[robot] = Steps::NONE;
+                robot += 1;
+                if robot > leader {
+                    break;
+                }
+                claimed(robot, steps[robot]).into_iter().for_each(|to| grid.take(CellMark::Planned, to));
+                if left == 0 {
+                    break;
+                }
+            }
+        }
+        let is_found = robot == 0;
+        for planned in robot + 1..=leader {
+            claimed(planned, steps[planned]).into_iter().for_each(|to| grid.take(CellMark::Planned, to));
+        }
+        is_found.then_some(steps)
+    }
+}

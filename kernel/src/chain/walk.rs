@@ -1,0 +1,165 @@
+//! The walk that a chain is drawn in and let out along: its own, over the cells of its robots one after the other, and from
+//! one of them on to an unexplored cell, by links.
+
+use super::unfold::goes_on;
+use crate::ground::{Cell, Edge, EdgeMark, Grid, Link, Side, Step, link};
+
+/// A walk with the robots on it. Robots are counted from 0, the base.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Walk<const ROBOTS: usize> {
+    /// The cells one after the other.
+    cells: [[Cell; 2]; ROBOTS],
+    /// By link: the place of the cell where it begins, and at last that where the last ends.
+    stops: [u16; ROBOTS],
+    links: u16,
+    /// The robot at the first place: the walk leaves out those behind it.
+    first: u16,
+    /// The place of the leader.
+    leader: u16,
+}
+
+impl<const ROBOTS: usize> Walk<ROBOTS> {
+    /// No walk.
+    pub(super) const NONE: Self =
+        Self { cells: [[Cell::new(0, 0); 2]; ROBOTS], stops: [0; ROBOTS], links: 0, first: 0, leader: 0 };
+
+    /// The chain's own walk, from the first robot from which on each is at most two free sides from the next.
+    pub(super) fn own(grid: &impl Grid, team: &[Cell]) -> Self {
+        let leader = team.len() - 1;
+        let mut walk = Self::NONE;
+        let is_apart = |&robot: &usize| way(grid, team[robot], team[robot + 1]).is_none();
+        let first = (0..leader).rev().find(is_apart).map_or(0, |robot| robot + 1);
+        walk.first = first as u16;
+        walk.cells.as_flattened_mut()[0] = team[first];
+        for robot in first..leader {
+            walk.link_up(grid, team[robot], team[robot + 1]);
+        }
+        walk.leader = walk.stops[usize::from(walk.links)];
+        walk
+    }
+
+    /// This walk up to its stop `stop`, and from there by the links between `stops`, of which there are `links`.
+    pub(super) fn turned_off(&self, grid: &impl Grid, stop: usize, stops: &[Cell], links: usize) -> Self {
+        let mut walk = Self { links: stop as u16, ..*self };
+        for link in 0..links {
+            walk.link_up(grid, stops[link], stops[link + 1]);
+        }
+        walk
+    }
+
+    /// Adds a link at the end.
+    fn link_up(&mut self, grid: &impl Grid, from: Cell, to: Cell) {
+        let links = usize::from(self.links);
+        let mut place = usize::from(self.stops[links]);
+        let Some(way) = way(grid, from, to) else { return };
+        for cell in way.into_iter().flatten() {
+            place += 1;
+            self.cells.as_flattened_mut()[place] = cell;
+        }
+        self.links += 1;
+        self.stops[links + 1] = place as u16;
+    }
+
+    /// The robot at the first place.
+    pub(super) fn first(&self) -> usize {
+        self.first.into()
+    }
+
+    /// The place of the leader.
+    pub(super) fn leader(&self) -> usize {
+        self.leader.into()
+    }
+
+    /// The place of stop `stop`.
+    pub(super) fn stop(&self, stop: usize) -> usize {
+        self.stops[stop].into()
+    }
+
+    /// The cell at `place`.
+    pub(super) fn cell(&self, place: usize) -> Cell {
+        self.cells.as_flattened()[place]
+    }
+
+    /// The places behind the leader at the end.
+    pub(super) fn ahead(&self) -> usize {
+        self.stop(self.links.into()).saturating_sub(self.leader())
+    }
+
+    /// The leader goes to the cell `to` beside its place, or stays.
+    pub(super) fn follow(&mut self, to: Cell) {
+        let leader = self.leader();
+        if self.cell(leader) == to {
+            return;
+        }
+        if leader + 1 < 2 * ROBOTS && self.cell(leader + 1) == to && self.ahead() > 0 {
+            self.leader += 1;
+        } else {
+            self.leader = self.leader.saturating_sub(1);
+        }
+    }
+
+    /// The place of each robot on the walk; 0 for those behind the first. `None` if one is not on it.
+    pub(super) fn places(&self, team: &[Cell], search: Lookup) -> Option<[usize; ROBOTS]> {
+        let (leader, cells) = (team.len() - 1, self.cells.as_flattened());
+        let mut places = [0; ROBOTS];
+        places[leader] = self.leader();
+        for robot in (self.first() + 1..leader).rev() {
+            let behind = &cells[..=places[robot + 1]];
+            let is_there = |&cell: &Cell| cell == team[robot];
+            places[robot] = match search {
+                Lookup::LastFirst => behind.iter().rposition(|cell| is_there(cell)),
+                Lookup::FirstFirst => behind.iter().position(|cell| is_there(cell)),
+            }?;
+        }
+        Some(places)
+    }
+
+    /// The steps that let the chain out further: the leader goes on by one cell, the others follow one cell behind, each
+    /// as far as its stop. `None` if some robot is not on the walk.
+    pub(super) fn let_out(&self, team: &[Cell], search: Lookup) -> Option<[Step; ROBOTS]> {
+        let places = self.places(team, search)?;
+        let leader = team.len() - 1;
+        let mut steps = [Step::Stay; ROBOTS];
+        let mut ahead = usize::MAX;
+        for robot in (self.first() + 1..=leader).rev() {
+            let stop = (usize::from(self.links) + robot).saturating_sub(leader);
+            let (own, last) = (places[robot], self.stop(stop));
+            ahead = own + usize::from(goes_on(own, last, ahead));
+            steps[robot] = step_to(team[robot], self.cell(ahead))?;
+        }
+        Some(steps)
+    }
+}
+
+/// Where the place of a robot on a walk is looked for that may visit a cell twice.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Lookup {
+    /// From the robot ahead backwards.
+    LastFirst,
+    /// From the beginning.
+    FirstFirst,
+}
+
+/// The step from one cell to another.
+pub(super) fn step_to(from: Cell, to: Cell) -> Option<Step> {
+    Step::ALL.into_iter().find(|&step| from.after(step) == to)
+}
+
+/// The cells on the way from one robot to the next, over at most two sides that are not known to be walls; the last is
+/// `to`, unless both are in one.
+fn way(grid: &impl Grid, from: Cell, to: Cell) -> Option<[Option<Cell>; 2]> {
+    if from == to {
+        return Some([None; 2]);
+    }
+    match link(grid, from, to) {
+        Some(Link::Side) => return Some([Some(to), None]),
+        Some(Link::Corner(corner)) => return Some([Some(corner), Some(to)]),
+        None => {}
+    }
+    let is_open = |cell, side| !grid.edge_has(EdgeMark::Wall, Edge::new(cell, side));
+    let straight = |&side: &Side| {
+        let between = from.beyond(side);
+        between.beyond(side) == to && is_open(from, side) && is_open(between, side)
+    };
+    Side::ALL.into_iter().find(straight).map(|side| [Some(from.beyond(side)), Some(to)])
+}
