@@ -17,7 +17,7 @@ impl Rule {
             return false;
         }
         let planned = || team.iter().zip(steps).map(|(cell, &step)| cell.after(step));
-        let is_distinct = !self.has(Condition::Distinct) || are_distinct(grid, planned(), base);
+        let is_distinct = !self.has(Condition::Distinct) || are_distinct(grid, planned, base);
         is_distinct && self.admits_pairs(grid, team, steps) && self.admits_entries(grid, team, steps)
     }
 
@@ -59,8 +59,8 @@ impl Rule {
 }
 
 /// Whether no two of the planned cells are the same, the base excepted.
-fn are_distinct(grid: &mut impl Grid, planned: impl Iterator<Item = Cell> + Clone, base: Cell) -> bool {
-    let outside = || planned.clone().skip(1).filter(|&cell| cell != base);
+fn are_distinct<I: Iterator<Item = Cell>>(grid: &mut impl Grid, planned: impl Fn() -> I, base: Cell) -> bool {
+    let outside = || planned().skip(1).filter(|&cell| cell != base);
     let are_distinct = outside().all(|cell| {
         let is_free = !grid.has(CellMark::Planned, cell);
         grid.put(CellMark::Planned, cell);

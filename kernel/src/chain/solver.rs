@@ -145,7 +145,9 @@ impl<const ROBOTS: usize> Solver<'_, ROBOTS> {
                 left -= 1;
                 tried[robot] = tried[robot].with(step);
                 steps[robot] = step;
-                claimed(robot, step).into_iter().for_each(|to| grid.put(CellMark::Planned, to));
+                if let Some(to) = claimed(robot, step) {
+                    grid.put(CellMark::Planned, to);
+                }
                 robot -= 1;
             } else {
                 tried[robot] = Steps::NONE;
@@ -153,15 +155,19 @@ impl<const ROBOTS: usize> Solver<'_, ROBOTS> {
                 if robot > leader {
                     break;
                 }
-                claimed(robot, steps[robot]).into_iter().for_each(|to| grid.take(CellMark::Planned, to));
+                if let Some(to) = claimed(robot, steps[robot]) {
+                    grid.take(CellMark::Planned, to);
+                }
                 if left == 0 {
                     break;
                 }
             }
         }
         let is_found = robot == 0;
-        for planned in robot + 1..=leader {
-            claimed(planned, steps[planned]).into_iter().for_each(|to| grid.take(CellMark::Planned, to));
+        for (planned, &step) in steps.iter().enumerate().take(leader + 1).skip(robot + 1) {
+            if let Some(to) = claimed(planned, step) {
+                grid.take(CellMark::Planned, to);
+            }
         }
         is_found.then_some(steps)
     }

@@ -107,8 +107,8 @@ impl<const ROBOTS: usize> Walk<ROBOTS> {
             let behind = &cells[..=places[robot + 1]];
             let is_there = |&cell: &Cell| cell == team[robot];
             places[robot] = match search {
-                Lookup::LastFirst => behind.iter().rposition(|cell| is_there(cell)),
-                Lookup::FirstFirst => behind.iter().position(|cell| is_there(cell)),
+                Lookup::LastFirst => behind.iter().rposition(is_there),
+                Lookup::FirstFirst => behind.iter().position(is_there),
             }?;
         }
         Some(places)
