@@ -4,7 +4,7 @@
 use tautline_kernel::ground::{Area, Cell, Side};
 use tautline_kernel::kit::{Next, Rule, Sight};
 
-use super::world::{Answers, Demand, Event, Setting, Speeds, World};
+use super::world::{Answers, Demand, Event, Setting, Speeds, Starts, World};
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
 use crate::engine::states::{END, Limits, Run, search};
 use crate::engine::{Choices, Script, Unfit, Until, cover};
@@ -19,6 +19,7 @@ pub(super) struct Lattices<const ROBOTS: usize> {
     pub(super) sizes: &'static [Size],
     pub(super) speeds: Speeds,
     pub(super) answers: Answers,
+    pub(super) starts: Starts,
     pub(super) demand: Demand,
     /// Whether other clauses are about the same teams, so that one pass answers all.
     pub(super) pass: Pass,
@@ -48,8 +49,8 @@ impl<const ROBOTS: usize> Lattices<ROBOTS> {
     fn setting(&self, rule: &Rule, size: Size, demand: Option<Demand>) -> Option<Setting<ROBOTS>> {
         let (width, height, max_walls) = size;
         let area = Area::new(Cell::new(0, 0), Cell::new(width - 1, height - 1))?;
-        let Self { speeds, answers, .. } = *self;
-        Some(Setting { rule: *rule, area, max_walls, speeds, answers, demand })
+        let Self { speeds, answers, starts, .. } = *self;
+        Some(Setting { rule: *rule, area, max_walls, speeds, answers, starts, demand })
     }
 
     /// Looks at the lattices in their order, until something is broken.
@@ -129,13 +130,17 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
             Answers::AnyTime => "",
             Answers::AtOnce => ", answered at once",
         };
-        format!("all layouts of {} nodes, all starts, {robots}, {speeds}{answers}", sizes.join(", "))
+        let starts = match self.starts {
+            Starts::Anywhere => "all starts",
+            Starts::SideBySide => "all starts side by side",
+        };
+        format!("all layouts of {} nodes, {starts}, {robots}, {speeds}{answers}", sizes.join(", "))
     }
 
     fn family(&self, rule: &Rule) -> Option<String> {
-        let Self { sizes, speeds, answers, .. } = self;
+        let Self { sizes, speeds, answers, starts, .. } = self;
         (self.pass == Pass::Together)
-            .then(|| format!("kit {ROBOTS} {sizes:?} {speeds:?} {answers:?} {rule:?}"))
+            .then(|| format!("kit {ROBOTS} {sizes:?} {speeds:?} {answers:?} {starts:?} {rule:?}"))
     }
 
     /// The choices are the numbers of the lattice, of the most walls, of the start, and of the steps.
@@ -160,7 +165,7 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
         let (width, height, most) = self.sizes[script.choose(self.sizes.len())?];
         let walls = script.choose(usize::from(most) + 1)? as u8;
         let setting = self.setting(rule, (width, height, walls), Some(self.demand)).ok_or(Unfit::Unbroken)?;
-        let starts: Vec<World<ROBOTS>> = setting.starts().collect();
+        let starts: Vec<World<ROBOTS>> = setting.starts();
         let number = script.choose(starts.len())?;
         let (of, run) = script.play(&setting, (number, starts[number]), |&demand| demand == self.demand)?;
         Ok(Played { of, evidence: evidence(choices.clone(), &setting, &run) })
@@ -175,7 +180,7 @@ fn evidence<const ROBOTS: usize>(choices: Choices, setting: &Setting<ROBOTS>, ru
 fn story<const ROBOTS: usize>(setting: &Setting<ROBOTS>, run: &Run<Demand>) -> String {
     let (width, height) = (setting.area.width(), setting.area.height());
     let mut lines = format!("{width}×{height} nodes, 3 m apart\n");
-    let Some(mut world) = setting.starts().nth(run.start) else { return lines };
+    let Some(mut world) = setting.starts().into_iter().nth(run.start) else { return lines };
     let starts = (0..ROBOTS).filter_map(|robot| Some((robot + 1, world.team.stance(robot)?.to())));
     let starts: Vec<String> = starts.map(|(robot, node)| format!("R{robot} starts at {node}")).collect();
     lines += &starts.join(", ");
@@ -241,6 +246,7 @@ mod tests {
             sizes: &[],
             speeds: Speeds::Any,
             answers: Answers::AnyTime,
+            starts: Starts::Anywhere,
             demand: Demand::Contact,
             pass: Pass::Together,
             covers: &[],
