@@ -343,7 +343,7 @@ mod tests {
     use crate::layout::Generator;
 
     /// Runs a team in layouts of this kind; the drives, and how many runs end before every path is driven.
-    fn runs(kind: &str, robots: usize, seeds: std::ops::Range<u64>) -> (usize, usize) {
+    fn runs(rule: Rule, kind: &str, robots: usize, seeds: std::ops::Range<u64>) -> (usize, usize) {
         let generator: Generator = kind.parse().expect("a generator");
         let (mut drives, mut ended) = (0, 0);
         for seed in seeds {
@@ -355,7 +355,7 @@ mod tests {
             }
             let due = paths(&layout, base);
             let pace = Pace { spread: 100, ..Pace::STEADY };
-            let mut course = course(Rule::REPAIRED, &layout, &starts, pace, seed).expect("a team");
+            let mut course = course(rule, &layout, &starts, pace, seed).expect("a team");
             let mut made = 0;
             while course.drive().is_some() {
                 made += 1;
@@ -374,10 +374,16 @@ mod tests {
     fn three_robots_and_more_drive_every_path() {
         for robots in [3, 4, 8] {
             for kind in ["walls:5x4:0.2", "walls:9x3:0.4", "walls:8x8:0.1", "walls:10x2:0.2"] {
-                let (drives, ended) = runs(kind, robots, 0..20);
+                let (drives, ended) = runs(Rule::REPAIRED, kind, robots, 0..20);
                 assert_eq!(ended, 0, "{kind}, {robots} robots, {drives} drives");
             }
         }
+    }
+
+    #[test]
+    fn robots_that_radio_alone_binds_leave_paths_undriven() {
+        let (_, ended) = runs(Rule::REPAIRED.without(Condition::Tether), "walls:15x15:0.3", 3, 0..40);
+        assert!(ended > 0);
     }
 
     #[test]
@@ -385,7 +391,7 @@ mod tests {
     fn thousands_of_teams_drive_every_path() {
         for kind in ["walls:5x4:0.2", "walls:9x3:0.4", "walls:15x15:0.1", "walls:15x15:0.3"] {
             for robots in [3, 4, 8] {
-                let (drives, ended) = runs(kind, robots, 0..1000);
+                let (drives, ended) = runs(Rule::REPAIRED, kind, robots, 0..1000);
                 println!("{kind}, {robots} robots: {drives} drives, {ended} of 1000 not whole");
                 assert_eq!(ended, 0, "{kind}, {robots} robots");
             }

@@ -9,6 +9,7 @@
 //! If a robot stands at each end of the uncovered paths of the leader's node, the robots between one of these ends and the
 //! nearest free node shift by one node each: the condition *MakesRoom*. From there the other end drives the path.
 
+use super::alone::Way;
 use super::rule::Condition;
 use super::team::Kit;
 use super::tether::{Formation, Near, robots};
@@ -32,16 +33,11 @@ struct Lead {
 impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// The part of `robot` in a team of three and more. `None` if nobody has one.
     pub(super) fn together(&self, robot: usize) -> Option<Steps> {
-        let formation = self.formation();
-        let mut nearest = None;
-        for other in 0..ROBOTS {
-            let below = nearest.map_or(u16::MAX, |(drives, _, _)| drives);
-            if let Some(way) = self.alone(other, &formation, below) {
-                nearest = Some((way.drives, other, way.sides));
-            }
-        }
-        if let Some((_, first, sides)) = nearest {
-            return Some(if first == robot { sides } else { Steps::NONE });
+        let formation = self.planned();
+        let ways = core::array::from_fn(|other| self.alone(other, &formation, u16::MAX));
+        if ways.iter().any(Option::is_some) {
+            let sides = self.going_alone(robot, &ways, &formation);
+            return Some(self.admitted(robot, sides));
         }
         if !self.rule.has(Condition::Caravan) {
             return None;
@@ -51,6 +47,29 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         let own = part(robot);
         let is_any = !own.is_empty() || (0..ROBOTS).any(|other| !part(other).is_empty());
         is_any.then_some(own)
+    }
+
+    /// The sides that `robot` takes that has a way alone, as others may have: those with which it makes no longer the way of
+    /// one that has a shorter way.
+    fn going_alone(
+        &self,
+        robot: usize,
+        ways: &[Option<Way>; ROBOTS],
+        formation: &Formation<ROBOTS>,
+    ) -> Steps {
+        let rank = |other: usize| ways[other].map_or((u16::MAX, other), |way| (way.drives, other));
+        let Some(own) = ways[robot] else { return Steps::NONE };
+        let is_first = |other: usize| rank(other) < rank(robot);
+        if !self.rule.has(Condition::Meanwhile) && (0..ROBOTS).any(is_first) {
+            return Steps::NONE;
+        }
+        own.sides.filter(|step| {
+            let after = self.with_robot_at(formation, robot, formation.ends[robot].after(step));
+            let below = |other: usize| rank(other).0.saturating_add(1);
+            (0..ROBOTS)
+                .filter(|&other| is_first(other))
+                .all(|other| self.alone(other, &after, below(other)).is_some())
+        })
     }
 
     /// Who leads: of those nearest to an uncovered side the first. `None` if nobody has a way to one.
@@ -74,7 +93,8 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         if robot == lead.leader {
             let is_goal = |node: Cell| !self.uncovered_by_all(node).is_empty();
             let way = self.way(at, |_, _| true, is_goal, u16::MAX);
-            return self.admitted(robot, way.filter(|_| lead.drives > 0).map_or(Steps::NONE, |way| way.sides));
+            return self
+                .admitted(robot, way.filter(|_| lead.drives > 0).map_or(Steps::NONE, |way| way.sides));
         }
         let now = drives_to(lead.leader, formation, None);
         let is_nearer = |step: Step| {

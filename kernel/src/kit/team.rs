@@ -115,7 +115,8 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             return Err(Refused::OneNode(starts[place]));
         }
         let entered = if taken.is_some() { 1 } else { ROBOTS as u8 };
-        let kit = Self { rule, records: [map; ROBOTS], union: map, robots: starts.map(robot), entered, turn: 0 };
+        let kit =
+            Self { rule, records: [map; ROBOTS], union: map, robots: starts.map(robot), entered, turn: 0 };
         let all = (1_u32 << ROBOTS).wrapping_sub(1) as Set;
         let sure = |one: usize, other: usize| kit.robots[one].stance.is_sure_of(kit.robots[other].stance);
         let [_, apart @ ..] = &sets::<ROBOTS>(all, sure)[..] else { return Err(Refused::Robots(ROBOTS)) };
@@ -246,7 +247,8 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         if ROBOTS > 2 && self.rule.has(Condition::Beside) {
             let at = self.robots[robot].stance.to();
             let unknown = self.uncovered_by_all(at).minus(self.known(SEEN, at));
-            sides = unknown.filter(|step| self.stances().any(|other| other == Stance::Stands(at.after(step))));
+            sides =
+                unknown.filter(|step| self.stances().any(|other| other == Stance::Stands(at.after(step))));
         }
         self.look_at_those_beside(robot, sides, oracle)
     }

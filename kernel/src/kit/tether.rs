@@ -61,8 +61,10 @@ impl Near {
     }
 }
 
-/// Where all robots go, and what is joined with each of these nodes.
+/// Where all robots are and go, and what is joined with the nodes where they go.
+#[derive(Clone, Copy)]
 pub(super) struct Formation<const ROBOTS: usize> {
+    pub(super) stances: [Stance; ROBOTS],
     pub(super) ends: [Cell; ROBOTS],
     pub(super) near: [Near; ROBOTS],
 }
@@ -77,10 +79,7 @@ pub(super) struct Bonds<const ROBOTS: usize> {
 }
 
 /// The sets into which `all` fall, two being together if they are `linked` directly or over others; the rest are empty.
-pub(super) fn sets<const ROBOTS: usize>(
-    all: Set,
-    linked: impl Fn(usize, usize) -> bool,
-) -> [Set; ROBOTS] {
+pub(super) fn sets<const ROBOTS: usize>(all: Set, linked: impl Fn(usize, usize) -> bool) -> [Set; ROBOTS] {
     let mut sets = [0; ROBOTS];
     let mut rest = all;
     for set in &mut sets {
@@ -114,13 +113,34 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         ROBOTS > 2 && self.rule.has(Condition::Tether)
     }
 
-    /// Where all robots go.
+    /// Where all robots are.
     pub(super) fn formation(&self) -> Formation<ROBOTS> {
-        let ends = self.robots.map(|robot| robot.stance.to());
+        let stances = self.robots.map(|robot| robot.stance);
+        let ends = stances.map(Stance::to);
         let near = ends.map(|node| {
             if self.ties() { self.near(node, None) } else { Near { node, within: [HERE; MAX_DRIVES + 1] } }
         });
-        Formation { ends, near }
+        Formation { stances, ends, near }
+    }
+
+    /// Where all robots will stand.
+    pub(super) fn planned(&self) -> Formation<ROBOTS> {
+        let formation = self.formation();
+        Formation { stances: formation.ends.map(Stance::Stands), ..formation }
+    }
+
+    /// This formation with a robot at this node.
+    pub(super) fn with_robot_at(
+        &self,
+        formation: &Formation<ROBOTS>,
+        robot: usize,
+        node: Cell,
+    ) -> Formation<ROBOTS> {
+        let mut after = *formation;
+        after.stances[robot] = Stance::Stands(node);
+        after.ends[robot] = node;
+        after.near[robot] = self.near(node, None);
+        after
     }
 
     /// What is joined with `node` by known paths, and the one that `also` leads over.
@@ -155,11 +175,10 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     pub(super) fn bonds(&self, robot: usize, formation: &Formation<ROBOTS>) -> Bonds<ROBOTS> {
         let entered = (1_u32 << self.entered).wrapping_sub(1) as Set;
         let others = entered & !(1 << robot);
-        let stance = |robot: usize| self.robots[robot].stance;
-        let heard = sets(others, |one, other| self.hears(stance(one), stance(other)));
+        let Formation { stances, ends, near } = formation;
+        let heard = sets(others, |one, other| self.hears(stances[one], stances[other]));
         let mut tied = [0; ROBOTS];
         if self.ties() {
-            let Formation { ends, near } = formation;
             tied = sets(others, |one, other| near[one].has(ends[other]));
             for set in &mut tied {
                 if !robots(*set).any(|other| near[other].has(ends[robot])) {
@@ -173,17 +192,19 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// Whether the conditions let the robot of these bonds be on `path`.
     pub(super) fn lets(&self, bonds: &Bonds<ROBOTS>, formation: &Formation<ROBOTS>, path: Stance) -> bool {
         let (from, to) = (path.from(), path.to());
-        if self.rule.has(Condition::Apart) && self.others(bonds.robot).any(|other| other.has(to)) {
+        let Formation { stances, ends, near } = formation;
+        let is_taken = |(other, stance): (usize, &Stance)| other != bonds.robot && stance.has(to);
+        let entered = stances.iter().take(self.entered.into());
+        if self.rule.has(Condition::Apart) && entered.enumerate().any(is_taken) {
             return false;
         }
-        let is_heard = |set: &Set| robots(*set).any(|other| self.hears(self.robots[other].stance, path));
+        let is_heard = |set: &Set| robots(*set).any(|other| self.hears(stances[other], path));
         if !bonds.heard.iter().all(|set| *set == 0 || is_heard(set)) {
             return false;
         }
         if bonds.tied.iter().all(|&set| set == 0) {
             return true;
         }
-        let Formation { ends, near } = formation;
         let back = Step::ALL.into_iter().find(|&step| to.after(step) == from);
         let is_new = from != to && back.is_some_and(|step| !self.paths(to).has(step));
         let here = is_new.then(|| self.near(to, back));

@@ -53,14 +53,14 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// The sides that `robot`, which stands, can take as its part of a shortest way of the team to an uncovered side: none if
     /// others have to go first. `None` if there is no way.
     pub(super) fn part(&self, robot: usize) -> Option<Steps> {
-        let goes_alone =
-            ROBOTS == 1 || self.rule().has(Condition::Meanwhile) && self.another_drives_a_new_path(robot);
-        if goes_alone && let Some(way) = self.alone(robot, &self.formation(), u16::MAX) {
-            return Some(way.sides);
-        }
+        let alone = || self.alone(robot, &self.formation(), u16::MAX).map(|way| way.sides);
+        let goes_alone = || self.rule().has(Condition::Meanwhile) && self.another_drives_a_new_path(robot);
         match ROBOTS {
-            0 | 1 => None,
-            2 => self.joint(robot).map(|(_, sides)| sides),
+            0 | 1 => alone(),
+            2 => {
+                let sides = if goes_alone() { alone() } else { None };
+                sides.or_else(|| self.joint(robot).map(|(_, sides)| sides))
+            }
             _ => self.together(robot),
         }
     }
@@ -105,12 +105,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     }
 
     /// The single drives from this pair of nodes to the nearest one with an uncovered side.
-    fn joint_length(
-        &self,
-        (place, pair): (usize, Places),
-        admitted: Places,
-        ends: [Cell; 2],
-    ) -> Option<u32> {
+    fn joint_length(&self, (place, pair): (usize, Places), admitted: Places, ends: [Cell; 2]) -> Option<u32> {
         let mut near: Pairs<NODES> = [0; NODES];
         let mut levels = [Level::<NODES>::NONE, Level::NONE];
         let [new, next] = &mut levels;
@@ -173,13 +168,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     }
 
     /// Makes `next` the pairs of nodes that are one drive from those in `new` and not among those `near`.
-    fn spread(
-        &self,
-        new: &Level<NODES>,
-        next: &mut Level<NODES>,
-        near: &Pairs<NODES>,
-        admitted: Places,
-    ) {
+    fn spread(&self, new: &Level<NODES>, next: &mut Level<NODES>, near: &Pairs<NODES>, admitted: Places) {
         next.clear();
         for (place, places) in new.nodes() {
             let node = self.node(place);

@@ -35,18 +35,6 @@ pub(super) enum Demand {
 }
 
 impl Demand {
-    /// Every demand.
-    pub(super) const ALL: [Self; 8] = [
-        Self::Contact,
-        Self::Apart,
-        Self::Moves,
-        Self::Ends,
-        Self::Covers,
-        Self::Marks,
-        Self::Shortens,
-        Self::Whole,
-    ];
-
     pub(super) const fn words(self) -> &'static str {
         match self {
             Self::Contact => "the robots hear each other all the way",
@@ -152,7 +140,8 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     /// This start with each set of free paths between neighbours that just suffices to join all.
     fn joined(&self, world: &World<ROBOTS>) -> Vec<World<ROBOTS>> {
         let ends = Self::ends(world);
-        let is_between = |edge: &Edge| [edge.cell(), edge.cell().beyond(edge.side())].map(|end| ends.contains(&end));
+        let is_between =
+            |edge: &Edge| [edge.cell(), edge.cell().beyond(edge.side())].map(|end| ends.contains(&end));
         let between: Vec<Edge> = self.area.edges().filter(|edge| is_between(edge) == [true, true]).collect();
         let sets = (0_u32..1 << between.len()).filter(|set| set.count_ones() as usize == ROBOTS - 1);
         let with_paths = sets.filter_map(|set| {
@@ -167,7 +156,8 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             while let Some(&from) = reached.get(place) {
                 let is_new = |node: &Cell| ends.contains(node) && !reached.contains(node);
                 let is_open = |side: &Side| truth.edge_has(EdgeMark::Open, Edge::new(from, *side));
-                let beside = Side::ALL.into_iter().filter(is_open).map(|side| from.beyond(side)).filter(is_new);
+                let beside =
+                    Side::ALL.into_iter().filter(is_open).map(|side| from.beyond(side)).filter(is_new);
                 let beside: Vec<Cell> = beside.collect();
                 reached.extend(beside);
                 place += 1;
@@ -247,9 +237,12 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let is_promised = match demand {
             Demand::Shortens => ROBOTS <= 2,
             Demand::Whole => ROBOTS > 2 && self.starts == Starts::SideBySide,
-            Demand::Contact | Demand::Apart | Demand::Moves | Demand::Ends | Demand::Covers | Demand::Marks => {
-                true
-            }
+            Demand::Contact
+            | Demand::Apart
+            | Demand::Moves
+            | Demand::Ends
+            | Demand::Covers
+            | Demand::Marks => true,
         };
         is_promised && self.demand.is_none_or(|wanted| wanted == demand)
     }
