@@ -53,10 +53,16 @@ impl<const ROBOTS: usize> Lattices<ROBOTS> {
         Some(Setting { rule: *rule, area, max_walls, speeds, answers, starts, demand })
     }
 
-    /// Looks at the lattices in their order, until something is broken.
-    fn look(&self, rule: &Rule, demand: Option<Demand>, limits: Limits<'_>) -> Looked<ROBOTS> {
+    /// Looks at these lattices in their order, until something is broken.
+    fn look(
+        &self,
+        rule: &Rule,
+        sizes: &[Size],
+        demand: Option<Demand>,
+        limits: Limits<'_>,
+    ) -> Looked<ROBOTS> {
         let mut looked = Looked { states: 0, is_whole: true, covered: Vec::new(), broken: None };
-        for (number, &(width, height, most)) in (0..).zip(self.sizes) {
+        for (number, &(width, height, most)) in (0..).zip(sizes) {
             // Mostly nothing is broken; where it is, the fewest walls are looked for.
             let all = self.search(rule, (width, height, most), demand, (limits, &mut looked));
             if all.is_none() {
@@ -101,6 +107,57 @@ impl<const ROBOTS: usize> Lattices<ROBOTS> {
         let evidence = looked.broken.map(|(choices, setting, run)| evidence(choices, &setting, &run));
         Answer::new(evidence, looked.is_whole && is_covered, Method::<Rule>::shows(self), looked.states)
     }
+}
+
+/// The smallest run that breaks a clause.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Smallest {
+    /// Columns and rows of its lattice.
+    pub nodes: (i16, i16),
+    /// The most walls that it may meet: with fewer there is none on so many nodes.
+    pub walls: u8,
+    /// Drives.
+    pub drives: usize,
+    /// What happens, a line for each event.
+    pub story: String,
+}
+
+/// The smallest run of so many robots that breaks the clause with this id, on lattices of at most so many columns and rows with
+/// at most so many walls: the fewest nodes, of these the fewest walls, and of these the fewest events. `None` if there is
+/// none, or the clause is not about runs on lattices.
+pub fn smallest<const ROBOTS: usize>(
+    rule: &Rule,
+    clause: &str,
+    (columns, rows): (i16, i16),
+    max_walls: u8,
+) -> Option<Smallest> {
+    let demand = match clause {
+        "KIT-1" | "KIT-2" | "KIT-12" => Demand::Contact,
+        "KIT-3" => Demand::Apart,
+        "KIT-6" => Demand::Moves,
+        "KIT-7" => Demand::Ends,
+        "KIT-8" => Demand::Covers,
+        "KIT-10" => Demand::Marks,
+        "KIT-11" => Demand::Shortens,
+        "KIT-13" => Demand::Whole,
+        _ => return None,
+    };
+    let speeds = if clause == "KIT-2" { Speeds::Equal } else { Speeds::Any };
+    let starts = if clause == "KIT-13" { Starts::SideBySide } else { Starts::Anywhere };
+    let (answers, pass) = (Answers::AnyTime, Pass::Alone);
+    let lattices = Lattices::<ROBOTS> { sizes: &[], speeds, answers, starts, demand, pass, covers: &[] };
+    let sizes = (1..=columns).flat_map(|width| (1..=rows.min(width)).map(move |height| (width, height)));
+    let walls = |(width, height): (i16, i16)| {
+        let edges = width * (height - 1) + height * (width - 1);
+        (width, height, max_walls.min(u8::try_from(edges).unwrap_or(u8::MAX)))
+    };
+    let mut sizes: Vec<Size> = sizes.map(walls).collect();
+    sizes.sort_by_key(|&(width, height, _)| (width * height, height));
+    let (choices, setting, run) = lattices.look(rule, &sizes, Some(demand), Limits::NONE).broken?;
+    let story = story(&setting, &run);
+    let walls = choices.once.get(1).map_or(0, |&walls| walls as u8);
+    let nodes = (setting.area.width() as i16, setting.area.height() as i16);
+    Some(Smallest { nodes, walls, drives: story.matches("drives to").count(), story })
 }
 
 impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
@@ -150,14 +207,14 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
             let key = (self.family(rule), *rule);
             let kept: Result<&(bool, u64, bool, Vec<&'static str>), Refused> =
                 desk.memory.recall(key, |_| {
-                    let looked = self.look(rule, None, limits);
+                    let looked = self.look(rule, self.sizes, None, limits);
                     Ok((looked.broken.is_none(), looked.states, looked.is_whole, looked.covered))
                 });
             if let (true, states, is_whole, covered) = kept?.clone() {
                 return Ok(self.answer(Looked { states, is_whole, covered, broken: None }));
             }
         }
-        Ok(self.answer(self.look(rule, Some(self.demand), limits)))
+        Ok(self.answer(self.look(rule, self.sizes, Some(self.demand), limits)))
     }
 
     fn replay(&self, rule: &Rule, choices: &Choices) -> Result<Played, Unfit> {
@@ -278,6 +335,20 @@ mod tests {
         for walls in [0, 2, 4] {
             all_states::<2>((4, 2, walls), Starts::Anywhere);
         }
+    }
+
+    #[test]
+    fn the_smallest_runs_that_break_the_published_rule() {
+        let of = |clause: &str| {
+            let found = smallest::<2>(&Rule::PUBLISHED, clause, (5, 2), 2)?;
+            Some((found.nodes, found.walls, found.drives))
+        };
+        assert_eq!(of("KIT-1"), Some(((5, 1), 0, 5)));
+        assert_eq!(of("KIT-2"), Some(((5, 2), 2, 7)));
+        assert_eq!(of("KIT-3"), Some(((3, 1), 0, 3)));
+        assert_eq!(of("KIT-6"), Some(((3, 1), 0, 1)));
+        assert_eq!(smallest::<2>(&Rule::REPAIRED, "KIT-1", (3, 1), 2), None);
+        assert_eq!(smallest::<2>(&Rule::PUBLISHED, "KIT-9", (3, 1), 2), None);
     }
 
     #[test]

@@ -208,30 +208,6 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         Found { map: &map, left: [None; ROBOTS] }.distance(Self::ends(world), u8::MAX).is_some()
     }
 
-    /// Whether a side is not covered that paths join to where the robots are. Where they fill all nodes that they have come
-    /// to, none can leave.
-    fn is_left_over(&self, world: &World<ROBOTS>) -> bool {
-        let map = self.found(world);
-        let has = |mark, node: Cell, side: Side| map.edge_has(mark, Edge::new(node, side));
-        let mut reached = Self::ends(world).to_vec();
-        let mut place = 0;
-        let mut unknown = Vec::new();
-        while let Some(&node) = reached.get(place) {
-            for side in Side::ALL {
-                let beyond = node.beyond(side);
-                if has(EdgeMark::Open, node, side) && !reached.contains(&beyond) {
-                    reached.push(beyond);
-                }
-                if !has(EdgeMark::Open, node, side) && !has(EdgeMark::Wall, node, side) {
-                    unknown.push(beyond);
-                }
-            }
-            place += 1;
-        }
-        let is_full = reached.len() == ROBOTS && unknown.iter().all(|node| reached.contains(node));
-        !unknown.is_empty() && !is_full
-    }
-
     /// Whether this is looked at, and promised to so many robots that start so.
     fn is_wanted(&self, demand: Demand) -> bool {
         let is_promised = match demand {
@@ -458,7 +434,10 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         if self.is_wanted(Demand::Covers) && is_short() {
             return Some(Demand::Covers);
         }
-        let is_left_over = || !is_over || self.is_left_over(world);
+        let is_left_over = || {
+            let map = self.found(world);
+            !is_over || Found { map: &map, left: [None; ROBOTS] }.is_left_over(Self::ends(world))
+        };
         (self.is_wanted(Demand::Whole) && is_left_over()).then_some(Demand::Whole)
     }
 }
