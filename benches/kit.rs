@@ -22,7 +22,7 @@ fn drives(layout: &Layout, starts: &[Cell]) -> u64 {
 fn runs(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("kit");
     group.sample_size(10);
-    for (side, robots) in [(5, 2), (15, 2), (15, 3), (32, 2), (32, 8)] {
+    for (side, robots) in [(5, 2), (15, 2), (15, 3), (32, 2), (32, 8), (64, 2), (64, 8)] {
         let generator: Generator = format!("walls:{side}x{side}:0.1").parse().expect("a generator");
         let layout = generator.generate(0).expect("a layout");
         let starts = starts(&layout, layout.default_base().expect("a free cell"), robots);

@@ -1,5 +1,5 @@
 //! KIT, Keep In Touch (Peiris, Al-Jumaily and Jiang): robots on a lattice of nodes 3 m apart, which drive every path between two nodes and keep
-//! radio contact of 10 m. Clauses: KIT-1 … KIT-12.
+//! radio contact of 10 m. Clauses: KIT-1 … KIT-13.
 //!
 //! [`Kit`] is a team as a plain value: what each robot has recorded, and where each is. [`Kit::decide`] begins a decision
 //! and says at which side the robot looks; [`Kit::looked`] takes what it sees, until it drives, stays, or is done;
@@ -8,12 +8,16 @@
 //! its own, as far as it was told, and tells by [`Message`]s; [`Talk`] says when it sends which.
 
 mod admitted;
+mod alone;
+mod around;
+mod caravan;
 mod message;
 mod refused;
 mod rule;
 mod stance;
 mod talk;
 mod team;
+mod tether;
 mod ways;
 
 pub use message::{Damaged, FIELDS, Message};

@@ -7,3 +7,5 @@ mod pairs;
 mod plain;
 mod talks;
 mod world;
+
+pub use lattices::{Smallest, smallest};

@@ -335,3 +335,65 @@ pub fn starts(layout: &Layout, base: Cell, robots: usize) -> Vec<Cell> {
     }
     starts
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::layout::Generator;
+
+    /// Runs a team in layouts of this kind; the drives, and how many runs end before every path is driven, or not at all.
+    fn runs(rule: Rule, kind: &str, robots: usize, seeds: std::ops::Range<u64>) -> (usize, usize) {
+        let generator: Generator = kind.parse().expect("a generator");
+        let (mut drives, mut ended) = (0, 0);
+        for seed in seeds {
+            let layout = generator.generate(seed).expect("a layout");
+            let base = layout.default_base().expect("a free cell");
+            let starts = starts(&layout, base, robots);
+            if starts.len() < robots {
+                continue;
+            }
+            let due = paths(&layout, base);
+            let pace = Pace { spread: 100, ..Pace::STEADY };
+            let mut course = course(rule, &layout, &starts, pace, seed).expect("a team");
+            let mut made = 0;
+            while course.drive().is_some() && made < 200 * due.len() + 200 {
+                made += 1;
+            }
+            assert!(course.apart() <= REACH_MILLIMETRES.pow(2), "{kind}, seed {seed}: out of contact");
+            drives += made;
+            let nodes: std::collections::BTreeSet<Cell> =
+                due.iter().flat_map(|path| [path.cell(), path.cell().beyond(path.side())]).collect();
+            let is_whole = course.is_over() && course.driven().len() == due.len();
+            ended += usize::from(!is_whole && nodes.len() > robots);
+        }
+        (drives, ended)
+    }
+
+    #[test]
+    fn three_robots_and_more_drive_every_path() {
+        for robots in [3, 4, 8] {
+            for kind in ["walls:5x4:0.2", "walls:9x3:0.4", "walls:8x8:0.1", "walls:10x2:0.2"] {
+                let (drives, ended) = runs(Rule::REPAIRED, kind, robots, 0..20);
+                assert_eq!(ended, 0, "{kind}, {robots} robots, {drives} drives");
+            }
+        }
+    }
+
+    #[test]
+    fn robots_that_radio_alone_binds_leave_paths_undriven() {
+        let (_, ended) = runs(Rule::REPAIRED.without(Condition::Tether), "walls:15x15:0.3", 3, 0..40);
+        assert!(ended > 0);
+    }
+
+    #[test]
+    #[ignore = "takes minutes: cargo test --release -p tautline-sim -- --ignored --nocapture thousands_of_teams"]
+    fn thousands_of_teams_drive_every_path() {
+        for kind in ["walls:5x4:0.2", "walls:9x3:0.4", "walls:15x15:0.1", "walls:15x15:0.3"] {
+            for robots in [3, 4, 8] {
+                let (drives, ended) = runs(Rule::REPAIRED, kind, robots, 0..1000);
+                println!("{kind}, {robots} robots: {drives} drives, {ended} of 1000 not whole");
+                assert_eq!(ended, 0, "{kind}, {robots} robots");
+            }
+        }
+    }
+}

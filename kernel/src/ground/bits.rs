@@ -212,6 +212,14 @@ impl<P: Plane> Grid for BitGrid<P> {
         }
     }
 
+    fn add_edges(&mut self, other: &Self) {
+        for (own, others) in self.edges.iter_mut().zip(&other.edges) {
+            for (own, other) in own.iter_mut().zip(others) {
+                *own = own.or(other);
+            }
+        }
+    }
+
     fn clear_edges(&mut self, mark: EdgeMark) {
         let (width, height) = (self.area.width(), self.area.height());
         // A side is a wall unless the cells on both sides of it are in the area.

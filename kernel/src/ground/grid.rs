@@ -66,6 +66,16 @@ pub trait Grid {
     }
     /// Puts `mark` on `edge`; no effect on or beyond the border.
     fn put_edge(&mut self, mark: EdgeMark, edge: Edge);
+    /// Puts every mark on an edge that it carries in `other`, a grid of the same area.
+    fn add_edges(&mut self, other: &Self) {
+        for edge in self.area().edges() {
+            for mark in [EdgeMark::Wall, EdgeMark::Open, EdgeMark::Virtual] {
+                if other.edge_has(mark, edge) {
+                    self.put_edge(mark, edge);
+                }
+            }
+        }
+    }
     /// Takes `mark` off every edge inside the area.
     fn clear_edges(&mut self, mark: EdgeMark);
     /// Whether no cell of the area is left unexplored.

@@ -1,26 +1,47 @@
 //! What a team of robots knows of its map, and which drives the conditions admit.
 
-use super::rule::{Condition, Records};
-use super::stance::{Stance, in_reach};
+use super::rule::Records;
+use super::stance::Stance;
 use super::team::Kit;
-use crate::ground::{Cell, EdgeMark, Grid, Step, Steps};
+use crate::ground::{Cell, Edge, EdgeMark, Grid, Step, Steps};
+
+/// A path that was seen free from one end to a robot at the other, and that nobody has driven. It is the third mark that a
+/// grid has for edges; robots of a chain use it for virtual obstacles.
+pub(super) const SEEN: EdgeMark = EdgeMark::Virtual;
 
 /// What is known, and what is admitted.
 impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// This team with other records, as they were kept or told.
     #[must_use]
-    pub const fn with_records(mut self, records: [G; ROBOTS]) -> Self
+    pub fn with_records(mut self, records: [G; ROBOTS]) -> Self
     where
         G: Copy,
     {
         self.records = records;
+        self.union = records[0];
+        for record in &records[1..] {
+            self.union.add_edges(record);
+        }
         self
+    }
+
+    /// What is recorded of a side from now on.
+    pub(super) fn record(&mut self, robot: usize, mark: EdgeMark, edge: Edge) {
+        self.records[robot].put_edge(mark, edge);
+        self.union.put_edge(mark, edge);
     }
 
     /// The sides of `node` that carry `mark` in any record.
     #[inline]
     pub fn known(&self, mark: EdgeMark, node: Cell) -> Steps {
-        self.records.iter().fold(Steps::NONE, |sides, record| sides.or(record.sides(mark, node)))
+        self.union.sides(mark, node)
+    }
+
+    /// The sides of `node` that are known to be open: driven, or seen free by robots at both ends.
+    #[inline]
+    pub(super) fn paths(&self, node: Cell) -> Steps {
+        let driven = self.union.sides(EdgeMark::Open, node);
+        if ROBOTS > 2 { driven.or(self.union.sides(SEEN, node)) } else { driven }
     }
 
     /// The sides of `node` that count as covered for `robot`, or are known to be blocked.
@@ -41,6 +62,13 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         Steps::ALL.without(Step::Stay).minus(self.covered(robot, node))
     }
 
+    /// The sides of `node` that nobody has covered.
+    #[inline]
+    pub fn uncovered_by_all(&self, node: Cell) -> Steps {
+        let known = self.known(EdgeMark::Open, node).or(self.known(EdgeMark::Wall, node));
+        Steps::ALL.without(Step::Stay).minus(known)
+    }
+
     /// Where the others are that have entered.
     pub(super) fn others(&self, robot: usize) -> impl Iterator<Item = Stance> + Clone {
         self.stances().enumerate().filter(move |&(other, _)| other != robot).map(|(_, stance)| stance)
@@ -58,54 +86,16 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 
     /// Whether the conditions let `robot` take this step from where it stands.
     pub fn admits(&self, robot: usize, step: Step) -> bool {
-        let Some(Stance::Stands(from)) = self.stance(robot) else { return false };
-        self.admits_path(robot, Stance::Drives { from, to: from.after(step) })
+        !self.admitted(robot, Steps::only(step)).is_empty()
     }
 
-    /// Whether the conditions let `robot` be on `path`, the others being where they are.
-    pub(super) fn admits_path(&self, robot: usize, path: Stance) -> bool {
-        if self.rule.has(Condition::Apart) && self.others(robot).any(|other| other.has(path.to())) {
-            return false;
-        }
-        let entered = (1_u32 << self.entered).wrapping_sub(1) as u16;
-        let hears = |one: Stance, other: Stance| {
-            let next = in_reach(one.to(), other.to());
-            let from = in_reach(one.from(), other.to())
-                && in_reach(one.to(), other.from())
-                && in_reach(one.from(), other.from());
-            (next || !self.rule.has(Condition::NextInReach))
-                && (from || !self.rule.has(Condition::FromInReach))
+    /// Those of the steps that the conditions let `robot` take from where it stands.
+    pub(super) fn admitted(&self, robot: usize, steps: Steps) -> Steps {
+        let Some(Stance::Stands(from)) = self.stance(robot).filter(|_| !steps.is_empty()) else {
+            return Steps::NONE;
         };
-        let mut stances = self.robots.map(|robot| robot.stance);
-        if let Some(stance) = stances.get_mut(robot) {
-            *stance = path;
-        }
-        is_connected(&stances, entered, hears)
-    }
-
-    pub(super) fn is_connected(&self, set: u16, hears: impl Fn(Stance, Stance) -> bool) -> bool {
-        is_connected(&self.robots.map(|robot| robot.stance), set, hears)
-    }
-}
-
-/// Whether the robots of `set`, a bit for each, are connected, two of them directly if they hear each other.
-fn is_connected<const ROBOTS: usize>(
-    stances: &[Stance; ROBOTS],
-    set: u16,
-    hears: impl Fn(Stance, Stance) -> bool,
-) -> bool {
-    let mut reached = set & set.wrapping_neg();
-    loop {
-        let mut wider = reached;
-        for (robot, &stance) in stances.iter().enumerate() {
-            let is_near = |(other, &near): (usize, &Stance)| reached >> other & 1 == 1 && hears(near, stance);
-            if set >> robot & 1 == 1 && stances.iter().enumerate().any(is_near) {
-                wider |= 1 << robot;
-            }
-        }
-        if wider == reached {
-            return reached == set;
-        }
-        reached = wider;
+        let formation = self.formation();
+        let bonds = self.bonds(robot, &formation);
+        steps.filter(|step| self.lets(&bonds, &formation, Stance::Drives { from, to: from.after(step) }))
     }
 }

@@ -26,11 +26,22 @@ pub enum Condition {
     Flags,
     /// Repair: a request without an answer is repeated, and numbered so that what comes late or twice does no harm.
     Repeats,
+    /// Repair, of three robots and more: a robot looks at an unknown side where another one stands. If it sees that one, the
+    /// path is known to be free.
+    Beside,
+    /// Repair, of three robots and more: those that known paths within one field of nodes join, directly or over others, stay
+    /// so.
+    Tether,
+    /// Repair, of three robots and more: where none can come to an uncovered side alone, the nearest to one leads and the
+    /// others draw together behind it.
+    Caravan,
+    /// Repair, of three robots and more: where both ends of an uncovered path are taken, robots shift to a free node.
+    MakesRoom,
 }
 
 impl Condition {
     /// Every condition.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 14] = [
         Self::NextInReach,
         Self::FromInReach,
         Self::Apart,
@@ -41,6 +52,10 @@ impl Condition {
         Self::Meanwhile,
         Self::Flags,
         Self::Repeats,
+        Self::Beside,
+        Self::Tether,
+        Self::Caravan,
+        Self::MakesRoom,
     ];
 }
 

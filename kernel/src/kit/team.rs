@@ -1,8 +1,10 @@
 //! A team of robots that keep in touch: their records, where they are, and whose turn it is (Peiris, sections 3 and 4).
 
+use super::admitted::SEEN;
 use super::refused::{NotNow, Refused};
 use super::rule::{Condition, Fallback, Filter, Rule, Runs};
 use super::stance::Stance;
+use super::tether::{Set, sets};
 use crate::choice::Oracle;
 use crate::ground::{Cell, Edge, EdgeMark, Grid, Side, Step, Steps};
 
@@ -38,6 +40,8 @@ pub enum Sight {
 enum Why {
     /// It leads straight on.
     Ahead,
+    /// Another robot stands there, and nobody knows whether the path is free.
+    Beside,
     /// It is uncovered.
     Uncovered,
     /// It was driven before.
@@ -75,6 +79,8 @@ pub struct Kit<G, const ROBOTS: usize, const NODES: usize> {
     pub(super) rule: Rule,
     /// What each has driven ([`EdgeMark::Open`]) and seen blocked ([`EdgeMark::Wall`]).
     pub(super) records: [G; ROBOTS],
+    /// What any of them has recorded.
+    pub(super) union: G,
     pub(super) robots: [Robot; ROBOTS],
     /// Robots that have entered. Of those that start at one node each enters when the one before has left.
     pub(super) entered: u8,
@@ -109,9 +115,12 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             return Err(Refused::OneNode(starts[place]));
         }
         let entered = if taken.is_some() { 1 } else { ROBOTS as u8 };
-        let kit = Self { rule, records: [map; ROBOTS], robots: starts.map(robot), entered, turn: 0 };
-        let all = (1_u16 << (ROBOTS - 1) << 1).wrapping_sub(1);
-        if kit.is_connected(all, Stance::is_sure_of) { Ok(kit) } else { Err(Refused::OutOfContact) }
+        let kit =
+            Self { rule, records: [map; ROBOTS], union: map, robots: starts.map(robot), entered, turn: 0 };
+        let all = (1_u32 << ROBOTS).wrapping_sub(1) as Set;
+        let sure = |one: usize, other: usize| kit.robots[one].stance.is_sure_of(kit.robots[other].stance);
+        let [_, apart @ ..] = &sets::<ROBOTS>(all, sure)[..] else { return Err(Refused::Robots(ROBOTS)) };
+        if apart.iter().all(|&set| set == 0) { Ok(kit) } else { Err(Refused::OutOfContact) }
     }
 
     /// Its rule.
@@ -174,7 +183,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         let heading = self.robots[robot].heading;
         Ok(match heading {
             Some(ahead) if self.rule.runs == Runs::Ahead => self.look(robot, ahead, Steps::NONE, Why::Ahead),
-            Some(_) | None => self.keep_in_touch(robot, oracle),
+            Some(_) | None => self.look_beside(robot, oracle),
         })
     }
 
@@ -188,10 +197,10 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         };
         let from = self.robots[robot].stance.to();
         let edge = Edge::new(from, side);
-        if sight == Sight::Free {
+        if sight == Sight::Free && why != Why::Beside {
             let to = from.beyond(side);
             let is_new = !self.known(EdgeMark::Open, from).has(Step::Cross(side));
-            self.records[robot].put_edge(EdgeMark::Open, edge);
+            self.record(robot, EdgeMark::Open, edge);
             self.robots[robot] =
                 Robot { stance: Stance::Drives { from, to }, task: Task::None, heading: Some(side), is_new };
             if usize::from(self.entered) < ROBOTS {
@@ -202,11 +211,16 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         }
         self.robots[robot].task = Task::None;
         if sight == Sight::Obstacle && self.rule.has(Condition::Marked) {
-            self.records[robot].put_edge(EdgeMark::Wall, edge);
+            self.record(robot, EdgeMark::Wall, edge);
+            self.tell_of_change(robot);
+        }
+        if sight != Sight::Obstacle && why == Why::Beside {
+            self.record(robot, SEEN, edge);
             self.tell_of_change(robot);
         }
         Ok(match why {
-            Why::Ahead => self.keep_in_touch(robot, oracle),
+            Why::Ahead => self.look_beside(robot, oracle),
+            Why::Beside => self.look_at_those_beside(robot, left, oracle),
             Why::Uncovered => self.take_uncovered(robot, left, oracle),
             Why::Old => self.regroup(robot, left, oracle),
             Why::Fallback => self.fall_back(robot, left, oracle),
@@ -227,11 +241,31 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 
 /// How a robot decides.
 impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
+    /// First the sides at which other robots stand, if it is unknown whether they are free.
+    fn look_beside(&mut self, robot: usize, oracle: &mut dyn Oracle) -> Next {
+        let mut sides = Steps::NONE;
+        if ROBOTS > 2 && self.rule.has(Condition::Beside) {
+            let at = self.robots[robot].stance.to();
+            let unknown = self.uncovered_by_all(at).minus(self.known(SEEN, at));
+            sides =
+                unknown.filter(|step| self.stances().any(|other| other == Stance::Stands(at.after(step))));
+        }
+        self.look_at_those_beside(robot, sides, oracle)
+    }
+
+    /// The sides that are `left` at which other robots stand.
+    fn look_at_those_beside(&mut self, robot: usize, left: Steps, oracle: &mut dyn Oracle) -> Next {
+        match left.iter().next() {
+            Some(Step::Cross(side)) => self.look(robot, side, left, Why::Beside),
+            Some(Step::Stay) | None => self.keep_in_touch(robot, oracle),
+        }
+    }
+
     /// The KIT algorithm, from the uncovered sides on.
     fn keep_in_touch(&mut self, robot: usize, oracle: &mut dyn Oracle) -> Next {
         let sides = self.uncovered(robot, self.robots[robot].stance.to());
         let admitted = match self.rule.filter {
-            Filter::Everywhere => sides.filter(|step| self.admits(robot, step)),
+            Filter::Everywhere => self.admitted(robot, sides),
             Filter::OldPaths => sides,
         };
         self.take_uncovered(robot, admitted, oracle)

@@ -1,14 +1,14 @@
 //! The clauses of KIT, in the order of `SPEC.md`.
 
 use tautline_kernel::kit::Condition::{
-    Apart, Flags, FromInReach, Marked, NextInReach, Regroup, Repeats, Stays, Turn,
+    Apart, Beside, Caravan, Flags, FromInReach, MakesRoom, Marked, NextInReach, Regroup, Repeats, Stays, Turn,
 };
 use tautline_kernel::kit::{Answers as Answering, Filter, Records, Rule, Runs};
 
 use super::lattices::{Lattices, Pass, Size};
 use super::pairs::{self, Sure};
 use super::talks::{self, Talks};
-use super::world::{Answers, Demand, Speeds};
+use super::world::{Answers, Demand, Speeds, Starts};
 use crate::clause::{Check, Clause, Named};
 use crate::decide::{EveryState, Verdict};
 use crate::step_checks;
@@ -30,6 +30,10 @@ const OLD_PATHS: Named<Rule> =
     Named::new("old paths alone are filtered", Rule { filter: Filter::OldPaths, ..Rule::REPAIRED });
 const OTHERS: Named<Rule> =
     Named::new("the other's record alone counts", Rule { records: Records::Others, ..Rule::REPAIRED });
+const NO_LOOK_BESIDE: Named<Rule> =
+    Named::new("neighbours are not looked at", Rule::REPAIRED.without(Beside));
+const NO_CARAVAN: Named<Rule> = Named::new("each goes alone", Rule::REPAIRED.without(Caravan));
+const NO_ROOM: Named<Rule> = Named::new("nobody makes room", Rule::REPAIRED.without(MakesRoom));
 const AHEAD: Rule = Rule { runs: Runs::Ahead, ..Rule::PUBLISHED };
 
 step_checks! { Sure;
@@ -61,14 +65,17 @@ const SMALL: [Size; 6] = [(2, 1, 1), (3, 1, 2), (2, 2, 4), (4, 1, 3), (5, 1, 4),
 /// Those for three robots.
 const THREE: [Size; 4] = [(2, 2, 4), (4, 1, 3), (5, 1, 4), (6, 1, 1)];
 
+/// Those for three robots that start side by side.
+const BESIDE: [Size; 4] = [(2, 2, 4), (4, 1, 3), (5, 1, 4), (3, 2, 2)];
+
 /// What a run of the published rule does before it goes wrong.
 const ANY: [&str; 0] = [];
 /// What happens in the runs of the repaired rule.
 const ALL: [&str; 5] = ["a new path", "a stay", "an arrival", "an old path", "done"];
 
 const fn published(demand: Demand) -> Lattices<2> {
-    let (speeds, answers) = (Speeds::Any, Answers::AnyTime);
-    Lattices { sizes: &LINES, speeds, answers, demand, pass: Pass::Alone, covers: &ANY }
+    let (speeds, answers, starts) = (Speeds::Any, Answers::AnyTime, Starts::Anywhere);
+    Lattices { sizes: &LINES, speeds, answers, starts, demand, pass: Pass::Alone, covers: &ANY }
 }
 
 const fn repaired(demand: Demand) -> Lattices<2> {
@@ -76,8 +83,13 @@ const fn repaired(demand: Demand) -> Lattices<2> {
 }
 
 const fn three(demand: Demand) -> Lattices<3> {
-    let (speeds, answers) = (Speeds::Any, Answers::AnyTime);
-    Lattices { sizes: &THREE, speeds, answers, demand, pass: Pass::Alone, covers: &ALL }
+    let (speeds, answers, starts) = (Speeds::Any, Answers::AnyTime, Starts::Anywhere);
+    Lattices { sizes: &THREE, speeds, answers, starts, demand, pass: Pass::Alone, covers: &ALL }
+}
+
+const fn side_by_side(demand: Demand) -> Lattices<3> {
+    let (sizes, starts, pass) = (&BESIDE, Starts::SideBySide, Pass::Together);
+    Lattices { sizes, starts, pass, ..three(demand) }
 }
 
 const AT_EQUAL_SPEEDS: Lattices<2> =
@@ -118,7 +130,7 @@ fn words(lost: u8, doubled: u8) -> String {
 }
 
 /// The clauses.
-pub static CLAUSES: [Clause; 12] = [
+pub static CLAUSES: [Clause; 13] = [
     Clause {
         id: "KIT-1",
         sentence: "Two robots MUST hear each other all the time, at whatever speeds they drive.",
@@ -211,6 +223,7 @@ pub static CLAUSES: [Clause; 12] = [
         checks: &[
             &Check::new(PUBLISHED, &published(Demand::Ends), Verdict::Refuted, &[]),
             &Check::new(REPAIRED, &repaired(Demand::Ends), Verdict::Holds, &[NO_STAY]),
+            &Check::new(REPAIRED, &side_by_side(Demand::Ends), Verdict::Holds, &[]),
         ],
     },
     Clause {
@@ -256,6 +269,17 @@ pub static CLAUSES: [Clause; 12] = [
             &three(Demand::Contact),
             Verdict::Holds,
             &[NO_NEXT, NO_FROM, OLD_PATHS],
+        )],
+    },
+    Clause {
+        id: "KIT-13",
+        sentence: "Three robots and more that start side by side MUST drive, or see blocked, every side of every node that \
+                   paths join to their starts, unless they fill all of these nodes; and every robot MUST know it.",
+        checks: &[&Check::new(
+            REPAIRED,
+            &side_by_side(Demand::Whole),
+            Verdict::Holds,
+            &[NO_LOOK_BESIDE, NO_CARAVAN, NO_ROOM],
         )],
     },
 ];

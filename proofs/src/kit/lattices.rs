@@ -4,7 +4,7 @@
 use tautline_kernel::ground::{Area, Cell, Side};
 use tautline_kernel::kit::{Next, Rule, Sight};
 
-use super::world::{Answers, Demand, Event, Setting, Speeds, World};
+use super::world::{Answers, Demand, Event, Setting, Speeds, Starts, World};
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
 use crate::engine::states::{END, Limits, Run, search};
 use crate::engine::{Choices, Script, Unfit, Until, cover};
@@ -19,6 +19,7 @@ pub(super) struct Lattices<const ROBOTS: usize> {
     pub(super) sizes: &'static [Size],
     pub(super) speeds: Speeds,
     pub(super) answers: Answers,
+    pub(super) starts: Starts,
     pub(super) demand: Demand,
     /// Whether other clauses are about the same teams, so that one pass answers all.
     pub(super) pass: Pass,
@@ -48,14 +49,20 @@ impl<const ROBOTS: usize> Lattices<ROBOTS> {
     fn setting(&self, rule: &Rule, size: Size, demand: Option<Demand>) -> Option<Setting<ROBOTS>> {
         let (width, height, max_walls) = size;
         let area = Area::new(Cell::new(0, 0), Cell::new(width - 1, height - 1))?;
-        let Self { speeds, answers, .. } = *self;
-        Some(Setting { rule: *rule, area, max_walls, speeds, answers, demand })
+        let Self { speeds, answers, starts, .. } = *self;
+        Some(Setting { rule: *rule, area, max_walls, speeds, answers, starts, demand })
     }
 
-    /// Looks at the lattices in their order, until something is broken.
-    fn look(&self, rule: &Rule, demand: Option<Demand>, limits: Limits<'_>) -> Looked<ROBOTS> {
+    /// Looks at these lattices in their order, until something is broken.
+    fn look(
+        &self,
+        rule: &Rule,
+        sizes: &[Size],
+        demand: Option<Demand>,
+        limits: Limits<'_>,
+    ) -> Looked<ROBOTS> {
         let mut looked = Looked { states: 0, is_whole: true, covered: Vec::new(), broken: None };
-        for (number, &(width, height, most)) in (0..).zip(self.sizes) {
+        for (number, &(width, height, most)) in (0..).zip(sizes) {
             // Mostly nothing is broken; where it is, the fewest walls are looked for.
             let all = self.search(rule, (width, height, most), demand, (limits, &mut looked));
             if all.is_none() {
@@ -102,6 +109,57 @@ impl<const ROBOTS: usize> Lattices<ROBOTS> {
     }
 }
 
+/// The smallest run that breaks a clause.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Smallest {
+    /// Columns and rows of its lattice.
+    pub nodes: (i16, i16),
+    /// The most walls that it may meet: with fewer there is none on so many nodes.
+    pub walls: u8,
+    /// Drives.
+    pub drives: usize,
+    /// What happens, a line for each event.
+    pub story: String,
+}
+
+/// The smallest run of so many robots that breaks the clause with this id, on lattices of at most so many columns and rows with
+/// at most so many walls: the fewest nodes, of these the fewest walls, and of these the fewest events. `None` if there is
+/// none, or the clause is not about runs on lattices.
+pub fn smallest<const ROBOTS: usize>(
+    rule: &Rule,
+    clause: &str,
+    (columns, rows): (i16, i16),
+    max_walls: u8,
+) -> Option<Smallest> {
+    let demand = match clause {
+        "KIT-1" | "KIT-2" | "KIT-12" => Demand::Contact,
+        "KIT-3" => Demand::Apart,
+        "KIT-6" => Demand::Moves,
+        "KIT-7" => Demand::Ends,
+        "KIT-8" => Demand::Covers,
+        "KIT-10" => Demand::Marks,
+        "KIT-11" => Demand::Shortens,
+        "KIT-13" => Demand::Whole,
+        _ => return None,
+    };
+    let speeds = if clause == "KIT-2" { Speeds::Equal } else { Speeds::Any };
+    let starts = if clause == "KIT-13" { Starts::SideBySide } else { Starts::Anywhere };
+    let (answers, pass) = (Answers::AnyTime, Pass::Alone);
+    let lattices = Lattices::<ROBOTS> { sizes: &[], speeds, answers, starts, demand, pass, covers: &[] };
+    let sizes = (1..=columns).flat_map(|width| (1..=rows.min(width)).map(move |height| (width, height)));
+    let walls = |(width, height): (i16, i16)| {
+        let edges = width * (height - 1) + height * (width - 1);
+        (width, height, max_walls.min(u8::try_from(edges).unwrap_or(u8::MAX)))
+    };
+    let mut sizes: Vec<Size> = sizes.map(walls).collect();
+    sizes.sort_by_key(|&(width, height, _)| (width * height, height));
+    let (choices, setting, run) = lattices.look(rule, &sizes, Some(demand), Limits::NONE).broken?;
+    let story = story(&setting, &run);
+    let walls = choices.once.get(1).map_or(0, |&walls| walls as u8);
+    let nodes = (setting.area.width() as i16, setting.area.height() as i16);
+    Some(Smallest { nodes, walls, drives: story.matches("drives to").count(), story })
+}
+
 impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
     fn engine(&self) -> &'static str {
         "states"
@@ -129,13 +187,17 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
             Answers::AnyTime => "",
             Answers::AtOnce => ", answered at once",
         };
-        format!("all layouts of {} nodes, all starts, {robots}, {speeds}{answers}", sizes.join(", "))
+        let starts = match self.starts {
+            Starts::Anywhere => "all starts",
+            Starts::SideBySide => "all starts side by side",
+        };
+        format!("all layouts of {} nodes, {starts}, {robots}, {speeds}{answers}", sizes.join(", "))
     }
 
     fn family(&self, rule: &Rule) -> Option<String> {
-        let Self { sizes, speeds, answers, .. } = self;
+        let Self { sizes, speeds, answers, starts, .. } = self;
         (self.pass == Pass::Together)
-            .then(|| format!("kit {ROBOTS} {sizes:?} {speeds:?} {answers:?} {rule:?}"))
+            .then(|| format!("kit {ROBOTS} {sizes:?} {speeds:?} {answers:?} {starts:?} {rule:?}"))
     }
 
     /// The choices are the numbers of the lattice, of the most walls, of the start, and of the steps.
@@ -145,14 +207,14 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
             let key = (self.family(rule), *rule);
             let kept: Result<&(bool, u64, bool, Vec<&'static str>), Refused> =
                 desk.memory.recall(key, |_| {
-                    let looked = self.look(rule, None, limits);
+                    let looked = self.look(rule, self.sizes, None, limits);
                     Ok((looked.broken.is_none(), looked.states, looked.is_whole, looked.covered))
                 });
             if let (true, states, is_whole, covered) = kept?.clone() {
                 return Ok(self.answer(Looked { states, is_whole, covered, broken: None }));
             }
         }
-        Ok(self.answer(self.look(rule, Some(self.demand), limits)))
+        Ok(self.answer(self.look(rule, self.sizes, Some(self.demand), limits)))
     }
 
     fn replay(&self, rule: &Rule, choices: &Choices) -> Result<Played, Unfit> {
@@ -160,7 +222,7 @@ impl<const ROBOTS: usize> Method<Rule> for Lattices<ROBOTS> {
         let (width, height, most) = self.sizes[script.choose(self.sizes.len())?];
         let walls = script.choose(usize::from(most) + 1)? as u8;
         let setting = self.setting(rule, (width, height, walls), Some(self.demand)).ok_or(Unfit::Unbroken)?;
-        let starts: Vec<World<ROBOTS>> = setting.starts().collect();
+        let starts: Vec<World<ROBOTS>> = setting.starts();
         let number = script.choose(starts.len())?;
         let (of, run) = script.play(&setting, (number, starts[number]), |&demand| demand == self.demand)?;
         Ok(Played { of, evidence: evidence(choices.clone(), &setting, &run) })
@@ -175,7 +237,7 @@ fn evidence<const ROBOTS: usize>(choices: Choices, setting: &Setting<ROBOTS>, ru
 fn story<const ROBOTS: usize>(setting: &Setting<ROBOTS>, run: &Run<Demand>) -> String {
     let (width, height) = (setting.area.width(), setting.area.height());
     let mut lines = format!("{width}×{height} nodes, 3 m apart\n");
-    let Some(mut world) = setting.starts().nth(run.start) else { return lines };
+    let Some(mut world) = setting.starts().into_iter().nth(run.start) else { return lines };
     let starts = (0..ROBOTS).filter_map(|robot| Some((robot + 1, world.team.stance(robot)?.to())));
     let starts: Vec<String> = starts.map(|(robot, node)| format!("R{robot} starts at {node}")).collect();
     lines += &starts.join(", ");
@@ -235,12 +297,13 @@ mod tests {
 
     use super::*;
 
-    /// All states of two robots that follow the repaired rule on one lattice: none breaks anything.
-    fn all_states(size: Size) {
-        let lattices = Lattices::<2> {
+    /// All states of robots that follow the repaired rule on one lattice: none breaks anything.
+    fn all_states<const ROBOTS: usize>(size: Size, starts: Starts) {
+        let lattices = Lattices::<ROBOTS> {
             sizes: &[],
             speeds: Speeds::Any,
             answers: Answers::AnyTime,
+            starts,
             demand: Demand::Contact,
             pass: Pass::Together,
             covers: &[],
@@ -262,7 +325,7 @@ mod tests {
     #[ignore = "takes minutes: cargo test --release -p tautline-proofs -- --ignored --nocapture two_robots_keep"]
     fn two_robots_keep_every_promise_on_three_by_three_nodes() {
         for walls in [0, 1] {
-            all_states((3, 3, walls));
+            all_states::<2>((3, 3, walls), Starts::Anywhere);
         }
     }
 
@@ -270,7 +333,27 @@ mod tests {
     #[ignore = "takes minutes: cargo test --release -p tautline-proofs -- --ignored --nocapture two_robots_keep"]
     fn two_robots_keep_every_promise_in_two_rows_of_four_nodes() {
         for walls in [0, 2, 4] {
-            all_states((4, 2, walls));
+            all_states::<2>((4, 2, walls), Starts::Anywhere);
         }
+    }
+
+    #[test]
+    fn the_smallest_runs_that_break_the_published_rule() {
+        let of = |clause: &str| {
+            let found = smallest::<2>(&Rule::PUBLISHED, clause, (5, 2), 2)?;
+            Some((found.nodes, found.walls, found.drives))
+        };
+        assert_eq!(of("KIT-1"), Some(((5, 1), 0, 5)));
+        assert_eq!(of("KIT-2"), Some(((5, 2), 2, 7)));
+        assert_eq!(of("KIT-3"), Some(((3, 1), 0, 3)));
+        assert_eq!(of("KIT-6"), Some(((3, 1), 0, 1)));
+        assert_eq!(smallest::<2>(&Rule::REPAIRED, "KIT-1", (3, 1), 2), None);
+        assert_eq!(smallest::<2>(&Rule::PUBLISHED, "KIT-9", (3, 1), 2), None);
+    }
+
+    #[test]
+    #[ignore = "takes a minute: cargo test --release -p tautline-proofs -- --ignored --nocapture three_robots_side"]
+    fn three_robots_side_by_side_keep_every_promise_in_two_rows_of_three_nodes() {
+        all_states::<3>((3, 2, 7), Starts::SideBySide);
     }
 }

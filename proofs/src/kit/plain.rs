@@ -86,6 +86,29 @@ impl<const ROBOTS: usize> Found<'_, ROBOTS> {
         }
         None
     }
+
+    /// Whether a side is neither driven nor known to be blocked that driven paths join to where the robots are. Where they fill
+    /// all nodes that they have come to, none can leave.
+    pub(super) fn is_left_over(&self, cells: [Cell; ROBOTS]) -> bool {
+        let mut reached = cells.to_vec();
+        let mut unknown = Vec::new();
+        let mut place = 0;
+        while let Some(&node) = reached.get(place) {
+            for side in Side::ALL {
+                let beyond = node.beyond(side);
+                if self.is_driven(node, side) {
+                    if !reached.contains(&beyond) {
+                        reached.push(beyond);
+                    }
+                } else if !self.map.edge_has(EdgeMark::Wall, Edge::new(node, side)) {
+                    unknown.push(beyond);
+                }
+            }
+            place += 1;
+        }
+        let is_full = reached.len() == ROBOTS && unknown.iter().all(|node| reached.contains(node));
+        !unknown.is_empty() && !is_full
+    }
 }
 
 #[cfg(test)]

@@ -314,4 +314,15 @@ mod tests {
             assert!(found.is_whole && found.broken.is_empty(), "{:?}", found.broken);
         }
     }
+
+    #[test]
+    #[ignore = "takes minutes: cargo test --release -p tautline-proofs -- --ignored --nocapture lost_and_one"]
+    fn robust_robots_survive_one_message_lost_and_one_that_comes_twice() {
+        for demand in [Demand::Answered, Demand::Fresh] {
+            let talks = Talks { rule: Rule::ROBUST, demand, max_lost: 1, max_doubled: 1 };
+            let found = search(&talks, [talks.start()], Limits::NONE);
+            println!("{demand:?}: {} states", found.states);
+            assert!(found.is_whole && found.broken.is_empty(), "{:?}", found.broken);
+        }
+    }
 }

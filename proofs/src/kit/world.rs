@@ -30,6 +30,8 @@ pub(super) enum Demand {
     Marks,
     /// KIT-11
     Shortens,
+    /// KIT-13
+    Whole,
 }
 
 impl Demand {
@@ -42,8 +44,18 @@ impl Demand {
             Self::Covers => "the run is over with every side within reach covered, and all know it",
             Self::Marks => "the sides that are driven or seen blocked count as covered, and no others",
             Self::Shortens => "a drive over an old path brings the team nearer to an uncovered side",
+            Self::Whole => "the run is over with every side covered that paths join to the starts",
         }
     }
+}
+
+/// Where robots start.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Starts {
+    /// At any nodes that the rule lets them start at.
+    Anywhere,
+    /// Each beside another one, and free paths between them join all.
+    SideBySide,
 }
 
 /// How fast robots are.
@@ -73,6 +85,7 @@ pub(super) struct Setting<const ROBOTS: usize> {
     pub(super) max_walls: u8,
     pub(super) speeds: Speeds,
     pub(super) answers: Answers,
+    pub(super) starts: Starts,
     /// The one demand that is looked at; all if there is none.
     pub(super) demand: Option<Demand>,
 }
@@ -116,9 +129,47 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         Some(World { team, truth: map, walls: 0, fresh: 0, first: 0 })
     }
 
-    /// Every start: all robots at one node where they may be there and nobody takes turns, since then one enters after the
-    /// other; else each at a node of its own.
-    pub(super) fn starts(&self) -> impl Iterator<Item = World<ROBOTS>> {
+    /// Every start.
+    pub(super) fn starts(&self) -> Vec<World<ROBOTS>> {
+        match self.starts {
+            Starts::Anywhere => self.placed().collect(),
+            Starts::SideBySide => self.placed().flat_map(|world| self.joined(&world)).collect(),
+        }
+    }
+
+    /// This start with each set of free paths between neighbours that just suffices to join all.
+    fn joined(&self, world: &World<ROBOTS>) -> Vec<World<ROBOTS>> {
+        let ends = Self::ends(world);
+        let is_between =
+            |edge: &Edge| [edge.cell(), edge.cell().beyond(edge.side())].map(|end| ends.contains(&end));
+        let between: Vec<Edge> = self.area.edges().filter(|edge| is_between(edge) == [true, true]).collect();
+        let sets = (0_u32..1 << between.len()).filter(|set| set.count_ones() as usize == ROBOTS - 1);
+        let with_paths = sets.filter_map(|set| {
+            let mut truth = world.truth;
+            for (number, &edge) in between.iter().enumerate() {
+                if set >> number & 1 == 1 {
+                    truth.put_edge(EdgeMark::Open, edge);
+                }
+            }
+            let mut reached = vec![ends[0]];
+            let mut place = 0;
+            while let Some(&from) = reached.get(place) {
+                let is_new = |node: &Cell| ends.contains(node) && !reached.contains(node);
+                let is_open = |side: &Side| truth.edge_has(EdgeMark::Open, Edge::new(from, *side));
+                let beside =
+                    Side::ALL.into_iter().filter(is_open).map(|side| from.beyond(side)).filter(is_new);
+                let beside: Vec<Cell> = beside.collect();
+                reached.extend(beside);
+                place += 1;
+            }
+            (reached.len() == ROBOTS).then_some(World { truth, ..*world })
+        });
+        with_paths.collect()
+    }
+
+    /// The robots in all places: all at one node where they may be there and nobody takes turns, since then one enters after
+    /// the other; else each at a node of its own.
+    fn placed(&self) -> impl Iterator<Item = World<ROBOTS>> {
         let nodes: Vec<Cell> = self.area.cells().collect();
         let enters_one_by_one = !self.rule.has(Condition::Turn) && !self.rule.has(Condition::Apart);
         let of = nodes.len();
@@ -157,8 +208,19 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         Found { map: &map, left: [None; ROBOTS] }.distance(Self::ends(world), u8::MAX).is_some()
     }
 
+    /// Whether this is looked at, and promised to so many robots that start so.
     fn is_wanted(&self, demand: Demand) -> bool {
-        self.demand.is_none_or(|wanted| wanted == demand)
+        let is_promised = match demand {
+            Demand::Shortens => ROBOTS <= 2,
+            Demand::Whole => ROBOTS > 2 && self.starts == Starts::SideBySide,
+            Demand::Contact
+            | Demand::Apart
+            | Demand::Moves
+            | Demand::Ends
+            | Demand::Covers
+            | Demand::Marks => true,
+        };
+        is_promised && self.demand.is_none_or(|wanted| wanted == demand)
     }
 }
 
@@ -264,18 +326,11 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     /// Where all records count, it does not matter who has driven a path.
     fn settled(&self, mut world: World<ROBOTS>) -> World<ROBOTS> {
         if self.rule.records == Records::Union {
-            let mut records = *world.team.records();
-            let blank = TinyGrid::new(self.area).unwrap_or(records[0]);
-            let mut all = blank;
-            for edge in self.area.edges() {
-                for mark in [EdgeMark::Open, EdgeMark::Wall] {
-                    if records.iter().any(|record| record.edge_has(mark, edge)) {
-                        all.put_edge(mark, edge);
-                    }
-                }
+            let blank = TinyGrid::new(self.area).unwrap_or(world.truth);
+            let mut records = [blank; ROBOTS];
+            for record in world.team.records() {
+                records[0].add_edges(record);
             }
-            records = [blank; ROBOTS];
-            records[0] = all;
             world.team = world.team.with_records(records);
         }
         world
@@ -376,7 +431,14 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             return Some(Demand::Moves);
         }
         let is_short = || !is_over || self.is_owed(world);
-        (self.is_wanted(Demand::Covers) && is_short()).then_some(Demand::Covers)
+        if self.is_wanted(Demand::Covers) && is_short() {
+            return Some(Demand::Covers);
+        }
+        let is_left_over = || {
+            let map = self.found(world);
+            !is_over || Found { map: &map, left: [None; ROBOTS] }.is_left_over(Self::ends(world))
+        };
+        (self.is_wanted(Demand::Whole) && is_left_over()).then_some(Demand::Whole)
     }
 }
 

@@ -1,0 +1,251 @@
+//! What binds a robot to the others, who stay where they go: it hears them at any speeds (KIT-1, KIT-12), and in a team of
+//! three and more known paths join it with them (KIT-13). The second one is the condition *Tether*, which is ours.
+//!
+//! A *field* is 3×3 nodes, 4×2, or 2×4: any two nodes of a field are in reach. Two robots are *tied* if known paths within one
+//! field join their nodes. So a robot that comes nearer to one that it is tied to, along such paths, is in contact with
+//! it all the way; radio alone, through a wall, promises no way back.
+
+use super::around::{HERE, IN_REACH, Places, at_offset, bit, offsets, place_of};
+use super::rule::Condition;
+use super::stance::{Stance, in_reach};
+use super::team::Kit;
+use crate::ground::{Cell, Grid, Side, Step};
+
+/// Robots, a bit for each.
+pub(super) type Set = u16;
+
+/// Drives that lead to any node of a field over paths within it, at most.
+const MAX_DRIVES: usize = 8;
+
+/// The fields that have the node in the middle.
+const FIELDS: [Places; 25] = {
+    let mut fields = [0; 25];
+    let sizes = [(3, 3), (4, 2), (2, 4)];
+    let mut number = 0;
+    let mut size = 0;
+    while size < sizes.len() {
+        let (columns, rows): (i16, i16) = sizes[size];
+        let mut corner = 0;
+        while corner < columns * rows {
+            let mut place = 0;
+            while place < columns * rows {
+                let column = place % columns - corner % columns;
+                fields[number] |= 1 << bit(column, place / columns - corner / columns);
+                place += 1;
+            }
+            corner += 1;
+            number += 1;
+        }
+        size += 1;
+    }
+    fields
+};
+
+/// The nodes that known paths within one field join with a node.
+#[derive(Clone, Copy)]
+pub(super) struct Near {
+    node: Cell,
+    /// Those at most so many drives away.
+    within: [Places; MAX_DRIVES + 1],
+}
+
+impl Near {
+    /// The drives to `node`, if it is joined.
+    pub(super) fn drives(&self, node: Cell) -> Option<u32> {
+        let place = place_of(self.node, node)?;
+        self.within.iter().position(|nodes| nodes & place != 0).map(|drives| drives as u32)
+    }
+
+    fn has(&self, node: Cell) -> bool {
+        place_of(self.node, node).is_some_and(|place| self.within[MAX_DRIVES] & place != 0)
+    }
+}
+
+/// Where all robots are and go, and what is joined with the nodes where they go.
+#[derive(Clone, Copy)]
+pub(super) struct Formation<const ROBOTS: usize> {
+    pub(super) stances: [Stance; ROBOTS],
+    pub(super) ends: [Cell; ROBOTS],
+    pub(super) near: [Near; ROBOTS],
+}
+
+/// What binds one robot to the others.
+pub(super) struct Bonds<const ROBOTS: usize> {
+    robot: usize,
+    /// Of those that hear each other without it, it has to hear one of each set.
+    heard: [Set; ROBOTS],
+    /// Of those that are tied to each other without it, it has to stay tied to one of each set.
+    tied: [Set; ROBOTS],
+}
+
+/// The sets into which `all` fall, two being together if they are `linked` directly or over others; the rest are empty.
+pub(super) fn sets<const ROBOTS: usize>(all: Set, linked: impl Fn(usize, usize) -> bool) -> [Set; ROBOTS] {
+    let mut sets = [0; ROBOTS];
+    let mut rest = all;
+    for set in &mut sets {
+        let mut new = rest & rest.wrapping_neg();
+        while new != 0 {
+            let one = new.trailing_zeros() as usize;
+            new &= new.wrapping_sub(1);
+            *set |= 1 << one;
+            rest &= !(1 << one);
+            for other in robots(rest & !new) {
+                new |= Set::from(linked(one, other)) << other;
+            }
+        }
+    }
+    sets
+}
+
+/// The numbers of the robots of a set.
+pub(super) fn robots(set: Set) -> impl Iterator<Item = usize> {
+    let mut rest = set;
+    core::iter::from_fn(move || {
+        let robot = rest.trailing_zeros() as usize;
+        rest &= rest.wrapping_sub(1);
+        (robot < 16).then_some(robot)
+    })
+}
+
+impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
+    /// Whether robots have to stay tied.
+    fn ties(&self) -> bool {
+        ROBOTS > 2 && self.rule.has(Condition::Tether)
+    }
+
+    /// Where all robots are.
+    pub(super) fn formation(&self) -> Formation<ROBOTS> {
+        let stances = self.robots.map(|robot| robot.stance);
+        let ends = stances.map(Stance::to);
+        let near = ends.map(|node| {
+            if self.ties() { self.near(node, None) } else { Near { node, within: [HERE; MAX_DRIVES + 1] } }
+        });
+        Formation { stances, ends, near }
+    }
+
+    /// Where all robots will stand.
+    pub(super) fn planned(&self) -> Formation<ROBOTS> {
+        let formation = self.formation();
+        Formation { stances: formation.ends.map(Stance::Stands), ..formation }
+    }
+
+    /// This formation with a robot at this node.
+    pub(super) fn with_robot_at(
+        &self,
+        formation: &Formation<ROBOTS>,
+        robot: usize,
+        node: Cell,
+    ) -> Formation<ROBOTS> {
+        let mut after = *formation;
+        after.stances[robot] = Stance::Stands(node);
+        after.ends[robot] = node;
+        after.near[robot] = self.near(node, None);
+        after
+    }
+
+    /// What is joined with `node` by known paths, and the one that `also` leads over.
+    pub(super) fn near(&self, node: Cell, also: Option<Step>) -> Near {
+        let (mut east, mut south): (Places, Places) = (0, 0);
+        for offset in offsets(IN_REACH | HERE) {
+            let paths = self.paths(at_offset(node, offset));
+            let place = 1 << bit(offset.0, offset.1);
+            east |= if paths.has(Step::Cross(Side::East)) { place } else { 0 };
+            south |= if paths.has(Step::Cross(Side::South)) { place } else { 0 };
+        }
+        match also {
+            Some(Step::Cross(Side::East)) => east |= HERE,
+            Some(Step::Cross(Side::South)) => south |= HERE,
+            Some(Step::Cross(Side::West)) => east |= HERE >> 1,
+            Some(Step::Cross(Side::North)) => south |= HERE >> 8,
+            Some(Step::Stay) | None => {}
+        }
+        let mut within = [HERE; MAX_DRIVES + 1];
+        for field in FIELDS {
+            let mut joined = HERE;
+            for nodes in &mut within[1..] {
+                let along = (joined & east) << 1 | joined >> 1 & east;
+                joined |= (along | (joined & south) << 8 | joined >> 8 & south) & field;
+                *nodes |= joined;
+            }
+        }
+        Near { node, within }
+    }
+
+    /// What binds `robot` to the others of this formation.
+    pub(super) fn bonds(&self, robot: usize, formation: &Formation<ROBOTS>) -> Bonds<ROBOTS> {
+        let entered = (1_u32 << self.entered).wrapping_sub(1) as Set;
+        let others = entered & !(1 << robot);
+        let Formation { stances, ends, near } = formation;
+        let heard = sets(others, |one, other| self.hears(stances[one], stances[other]));
+        let mut tied = [0; ROBOTS];
+        if self.ties() {
+            tied = sets(others, |one, other| near[one].has(ends[other]));
+            for set in &mut tied {
+                if !robots(*set).any(|other| near[other].has(ends[robot])) {
+                    *set = 0;
+                }
+            }
+        }
+        Bonds { robot, heard, tied }
+    }
+
+    /// Whether the conditions let the robot of these bonds be on `path`.
+    pub(super) fn lets(&self, bonds: &Bonds<ROBOTS>, formation: &Formation<ROBOTS>, path: Stance) -> bool {
+        let (from, to) = (path.from(), path.to());
+        let Formation { stances, ends, near } = formation;
+        let is_taken = |(other, stance): (usize, &Stance)| other != bonds.robot && stance.has(to);
+        let entered = stances.iter().take(self.entered.into());
+        if self.rule.has(Condition::Apart) && entered.enumerate().any(is_taken) {
+            return false;
+        }
+        let is_heard = |set: &Set| robots(*set).any(|other| self.hears(stances[other], path));
+        if !bonds.heard.iter().all(|set| *set == 0 || is_heard(set)) {
+            return false;
+        }
+        if bonds.tied.iter().all(|&set| set == 0) {
+            return true;
+        }
+        let back = Step::ALL.into_iter().find(|&step| to.after(step) == from);
+        let is_new = from != to && back.is_some_and(|step| !self.paths(to).has(step));
+        let here = is_new.then(|| self.near(to, back));
+        let is_tied = |other: usize| match &here {
+            Some(here) => here.has(ends[other]),
+            None => near[other].has(to),
+        };
+        bonds.tied.iter().all(|&set| set == 0 || robots(set).any(is_tied))
+    }
+
+    /// Whether robots with these stances count as sure to hear each other.
+    fn hears(&self, one: Stance, other: Stance) -> bool {
+        let next = in_reach(one.to(), other.to());
+        let from = in_reach(one.from(), other.to())
+            && in_reach(one.to(), other.from())
+            && in_reach(one.from(), other.from());
+        (next || !self.rule.has(Condition::NextInReach)) && (from || !self.rule.has(Condition::FromInReach))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_two_nodes_of_a_field_are_in_reach() {
+        for field in FIELDS {
+            assert!(field & HERE != 0);
+            for one in offsets(field) {
+                for other in offsets(field) {
+                    let [one, other] = [one, other].map(|offset| at_offset(Cell::new(0, 0), offset));
+                    assert!(in_reach(one, other), "{one} {other}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn robots_fall_into_sets_of_those_that_are_linked() {
+        let linked = |one: usize, other: usize| one.abs_diff(other) == 2;
+        assert_eq!(sets::<5>(0b11111, linked), [0b10101, 0b01010, 0, 0, 0]);
+        assert_eq!(sets::<5>(0b11011, linked), [0b00001, 0b01010, 0b10000, 0, 0]);
+    }
+}
