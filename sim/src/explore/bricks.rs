@@ -9,9 +9,10 @@ use tautline_proofs::words::counted;
 
 use super::agents::{AGENTS, PREMATURE, UNVISITED, missed, start};
 use super::run::TeamMove;
-use super::setup::{Clause, Judge, Profile, Quarry, Rule, Setup};
+use super::setup::{Clause, Judge, Profile, Rule, Setup};
 use super::stage::Knowledge;
 use super::survey::Survey;
+use super::traps::Traps;
 
 const PUBLISHED: Way = Way::Bricks(Bricks::PUBLISHED);
 const REPAIRED: Way = Way::Bricks(Bricks::REPAIRED);
@@ -22,8 +23,8 @@ pub static BRICKS: Profile = Profile {
     name: "bricks",
     about: "Brick&Mortar: agents on a sensor floor that mark cells as visited until none is left",
     rules: &[
-        Rule::published(|setup| Ok(start(setup, PUBLISHED)), Quarry::Traps(PUBLISHED)),
-        Rule::repaired(|setup| Ok(start(setup, REPAIRED)), Quarry::Traps(REPAIRED)),
+        Rule::published(|setup| Ok(start(setup, PUBLISHED)), &Traps(PUBLISHED)),
+        Rule::repaired(|setup| Ok(start(setup, REPAIRED)), &Traps(REPAIRED)),
     ],
     ..MARKING
 };
@@ -32,7 +33,7 @@ pub static BRICKS: Profile = Profile {
 pub static BRICKS_ANTS: Profile = Profile {
     name: "bricks-ants",
     about: "Brick&Mortar with ants' ways, robust against missed sensors",
-    rules: &[Rule::repaired(|setup| Ok(start(setup, ROBUST)), Quarry::Traps(ROBUST))],
+    rules: &[Rule::repaired(|setup| Ok(start(setup, ROBUST)), &Traps(ROBUST))],
     ..MARKING
 };
 

@@ -5,10 +5,9 @@ use std::ops::RangeInclusive;
 
 use serde::{Serialize, Serializer};
 use tautline_kernel::ground::Cell;
-use tautline_proofs::chain::Observed;
-use tautline_proofs::floor::trap::Way;
 
 use super::clause::ClauseId;
+use super::hunt::Hunt;
 use super::rule::RuleId;
 use super::run::{Limits, Team, TeamMove};
 use super::stage::{Knowledge, Look, Stage};
@@ -52,7 +51,7 @@ pub struct Rule {
     /// The team of a setup at its start.
     pub start: Start,
     /// How it is hunted, if it is.
-    pub hunt: Option<Quarry>,
+    pub hunt: Option<&'static dyn Hunt>,
 }
 
 /// The team of a setup at its start.
@@ -60,24 +59,15 @@ pub type Start = fn(&Setup) -> Result<Box<dyn Team>, Fault>;
 
 impl Rule {
     /// As the paper publishes it.
-    pub const fn published(start: Start, hunt: Quarry) -> Self {
+    pub const fn published(start: Start, hunt: &'static dyn Hunt) -> Self {
         Self { name: RuleId::PUBLISHED, about: "As the paper publishes it", start, hunt: Some(hunt) }
     }
 
     /// With the repairs of its refuted claims.
-    pub const fn repaired(start: Start, hunt: Quarry) -> Self {
+    pub const fn repaired(start: Start, hunt: &'static dyn Hunt) -> Self {
         let about = "With the repairs of its refuted claims";
         Self { name: RuleId::REPAIRED, about, start, hunt: Some(hunt) }
     }
-}
-
-/// What is sought in a hunt for layouts in which a team breaks a clause.
-#[derive(Clone, Copy, Debug)]
-pub enum Quarry {
-    /// All layouts, decided wall by wall as the team of this subject meets them.
-    Walls(Observed),
-    /// All small layouts, and the fewest missed sensors that trap agents of this way.
-    Traps(Way),
 }
 
 /// Where the robots of a team start.
