@@ -20,6 +20,7 @@ use tautline_sim::draw::story;
 use tautline_sim::explore::hunt::{Asked, Far, Hunted, Hunter, Quarry, Shown};
 use tautline_sim::explore::{Misfit, Profile, RuleId, Senses};
 use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::reading::real;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -27,7 +28,9 @@ Examples:
   tautline hunt --rule repaired --robots 4 --max-walls 4 --format json
   tautline hunt --robots 5 --max-walls 8 --budget 100000000 --resume hunt.json
   tautline hunt --scheme bricks --max-misses 2
-  tautline hunt --scheme bricks-ants --max-misses 2 --size 3x3";
+  tautline hunt --scheme bricks-ants --max-misses 2 --size 3x3
+  tautline hunt --scheme frontier --rule published --robots 2 --size 3x1
+  tautline hunt --scheme frontier --robots 2 --size 3x3 --max-losses 1";
 
 /// Search all layouts with few walls for runs that break a clause, and store the smallest.
 ///
@@ -52,6 +55,12 @@ pub(super) struct Hunt {
     /// Most sensors that agents miss in one run, 1 unless this says otherwise.
     #[arg(long, value_name = "K", value_parser = number::<u8>)]
     max_misses: Option<u8>,
+    /// Most messages that are lost in one run of robots that explore cells, 0 unless this says otherwise.
+    #[arg(long, value_name = "K", value_parser = number::<u8>)]
+    max_losses: Option<u8>,
+    /// How many cells a fix is off in one run of robots that explore cells: 0 unless this says otherwise, or 1.
+    #[arg(long, value_name = "CELLS", value_parser = real)]
+    error: Option<f64>,
     /// Columns and rows of a chain's layouts, the base in the middle; without it the (2N−1)x(2N−1) cells in reach. Of
     /// agents' layouts the most columns and rows, 4x4 without it; at most 16 cells.
     #[arg(long, value_name = "WxH")]
@@ -191,6 +200,8 @@ impl Hunt {
             budget: self.budget,
             max_walls: self.max_walls,
             max_misses: self.max_misses,
+            max_losses: self.max_losses,
+            error_cells: self.error,
             resume: self.resume.as_deref(),
         }
     }

@@ -16,7 +16,7 @@ pub(crate) enum Colour {
 }
 
 /// The fields of a request that have a flag of the same name.
-const FIELDS: [&str; 14] = [
+const FIELDS: [&str; 21] = [
     "robots",
     "base",
     "size",
@@ -31,6 +31,13 @@ const FIELDS: [&str; 14] = [
     "moves",
     "scheme",
     "budget",
+    "max-losses",
+    "error",
+    "range",
+    "loss",
+    "noise-db",
+    "threshold",
+    "rule",
 ];
 
 /// `words` with the flags of the fields that they name.

@@ -9,6 +9,7 @@ pub mod catalogue;
 pub mod chain;
 mod clause;
 pub mod floor;
+pub mod frontier;
 pub mod hunt;
 pub mod kit;
 mod misfit;
@@ -27,7 +28,7 @@ pub use self::rule::{RuleId, RuleName};
 pub use self::run::{
     End, Limits, Milestone, OnViolation, Report, Stopped, Team, TeamMove, Violation, Watcher, run,
 };
-pub use self::setup::{Clause, Judge, Profile, Rule, Senses, Setup, Start, Starts};
+pub use self::setup::{Clause, Extra, Judge, Profile, Rule, Senses, Setup, Start, Starts};
 pub use self::stage::{Knowledge, Look, Play, Stage};
 pub use self::survey::Survey;
 

@@ -9,12 +9,13 @@ use super::ants::ANTS;
 use super::bricks::{BRICKS, BRICKS_ANTS};
 use super::chain::CHAIN;
 use super::clause::ClauseId;
+use super::frontier::FRONTIER;
 use super::kit::KIT;
 use super::rule::RuleId;
 use super::setup::{Profile, Rule, Senses};
 
 /// Every scheme that this program knows.
-pub const SCHEMES: &[&Profile] = &[&CHAIN, &ANTS, &BRICKS, &BRICKS_ANTS, &KIT];
+pub const SCHEMES: &[&Profile] = &[&CHAIN, &ANTS, &BRICKS, &BRICKS_ANTS, &KIT, &FRONTIER];
 
 /// The scheme with this name.
 pub fn scheme(name: &str) -> Option<&'static Profile> {

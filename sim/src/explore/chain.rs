@@ -35,6 +35,7 @@ pub static CHAIN: Profile = Profile {
     robots: 2..=MAX_ROBOTS,
     starts: Starts::Base,
     senses: Senses::Bumps,
+    extras: &[],
     look: Look::Linked {
         is_lost: |from, to| Breach::Contact.is_in(from, to) || Breach::Coverage.is_in(from, to),
     },

@@ -48,6 +48,10 @@ pub enum Bound {
     Walls,
     /// The most sensors that are missed in one run.
     Misses,
+    /// The most messages that are lost in one run.
+    Losses,
+    /// How far a fix may be off.
+    Error,
     /// The file in which the hunt is kept.
     Resume,
 }
@@ -58,6 +62,8 @@ impl Bound {
         match self {
             Self::Walls => "max-walls",
             Self::Misses => "max-misses",
+            Self::Losses => "max-losses",
+            Self::Error => "error",
             Self::Resume => "resume",
         }
     }
@@ -80,6 +86,10 @@ pub struct Asked<'a> {
     pub max_walls: Option<u32>,
     /// [`Bound::Misses`]
     pub max_misses: Option<u8>,
+    /// [`Bound::Losses`]
+    pub max_losses: Option<u8>,
+    /// [`Bound::Error`], in cells.
+    pub error_cells: Option<f64>,
     /// [`Bound::Resume`]
     pub resume: Option<&'a Path>,
 }
@@ -93,6 +103,8 @@ impl Asked<'_> {
         let given = [
             (Bound::Walls, self.max_walls.is_some()),
             (Bound::Misses, self.max_misses.is_some()),
+            (Bound::Losses, self.max_losses.is_some()),
+            (Bound::Error, self.error_cells.is_some()),
             (Bound::Resume, self.resume.is_some()),
         ];
         let refused = given.into_iter().find(|(bound, is_given)| *is_given && !hunt.takes().contains(bound));

@@ -42,10 +42,13 @@ impl Hunt for Traps {
                 "agents know every wall: no number of walls bounds their search",
                 "give `max-misses` for the sensors, and `size` for the layouts",
             ),
-            Bound::Misses | Bound::Resume => (
+            Bound::Resume => (
                 "a hunt for traps is not kept in a file",
                 "leave `resume` out; a smaller `size` or `budget` makes it shorter",
             ),
+            Bound::Misses | Bound::Losses | Bound::Error => {
+                ("agents send no messages and need no fixes", "give `max-misses` for the sensors")
+            }
         };
         (what.to_owned(), remedy.to_owned())
     }

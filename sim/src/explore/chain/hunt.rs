@@ -36,8 +36,13 @@ impl Hunt for Walls {
         &[Bound::Walls, Bound::Resume]
     }
 
-    fn refusal(&self, _: Bound) -> (String, String) {
-        let what = "the robots of a chain have no floor sensors to miss";
+    fn refusal(&self, bound: Bound) -> (String, String) {
+        let what = match bound {
+            Bound::Losses | Bound::Error => "a hunt of chains loses no messages and has no wrong fixes",
+            Bound::Walls | Bound::Misses | Bound::Resume => {
+                "the robots of a chain have no floor sensors to miss"
+            }
+        };
         (what.to_owned(), "give `max-walls`, or `scheme` ants, bricks or bricks-ants".to_owned())
     }
 
