@@ -7,9 +7,8 @@ use tautline_proofs::course::Course;
 use tautline_proofs::decide::{Evidence, Seen};
 use tautline_proofs::run::Run;
 
-use tautline_sim::counterexample::hunt;
 use tautline_sim::draw;
-use tautline_sim::explore::{ClauseId, RuleName, Setup, catalogue};
+use tautline_sim::explore::{ClauseId, RuleName, Setup, catalogue, hunt};
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::words::Worded;
 

@@ -27,7 +27,9 @@ use tautline_sim::explore::{
     Starts, Stopped, Violation, Watcher, explore, team,
 };
 use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::frontier::Options;
 use tautline_sim::layout::generate::Probability;
+use tautline_sim::reading::real;
 use tautline_sim::{draw, trace};
 
 const EXAMPLES: &str = "\
@@ -62,6 +64,18 @@ pub(super) struct Explore {
     /// How likely it is that an agent misses a sensor, from 0 to 1. Without it 0.
     #[arg(long, value_name = "PROBABILITY", value_parser = probability, allow_hyphen_values = true)]
     miss: Option<Probability>,
+    /// How many cells a message of robots that explore cells is heard; without it all hear it.
+    #[arg(long, value_name = "CELLS", value_parser = whole::<u16>)]
+    range: Option<u16>,
+    /// How likely it is that such a message is lost, from 0 to 1. Without it 0.
+    #[arg(long, value_name = "PROBABILITY", value_parser = probability, allow_hyphen_values = true)]
+    loss: Option<Probability>,
+    /// The noise of the signals by which robots that explore cells find their positions, in decibels. Without it 0.
+    #[arg(long, value_name = "DECIBELS", value_parser = real, allow_hyphen_values = true)]
+    noise_db: Option<f64>,
+    /// Below which occupancy probability a cell is a candidate, from 0 to 1. Without it 0.5.
+    #[arg(long, value_name = "PROBABILITY", value_parser = real, allow_hyphen_values = true)]
+    threshold: Option<f64>,
     /// Stop when a robot has entered so many cells.
     #[arg(long, value_name = "CELLS", value_parser = positive)]
     max_moves: Option<NonZeroU32>,
@@ -168,11 +182,31 @@ impl Explore {
         let starts = match (self.scheme.starts, starts.len()) {
             (_, 0) => self.scheme.default_starts(self.rule, &layout, base, robots),
             (Starts::Anywhere | Starts::Beside, 1) => None,
-            (Starts::Base | Starts::Anywhere | Starts::Beside, _) => Some(starts),
+            (Starts::Base | Starts::Anywhere | Starts::Beside | Starts::Alone, _) => Some(starts),
         };
         let (scheme, rule, seed) = (self.scheme, self.rule, self.layout.seed());
-        let missed = Vec::new();
-        let setup = Setup { scheme, rule, robots, seed, layout, base, starts, miss, missed, limits };
+        let (missed, choices) = (Vec::new(), Vec::new());
+        let usual = Options::default();
+        let options = Options {
+            range_cells: self.range,
+            loss: self.loss.unwrap_or(usual.loss),
+            noise_db: self.noise_db.unwrap_or(usual.noise_db),
+            threshold: self.threshold.unwrap_or(usual.threshold),
+        };
+        let setup = Setup {
+            scheme,
+            rule,
+            robots,
+            seed,
+            layout,
+            base,
+            starts,
+            miss,
+            missed,
+            options,
+            choices,
+            limits,
+        };
         setup.check()?;
         Ok(setup)
     }

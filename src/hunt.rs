@@ -1,37 +1,26 @@
 //! `tautline hunt`: all layouts within a bound, until something breaks.
 
-mod trap;
-
 use std::fmt::Write;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use clap::Args;
-use serde::Serialize;
-use tautline_proofs::chain::Observed;
-use tautline_proofs::chain::search::{Bounds, Found};
+use indicatif::ProgressBar;
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
 use tautline_proofs::decide::Verdict;
-use tautline_proofs::engine::tree::Progress;
-use tautline_proofs::words::counted;
 
 use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, SizeArg, interrupt, number, progress, whole};
 use crate::{chosen, report};
 use tautline_sim::aside::Aside;
-use tautline_sim::counterexample::hunt;
-use tautline_sim::counterexample::hunt::Saved;
-use tautline_sim::draw;
-use tautline_sim::explore::{Misfit, Profile, Quarry, RuleId, Setup};
+use tautline_sim::counterexample::hunt::store;
+use tautline_sim::draw::story;
+use tautline_sim::explore::hunt::{Asked, Far, Hunted, Hunter, Quarry, Shown};
+use tautline_sim::explore::{Misfit, Profile, RuleId, Senses};
 use tautline_sim::fault::{Fault, Halt};
-
-/// How often a hunt is kept in its file.
-const KEEP_EVERY: Duration = Duration::from_secs(5);
-
-/// Robots of a chain when nobody says how many.
-const DEFAULT_ROBOTS: u64 = 4;
-
-/// Walls when nobody says how many.
-const DEFAULT_WALLS: u32 = 4;
+use tautline_sim::reading::real;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -39,7 +28,9 @@ Examples:
   tautline hunt --rule repaired --robots 4 --max-walls 4 --format json
   tautline hunt --robots 5 --max-walls 8 --budget 100000000 --resume hunt.json
   tautline hunt --scheme bricks --max-misses 2
-  tautline hunt --scheme bricks-ants --max-misses 2 --size 3x3";
+  tautline hunt --scheme bricks-ants --max-misses 2 --size 3x3
+  tautline hunt --scheme frontier --rule published --robots 2 --size 3x1
+  tautline hunt --scheme frontier --robots 2 --size 3x3 --max-losses 1";
 
 /// Search all layouts with few walls for runs that break a clause, and store the smallest.
 ///
@@ -64,6 +55,12 @@ pub(super) struct Hunt {
     /// Most sensors that agents miss in one run, 1 unless this says otherwise.
     #[arg(long, value_name = "K", value_parser = number::<u8>)]
     max_misses: Option<u8>,
+    /// Most messages that are lost in one run of robots that explore cells, 0 unless this says otherwise.
+    #[arg(long, value_name = "K", value_parser = number::<u8>)]
+    max_losses: Option<u8>,
+    /// How many cells a fix is off in one run of robots that explore cells: 0 unless this says otherwise, or 1.
+    #[arg(long, value_name = "CELLS", value_parser = real)]
+    error: Option<f64>,
     /// Columns and rows of a chain's layouts, the base in the middle; without it the (2N−1)x(2N−1) cells in reach. Of
     /// agents' layouts the most columns and rows, 4x4 without it; at most 16 cells.
     #[arg(long, value_name = "WxH")]
@@ -83,157 +80,170 @@ pub(super) struct Hunt {
     format: FormatArgs,
 }
 
-#[derive(Serialize)]
-struct Hunted {
-    scheme: &'static Profile,
-    rule: RuleId,
-    robots: u64,
-    runs: u64,
-    moves: u64,
-    /// Team moves of the longest run.
-    longest: u32,
-    max_walls: u32,
-    /// Whether every layout within the bound was covered.
-    complete: bool,
-    /// The most walls up to which every layout was covered.
-    walls_done: Option<u32>,
-    verdict: &'static str,
-    /// Where the hunt is kept, if that was asked for.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    kept: Option<String>,
-    counterexamples: Vec<Stored>,
+/// What came of a hunt, and where its counterexamples stand.
+struct Told<'a> {
+    asked: &'a Asked<'a>,
+    hunted: &'a Hunted,
+    verdict: Verdict,
+    /// The file of each; none for a run without end, nor for one that was left out.
+    files: Vec<Option<String>>,
 }
 
-#[derive(Serialize)]
-struct Stored {
-    clause: &'static str,
-    /// Runs that break it.
-    runs: u64,
-    walls: usize,
-    steps: usize,
-    /// Where the smallest is stored; a run without end is not, nor one that was left out.
-    file: Option<String>,
-    #[serde(skip)]
-    is_endless: bool,
-    #[serde(skip)]
-    setup: Setup,
+/// A counterexample, and where it stands.
+struct Stored<'a>(&'a Quarry, &'a Option<String>);
+
+impl Serialize for Told<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { asked, hunted, verdict, files } = self;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("scheme", asked.scheme)?;
+        map.serialize_entry("rule", &asked.rule)?;
+        map.serialize_entry("robots", &hunted.robots)?;
+        for (name, value) in &hunted.facts {
+            map.serialize_entry(name, value)?;
+        }
+        map.serialize_entry("complete", &hunted.is_complete)?;
+        let (name, done) = &hunted.done;
+        map.serialize_entry(name, done)?;
+        map.serialize_entry("verdict", verdict.word())?;
+        if let Some(path) = asked.resume {
+            map.serialize_entry("kept", &shown(path))?;
+        }
+        let stored = hunted.found.iter().zip(files).map(|(quarry, file)| Stored(quarry, file));
+        map.serialize_entry("counterexamples", &stored.collect::<Vec<_>>())?;
+        map.end()
+    }
 }
 
-impl Hunt {
-    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        let rule = self
-            .scheme
-            .rule(self.rule)
-            .ok_or(Misfit::Rule { scheme: self.scheme, rule: self.rule })
-            .map_err(Fault::from)?;
-        match rule.hunt {
-            Some(Quarry::Walls(subject)) => self.run_walls(subject, out),
-            Some(Quarry::Traps(way)) => trap::run(self, way, out),
-            None => {
-                let what = format!("nothing is hunted of {}", self.scheme.name);
-                Err(Fault::usage(what, "hunt another scheme").into())
+impl Serialize for Stored<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self(quarry, file) = self;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("clause", quarry.clause)?;
+        for (name, value) in &quarry.facts {
+            map.serialize_entry(name, value)?;
+        }
+        map.serialize_entry("file", file)?;
+        map.end()
+    }
+}
+
+/// Whoever watches a hunt at a terminal.
+struct Watcher<'a> {
+    bar: ProgressBar,
+    spinner: ProgressBar,
+    out: &'a mut Output,
+}
+
+impl Hunter for Watcher<'_> {
+    fn hears(&mut self, far: Far<'_>) -> ControlFlow<()> {
+        match far {
+            Far::Tree(progress) => progress::show(&self.bar, progress),
+            Far::Words(words) => {
+                self.spinner.set_message(words);
+                if interrupt::is_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             }
         }
     }
 
-    fn run_walls(&self, subject: Observed, out: &mut Output) -> Result<Exit, Halt> {
-        if self.max_misses.is_some() {
-            let what = "the robots of a chain have no floor sensors to miss";
-            return Err(
-                Fault::usage(what, "give --max-walls, or --scheme ants, bricks or bricks-ants").into()
-            );
-        }
+    fn is_not_kept(&mut self, fault: &Fault) {
+        tracing::warn!("{}", report::with_flags(&fault.to_string()));
+    }
+
+    fn is_left_out(&mut self, fault: &Fault) {
+        self.out.leave_out(fault);
+    }
+}
+
+impl Hunt {
+    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        let (scheme, rule) = (self.scheme, self.rule);
+        let rule = scheme.rule(rule).ok_or(Misfit::Rule { scheme, rule }).map_err(Fault::from)?;
+        let Some(hunt) = rule.hunt else {
+            let what = format!("nothing is hunted of {}", self.scheme.name);
+            return Err(Fault::usage(what, "hunt another scheme").into());
+        };
+        let asked = self.asked();
+        asked.check(hunt)?;
         check_folder(&self.out)?;
-        let (robots, walls) =
-            (self.robots.unwrap_or(DEFAULT_ROBOTS), self.max_walls.unwrap_or(DEFAULT_WALLS));
-        let mut bounds = hunt::bounds(subject, robots, walls, self.size.map(|SizeArg(size)| size))?;
-        bounds.budget_moves = self.budget;
-        let found = self.search(&bounds, out)?;
-        let hunted = self.store(&bounds, &found, out)?;
+        interrupt::defer();
+        let start = Instant::now();
+        let (bar, spinner) = (progress::bar("hunting", 1), progress::spinner("hunting"));
+        let mut watcher = Watcher { bar, spinner, out: &mut *out };
+        let hunted = hunt.hunt(&asked, &mut watcher)?;
+        watcher.bar.finish_and_clear();
+        watcher.spinner.finish_and_clear();
+        tracing::info!("hunted through {} in {:.3} s", hunted.through, start.elapsed().as_secs_f64());
+        let files = hunted.found.iter().map(|quarry| self.store(quarry, out)).collect::<Result<_, _>>()?;
+        let verdict = match (hunted.found.is_empty(), hunted.is_complete) {
+            (false, _) => Verdict::Refuted,
+            (true, true) => Verdict::Holds,
+            (true, false) => Verdict::Open,
+        };
+        let told = Told { asked: &asked, hunted: &hunted, verdict, files };
         match self.format.format {
-            Format::Json => out.json(&hunted)?,
-            Format::Text => out.text(tell(&hunted)?)?,
+            Format::Json => out.json(&told)?,
+            Format::Text => out.text(told.text()?)?,
         }
-        Ok(match (found.complete, found.counterexamples.is_empty()) {
+        Ok(match (hunted.is_complete, hunted.found.is_empty()) {
             (false, _) => Exit::Unfinished,
             (true, false) => Exit::Violation,
             (true, true) => Exit::Expected,
         })
     }
 
-    fn search(&self, bounds: &Bounds, out: &mut Output) -> Result<Found, Fault> {
-        let mut saved = self.resume.as_deref().map(|path| Saved::new(path, self.scheme, self.rule, bounds));
-        let mut search = match &mut saved {
-            Some(saved) => saved.search(bounds)?,
-            None => hunt::start(bounds)?,
-        };
-        // What cannot be kept is refused before it has cost anything.
-        if let Some(saved) = &mut saved {
-            saved.write(&search)?;
-        }
-        interrupt::defer();
-        let bar = progress::bar("hunting", 1);
-        let start = Instant::now();
-        let mut written = start;
-        while progress::show(&bar, &search.progress()).is_continue() && search.wave() {
-            if let Some(saved) = saved.as_mut().filter(|_| written.elapsed() > KEEP_EVERY) {
-                // There may be room again later on; the last good one stands there until then.
-                if let Err(fault) = saved.write(&search) {
-                    tracing::warn!("{}", report::with_flags(&fault.to_string()));
-                }
-                written = Instant::now();
-            }
-        }
-        bar.finish_and_clear();
-        let Progress { runs, moves, .. } = search.progress();
-        let (runs, moves) = (counted(runs, "run"), counted(moves, "team move"));
-        tracing::info!("hunted through {runs} and {moves} in {:.3} s", start.elapsed().as_secs_f64());
-        if let Some(Err(fault)) = saved.as_mut().map(|saved| saved.write(&search)) {
-            out.leave_out(&fault);
-        }
-        Ok(search.found())
-    }
-
-    fn store(&self, bounds: &Bounds, found: &Found, out: &mut Output) -> Result<Hunted, Halt> {
-        let replaceable = self.force.replaceable(self.resume.clone());
-        let counterexamples = found.counterexamples.iter().map(|counterexample| {
-            let run = bounds.run(counterexample);
-            let setup = hunt::setup(self.scheme, self.rule, &run).map_err(Fault::from)?;
-            let clause = counterexample.broken.breach().map(tautline_sim::explore::ClauseId::from);
-            let file = match clause {
-                Some(clause) => keep(hunt::store(&self.out, &setup, clause, &replaceable)?.0, out),
-                None => None,
-            };
-            Ok(Stored {
-                clause: counterexample.broken.clause(),
-                runs: counterexample.runs,
-                walls: run.walls.len(),
-                steps: counterexample.frames.len(),
-                file,
-                is_endless: clause.is_none(),
-                setup,
-            })
-        });
-        let counterexamples = counterexamples.collect::<Result<Vec<Stored>, Halt>>()?;
-        let verdict = match (counterexamples.is_empty(), found.complete) {
-            (false, _) => Verdict::Refuted,
-            (true, true) => Verdict::Holds,
-            (true, false) => Verdict::Open,
-        };
-        Ok(Hunted {
+    fn asked(&self) -> Asked<'_> {
+        Asked {
             scheme: self.scheme,
             rule: self.rule,
-            robots: bounds.robots as u64,
-            runs: found.runs,
-            moves: found.moves,
-            longest: found.longest,
-            max_walls: bounds.max_walls,
-            complete: found.complete,
-            walls_done: (found.levels.len() as u32).checked_sub(1),
-            verdict: verdict.word(),
-            kept: self.resume.as_deref().map(shown),
-            counterexamples,
-        })
+            robots: self.robots,
+            size: self.size.map(|SizeArg(size)| size),
+            budget: self.budget,
+            max_walls: self.max_walls,
+            max_misses: self.max_misses,
+            max_losses: self.max_losses,
+            error_cells: self.error,
+            resume: self.resume.as_deref(),
+        }
+    }
+
+    /// Stores a counterexample, if it is one that a file tells; where it stands then.
+    fn store(&self, quarry: &Quarry, out: &mut Output) -> Result<Option<String>, Halt> {
+        let (Shown::Run(clause) | Shown::Story(clause, _)) = quarry.shown else { return Ok(None) };
+        let replaceable = self.force.replaceable(self.resume.clone());
+        let (file, _) = store(&self.out, &quarry.setup, clause, &replaceable)?;
+        Ok(keep(file, out))
+    }
+}
+
+impl Told<'_> {
+    /// What a person is told.
+    fn text(&self) -> Result<String, Halt> {
+        let Asked { scheme, rule, resume, .. } = self.asked;
+        let Hunted { title, outcome, .. } = self.hunted;
+        let mut text = format!("{} ({rule}), {title}\n{outcome}\n", scheme.name);
+        for (quarry, file) in self.hunted.found.iter().zip(&self.files) {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "\n{}, {}\n\n{}", quarry.clause, quarry.title, picture(quarry)?);
+            if let Some(file) = file {
+                let _ = writeln!(text, "replay it with: tautline replay {file}");
+            }
+        }
+        if let Some(path) = resume {
+            let _ = writeln!(text, "The hunt is kept in {}.", shown(path));
+        }
+        Ok(text)
+    }
+}
+
+/// A counterexample as a person sees it.
+fn picture(quarry: &Quarry) -> Result<String, Halt> {
+    let setup = &quarry.setup;
+    match (&quarry.shown, setup.scheme.senses) {
+        (Shown::Run(_), Senses::Bumps) => story::last_move(setup),
+        (Shown::Run(_), Senses::Floor) => story::of_trap(setup),
+        (Shown::Endless, _) => Ok(format!("A run without end in this layout:\n\n{}", setup.layout)),
+        (Shown::Story(_, story) | Shown::Told(story), _) => Ok(story.clone()),
     }
 }
 
@@ -255,56 +265,4 @@ pub(super) fn keep(file: Aside, out: &mut Output) -> Option<String> {
 /// The path as one would type it.
 pub(super) fn shown(path: &Path) -> String {
     path.strip_prefix(".").unwrap_or(path).display().to_string()
-}
-
-fn tell(hunted: &Hunted) -> Result<String, Halt> {
-    let Hunted {
-        scheme,
-        rule,
-        robots,
-        runs,
-        moves,
-        longest,
-        max_walls,
-        walls_done,
-        kept,
-        counterexamples,
-        ..
-    } = hunted;
-    let mut text = format!(
-        "{} ({rule}), {}, at most {}: {}, {}, {longest} the longest\n",
-        scheme.name,
-        counted(*robots, "robot"),
-        counted(*max_walls, "wall"),
-        counted(*runs, "run"),
-        counted(*moves, "team move")
-    );
-    let bound = match walls_done {
-        Some(walls) if *walls == *max_walls => "in any layout within this bound".to_owned(),
-        Some(walls) => {
-            let walls = counted(*walls, "wall");
-            format!("in any layout with at most {walls}; the hunt was ended before its bound")
-        }
-        None => "so far; the hunt was ended before it had covered any layout".to_owned(),
-    };
-    // Writing to a string cannot fail.
-    let _ = match counterexamples[..] {
-        [] => writeln!(text, "No clause is broken {bound}."),
-        _ => writeln!(text, "The smallest counterexample to each clause that is broken {bound}:"),
-    };
-    for Stored { clause, runs, walls, steps, file, is_endless, setup } in counterexamples {
-        let (walls, steps) = (counted(*walls, "wall"), counted(*steps, "team move"));
-        let _ = writeln!(text, "\n{clause}, {walls}, {steps}; broken in {}", counted(*runs, "run"));
-        let _ = match is_endless {
-            false => writeln!(text, "\n{}", draw::story::last_move(setup)?),
-            true => writeln!(text, "\nA run without end in this layout:\n\n{}", setup.layout),
-        };
-        if let Some(file) = file {
-            let _ = writeln!(text, "replay it with: tautline replay {file}");
-        }
-    }
-    if let Some(kept) = kept {
-        let _ = writeln!(text, "The hunt is kept in {kept}.");
-    }
-    Ok(text)
 }

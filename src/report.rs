@@ -16,8 +16,29 @@ pub(crate) enum Colour {
 }
 
 /// The fields of a request that have a flag of the same name.
-const FIELDS: [&str; 11] =
-    ["robots", "base", "size", "max-walls", "max-moves", "resume", "image", "force", "trace", "out", "moves"];
+const FIELDS: [&str; 21] = [
+    "robots",
+    "base",
+    "size",
+    "max-walls",
+    "max-misses",
+    "max-moves",
+    "resume",
+    "image",
+    "force",
+    "trace",
+    "out",
+    "moves",
+    "scheme",
+    "budget",
+    "max-losses",
+    "error",
+    "range",
+    "loss",
+    "noise-db",
+    "threshold",
+    "rule",
+];
 
 /// `words` with the flags of the fields that they name.
 pub(crate) fn with_flags(words: &str) -> String {

@@ -13,6 +13,7 @@ pub mod chain;
 pub mod choice;
 mod conditions;
 pub mod floor;
+pub mod frontier;
 pub mod ground;
 pub mod kit;
 pub mod mrc;

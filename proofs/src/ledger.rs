@@ -7,7 +7,7 @@ use std::fmt::{self, Write};
 
 use crate::clause::{AnyCheck, Clause, Decision};
 use crate::decide::Verdict;
-use crate::{ants, bricks, chain, ground, kit, mrc, notice, position, tan};
+use crate::{ants, bricks, chain, frontier, ground, kit, mrc, notice, position, tan};
 
 pub use composition::{Theorem, theorems};
 pub use jobs::{Hear, Heard, decide, decide_all};
@@ -24,6 +24,7 @@ pub static ROOMS: &[&[Clause]] = &[
     &tan::clauses::CLAUSES,
     &kit::clauses::CLAUSES,
     &position::clauses::CLAUSES,
+    &frontier::clauses::CLAUSES,
 ];
 
 /// Every clause of our own.

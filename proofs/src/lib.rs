@@ -9,6 +9,7 @@ pub mod course;
 pub mod decide;
 pub mod engine;
 pub mod floor;
+pub mod frontier;
 pub mod ground;
 pub mod judge;
 pub mod kit;

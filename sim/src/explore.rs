@@ -10,6 +10,8 @@ pub mod chain;
 mod clause;
 pub mod depth_first;
 pub mod floor;
+pub mod frontier;
+pub mod hunt;
 pub mod kit;
 mod misfit;
 mod own;
@@ -19,6 +21,7 @@ mod run;
 mod setup;
 mod stage;
 mod survey;
+mod traps;
 pub mod trees;
 
 pub use self::clause::ClauseId;
@@ -28,7 +31,7 @@ pub use self::rule::{RuleId, RuleName};
 pub use self::run::{
     End, Limits, Milestone, OnViolation, Report, Stopped, Team, TeamMove, Violation, Watcher, run,
 };
-pub use self::setup::{Clause, Judge, Profile, Quarry, Rule, Senses, Setup, Start, Starts};
+pub use self::setup::{Clause, Extra, Judge, Profile, Rule, Senses, Setup, Start, Starts};
 pub use self::stage::{Knowledge, Look, Play, Stage};
 pub use self::survey::Survey;
 

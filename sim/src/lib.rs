@@ -7,6 +7,7 @@ pub mod counterexample;
 pub mod draw;
 pub mod explore;
 pub mod fault;
+pub mod frontier;
 pub mod kit;
 pub mod layout;
 pub mod position;

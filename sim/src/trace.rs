@@ -91,14 +91,29 @@ impl Trace {
 
     /// The setup of a header.
     fn check(lines: Lines, text: &str, header: Known) -> Result<Self, Fault> {
-        let Header { scheme, rule, robots, seed, base, starts, missed, limits, clause, layout, .. } = header;
+        let Header {
+            scheme, rule, robots, seed, base, starts, missed, choices, limits, clause, layout, ..
+        } = header;
         let layout = drawn(&lines, text, &layout, base, AGAIN)?;
         let clause = clause.map(|id| {
             catalogue::clause(&id).map_err(|none| lines.fault(text, "\"clause\"", &none, none.remedy()))
         });
         let clause = clause.transpose()?;
-        let miss = header.miss.unwrap_or_default();
-        let setup = Setup { scheme, rule, robots, seed, layout, base, starts, miss, missed, limits };
+        let (miss, options) = (header.miss.unwrap_or_default(), header.options.unwrap_or_default());
+        let setup = Setup {
+            scheme,
+            rule,
+            robots,
+            seed,
+            layout,
+            base,
+            starts,
+            miss,
+            missed,
+            options,
+            choices,
+            limits,
+        };
         setup.check().map_err(|misfit| {
             lines.fault(text, &format!("\"{}\"", misfit.field()), &misfit, misfit.remedy())
         })?;

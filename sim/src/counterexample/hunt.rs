@@ -1,51 +1,11 @@
-//! From the search over all layouts to files that anyone can replay: a [`Run`] becomes the setup of one
-//! in a layout that has the walls met and no others.
-
-mod saved;
-pub mod trap;
+//! Runs that break a clause, as files that anyone can replay.
 
 use std::path::{Path, PathBuf};
 
-use tautline_kernel::ground::{Cell, Edge};
-use tautline_proofs::chain::Observed;
-use tautline_proofs::chain::search::{Bounds, Search, Unsearchable};
-use tautline_proofs::engine::tree;
-use tautline_proofs::run::Run;
-
-use self::saved::AGAIN;
-pub use self::saved::Saved;
 use crate::aside::{Aside, Replaceable};
-use crate::explore::chain;
-use crate::explore::{ClauseId, Limits, OnViolation, Profile, Report, RuleId, Setup, explore};
+use crate::explore::{ClauseId, Report, Setup, explore};
 use crate::fault::{Fault, Halt};
-use crate::layout::{Layout, Problem, Size};
 use crate::trace;
-
-/// The run of `scheme` that `found` is, in the area of its search; it stops at the violation.
-///
-/// # Errors
-/// [`Problem`] if the area is too large for a layout, or the base is outside.
-pub fn setup(scheme: &'static Profile, rule: impl Into<RuleId>, found: &Run) -> Result<Setup, Problem> {
-    let (mut layout, starts) = layout(found)?;
-    let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
-    layout.place_base(base)?;
-    let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
-    Ok(Setup { limits, ..Setup::new(scheme, rule, starts.len() as u16, layout, base) })
-}
-
-/// The layout of a run that was found, which has the walls that were met and no others; and where the robots start in it.
-///
-/// # Errors
-/// [`Problem`] if the area is too large for a layout.
-pub fn layout(found: &Run) -> Result<(Layout, Vec<Cell>), Problem> {
-    let mut layout = Layout::open(found.area.width() as u64, found.area.height() as u64)?;
-    let origin = found.area.first();
-    let shifted = |cell: Cell| Cell::new(cell.x - origin.x, cell.y - origin.y);
-    for wall in &found.walls {
-        layout.build_wall(Edge::new(shifted(wall.cell()), wall.side()));
-    }
-    Ok((layout, found.starts.iter().copied().map(shifted).collect()))
-}
 
 /// The place in `folder` of a run of `setup` that breaks `clause`. The scheme is in its name unless the clause tells it.
 pub fn path(folder: &Path, setup: &Setup, clause: ClauseId) -> PathBuf {
@@ -89,72 +49,15 @@ pub fn store_at(
     Ok((writer.end(&report), report))
 }
 
-/// The most robots that are hunted for.
-const MAX_ROBOTS: usize = 64;
-
-/// The bounds of a hunt for `robots` in layouts of `size`, by default the (2N−1)² cells of the paper, with at most
-/// `max_walls`.
-///
-/// # Errors
-/// A [`Fault`] if there are too few or too many robots.
-pub fn bounds(observed: Observed, robots: u64, max_walls: u32, size: Option<Size>) -> Result<Bounds, Fault> {
-    let count = usize::try_from(robots).ok().filter(|count| (2..=MAX_ROBOTS).contains(count));
-    let count = count.ok_or_else(|| {
-        let what = match robots {
-            0 => "no robots".to_owned(),
-            1 => "the base alone".to_owned(),
-            _ => format!("{robots} robots"),
-        };
-        Fault::of_field(
-            "robots",
-            format_args!("{what} cannot be the team"),
-            format_args!("give `robots` a number from 2 to {MAX_ROBOTS}, the base counted"),
-        )
-    })?;
-    let mut bounds = Bounds::new(observed, count, max_walls);
-    if let Some(size) = size {
-        bounds.base = Cell::new((size.width() - 1) / 2, (size.height() - 1) / 2);
-        bounds.area = size.area();
-    }
-    Ok(bounds)
-}
-
-/// The search within `bounds`, from the start.
-///
-/// # Errors
-/// A [`Fault`] if it cannot be made.
-pub fn start(bounds: &Bounds) -> Result<Search, Fault> {
-    Search::new(bounds).map_err(fault)
-}
-
-/// The fault of a search that is refused.
-fn fault(refused: Unsearchable) -> Fault {
-    let refused = match refused {
-        Unsearchable::Team(refused) => return chain::fault(refused),
-        Unsearchable::Search(refused) => refused,
-    };
-    match refused {
-        tree::Unsearchable::TooManyWalls { edges, .. } => {
-            Fault::of_field("max-walls", refused, format_args!("give `max-walls` a number up to {edges}"))
-        }
-        tree::Unsearchable::TooLarge { .. } => {
-            Fault::of_field("size", refused, "give fewer `robots` or a smaller `size`")
-        }
-        tree::Unsearchable::Beyond { walls } => Fault::of_field(
-            "max-walls",
-            refused,
-            format_args!("give `max-walls` {walls} or more, or another `resume` file"),
-        ),
-        tree::Unsearchable::Foreign => Fault::of_field("resume", refused, AGAIN),
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use tautline_kernel::ground::Cell;
+
     use super::*;
     use crate::explore::RuleName;
     use crate::explore::bricks::{BRICKS, BRICKS_ANTS};
     use crate::explore::chain::CHAIN;
+    use crate::layout::Layout;
 
     #[test]
     fn runs_of_two_schemes_have_two_names() {

@@ -6,9 +6,9 @@ use tautline_kernel::ground::Cell;
 use tautline_proofs::run::Run;
 use tautline_proofs::team::{self, Layouts};
 
-use super::hunt;
 use super::minimise::{Broken, Case, Shrunk, shrink};
 use crate::aside::{Aside, Replaceable};
+use crate::explore::hunt::layout as layout_of;
 use crate::explore::{ClauseId, Limits, OnViolation, Own, Report, Stage, TeamMove, run};
 use crate::fault::{Fault, Halt};
 use crate::layout::Layout;
@@ -51,7 +51,7 @@ impl<R, T: team::Team<ROBOTS>, const ROBOTS: usize> Found<'_, R, T, ROBOTS> {
     /// # Errors
     /// [`Halt`] if the area is too large for a layout, or a robot starts in a blocked cell.
     pub fn store(&self, path: &Path, replaceable: &Replaceable) -> Result<(Aside, Report), Halt> {
-        let (layout, starts) = hunt::layout(self.run).map_err(Fault::from)?;
+        let (layout, starts) = layout_of(self.run).map_err(Fault::from)?;
         let stage = Stage::new(self.layouts.scheme, self.rule.0, &layout, &starts);
         let stage = Stage { limits: STOP, ..stage };
         let aside = Aside::new(path, replaceable)?;
@@ -69,7 +69,7 @@ impl<R, T: team::Team<ROBOTS>, const ROBOTS: usize> Found<'_, R, T, ROBOTS> {
     /// # Errors
     /// [`Halt`] if the area is too large for a layout.
     pub fn minimise(&self) -> Result<Shrunk, Halt> {
-        let (layout, starts) = hunt::layout(self.run).map_err(Fault::from)?;
+        let (layout, starts) = layout_of(self.run).map_err(Fault::from)?;
         let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
         let case = Case { robots: ROBOTS as u16, layout, base };
         let steps = self.run.frames.len() as u32;

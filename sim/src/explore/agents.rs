@@ -38,6 +38,7 @@ pub(super) const AGENTS: Profile = Profile {
     robots: 1..=MAX_AGENTS,
     starts: Starts::Anywhere,
     senses: Senses::Floor,
+    extras: &[],
     look: Look::Apart,
     knowledge: None,
     clauses: &[],

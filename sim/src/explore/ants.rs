@@ -4,8 +4,9 @@ use tautline_kernel::ants::Rule as Ants;
 use tautline_proofs::floor::trap::Way;
 
 use super::agents::{AGENTS, start};
-use super::setup::{Profile, Quarry, Rule};
+use super::setup::{Profile, Rule};
 use super::stage::Knowledge;
+use super::traps::Traps;
 
 const PUBLISHED: Way = Way::Ants(Ants::Published);
 const REPAIRED: Way = Way::Ants(Ants::Repaired);
@@ -15,8 +16,8 @@ pub static ANTS: Profile = Profile {
     name: "ants",
     about: "Agents on a sensor floor that go where they have been least; they never know that they are done",
     rules: &[
-        Rule::published(|setup| Ok(start(setup, PUBLISHED)), Quarry::Traps(PUBLISHED)),
-        Rule::repaired(|setup| Ok(start(setup, REPAIRED)), Quarry::Traps(REPAIRED)),
+        Rule::published(|setup| Ok(start(setup, PUBLISHED)), &Traps(PUBLISHED)),
+        Rule::repaired(|setup| Ok(start(setup, REPAIRED)), &Traps(REPAIRED)),
     ],
     knowledge: Some(Knowledge::None),
     ..AGENTS

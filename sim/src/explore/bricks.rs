@@ -10,9 +10,10 @@ use tautline_proofs::words::counted;
 use super::agents::{AGENTS, PREMATURE, UNVISITED, missed, start};
 use super::rule::RuleId;
 use super::run::TeamMove;
-use super::setup::{Clause, Judge, Profile, Quarry, Rule, Setup};
+use super::setup::{Clause, Judge, Profile, Rule, Setup};
 use super::stage::Knowledge;
 use super::survey::Survey;
+use super::traps::Traps;
 use super::trees::TREE;
 
 const PUBLISHED: Way = Way::Bricks(Bricks::PUBLISHED);
@@ -24,8 +25,8 @@ pub static BRICKS: Profile = Profile {
     name: "bricks",
     about: "Brick&Mortar: agents on a sensor floor that mark cells as visited until none is left",
     rules: &[
-        Rule::published(|setup| Ok(start(setup, PUBLISHED)), Quarry::Traps(PUBLISHED)),
-        Rule::repaired(|setup| Ok(start(setup, REPAIRED)), Quarry::Traps(REPAIRED)),
+        Rule::published(|setup| Ok(start(setup, PUBLISHED)), &Traps(PUBLISHED)),
+        Rule::repaired(|setup| Ok(start(setup, REPAIRED)), &Traps(REPAIRED)),
         Rule {
             name: RuleId::new("tree"),
             about: "Trees close the loops in place of laps",
@@ -40,7 +41,7 @@ pub static BRICKS: Profile = Profile {
 pub static BRICKS_ANTS: Profile = Profile {
     name: "bricks-ants",
     about: "Brick&Mortar with ants' ways, robust against missed sensors",
-    rules: &[Rule::repaired(|setup| Ok(start(setup, ROBUST)), Quarry::Traps(ROBUST))],
+    rules: &[Rule::repaired(|setup| Ok(start(setup, ROBUST)), &Traps(ROBUST))],
     ..MARKING
 };
 

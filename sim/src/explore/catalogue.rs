@@ -10,6 +10,7 @@ use super::bricks::{BRICKS, BRICKS_ANTS};
 use super::chain::CHAIN;
 use super::clause::ClauseId;
 use super::depth_first::{HELPERS, MDFS};
+use super::frontier::FRONTIER;
 use super::kit::KIT;
 use super::rivals::{FULL_SEARCH, ROOKER_BIRK};
 use super::rule::RuleId;
@@ -17,7 +18,7 @@ use super::setup::{Profile, Rule, Senses};
 
 /// Every scheme that this program knows.
 pub const SCHEMES: &[&Profile] =
-    &[&CHAIN, &FULL_SEARCH, &ROOKER_BIRK, &ANTS, &BRICKS, &BRICKS_ANTS, &MDFS, &HELPERS, &KIT];
+    &[&CHAIN, &FULL_SEARCH, &ROOKER_BIRK, &ANTS, &BRICKS, &BRICKS_ANTS, &MDFS, &HELPERS, &KIT, &FRONTIER];
 
 /// The scheme with this name.
 pub fn scheme(name: &str) -> Option<&'static Profile> {

@@ -1,6 +1,9 @@
 //! The recursive chain (paper 000, III): its row, and its team: the kernel's chain, the log of messages that it reads its
 //! history from, and the smallest grid that holds its area.
 
+pub mod hunt;
+mod saved;
+
 use tautline_kernel::chain::{self, Chain, Intent, MAX_ROBOTS, Refused};
 use tautline_kernel::ground::{Area, Cell, Edge, Grid, MediumGrid, SmallGrid};
 use tautline_proofs::chain::Observed;
@@ -9,10 +12,12 @@ use tautline_proofs::chain::links::within_reach;
 use tautline_proofs::run::Frame;
 use tautline_proofs::words::counted;
 
+use self::hunt::Walls;
+pub use self::saved::Saved;
 use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::{End, Team, TeamMove};
-use super::setup::{Clause, Judge, Profile, Quarry, Rule, Senses, Setup, Starts};
+use super::setup::{Clause, Judge, Profile, Rule, Senses, Setup, Starts};
 use super::stage::Look;
 use super::survey::Survey;
 use crate::fault::Fault;
@@ -29,25 +34,26 @@ pub static CHAIN: Profile = Profile {
     name: "chain",
     about: "A base, a leader that seeks the frontier, and followers that keep radio contact",
     rules: &[
-        Rule::published(|setup| start(setup, chain::Rule::PUBLISHED), Quarry::Walls(Observed::PUBLISHED)),
-        Rule::repaired(|setup| start(setup, chain::Rule::REPAIRED), Quarry::Walls(Observed::REPAIRED)),
+        Rule::published(|setup| start(setup, chain::Rule::PUBLISHED), &Walls(Observed::PUBLISHED)),
+        Rule::repaired(|setup| start(setup, chain::Rule::REPAIRED), &Walls(Observed::REPAIRED)),
         Rule {
             name: REEL,
             about: "Within the repaired conditions, the shortest rehearsed way to an unexplored cell",
             start: |setup| start(setup, chain::Rule::REEL),
-            hunt: Some(Quarry::Walls(Observed::REEL)),
+            hunt: Some(&Walls(Observed::REEL)),
         },
         Rule {
             name: UNHELD,
             about: "The reel without the condition that holds contact whoever fails",
             start: |setup| start(setup, Observed::UNHELD.rule),
-            hunt: Some(Quarry::Walls(Observed::UNHELD)),
+            hunt: Some(&Walls(Observed::UNHELD)),
         },
     ],
     team: "chain",
     robots: 2..=MAX_ROBOTS,
     starts: Starts::Base,
     senses: Senses::Bumps,
+    extras: &[],
     look: Look::Linked {
         is_lost: |from, to| Breach::Contact.is_in(from, to) || Breach::Coverage.is_in(from, to),
     },
@@ -105,7 +111,7 @@ fn begin<G: Grid + 'static, const ROBOTS: usize>(
 }
 
 /// The fault of a chain that is refused.
-pub(crate) fn fault(refused: Refused) -> Fault {
+fn fault(refused: Refused) -> Fault {
     match refused {
         Refused::TooFewRobots { .. } | Refused::TooManyRobots { .. } => {
             let remedy = format!("give `robots` a number from 2 to {MAX_ROBOTS}");

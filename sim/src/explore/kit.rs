@@ -63,6 +63,7 @@ pub static KIT: Profile = Profile {
     robots: 1..=MOST_ROBOTS,
     starts: Starts::Beside,
     senses: Senses::Bumps,
+    extras: &[],
     look: Look::Apart,
     knowledge: None,
     clauses: &[

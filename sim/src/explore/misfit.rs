@@ -2,13 +2,19 @@
 
 use std::fmt;
 
+use tautline_kernel::frontier::Threshold;
+use tautline_kernel::ground::Cell;
 use tautline_proofs::words::counted;
 
-use super::catalogue::sensing;
+use super::catalogue::{SCHEMES, sensing};
 use super::rule::RuleId;
-use super::setup::{Profile, Rule, Senses, Setup, Starts};
+use super::setup::{Extra, Profile, Rule, Senses, Setup, Starts};
 use crate::fault::Fault;
+use crate::frontier::Options;
 use crate::layout::Problem;
+
+/// The greatest standard deviation of the noise of positions, in dB.
+const MOST_NOISE_DB: f64 = 100.0;
 
 /// What does not fit: `Display` says what, [`Misfit::remedy`] what would be right.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -46,6 +52,21 @@ pub enum Misfit {
     },
     /// A start is not a free cell.
     Start(Problem),
+    /// Two robots start in one cell, and the scheme lets none do so.
+    Together(Cell),
+    /// There are more robots than free cells for them.
+    Full {
+        /// So many robots.
+        robots: u16,
+        /// So many cells that the base is connected with.
+        cells: usize,
+    },
+    /// The scheme cannot be told that.
+    Extra(&'static Profile, Extra),
+    /// No threshold.
+    Threshold,
+    /// No noise.
+    Noise,
 }
 
 impl Misfit {
@@ -56,7 +77,11 @@ impl Misfit {
             Self::Rule { .. } => "rule",
             Self::Miss(_) | Self::MissAll => "miss",
             Self::MissedByNone(_) | Self::Missed => "missed",
-            Self::StartsAtBase(_) | Self::Starts { .. } | Self::Start(_) => "starts",
+            Self::StartsAtBase(_) | Self::Starts { .. } | Self::Start(_) | Self::Together(_) => "starts",
+            Self::Full { .. } => "robots",
+            Self::Extra(_, extra) => extra.field(),
+            Self::Threshold => Extra::Threshold.field(),
+            Self::Noise => Extra::Noise.field(),
         }
     }
 
@@ -83,6 +108,17 @@ impl Misfit {
             Self::StartsAtBase(_) => "give the base another place by `base`".to_owned(),
             Self::Starts { .. } => "give one start for all, or one for each agent".to_owned(),
             Self::Start(problem) => problem.remedy(),
+            Self::Together(_) => "give each robot a start of its own".to_owned(),
+            Self::Full { cells, .. } => {
+                format!("give `robots` a number up to {cells}, or take a larger layout")
+            }
+            Self::Extra(_, extra) => {
+                let fitting = SCHEMES.iter().filter(|scheme| scheme.extras.contains(extra));
+                let names: Vec<&str> = fitting.map(|scheme| scheme.name).collect();
+                format!("take the scheme {}, or leave it out", names.join(" or "))
+            }
+            Self::Threshold => "give `threshold` a number from 0 to 1".to_owned(),
+            Self::Noise => "give `noise-db` a number of decibels from 0 to 100".to_owned(),
         }
     }
 }
@@ -116,6 +152,16 @@ impl fmt::Display for Misfit {
                 write!(f, "{} for {}", counted(*starts, "start"), counted(*robots, "agent"))
             }
             Self::Start(problem) => problem.fmt(f),
+            Self::Together(cell) => write!(f, "two robots start in the cell {cell}"),
+            Self::Full { robots, cells } => {
+                let (robots, cells) = (counted(*robots, "robot"), counted(*cells, "cell"));
+                write!(f, "{robots} do not find room: from the base {cells} can be reached")
+            }
+            Self::Extra(scheme, extra) => {
+                write!(f, "`{}` says nothing to the scheme {}", extra.field(), scheme.name)
+            }
+            Self::Threshold => f.write_str("a threshold of the occupancy probability is from 0 to 1"),
+            Self::Noise => f.write_str("a standard deviation of noise is from 0 to 100 dB"),
         }
     }
 }
@@ -157,17 +203,57 @@ impl Setup {
             }
             Senses::Bumps | Senses::Floor => {}
         }
+        self.check_extras()?;
         match (scheme.starts, starts) {
+            (Starts::Alone, None) => return Err(Misfit::Starts { starts: 1, robots: *robots }),
+            (Starts::Alone, Some(starts)) if self.is_full(starts) => {
+                return Err(Misfit::Full { robots: *robots, cells: starts.len() });
+            }
             (Starts::Base, Some(_)) => return Err(Misfit::StartsAtBase(scheme)),
             (Starts::Base, None) => {}
-            (Starts::Anywhere | Starts::Beside, Some(starts)) if starts.len() != usize::from(*robots) => {
+            (Starts::Anywhere | Starts::Beside | Starts::Alone, Some(starts))
+                if starts.len() != usize::from(*robots) =>
+            {
                 return Err(Misfit::Starts { starts: starts.len(), robots: *robots });
             }
-            (Starts::Anywhere | Starts::Beside, starts) => {
+            (Starts::Anywhere | Starts::Beside | Starts::Alone, starts) => {
                 let starts = starts.as_deref().unwrap_or(std::slice::from_ref(&self.base));
                 starts.iter().try_for_each(|&start| self.layout.check_start(start)).map_err(Misfit::Start)?;
             }
         }
-        Ok(rule)
+        let is_again = |(place, start): (usize, &Cell)| {
+            starts.iter().flatten().take(place).any(|other| other == start).then_some(*start)
+        };
+        let again = starts.iter().flatten().enumerate().find_map(is_again);
+        match again.filter(|_| scheme.starts == Starts::Alone) {
+            Some(cell) => Err(Misfit::Together(cell)),
+            None => Ok(rule),
+        }
+    }
+
+    /// Whether there are fewer starts than robots since there is no more room.
+    fn is_full(&self, starts: &[Cell]) -> bool {
+        let is_default = self.scheme.default_starts(self.rule, &self.layout, self.base, self.robots);
+        starts.len() < self.robots.into() && is_default.is_some_and(|found| found == starts)
+    }
+
+    /// Refuses what the scheme cannot be told, and what is out of bounds.
+    fn check_extras(&self) -> Result<(), Misfit> {
+        let (Options { range_cells, loss, noise_db, threshold }, usual) = (self.options, Options::default());
+        let told = [
+            (Extra::Range, range_cells.is_some()),
+            (Extra::Loss, !loss.is_never()),
+            (Extra::Noise, noise_db.to_bits() != usual.noise_db.to_bits()),
+            (Extra::Threshold, threshold.to_bits() != usual.threshold.to_bits()),
+        ];
+        let refused =
+            told.into_iter().find(|(extra, is_told)| *is_told && !self.scheme.extras.contains(extra));
+        if let Some((extra, _)) = refused {
+            return Err(Misfit::Extra(self.scheme, extra));
+        }
+        if Threshold::new(threshold).is_none() {
+            return Err(Misfit::Threshold);
+        }
+        if (0.0..=MOST_NOISE_DB).contains(&noise_db) { Ok(()) } else { Err(Misfit::Noise) }
     }
 }

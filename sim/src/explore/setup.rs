@@ -5,15 +5,15 @@ use std::ops::RangeInclusive;
 
 use serde::{Serialize, Serializer};
 use tautline_kernel::ground::Cell;
-use tautline_proofs::chain::Observed;
-use tautline_proofs::floor::trap::Way;
 
 use super::clause::ClauseId;
+use super::hunt::Hunt;
 use super::rule::RuleId;
 use super::run::{Limits, Team, TeamMove};
 use super::stage::{Knowledge, Look, Stage};
 use super::survey::Survey;
 use crate::fault::Fault;
+use crate::frontier::Options;
 use crate::kit;
 use crate::layout::generate::Probability;
 use crate::layout::{Layout, Problem};
@@ -34,6 +34,8 @@ pub struct Profile {
     pub starts: Starts,
     /// How its robots learn of the layout.
     pub senses: Senses,
+    /// What a run of it can be told besides.
+    pub extras: &'static [Extra],
     /// How its team is drawn.
     pub look: Look,
     /// What its team knows of a sensor floor, if it is on one.
@@ -52,7 +54,7 @@ pub struct Rule {
     /// The team of a setup at its start.
     pub start: Start,
     /// How it is hunted, if it is.
-    pub hunt: Option<Quarry>,
+    pub hunt: Option<&'static dyn Hunt>,
 }
 
 /// The team of a setup at its start.
@@ -60,24 +62,15 @@ pub type Start = fn(&Setup) -> Result<Box<dyn Team>, Fault>;
 
 impl Rule {
     /// As the paper publishes it.
-    pub const fn published(start: Start, hunt: Quarry) -> Self {
+    pub const fn published(start: Start, hunt: &'static dyn Hunt) -> Self {
         Self { name: RuleId::PUBLISHED, about: "As the paper publishes it", start, hunt: Some(hunt) }
     }
 
     /// With the repairs of its refuted claims.
-    pub const fn repaired(start: Start, hunt: Quarry) -> Self {
+    pub const fn repaired(start: Start, hunt: &'static dyn Hunt) -> Self {
         let about = "With the repairs of its refuted claims";
         Self { name: RuleId::REPAIRED, about, start, hunt: Some(hunt) }
     }
-}
-
-/// What is sought in a hunt for layouts in which a team breaks a clause.
-#[derive(Clone, Copy, Debug)]
-pub enum Quarry {
-    /// All layouts, decided wall by wall as the team of this subject meets them.
-    Walls(Observed),
-    /// All small layouts, and the fewest missed sensors that trap agents of this way.
-    Traps(Way),
 }
 
 /// Where the robots of a team start.
@@ -90,6 +83,33 @@ pub enum Starts {
     /// Each in any free cell: without another word as published all at the base, and else the first one there and the others
     /// beside it.
     Beside,
+    /// Each in a free cell of its own: without another word the first one at the base, and the others beside it.
+    Alone,
+}
+
+/// What a run of some schemes can be told, and of others not.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Extra {
+    /// How far messages are heard.
+    Range,
+    /// How likely messages are lost.
+    Loss,
+    /// The noise of positions.
+    Noise,
+    /// The threshold of the occupancy probability.
+    Threshold,
+}
+
+impl Extra {
+    /// The field that tells it.
+    pub const fn field(self) -> &'static str {
+        match self {
+            Self::Range => "range",
+            Self::Loss => "loss",
+            Self::Noise => "noise-db",
+            Self::Threshold => "threshold",
+        }
+    }
 }
 
 /// How robots learn of a layout.
@@ -146,6 +166,7 @@ impl Profile {
     ) -> Option<Vec<Cell>> {
         match self.starts {
             Starts::Beside if rule != RuleId::PUBLISHED => Some(kit::starts(layout, base, robots.into())),
+            Starts::Alone => Some(kit::starts(layout, base, robots.into())),
             Starts::Base | Starts::Anywhere | Starts::Beside => None,
         }
     }
@@ -197,6 +218,10 @@ pub struct Setup {
     pub miss: Probability,
     /// Which sensors are missed besides: their numbers among all that agents ask about, counted from 1, in order.
     pub missed: Vec<u32>,
+    /// What else the run is told.
+    pub options: Options,
+    /// The choices that make the run, where a search has found it; else it is left to chance.
+    pub choices: Vec<u32>,
     /// When the run is stopped.
     pub limits: Limits,
 }
@@ -212,7 +237,21 @@ impl Setup {
     ) -> Self {
         let (limits, miss) = (Limits::default(), Probability::NEVER);
         let (rule, missed) = (rule.into(), Vec::new());
-        Self { scheme, rule, robots, seed: 0, layout, base, starts: None, miss, missed, limits }
+        let (options, choices) = (Options::default(), Vec::new());
+        Self {
+            scheme,
+            rule,
+            robots,
+            seed: 0,
+            layout,
+            base,
+            starts: None,
+            miss,
+            missed,
+            options,
+            choices,
+            limits,
+        }
     }
 
     /// What stands still in the run.
@@ -227,6 +266,8 @@ impl Setup {
             starts: self.starts.as_deref(),
             miss: self.miss,
             missed: &self.missed,
+            options: self.options,
+            choices: &self.choices,
             limits: self.limits,
             look: self.scheme.look,
             knowledge: self.scheme.knowledge,

@@ -6,6 +6,7 @@ use super::clause::ClauseId;
 use super::run::{Limits, Report, TeamMove, Watcher};
 use super::survey::Survey;
 use crate::fault::Halt;
+use crate::frontier::Options;
 use crate::layout::Layout;
 use crate::layout::generate::Probability;
 
@@ -74,6 +75,10 @@ pub struct Stage<'a> {
     pub miss: Probability,
     /// Which sensors are missed besides.
     pub missed: &'a [u32],
+    /// What else the run is told.
+    pub options: Options,
+    /// The choices that make the run, where a search has found it.
+    pub choices: &'a [u32],
     /// When the run is stopped.
     pub limits: Limits,
     /// How the team is drawn.
@@ -96,6 +101,8 @@ impl<'a> Stage<'a> {
             starts: Some(starts).filter(|starts| starts.iter().any(|&start| start != base)),
             miss: Probability::NEVER,
             missed: &[],
+            options: Options::default(),
+            choices: &[],
             limits: Limits::default(),
             look: Look::Apart,
             knowledge: None,

@@ -14,8 +14,8 @@ use tautline_proofs::words::counted;
 use super::parameter::Parameter;
 use super::{About, Observer, Table, Threads};
 use crate::columns::{Column, Columns, Width};
-use crate::counterexample::hunt;
 use crate::explore::RuleName;
+use crate::explore::chain::hunt::start;
 use crate::fault::Halt;
 
 /// The atlas.
@@ -227,7 +227,7 @@ impl Table for Atlas {
             bounds.invariants.push(Invariant::Exhausts);
         }
         let what = format!("{} robots, {rule}", sheet.robots);
-        let mut search = hunt::start(&bounds)?;
+        let mut search = start(&bounds)?;
         while search.wave() {
             observer.searched(&what, &search.progress())?;
         }

@@ -11,6 +11,7 @@ use super::lines::{Lines, line_of};
 use crate::aside::Aside;
 use crate::explore::{ClauseId, Report, Stage, Stopped, TeamMove, Violation};
 use crate::fault::Fault;
+use crate::frontier::Options;
 use crate::layout::generate::Probability;
 use crate::layout::{Layout, Problem};
 
@@ -41,6 +42,12 @@ pub(super) struct Header<S, R, L> {
     /// Which sensors are missed besides.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) missed: Vec<u32>,
+    /// What else the run is told, if it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) options: Option<Options>,
+    /// The choices that make the run, where a search has found it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) choices: Vec<u32>,
     pub(super) limits: L,
     /// The clause that the last move breaks, in a counterexample.
     pub(super) clause: Option<String>,
@@ -218,6 +225,8 @@ impl Writer {
             starts: stage.starts.map(<[Cell]>::to_vec),
             miss: Some(stage.miss).filter(|miss| !miss.is_never()),
             missed: stage.missed.to_vec(),
+            options: Some(stage.options).filter(|options| *options != Options::default()),
+            choices: stage.choices.to_vec(),
             limits: stage.limits,
             clause: clause.map(|clause| clause.to_string()),
             layout: layout.to_string(),

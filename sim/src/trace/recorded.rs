@@ -101,7 +101,8 @@ impl Recorded {
 
 impl Play for Recorded {
     fn stage(&self) -> Stage<'_> {
-        let Header { scheme, rule, robots, seed, base, starts, miss, missed, .. } = &self.header;
+        let Header { scheme, rule, robots, seed, base, starts, miss, missed, options, choices, .. } =
+            &self.header;
         Stage {
             scheme,
             rule,
@@ -112,6 +113,8 @@ impl Play for Recorded {
             starts: starts.as_deref(),
             miss: miss.unwrap_or_default(),
             missed,
+            options: options.unwrap_or_default(),
+            choices,
             limits: Limits::default(),
             look: Look::Apart,
             knowledge: None,

@@ -11,7 +11,7 @@ use serde_json::json;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::search::{Bounds, Position, Search};
 
-use super::{fault, start};
+use super::hunt::{fault, start};
 use crate::aside::{Aside, Replaceable, Standing, lock};
 use crate::explore::{Profile, RuleId};
 use crate::fault::Fault;

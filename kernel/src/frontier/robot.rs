@@ -1,0 +1,286 @@
+//! One robot: what it knows, what it is about, and what it does next.
+
+use core::ops::ControlFlow;
+
+use super::map::{BY_NUMBER, Found, Map, Scratch, Status, search};
+use super::place::Place;
+use super::rule::{Condition, Otherwise, Rule, Ties};
+use crate::choice::Oracle;
+use crate::ground::{Cell, Side};
+
+/// What a robot is about.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Stance {
+    /// It stands in its cell.
+    Stands,
+    /// It is at the rim of its cell and looks into the one beyond this side: for those who look too, it is entering that one.
+    Tries(Side),
+    /// It moves to the cell beyond this side.
+    Enters(Side),
+}
+
+/// What a robot sees of the cell that it is about to enter.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Sight {
+    /// Nothing is in the way.
+    Open,
+    /// An obstacle, or the rim of the area.
+    Obstacle,
+    /// Another robot, in the cell or entering it.
+    Robot,
+}
+
+/// What a robot does next.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Next {
+    /// It goes to the rim of its cell at this side, on its way to an unexplored cell: tell what it sees by [`Robot::looked`].
+    Tries {
+        /// The side.
+        side: Side,
+        /// Where it is going in the end.
+        aim: Cell,
+    },
+    /// It waits for its slot.
+    Waits,
+    /// It has no candidate, and stops for good, not knowing whether anything is left.
+    Stops,
+    /// It knows that no cell is left that it could explore.
+    Done,
+}
+
+/// Another robot, as far as it has told.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Other {
+    /// The cell that it is in.
+    pub cell: Cell,
+    /// Where it is.
+    pub place: Place,
+    /// Which unexplored cell it has claimed.
+    pub aim: Option<Cell>,
+}
+
+/// What a robot knows besides its repository when it decides.
+#[derive(Clone, Copy, Debug)]
+pub struct View<'a> {
+    /// The others.
+    pub others: &'a [Other],
+    /// Whose slot it is.
+    pub slot: Slot,
+}
+
+/// Whose slot it is.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Slot {
+    /// The robot's own.
+    Own,
+    /// Another one's.
+    Others,
+}
+
+/// A robot that explores cells.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Robot<M> {
+    map: M,
+    at: Cell,
+    stance: Stance,
+    aim: Option<Cell>,
+    waits: bool,
+}
+
+impl<M: Map> Robot<M> {
+    /// A robot in its start, all of which are explored; it knows nothing else of `map`.
+    pub fn new(mut map: M, start: Cell, starts: &[Cell]) -> Self {
+        for &cell in starts {
+            map.explore(cell);
+        }
+        map.explore(start);
+        Self { map, at: start, stance: Stance::Stands, aim: None, waits: false }
+    }
+
+    /// What it knows.
+    pub const fn map(&self) -> &M {
+        &self.map
+    }
+
+    /// The same, to be joined with what it hears.
+    pub const fn map_mut(&mut self) -> &mut M {
+        &mut self.map
+    }
+
+    /// The cell in which it takes itself to be.
+    pub const fn at(&self) -> Cell {
+        self.at
+    }
+
+    /// What it is about.
+    pub const fn stance(&self) -> Stance {
+        self.stance
+    }
+
+    /// The unexplored cell that it has claimed.
+    pub const fn aim(&self) -> Option<Cell> {
+        self.aim
+    }
+
+    /// Whether it waits for its slot.
+    pub const fn waits(&self) -> bool {
+        self.waits
+    }
+
+    /// What it does next, if it stands.
+    pub fn next(
+        &self,
+        rule: &Rule,
+        view: View<'_>,
+        scratch: &mut Scratch<'_>,
+        oracle: &mut dyn Oracle,
+    ) -> Next {
+        let way = match (rule.has(Condition::Route), rule.ties) {
+            (false, _) => return self.candidate(rule, view, oracle),
+            (true, Ties::Lowest) => self.preferred(rule, view, scratch),
+            (true, Ties::Any) => self.any_nearest(scratch, oracle),
+        };
+        match way {
+            None => Next::Done,
+            Some(_) if self.waits && view.slot == Slot::Others => Next::Waits,
+            Some(Found { cell: aim, first: side, .. }) => Next::Tries { side, aim },
+        }
+    }
+
+    /// The frontier cell: the unexplored neighbour with the lowest occupancy probability, if one is below the threshold.
+    fn candidate(&self, rule: &Rule, view: View<'_>, oracle: &mut dyn Oracle) -> Next {
+        let occupancy = |cell| {
+            let own = rule.occupancy.of(cell, Place::midpoint(self.at));
+            view.others.iter().map(|other| rule.occupancy.of(cell, other.place)).fold(own, u16::max)
+        };
+        let neighbours = BY_NUMBER.map(|side| (side, self.at.beyond(side)));
+        let candidates = neighbours.map(|(side, cell)| {
+            let occupancy = occupancy(cell);
+            let is_one = self.map.status(cell) == Status::Unexplored && rule.threshold.is_above(occupancy);
+            is_one.then_some((occupancy, side, cell))
+        });
+        let least = candidates.iter().flatten().map(|&(occupancy, ..)| occupancy).min();
+        let best = candidates.map(|candidate| candidate.filter(|&(occupancy, ..)| Some(occupancy) == least));
+        let of = best.iter().flatten().count() as u32;
+        if of > 0 {
+            let number = match rule.ties {
+                Ties::Lowest => 0,
+                Ties::Any => oracle.pick(of),
+            };
+            let chosen = best.iter().flatten().nth(number as usize);
+            return chosen.map_or(Next::Stops, |&(_, side, aim)| Next::Tries { side, aim });
+        }
+        let explored = neighbours.map(|(side, cell)| {
+            (self.map.status(cell) == Status::Explored).then_some(Next::Tries { side, aim: cell })
+        });
+        let of = explored.iter().flatten().count() as u32;
+        match rule.otherwise {
+            Otherwise::Wanders if of > 0 => {
+                let number = oracle.pick(of);
+                explored.iter().flatten().nth(number as usize).copied().unwrap_or(Next::Stops)
+            }
+            Otherwise::Stops | Otherwise::Wanders => Next::Stops,
+        }
+    }
+
+    /// The way to the nearest unexplored cell that is left to nobody else; if all are, to the nearest that nobody has
+    /// claimed; if all are claimed, to the nearest. A robot that has waited for its slot goes to the nearest: where all leave
+    /// cells to each other, the one that is nearest gets on.
+    fn preferred(&self, rule: &Rule, view: View<'_>, scratch: &mut Scratch<'_>) -> Option<Found> {
+        let is_claimed =
+            |cell| rule.has(Condition::Claim) && view.others.iter().any(|other| other.aim == Some(cell));
+        let is_nearer_to_another = |found: &Found| {
+            rule.has(Condition::Nearer)
+                && view.others.iter().any(|other| {
+                    let (columns, rows) = other.cell.apart(found.cell);
+                    u32::from(columns) + u32::from(rows) < found.distance
+                })
+        };
+        let [mut unclaimed, mut nearest] = [None; 2];
+        let mut best = None;
+        search(&self.map, self.at, scratch, |found| {
+            nearest = nearest.or(Some(found));
+            if self.waits {
+                return ControlFlow::Break(());
+            }
+            if is_claimed(found.cell) {
+                return ControlFlow::Continue(());
+            }
+            unclaimed = unclaimed.or(Some(found));
+            if is_nearer_to_another(&found) {
+                return ControlFlow::Continue(());
+            }
+            best = Some(found);
+            ControlFlow::Break(())
+        });
+        best.or(unclaimed).or(nearest)
+    }
+
+    /// Any of the first moves of the shortest ways to the nearest unexplored cells.
+    fn any_nearest(&self, scratch: &mut Scratch<'_>, oracle: &mut dyn Oracle) -> Option<Found> {
+        let ways = BY_NUMBER.map(|side| {
+            let cell = self.at.beyond(side);
+            match self.map.status(cell) {
+                Status::Obstacle => None,
+                Status::Unexplored => Some(Found { cell, distance: 1, first: side }),
+                Status::Explored => {
+                    let mut way = None;
+                    search(&self.map, cell, scratch, |found| {
+                        way = Some(Found { distance: found.distance + 1, first: side, ..found });
+                        ControlFlow::Break(())
+                    });
+                    way
+                }
+            }
+        });
+        let least = ways.iter().flatten().map(|way| way.distance).min()?;
+        let nearest = ways.map(|way| way.filter(|way| way.distance == least));
+        let number = oracle.pick(nearest.iter().flatten().count() as u32);
+        nearest.iter().flatten().nth(number as usize).copied()
+    }
+
+    /// It goes to the rim of its cell at `side`, and claims `aim`.
+    pub const fn tries(&mut self, side: Side, aim: Cell) {
+        self.stance = Stance::Tries(side);
+        self.aim = Some(aim);
+    }
+
+    /// It has looked into the cell that it was about to enter: it enters it, or stays.
+    pub fn looked(&mut self, rule: &Rule, sight: Sight) {
+        let Stance::Tries(side) = self.stance else { return };
+        let cell = self.at.beyond(side);
+        let is_obstacle = match sight {
+            Sight::Open => {
+                self.stance = Stance::Enters(side);
+                self.waits = false;
+                return;
+            }
+            Sight::Obstacle => true,
+            Sight::Robot => !rule.has(Condition::Tell),
+        };
+        if is_obstacle && rule.has(Condition::Record) {
+            self.map.block(cell);
+        }
+        self.stance = Stance::Stands;
+        self.aim = None;
+        self.waits = sight == Sight::Robot && rule.has(Condition::Turn);
+    }
+
+    /// It has arrived, and `fix` is the cell that its position is taken for.
+    pub fn arrived(&mut self, rule: &Rule, fix: Cell) {
+        let Stance::Enters(side) = self.stance else { return };
+        self.at = if rule.has(Condition::Track) { self.at.beyond(side) } else { fix };
+        self.stance = Stance::Stands;
+        self.aim = None;
+        self.map.explore(self.at);
+    }
+
+    /// It hears that `cell` has this status.
+    pub fn hears(&mut self, cell: Cell, status: Status) {
+        match status {
+            Status::Unexplored => {}
+            Status::Explored => self.map.explore(cell),
+            Status::Obstacle => self.map.block(cell),
+        }
+    }
+}

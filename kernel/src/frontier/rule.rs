@@ -1,0 +1,127 @@
+//! The rule of frontier cells as a set of named conditions, with what the paper leaves open as parameters.
+
+use super::place::{Occupancy, Threshold};
+use crate::conditions;
+
+/// One condition of the rule, by the sentence it stands for. As published there is none but [`Condition::Record`], and not
+/// even that one if the paper's avoidance of obstacles is taken literally.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Condition {
+    /// Repair: a robot without an unexplored neighbour goes through explored cells, the shortest way to the nearest
+    /// unexplored one.
+    Route,
+    /// A cell that a robot has tried to enter in vain is stored as an obstacle. Taken literally, the robot goes on “until it
+    /// reaches the midpoint”.
+    Record,
+    /// Repair: a robot looks before it enters, and enters no cell that has a robot in it, or one that is entering it.
+    Look,
+    /// Repair: a robot that has met another one tries again only in its own slot. A slot is at least as long as the longest
+    /// move.
+    Turn,
+    /// Repair: a robot that was met is no obstacle.
+    Tell,
+    /// Repair: a robot counts its cell by its moves; a fix corrects its place within the cell alone.
+    Track,
+    /// Repair: a message has the whole repository of its sender, and whoever hears it joins both. As published it has the one
+    /// cell that the sender has explored or found blocked.
+    Share,
+    /// Preference: a robot leaves an unexplored cell to another one that has claimed it.
+    Claim,
+    /// Preference: a robot leaves an unexplored cell to another one that is nearer to it.
+    Nearer,
+}
+
+impl Condition {
+    /// Every condition.
+    pub const ALL: [Self; 9] = [
+        Self::Route,
+        Self::Record,
+        Self::Look,
+        Self::Turn,
+        Self::Tell,
+        Self::Track,
+        Self::Share,
+        Self::Claim,
+        Self::Nearer,
+    ];
+}
+
+conditions!(Condition);
+
+/// What a robot does that has no candidate, where it knows no [`Condition::Route`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Otherwise {
+    /// It stops for good: the paper says nothing else.
+    Stops,
+    /// It goes to any explored neighbour.
+    Wanders,
+}
+
+/// Which of several cells a robot takes that are as good.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Ties {
+    /// The one with the lowest number: cells are numbered row by row.
+    Lowest,
+    /// Any: a search looks at all of them.
+    Any,
+}
+
+/// The rule of a robot.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Rule {
+    /// The conditions in force.
+    pub conditions: Conditions,
+    /// How the occupancy probability is computed.
+    pub occupancy: Occupancy,
+    /// A cell is a candidate if its occupancy probability is below this one.
+    pub threshold: Threshold,
+    /// What a robot does without a candidate.
+    pub otherwise: Otherwise,
+    /// Which of several cells it takes.
+    pub ties: Ties,
+}
+
+impl Rule {
+    /// What the paper publishes, where unclear by the readings in its favour; a robot without a candidate stops.
+    pub const PUBLISHED: Self = Self {
+        conditions: Conditions::of(&[Condition::Record]),
+        occupancy: Occupancy::Corrected,
+        threshold: Threshold::HALF,
+        otherwise: Otherwise::Stops,
+        ties: Ties::Lowest,
+    };
+
+    /// The same, where a robot without a candidate wanders.
+    pub const WANDERS: Self = Self { otherwise: Otherwise::Wanders, ..Self::PUBLISHED };
+
+    /// The same, with the avoidance of obstacles taken literally.
+    pub const LITERAL: Self = Self::PUBLISHED.without(Condition::Record);
+
+    /// The same, with equation (11) as it is printed.
+    pub const PRINTED: Self = Self { occupancy: Occupancy::Printed, ..Self::PUBLISHED };
+
+    /// With all repairs and preferences.
+    pub const REPAIRED: Self = Self { conditions: Conditions::of(&Condition::ALL), ..Self::PUBLISHED };
+
+    /// With all repairs, without preferences: of several nearest cells any may be taken.
+    pub const PLAIN: Self =
+        Self { ties: Ties::Any, ..Self::REPAIRED.without(Condition::Claim).without(Condition::Nearer) };
+
+    /// This rule with one condition taken out.
+    #[must_use]
+    pub const fn without(self, condition: Condition) -> Self {
+        Self { conditions: self.conditions.without(condition), ..self }
+    }
+
+    /// This rule with one condition put in.
+    #[must_use]
+    pub const fn with(self, condition: Condition) -> Self {
+        Self { conditions: self.conditions.with(condition), ..self }
+    }
+
+    /// Whether the rule has `condition`.
+    #[inline]
+    pub const fn has(&self, condition: Condition) -> bool {
+        self.conditions.has(condition)
+    }
+}

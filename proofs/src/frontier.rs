@@ -1,0 +1,6 @@
+//! Frontier cells (Rajesh, Nagaraja and Suja 2024): the clauses FRONTIER-1 to FRONTIER-8 and what decides them.
+
+pub mod areas;
+pub mod clauses;
+mod place;
+pub mod world;

@@ -1,0 +1,216 @@
+//! Small areas: all obstacles, all starts, all orders of moves, lost messages and wrong fixes (FRONTIER-1 to FRONTIER-5). A
+//! counterexample has the fewest cells, of these the fewest obstacles, and of these the fewest steps.
+
+use tautline_kernel::frontier::{Rule, Sight, TinyMap};
+use tautline_kernel::ground::{Area, Cell, Side};
+
+use super::world::{Demand, Event, Setting, World};
+use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
+use crate::engine::states::{Limits, Run, search};
+use crate::engine::{Choices, Script, Unfit, Until, cover};
+use crate::words::counted;
+
+/// Columns and rows.
+pub type Size = (i16, i16);
+
+/// Areas to look at, and what is demanded of teams there.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Areas<const ROBOTS: usize> {
+    /// Fewest cells first.
+    pub(super) sizes: &'static [Size],
+    pub(super) max_losses: u8,
+    pub(super) max_wrong: u8,
+    pub(super) demand: Demand,
+    /// The situations that must occur.
+    pub(super) covers: &'static [&'static str],
+}
+
+/// A run that breaks a demand, and where.
+#[derive(Clone, Debug)]
+pub struct Counterexample<const ROBOTS: usize> {
+    /// The area, with the fewest obstacles of which one run meets so many.
+    pub setting: Setting<ROBOTS>,
+    /// The run.
+    pub run: Run<Demand>,
+}
+
+/// The teams of `rule` in one area.
+pub fn setting<const ROBOTS: usize>(rule: Rule, (width, height): Size) -> Option<Setting<ROBOTS>> {
+    let area = Area::new(Cell::new(0, 0), Cell::new(width - 1, height - 1))?;
+    let (max_obstacles, max_losses, max_wrong) = (TinyMap::CELLS as u8, 0, 0);
+    let (demand, given) = (None, None);
+    Some(Setting { rule, area, max_obstacles, max_losses, max_wrong, demand, given })
+}
+
+/// The run with the fewest obstacles that breaks `demand` in the area of `setting`, in which it is broken by `run`.
+pub fn fewest<const ROBOTS: usize>(
+    setting: Setting<ROBOTS>,
+    run: Run<Demand>,
+    limits: Limits<'_>,
+) -> Counterexample<ROBOTS> {
+    let most = setting.max_obstacles.min((setting.area.width() * setting.area.height()) as u8);
+    let fewer = (0..most).find_map(|max_obstacles| {
+        let setting = Setting { max_obstacles, demand: Some(run.demand), ..setting };
+        let found = search(&setting, setting.starts(), limits);
+        found.broken.into_iter().next().map(|run| Counterexample { setting, run })
+    });
+    fewer.unwrap_or(Counterexample { setting, run })
+}
+
+impl<const ROBOTS: usize> Counterexample<ROBOTS> {
+    /// The world at the start, each step with what comes of it, and after how many steps those begin that come over and over.
+    pub fn steps(&self) -> Option<(World<ROBOTS>, Vec<(Event, World<ROBOTS>)>, usize)> {
+        let start = self.setting.starts().into_iter().nth(self.run.start)?;
+        let (mut world, mut steps) = (start, Vec::new());
+        for &number in self.run.steps.iter().chain(self.run.round()) {
+            let turned = self.setting.turns(&world).into_iter().nth(number as usize)?;
+            world = turned.world;
+            steps.push((turned.event, world));
+        }
+        Some((start, steps, self.run.steps.len()))
+    }
+
+    /// The same run where the obstacles that it has met are given, and no others: the setting, and the number of each step.
+    pub fn given(&self) -> Option<(Setting<ROBOTS>, Vec<u32>)> {
+        let (start, steps, _) = self.steps()?;
+        let truth = *steps.last().map_or(start.truth(), |(_, world)| world.truth());
+        let setting = Setting { given: Some(truth), demand: None, ..self.setting };
+        let mut world = start;
+        let numbers = steps.iter().map(|(event, _)| {
+            let turns = setting.turns(&world);
+            let number = turns.iter().position(|turned| turned.event == *event)?;
+            world = turns[number].world;
+            Some(number as u32)
+        });
+        let numbers = numbers.collect::<Option<Vec<u32>>>()?;
+        Some((setting, numbers))
+    }
+
+    /// What happens, a line for each step.
+    pub fn story(&self) -> String {
+        let area = self.setting.area;
+        let mut lines = format!("{}×{} cells\n", area.width(), area.height());
+        let Some((start, steps, once)) = self.steps() else { return lines };
+        let starts = (1..).zip(start.cells()).map(|(robot, cell)| format!("R{robot} starts in {cell}"));
+        lines += &starts.collect::<Vec<_>>().join(", ");
+        lines.push('\n');
+        for (number, (event, world)) in steps.iter().enumerate() {
+            if number == once {
+                lines += "and from here on over and over:\n";
+            }
+            if let Some(words) = words(event, &world.cells()) {
+                lines += &words;
+                lines.push('\n');
+            }
+        }
+        lines
+    }
+}
+
+/// An event in words; nothing of a robot that has only decided.
+fn words(event: &Event, cells: &[Cell]) -> Option<String> {
+    let missed = |missed: u8| {
+        let robots = (0..u8::BITS).filter(|robot| missed >> robot & 1 == 1);
+        robots.map(|robot| format!("; R{} misses the message", robot + 1)).collect::<String>()
+    };
+    let towards = |side: Side| match side {
+        Side::East => "east",
+        Side::South => "south",
+        Side::West => "west",
+        Side::North => "north",
+    };
+    match *event {
+        Event::Decides(..) => None,
+        Event::Looks(robot, side, sight, lost, _) => {
+            let (name, side) = (robot + 1, towards(side));
+            Some(match sight {
+                Sight::Open => format!("R{name} goes {side}"),
+                Sight::Obstacle => format!("R{name} finds an obstacle in the {side}{}", missed(lost)),
+                Sight::Robot => format!("R{name} meets a robot in the {side}{}", missed(lost)),
+            })
+        }
+        Event::Arrives(robot, fix, lost) => {
+            let cell = cells.get(robot)?;
+            let fixed = if fix == *cell { String::new() } else { format!(", and its fix says {fix}") };
+            Some(format!("R{} arrives in {cell}{fixed}{}", robot + 1, missed(lost)))
+        }
+        Event::Ticks => Some("the slot is over".to_owned()),
+    }
+}
+
+impl<const ROBOTS: usize> Areas<ROBOTS> {
+    fn setting(&self, rule: &Rule, size: Size) -> Option<Setting<ROBOTS>> {
+        let Self { max_losses, max_wrong, demand, .. } = *self;
+        Some(Setting { max_losses, max_wrong, demand: Some(demand), ..setting(*rule, size)? })
+    }
+
+    fn evidence(choices: Choices, found: &Counterexample<ROBOTS>) -> Evidence {
+        Evidence { choices, demand: found.run.demand.words(), seen: Seen::Story(found.story()) }
+    }
+}
+
+impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
+    fn engine(&self) -> &'static str {
+        "states"
+    }
+
+    fn bound(&self) -> String {
+        let sizes: Vec<String> =
+            self.sizes.iter().map(|(width, height)| format!("{width}×{height}")).collect();
+        let lost = match self.max_losses {
+            0 => String::new(),
+            lost => format!(", at most {} lost", counted(lost, "message")),
+        };
+        let wrong = match self.max_wrong {
+            0 => String::new(),
+            1 => ", at most 1 fix off by one cell".to_owned(),
+            wrong => format!(", at most {wrong} fixes off by one cell"),
+        };
+        let robots = counted(ROBOTS as u64, "robot");
+        format!("all obstacles in {} cells, all starts, {robots}, every order{lost}{wrong}", sizes.join(", "))
+    }
+
+    /// The choices are the numbers of the area, of the most obstacles, of the start, and of the steps.
+    fn decide(&self, rule: &Rule, _: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+        let limits = Limits { room: desk.room, ..Limits::NONE };
+        let (mut states, mut is_whole, mut covered) = (0, true, Vec::new());
+        for (number, &size) in (0..).zip(self.sizes) {
+            let setting = self.setting(rule, size).ok_or_else(|| Refused::new("the area is too large"))?;
+            let found = search(&setting, setting.starts(), limits);
+            states += found.states;
+            is_whole &= found.is_whole;
+            for situation in found.covered {
+                cover(&mut covered, situation);
+            }
+            if let Some(run) = found.broken.into_iter().next() {
+                let found = fewest(setting, run, limits);
+                let first = [number, u32::from(found.setting.max_obstacles), found.run.start as u32];
+                let once = [&first[..], &found.run.steps[..]].concat();
+                let choices = Choices { once, again: found.run.round().to_vec() };
+                let evidence = Self::evidence(choices, &found);
+                return Ok(Answer::new(Some(evidence), is_whole, self.shows_of(), states));
+            }
+        }
+        let is_covered = self.covers.iter().all(|situation| covered.contains(situation));
+        Ok(Answer::new(None, is_whole && is_covered, self.shows_of(), states))
+    }
+
+    fn replay(&self, rule: &Rule, choices: &Choices) -> Result<Played, Unfit> {
+        let mut script = Script::new(choices);
+        let size = self.sizes[script.choose(self.sizes.len())?];
+        let max_obstacles = script.choose(TinyMap::CELLS + 1)? as u8;
+        let setting = self.setting(rule, size).ok_or(Unfit::Unbroken)?;
+        let setting = Setting { max_obstacles, ..setting };
+        let starts = setting.starts();
+        let number = script.choose(starts.len())?;
+        let (of, run) = script.play(&setting, (number, starts[number]), |&demand| demand == self.demand)?;
+        let found = Counterexample { setting, run };
+        Ok(Played { of, evidence: Self::evidence(choices.clone(), &found) })
+    }
+}
+
+impl<const ROBOTS: usize> Areas<ROBOTS> {
+    fn shows_of(&self) -> crate::decide::Verdict {
+        Method::<Rule>::shows(self)
+    }
+}

@@ -1,0 +1,221 @@
+//! The clauses of frontier cells, in the order of `SPEC.md`.
+
+use tautline_kernel::frontier::Condition::{Look, Record, Route, Share, Tell, Track, Turn};
+use tautline_kernel::frontier::{Occupancy, Rule};
+
+use super::areas::{Areas, Size};
+use super::place::{self, Bears};
+use super::world::Demand;
+use crate::clause::{Check, Clause, Named};
+use crate::decide::Verdict;
+use crate::step_checks;
+
+const PUBLISHED: Named<Rule> = Named::new("published", Rule::PUBLISHED);
+const WANDERS: Named<Rule> = Named::new("wanders", Rule::WANDERS);
+const LITERAL: Named<Rule> = Named::new("literal", Rule::LITERAL);
+const PRINTED: Named<Rule> = Named::new("printed", Rule::PRINTED);
+const PLAIN: Named<Rule> = Named::new("plain", Rule::PLAIN);
+const REPAIRED: Named<Rule> = Named::new("repaired", Rule::REPAIRED);
+
+const NO_ROUTE: Named<Rule> = Named::new("no way through explored cells", Rule::PLAIN.without(Route));
+const NO_RECORD: Named<Rule> = Named::new("obstacles are not stored", Rule::PLAIN.without(Record));
+const NO_LOOK: Named<Rule> = Named::new("enters without a look", Rule::PLAIN.without(Look));
+const NO_TURN: Named<Rule> = Named::new("no slots", Rule::PLAIN.without(Turn));
+const NO_TELL: Named<Rule> = Named::new("a robot is an obstacle", Rule::PLAIN.without(Tell));
+const NO_TRACK: Named<Rule> = Named::new("every fix is believed", Rule::PLAIN.without(Track));
+const NO_SHARE: Named<Rule> = Named::new("only what is new is told", Rule::PLAIN.without(Share));
+
+/// The areas in which counterexamples are looked for.
+const SMALLEST: [Size; 5] = [(1, 1), (2, 1), (3, 1), (4, 1), (2, 2)];
+/// The areas of one robot.
+const ONE: [Size; 9] = [(1, 1), (2, 1), (3, 1), (4, 1), (2, 2), (5, 1), (3, 2), (4, 2), (3, 3)];
+/// Those of two.
+const TWO: [Size; 6] = [(2, 1), (3, 1), (4, 1), (2, 2), (5, 1), (3, 2)];
+/// Those of three.
+const THREE: [Size; 4] = [(3, 1), (4, 1), (2, 2), (5, 1)];
+
+/// What happens to a robot that is alone.
+const ALONE: [&str; 4] = ["a decision", "an open cell", "an obstacle", "an arrival"];
+/// What happens to several.
+const ALL: [&str; 6] = ["a decision", "an open cell", "an obstacle", "a robot", "an arrival", "a slot"];
+
+const fn smallest<const ROBOTS: usize>(demand: Demand) -> Areas<ROBOTS> {
+    Areas { sizes: &SMALLEST, max_losses: 0, max_wrong: 0, demand, covers: &[] }
+}
+
+const fn one(demand: Demand) -> Areas<1> {
+    Areas { sizes: &ONE, covers: &ALONE, ..smallest(demand) }
+}
+
+const fn two(demand: Demand) -> Areas<2> {
+    Areas { sizes: &TWO, covers: &ALL, ..smallest(demand) }
+}
+
+const fn three(demand: Demand) -> Areas<3> {
+    Areas { sizes: &THREE, covers: &ALL, ..smallest(demand) }
+}
+
+/// Two robots, of whose messages one may be lost.
+const fn lossy(demand: Demand) -> Areas<2> {
+    Areas { max_losses: 1, ..two(demand) }
+}
+
+/// One robot, of whose fixes one may be wrong.
+const fn wrong(demand: Demand) -> Areas<1> {
+    Areas { max_wrong: 1, ..one(demand) }
+}
+
+step_checks! { Bears;
+    believed: place::believes, Named::new("repaired", Bears::FIXES), place::errors,
+        covers ["at the midpoint", "beside the midpoint"], unwind 9, mutants {
+            at_most: "2E + D = L/2 is borne" => Bears::FIXES_AT_MOST,
+            once: "the fix before the move does not count" => Bears::TRACKED,
+            no_odometry: "odometry does not count" => Bears::FIXES_ALONE,
+        };
+    tracked: place::counts, Named::new("repaired", Bears::TRACKED), place::errors,
+        covers ["at the midpoint", "beside the midpoint"], unwind 9, mutants {
+            at_most: "E + D = L/2 is borne" => Bears::TRACKED_AT_MOST,
+            no_odometry: "odometry does not count" => Bears::TRACKED_ALONE,
+        };
+}
+
+step_checks! { Occupancy;
+    occupancy: place::occupies, Named::new("repaired", Occupancy::Corrected), place::places,
+        covers ["inside", "outside"], unwind 9, mutants {
+            printed: "as it is printed" => Occupancy::Printed,
+        };
+}
+
+/// The clauses.
+pub static CLAUSES: [Clause; 8] = [
+    Clause {
+        id: "FRONTIER-1",
+        sentence: "Every cell that a robot can reach MUST be explored when the run ends.",
+        checks: &[
+            &Check::new(PUBLISHED, &smallest::<1>(Demand::Covers), Verdict::Refuted, &[]),
+            &Check::new(PRINTED, &smallest::<1>(Demand::Covers), Verdict::Refuted, &[]),
+            &Check::new(PLAIN, &one(Demand::Covers), Verdict::Holds, &[NO_ROUTE]),
+            &Check::new(PLAIN, &two(Demand::Covers), Verdict::Holds, &[]),
+            &Check::new(PLAIN, &three(Demand::Covers), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &two(Demand::Covers), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &three(Demand::Covers), Verdict::Holds, &[]),
+            &Check::new(PLAIN, &lossy(Demand::Covers), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &lossy(Demand::Covers), Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "FRONTIER-2",
+        sentence: "Two robots MUST never be in one cell.",
+        checks: &[
+            &Check::new(PUBLISHED, &smallest::<2>(Demand::Alone), Verdict::Refuted, &[]),
+            &Check::new(PLAIN, &one(Demand::Alone), Verdict::Holds, &[]),
+            &Check::new(PLAIN, &two(Demand::Alone), Verdict::Holds, &[NO_LOOK]),
+            &Check::new(PLAIN, &three(Demand::Alone), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &two(Demand::Alone), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &three(Demand::Alone), Verdict::Holds, &[]),
+            &Check::new(PLAIN, &lossy(Demand::Alone), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &lossy(Demand::Alone), Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "FRONTIER-3",
+        sentence: "Every run MUST end.",
+        checks: &[
+            &Check::new(LITERAL, &smallest::<1>(Demand::Ends), Verdict::Refuted, &[]),
+            &Check::new(WANDERS, &smallest::<1>(Demand::Ends), Verdict::Refuted, &[]),
+            &Check::new(PLAIN, &one(Demand::Ends), Verdict::Holds, &[NO_RECORD]),
+            &Check::new(PLAIN, &two(Demand::Ends), Verdict::Holds, &[NO_TURN]),
+            &Check::new(PLAIN, &three(Demand::Ends), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &two(Demand::Ends), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &three(Demand::Ends), Verdict::Holds, &[]),
+            &Check::new(PLAIN, &lossy(Demand::Ends), Verdict::Holds, &[NO_SHARE]),
+            &Check::new(REPAIRED, &lossy(Demand::Ends), Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "FRONTIER-4",
+        sentence: "When the run ends, every robot MUST know that no cell is left that it could explore.",
+        checks: &[
+            &Check::new(PUBLISHED, &smallest::<1>(Demand::Knows), Verdict::Refuted, &[]),
+            &Check::new(PLAIN, &one(Demand::Knows), Verdict::Holds, &[NO_ROUTE]),
+            &Check::new(PLAIN, &two(Demand::Knows), Verdict::Holds, &[]),
+            &Check::new(PLAIN, &three(Demand::Knows), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &two(Demand::Knows), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &three(Demand::Knows), Verdict::Holds, &[]),
+            &Check::new(PLAIN, &lossy(Demand::Knows), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &lossy(Demand::Knows), Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "FRONTIER-5",
+        sentence: "A robot MUST take a cell for explored only where a robot was, and for an obstacle only where one is.",
+        checks: &[
+            &Check::new(PUBLISHED, &wrong(Demand::Marks), Verdict::Refuted, &[]),
+            &Check::new(PLAIN, &wrong(Demand::Marks), Verdict::Holds, &[NO_TRACK]),
+            &Check::new(PLAIN, &one(Demand::Marks), Verdict::Holds, &[]),
+            &Check::new(PLAIN, &two(Demand::Marks), Verdict::Holds, &[NO_TELL]),
+            &Check::new(PLAIN, &three(Demand::Marks), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &two(Demand::Marks), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &three(Demand::Marks), Verdict::Holds, &[]),
+            &Check::new(PLAIN, &lossy(Demand::Marks), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &lossy(Demand::Marks), Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "FRONTIER-6",
+        sentence: "A robot whose fixes err by at most E and whose moves by at most D, with 2E + D < L/2, MUST take each fix for the cell in which it is.",
+        checks: &[&believed::CHECK],
+    },
+    Clause {
+        id: "FRONTIER-7",
+        sentence: "A robot that counts its cell by its moves, with E + D < L/2, MUST be in the cell that it has counted.",
+        checks: &[&tracked::CHECK],
+    },
+    Clause {
+        id: "FRONTIER-8",
+        sentence: "The occupancy probability of a cell MUST be 1 at its midpoint, MUST not grow with the distance to it, and MUST be 0 from half a cell on.",
+        checks: &[
+            &Check {
+                about: Named::new("published", Occupancy::Printed),
+                expected: Verdict::Refuted,
+                mutants: &[],
+                ..occupancy::CHECK
+            },
+            &occupancy::CHECK,
+        ],
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::decide::Memory;
+    use crate::engine::tree::unwatched;
+
+    #[test]
+    fn the_checks_come_out_as_they_are_registered() {
+        let mut wrong = Vec::new();
+        for clause in &CLAUSES {
+            for check in clause.checks {
+                let decision =
+                    check.decide(&mut Memory::default(), &mut unwatched).expect("it can be decided");
+                println!(
+                    "{} {check:?}: {:?} {} cases {:?}",
+                    clause.id, decision.verdict, decision.cases, decision.survived
+                );
+                if let Some(crate::decide::Evidence { seen: crate::decide::Seen::Story(story), .. }) =
+                    &decision.counterexample
+                {
+                    println!("{story}");
+                }
+                if !decision.is_as_registered(*check) {
+                    wrong.push(format!(
+                        "{} {check:?}: {:?}, survived: {:?}",
+                        clause.id, decision.verdict, decision.survived
+                    ));
+                }
+            }
+        }
+        assert!(wrong.is_empty(), "{wrong:#?}");
+    }
+}

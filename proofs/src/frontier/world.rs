@@ -1,0 +1,517 @@
+//! A team in a small area whose obstacles are decided as they are met: which robot acts next, which cell is blocked, which
+//! message is lost, and which fix is wrong, are choices. What the clauses demand is in plain arithmetic here; of the
+//! kernel's rule only what robots do is used.
+//!
+//! A move has three steps: a robot goes to the rim of its cell, looks, and arrives. Time is in slots, which count only while a
+//! robot waits for its own. A robot that is under way when a slot begins arrives before that slot is over, and a robot that
+//! has waited for its slot has made its move, or met another one again, before it is over.
+
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::frontier::{
+    Condition, Map, Next, Other, Place, Reached, Robot, Rule, Scratch, Sight, Slot, Stance, Status, TinyMap,
+    View,
+};
+use tautline_kernel::ground::{Area, Cell, Side};
+
+use crate::engine::outcomes;
+use crate::engine::states::{self, Bits, Places, System};
+
+/// What is demanded.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Demand {
+    /// FRONTIER-1
+    Covers,
+    /// FRONTIER-2
+    Alone,
+    /// FRONTIER-3
+    Ends,
+    /// FRONTIER-4
+    Knows,
+    /// FRONTIER-5
+    Marks,
+}
+
+impl Demand {
+    /// All of them, in the order of their clauses.
+    pub const ALL: [Self; 5] = [Self::Covers, Self::Alone, Self::Ends, Self::Knows, Self::Marks];
+
+    /// The clause that it is of.
+    pub const fn clause(self) -> &'static str {
+        match self {
+            Self::Covers => "FRONTIER-1",
+            Self::Alone => "FRONTIER-2",
+            Self::Ends => "FRONTIER-3",
+            Self::Knows => "FRONTIER-4",
+            Self::Marks => "FRONTIER-5",
+        }
+    }
+
+    /// The demand in words.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Covers => "every cell in reach is explored when the run ends",
+            Self::Alone => "no two robots are in one cell",
+            Self::Ends => "no run goes on for ever",
+            Self::Knows => "every robot knows at the end that nothing is left",
+            Self::Marks => "explored is where a robot was, and an obstacle is where one stands",
+        }
+    }
+}
+
+/// The area and what goes on there.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Setting<const ROBOTS: usize> {
+    /// The rule of every robot.
+    pub rule: Rule,
+    /// The cells: at most 64.
+    pub area: Area,
+    /// Most obstacles that are met in one run.
+    pub max_obstacles: u8,
+    /// Most messages that are lost in one run.
+    pub max_losses: u8,
+    /// Most fixes in one run that are off by one cell.
+    pub max_wrong: u8,
+    /// The one demand that is looked at; all if there is none.
+    pub demand: Option<Demand>,
+    /// The obstacles, where they are given: then none is left to choose.
+    pub given: Option<TinyMap>,
+}
+
+/// A team and what is decided of its area.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct World<const ROBOTS: usize> {
+    robots: [Robot<TinyMap>; ROBOTS],
+    /// Where the robots really are.
+    cells: [Cell; ROBOTS],
+    /// What was entered, and the obstacles that were met.
+    truth: TinyMap,
+    lost: u8,
+    wrong: u8,
+    slot: u8,
+    /// Robots that were under way when the slot began, a bit for each.
+    old: u8,
+    /// Whether the one whose slot it is has met another one in it.
+    has_tried: bool,
+}
+
+/// What happens.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Event {
+    /// A robot goes to the rim of its cell.
+    Decides(usize, Side, Cell),
+    /// A robot looks beyond the rim. The robots that miss what it says have a bit each; and the slot that it is when it
+    /// begins to wait.
+    Looks(usize, Side, Sight, u8, u8),
+    /// A robot arrives, takes itself to be in this cell, and tells; the robots that miss it have a bit each.
+    Arrives(usize, Cell, u8),
+    /// A slot is over.
+    Ticks,
+}
+
+/// A step, with what happens in it.
+#[derive(Clone, Debug)]
+pub struct Turned<const ROBOTS: usize> {
+    /// What comes of it.
+    pub world: World<ROBOTS>,
+    /// What happens.
+    pub event: Event,
+    /// What it breaks.
+    pub breaks: Vec<Demand>,
+}
+
+impl<const ROBOTS: usize> World<ROBOTS> {
+    /// The cell in which each robot is, or which it is entering.
+    pub fn cells(&self) -> [Cell; ROBOTS] {
+        std::array::from_fn(|robot| self.entering(robot).unwrap_or(self.cells[robot]))
+    }
+
+    /// What was entered, and the obstacles that were met.
+    pub const fn truth(&self) -> &TinyMap {
+        &self.truth
+    }
+
+    /// What each robot knows.
+    pub const fn robots(&self) -> &[Robot<TinyMap>; ROBOTS] {
+        &self.robots
+    }
+
+    /// The cell that a robot is entering.
+    fn entering(&self, robot: usize) -> Option<Cell> {
+        match self.robots[robot].stance() {
+            Stance::Enters(side) => Some(self.cells[robot].beyond(side)),
+            Stance::Stands | Stance::Tries(_) => None,
+        }
+    }
+
+    /// The other robots that are in `cell` or entering it, a bit for each; those at its rim among them, if they are asked for.
+    fn inside(&self, robot: usize, cell: Cell, rim: Rim) -> u8 {
+        let is_there = |other: usize| {
+            let tries = match (self.robots[other].stance(), rim) {
+                (Stance::Tries(side), Rim::Counts) => Some(self.cells[other].beyond(side)),
+                (Stance::Stands | Stance::Tries(_) | Stance::Enters(_), _) => None,
+            };
+            other != robot
+                && (self.cells[other] == cell || self.entering(other) == Some(cell) || tries == Some(cell))
+        };
+        (0..ROBOTS).filter(|&other| is_there(other)).fold(0, |set, other| set | 1 << other)
+    }
+
+    /// The robots that are under way, a bit for each.
+    fn moving(&self) -> u8 {
+        let moves = |robot: &usize| self.robots[*robot].stance() != Stance::Stands;
+        (0..ROBOTS).filter(moves).fold(0, |set, robot| set | 1 << robot)
+    }
+}
+
+/// Whether a robot at the rim of a cell counts as one that enters it.
+#[derive(Clone, Copy)]
+enum Rim {
+    Counts,
+    No,
+}
+
+impl<const ROBOTS: usize> Setting<ROBOTS> {
+    /// Every start: the robots in different cells. Robots differ by their numbers alone, so those of a start are in the order
+    /// of their cells.
+    pub fn starts(&self) -> Vec<World<ROBOTS>> {
+        let cells: Vec<Cell> = self.area.cells().filter(|&cell| !self.is_given(cell)).collect();
+        let of = cells.len();
+        let all = (0..of.pow(ROBOTS as u32)).filter_map(|start| {
+            let places: [usize; ROBOTS] = std::array::from_fn(|robot| start / of.pow(robot as u32) % of);
+            let is_sorted = places.windows(2).all(|pair| pair[0] < pair[1]);
+            is_sorted.then(|| self.start(places.map(|place| cells[place]))).flatten()
+        });
+        all.collect()
+    }
+
+    /// The start with the robots in these cells; `None` if the area is too large.
+    pub fn start(&self, cells: [Cell; ROBOTS]) -> Option<World<ROBOTS>> {
+        let map = TinyMap::new(self.area)?;
+        let mut truth = map;
+        for cell in cells {
+            truth.explore(cell);
+        }
+        let robots = cells.map(|cell| Robot::new(map, cell, &cells));
+        Some(World { robots, cells, truth, lost: 0, wrong: 0, slot: 0, old: 0, has_tried: false })
+    }
+
+    /// Whether an obstacle is given there.
+    fn is_given(&self, cell: Cell) -> bool {
+        self.given.is_some_and(|given| given.status(cell) == Status::Obstacle)
+    }
+
+    fn is_wanted(&self, demand: Demand) -> bool {
+        self.demand.is_none_or(|wanted| wanted == demand)
+    }
+
+    /// What `robot` does next, if it stands.
+    fn next(&self, world: &World<ROBOTS>, robot: usize, slot: Slot, oracle: &mut dyn Oracle) -> Next {
+        let other = |(other, robot): (usize, &Robot<TinyMap>)| {
+            let cell = world.cells[other];
+            Other { cell, place: Place::midpoint(cell), aim: robot.aim() }
+        };
+        let others = world.robots.iter().enumerate().filter(|&(number, _)| number != robot).map(other);
+        let others: Vec<Other> = others.collect();
+        let view = View { others: &others, slot };
+        let (mut reached, mut queue, mut rounds) =
+            ([Reached::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS], 0);
+        let mut scratch = Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds };
+        world.robots[robot].next(&self.rule, view, &mut scratch, oracle)
+    }
+
+    /// What `robot` would do if the slot were its own.
+    fn would(&self, world: &World<ROBOTS>, robot: usize) -> Next {
+        self.next(world, robot, Slot::Own, &mut First)
+    }
+
+    /// Whether `robot` waits for its slot.
+    fn waits(&self, world: &World<ROBOTS>, robot: usize) -> bool {
+        world.robots[robot].waits() && matches!(self.would(world, robot), Next::Tries { .. })
+    }
+
+    /// Whether a slot may be over.
+    fn ticks(&self, world: &World<ROBOTS>) -> bool {
+        let owner = usize::from(world.slot);
+        let is_due = self.waits(world, owner) && !world.has_tried;
+        (0..ROBOTS).any(|robot| self.waits(world, robot))
+            && !is_due
+            && world.moving() & (world.old | 1 << owner) == 0
+    }
+
+    /// Whether `robot` may decide now.
+    fn may_decide(&self, world: &World<ROBOTS>, robot: usize) -> bool {
+        let is_kept = world.robots[robot].waits() && (usize::from(world.slot) != robot || world.has_tried);
+        world.robots[robot].stance() == Stance::Stands
+            && !is_kept
+            && matches!(self.would(world, robot), Next::Tries { .. })
+    }
+
+    /// Every step from `world`.
+    pub fn turns(&self, world: &World<ROBOTS>) -> Vec<Turned<ROBOTS>> {
+        let mut turns: Vec<Turned<ROBOTS>> = Vec::new();
+        for robot in 0..ROBOTS {
+            match world.robots[robot].stance() {
+                Stance::Stands if self.may_decide(world, robot) => {
+                    turns.extend(outcomes(|oracle| self.decide(world, robot, oracle)).flatten());
+                }
+                Stance::Stands => {}
+                Stance::Tries(side) => {
+                    turns.extend(outcomes(|oracle| self.look(world, (robot, side), oracle)));
+                }
+                Stance::Enters(side) => {
+                    turns.extend(outcomes(|oracle| self.arrive(world, (robot, side), oracle)));
+                }
+            }
+        }
+        if self.ticks(world) {
+            let slot = (world.slot + 1) % ROBOTS as u8;
+            let after = World { slot, old: world.moving(), has_tried: false, ..*world };
+            turns.push(Turned { world: after, event: Event::Ticks, breaks: Vec::new() });
+        }
+        turns
+    }
+
+    fn decide(&self, world: &World<ROBOTS>, robot: usize, oracle: &mut dyn Oracle) -> Option<Turned<ROBOTS>> {
+        let Next::Tries { side, aim } = self.next(world, robot, Slot::Own, oracle) else { return None };
+        let mut after = *world;
+        after.robots[robot].tries(side, aim);
+        Some(Turned { world: after, event: Event::Decides(robot, side, aim), breaks: Vec::new() })
+    }
+
+    fn look(
+        &self,
+        world: &World<ROBOTS>,
+        (robot, side): (usize, Side),
+        oracle: &mut dyn Oracle,
+    ) -> Turned<ROBOTS> {
+        let mut after = *world;
+        let cell = world.cells[robot].beyond(side);
+        let met = if self.rule.has(Condition::Look) { world.inside(robot, cell, Rim::Counts) } else { 0 };
+        let sight = match met {
+            0 if self.is_obstacle(&mut after, cell, oracle) => Sight::Obstacle,
+            0 => Sight::Open,
+            _ => Sight::Robot,
+        };
+        after.robots[robot].looked(&self.rule, sight);
+        let mut breaks = Vec::new();
+        let mut missed = 0;
+        match sight {
+            Sight::Open => {
+                after.truth.explore(cell);
+                if self.is_wanted(Demand::Alone) && world.inside(robot, cell, Rim::No) != 0 {
+                    breaks.push(Demand::Alone);
+                }
+            }
+            Sight::Obstacle => {
+                let known = world.robots[robot].at().beyond(side);
+                missed = self.tell(&mut after, robot, (known, Status::Obstacle), u8::MAX, oracle);
+            }
+            Sight::Robot => {
+                if self.rule.has(Condition::Share) {
+                    missed = self.tell(&mut after, robot, (cell, Status::Unexplored), met, oracle);
+                    for other in (0..ROBOTS).filter(|other| met >> other & 1 == 1) {
+                        let to = 1 << robot;
+                        missed |= self.tell(&mut after, other, (cell, Status::Unexplored), to, oracle);
+                    }
+                }
+                let waited = (0..ROBOTS).any(|robot| self.waits(world, robot));
+                if after.robots[robot].waits() && !waited {
+                    after.slot = oracle.pick(ROBOTS as u32) as u8;
+                    after.has_tried = usize::from(after.slot) == robot;
+                } else {
+                    after.has_tried |= usize::from(world.slot) == robot;
+                }
+            }
+        }
+        self.settle(&mut after, &mut breaks);
+        let event = Event::Looks(robot, side, sight, missed, after.slot);
+        Turned { world: after, event, breaks }
+    }
+
+    /// Whether there is an obstacle in `cell`, outside which there is nothing else.
+    fn is_obstacle(&self, world: &mut World<ROBOTS>, cell: Cell, oracle: &mut dyn Oracle) -> bool {
+        if world.truth.status(cell) == Status::Unexplored {
+            let is_blocked = match self.given {
+                Some(_) => self.is_given(cell),
+                None => world.truth.obstacles() < self.max_obstacles.into() && oracle.mishap(),
+            };
+            if is_blocked {
+                world.truth.block(cell);
+            }
+            return is_blocked;
+        }
+        world.truth.status(cell) == Status::Obstacle
+    }
+
+    fn arrive(
+        &self,
+        world: &World<ROBOTS>,
+        (robot, side): (usize, Side),
+        oracle: &mut dyn Oracle,
+    ) -> Turned<ROBOTS> {
+        let mut after = *world;
+        let cell = world.cells[robot].beyond(side);
+        after.cells[robot] = cell;
+        let mut fix = cell;
+        if after.wrong < self.max_wrong && oracle.mishap() {
+            let beside = Side::ALL.map(|side| cell.beyond(side));
+            let inside = beside.iter().filter(|&&cell| self.area.contains(cell));
+            let number = oracle.pick(inside.clone().count() as u32) as usize;
+            fix = inside.copied().nth(number).unwrap_or(cell);
+            after.wrong += 1;
+        }
+        after.robots[robot].arrived(&self.rule, fix);
+        let at = after.robots[robot].at();
+        let missed = self.tell(&mut after, robot, (at, Status::Explored), u8::MAX, oracle);
+        let mut breaks = Vec::new();
+        self.settle(&mut after, &mut breaks);
+        Turned { world: after, event: Event::Arrives(robot, fix, missed), breaks }
+    }
+
+    /// `from` tells the robots in `to` what is new, or all that it knows. Those that miss it have a bit each.
+    fn tell(
+        &self,
+        world: &mut World<ROBOTS>,
+        from: usize,
+        (cell, status): (Cell, Status),
+        to: u8,
+        oracle: &mut dyn Oracle,
+    ) -> u8 {
+        let map = *world.robots[from].map();
+        let mut missed = 0;
+        for other in (0..ROBOTS).filter(|&other| other != from && to >> other & 1 == 1) {
+            if world.lost < self.max_losses && oracle.mishap() {
+                world.lost += 1;
+                missed |= 1 << other;
+            } else if self.rule.has(Condition::Share) {
+                world.robots[other].map_mut().join(&map);
+            } else {
+                world.robots[other].hears(cell, status);
+            }
+        }
+        missed
+    }
+
+    /// Notes what wrong marks break, and makes states one that differ only in slots that nobody waits for.
+    fn settle(&self, world: &mut World<ROBOTS>, breaks: &mut Vec<Demand>) {
+        let is_right = |robot: &Robot<TinyMap>| robot.map().is_within(&world.truth);
+        if self.is_wanted(Demand::Marks) && !world.robots.iter().all(is_right) {
+            breaks.push(Demand::Marks);
+        }
+        if !(0..ROBOTS).any(|robot| self.waits(world, robot)) {
+            (world.slot, world.old, world.has_tried) = (0, 0, false);
+        }
+    }
+
+    /// Whether a cell beside one that was entered is neither entered nor known to be blocked.
+    fn is_owed(&self, world: &World<ROBOTS>) -> bool {
+        let is_left = |cell: Cell| match world.truth.status(cell) {
+            Status::Unexplored => !self.is_given(cell),
+            Status::Explored | Status::Obstacle => false,
+        };
+        let entered = self.area.cells().filter(|&cell| world.truth.status(cell) == Status::Explored);
+        entered.flat_map(|cell| Side::ALL.map(|side| cell.beyond(side))).any(is_left)
+    }
+}
+
+/// An oracle that always takes the first.
+struct First;
+
+impl Oracle for First {
+    fn pick(&mut self, _: u32) -> u32 {
+        0
+    }
+}
+
+/// What a world is made of.
+#[derive(Clone, PartialEq, Eq, Hash)]
+pub enum Part<const ROBOTS: usize> {
+    /// A repository, or the truth.
+    Map(TinyMap),
+    /// All but the maps.
+    Rest(Box<World<ROBOTS>>),
+}
+
+impl<const ROBOTS: usize> System for Setting<ROBOTS> {
+    type State = World<ROBOTS>;
+    type Part = Part<ROBOTS>;
+    type Demand = Demand;
+
+    fn places(&self, _: &World<ROBOTS>) -> usize {
+        ROBOTS + 2
+    }
+
+    fn part(&self, state: &World<ROBOTS>, place: usize) -> Part<ROBOTS> {
+        match place.checked_sub(ROBOTS) {
+            None => Part::Map(*state.robots[place].map()),
+            Some(0) => Part::Map(state.truth),
+            Some(_) => {
+                let mut bare = *state;
+                if let Some(blank) = TinyMap::new(self.area) {
+                    bare.truth = blank;
+                    bare.robots.iter_mut().for_each(|robot| *robot.map_mut() = blank);
+                }
+                Part::Rest(Box::new(bare))
+            }
+        }
+    }
+
+    fn differing(&self, one: &World<ROBOTS>, other: &World<ROBOTS>) -> Places {
+        let maps = one.robots.iter().zip(&other.robots).map(|(one, other)| one.map() != other.map());
+        let differing = maps.chain([one.truth != other.truth, true]);
+        (0..).zip(differing).fold(0, |places, (place, differs)| places | Places::from(differs) << place)
+    }
+
+    fn put(&self, state: &mut World<ROBOTS>, place: usize, part: &Part<ROBOTS>) {
+        match part {
+            Part::Map(map) if place == ROBOTS => state.truth = *map,
+            Part::Map(map) => *state.robots[place].map_mut() = *map,
+            Part::Rest(rest) => {
+                let (truth, maps) = (state.truth, state.robots.map(|robot| *robot.map()));
+                *state = **rest;
+                state.truth = truth;
+                for (robot, map) in state.robots.iter_mut().zip(maps) {
+                    *robot.map_mut() = map;
+                }
+            }
+        }
+    }
+
+    fn steps(&self, state: &World<ROBOTS>) -> impl Iterator<Item = states::Step<World<ROBOTS>, Demand>> {
+        self.turns(state).into_iter().map(|Turned { world, event, breaks }| {
+            let (situation, acting) = match event {
+                Event::Decides(robot, ..) => ("a decision", 1 << robot),
+                Event::Looks(robot, _, Sight::Open, ..) => ("an open cell", 1 << robot),
+                Event::Looks(robot, _, Sight::Obstacle, ..) => ("an obstacle", 1 << robot),
+                Event::Looks(robot, _, Sight::Robot, ..) => ("a robot", 1 << robot),
+                Event::Arrives(robot, ..) => ("an arrival", 1 << robot),
+                Event::Ticks => ("a slot", 1 << ROBOTS),
+            };
+            states::Step { state: world, situation, acting, is_bound: true, breaks }
+        })
+    }
+
+    fn broken_at_end(&self, state: &World<ROBOTS>) -> Option<Demand> {
+        if self.is_wanted(Demand::Covers) && self.is_owed(state) {
+            return Some(Demand::Covers);
+        }
+        let all_know = || (0..ROBOTS).all(|robot| self.would(state, robot) == Next::Done);
+        (self.is_wanted(Demand::Knows) && !all_know()).then_some(Demand::Knows)
+    }
+
+    fn broken_by_endless_runs(&self) -> Option<Demand> {
+        self.is_wanted(Demand::Ends).then_some(Demand::Ends)
+    }
+
+    /// Robots under way and those that may decide, and the clock.
+    fn awake(&self, state: &World<ROBOTS>) -> Bits {
+        let moving = Bits::from(state.moving());
+        let deciding = (0..ROBOTS).filter(|&robot| self.may_decide(state, robot));
+        let robots = deciding.fold(moving, |set, robot| set | 1 << robot);
+        robots | Bits::from(self.ticks(state)) << ROBOTS
+    }
+
+    fn is_enough(&self, _: Demand) -> bool {
+        self.demand.is_some()
+    }
+}

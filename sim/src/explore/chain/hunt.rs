@@ -1,0 +1,198 @@
+//! The hunt of chains: all layouts, decided wall by wall as the team meets them.
+
+use std::time::{Duration, Instant};
+
+use serde_json::json;
+use tautline_kernel::ground::Cell;
+use tautline_proofs::chain::Observed;
+use tautline_proofs::chain::search::{Bounds, Found, Search, Unsearchable};
+use tautline_proofs::engine::tree;
+use tautline_proofs::words::counted;
+
+use super::saved::{AGAIN, Saved};
+use crate::explore::ClauseId;
+use crate::explore::hunt::{Asked, Bound, Far, Hunt, Hunted, Hunter, Quarry, Shown, setup};
+use crate::fault::Fault;
+use crate::layout::Size;
+
+/// How often a hunt is kept in its file.
+const KEEP_EVERY: Duration = Duration::from_secs(5);
+
+/// Robots of a chain when nobody says how many.
+const DEFAULT_ROBOTS: u64 = 4;
+
+/// Walls when nobody says how many.
+const DEFAULT_WALLS: u32 = 4;
+
+/// The most robots that are hunted for.
+const MAX_ROBOTS: usize = 64;
+
+/// The chain that is hunted.
+#[derive(Debug)]
+pub(super) struct Walls(pub(super) Observed);
+
+impl Hunt for Walls {
+    fn takes(&self) -> &'static [Bound] {
+        &[Bound::Walls, Bound::Resume]
+    }
+
+    fn refusal(&self, bound: Bound) -> (String, String) {
+        let what = match bound {
+            Bound::Losses | Bound::Error => "a hunt of chains loses no messages and has no wrong fixes",
+            Bound::Walls | Bound::Misses | Bound::Resume => {
+                "the robots of a chain have no floor sensors to miss"
+            }
+        };
+        (what.to_owned(), "give `max-walls`, or `scheme` ants, bricks or bricks-ants".to_owned())
+    }
+
+    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault> {
+        let (robots, walls) =
+            (asked.robots.unwrap_or(DEFAULT_ROBOTS), asked.max_walls.unwrap_or(DEFAULT_WALLS));
+        let mut bounds = bounds(self.0, robots, walls, asked.size)?;
+        bounds.budget_moves = asked.budget;
+        let found = search(asked, &bounds, hunter)?;
+        let quarries = found.counterexamples.iter().map(|counterexample| {
+            let run = bounds.run(counterexample);
+            let setup = setup(asked.scheme, asked.rule, &run)?;
+            let (walls, steps) = (run.walls.len(), counterexample.frames.len());
+            let runs = counterexample.runs;
+            let broken = counterexample.broken.breach().map(ClauseId::from);
+            Ok(Quarry {
+                clause: counterexample.broken.clause(),
+                facts: vec![("runs", json!(runs)), ("walls", json!(walls)), ("steps", json!(steps))],
+                title: format!(
+                    "{}, {}; broken in {}",
+                    counted(walls, "wall"),
+                    counted(steps, "team move"),
+                    counted(runs, "run")
+                ),
+                setup,
+                shown: broken.map_or(Shown::Endless, Shown::Run),
+            })
+        });
+        let quarries = quarries.collect::<Result<Vec<Quarry>, Fault>>()?;
+        Ok(hunted(&bounds, &found, quarries))
+    }
+}
+
+/// What is told of a search.
+fn hunted(bounds: &Bounds, found: &Found, quarries: Vec<Quarry>) -> Hunted {
+    let Found { runs, moves, longest, levels, .. } = found;
+    let max_walls = bounds.max_walls;
+    let (robots, done) = (bounds.robots as u64, (levels.len() as u32).checked_sub(1));
+    let bound = match done {
+        Some(walls) if walls == max_walls => "in any layout within this bound".to_owned(),
+        Some(walls) => {
+            let walls = counted(walls, "wall");
+            format!("in any layout with at most {walls}; the hunt was ended before its bound")
+        }
+        None => "so far; the hunt was ended before it had covered any layout".to_owned(),
+    };
+    let (all_runs, all_moves) = (counted(*runs, "run"), counted(*moves, "team move"));
+    Hunted {
+        robots,
+        facts: vec![
+            ("runs", json!(runs)),
+            ("moves", json!(moves)),
+            ("longest", json!(longest)),
+            ("max_walls", json!(max_walls)),
+        ],
+        is_complete: found.complete,
+        done: ("walls_done", json!(done)),
+        title: format!(
+            "{}, at most {}: {all_runs}, {all_moves}, {longest} the longest",
+            counted(robots, "robot"),
+            counted(max_walls, "wall")
+        ),
+        through: format!("{all_runs} and {all_moves}"),
+        outcome: match quarries[..] {
+            [] => format!("No clause is broken {bound}."),
+            _ => format!("The smallest counterexample to each clause that is broken {bound}:"),
+        },
+        found: quarries,
+    }
+}
+
+fn search(asked: &Asked<'_>, bounds: &Bounds, hunter: &mut dyn Hunter) -> Result<Found, Fault> {
+    let mut saved = asked.resume.map(|path| Saved::new(path, asked.scheme, asked.rule, bounds));
+    let mut search = match &mut saved {
+        Some(saved) => saved.search(bounds)?,
+        None => start(bounds)?,
+    };
+    // What cannot be kept is refused before it has cost anything.
+    if let Some(saved) = &mut saved {
+        saved.write(&search)?;
+    }
+    let mut written = Instant::now();
+    while hunter.hears(Far::Tree(&search.progress())).is_continue() && search.wave() {
+        if let Some(saved) = saved.as_mut().filter(|_| written.elapsed() > KEEP_EVERY) {
+            // There may be room again later on; the last good one stands there until then.
+            if let Err(fault) = saved.write(&search) {
+                hunter.is_not_kept(&fault);
+            }
+            written = Instant::now();
+        }
+    }
+    if let Some(Err(fault)) = saved.as_mut().map(|saved| saved.write(&search)) {
+        hunter.is_left_out(&fault);
+    }
+    Ok(search.found())
+}
+
+/// The bounds of a hunt for `robots` in layouts of `size`, by default the (2N−1)² cells of the paper, with at most
+/// `max_walls`.
+///
+/// # Errors
+/// A [`Fault`] if there are too few or too many robots.
+pub fn bounds(observed: Observed, robots: u64, max_walls: u32, size: Option<Size>) -> Result<Bounds, Fault> {
+    let count = usize::try_from(robots).ok().filter(|count| (2..=MAX_ROBOTS).contains(count));
+    let count = count.ok_or_else(|| {
+        let what = match robots {
+            0 => "no robots".to_owned(),
+            1 => "the base alone".to_owned(),
+            _ => format!("{robots} robots"),
+        };
+        Fault::of_field(
+            "robots",
+            format_args!("{what} cannot be the team"),
+            format_args!("give `robots` a number from 2 to {MAX_ROBOTS}, the base counted"),
+        )
+    })?;
+    let mut bounds = Bounds::new(observed, count, max_walls);
+    if let Some(size) = size {
+        bounds.base = Cell::new((size.width() - 1) / 2, (size.height() - 1) / 2);
+        bounds.area = size.area();
+    }
+    Ok(bounds)
+}
+
+/// The search within `bounds`, from the start.
+///
+/// # Errors
+/// A [`Fault`] if it cannot be made.
+pub fn start(bounds: &Bounds) -> Result<Search, Fault> {
+    Search::new(bounds).map_err(fault)
+}
+
+/// The fault of a search that is refused.
+pub(super) fn fault(refused: Unsearchable) -> Fault {
+    let refused = match refused {
+        Unsearchable::Team(refused) => return super::fault(refused),
+        Unsearchable::Search(refused) => refused,
+    };
+    match refused {
+        tree::Unsearchable::TooManyWalls { edges, .. } => {
+            Fault::of_field("max-walls", refused, format_args!("give `max-walls` a number up to {edges}"))
+        }
+        tree::Unsearchable::TooLarge { .. } => {
+            Fault::of_field("size", refused, "give fewer `robots` or a smaller `size`")
+        }
+        tree::Unsearchable::Beyond { walls } => Fault::of_field(
+            "max-walls",
+            refused,
+            format_args!("give `max-walls` {walls} or more, or another `resume` file"),
+        ),
+        tree::Unsearchable::Foreign => Fault::of_field("resume", refused, AGAIN),
+    }
+}

@@ -1,0 +1,221 @@
+//! Frontier cells (Rajesh, Nagaraja and Suja 2024): their row, and their teams: the kernel's robots, rivals that assign cells, and runs that a
+//! search has found.
+
+mod hunt;
+mod scripted;
+mod watched;
+
+use std::collections::{BTreeSet, VecDeque};
+
+use tautline_kernel::frontier::Rule as Frontier;
+use tautline_kernel::ground::{Cell, Edge, Side};
+use tautline_proofs::run::Frame;
+
+use self::hunt::{Searched, Simulated};
+use super::clause::ClauseId;
+use super::rule::RuleId;
+use super::run::{End, Team};
+use super::setup::{Clause, Extra, Profile, Rule, Senses, Setup, Starts};
+use super::stage::Look;
+use super::survey::Survey;
+use crate::fault::Fault;
+use crate::frontier::{Assigned, Assignment, Ended, Explorers, Options};
+use crate::layout::Layout;
+
+/// The run ends, and a cell in reach is unexplored.
+pub const COVERS: ClauseId = ClauseId::new("FRONTIER-1");
+
+/// Two robots are in one cell.
+pub const ALONE: ClauseId = ClauseId::new("FRONTIER-2");
+
+/// The run goes on for ever.
+pub const ENDS: ClauseId = ClauseId::new("FRONTIER-3");
+
+/// The run ends, and a robot does not know it.
+pub const KNOWS: ClauseId = ClauseId::new("FRONTIER-4");
+
+/// A robot notes of a cell what is not so.
+pub const MARKS: ClauseId = ClauseId::new("FRONTIER-5");
+
+/// The most robots of a team.
+const MAX_ROBOTS: usize = 64;
+
+const MISSED: &str = "Within reach and unexplored";
+
+/// A rule of the kernel, hunted through all states.
+macro_rules! searched {
+    ($name:expr, $about:expr, $rule:expr) => {
+        Rule { name: $name, about: $about, start: |setup| start(setup, $rule), hunt: Some(&Searched($rule)) }
+    };
+}
+
+/// A rival, of which every layout is tried.
+macro_rules! assigned {
+    ($name:expr, $about:expr, $assignment:expr) => {
+        Rule {
+            name: RuleId::new($name),
+            about: $about,
+            start: |setup| start_assigned(setup, $assignment),
+            hunt: Some(&Simulated),
+        }
+    };
+}
+
+/// Robots that go to unexplored neighbours of their cells.
+pub static FRONTIER: Profile = Profile {
+    name: "frontier",
+    about: "Frontier cells: robots that go to unexplored cells beside explored ones and tell each other",
+    rules: &[
+        searched!(RuleId::PUBLISHED, "As the paper publishes it", Frontier::PUBLISHED),
+        searched!(RuleId::REPAIRED, "With the repairs of its refuted claims", Frontier::REPAIRED),
+        searched!(RuleId::new("plain"), "With the repairs and without preferences", Frontier::PLAIN),
+        searched!(RuleId::new("wanders"), "A robot without a candidate wanders", Frontier::WANDERS),
+        searched!(RuleId::new("literal"), "Obstacles are avoided to the letter", Frontier::LITERAL),
+        searched!(RuleId::new("printed"), "The occupancy probability is as printed", Frontier::PRINTED),
+        assigned!("greedy", "The nearest pair of robot and frontier cell first", Assignment::Greedy),
+        assigned!("hungarian", "Frontier cells by the Hungarian algorithm", Assignment::Hungarian),
+        assigned!("hungarian-anew", "The same, anew at every move", Assignment::HungarianAnew),
+        assigned!("earlier", "The nearest frontier cell that no earlier robot takes", Assignment::Earlier),
+    ],
+    team: "team",
+    robots: 1..=MAX_ROBOTS,
+    starts: Starts::Alone,
+    senses: Senses::Bumps,
+    extras: &[Extra::Range, Extra::Loss, Extra::Noise, Extra::Threshold],
+    look: Look::Apart,
+    knowledge: None,
+    clauses: &[
+        Clause { missed: Some(MISSED), ..Clause::new(COVERS.as_str()) },
+        Clause::new(ALONE.as_str()),
+        Clause::new(ENDS.as_str()),
+        Clause::new(KNOWS.as_str()),
+        Clause::new(MARKS.as_str()),
+    ],
+};
+
+/// Who explores.
+enum Who {
+    Robots(Box<Explorers>),
+    Assigned(Box<Assigned>),
+}
+
+struct FrontierTeam {
+    who: Who,
+    /// Cells in reach of a start.
+    due: Vec<Cell>,
+    /// How it has ended.
+    ended: Option<Ended>,
+}
+
+/// The team of `setup`, each robot at its start.
+fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Fault> {
+    check(setup)?;
+    if !setup.choices.is_empty() {
+        return scripted::start(setup, rule);
+    }
+    let robots = Explorers::new(rule, &setup.layout, &setup.starts(), setup.options, setup.seed);
+    Ok(team(setup, Who::Robots(Box::new(robots))))
+}
+
+/// The team of `setup` whose cells are assigned.
+fn start_assigned(setup: &Setup, assignment: Assignment) -> Result<Box<dyn Team>, Fault> {
+    check(setup)?;
+    if setup.options != Options::default() || !setup.choices.is_empty() {
+        let what = format!("the rule {} knows neither radio nor positions", setup.rule);
+        return Err(Fault::usage(
+            what,
+            "leave `range`, `loss`, `noise-db` and `threshold` out, or take `rule` repaired",
+        ));
+    }
+    let robots = Assigned::new(assignment, &setup.layout, &setup.starts());
+    Ok(team(setup, Who::Assigned(Box::new(robots))))
+}
+
+fn team(setup: &Setup, who: Who) -> Box<dyn Team> {
+    Box::new(FrontierTeam { who, due: reachable(&setup.layout, &setup.starts()), ended: None })
+}
+
+/// Refuses walls between cells: an obstacle fills a cell.
+fn check(setup: &Setup) -> Result<(), Fault> {
+    if setup.layout.walls().next().is_some() {
+        let what = "this layout has walls between cells: for frontier cells an obstacle fills a cell";
+        return Err(Fault::of_field(
+            "layout",
+            what,
+            "take a layout with blocked cells, such as cells:6x7:0.1",
+        ));
+    }
+    Ok(())
+}
+
+/// The free cells of a layout that are reached from the starts, row by row.
+pub(crate) fn reachable(layout: &Layout, starts: &[Cell]) -> Vec<Cell> {
+    let mut reached: BTreeSet<(i16, i16)> = starts.iter().map(|start| (start.y, start.x)).collect();
+    let mut queue: VecDeque<Cell> = starts.iter().copied().collect();
+    while let Some(cell) = queue.pop_front() {
+        for side in Side::ALL {
+            let beside = cell.beyond(side);
+            if layout.is_open(Edge::new(cell, side)) && reached.insert((beside.y, beside.x)) {
+                queue.push_back(beside);
+            }
+        }
+    }
+    reached.into_iter().map(|(y, x)| Cell::new(x, y)).collect()
+}
+
+impl Team for FrontierTeam {
+    fn cells(&self) -> &[Cell] {
+        match &self.who {
+            Who::Robots(robots) => robots.cells(),
+            Who::Assigned(robots) => robots.cells(),
+        }
+    }
+
+    fn advance(&mut self, _: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+        let made = match &mut self.who {
+            Who::Robots(robots) => robots.advance(),
+            Who::Assigned(robots) => robots.advance(),
+        };
+        made.map_err(|ended| {
+            self.ended = Some(ended);
+            match ended {
+                Ended::Known | Ended::Still => End::Exhausted,
+                Ended::Endless => End::Endless,
+            }
+        })
+    }
+
+    fn due(&self, _: &Layout) -> u32 {
+        self.due.len() as u32
+    }
+
+    fn missed(&self, _: &Layout, chart: &Survey) -> Vec<Cell> {
+        self.due.iter().copied().filter(|&cell| chart.step(cell).is_none()).collect()
+    }
+
+    fn broken_in_move(&self, _: &[Cell], frame: &Frame) -> Vec<ClauseId> {
+        let is_double = has_double(&frame.cells);
+        let is_wrong = match &self.who {
+            Who::Robots(robots) => robots.is_wrong(),
+            Who::Assigned(_) => false,
+        };
+        [is_double.then_some(ALONE), is_wrong.then_some(MARKS)].into_iter().flatten().collect()
+    }
+
+    fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
+        let is_short = end != End::Endless && !self.missed(layout, chart).is_empty();
+        let is_endless = end == End::Endless;
+        let knows_not = self.ended == Some(Ended::Still);
+        [is_short.then_some(COVERS), is_endless.then_some(ENDS), knows_not.then_some(KNOWS)]
+            .into_iter()
+            .flatten()
+            .collect()
+    }
+}
+
+/// Whether two robots are in one cell.
+fn has_double(cells: &[Cell]) -> bool {
+    let mut cells = cells.to_vec();
+    cells.sort_unstable();
+    cells.windows(2).any(|pair| pair[0] == pair[1])
+}

@@ -1,0 +1,352 @@
+//! Hunts of robots that explore cells. Of the kernel's robots all states are searched: all obstacles, all starts, all orders,
+//! lost messages and wrong fixes. Of rivals all layouts and starts are tried, smallest first.
+
+use std::cell::{Cell as Flag, RefCell};
+use std::ops::ControlFlow;
+
+use serde_json::json;
+use tautline_kernel::frontier::{Map, Rule as Frontier, Status, TinyMap};
+use tautline_kernel::ground::Cell;
+use tautline_proofs::engine::states::{Limits as Most, search};
+use tautline_proofs::frontier::areas::{Counterexample, fewest, setting};
+use tautline_proofs::frontier::world::{Demand, Event, Setting};
+use tautline_proofs::words::counted;
+
+use super::watched::Watched;
+use super::{ENDS, reachable};
+use crate::explore::hunt::{Asked, Bound, Fact, Far, Hunt, Hunted, Hunter, Quarry, Shown};
+use crate::explore::run::{Limits, OnViolation, run};
+use crate::explore::{ClauseId, Setup, team};
+use crate::fault::{Fault, Halt};
+use crate::layout::{Layout, Size};
+
+/// Robots when nobody says how many.
+const DEFAULT_ROBOTS: u64 = 2;
+
+/// The most robots of which all states are searched.
+const MOST_ROBOTS: u64 = 3;
+
+/// Columns and rows at most when nobody says.
+const DEFAULT_SIZE: (u64, u64) = (3, 2);
+
+/// Cells of the largest areas.
+const MOST_CELLS: usize = 16;
+
+/// Team moves after which a rival is watched no longer.
+const MOST_MOVES: u32 = 1000;
+
+/// The kernel's robots, whose states are searched.
+#[derive(Debug)]
+pub(super) struct Searched(pub(super) Frontier);
+
+/// Rivals, of which every layout is tried.
+#[derive(Debug)]
+pub(super) struct Simulated;
+
+/// How much was searched.
+#[derive(Default)]
+struct Count {
+    states: u64,
+    steps: u64,
+    /// The cells up to which all areas were searched.
+    cells: Option<usize>,
+    is_complete: bool,
+}
+
+/// All areas up to a size, fewest cells first.
+fn areas(size: Size) -> Vec<(i16, i16)> {
+    let mut areas: Vec<(i16, i16)> =
+        (1..=size.height()).flat_map(|height| (1..=size.width()).map(move |width| (width, height))).collect();
+    areas.sort_by_key(|&(width, height)| (width * height, height));
+    areas
+}
+
+/// The size and the number of robots that are asked for.
+fn bounds(asked: &Asked<'_>, most: u64) -> Result<(Size, u64), Fault> {
+    let size = match asked.size {
+        Some(size) => size,
+        None => Size::new(DEFAULT_SIZE.0, DEFAULT_SIZE.1)?,
+    };
+    if size.cells() > MOST_CELLS {
+        let what = format!("{size} cells are {}, too many to search all their layouts", size.cells());
+        let remedy = format!("give `size` at most {MOST_CELLS} cells, for example 4x4 or 8x2");
+        return Err(Fault::of_field("size", what, remedy));
+    }
+    let robots = asked.robots.unwrap_or(DEFAULT_ROBOTS);
+    if !(1..=most).contains(&robots) {
+        let what = format!("a hunt for {}", counted(robots, "robot"));
+        return Err(Fault::of_field("robots", what, format_args!("give `robots` a number from 1 to {most}")));
+    }
+    if robots > size.cells() as u64 {
+        let what = format!("{robots} robots do not find room in {size} cells");
+        let remedy = format!("give `robots` a number up to {}, or a larger `size`", size.cells());
+        return Err(Fault::of_field("robots", what, remedy));
+    }
+    Ok((size, robots))
+}
+
+impl Hunt for Searched {
+    fn takes(&self) -> &'static [Bound] {
+        &[Bound::Walls, Bound::Losses, Bound::Error]
+    }
+
+    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault> {
+        let (size, robots) = bounds(asked, MOST_ROBOTS)?;
+        let max_wrong = wrong_fixes(asked)?;
+        let hunt = match robots {
+            1 => searched::<1>,
+            2 => searched::<2>,
+            _ => searched::<3>,
+        };
+        let (count, found) = hunt(self.0, size, max_wrong, asked, hunter)?;
+        Ok(told(asked, (size, robots), &count, found))
+    }
+}
+
+/// How many fixes are wrong in one run at most.
+fn wrong_fixes(asked: &Asked<'_>) -> Result<u8, Fault> {
+    match asked.error_cells {
+        None => Ok(0),
+        Some(error) if error.to_bits() == 0.0_f64.to_bits() => Ok(0),
+        Some(error) if error.to_bits() == 1.0_f64.to_bits() => Ok(1),
+        Some(error) => {
+            let what = format!("an error of {error} cells is not searched");
+            Err(Fault::of_field("error", what, "give `error` 1: one fix is off by one cell; or 0: none is"))
+        }
+    }
+}
+
+fn searched<const ROBOTS: usize>(
+    rule: Frontier,
+    size: Size,
+    max_wrong: u8,
+    asked: &Asked<'_>,
+    hunter: &mut dyn Hunter,
+) -> Result<(Count, Vec<Quarry>), Fault> {
+    let most_obstacles = asked.max_walls.map_or(MOST_CELLS as u8, |walls| walls.min(MOST_CELLS as u32) as u8);
+    let max_losses = asked.max_losses.unwrap_or(0);
+    let mut found: Vec<(Demand, Counterexample<ROBOTS>)> = Vec::new();
+    let mut count = Count { is_complete: true, ..Count::default() };
+    for area in areas(size) {
+        let cells = (area.0 * area.1) as usize;
+        let Some(all) = setting::<ROBOTS>(rule, area) else { continue };
+        let all = Setting { max_obstacles: most_obstacles, max_losses, max_wrong, ..all };
+        let left = asked.budget.map_or(u64::MAX, |budget| budget.saturating_sub(count.steps));
+        let what = format!("areas up to {}×{}", area.0, area.1);
+        let watched = Watched {
+            system: &all,
+            hunter: RefCell::new(&mut *hunter),
+            what,
+            states: Flag::new(count.states),
+            is_stopped: Flag::new(false),
+        };
+        let looked = search(&watched, all.starts(), Most { most_steps: left, ..Most::NONE });
+        let is_stopped = watched.is_stopped.get();
+        count.states += looked.states;
+        count.steps += looked.steps;
+        for run in looked.broken {
+            if found.iter().all(|(known, _)| *known != run.demand) {
+                let demand = run.demand;
+                found.push((demand, fewest(all, run, Most::NONE)));
+            }
+        }
+        if is_stopped || !looked.is_whole {
+            count.is_complete = false;
+            break;
+        }
+        count.cells = Some(cells);
+    }
+    found.sort_by_key(|(demand, _)| demand.clause());
+    let quarries = found.iter().map(|(demand, found)| quarry(asked, *demand, found));
+    Ok((count, quarries.collect::<Result<_, _>>()?))
+}
+
+/// A counterexample of a search as one that can be stored, unless its run goes on for ever.
+fn quarry<const ROBOTS: usize>(
+    asked: &Asked<'_>,
+    demand: Demand,
+    found: &Counterexample<ROBOTS>,
+) -> Result<Quarry, Fault> {
+    let area = found.setting.area;
+    let mut layout = Layout::open(area.width() as u64, area.height() as u64)?;
+    let (cells, moves, blocked, choices) = match (found.steps(), found.given()) {
+        (Some((start, steps, _)), Some((given, choices))) => {
+            let moves = steps.iter().filter(|(event, _)| matches!(event, Event::Looks(..))).count();
+            (start.cells(), moves, given.given, choices)
+        }
+        _ => ([Cell::new(0, 0); ROBOTS], 0, None, Vec::new()),
+    };
+    let is_blocked = |cell| blocked.is_some_and(|map: TinyMap| map.status(cell) == Status::Obstacle);
+    area.cells().filter(|&cell| is_blocked(cell)).for_each(|cell| layout.block(cell));
+    let walls = layout.size().cells() - layout.free_cells();
+    let base = cells.first().copied().unwrap_or(Cell::new(0, 0));
+    layout.place_base(base)?;
+    let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
+    let setup = Setup::new(asked.scheme, asked.rule, ROBOTS as u16, layout, base);
+    let setup = Setup { starts: Some(cells.to_vec()), choices, limits, ..setup };
+    let is_stored = found.run.round().is_empty() && !setup.choices.is_empty();
+    let story = found.story();
+    let (columns, rows) = (area.width(), area.height());
+    Ok(Quarry {
+        clause: demand.clause(),
+        facts: sizes([columns, rows], walls, moves),
+        title: title([columns, rows], walls, moves),
+        shown: if is_stored {
+            Shown::Story(ClauseId::new(demand.clause()), story)
+        } else {
+            Shown::Told(story)
+        },
+        setup,
+    })
+}
+
+fn sizes([columns, rows]: [usize; 2], walls: usize, moves: usize) -> Vec<Fact> {
+    vec![("columns", json!(columns)), ("rows", json!(rows)), ("walls", json!(walls)), ("steps", json!(moves))]
+}
+
+fn title([columns, rows]: [usize; 2], walls: usize, moves: usize) -> String {
+    format!("{columns}x{rows} cells, {} blocked, {}", walls, counted(moves, "move"))
+}
+
+/// What is told of a hunt.
+fn told(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Vec<Quarry>) -> Hunted {
+    let Count { states, steps, cells, is_complete } = *count;
+    let (all_states, all_steps) = (counted(states, "state"), counted(steps, "step"));
+    let losses = asked.max_losses.unwrap_or(0);
+    let bound = match (is_complete, cells) {
+        (true, _) => "in any layout within this bound".to_owned(),
+        (false, Some(cells)) => {
+            format!(
+                "in any layout of at most {}; the hunt was ended before its bound",
+                counted(cells, "cell")
+            )
+        }
+        (false, None) => "so far; the hunt was ended before it had covered any layout".to_owned(),
+    };
+    let lost = if losses == 0 { String::new() } else { format!(", at most {losses} lost") };
+    let walls = asked.max_walls.map_or_else(String::new, |walls| format!(", at most {walls} blocked"));
+    Hunted {
+        robots,
+        facts: vec![
+            ("size", json!(size.to_string())),
+            ("states", json!(states)),
+            ("steps", json!(steps)),
+            ("max_walls", json!(asked.max_walls)),
+            ("max_losses", json!(losses)),
+            ("error", json!(asked.error_cells)),
+        ],
+        is_complete,
+        done: ("cells_done", json!(cells)),
+        title: format!(
+            "{}, layouts up to {size}{walls}{lost}: {all_states}, {all_steps}",
+            counted(robots, "robot")
+        ),
+        through: format!("{all_states} and {all_steps}"),
+        outcome: match found[..] {
+            [] => format!("No clause is broken {bound}."),
+            _ => format!("The smallest counterexample to each clause that is broken {bound}:"),
+        },
+        found,
+    }
+}
+
+impl Hunt for Simulated {
+    fn takes(&self) -> &'static [Bound] {
+        &[Bound::Walls]
+    }
+
+    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault> {
+        let (size, robots) = bounds(asked, MOST_CELLS as u64)?;
+        let mut count = Count { is_complete: true, ..Count::default() };
+        let mut found: Vec<Quarry> = Vec::new();
+        'areas: for (width, height) in areas(size) {
+            let cells: Vec<Cell> =
+                (0..height).flat_map(|y| (0..width).map(move |x| Cell::new(x, y))).collect();
+            let mut blocks: Vec<u32> = (0..1_u32 << cells.len()).collect();
+            let most = asked.max_walls.unwrap_or(u32::MAX);
+            blocks.retain(|blocked| blocked.count_ones() <= most);
+            blocks.sort_by_key(|blocked| (blocked.count_ones(), *blocked));
+            for blocked in blocks {
+                let free = (0..cells.len()).filter(|place| blocked >> place & 1 == 0);
+                let free: Vec<Cell> = free.map(|place| cells[place]).collect();
+                for starts in choose(&free, robots as usize) {
+                    let what = format!("layouts {} of {width}x{height}", count.states);
+                    let is_over = asked.budget.is_some_and(|budget| count.steps >= budget);
+                    if is_over || hunter.hears(Far::Words(what)) == ControlFlow::Break(()) {
+                        count.is_complete = false;
+                        break 'areas;
+                    }
+                    let setup = layout_of(asked, (width, height), &cells, blocked, &starts)?;
+                    if reachable(&setup.layout, &starts).len() < starts.len() {
+                        continue;
+                    }
+                    count.states += 1;
+                    try_one(&setup, &mut count, &mut found)?;
+                }
+            }
+            count.cells = Some(cells.len());
+        }
+        found.sort_by_key(|quarry| quarry.clause);
+        Ok(told(asked, (size, robots), &count, found))
+    }
+}
+
+/// Every choice of so many of the cells, in their order.
+fn choose(cells: &[Cell], count: usize) -> Vec<Vec<Cell>> {
+    if count == 0 {
+        return vec![Vec::new()];
+    }
+    let mut chosen = Vec::new();
+    for (place, &first) in cells.iter().enumerate() {
+        for mut rest in choose(&cells[place + 1..], count - 1) {
+            rest.insert(0, first);
+            chosen.push(rest);
+        }
+    }
+    chosen
+}
+
+fn layout_of(
+    asked: &Asked<'_>,
+    (width, height): (i16, i16),
+    cells: &[Cell],
+    blocked: u32,
+    starts: &[Cell],
+) -> Result<Setup, Fault> {
+    let mut layout = Layout::open(width as u64, height as u64)?;
+    let is_blocked = |place: &usize| blocked >> place & 1 == 1;
+    (0..cells.len()).filter(is_blocked).for_each(|place| layout.block(cells[place]));
+    let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
+    layout.place_base(base)?;
+    let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
+    let setup = Setup::new(asked.scheme, asked.rule, starts.len() as u16, layout, base);
+    Ok(Setup { starts: Some(starts.to_vec()), limits, ..setup })
+}
+
+/// Runs a rival once, and keeps what breaks a clause that none has broken before.
+fn try_one(setup: &Setup, count: &mut Count, found: &mut Vec<Quarry>) -> Result<(), Fault> {
+    let mut members = team(setup)?;
+    let made = run(&mut *members, &setup.layout, setup.limits, &mut |made| {
+        if made.step > MOST_MOVES { Err(Halt::Interrupted) } else { Ok(()) }
+    });
+    let (steps, broken) = match &made {
+        Ok(report) => (report.steps, report.violations.first().map(|violation| violation.clause)),
+        Err(_) => (MOST_MOVES, Some(ENDS)),
+    };
+    count.steps += u64::from(steps);
+    let Some(clause) = broken.filter(|clause| found.iter().all(|known| known.clause != clause.as_str()))
+    else {
+        return Ok(());
+    };
+    let layout = &setup.layout;
+    let size = [layout.width() as usize, layout.height() as usize];
+    let walls = layout.size().cells() - layout.free_cells();
+    found.push(Quarry {
+        clause: clause.as_str(),
+        facts: sizes(size, walls, steps as usize),
+        title: title(size, walls, steps as usize),
+        setup: setup.clone(),
+        shown: if clause == ENDS { Shown::Endless } else { Shown::Run(clause) },
+    });
+    Ok(())
+}

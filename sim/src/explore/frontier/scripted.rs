@@ -1,0 +1,138 @@
+//! A run that a search has found: the search's world makes it again by its choices. A team move is a robot's look: whoever
+//! enters a cell is drawn there, and what happens until the next look belongs to it.
+
+use tautline_kernel::chain::Kind;
+use tautline_kernel::frontier::{Map, Rule as Frontier, Sight, TinyMap};
+use tautline_kernel::ground::{Cell, Edge, Step};
+use tautline_proofs::engine::states::System;
+use tautline_proofs::frontier::areas::setting;
+use tautline_proofs::frontier::world::{Demand, Event, Setting, World};
+use tautline_proofs::run::Frame;
+
+use super::{COVERS, KNOWS, reachable};
+use crate::explore::ClauseId;
+use crate::explore::run::{End, Team};
+use crate::explore::setup::Setup;
+use crate::explore::survey::Survey;
+use crate::fault::Fault;
+use crate::layout::Layout;
+
+/// The team of `setup`, which has choices.
+pub(super) fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Fault> {
+    match setup.robots {
+        1 => begin::<1>(setup, rule),
+        2 => begin::<2>(setup, rule),
+        3 => begin::<3>(setup, rule),
+        robots => Err(misfit(format!("{robots} robots make no choices"))),
+    }
+}
+
+fn misfit(what: String) -> Fault {
+    Fault::of_field("choices", what, "hunt again: choices come from a counterexample alone")
+}
+
+fn begin<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Fault> {
+    let layout = &setup.layout;
+    let starts = setup.starts();
+    let setting = setting::<ROBOTS>(rule, (layout.width(), layout.height()));
+    let blank = TinyMap::new(layout.size().area());
+    let cells = <[Cell; ROBOTS]>::try_from(starts.as_slice());
+    let (Some(setting), Some(mut given), Ok(cells)) = (setting, blank, cells) else {
+        return Err(misfit("the layout is too large for choices".to_owned()));
+    };
+    layout.cells().filter(|&cell| !layout.is_free(cell)).for_each(|cell| given.block(cell));
+    let (max_losses, max_wrong) = (u8::MAX, u8::MAX);
+    let setting = Setting { given: Some(given), max_losses, max_wrong, ..setting };
+    let Some(world) = setting.start(cells) else {
+        return Err(misfit("the layout is too large for choices".to_owned()));
+    };
+    let due = reachable(layout, &starts);
+    let scripted = Scripted {
+        setting,
+        world,
+        choices: setup.choices.clone(),
+        made: 0,
+        cells: starts,
+        due,
+        broken: Vec::new(),
+    };
+    Ok(Box::new(scripted))
+}
+
+struct Scripted<const ROBOTS: usize> {
+    setting: Setting<ROBOTS>,
+    world: World<ROBOTS>,
+    choices: Vec<u32>,
+    /// Choices so far.
+    made: usize,
+    cells: Vec<Cell>,
+    due: Vec<Cell>,
+    /// What the last team move has broken.
+    broken: Vec<Demand>,
+}
+
+impl<const ROBOTS: usize> Scripted<ROBOTS> {
+    /// Makes the next choice, if it is a look as wanted or not.
+    fn choose(&mut self, wanted: Wanted) -> Option<Event> {
+        let number = *self.choices.get(self.made)?;
+        let turned = self.setting.turns(&self.world).into_iter().nth(number as usize)?;
+        let is_look = matches!(turned.event, Event::Looks(..));
+        if is_look != (wanted == Wanted::Look) {
+            return None;
+        }
+        self.made += 1;
+        self.broken.extend(turned.breaks);
+        self.world = turned.world;
+        Some(turned.event)
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Wanted {
+    Look,
+    NoLook,
+}
+
+impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
+    fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    fn advance(&mut self, _: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+        self.broken.clear();
+        while self.choose(Wanted::NoLook).is_some() {}
+        let Some(Event::Looks(robot, side, sight, ..)) = self.choose(Wanted::Look) else {
+            return Err(End::Exhausted);
+        };
+        while self.choose(Wanted::NoLook).is_some() {}
+        let (mut steps, mut blocked) = (vec![Step::Stay; ROBOTS], vec![false; ROBOTS]);
+        match sight {
+            Sight::Open => steps[robot] = Step::Cross(side),
+            Sight::Obstacle => (steps[robot], blocked[robot]) = (Step::Cross(side), true),
+            Sight::Robot => {}
+        }
+        self.cells = self.world.cells().to_vec();
+        Ok(Frame { kind: Kind::Advance, steps, blocked, cells: self.cells.clone() })
+    }
+
+    fn due(&self, _: &Layout) -> u32 {
+        self.due.len() as u32
+    }
+
+    fn missed(&self, _: &Layout, chart: &Survey) -> Vec<Cell> {
+        self.due.iter().copied().filter(|&cell| chart.step(cell).is_none()).collect()
+    }
+
+    fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<ClauseId> {
+        let broken = Demand::ALL.into_iter().filter(|demand| self.broken.contains(demand));
+        broken.map(|demand| ClauseId::new(demand.clause())).collect()
+    }
+
+    fn broken_at_end(&self, layout: &Layout, chart: &Survey, _: End) -> Vec<ClauseId> {
+        let is_still = self.setting.turns(&self.world).is_empty();
+        let is_short = is_still && !self.missed(layout, chart).is_empty();
+        let knows = Setting { demand: Some(Demand::Knows), ..self.setting };
+        let knows_not = is_still && knows.broken_at_end(&self.world) == Some(Demand::Knows);
+        [is_short.then_some(COVERS), knows_not.then_some(KNOWS)].into_iter().flatten().collect()
+    }
+}

@@ -1,0 +1,78 @@
+//! A system that somebody watches while it is searched: whoever ends the work makes it a system without further steps.
+
+use std::cell::{Cell, RefCell};
+
+use tautline_proofs::engine::states::{Bits, Places, Step, System};
+
+use crate::explore::hunt::{Far, Hunter};
+
+/// States between two words about how far the search is.
+const BETWEEN: u64 = 1 << 14;
+
+/// A watched system.
+pub(super) struct Watched<'a, 'h, S> {
+    pub(super) system: &'a S,
+    pub(super) hunter: RefCell<&'h mut dyn Hunter>,
+    /// What is searched.
+    pub(super) what: String,
+    pub(super) states: Cell<u64>,
+    /// Whether the work was ended.
+    pub(super) is_stopped: Cell<bool>,
+}
+
+impl<S: System> System for Watched<'_, '_, S> {
+    type State = S::State;
+    type Part = S::Part;
+    type Demand = S::Demand;
+
+    fn make_canonical(&self, state: &mut S::State) {
+        self.system.make_canonical(state);
+    }
+
+    fn places(&self, state: &S::State) -> usize {
+        self.system.places(state)
+    }
+
+    fn part(&self, state: &S::State, place: usize) -> S::Part {
+        self.system.part(state, place)
+    }
+
+    fn differing(&self, one: &S::State, other: &S::State) -> Places {
+        self.system.differing(one, other)
+    }
+
+    fn put(&self, state: &mut S::State, place: usize, part: &S::Part) {
+        self.system.put(state, place, part);
+    }
+
+    fn steps(&self, state: &S::State) -> impl Iterator<Item = Step<S::State, S::Demand>> {
+        let states = self.states.get() + 1;
+        self.states.set(states);
+        if states.is_multiple_of(BETWEEN) {
+            let words = format!("{}, states {states}", self.what);
+            let flow = self.hunter.borrow_mut().hears(Far::Words(words));
+            self.is_stopped.set(self.is_stopped.get() || flow.is_break());
+        }
+        (!self.is_stopped.get()).then(|| self.system.steps(state)).into_iter().flatten()
+    }
+
+    fn broken_at_end(&self, state: &S::State) -> Option<S::Demand> {
+        self.system.broken_at_end(state).filter(|_| !self.is_stopped.get())
+    }
+
+    fn broken_by_endless_runs(&self) -> Option<S::Demand> {
+        self.system.broken_by_endless_runs().filter(|_| !self.is_stopped.get())
+    }
+
+    fn owed(&self, state: &S::State) -> Bits {
+        self.system.owed(state)
+    }
+
+    fn awake(&self, state: &S::State) -> Bits {
+        self.system.awake(state)
+    }
+
+    fn is_enough(&self, demand: S::Demand) -> bool {
+        self.system.is_enough(demand)
+    }
+}

@@ -1,0 +1,215 @@
+//! Hunts: what a rule's row brings, so that all small layouts can be searched for runs that break a clause. A hunt says which
+//! bounds it takes, and returns what it has found as plain data; storing, drawing and printing are the same for all hunts.
+
+use std::fmt;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use serde_json::Value;
+use tautline_kernel::ground::{Cell, Edge};
+use tautline_proofs::engine::tree::Progress;
+use tautline_proofs::run::Run;
+
+use super::clause::ClauseId;
+use super::rule::RuleId;
+use super::run::{Limits, OnViolation};
+use super::setup::{Profile, Setup};
+use crate::fault::Fault;
+use crate::layout::{Layout, Problem, Size};
+
+/// A search of all layouts within bounds for runs that break a clause.
+pub trait Hunt: fmt::Debug + Sync {
+    /// The bounds that it takes besides the number of robots, the size and the budget.
+    fn takes(&self) -> &'static [Bound];
+
+    /// Why it does not take `bound`: what is wrong, and what would be right.
+    fn refusal(&self, bound: Bound) -> (String, String) {
+        let taken =
+            ["robots", "size", "budget"].into_iter().chain(self.takes().iter().map(|bound| bound.field()));
+        let taken: Vec<String> = taken.map(|field| format!("`{field}`")).collect();
+        let field = bound.field();
+        (
+            format!("`{field}` does not bound this hunt"),
+            format!("leave it out; this hunt takes {}", taken.join(", ")),
+        )
+    }
+
+    /// Searches within what is `asked`, until everything is searched or `hunter` ends the search.
+    ///
+    /// # Errors
+    /// A [`Fault`] if it cannot be searched so.
+    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault>;
+}
+
+/// A bound that some hunts take and others do not.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Bound {
+    /// The most walls that are met in one run.
+    Walls,
+    /// The most sensors that are missed in one run.
+    Misses,
+    /// The most messages that are lost in one run.
+    Losses,
+    /// How far a fix may be off.
+    Error,
+    /// The file in which the hunt is kept.
+    Resume,
+}
+
+impl Bound {
+    /// The field that gives it.
+    pub const fn field(self) -> &'static str {
+        match self {
+            Self::Walls => "max-walls",
+            Self::Misses => "max-misses",
+            Self::Losses => "max-losses",
+            Self::Error => "error",
+            Self::Resume => "resume",
+        }
+    }
+}
+
+/// What is asked of a hunt. What is not given is the hunt's to choose.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked<'a> {
+    /// The scheme.
+    pub scheme: &'static Profile,
+    /// Its rule.
+    pub rule: RuleId,
+    /// Robots.
+    pub robots: Option<u64>,
+    /// Columns and rows.
+    pub size: Option<Size>,
+    /// Team moves after which the search ends.
+    pub budget: Option<u64>,
+    /// [`Bound::Walls`]
+    pub max_walls: Option<u32>,
+    /// [`Bound::Misses`]
+    pub max_misses: Option<u8>,
+    /// [`Bound::Losses`]
+    pub max_losses: Option<u8>,
+    /// [`Bound::Error`], in cells.
+    pub error_cells: Option<f64>,
+    /// [`Bound::Resume`]
+    pub resume: Option<&'a Path>,
+}
+
+impl Asked<'_> {
+    /// Refuses a bound that is given and that `hunt` does not take.
+    ///
+    /// # Errors
+    /// A [`Fault`] that says why.
+    pub fn check(&self, hunt: &dyn Hunt) -> Result<(), Fault> {
+        let given = [
+            (Bound::Walls, self.max_walls.is_some()),
+            (Bound::Misses, self.max_misses.is_some()),
+            (Bound::Losses, self.max_losses.is_some()),
+            (Bound::Error, self.error_cells.is_some()),
+            (Bound::Resume, self.resume.is_some()),
+        ];
+        let refused = given.into_iter().find(|(bound, is_given)| *is_given && !hunt.takes().contains(bound));
+        refused.map_or(Ok(()), |(bound, _)| {
+            let (what, remedy) = hunt.refusal(bound);
+            Err(Fault::usage(what, remedy))
+        })
+    }
+}
+
+/// Hears how far a hunt is.
+pub trait Hunter {
+    /// The hunt is so far. Whoever breaks ends it.
+    fn hears(&mut self, far: Far<'_>) -> ControlFlow<()>;
+
+    /// The file in which the hunt is kept could not be written now; it is tried again later.
+    fn is_not_kept(&mut self, fault: &Fault);
+
+    /// The same at the end: it is not tried again.
+    fn is_left_out(&mut self, fault: &Fault);
+}
+
+/// How far a hunt is.
+#[derive(Debug)]
+pub enum Far<'a> {
+    /// So far in a tree, whose size can be estimated.
+    Tree(&'a Progress<'a>),
+    /// So far, in words.
+    Words(String),
+}
+
+/// A number or a word with the name that it has in JSON.
+pub type Fact = (&'static str, Value);
+
+/// What came of a hunt.
+#[derive(Clone, Debug)]
+pub struct Hunted {
+    /// Robots.
+    pub robots: u64,
+    /// How much was searched, and within which bounds.
+    pub facts: Vec<Fact>,
+    /// Whether every layout within the bounds was covered.
+    pub is_complete: bool,
+    /// The bound up to which every layout was covered, if any was.
+    pub done: Fact,
+    /// The first line for people, behind the scheme and its rule.
+    pub title: String,
+    /// What was searched through, for the log.
+    pub through: String,
+    /// What follows from it: the second line for people.
+    pub outcome: String,
+    /// The smallest run that breaks each clause.
+    pub found: Vec<Quarry>,
+}
+
+/// A run that breaks a clause.
+#[derive(Clone, Debug)]
+pub struct Quarry {
+    /// The clause.
+    pub clause: &'static str,
+    /// How large the run is.
+    pub facts: Vec<Fact>,
+    /// The same for people, behind the clause.
+    pub title: String,
+    /// The run.
+    pub setup: Setup,
+    /// How it is shown, and whether it is stored.
+    pub shown: Shown,
+}
+
+/// How a run that was found is shown.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Shown {
+    /// By its last team move. It is stored as a run that breaks this clause.
+    Run(ClauseId),
+    /// By its layout. A run without end is not stored.
+    Endless,
+    /// By what happens in it. It is stored as a run that breaks this clause.
+    Story(ClauseId, String),
+    /// The same of a run that no file tells.
+    Told(String),
+}
+
+/// The run of `scheme` that `found` is, in the area of its search; it stops at the violation.
+///
+/// # Errors
+/// [`Problem`] if the area is too large for a layout, or the base is outside.
+pub fn setup(scheme: &'static Profile, rule: impl Into<RuleId>, found: &Run) -> Result<Setup, Problem> {
+    let (mut layout, starts) = layout(found)?;
+    let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
+    layout.place_base(base)?;
+    let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
+    Ok(Setup { limits, ..Setup::new(scheme, rule, starts.len() as u16, layout, base) })
+}
+
+/// The layout of a run that was found, which has the walls that were met and no others; and where the robots start in it.
+///
+/// # Errors
+/// [`Problem`] if the area is too large for a layout.
+pub fn layout(found: &Run) -> Result<(Layout, Vec<Cell>), Problem> {
+    let mut layout = Layout::open(found.area.width() as u64, found.area.height() as u64)?;
+    let origin = found.area.first();
+    let shifted = |cell: Cell| Cell::new(cell.x - origin.x, cell.y - origin.y);
+    for wall in &found.walls {
+        layout.build_wall(Edge::new(shifted(wall.cell()), wall.side()));
+    }
+    Ok((layout, found.starts.iter().copied().map(shifted).collect()))
+}

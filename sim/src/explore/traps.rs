@@ -1,0 +1,171 @@
+//! Traps: the hunt of agents on a sensor floor. A [`Trap`] becomes the setup of agents in its layout, with the sensors that
+//! they miss written down.
+
+use std::ops::ControlFlow;
+
+use serde_json::json;
+use tautline_proofs::floor::trap::{Bounds, End, Found, MAX_AGENTS, MAX_CELLS, Trap, Way, hunt};
+use tautline_proofs::words::counted;
+
+use super::agents::PREMATURE;
+use super::hunt::{Asked, Bound, Far, Hunt, Hunted, Hunter, Quarry, Shown};
+use super::rule::RuleId;
+use super::run::{Limits, OnViolation};
+use super::setup::{Profile, Setup};
+use crate::fault::Fault;
+use crate::layout::{Layout, Problem, Size};
+
+/// Columns and rows of the layouts at most, if nobody says.
+const DEFAULT_SIDE: u64 = 4;
+
+/// Agents when nobody says how many.
+const DEFAULT_AGENTS: u64 = 1;
+
+/// Sensors that are missed at most when nobody says how many.
+const DEFAULT_MISSES: u8 = 1;
+
+/// The clause that a run without end breaks.
+const ENDLESS: &str = "BRICKS-5";
+
+/// The way of the agents that are hunted.
+#[derive(Debug)]
+pub(super) struct Traps(pub(super) Way);
+
+impl Hunt for Traps {
+    fn takes(&self) -> &'static [Bound] {
+        &[Bound::Misses]
+    }
+
+    fn refusal(&self, bound: Bound) -> (String, String) {
+        let (what, remedy) = match bound {
+            Bound::Walls => (
+                "agents know every wall: no number of walls bounds their search",
+                "give `max-misses` for the sensors, and `size` for the layouts",
+            ),
+            Bound::Resume => (
+                "a hunt for traps is not kept in a file",
+                "leave `resume` out; a smaller `size` or `budget` makes it shorter",
+            ),
+            Bound::Misses | Bound::Losses | Bound::Error => {
+                ("agents send no messages and need no fixes", "give `max-misses` for the sensors")
+            }
+        };
+        (what.to_owned(), remedy.to_owned())
+    }
+
+    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault> {
+        let size = match asked.size {
+            Some(size) => size,
+            None => Size::new(DEFAULT_SIDE, DEFAULT_SIDE)?,
+        };
+        let (agents, misses) =
+            (asked.robots.unwrap_or(DEFAULT_AGENTS), asked.max_misses.unwrap_or(DEFAULT_MISSES));
+        let bounds = Bounds { budget_steps: asked.budget, ..bounds(self.0, agents, misses, size)? };
+        let found = hunt(&bounds, &mut |found| {
+            let Found { layouts, states, levels, .. } = found;
+            let words =
+                format!("misses {levels} of {}, layouts {layouts}, states {states}", bounds.max_misses);
+            match hunter.hears(Far::Words(words)) {
+                ControlFlow::Break(()) => ControlFlow::Break(()),
+                ControlFlow::Continue(()) => ControlFlow::Continue(()),
+            }
+        });
+        let quarries = found.trap.iter().map(|trap| quarry(asked, trap)).collect::<Result<Vec<_>, _>>()?;
+        Ok(hunted(&bounds, size, &found, quarries))
+    }
+}
+
+/// What is told of a search.
+fn hunted(bounds: &Bounds, size: Size, found: &Found, quarries: Vec<Quarry>) -> Hunted {
+    let Bounds { agents, max_misses, .. } = *bounds;
+    let Found { layouts, states, steps, levels, .. } = *found;
+    let done = levels.checked_sub(1);
+    let bound = match done {
+        Some(misses) if misses == max_misses => "in any layout within this bound".to_owned(),
+        Some(misses) => format!("with at most {misses} missed; the hunt was ended before its bound"),
+        None => "so far; the hunt was ended before it had covered all layouts".to_owned(),
+    };
+    let order = if agents == 1 { "" } else { " that act in turn" };
+    let (all_layouts, all_states) = (counted(layouts, "layout"), counted(states, "state"));
+    Hunted {
+        robots: agents.into(),
+        facts: vec![
+            ("size", json!(size.to_string())),
+            ("layouts", json!(layouts)),
+            ("states", json!(states)),
+            ("steps", json!(steps)),
+            ("max_misses", json!(max_misses)),
+        ],
+        is_complete: found.is_complete,
+        done: ("misses_done", json!(done)),
+        title: format!(
+            "{}{order}, at most {max_misses} missed, layouts up to {size}: {all_layouts}, {all_states}, {}",
+            counted(agents, "agent"),
+            counted(steps, "team move")
+        ),
+        through: format!("{all_layouts} and {all_states}"),
+        outcome: match quarries[..] {
+            [] => format!("No agent is trapped {bound}."),
+            _ => {
+                "The fewest missed sensors and the smallest layout with which agents are trapped:".to_owned()
+            }
+        },
+        found: quarries,
+    }
+}
+
+fn quarry(asked: &Asked<'_>, trap: &Trap) -> Result<Quarry, Fault> {
+    let Trap { width, height, moves, .. } = *trap;
+    let misses = trap.missed.len();
+    let (clause, shown) = match trap.end {
+        End::Done => (PREMATURE.as_str(), Shown::Run(PREMATURE)),
+        End::Endless => (ENDLESS, Shown::Endless),
+    };
+    let facts = vec![
+        ("misses", json!(misses)),
+        ("columns", json!(width)),
+        ("rows", json!(height)),
+        ("steps", json!(moves)),
+    ];
+    let title = format!("{misses} missed, {width}x{height} cells, {}", counted(moves, "team move"));
+    Ok(Quarry { clause, facts, title, setup: setup(asked.scheme, asked.rule, trap)?, shown })
+}
+
+/// The bounds of a hunt for traps of so many agents that decide by `way`, in layouts of at most `size`.
+///
+/// # Errors
+/// A [`Fault`] if there are too few or too many agents or cells.
+fn bounds(way: Way, agents: u64, max_misses: u8, size: Size) -> Result<Bounds, Fault> {
+    let fitting = u32::try_from(agents).ok().filter(|agents| (1..=MAX_AGENTS).contains(agents));
+    let agents = fitting.ok_or_else(|| {
+        let what = format!("a hunt for traps of {agents} agents");
+        Fault::of_field("robots", what, format_args!("give `robots` a number from 1 to {MAX_AGENTS}"))
+    })?;
+    if size.cells() > MAX_CELLS {
+        let what = format!("{size} cells are {}, too many to search all their layouts", size.cells());
+        let remedy = format!("give `size` at most {MAX_CELLS} cells, for example 4x4 or 8x2");
+        return Err(Fault::of_field("size", what, remedy));
+    }
+    let (max_width, max_height) = (size.width(), size.height());
+    Ok(Bounds { way, agents, max_misses, max_width, max_height, budget_steps: None })
+}
+
+/// The run that `trap` is; it stops at the violation.
+///
+/// # Errors
+/// [`Problem`] if the trap does not fit into a layout.
+fn setup(scheme: &'static Profile, rule: RuleId, trap: &Trap) -> Result<Setup, Problem> {
+    let mut layout = Layout::open(trap.width as u64, trap.height as u64)?;
+    for &cell in &trap.blocked {
+        layout.block(cell);
+    }
+    let base = match trap.starts.first() {
+        Some(&start) => start,
+        None => layout.default_base()?,
+    };
+    layout.place_base(base)?;
+    let starts = Some(trap.starts.clone()).filter(|starts| starts.iter().any(|&start| start != base));
+    let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
+    let setup = Setup::new(scheme, rule, trap.starts.len() as u16, layout, base);
+    Ok(Setup { starts, missed: trap.missed.clone(), limits, ..setup })
+}

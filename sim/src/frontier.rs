@@ -1,0 +1,63 @@
+//! Robots that explore cells (Rajesh, Nagaraja and Suja 2024) in a whole layout: the kernel's robots, a layout that answers for what they see,
+//! messages with a range that may be lost, and positions with an error; and rivals that assign frontier cells to robots.
+//!
+//! In a team move every robot that stands decides and looks, in the order of the robots, and all that enter a cell arrive
+//! together. A slot is a team move. What is left to chance is drawn from `ChaCha8`, seeded with the seed of the run as layouts are,
+//! with the tag `frontier`.
+
+mod assigned;
+mod chart;
+mod radio;
+mod team;
+
+pub use assigned::{Assigned, Assignment};
+pub use chart::Chart;
+pub use radio::Options;
+pub use team::Explorers;
+
+use tautline_kernel::chain::Kind;
+use tautline_kernel::ground::{Cell, Side, Step};
+use tautline_proofs::run::Frame;
+
+/// Team moves for each cell without anything new, after which a team is taken to go round for ever.
+const PATIENCE: usize = 100;
+
+/// What each robot did in a team move.
+#[derive(Clone, Debug)]
+struct Moves {
+    steps: Vec<Step>,
+    blocked: Vec<bool>,
+}
+
+impl Moves {
+    /// Every robot stays.
+    fn none(robots: usize) -> Self {
+        Self { steps: vec![Step::Stay; robots], blocked: vec![false; robots] }
+    }
+
+    /// A robot goes through a side.
+    fn goes(&mut self, robot: usize, side: Side) {
+        self.steps[robot] = Step::Cross(side);
+    }
+
+    /// A robot has tried a side in vain.
+    fn bumps(&mut self, robot: usize, side: Side) {
+        self.goes(robot, side);
+        self.blocked[robot] = true;
+    }
+
+    fn frame(self, cells: &[Cell]) -> Frame {
+        Frame { kind: Kind::Advance, steps: self.steps, blocked: self.blocked, cells: cells.to_vec() }
+    }
+}
+
+/// What came of a team move.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Ended {
+    /// No robot will ever do anything, and every robot knows that nothing is left.
+    Known,
+    /// No robot will ever do anything.
+    Still,
+    /// Nothing new was found for so long that the team is taken to go round for ever.
+    Endless,
+}

@@ -1,0 +1,214 @@
+//! Rivals that assign frontier cells to robots: unexplored cells beside explored ones, each to the robot that goes there.
+//!
+//! One repository is known to all. A robot goes its shortest way through explored cells, stays where another robot is in its way,
+//! and stores an obstacle that it meets. An assignment is kept until its cell is known or its robot is in another one's way, unless
+//! the rival assigns anew at every move.
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+
+use pathfinding::kuhn_munkres::kuhn_munkres_min;
+use pathfinding::matrix::Matrix;
+use tautline_kernel::frontier::{Map, Status};
+use tautline_kernel::ground::{Area, Cell, Side};
+use tautline_proofs::run::Frame;
+
+use super::chart::Chart;
+use super::{Ended, Moves, PATIENCE};
+use crate::layout::Layout;
+
+/// How frontier cells are assigned.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Assignment {
+    /// The nearest pair of a robot and a cell first, and so on.
+    Greedy,
+    /// So that all ways together are shortest (the Hungarian algorithm).
+    Hungarian,
+    /// The same, anew at every move.
+    HungarianAnew,
+    /// Each robot in its order takes the nearest cell that no earlier robot has taken, at every move. Where there is none left,
+    /// it stays.
+    Earlier,
+}
+
+/// The ways of a robot: for each cell that it reaches how many moves it takes.
+type Ways = BTreeMap<Cell, u32>;
+
+/// A team whose cells are assigned.
+#[derive(Clone, Debug)]
+pub struct Assigned {
+    assignment: Assignment,
+    layout: Layout,
+    area: Area,
+    chart: Chart,
+    cells: Vec<Cell>,
+    aims: Vec<Option<Cell>>,
+    idle: usize,
+}
+
+/// The sides of a cell, in the order of the numbers of the cells beyond them.
+const BY_NUMBER: [Side; 4] = [Side::North, Side::West, Side::East, Side::South];
+
+impl Assigned {
+    /// A team in these starts.
+    pub fn new(assignment: Assignment, layout: &Layout, starts: &[Cell]) -> Self {
+        let area = layout.size().area();
+        let mut chart = Chart::new(area);
+        starts.iter().for_each(|&start| chart.explore(start));
+        let (layout, cells, aims) = (layout.clone(), starts.to_vec(), vec![None; starts.len()]);
+        Self { assignment, layout, area, chart, cells, aims, idle: 0 }
+    }
+
+    /// Where the robots are.
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// Makes a team move.
+    ///
+    /// # Errors
+    /// [`Ended`] if there is none.
+    pub fn advance(&mut self) -> Result<Frame, Ended> {
+        let frontier = self.frontier();
+        if frontier.is_empty() {
+            return Err(Ended::Known);
+        }
+        self.assign(&frontier);
+        let before = self.chart.len();
+        let mut moves = Moves::none(self.cells.len());
+        let mut entering: Vec<Option<Cell>> = vec![None; self.cells.len()];
+        for robot in 0..self.cells.len() {
+            let Some(side) = self.aims[robot].and_then(|aim| self.towards(self.cells[robot], aim)) else {
+                continue;
+            };
+            let cell = self.cells[robot].beyond(side);
+            let is_there =
+                |other: usize| other != robot && (self.cells[other] == cell || entering[other] == Some(cell));
+            if !self.layout.is_free(cell) {
+                self.chart.block(cell);
+                moves.bumps(robot, side);
+            } else if (0..self.cells.len()).any(is_there) {
+                self.aims[robot] = None;
+            } else {
+                moves.goes(robot, side);
+                entering[robot] = Some(cell);
+            }
+        }
+        let is_still = entering.iter().all(Option::is_none) && self.chart.len() == before;
+        for (robot, cell) in entering.into_iter().enumerate() {
+            let Some(cell) = cell else { continue };
+            self.cells[robot] = cell;
+            self.chart.explore(cell);
+        }
+        self.idle = if self.chart.len() == before { self.idle + 1 } else { 0 };
+        // Who assigns anew does the same again when nobody has moved.
+        let waits = is_still && matches!(self.assignment, Assignment::Earlier | Assignment::HungarianAnew);
+        if waits || self.idle > PATIENCE * self.area.width() * self.area.height() {
+            return Err(Ended::Endless);
+        }
+        Ok(moves.frame(&self.cells))
+    }
+
+    /// The unexplored cells beside explored ones that a robot reaches.
+    fn frontier(&self) -> BTreeSet<Cell> {
+        let ways = self.cells.iter().map(|&cell| self.ways(cell));
+        ways.flat_map(|ways| ways.into_keys().filter(|&cell| self.is_unexplored(cell)).collect::<Vec<_>>())
+            .collect()
+    }
+
+    fn is_unexplored(&self, cell: Cell) -> bool {
+        self.chart.status(cell) == Status::Unexplored
+    }
+
+    /// How far the cells are that are reached from `from` through explored ones.
+    fn ways(&self, from: Cell) -> Ways {
+        let (mut ways, mut queue) = (Ways::from([(from, 0)]), VecDeque::from([from]));
+        while let Some(cell) = queue.pop_front() {
+            if self.chart.status(cell) != Status::Explored {
+                continue;
+            }
+            let distance = ways.get(&cell).copied().unwrap_or(0) + 1;
+            for beside in BY_NUMBER.map(|side| cell.beyond(side)) {
+                if self.chart.status(beside) != Status::Obstacle && !ways.contains_key(&beside) {
+                    ways.insert(beside, distance);
+                    queue.push_back(beside);
+                }
+            }
+        }
+        ways
+    }
+
+    /// The first side of a shortest way to `aim`.
+    fn towards(&self, from: Cell, aim: Cell) -> Option<Side> {
+        let (mut distances, mut queue) = (Ways::from([(aim, 0)]), VecDeque::from([aim]));
+        while let Some(cell) = queue.pop_front() {
+            let distance = distances.get(&cell).copied().unwrap_or(0) + 1;
+            for (side, beside) in BY_NUMBER.map(|side| (side, cell.beyond(side))) {
+                if beside == from {
+                    return Some(side.opposite());
+                }
+                if self.chart.status(beside) == Status::Explored && !distances.contains_key(&beside) {
+                    distances.insert(beside, distance);
+                    queue.push_back(beside);
+                }
+            }
+        }
+        None
+    }
+
+    fn assign(&mut self, frontier: &BTreeSet<Cell>) {
+        let is_kept = matches!(self.assignment, Assignment::Greedy | Assignment::Hungarian);
+        for aim in &mut self.aims {
+            *aim = aim.filter(|aim| is_kept && frontier.contains(aim));
+        }
+        let free: Vec<usize> = (0..self.cells.len()).filter(|&robot| self.aims[robot].is_none()).collect();
+        let left: Vec<Cell> =
+            frontier.iter().copied().filter(|cell| !self.aims.contains(&Some(*cell))).collect();
+        let ways: Vec<Ways> = free.iter().map(|&robot| self.ways(self.cells[robot])).collect();
+        let number = |cell: Cell| (cell.y, cell.x);
+        match self.assignment {
+            Assignment::Earlier => {
+                for (&robot, ways) in free.iter().zip(&ways) {
+                    let open = left.iter().filter(|&&cell| !self.aims.contains(&Some(cell)));
+                    let near = open.filter_map(|&cell| Some((*ways.get(&cell)?, number(cell), cell)));
+                    self.aims[robot] = near.min().map(|(.., cell)| cell);
+                }
+            }
+            Assignment::Greedy => {
+                let mut pairs: Vec<_> = Vec::new();
+                for (place, ways) in ways.iter().enumerate() {
+                    let near =
+                        left.iter().filter_map(|&cell| Some((*ways.get(&cell)?, place, number(cell), cell)));
+                    pairs.extend(near);
+                }
+                pairs.sort_unstable();
+                for (_, place, _, cell) in pairs {
+                    if self.aims[free[place]].is_none() && !self.aims.contains(&Some(cell)) {
+                        self.aims[free[place]] = Some(cell);
+                    }
+                }
+            }
+            Assignment::Hungarian | Assignment::HungarianAnew => self.assign_all(&free, &left, &ways),
+        }
+    }
+
+    /// Assigns so that all ways together are shortest. A pair without a way is longer than all others together.
+    fn assign_all(&mut self, free: &[usize], left: &[Cell], ways: &[Ways]) {
+        if free.is_empty() || left.is_empty() {
+            return;
+        }
+        let far = 1_i64 << 32;
+        let cost =
+            |robot: usize, cell: usize| ways[robot].get(&left[cell]).map_or(far, |&way| i64::from(way));
+        if free.len() <= left.len() {
+            let weights = Matrix::from_fn(free.len(), left.len(), |(robot, cell)| cost(robot, cell));
+            for (robot, cell) in kuhn_munkres_min(&weights).1.into_iter().enumerate() {
+                self.aims[free[robot]] = Some(left[cell]).filter(|_| cost(robot, cell) < far);
+            }
+        } else {
+            let weights = Matrix::from_fn(left.len(), free.len(), |(cell, robot)| cost(robot, cell));
+            for (cell, robot) in kuhn_munkres_min(&weights).1.into_iter().enumerate() {
+                self.aims[free[robot]] = Some(left[cell]).filter(|_| cost(robot, cell) < far);
+            }
+        }
+    }
+}

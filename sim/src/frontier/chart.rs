@@ -1,0 +1,88 @@
+//! A repository of any size, which remembers in which order it learned what it knows: so a robot that joins it again looks
+//! only at what is new.
+
+use tautline_kernel::frontier::{Map, Reached, Scratch, Status};
+use tautline_kernel::ground::{Area, Cell};
+
+/// A repository on the heap.
+#[derive(Clone, Debug)]
+pub struct Chart {
+    area: Area,
+    cells: Vec<Status>,
+    /// What it has learned, in order.
+    learned: Vec<(Cell, Status)>,
+}
+
+impl Chart {
+    /// Nothing known of `area`.
+    pub fn new(area: Area) -> Self {
+        let cells = vec![Status::Unexplored; area.width() * area.height()];
+        Self { area, cells, learned: Vec::new() }
+    }
+
+    /// What it has learned since it knew so much.
+    pub fn learned(&self, since: usize) -> &[(Cell, Status)] {
+        self.learned.get(since..).unwrap_or_default()
+    }
+
+    /// How much it has learned.
+    pub const fn len(&self) -> usize {
+        self.learned.len()
+    }
+
+    /// Whether it has learned nothing.
+    pub const fn is_empty(&self) -> bool {
+        self.learned.is_empty()
+    }
+
+    fn place(&self, cell: Cell) -> Option<usize> {
+        self.area.locate(cell).map(|(column, row)| row * self.area.width() + column)
+    }
+}
+
+impl Map for Chart {
+    fn area(&self) -> Area {
+        self.area
+    }
+
+    fn status(&self, cell: Cell) -> Status {
+        self.place(cell).map_or(Status::Obstacle, |place| self.cells[place])
+    }
+
+    fn explore(&mut self, cell: Cell) {
+        if let Some(place) = self.place(cell)
+            && self.cells[place] != Status::Explored
+        {
+            self.cells[place] = Status::Explored;
+            self.learned.push((cell, Status::Explored));
+        }
+    }
+
+    fn block(&mut self, cell: Cell) {
+        if let Some(place) = self.place(cell)
+            && self.cells[place] == Status::Unexplored
+        {
+            self.cells[place] = Status::Obstacle;
+            self.learned.push((cell, Status::Obstacle));
+        }
+    }
+}
+
+/// The memory of searches in an area.
+#[derive(Clone, Debug)]
+pub(super) struct Memory {
+    reached: Vec<Reached>,
+    queue: Vec<Cell>,
+    rounds: u32,
+}
+
+impl Memory {
+    pub(super) fn new(area: Area) -> Self {
+        let cells = area.width() * area.height();
+        Self { reached: vec![Reached::NEVER; cells], queue: vec![Cell::new(0, 0); cells], rounds: 0 }
+    }
+
+    pub(super) fn scratch(&mut self) -> Scratch<'_> {
+        Scratch { reached: &mut self.reached, queue: &mut self.queue, rounds: &mut self.rounds }
+    }
+}

@@ -1,0 +1,230 @@
+//! A team of the kernel's robots in a layout.
+
+use tautline_kernel::frontier::{
+    Condition, Map, Next, Other, Place, Robot, Rule, Sight, Slot, Stance, Status, View, clamped, taken_for,
+};
+use tautline_kernel::ground::{Area, Cell, Side};
+use tautline_proofs::run::Frame;
+
+use super::chart::{Chart, Memory};
+use super::radio::{Options, Radio};
+use super::{Ended, Moves, PATIENCE};
+use crate::layout::Layout;
+
+/// A team of robots that explore cells.
+#[derive(Clone, Debug)]
+pub struct Explorers {
+    rule: Rule,
+    layout: Layout,
+    area: Area,
+    robots: Vec<Robot<Chart>>,
+    /// Where the robots really are.
+    cells: Vec<Cell>,
+    places: Vec<Place>,
+    /// Where they take themselves to be.
+    fixes: Vec<Place>,
+    /// By robot: what the others have told it, itself among them.
+    told: Vec<Vec<Other>>,
+    /// By robot: how much of each other one's repository it has heard.
+    heard: Vec<Vec<usize>>,
+    radio: Radio,
+    memory: Memory,
+    slot: usize,
+    /// Team moves since the last news.
+    idle: usize,
+    /// Whether a robot has noted in the last team move what is not so.
+    is_wrong: bool,
+}
+
+impl Explorers {
+    /// A team in these starts.
+    pub fn new(rule: Rule, layout: &Layout, starts: &[Cell], options: Options, seed: u64) -> Self {
+        let area = layout.size().area();
+        let rule = Rule { threshold: options.threshold(), ..rule };
+        let robot = |&start: &Cell| Robot::new(Chart::new(area), start, starts);
+        let robots: Vec<Robot<Chart>> = starts.iter().map(robot).collect();
+        let places: Vec<Place> = starts.iter().map(|&start| Place::midpoint(start)).collect();
+        let others = starts.iter().map(|&cell| Other { cell, place: Place::midpoint(cell), aim: None });
+        let others: Vec<Other> = others.collect();
+        let heard = robots.iter().map(|robot| robot.map().len()).collect();
+        Self {
+            rule,
+            layout: layout.clone(),
+            area,
+            cells: starts.to_vec(),
+            fixes: places.clone(),
+            places,
+            told: vec![others; starts.len()],
+            heard: vec![heard; starts.len()],
+            radio: Radio::new(options, area, seed),
+            memory: Memory::new(area),
+            robots,
+            slot: 0,
+            idle: 0,
+            is_wrong: false,
+        }
+    }
+
+    /// Where the robots are.
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// Whether a robot has noted in the last team move what is not so.
+    pub const fn is_wrong(&self) -> bool {
+        self.is_wrong
+    }
+
+    /// The robots that take themselves to be in another cell than they are.
+    pub fn lost(&self) -> usize {
+        let is_lost = |(robot, cell): &(&Robot<Chart>, &Cell)| robot.at() != **cell;
+        self.robots.iter().zip(&self.cells).filter(is_lost).count()
+    }
+
+    /// Makes a team move.
+    ///
+    /// # Errors
+    /// [`Ended`] if there is none.
+    pub fn advance(&mut self) -> Result<Frame, Ended> {
+        let robots = self.robots.len();
+        let mut moves = Moves::none(robots);
+        self.is_wrong = false;
+        let before: usize = self.robots.iter().map(|robot| robot.map().len()).sum();
+        let (mut does_any, mut know_all) = (false, true);
+        let mut entering: Vec<Option<(Cell, Place)>> = vec![None; robots];
+        for robot in 0..robots {
+            let next = self.next(robot);
+            know_all &= next == Next::Done;
+            does_any |= matches!(next, Next::Tries { .. } | Next::Waits);
+            let Next::Tries { side, aim } = next else { continue };
+            self.robots[robot].tries(side, aim);
+            if self.rule.has(Condition::Claim) {
+                self.tell(robot);
+            }
+            let (sight, to) = self.look(robot, side, &entering);
+            self.robots[robot].looked(&self.rule, sight);
+            match sight {
+                Sight::Open => {
+                    moves.goes(robot, side);
+                    entering[robot] = Some(to);
+                }
+                Sight::Obstacle | Sight::Robot => {
+                    if sight == Sight::Obstacle {
+                        moves.bumps(robot, side);
+                    }
+                    self.note(robot, self.robots[robot].at().beyond(side));
+                    self.tell(robot);
+                }
+            }
+        }
+        if !does_any {
+            return Err(if know_all { Ended::Known } else { Ended::Still });
+        }
+        for (robot, to) in entering.into_iter().enumerate() {
+            let Some((cell, place)) = to else { continue };
+            (self.cells[robot], self.places[robot]) = (cell, place);
+            let fix = self.radio.fix(place);
+            self.robots[robot].arrived(&self.rule, taken_for(self.area, fix));
+            let at = self.robots[robot].at();
+            self.fixes[robot] = if self.rule.has(Condition::Track) { clamped(at, fix) } else { fix };
+            self.note(robot, at);
+        }
+        for robot in 0..robots {
+            self.tell(robot);
+        }
+        self.slot = (self.slot + 1) % robots.max(1);
+        let after: usize = self.robots.iter().map(|robot| robot.map().len()).sum();
+        self.idle = if after == before { self.idle + 1 } else { 0 };
+        if self.idle > PATIENCE * self.area.width() * self.area.height() {
+            return Err(Ended::Endless);
+        }
+        Ok(moves.frame(&self.cells))
+    }
+
+    fn next(&mut self, robot: usize) -> Next {
+        let others: Vec<Other> = self.told[robot]
+            .iter()
+            .enumerate()
+            .filter(|&(other, _)| other != robot)
+            .map(|(_, other)| *other)
+            .collect();
+        let slot = if self.slot == robot { Slot::Own } else { Slot::Others };
+        let view = View { others: &others, slot };
+        self.robots[robot].next(&self.rule, view, &mut self.memory.scratch(), &mut self.radio.dice)
+    }
+
+    /// What `robot` sees that goes through `side`, and where it gets to.
+    fn look(&self, robot: usize, side: Side, entering: &[Option<(Cell, Place)>]) -> (Sight, (Cell, Place)) {
+        let aim = Place::midpoint(self.robots[robot].at().beyond(side));
+        let place = self.places[robot].moved(self.fixes[robot], aim);
+        let cell = if self.radio.is_noisy() { cell_of(place) } else { self.cells[robot].beyond(side) };
+        let is_there = |other: usize| {
+            other != robot
+                && (self.cells[other] == cell || entering[other].is_some_and(|(entered, _)| entered == cell))
+        };
+        let sight = if !self.is_clear(self.places[robot], place) {
+            Sight::Obstacle
+        } else if self.rule.has(Condition::Look) && (0..self.robots.len()).any(is_there) {
+            Sight::Robot
+        } else {
+            Sight::Open
+        };
+        (sight, (cell, place))
+    }
+
+    /// Whether nothing is in the way from one place to another.
+    fn is_clear(&self, from: Place, to: Place) -> bool {
+        let (first, last) = (cell_of(from), cell_of(to));
+        if first == last || !self.radio.is_noisy() {
+            return self.layout.is_free(last);
+        }
+        // In steps of a sixteenth of a cell or less.
+        let parts = (from.distance(to) / 16 + 1) as i32;
+        let at = |part: i32| {
+            Place::new(from.x + (to.x - from.x) * part / parts, from.y + (to.y - from.y) * part / parts)
+        };
+        (1..=parts).all(|part| self.layout.is_free(cell_of(at(part))))
+    }
+
+    /// Notes whether what `robot` has learned of `cell` is not so.
+    fn note(&mut self, robot: usize, cell: Cell) {
+        self.is_wrong |= match self.robots[robot].map().status(cell) {
+            Status::Unexplored => false,
+            Status::Explored => self.cells[robot] != cell && !self.cells.contains(&cell),
+            Status::Obstacle => self.layout.is_free(cell),
+        };
+    }
+
+    /// `from` tells what it knows, where it is and what it has claimed.
+    fn tell(&mut self, from: usize) {
+        let Self { rule, robots, cells, told, heard, radio, fixes, .. } = self;
+        let says = Other { cell: robots[from].at(), place: fixes[from], aim: robots[from].aim() };
+        let knows = robots[from].map().len();
+        for to in (0..robots.len()).filter(|&to| to != from) {
+            let is_heard = radio.is_heard(cells[from], cells[to]);
+            if is_heard {
+                told[to][from] = says;
+            }
+            // Whoever does not share says only once what is new.
+            if is_heard || !rule.has(Condition::Share) {
+                let since = std::mem::replace(&mut heard[to][from], knows);
+                let news: Vec<(Cell, Status)> = robots[from].map().learned(since).to_vec();
+                for (cell, status) in news.into_iter().filter(|_| is_heard) {
+                    robots[to].hears(cell, status);
+                }
+            }
+        }
+    }
+
+    /// Whether every robot has arrived where it went; a run is looked at between two team moves alone.
+    pub fn stands(&self) -> bool {
+        self.robots.iter().all(|robot| robot.stance() == Stance::Stands)
+    }
+}
+
+/// The cell that a place is in.
+fn cell_of(place: Place) -> Cell {
+    use tautline_kernel::frontier::{HALF, SIDE};
+    let line = |coordinate: i32| (coordinate + HALF).div_euclid(SIDE) as i16;
+    Cell::new(line(place.x), line(place.y))
+}
