@@ -1,6 +1,6 @@
 //! The checks of agents that search in trees, by clause.
 
-use tautline_kernel::bricks::tree::Condition::{Bricks, Childless, Exit, LowerOnly};
+use tautline_kernel::bricks::tree::Condition::{Bricks, Childless, Exit};
 use tautline_kernel::bricks::tree::Rule;
 
 use super::floors::Floors;
@@ -21,8 +21,6 @@ const NO_EXITS: Named<Observed> =
     Named::new("cells marked without the side left through", Observed::following(Rule::TREE.without(Exit)));
 const PARENTS_MARKED: Named<Observed> =
     Named::new("cells marked that have children", Observed::following(Rule::TREE.without(Childless)));
-const ALL_ADOPTED: Named<Observed> =
-    Named::new("cells of the own tree adopted", Observed::following(Rule::TREE.without(LowerOnly)));
 const WITH_BRICKS: Named<Observed> = Named::new(
     "cells marked that do not block, as far as is seen",
     Observed::following(Rule { conditions: Rule::ROBUST.conditions.with(Bricks), ..Rule::ROBUST }),
@@ -84,8 +82,8 @@ pub(in crate::bricks) static TREES_WHOLE: Check<Observed> = holds(TREE, &Floors:
 /// BRICKS-9
 pub(in crate::bricks) static LABELS_RISE: Check<Observed> = holds(TREE, &Floors::RISING, &[PARENTS_MARKED]);
 /// BRICKS-10
-pub(in crate::bricks) static TREE_BOUNDED: Check<Observed> = holds(TREE, &Floors::BOUNDED, &[ALL_ADOPTED]);
+pub(in crate::bricks) static TREE_BOUNDED: Check<Observed> = refuted(TREE, &Floors::BOUNDED);
 /// BRICKS-10
-pub(in crate::bricks) static HELPERS_BOUNDED: Check<Observed> = holds(HELPERS, &Floors::BOUNDED, &[]);
+pub(in crate::bricks) static HELPERS_BOUNDED: Check<Observed> = refuted(HELPERS, &Floors::BOUNDED);
 /// BRICKS-11
 pub(in crate::bricks) static SURVIVES: Check<Observed> = holds(TREE, &Floors::SURVIVES, &[NO_EXITS]);
