@@ -73,7 +73,7 @@ fn step_solver(bench: &mut Criterion) {
         for (name, rule) in [("shared cells", &loose), ("distinct cells", &Rule::REPAIRED)] {
             let position = Position { rule, cells: &cells, options: &options };
             group.bench_function(format!("{robots} robots, {name}"), |bencher| {
-                bencher.iter(|| best(black_box(&position)))
+                bencher.iter(|| best(black_box(&position)));
             });
         }
     }
