@@ -57,9 +57,12 @@ pub fn fewest<const ROBOTS: usize>(
     fewer.unwrap_or(Counterexample { setting, run })
 }
 
+/// Steps, each with what comes of it.
+type Steps<const ROBOTS: usize> = Vec<(Event, World<ROBOTS>)>;
+
 impl<const ROBOTS: usize> Counterexample<ROBOTS> {
     /// The world at the start, each step with what comes of it, and after how many steps those begin that come over and over.
-    pub fn steps(&self) -> Option<(World<ROBOTS>, Vec<(Event, World<ROBOTS>)>, usize)> {
+    pub fn steps(&self) -> Option<(World<ROBOTS>, Steps<ROBOTS>, usize)> {
         let start = self.setting.starts().into_iter().nth(self.run.start)?;
         let (mut world, mut steps) = (start, Vec::new());
         for &number in self.run.steps.iter().chain(self.run.round()) {
@@ -111,7 +114,9 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
 fn words(event: &Event, cells: &[Cell]) -> Option<String> {
     let missed = |missed: u8| {
         let robots = (0..u8::BITS).filter(|robot| missed >> robot & 1 == 1);
-        robots.map(|robot| format!("; R{} misses the message", robot + 1)).collect::<String>()
+        let each: Vec<String> =
+            robots.map(|robot| format!("; R{} misses the message", robot + 1)).collect();
+        each.concat()
     };
     let towards = |side: Side| match side {
         Side::East => "east",

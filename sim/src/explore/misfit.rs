@@ -73,12 +73,11 @@ impl Misfit {
     /// The field of a setup that does not fit.
     pub const fn field(&self) -> &'static str {
         match self {
-            Self::Robots { .. } => "robots",
+            Self::Robots { .. } | Self::Full { .. } => "robots",
             Self::Rule { .. } => "rule",
             Self::Miss(_) | Self::MissAll => "miss",
             Self::MissedByNone(_) | Self::Missed => "missed",
             Self::StartsAtBase(_) | Self::Starts { .. } | Self::Start(_) | Self::Together(_) => "starts",
-            Self::Full { .. } => "robots",
             Self::Extra(_, extra) => extra.field(),
             Self::Threshold => Extra::Threshold.field(),
             Self::Noise => Extra::Noise.field(),

@@ -79,6 +79,7 @@ macro_rules! rival {
             look: Look::Tree { is_linked: |one, other| Circle::COVERED.covers(one, other) },
             knowledge: None,
             clauses: &[],
+            extras: &[],
         }
     };
 }

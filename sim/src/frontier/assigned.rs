@@ -53,7 +53,9 @@ impl Assigned {
     pub fn new(assignment: Assignment, layout: &Layout, starts: &[Cell]) -> Self {
         let area = layout.size().area();
         let mut chart = Chart::new(area);
-        starts.iter().for_each(|&start| chart.explore(start));
+        for &start in starts {
+            chart.explore(start);
+        }
         let (layout, cells, aims) = (layout.clone(), starts.to_vec(), vec![None; starts.len()]);
         Self { assignment, layout, area, chart, cells, aims, idle: 0 }
     }

@@ -349,8 +349,8 @@ mod tests {
                 }
             }
         }
-        let (mean, worst) =
-            (ratios.iter().sum::<f64>() / ratios.len() as f64, ratios.iter().copied().fold(0.0, f64::max));
+        let mean = ratios.iter().sum::<f64>() / f64::from(ratios.len() as u32);
+        let worst = ratios.iter().copied().fold(0.0, f64::max);
         println!("mean {mean:.3}, worst {worst:.3}, {} layouts, {missed} missed", ratios.len());
         assert!(mean <= 1.40 && worst <= 3.0, "mean {mean:.3}, worst {worst:.3}");
     }
