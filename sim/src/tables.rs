@@ -6,6 +6,7 @@ pub mod agents;
 pub mod antenna_fig4;
 pub mod atlas;
 mod entry;
+pub mod frontier_fig7;
 pub mod journeys;
 pub mod kit;
 pub mod locate_convergence;
@@ -47,6 +48,7 @@ pub const TABLES: &[&dyn Entry] = &[
     &journeys::RESCUE_FIG10,
     &kit::KIT_FIG9,
     &kit::KIT_FIG14,
+    &frontier_fig7::FrontierFig7,
     &locate_fig8::LocateFig8,
     &locate_convergence::LocateConvergence,
 ];
