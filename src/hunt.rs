@@ -58,7 +58,8 @@ pub(super) struct Hunt {
     /// Most messages that are lost in one run of robots that explore cells, 0 unless this says otherwise.
     #[arg(long, value_name = "K", value_parser = number::<u8>)]
     max_losses: Option<u8>,
-    /// How many cells a fix is off in one run of robots that explore cells: 0 unless this says otherwise, or 1.
+    /// How far fixes of robots that explore cells are off, in cells: 0 unless this says otherwise; a number of sixteenths for
+    /// each fix of one robot; or 1 for one fix of a run.
     #[arg(long, value_name = "CELLS", value_parser = real)]
     error: Option<f64>,
     /// Columns and rows of a chain's layouts, the base in the middle; without it the (2N−1)x(2N−1) cells in reach. Of

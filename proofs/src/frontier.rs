@@ -2,5 +2,6 @@
 
 pub mod areas;
 pub mod clauses;
+pub mod drift;
 mod place;
 pub mod world;

@@ -9,6 +9,7 @@ pub mod chain_fig4;
 pub mod chain_radio;
 mod entry;
 pub mod floors;
+pub mod frontier_fig7;
 pub mod journeys;
 pub mod kit;
 pub mod locate_convergence;
@@ -58,6 +59,7 @@ pub const TABLES: &[&dyn Entry] = &[
     &journeys::RESCUE_FIG10,
     &kit::KIT_FIG9,
     &kit::KIT_FIG14,
+    &frontier_fig7::FrontierFig7,
     &locate_fig8::LocateFig8,
     &locate_convergence::LocateConvergence,
 ];

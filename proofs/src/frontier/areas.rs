@@ -114,8 +114,7 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
 fn words(event: &Event, cells: &[Cell]) -> Option<String> {
     let missed = |missed: u8| {
         let robots = (0..u8::BITS).filter(|robot| missed >> robot & 1 == 1);
-        let each: Vec<String> =
-            robots.map(|robot| format!("; R{} misses the message", robot + 1)).collect();
+        let each: Vec<String> = robots.map(|robot| format!("; R{} misses the message", robot + 1)).collect();
         each.concat()
     };
     let towards = |side: Side| match side {

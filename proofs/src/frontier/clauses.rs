@@ -4,10 +4,11 @@ use tautline_kernel::frontier::Condition::{Look, Record, Route, Share, Tell, Tra
 use tautline_kernel::frontier::{Occupancy, Rule};
 
 use super::areas::{Areas, Size};
+use super::drift::{self, Drift, PARTS};
 use super::place::{self, Bears};
 use super::world::Demand;
 use crate::clause::{Check, Clause, Named};
-use crate::decide::Verdict;
+use crate::decide::{EveryState, Verdict};
 use crate::step_checks;
 
 const PUBLISHED: Named<Rule> = Named::new("published", Rule::PUBLISHED);
@@ -64,6 +65,39 @@ const fn lossy(demand: Demand) -> Areas<2> {
 const fn wrong(demand: Demand) -> Areas<1> {
     Areas { max_wrong: 1, ..one(demand) }
 }
+
+/// One robot in small areas, each of whose fixes is off by so many sixteenths of a cell.
+const fn off(system: fn(&Rule) -> Drift, range: fn() -> String) -> EveryState<Rule, Drift> {
+    EveryState {
+        range,
+        system,
+        starts: |drift| drift.starts(&SMALLEST),
+        most_steps: 10_000_000,
+        covers: &["an obstacle", "an arrival"],
+        tell: drift::tell,
+    }
+}
+
+/// What is looked at with fixes that are off by so many sixteenths.
+fn off_by(error: u8) -> String {
+    let sizes: Vec<String> = SMALLEST.iter().map(|(width, height)| format!("{width}×{height}")).collect();
+    let sizes = sizes.join(", ");
+    format!(
+        "all obstacles in {sizes} cells, all starts, 1 robot, each fix off by 0 or {error}/{PARTS} of a cell"
+    )
+}
+
+const fn drift_of(rule: &Rule, error: u8) -> Drift {
+    Drift { rule: *rule, error, max_obstacles: 64 }
+}
+
+/// The least error of a fix with which 2E < L/2 does not hold, the greatest below it, and the greatest with E < L/2.
+const QUARTER: u8 = 4;
+const BELOW_QUARTER: u8 = 3;
+const BELOW_HALF: u8 = 7;
+const OFF_QUARTER: EveryState<Rule, Drift> = off(|rule| drift_of(rule, QUARTER), || off_by(QUARTER));
+const OFF_LESS: EveryState<Rule, Drift> = off(|rule| drift_of(rule, BELOW_QUARTER), || off_by(BELOW_QUARTER));
+const OFF_HALF: EveryState<Rule, Drift> = off(|rule| drift_of(rule, BELOW_HALF), || off_by(BELOW_HALF));
 
 step_checks! { Bears;
     believed: place::believes, Named::new("repaired", Bears::FIXES), place::errors,
@@ -151,6 +185,9 @@ pub static CLAUSES: [Clause; 8] = [
         sentence: "A robot MUST take a cell for explored only where a robot was, and for an obstacle only where one is.",
         checks: &[
             &Check::new(PUBLISHED, &wrong(Demand::Marks), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &OFF_QUARTER, Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &OFF_LESS, Verdict::Holds, &[]),
+            &Check::new(PLAIN, &OFF_HALF, Verdict::Holds, &[NO_TRACK]),
             &Check::new(PLAIN, &wrong(Demand::Marks), Verdict::Holds, &[NO_TRACK]),
             &Check::new(PLAIN, &one(Demand::Marks), Verdict::Holds, &[]),
             &Check::new(PLAIN, &two(Demand::Marks), Verdict::Holds, &[NO_TELL]),

@@ -7,8 +7,9 @@ use std::ops::ControlFlow;
 use serde_json::json;
 use tautline_kernel::frontier::{Map, Rule as Frontier, Status, TinyMap};
 use tautline_kernel::ground::Cell;
-use tautline_proofs::engine::states::{Limits as Most, search};
+use tautline_proofs::engine::states::{Found, Limits as Most, System, search};
 use tautline_proofs::frontier::areas::{Counterexample, fewest, setting};
+use tautline_proofs::frontier::drift::{Drift, PARTS};
 use tautline_proofs::frontier::world::{Demand, Event, Setting};
 use tautline_proofs::words::counted;
 
@@ -92,7 +93,15 @@ impl Hunt for Searched {
 
     fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault> {
         let (size, robots) = bounds(asked, MOST_ROBOTS)?;
-        let max_wrong = wrong_fixes(asked)?;
+        let max_wrong = match error(asked)? {
+            Off::Never => 0,
+            Off::OneCell => 1,
+            Off::Parts(_) if robots > 1 => {
+                let what = "an error of a part of a cell is searched of one robot alone";
+                return Err(Fault::of_field("error", what, "give `robots` 1, or `error` 1"));
+            }
+            Off::Parts(parts) => return drifting(self.0, size, parts, asked, hunter),
+        };
         let hunt = match robots {
             1 => searched::<1>,
             2 => searched::<2>,
@@ -103,17 +112,99 @@ impl Hunt for Searched {
     }
 }
 
-/// How many fixes are wrong in one run at most.
-fn wrong_fixes(asked: &Asked<'_>) -> Result<u8, Fault> {
-    match asked.error_cells {
-        None => Ok(0),
-        Some(error) if error.to_bits() == 0.0_f64.to_bits() => Ok(0),
-        Some(error) if error.to_bits() == 1.0_f64.to_bits() => Ok(1),
-        Some(error) => {
-            let what = format!("an error of {error} cells is not searched");
-            Err(Fault::of_field("error", what, "give `error` 1: one fix is off by one cell; or 0: none is"))
+/// How far fixes are off.
+enum Off {
+    Never,
+    /// One of them, by one cell.
+    OneCell,
+    /// Each, by at most so many sixteenths of a cell.
+    Parts(u8),
+}
+
+fn error(asked: &Asked<'_>) -> Result<Off, Fault> {
+    let parts = asked.error_cells.unwrap_or(0.0) * f64::from(PARTS);
+    let whole = (0..=PARTS as u8).find(|&whole| f64::from(whole).to_bits() == parts.abs().to_bits());
+    match whole {
+        Some(0) => Ok(Off::Never),
+        Some(parts) if i32::from(parts) == PARTS => Ok(Off::OneCell),
+        Some(parts) => Ok(Off::Parts(parts)),
+        None => {
+            let what = format!("an error of {} cells is not searched", asked.error_cells.unwrap_or(0.0));
+            let remedy =
+                "give `error` a number of sixteenths from 0 to 1, such as 0.25; 1 is one fix off by one cell";
+            Err(Fault::of_field("error", what, remedy))
         }
     }
+}
+
+/// The hunt of one robot each of whose fixes is off by a part of a cell.
+fn drifting(
+    rule: Frontier,
+    size: Size,
+    error: u8,
+    asked: &Asked<'_>,
+    hunter: &mut dyn Hunter,
+) -> Result<Hunted, Fault> {
+    let max_obstacles = most_obstacles(asked);
+    let system = Drift { rule, error, max_obstacles };
+    let mut count = Count { is_complete: true, ..Count::default() };
+    let mut found = Vec::new();
+    for area in areas(size) {
+        let what = format!("areas up to {}×{}", area.0, area.1);
+        let (looked, is_stopped) = watched(&system, system.starts(&[area]), what, asked, &mut count, hunter);
+        if let Some(run) = looked.broken.first() {
+            let mut layout = Layout::open(area.0 as u64, area.1 as u64)?;
+            let base = layout.default_base()?;
+            layout.place_base(base)?;
+            let size = [area.0 as usize, area.1 as usize];
+            let (story, walls) = system.story(area, run);
+            let clause = Demand::Marks.clause();
+            found.push(Quarry {
+                clause,
+                facts: sizes(size, walls, run.steps.len()),
+                title: title(size, walls, run.steps.len()),
+                setup: Setup::new(asked.scheme, asked.rule, 1, layout, base),
+                shown: Shown::Told(story),
+            });
+        }
+        if is_stopped || !looked.is_whole {
+            count.is_complete = false;
+            break;
+        }
+        if !found.is_empty() {
+            break;
+        }
+        count.cells = Some((area.0 * area.1) as usize);
+    }
+    Ok(told(asked, (size, 1), &count, found))
+}
+
+/// Most obstacles that one run meets.
+fn most_obstacles(asked: &Asked<'_>) -> u8 {
+    asked.max_walls.map_or(MOST_CELLS as u8, |walls| walls.min(MOST_CELLS as u32) as u8)
+}
+
+/// Searches a system, watched; what was found, and whether the work was ended.
+fn watched<S: System>(
+    system: &S,
+    starts: Vec<S::State>,
+    what: String,
+    asked: &Asked<'_>,
+    count: &mut Count,
+    hunter: &mut dyn Hunter,
+) -> (Found<S::Demand>, bool) {
+    let left = asked.budget.map_or(u64::MAX, |budget| budget.saturating_sub(count.steps));
+    let watched = Watched {
+        system,
+        hunter: RefCell::new(hunter),
+        what,
+        states: Flag::new(count.states),
+        is_stopped: Flag::new(false),
+    };
+    let found = search(&watched, starts, Most { most_steps: left, ..Most::NONE });
+    count.states += found.states;
+    count.steps += found.steps;
+    (found, watched.is_stopped.get())
 }
 
 fn searched<const ROBOTS: usize>(
@@ -123,27 +214,15 @@ fn searched<const ROBOTS: usize>(
     asked: &Asked<'_>,
     hunter: &mut dyn Hunter,
 ) -> Result<(Count, Vec<Quarry>), Fault> {
-    let most_obstacles = asked.max_walls.map_or(MOST_CELLS as u8, |walls| walls.min(MOST_CELLS as u32) as u8);
     let max_losses = asked.max_losses.unwrap_or(0);
     let mut found: Vec<(Demand, Counterexample<ROBOTS>)> = Vec::new();
     let mut count = Count { is_complete: true, ..Count::default() };
     for area in areas(size) {
         let cells = (area.0 * area.1) as usize;
         let Some(all) = setting::<ROBOTS>(rule, area) else { continue };
-        let all = Setting { max_obstacles: most_obstacles, max_losses, max_wrong, ..all };
-        let left = asked.budget.map_or(u64::MAX, |budget| budget.saturating_sub(count.steps));
+        let all = Setting { max_obstacles: most_obstacles(asked), max_losses, max_wrong, ..all };
         let what = format!("areas up to {}×{}", area.0, area.1);
-        let watched = Watched {
-            system: &all,
-            hunter: RefCell::new(&mut *hunter),
-            what,
-            states: Flag::new(count.states),
-            is_stopped: Flag::new(false),
-        };
-        let looked = search(&watched, all.starts(), Most { most_steps: left, ..Most::NONE });
-        let is_stopped = watched.is_stopped.get();
-        count.states += looked.states;
-        count.steps += looked.steps;
+        let (looked, is_stopped) = watched(&all, all.starts(), what, asked, &mut count, hunter);
         for run in looked.broken {
             if found.iter().all(|(known, _)| *known != run.demand) {
                 let demand = run.demand;

@@ -1,0 +1,196 @@
+//! One robot whose fixes are off by a part of a cell (FRONTIER-5): where it really is, and where it takes itself to be. The
+//! obstacles are decided as they are met. An error is 0 or the greatest there is, along each axis.
+
+use std::ops::ControlFlow;
+
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::frontier::{
+    Condition, HALF, Map, Next, Place, Reached, Robot, Rule, SIDE, Scratch, Sight, Slot, Status, TinyMap,
+    View, clamped, taken_for,
+};
+use tautline_kernel::ground::{Area, Cell};
+
+use super::areas::Size;
+use super::world::Demand;
+use crate::engine::outcomes;
+use crate::engine::states::{Bits, Run, Step, System};
+
+/// The parts of a cell's side in which an error is told.
+pub const PARTS: i32 = 16;
+
+/// One robot with wrong fixes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Drift {
+    /// Its rule.
+    pub rule: Rule,
+    /// How far a fix is off at most along each axis, in 1/[`PARTS`] of a cell.
+    pub error: u8,
+    /// Most obstacles that are met in one run.
+    pub max_obstacles: u8,
+}
+
+/// The robot, and what is decided of its area.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct State {
+    robot: Robot<TinyMap>,
+    /// Where it really is.
+    place: Place,
+    /// Where it takes itself to be.
+    fix: Place,
+    /// What was entered, and the obstacles that were met.
+    truth: TinyMap,
+}
+
+/// The cell that a place is in.
+fn cell_of(place: Place) -> Cell {
+    let line = |coordinate: i32| coordinate.saturating_add(HALF).div_euclid(SIDE) as i16;
+    Cell::new(line(place.x), line(place.y))
+}
+
+impl Drift {
+    /// Every start in areas of these sizes: the robot at the midpoint of any cell, with any first fix.
+    pub fn starts(&self, sizes: &[Size]) -> Vec<State> {
+        let areas = sizes
+            .iter()
+            .filter_map(|&(width, height)| Area::new(Cell::new(0, 0), Cell::new(width - 1, height - 1)));
+        let mut starts = Vec::new();
+        for area in areas {
+            let Some(map) = TinyMap::new(area) else { continue };
+            for cell in area.cells() {
+                let place = Place::midpoint(cell);
+                let mut truth = map;
+                truth.explore(cell);
+                // The start is known; how far from its midpoint the robot is is not.
+                let robot = Robot::new(map, cell, &[cell]);
+                starts.extend(outcomes(|oracle| {
+                    let fix = clamped(cell, self.fix(place, oracle));
+                    State { robot, place, fix, truth }
+                }));
+            }
+        }
+        starts
+    }
+
+    /// What happens in a run in one area, a line for each move, and how many obstacles it meets.
+    pub fn story(&self, area: Size, run: &Run<&'static str>) -> (String, usize) {
+        let Some(mut state) = self.starts(&[area]).into_iter().nth(run.start) else {
+            return (String::new(), 0);
+        };
+        let mut lines = String::new();
+        for &number in &run.steps {
+            let Some(step) = self.steps(&state).nth(number as usize) else { break };
+            lines += &tell(&state, &step.state);
+            lines.push('\n');
+            state = step.state;
+        }
+        (lines, state.truth.obstacles() as usize)
+    }
+
+    /// A fix of a robot at `place`.
+    fn fix(&self, place: Place, oracle: &mut dyn Oracle) -> Place {
+        let error = i32::from(self.error) * SIDE / PARTS;
+        let mut off = || (oracle.pick(3) as i32 + 1) % 3 - 1;
+        Place::new(place.x + off() * error, place.y + off() * error)
+    }
+
+    /// A move, and the fix after it; `None` if there is none.
+    fn go(&self, state: &State, oracle: &mut dyn Oracle) -> Option<(State, &'static str)> {
+        let mut after = *state;
+        let (mut reached, mut queue, mut rounds) =
+            ([Reached::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS], 0);
+        let mut scratch = Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds };
+        let view = View { others: &[], slot: Slot::Own };
+        let next = state.robot.next(&self.rule, view, &mut scratch, oracle);
+        let Next::Tries { side, aim } = next else { return None };
+        after.robot.tries(side, aim);
+        let to = state.place.moved(state.fix, Place::midpoint(state.robot.at().beyond(side)));
+        let way = self.way(&mut after.truth, state.place, to, oracle);
+        if way.is_break() {
+            after.robot.looked(&self.rule, Sight::Obstacle);
+            return Some((after, "an obstacle"));
+        }
+        after.robot.looked(&self.rule, Sight::Open);
+        after.place = to;
+        let fix = self.fix(to, oracle);
+        after.robot.arrived(&self.rule, taken_for(after.truth.area(), fix));
+        let at = after.robot.at();
+        after.fix = if self.rule.has(Condition::Track) { clamped(at, fix) } else { fix };
+        Some((after, "an arrival"))
+    }
+
+    /// Goes from one place to another, and breaks off at an obstacle.
+    fn way(&self, truth: &mut TinyMap, from: Place, to: Place, oracle: &mut dyn Oracle) -> ControlFlow<()> {
+        let parts = from.distance(to) as i32 + 1;
+        let at = |part: i32| {
+            let along = |from: i32, to: i32| from + (to - from) * part / parts;
+            cell_of(Place::new(along(from.x, to.x), along(from.y, to.y)))
+        };
+        let mut last = at(0);
+        for cell in (1..=parts).map(at) {
+            if cell == last {
+                continue;
+            }
+            last = cell;
+            let is_blocked = match truth.status(cell) {
+                Status::Explored => false,
+                Status::Obstacle => true,
+                Status::Unexplored => truth.obstacles() < self.max_obstacles.into() && oracle.mishap(),
+            };
+            if is_blocked {
+                truth.block(cell);
+                return ControlFlow::Break(());
+            }
+            truth.explore(cell);
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl System for Drift {
+    type State = State;
+    type Part = State;
+    type Demand = &'static str;
+
+    fn part(&self, state: &State, _: usize) -> State {
+        *state
+    }
+
+    fn put(&self, state: &mut State, _: usize, part: &State) {
+        *state = *part;
+    }
+
+    fn steps(&self, state: &State) -> impl Iterator<Item = Step<State, &'static str>> {
+        outcomes(|oracle| self.go(state, oracle)).flatten().map(|(state, situation)| {
+            let is_right = state.robot.map().is_within(&state.truth);
+            let breaks = if is_right { Vec::new() } else { vec![Demand::Marks.words()] };
+            let acting: Bits = 1;
+            Step { state, situation, acting, is_bound: true, breaks }
+        })
+    }
+}
+
+/// A step in words.
+pub(super) fn tell(before: &State, after: &State) -> String {
+    let parts = |place: Place, cell: Cell| {
+        let middle = Place::midpoint(cell);
+        let part = |far: i32| far * PARTS / SIDE;
+        (part(place.x - middle.x), part(place.y - middle.y))
+    };
+    let area = before.truth.area();
+    let (cell, at) = (cell_of(after.place), after.robot.at());
+    let ((x, y), (fix_x, fix_y)) = (parts(after.place, cell), parts(after.fix, cell));
+    let blocked = area.cells().find(|&cell| {
+        after.robot.map().status(cell) == Status::Obstacle
+            && before.robot.map().status(cell) != Status::Obstacle
+    });
+    let size = format!("{}×{} cells: ", area.width(), area.height());
+    match blocked {
+        Some(blocked) => {
+            format!("{size}it is in {cell}, takes itself to be in {at}, and takes {blocked} for an obstacle")
+        }
+        None => format!(
+            "{size}it arrives in {cell}, {x} and {y} sixteenths east and south of the midpoint; its fix says {fix_x} and {fix_y}, \
+             and it takes itself to be in {at}"
+        ),
+    }
+}
