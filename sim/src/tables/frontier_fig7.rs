@@ -4,6 +4,8 @@
 //! The text has no number of Fig. 7, so that only its sentences can be judged. The area is that of Fig. 3, 6×7 cells. Blocked
 //! cells are drawn at random, so that the free ones are connected; so are the starts, each robot in a cell of its own.
 
+use std::fmt::Write;
+
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
 use serde::{Deserialize, Serialize};
@@ -345,7 +347,8 @@ fn text(settings: &Settings, merged: &Merged) -> String {
     part("Runs in which two robots are in one cell, in %".to_owned(), |line| line.double);
     let mut text = table.text();
     for Judged { sentence, outcome } in &merged.judged {
-        text += &format!("“{sentence}”: {outcome}.\n");
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "“{sentence}”: {outcome}.");
     }
     text
 }
