@@ -35,7 +35,11 @@ impl<W: Work> Cost<W> {
     }
 }
 
-pub(crate) fn measure<W: Work>(group: &mut Group<'_>, id: BenchmarkId, run: impl Fn() -> W) -> Cost<W> {
+pub(crate) fn measure<W: Work>(
+    group: &mut Group<'_>,
+    id: BenchmarkId,
+    mut run: impl FnMut() -> W,
+) -> Cost<W> {
     let work = run();
     let mut fastest_seconds = f64::INFINITY;
     group.throughput(Throughput::Elements(work.parts().into()));

@@ -98,6 +98,7 @@ static PAIR: Profile = Profile {
     look: Look::Apart,
     knowledge: None,
     clauses: &[Clause::new("PAIR-1")],
+    extras: &[],
 };
 
 /// Runs the pair in `layout` until it breaks its clause, and stores the run at `path`.
