@@ -76,7 +76,7 @@ impl Drift {
         let Some(mut state) = self.starts(&[area]).into_iter().nth(run.start) else {
             return (String::new(), 0);
         };
-        let mut lines = String::new();
+        let mut lines = format!("{}×{} cells, it starts in {}\n", area.0, area.1, state.robot.at());
         for &number in &run.steps {
             let Some(step) = self.steps(&state).nth(number as usize) else { break };
             lines += &tell(&state, &step.state);
@@ -183,13 +183,12 @@ pub(super) fn tell(before: &State, after: &State) -> String {
         after.robot.map().status(cell) == Status::Obstacle
             && before.robot.map().status(cell) != Status::Obstacle
     });
-    let size = format!("{}×{} cells: ", area.width(), area.height());
     match blocked {
         Some(blocked) => {
-            format!("{size}it is in {cell}, takes itself to be in {at}, and takes {blocked} for an obstacle")
+            format!("it is in {cell}, takes itself to be in {at}, and takes {blocked} for an obstacle")
         }
         None => format!(
-            "{size}it arrives in {cell}, {x} and {y} sixteenths east and south of the midpoint; its fix says {fix_x} and {fix_y}, \
+            "it arrives in {cell}, {x} and {y} sixteenths east and south of the midpoint; its fix says {fix_x} and {fix_y}, \
              and it takes itself to be in {at}"
         ),
     }

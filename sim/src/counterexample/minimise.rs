@@ -93,6 +93,8 @@ pub enum Refused {
     Unbroken,
     /// The run is one of agents: what they never met, their sensors may still have seen.
     OfAgents,
+    /// The run is made by the choices of a search, which looks for the smallest itself.
+    Chosen,
     /// The run breaks other clauses than the one asked for.
     Otherwise {
         /// What was asked for.
@@ -110,6 +112,7 @@ impl Refused {
                                `tautline explore` with exit code 1"
                 .to_owned(),
             Self::OfAgents => format!("name a run of the scheme {}", sensing(Senses::Bumps, "or")),
+            Self::Chosen => "draw it with `tautline replay`".to_owned(),
             Self::Otherwise { broken, .. } => {
                 let broken: Vec<&str> = broken.iter().map(|clause| clause.as_str()).collect();
                 format!("it breaks {}", broken.join(", "))
@@ -123,6 +126,7 @@ impl fmt::Display for Refused {
         match self {
             Self::Unbroken => f.write_str("this run breaks no clause: there is nothing to minimise"),
             Self::OfAgents => f.write_str("this is a run of agents: they are not minimised"),
+            Self::Chosen => f.write_str("a search has found this run: none in fewer cells breaks the clause"),
             Self::Otherwise { asked, .. } => {
                 write!(f, "this run does not break {asked}: there is nothing to minimise")
             }
@@ -234,6 +238,9 @@ pub fn minimise(
         Senses::Bumps => {}
         Senses::Floor => return Err(Refused::OfAgents.into()),
     }
+    if !setup.choices.is_empty() {
+        return Err(Refused::Chosen.into());
+    }
     let case = Case { robots: setup.robots, layout: setup.layout.clone(), base: setup.base };
     let mut before = Extent::new(&case, 0);
     let violation = match (setup.limits.violation, asked) {
@@ -246,16 +253,27 @@ pub fn minimise(
     let Violation { clause, step } = first_violation(&report, asked)?;
     before.steps = step;
     let limits = Limits { violation: OnViolation::StopAt(clause), ..Limits::default() };
-    let made = |Case { robots, layout, base }: Case| Setup { robots, layout, base, limits, ..first.clone() };
+    // Starts that nobody has given are those of the smaller case; others stay where they are.
+    let starts =
+        |robots, layout: &Layout, base| setup.scheme.default_starts(setup.rule, layout, base, robots);
+    let is_default = setup.starts == starts(setup.robots, &setup.layout, setup.base);
+    let made = |Case { robots, layout, base }: Case| {
+        let starts = if is_default { starts(robots, &layout, base) } else { first.starts.clone() };
+        Setup { robots, layout, base, starts, limits, ..first.clone() }
+    };
     let least = *setup.scheme.robots.start() as u16;
     let shrunk = shrink(case, step, least, &mut |case, progress| {
         let mut edges = Vec::new();
-        let report = explore(&made(case.clone()), &mut |made: &TeamMove<'_>| {
+        let smaller = made(case.clone());
+        if smaller.check().is_err() {
+            return Ok(None);
+        }
+        let report = explore(&smaller, &mut |made: &TeamMove<'_>| {
             edges.extend(made.frame.bumps());
             watch(progress)
         })?;
         let is_broken = report.violations.iter().any(|broken| broken.clause == clause);
-        let met = Some(Met { area: report.chart.area(), edges });
+        let met = is_default.then(|| Met { area: report.chart.area(), edges });
         Ok(is_broken.then_some(Broken { steps: report.steps, met }))
     })?;
     let Shrunk { case, extent: after, runs } = shrunk;

@@ -103,6 +103,8 @@ struct FrontierTeam {
     who: Who,
     /// Cells in reach of a start.
     due: Vec<Cell>,
+    /// Those of them that no robot was in.
+    left: BTreeSet<Cell>,
     /// How it has ended.
     ended: Option<Ended>,
 }
@@ -132,7 +134,10 @@ fn start_assigned(setup: &Setup, assignment: Assignment) -> Result<Box<dyn Team>
 }
 
 fn team(setup: &Setup, who: Who) -> Box<dyn Team> {
-    Box::new(FrontierTeam { who, due: reachable(&setup.layout, &setup.starts()), ended: None })
+    let starts = setup.starts();
+    let due = reachable(&setup.layout, &starts);
+    let left = due.iter().copied().filter(|cell| !starts.contains(cell)).collect();
+    Box::new(FrontierTeam { who, due, left, ended: None })
 }
 
 /// Refuses walls between cells: an obstacle fills a cell.
@@ -176,9 +181,15 @@ impl Team for FrontierTeam {
             Who::Robots(robots) => robots.advance(),
             Who::Assigned(robots) => robots.advance(),
         };
+        if let Ok(frame) = &made {
+            for cell in &frame.cells {
+                self.left.remove(cell);
+            }
+        }
         made.map_err(|ended| {
             self.ended = Some(ended);
             match ended {
+                Ended::Known if self.left.is_empty() => End::Explored,
                 Ended::Known | Ended::Still => End::Exhausted,
                 Ended::Endless => End::Endless,
             }

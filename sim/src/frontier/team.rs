@@ -1,7 +1,8 @@
 //! A team of the kernel's robots in a layout.
 
 use tautline_kernel::frontier::{
-    Condition, Map, Next, Other, Place, Robot, Rule, Sight, Slot, Stance, Status, View, clamped, taken_for,
+    Condition, HALF, Map, Next, Other, Place, Robot, Rule, SIDE, Sight, Slot, Status, View, clamped,
+    taken_for,
 };
 use tautline_kernel::ground::{Area, Cell, Side};
 use tautline_proofs::run::Frame;
@@ -32,6 +33,8 @@ pub struct Explorers {
     slot: usize,
     /// Team moves since the last news.
     idle: usize,
+    /// The cells that a robot was in.
+    entered: Chart,
     /// Whether a robot has noted in the last team move what is not so.
     is_wrong: bool,
 }
@@ -46,6 +49,8 @@ impl Explorers {
         let places: Vec<Place> = starts.iter().map(|&start| Place::midpoint(start)).collect();
         let others = starts.iter().map(|&cell| Other { cell, place: Place::midpoint(cell), aim: None });
         let others: Vec<Other> = others.collect();
+        let mut entered = Chart::new(area);
+        starts.iter().for_each(|&start| entered.explore(start));
         let heard = robots.iter().map(|robot| robot.map().len()).collect();
         Self {
             rule,
@@ -61,6 +66,7 @@ impl Explorers {
             robots,
             slot: 0,
             idle: 0,
+            entered,
             is_wrong: false,
         }
     }
@@ -73,12 +79,6 @@ impl Explorers {
     /// Whether a robot has noted in the last team move what is not so.
     pub const fn is_wrong(&self) -> bool {
         self.is_wrong
-    }
-
-    /// The robots that take themselves to be in another cell than they are.
-    pub fn lost(&self) -> usize {
-        let is_lost = |(robot, cell): &(&Robot<Chart>, &Cell)| robot.at() != **cell;
-        self.robots.iter().zip(&self.cells).filter(is_lost).count()
     }
 
     /// Makes a team move.
@@ -123,6 +123,7 @@ impl Explorers {
         for (robot, to) in entering.into_iter().enumerate() {
             let Some((cell, place)) = to else { continue };
             (self.cells[robot], self.places[robot]) = (cell, place);
+            self.entered.explore(cell);
             let fix = self.radio.fix(place);
             self.robots[robot].arrived(&self.rule, taken_for(self.area, fix));
             let at = self.robots[robot].at();
@@ -190,7 +191,7 @@ impl Explorers {
     fn note(&mut self, robot: usize, cell: Cell) {
         self.is_wrong |= match self.robots[robot].map().status(cell) {
             Status::Unexplored => false,
-            Status::Explored => self.cells[robot] != cell && !self.cells.contains(&cell),
+            Status::Explored => self.entered.status(cell) != Status::Explored,
             Status::Obstacle => self.layout.is_free(cell),
         };
     }
@@ -215,16 +216,10 @@ impl Explorers {
             }
         }
     }
-
-    /// Whether every robot has arrived where it went; a run is looked at between two team moves alone.
-    pub fn stands(&self) -> bool {
-        self.robots.iter().all(|robot| robot.stance() == Stance::Stands)
-    }
 }
 
 /// The cell that a place is in.
 fn cell_of(place: Place) -> Cell {
-    use tautline_kernel::frontier::{HALF, SIDE};
     let line = |coordinate: i32| (coordinate + HALF).div_euclid(SIDE) as i16;
     Cell::new(line(place.x), line(place.y))
 }

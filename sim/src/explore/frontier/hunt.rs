@@ -251,7 +251,8 @@ fn quarry<const ROBOTS: usize>(
     let (cells, moves, blocked, choices) = match (found.steps(), found.given()) {
         (Some((start, steps, _)), Some((given, choices))) => {
             let moves = steps.iter().filter(|(event, _)| matches!(event, Event::Looks(..))).count();
-            (start.cells(), moves, given.given, choices)
+            let bounds = [given.max_losses, given.max_wrong].map(u32::from);
+            (start.cells(), moves, given.given, [&bounds[..], &choices].concat())
         }
         _ => ([Cell::new(0, 0); ROBOTS], 0, None, Vec::new()),
     };
@@ -402,6 +403,13 @@ fn layout_of(
     Ok(Setup { starts: Some(starts.to_vec()), limits, ..setup })
 }
 
+/// The start of a run without end.
+fn endless(setup: &Setup) -> String {
+    let starts = setup.starts();
+    let starts = (1..).zip(&starts).map(|(robot, start)| format!("R{robot} starts in {start}"));
+    format!("A run without end: {}\n\n{}", starts.collect::<Vec<_>>().join(", "), setup.layout)
+}
+
 /// Runs a rival once, and keeps what breaks a clause that none has broken before.
 fn try_one(setup: &Setup, count: &mut Count, found: &mut Vec<Quarry>) -> Result<(), Fault> {
     let mut members = team(setup)?;
@@ -425,7 +433,7 @@ fn try_one(setup: &Setup, count: &mut Count, found: &mut Vec<Quarry>) -> Result<
         facts: sizes(size, walls, steps as usize),
         title: title(size, walls, steps as usize),
         setup: setup.clone(),
-        shown: if clause == ENDS { Shown::Endless } else { Shown::Run(clause) },
+        shown: if clause == ENDS { Shown::Told(endless(setup)) } else { Shown::Run(clause) },
     });
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! A run that a search has found: the search's world makes it again by its choices. A team move is a robot's look: whoever
-//! enters a cell is drawn there, and what happens until the next look belongs to it.
+//! enters a cell is drawn there, and what happens until the next look belongs to it. The first two choices say how many messages are
+//! lost and how many fixes are wrong at most, since the others are counted among what may happen then.
 
 use tautline_kernel::chain::Kind;
 use tautline_kernel::frontier::{Map, Rule as Frontier, Sight, TinyMap};
@@ -41,7 +42,10 @@ fn begin<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Box<dyn T
         return Err(misfit("the layout is too large for choices".to_owned()));
     };
     layout.cells().filter(|&cell| !layout.is_free(cell)).for_each(|cell| given.block(cell));
-    let (max_losses, max_wrong) = (u8::MAX, u8::MAX);
+    let Some((&[max_losses, max_wrong], choices)) = setup.choices.split_first_chunk() else {
+        return Err(misfit("the choices do not say how much may go wrong".to_owned()));
+    };
+    let (max_losses, max_wrong) = (max_losses as u8, max_wrong as u8);
     let setting = Setting { given: Some(given), max_losses, max_wrong, ..setting };
     let Some(world) = setting.start(cells) else {
         return Err(misfit("the layout is too large for choices".to_owned()));
@@ -50,7 +54,7 @@ fn begin<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Box<dyn T
     let scripted = Scripted {
         setting,
         world,
-        choices: setup.choices.clone(),
+        choices: choices.to_vec(),
         made: 0,
         cells: starts,
         due,
