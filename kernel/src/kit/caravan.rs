@@ -155,13 +155,11 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
                 let beyond = node.after(step);
                 match ends.iter().position(|&end| end == beyond) {
                     None if self.is_whole_with(ends, beyond) => return Some((robot, step)),
-                    None => {}
-                    Some(other) => {
-                        if seen >> other & 1 == 0 {
-                            (queue[last], seen) = (other, seen | 1 << other);
-                            last += 1;
-                        }
+                    Some(other) if seen >> other & 1 == 0 => {
+                        (queue[last], seen) = (other, seen | 1 << other);
+                        last += 1;
                     }
+                    None | Some(_) => {}
                 }
             }
         }
