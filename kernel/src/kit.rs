@@ -14,6 +14,7 @@ mod caravan;
 mod message;
 mod refused;
 mod rule;
+mod sets;
 mod stance;
 mod talk;
 mod team;

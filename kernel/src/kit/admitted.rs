@@ -1,13 +1,9 @@
 //! What a team of robots knows of its map, and which drives the conditions admit.
 
 use super::rule::Records;
-use super::stance::Stance;
+use super::stance::{SEEN, Stance};
 use super::team::Kit;
 use crate::ground::{Cell, Edge, EdgeMark, Grid, Step, Steps};
-
-/// A path that was seen free from one end to a robot at the other, and that nobody has driven. It is the third mark that a
-/// grid has for edges; robots of a chain use it for virtual obstacles.
-pub(super) const SEEN: EdgeMark = EdgeMark::Virtual;
 
 /// What is known, and what is admitted.
 impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {

@@ -11,8 +11,9 @@
 
 use super::alone::Way;
 use super::rule::Condition;
+use super::sets::robots;
 use super::team::Kit;
-use super::tether::{Formation, Near, robots};
+use super::tether::{Formation, Near};
 use crate::ground::{Cell, Grid, Step, Steps};
 
 /// More drives than there can be between two robots.

@@ -1,7 +1,11 @@
 //! Where robots are on the lattice, and who is sure to hear whom (KIT-1, KIT-3). The unit is the path between two nodes,
 //! 3 m; 10 m are between √11 and √12 of it, and no two nodes are √11 apart.
 
-use crate::ground::{Cell, Side};
+use crate::ground::{Cell, EdgeMark, Side};
+
+/// A path that was seen free from one end to a robot at the other, and that nobody has driven. It is the third mark that a
+/// grid has for edges; robots of a chain use it for virtual obstacles.
+pub(super) const SEEN: EdgeMark = EdgeMark::Virtual;
 
 /// The largest squared distance of two nodes in contact: (10 m / 3 m)² = 11.1.
 const REACH_SQUARED: u32 = 11;

@@ -1,10 +1,9 @@
 //! A team of robots that keep in touch: their records, where they are, and whose turn it is (Peiris, sections 3 and 4).
 
-use super::admitted::SEEN;
 use super::refused::{NotNow, Refused};
 use super::rule::{Condition, Fallback, Filter, Rule, Runs};
-use super::stance::Stance;
-use super::tether::{Set, sets};
+use super::sets::{Set, sets};
+use super::stance::{SEEN, Stance};
 use crate::choice::Oracle;
 use crate::ground::{Cell, Edge, EdgeMark, Grid, Side, Step, Steps};
 

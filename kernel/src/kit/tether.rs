@@ -7,12 +7,10 @@
 
 use super::around::{HERE, IN_REACH, Places, at_offset, bit, offsets, place_of};
 use super::rule::Condition;
+use super::sets::{Set, robots, sets};
 use super::stance::{Stance, in_reach};
 use super::team::Kit;
 use crate::ground::{Cell, Grid, Side, Step};
-
-/// Robots, a bit for each.
-pub(super) type Set = u16;
 
 /// Drives that lead to any node of a field over paths within it, at most.
 const MAX_DRIVES: usize = 8;
@@ -76,35 +74,6 @@ pub(super) struct Bonds<const ROBOTS: usize> {
     heard: [Set; ROBOTS],
     /// Of those that are tied to each other without it, it has to stay tied to one of each set.
     tied: [Set; ROBOTS],
-}
-
-/// The sets into which `all` fall, two being together if they are `linked` directly or over others; the rest are empty.
-pub(super) fn sets<const ROBOTS: usize>(all: Set, linked: impl Fn(usize, usize) -> bool) -> [Set; ROBOTS] {
-    let mut sets = [0; ROBOTS];
-    let mut rest = all;
-    for set in &mut sets {
-        let mut new = rest & rest.wrapping_neg();
-        while new != 0 {
-            let one = new.trailing_zeros() as usize;
-            new &= new.wrapping_sub(1);
-            *set |= 1 << one;
-            rest &= !(1 << one);
-            for other in robots(rest & !new) {
-                new |= Set::from(linked(one, other)) << other;
-            }
-        }
-    }
-    sets
-}
-
-/// The numbers of the robots of a set.
-pub(super) fn robots(set: Set) -> impl Iterator<Item = usize> {
-    let mut rest = set;
-    core::iter::from_fn(move || {
-        let robot = rest.trailing_zeros() as usize;
-        rest &= rest.wrapping_sub(1);
-        (robot < 16).then_some(robot)
-    })
 }
 
 impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
@@ -240,12 +209,5 @@ mod tests {
                 }
             }
         }
-    }
-
-    #[test]
-    fn robots_fall_into_sets_of_those_that_are_linked() {
-        let linked = |one: usize, other: usize| one.abs_diff(other) == 2;
-        assert_eq!(sets::<5>(0b11111, linked), [0b10101, 0b01010, 0, 0, 0]);
-        assert_eq!(sets::<5>(0b11011, linked), [0b00001, 0b01010, 0b10000, 0, 0]);
     }
 }

@@ -66,7 +66,7 @@ const SMALL: [Size; 6] = [(2, 1, 1), (3, 1, 2), (2, 2, 4), (4, 1, 3), (5, 1, 4),
 const THREE: [Size; 4] = [(2, 2, 4), (4, 1, 3), (5, 1, 4), (6, 1, 1)];
 
 /// Those for three robots that start side by side.
-const BESIDE: [Size; 4] = [(2, 2, 4), (4, 1, 3), (5, 1, 4), (3, 2, 2)];
+const BESIDE: [Size; 4] = [(2, 2, 4), (4, 1, 3), (5, 1, 4), (3, 2, 7)];
 
 /// What a run of the published rule does before it goes wrong.
 const ANY: [&str; 0] = [];
