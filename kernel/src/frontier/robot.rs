@@ -8,6 +8,9 @@ use super::rule::{Condition, Otherwise, Rule, Ties};
 use crate::choice::Oracle;
 use crate::ground::{Cell, Side};
 
+/// So many moves more than twice the way to the nearest unexplored cell a robot goes at most to leave that one to another.
+const FARTHER: u32 = 8;
+
 /// What a robot is about.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Stance {
@@ -183,7 +186,8 @@ impl<M: Map> Robot<M> {
         }
     }
 
-    /// The way to the nearest unexplored cell that is left to nobody else; if all are, to the nearest that nobody has
+    /// The way to the nearest unexplored cell that is left to nobody else, at most twice as far as the nearest of all and
+    /// [`FARTHER`] moves more; if all are, to the nearest that nobody has
     /// claimed; if all are claimed, to the nearest. A robot that has waited for its slot goes to the nearest: where all leave
     /// cells to each other, the one that is nearest gets on.
     fn preferred(&self, rule: &Rule, view: View<'_>, scratch: &mut Scratch<'_>) -> Option<Found> {
@@ -196,11 +200,11 @@ impl<M: Map> Robot<M> {
                     u32::from(columns) + u32::from(rows) < found.distance
                 })
         };
-        let [mut unclaimed, mut nearest] = [None; 2];
+        let [mut unclaimed, mut nearest]: [Option<Found>; 2] = [None; 2];
         let mut best = None;
         search(&self.map, self.at, scratch, |found| {
-            nearest = nearest.or(Some(found));
-            if self.waits {
+            let least = nearest.get_or_insert(found).distance;
+            if self.waits || found.distance > 2 * least + FARTHER {
                 return ControlFlow::Break(());
             }
             if is_claimed(found.cell) {
