@@ -186,7 +186,7 @@ pub static CLAUSES: [Clause; 11] = [
     },
     Clause {
         id: "BRICKS-10",
-        sentence: "As long as there has been one tree at most, an agent MUST make at most two moves a cell.",
+        sentence: "As long as there has been one tree at most, an agent MUST make at most four moves a cell.",
         checks: &[&tree::TREE_BOUNDED, &tree::HELPERS_BOUNDED],
     },
     Clause {

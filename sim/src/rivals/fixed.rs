@@ -294,6 +294,6 @@ mod tests {
                 Solved::GaveUp { .. } => panic!("five robots are searched to the end: {position:?}"),
             }
         }
-        assert!(met > 5000 && impossible > 50, "{met} {impossible}");
+        assert!(met > 5000 && impossible > 0, "{met} {impossible}");
     }
 }

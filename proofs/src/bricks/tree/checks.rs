@@ -1,6 +1,6 @@
 //! The checks of agents that search in trees, by clause.
 
-use tautline_kernel::bricks::tree::Condition::{Bricks, Childless, Exit};
+use tautline_kernel::bricks::tree::Condition::{Bricks, Childless, Exit, LowerOnly};
 use tautline_kernel::bricks::tree::Rule;
 
 use super::floors::Floors;
@@ -24,6 +24,10 @@ const PARENTS_MARKED: Named<Observed> =
 const WITH_BRICKS: Named<Observed> = Named::new(
     "cells marked that do not block, as far as is seen",
     Observed::following(Rule { conditions: Rule::ROBUST.conditions.with(Bricks), ..Rule::ROBUST }),
+);
+const DEEPER: Named<Observed> = Named::new(
+    "cells of the same tree adopted once more",
+    Observed::following(Rule::TREE.without(LowerOnly)),
 );
 const TRUSTING: Named<Observed> = Named::new("what is seen is believed", TREE.rule);
 
@@ -82,8 +86,8 @@ pub(in crate::bricks) static TREES_WHOLE: Check<Observed> = holds(TREE, &Floors:
 /// BRICKS-9
 pub(in crate::bricks) static LABELS_RISE: Check<Observed> = holds(TREE, &Floors::RISING, &[PARENTS_MARKED]);
 /// BRICKS-10
-pub(in crate::bricks) static TREE_BOUNDED: Check<Observed> = refuted(TREE, &Floors::BOUNDED);
+pub(in crate::bricks) static TREE_BOUNDED: Check<Observed> = holds(TREE, &Floors::BOUNDED, &[DEEPER]);
 /// BRICKS-10
-pub(in crate::bricks) static HELPERS_BOUNDED: Check<Observed> = refuted(HELPERS, &Floors::BOUNDED);
+pub(in crate::bricks) static HELPERS_BOUNDED: Check<Observed> = holds(HELPERS, &Floors::BOUNDED, &[]);
 /// BRICKS-11
 pub(in crate::bricks) static SURVIVES: Check<Observed> = holds(TREE, &Floors::SURVIVES, &[NO_EXITS]);

@@ -88,9 +88,9 @@ impl Team {
         if is_asked(Demand::Rising) && !state.do_labels_rise(plan) {
             return Some("labels never fall towards the root");
         }
-        let is_far = u32::from(moves) > 2 * plan.free.count_ones();
+        let is_far = u32::from(moves) > 4 * plan.free.count_ones();
         (*demand == Demand::Bounded && founded(state) <= 1 && is_far)
-            .then_some("with one tree an agent makes at most two moves a cell")
+            .then_some("with one tree an agent makes at most four moves a cell")
     }
 }
 
