@@ -346,12 +346,15 @@ fn clauses_are_decided_by_name() {
                bound
     LATTICE-1  published  exhaustive     81  holds    3/3
                81 offsets
+               composition: machine-checked
     CHAIN-5    published  search      25742  holds    -
                all layouts, N = 4, at most 3 walls
     CHAIN-5    repaired   search      25724  holds    1/1
                all layouts, N = 4, at most 3 walls
+    CHAIN-5    reel       search      26389  holds    -
+               all layouts, N = 4, at most 3 walls
 
-    All 3 verdicts are the registered ones.
+    All 4 verdicts are the registered ones.
     "#);
     let ledger = json(folder.path(), &["prove", "CHAIN-10"], 0);
     assert_eq!(ledger["as_registered"], true);
@@ -365,7 +368,7 @@ fn clauses_are_decided_by_name() {
     );
     assert_snapshot!(refused(folder.path(), &["prove", "CHAIN-99"]), @r#"
     Error: there is no clause "CHAIN-99"
-     Help: the clauses are LATTICE-1, LATTICE-2, CHAIN-1, CHAIN-2, CHAIN-3, CHAIN-4, CHAIN-5, CHAIN-6, CHAIN-7, CHAIN-8, CHAIN-9, CHAIN-10, CHAIN-11, CHAIN-12, CHAIN-13, CHAIN-14, CHAIN-15, ANTS-1, BRICKS-1, BRICKS-2, BRICKS-3, BRICKS-4, BRICKS-5, BRICKS-6, BRICKS-7, NOTICE-1, NOTICE-2, NOTICE-3, NOTICE-4, NOTICE-5, NOTICE-6, MRC-1, MRC-2, MRC-3, MRC-4, MRC-5, MRC-6, MRC-7, MRC-8, MRC-9, MRC-10, MRC-11, MRC-12, TAN-1, TAN-2, KIT-1, KIT-2, KIT-3, KIT-4, KIT-5, KIT-6, KIT-7, KIT-8, KIT-9, KIT-10, KIT-11, KIT-12, POSITION-1, POSITION-2, POSITION-3, POSITION-4, POSITION-5, POSITION-6
+     Help: the clauses are LATTICE-1, LATTICE-2, CHAIN-1, CHAIN-2, CHAIN-3, CHAIN-4, CHAIN-5, CHAIN-6, CHAIN-7, CHAIN-8, CHAIN-9, CHAIN-10, CHAIN-11, CHAIN-12, CHAIN-13, CHAIN-14, CHAIN-15, CHAIN-16, CHAIN-17, CHAIN-18, CHAIN-19, ANTS-1, BRICKS-1, BRICKS-2, BRICKS-3, BRICKS-4, BRICKS-5, BRICKS-6, BRICKS-7, BRICKS-8, BRICKS-9, BRICKS-10, BRICKS-11, NOTICE-1, NOTICE-2, NOTICE-3, NOTICE-4, NOTICE-5, NOTICE-6, MRC-1, MRC-2, MRC-3, MRC-4, MRC-5, MRC-6, MRC-7, MRC-8, MRC-9, MRC-10, MRC-11, MRC-12, TAN-1, TAN-2, KIT-1, KIT-2, KIT-3, KIT-4, KIT-5, KIT-6, KIT-7, KIT-8, KIT-9, KIT-10, KIT-11, KIT-12, KIT-13, POSITION-1, POSITION-2, POSITION-3, POSITION-4, POSITION-5, POSITION-6, FRONTIER-1, FRONTIER-2, FRONTIER-3, FRONTIER-4, FRONTIER-5, FRONTIER-6, FRONTIER-7, FRONTIER-8
     "#);
 }
 
