@@ -8,9 +8,6 @@ use super::rule::{Condition, Otherwise, Rule, Ties};
 use crate::choice::Oracle;
 use crate::ground::{Cell, Side};
 
-/// So many moves more than twice the way to the nearest unexplored cell a robot goes at most to leave that one to another.
-const FARTHER: u32 = 8;
-
 /// What a robot is about.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Stance {
@@ -186,10 +183,9 @@ impl<M: Map> Robot<M> {
         }
     }
 
-    /// The way to the nearest unexplored cell that is left to nobody else, at most twice as far as the nearest of all and
-    /// [`FARTHER`] moves more; if all are, to the nearest that nobody has
-    /// claimed; if all are claimed, to the nearest. A robot that has waited for its slot goes to the nearest: where all leave
-    /// cells to each other, the one that is nearest gets on.
+    /// The way to a nearest unexplored cell: of several as near to one that is left to nobody else, or else to one that nobody has
+    /// claimed. A preference never leads farther than to a nearest one: robots that leave cells to each other and go elsewhere
+    /// instead can do so for ever, three of them in 3×2 cells.
     fn preferred(&self, rule: &Rule, view: View<'_>, scratch: &mut Scratch<'_>) -> Option<Found> {
         let is_claimed =
             |cell| rule.has(Condition::Claim) && view.others.iter().any(|other| other.aim == Some(cell));
@@ -204,7 +200,7 @@ impl<M: Map> Robot<M> {
         let mut best = None;
         search(&self.map, self.at, scratch, |found| {
             let least = nearest.get_or_insert(found).distance;
-            if self.waits || found.distance > 2 * least + FARTHER {
+            if self.waits || found.distance > least {
                 return ControlFlow::Break(());
             }
             if is_claimed(found.cell) {
