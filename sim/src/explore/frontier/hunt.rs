@@ -261,7 +261,9 @@ fn quarry<const ROBOTS: usize>(
     let walls = layout.size().cells() - layout.free_cells();
     let base = cells.first().copied().unwrap_or(Cell::new(0, 0));
     layout.place_base(base)?;
-    let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
+    // The run may break another clause before.
+    let clause = ClauseId::new(demand.clause());
+    let limits = Limits { violation: OnViolation::StopAt(clause), ..Limits::default() };
     let setup = Setup::new(asked.scheme, asked.rule, ROBOTS as u16, layout, base);
     let setup = Setup { starts: Some(cells.to_vec()), choices, limits, ..setup };
     let is_stored = found.run.round().is_empty() && !setup.choices.is_empty();
@@ -271,11 +273,7 @@ fn quarry<const ROBOTS: usize>(
         clause: demand.clause(),
         facts: sizes([columns, rows], walls, moves),
         title: title([columns, rows], walls, moves),
-        shown: if is_stored {
-            Shown::Story(ClauseId::new(demand.clause()), story)
-        } else {
-            Shown::Told(story)
-        },
+        shown: if is_stored { Shown::Story(clause, story) } else { Shown::Told(story) },
         setup,
     })
 }
