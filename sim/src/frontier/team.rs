@@ -50,7 +50,9 @@ impl Explorers {
         let others = starts.iter().map(|&cell| Other { cell, place: Place::midpoint(cell), aim: None });
         let others: Vec<Other> = others.collect();
         let mut entered = Chart::new(area);
-        starts.iter().for_each(|&start| entered.explore(start));
+        for &start in starts {
+            entered.explore(start);
+        }
         let heard = robots.iter().map(|robot| robot.map().len()).collect();
         Self {
             rule,
