@@ -5,6 +5,8 @@ use std::fmt;
 
 use tautline_kernel::ground::{Cell, Edge, Side};
 
+use crate::course::{Course, Scene, Turn};
+
 /// The most cells of a small floor.
 pub(crate) const CELLS: usize = 16;
 
@@ -55,6 +57,24 @@ impl FloorPlan {
     pub(crate) fn cells(&self) -> impl Iterator<Item = Cell> + use<> {
         let plan = *self;
         (0..CELLS).filter(move |place| plan.free >> place & 1 == 1).map(move |place| plan.cell(place))
+    }
+
+    /// These turns on this floor, of which the last `round` come over and over, and how they end.
+    pub(crate) fn course(&self, turns: Vec<Turn>, round: usize, end: Scene) -> Course {
+        let Self { width, height, .. } = *self;
+        let area = (0..width * height).map(|place| self.cell(place as usize));
+        let sides = |cell| [Side::East, Side::South].map(|side| Edge::new(cell, side));
+        let is_wall =
+            |edge: &Edge| self.place(edge.cell().beyond(edge.side())).is_some() && !self.is_open(*edge);
+        Course {
+            width,
+            height,
+            blocked: area.filter(|&cell| self.place(cell).is_none()).collect(),
+            walls: self.cells().flat_map(sides).filter(is_wall).collect(),
+            turns,
+            round,
+            end,
+        }
     }
 
     /// Every way to put so many agents into free cells.

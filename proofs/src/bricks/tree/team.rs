@@ -4,7 +4,7 @@
 use tautline_kernel::bricks::tree::{Next, View};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::Mark;
-use tautline_kernel::ground::{Cell, Edge, Side, Step};
+use tautline_kernel::ground::{Cell, Step};
 
 use super::Way;
 use super::state::{Body, Part, Small, State};
@@ -191,21 +191,7 @@ impl Team {
             turns.push(Turn { before: self.scene(&state), agent, step, is_done, unseen });
             state = turned.state;
         }
-        let FloorPlan { width, height, .. } = self.plan;
-        let area = (0..width * height).map(|place| self.plan.cell(place as usize));
-        let sides = |cell| [Side::East, Side::South].map(|side| Edge::new(cell, side));
-        let is_wall = |edge: &Edge| {
-            self.plan.place(edge.cell().beyond(edge.side())).is_some() && !self.plan.is_open(*edge)
-        };
-        Course {
-            width,
-            height,
-            blocked: area.filter(|&cell| self.plan.place(cell).is_none()).collect(),
-            walls: self.plan.cells().flat_map(sides).filter(is_wall).collect(),
-            turns,
-            round: round.len(),
-            end: self.scene(&state),
-        }
+        self.plan.course(turns, round.len(), self.scene(&state))
     }
 }
 
