@@ -11,22 +11,27 @@ use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 use tautline_proofs::decide::Verdict;
 
+use super::findings::{self, Finding, Format, FormatArgs, Outcome};
 use super::output::Output;
-use super::{Exit, ForceArgs, Format, FormatArgs, SizeArg, interrupt, number, progress, whole};
-use crate::{chosen, report};
-use tautline_sim::aside::Aside;
+use super::shards::{ShardArgs, Wanted};
+use super::{Exit, ForceArgs, SizeArg, interrupt, number, progress, whole};
+use crate::{chosen, report, shards};
+use tautline_sim::aside::{Aside, Replaceable};
 use tautline_sim::counterexample::hunt::store;
 use tautline_sim::draw::story;
 use tautline_sim::explore::hunt::{Asked, Far, Hunted, Hunter, Quarry, Shown};
 use tautline_sim::explore::{Misfit, Profile, RuleId, Senses};
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::reading::real;
+use tautline_sim::shards::{Plan, deal_hunt, hunt_part};
 
 const EXAMPLES: &str = "\
 Examples:
   tautline hunt --rule published --robots 4 --max-walls 4 --out counterexamples
   tautline hunt --rule repaired --robots 4 --max-walls 4 --format json
   tautline hunt --robots 5 --max-walls 8 --budget 100000000 --resume hunt.json
+  tautline hunt --robots 5 --max-walls 4 --plan plan.json --shards 64
+  tautline hunt --plan plan.json --shard 1
   tautline hunt --scheme bricks --max-misses 2
   tautline hunt --scheme bricks-ants --max-misses 2 --size 3x3
   tautline hunt --scheme frontier --rule published --robots 2 --size 3x1
@@ -72,6 +77,8 @@ pub(super) struct Hunt {
     /// Keep the hunt in FILE while it goes on; if FILE is there, go on from it, also with more walls.
     #[arg(long, value_name = "FILE")]
     resume: Option<PathBuf>,
+    #[command(flatten)]
+    shard: ShardArgs,
     /// The folder for the counterexamples.
     #[arg(long, value_name = "DIR", default_value = ".")]
     out: PathBuf,
@@ -158,6 +165,33 @@ impl Hunter for Watcher<'_> {
 
 impl Hunt {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        match self.shard.wanted()? {
+            Wanted::All => self.hunt(out),
+            Wanted::Plan(path, shards) => self.plan(path, shards, out),
+            Wanted::Shard(path, shard) => {
+                let (plan, format) = (Plan::read(path)?, self.format.format.plain()?);
+                shards::run(&plan, shard, format, out, |far| Ok(hunt_part(&plan, shard, far, self.budget)?))
+            }
+        }
+    }
+
+    /// Deals the hunt out among shards.
+    fn plan(&self, path: &Path, shards: u32, out: &mut Output) -> Result<Exit, Halt> {
+        let asked = self.asked();
+        Plan::check(shards)?;
+        let (of, dealt) = deal_hunt(&asked, shards)?;
+        let facts = Planned { moves: dealt.moves, left: &dealt.left };
+        let words = dealt.to_string();
+        shards::plan(
+            (path, shards),
+            (of, &dealt.deal),
+            (&facts, &words),
+            (self.force.force, self.format.format.plain()?),
+            out,
+        )
+    }
+
+    fn hunt(&self, out: &mut Output) -> Result<Exit, Halt> {
         let (scheme, rule) = (self.scheme, self.rule);
         let rule = scheme.rule(rule).ok_or(Misfit::Rule { scheme, rule }).map_err(Fault::from)?;
         let Some(hunt) = rule.hunt else {
@@ -175,22 +209,12 @@ impl Hunt {
         watcher.bar.finish_and_clear();
         watcher.spinner.finish_and_clear();
         tracing::info!("hunted through {} in {:.3} s", hunted.through, start.elapsed().as_secs_f64());
-        let files = hunted.found.iter().map(|quarry| self.store(quarry, out)).collect::<Result<_, _>>()?;
-        let verdict = match (hunted.found.is_empty(), hunted.is_complete) {
-            (false, _) => Verdict::Refuted,
-            (true, true) => Verdict::Holds,
-            (true, false) => Verdict::Open,
-        };
-        let told = Told { asked: &asked, hunted: &hunted, verdict, files };
-        match self.format.format {
-            Format::Json => out.json(&told)?,
-            Format::Text => out.text(told.text()?)?,
-        }
-        Ok(match (hunted.is_complete, hunted.found.is_empty()) {
-            (false, _) => Exit::Unfinished,
-            (true, false) => Exit::Violation,
-            (true, true) => Exit::Expected,
-        })
+        let replaceable = self.force.replaceable(self.resume.clone());
+        Found { asked: &asked, hunted: &hunted, folder: &self.out }.tell(
+            &replaceable,
+            self.format.format,
+            out,
+        )
     }
 
     fn asked(&self) -> Asked<'_> {
@@ -207,22 +231,102 @@ impl Hunt {
             resume: self.resume.as_deref(),
         }
     }
+}
 
-    /// Stores a counterexample, if it is one that a file tells; where it stands then.
-    fn store(&self, quarry: &Quarry, out: &mut Output) -> Result<Option<String>, Halt> {
-        let (Shown::Run(clause) | Shown::Story(clause, _)) = quarry.shown else { return Ok(None) };
-        let replaceable = self.force.replaceable(self.resume.clone());
-        let (file, _) = store(&self.out, &quarry.setup, clause, &replaceable)?;
-        Ok(keep(file, out))
+/// What a hunt has found, and the folder where it is to be stored.
+pub(super) struct Found<'a> {
+    pub(super) asked: &'a Asked<'a>,
+    pub(super) hunted: &'a Hunted,
+    pub(super) folder: &'a Path,
+}
+
+impl Found<'_> {
+    /// Stores the counterexamples, and tells of them.
+    pub(super) fn tell(
+        &self,
+        replaceable: &Replaceable,
+        format: Format,
+        out: &mut Output,
+    ) -> Result<Exit, Halt> {
+        let &Self { asked, hunted, folder } = self;
+        let store = |quarry: &Quarry| stored(quarry, folder, replaceable, out);
+        let files = hunted.found.iter().map(store).collect::<Result<_, _>>()?;
+        let verdict = match (hunted.found.is_empty(), hunted.is_complete) {
+            (false, _) => Verdict::Refuted,
+            (true, true) => Verdict::Holds,
+            (true, false) => Verdict::Open,
+        };
+        let told = Told { asked, hunted, verdict, files };
+        match format {
+            Format::Json => out.json(&told)?,
+            Format::Text => out.text(told.text()?)?,
+            Format::Github => out.text(findings::github(&told.findings()?, &told.headline()))?,
+            Format::Junit => out.text(findings::junit("hunt", &told.findings()?)?)?,
+        }
+        Ok(match (hunted.is_complete, hunted.found.is_empty()) {
+            (false, _) => Exit::Unfinished,
+            (true, false) => Exit::Violation,
+            (true, true) => Exit::Expected,
+        })
     }
 }
 
+/// Stores a counterexample in `folder`, if it is one that a file tells; where it stands then.
+fn stored(
+    quarry: &Quarry,
+    folder: &Path,
+    replaceable: &Replaceable,
+    out: &mut Output,
+) -> Result<Option<String>, Halt> {
+    let (Shown::Run(clause) | Shown::Story(clause, _)) = quarry.shown else { return Ok(None) };
+    let (file, _) = store(folder, &quarry.setup, clause, replaceable)?;
+    Ok(keep(file, out))
+}
+
+/// What is told of a plan, for programs.
+#[derive(Serialize)]
+struct Planned<'a> {
+    moves: u64,
+    left: &'a [u64],
+}
+
 impl Told<'_> {
+    /// What was searched, and what follows from it.
+    fn headline(&self) -> String {
+        let Asked { scheme, rule, .. } = self.asked;
+        let Hunted { title, outcome, .. } = self.hunted;
+        format!("{} ({rule}), {title}\n{outcome}\n", scheme.name)
+    }
+
+    /// The clauses that are broken, as a CI shows them; if none is, that.
+    fn findings(&self) -> Result<Vec<Finding>, Halt> {
+        let Asked { scheme, rule, .. } = self.asked;
+        let class = scheme.name.to_owned();
+        let broken = self.hunted.found.iter().zip(&self.files).map(|(quarry, file)| {
+            let mut story = picture(quarry)?;
+            if let Some(file) = file {
+                // Writing to a string cannot fail.
+                let _ = writeln!(story, "replay it with: tautline replay {file}");
+            }
+            let name = format!("{} by {} ({rule})", quarry.clause, scheme.name);
+            let outcome = Outcome::Broken(quarry.title.clone(), story);
+            Ok(Finding { class: class.clone(), name, outcome, seconds: None })
+        });
+        let mut findings = broken.collect::<Result<Vec<_>, Halt>>()?;
+        if !self.hunted.is_complete || findings.is_empty() {
+            let outcome = match self.hunted.is_complete {
+                true => Outcome::Expected,
+                false => Outcome::Unfinished("the hunt was ended before its bound".to_owned()),
+            };
+            let name = format!("every clause by {} ({rule})", scheme.name);
+            findings.push(Finding { class, name, outcome, seconds: None });
+        }
+        Ok(findings)
+    }
+
     /// What a person is told.
     fn text(&self) -> Result<String, Halt> {
-        let Asked { scheme, rule, resume, .. } = self.asked;
-        let Hunted { title, outcome, .. } = self.hunted;
-        let mut text = format!("{} ({rule}), {title}\n{outcome}\n", scheme.name);
+        let mut text = self.headline();
         for (quarry, file) in self.hunted.found.iter().zip(&self.files) {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "\n{}, {}\n\n{}", quarry.clause, quarry.title, picture(quarry)?);
@@ -230,7 +334,7 @@ impl Told<'_> {
                 let _ = writeln!(text, "replay it with: tautline replay {file}");
             }
         }
-        if let Some(path) = resume {
+        if let Some(path) = self.asked.resume {
             let _ = writeln!(text, "The hunt is kept in {}.", shown(path));
         }
         Ok(text)

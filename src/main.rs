@@ -5,6 +5,7 @@
 mod chosen;
 mod evidence;
 mod explore;
+mod findings;
 mod hunt;
 mod interrupt;
 mod locate;
@@ -17,6 +18,7 @@ mod replay;
 mod report;
 mod reproduce;
 mod rescue;
+mod shards;
 mod show;
 mod threads;
 
@@ -51,6 +53,8 @@ enum Exit {
     Violation,
     /// A budget or the user ended the work before its bound.
     Unfinished,
+    /// A merge has gaps.
+    Gaps,
     /// Wrong usage or bad input, or a file could not be stored.
     Fault,
     /// A bug of ours.
@@ -65,6 +69,7 @@ impl Exit {
             Self::Violation => 1,
             Self::Fault => 2,
             Self::Unfinished => 3,
+            Self::Gaps => 4,
             Self::Bug => 70,
         }
     }
@@ -79,8 +84,8 @@ impl From<Exit> for ExitCode {
 /// What the exit codes say, for the help, the manual pages and the documents.
 const EXIT_CODES: &str = "\
 0 as expected · 1 a violation was found · 2 wrong usage or bad input, or a file could not be stored · 3 a budget, Ctrl-C, \
-SIGTERM or SIGHUP ended the work before its bound, also if something was found by then · 70 a bug of ours. Where several \
-apply, the code is the first of 70, 2, 3, 1, 0.";
+SIGTERM or SIGHUP ended the work before its bound, also if something was found by then · 4 a merge has gaps · 70 a bug of \
+ours. Where several apply, the code is the first of 70, 2, 4, 3, 1, 0. With --exit-zero 1 is 0.";
 
 /// What becomes of files.
 const FILES: &str = "\
@@ -99,6 +104,9 @@ struct Cli {
     /// Tell more on stderr; twice for everything.
     #[arg(short, long, global = true, action = clap::ArgAction::Count)]
     verbose: u8,
+    /// End with 0 where a violation was found, for engines that try again what fails.
+    #[arg(long, global = true)]
+    exit_zero: bool,
     #[command(subcommand)]
     command: Command,
 }
@@ -114,6 +122,7 @@ enum Command {
     Replay(replay::Replay),
     Show(show::Show),
     Reproduce(reproduce::Reproduce),
+    Merge(shards::Merge),
 
     /// Print a completion script for a shell.
     #[command(after_help = "Example: tautline completions bash > /etc/bash_completion.d/tautline")]
@@ -338,6 +347,7 @@ fn command(cli: &Cli, name: &str) -> Exit {
     });
     let exit = match result {
         Ok(exit) if out.has_left_out() => exit.max(Exit::Fault),
+        Ok(Exit::Violation) if cli.exit_zero => Exit::Expected,
         Ok(exit) => exit,
         Err(Halt::Fault(fault)) => {
             complain(&fault);
@@ -366,6 +376,7 @@ impl Command {
             Self::Replay(replay) => replay.run(out),
             Self::Show(show) => show.run(out),
             Self::Reproduce(reproduce) => reproduce.run(out),
+            Self::Merge(merge) => merge.run(out),
             Self::Completions { shell } => {
                 let mut script = Vec::new();
                 clap_complete::generate(*shell, &mut program(), "tautline", &mut script);

@@ -15,9 +15,10 @@ use tautline_proofs::engine::states::Room;
 use tautline_proofs::ledger::{self, Heard, Row, table};
 
 use super::evidence::{self, Shown, shown};
+use super::findings::{self, Finding, Format, FormatArgs, Outcome};
 use super::hunt::keep;
 use super::output::Output;
-use super::{Exit, ForceArgs, Format, FormatArgs, progress};
+use super::{Exit, ForceArgs, progress};
 use tautline_sim::aside::Replaceable;
 use tautline_sim::counterexample::{hunt, refutation};
 use tautline_sim::fault::{Fault, Halt};
@@ -28,7 +29,8 @@ Examples:
   tautline prove CHAIN-1 CHAIN-2
   tautline prove BRICKS-4 --out refutations
   tautline prove --memory 1GiB
-  tautline prove --format json";
+  tautline prove --format json
+  tautline prove --format junit > prove.xml";
 
 /// A size in bytes, written with its unit.
 #[derive(Clone, Copy, Debug)]
@@ -157,13 +159,14 @@ impl Prove {
                 }
                 out.text(last_line(&rows))?;
                 if room.was_too_small() {
-                    out.text(format!(
-                        "A search over states would have taken more than {} KiB: its check is open, or its mutant was not \
-                         rejected.\nGive more with --memory: one search gets three quarters of it.\n",
-                        room.most() >> 10
-                    ))?;
+                    out.text(too_small(room))?;
                 }
             }
+            Format::Github => {
+                let more = if room.was_too_small() { too_small(room) } else { String::new() };
+                out.text(findings::github(&findings(&rows, room)?, &(last_line(&rows) + &more)))?;
+            }
+            Format::Junit => out.text(findings::junit("prove", &findings(&rows, room)?)?)?,
         }
         Ok(match (room.was_too_small(), as_registered) {
             (true, _) => Exit::Unfinished,
@@ -185,6 +188,38 @@ impl Prove {
         };
         self.clauses.iter().map(find).collect()
     }
+}
+
+fn too_small(room: &Room) -> String {
+    format!(
+        "A search over states would have taken more than {} KiB: its check is open, or its mutant was not rejected.\n\
+         Give more with --memory: one search gets three quarters of it.\n",
+        room.most() >> 10
+    )
+}
+
+/// The rows as a CI shows them.
+fn findings(rows: &[Row], room: &Room) -> Result<Vec<Finding>, Halt> {
+    let found = rows.iter().map(|row| {
+        let Row { clause, check, ref decision, seconds, .. } = *row;
+        let (verdict, registered) = (decision.verdict.word(), check.expected().word());
+        let survived = decision.survived.iter().map(|mutant| format!("the mutant {mutant:?} survives\n"));
+        let outcome = match row.is_as_registered() {
+            true => Outcome::Expected,
+            false if room.was_too_small() => Outcome::Unfinished(too_small(room)),
+            false => Outcome::Broken(
+                format!("{verdict}, registered as {registered}"),
+                survived.collect::<String>() + story(row, None)?.trim_start(),
+            ),
+        };
+        Ok(Finding {
+            class: clause.id.split('-').next().unwrap_or(clause.id).to_owned(),
+            name: format!("{} as {}, {}: {}", clause.id, check.rule(), check.engine(), check.bound()),
+            outcome,
+            seconds: Some(seconds),
+        })
+    });
+    found.collect()
 }
 
 fn line((row, file): (&Row, &Option<String>)) -> Result<Line, Halt> {

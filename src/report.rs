@@ -16,7 +16,7 @@ pub(crate) enum Colour {
 }
 
 /// The fields of a request that have a flag of the same name.
-const FIELDS: [&str; 21] = [
+const FIELDS: [&str; 24] = [
     "robots",
     "base",
     "size",
@@ -38,6 +38,9 @@ const FIELDS: [&str; 21] = [
     "noise-db",
     "threshold",
     "rule",
+    "plan",
+    "shards",
+    "shard",
 ];
 
 /// `words` with the flags of the fields that they name.

@@ -1,6 +1,6 @@
 //! `tautline reproduce`: tables again. The catalogue of tables says what can be asked, and does the work.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
@@ -10,18 +10,23 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, Sub
 use indicatif::ProgressBar;
 use serde::Serialize;
 use tautline_proofs::engine::tree::Progress;
-use tautline_sim::fault::Halt;
+use tautline_proofs::words::counted;
+use tautline_sim::aside::Aside;
+use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::shards::{Plan, deal_table, restored, table_part};
 use tautline_sim::tables::parameter::{Given, Values};
-use tautline_sim::tables::{About, Entry, Observer, TABLES, find};
+use tautline_sim::tables::{About, Asked, Entry, Made, Observer, TABLES, find};
 
 use super::output::Output;
-use super::{Exit, ForceArgs, Format, FormatArgs, SCHEMA_VERSION, progress};
+use super::{Exit, ForceArgs, Format, FormatArgs, SCHEMA_VERSION, progress, shards, whole};
 
 const EXAMPLES: &str = "\
 Examples:
   tautline reproduce
   tautline reproduce repair-cost
-  tautline reproduce repair-cost --help";
+  tautline reproduce repair-cost --help
+  tautline reproduce repair-cost --plan plan.json --shards 7
+  tautline reproduce --plan plan.json --shard 1";
 
 /// Measure a table again; without an id, list them.
 #[derive(Debug, Args)]
@@ -30,6 +35,12 @@ Examples:
 pub(super) struct Reproduce {
     #[command(subcommand)]
     table: Option<Wanted>,
+    /// A plan, as `reproduce ID --plan FILE --shards N` makes it.
+    #[arg(long, value_name = "FILE", requires = "shard")]
+    plan: Option<PathBuf>,
+    /// Run shard K of the plan, from 1 on, and keep how far it is beside the plan; if it was begun, go on.
+    #[arg(long, value_name = "K", value_parser = whole::<u32>, requires = "plan")]
+    shard: Option<u32>,
     #[command(flatten)]
     format: FormatArgs,
 }
@@ -42,8 +53,9 @@ struct Wanted {
     given: Vec<(String, Vec<String>)>,
     /// The names of its pictures, and where each is to be stored.
     pictures: (Vec<&'static str>, Vec<Option<PathBuf>>),
-    /// None if it has no pictures.
-    force: Option<ForceArgs>,
+    /// The plan to be made instead, and its shards.
+    dealt: Option<(PathBuf, u32)>,
+    force: ForceArgs,
     format: FormatArgs,
 }
 
@@ -60,9 +72,16 @@ struct List {
 
 impl Reproduce {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        match &self.table {
-            None => self.list(out),
-            Some(wanted) => wanted.run(out),
+        match (&self.table, &self.plan, self.shard) {
+            (Some(wanted), ..) => wanted.run(out),
+            (None, Some(path), Some(shard)) => {
+                let plan = Plan::read(path)?;
+                let asked = restored(&plan)?;
+                shards::run(&plan, shard, self.format.format, out, |far| {
+                    table_part(&plan, &*asked, shard, far)
+                })
+            }
+            (None, ..) => self.list(out),
         }
     }
 
@@ -85,21 +104,56 @@ impl Reproduce {
 impl Wanted {
     fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let (names, paths) = &self.pictures;
-        let files = self.force.as_ref().map_or_else(|| Ok(Vec::new()), |force| force.each(paths))?;
+        let files = match &self.dealt {
+            Some(_) => Vec::new(),
+            None => self.force.each(paths)?,
+        };
         let asked = self.table.asked(&self.given)?;
+        if let Some((path, shards)) = &self.dealt {
+            return self.deal(&*asked, path, *shards, out);
+        }
         let made = Show::over(self.table.about().doing, |show| asked.run(show))?;
-        for (name, file) in names.iter().zip(files) {
-            if let Some(mut file) = file {
-                file.draw(made.picture(name))?;
-                out.keep(file);
-            }
-        }
-        match self.format.format {
-            Format::Json => out.text(made.json(SCHEMA_VERSION)? + "\n")?,
-            Format::Text => out.text(made.text()?)?,
-        }
-        Ok(if made.is_broken() { Exit::Violation } else { Exit::Expected })
+        tell(&*made, names.iter().copied().zip(files), self.format.format, out)
     }
+
+    /// Deals the jobs of the table out among shards.
+    fn deal(&self, asked: &dyn Asked, path: &Path, shards: u32, out: &mut Output) -> Result<Exit, Halt> {
+        if self.pictures.1.iter().any(Option::is_some) {
+            let remedy = "leave it out, and give tautline merge a --picture";
+            return Err(Fault::usage("a plan has no pictures", remedy).into());
+        }
+        Plan::check(shards)?;
+        let (of, deal, jobs) = deal_table(self.table.about().id, asked)?;
+        let words = format!("{} for {}.", counted(jobs, "job"), counted(shards, "shard"));
+        let how = (self.force.force, self.format.format);
+        shards::plan((path, shards), (of, &deal), (&Planned { jobs }, &words), how, out)
+    }
+}
+
+/// What is told of a plan, for programs.
+#[derive(Serialize)]
+struct Planned {
+    jobs: usize,
+}
+
+/// Stores the pictures of a table, and tells of it.
+pub(super) fn tell<'a>(
+    made: &dyn Made,
+    pictures: impl Iterator<Item = (&'a str, Option<Aside>)>,
+    format: Format,
+    out: &mut Output,
+) -> Result<Exit, Halt> {
+    for (name, file) in pictures {
+        if let Some(mut file) = file {
+            file.draw(made.picture(name))?;
+            out.keep(file);
+        }
+    }
+    match format {
+        Format::Json => out.text(made.json(SCHEMA_VERSION)? + "\n")?,
+        Format::Text => out.text(made.text()?)?,
+    }
+    Ok(if made.is_broken() { Exit::Violation } else { Exit::Expected })
 }
 
 impl Subcommand for Wanted {
@@ -130,12 +184,14 @@ impl FromArgMatches for Wanted {
         };
         let picture = |(name, _): (&'static str, _)| (name, matches.get_one::<PathBuf>(name).cloned());
         let pictures: (Vec<_>, Vec<_>) = table.pictures().into_iter().map(picture).unzip();
-        let force = (!pictures.0.is_empty()).then(|| ForceArgs::from_arg_matches(matches)).transpose()?;
+        let dealt =
+            matches.get_one::<PathBuf>("plan").cloned().zip(matches.get_one::<u32>("shards").copied());
         Ok(Self {
             table,
             given: table.options().into_iter().filter_map(|(option, _)| given(option)).collect(),
             pictures,
-            force,
+            dealt,
+            force: ForceArgs::from_arg_matches(matches)?,
             format: FormatArgs::from_arg_matches(matches)?,
         })
     }
@@ -151,13 +207,19 @@ fn subcommand(table: &'static dyn Entry) -> Command {
     let options = table.options().into_iter().map(|(option, default)| argument(table, option, default));
     let mut command = Command::new(table.about().id).args(options);
     let pictures = table.pictures();
-    if !pictures.is_empty() {
-        let picture = |(name, about)| {
-            let path = clap::value_parser!(PathBuf);
-            Arg::new(name).long(name).value_name("FILE").help(about).value_parser(path)
-        };
-        command = ForceArgs::augment_args(command.args(pictures.into_iter().map(picture)));
-    }
+    let picture = |(name, about)| {
+        let path = clap::value_parser!(PathBuf);
+        Arg::new(name).long(name).value_name("FILE").help(about).value_parser(path)
+    };
+    let plan = Arg::new("plan").long("plan").value_name("FILE").requires("shards");
+    let plan = plan.value_parser(clap::value_parser!(PathBuf));
+    let shards =
+        Arg::new("shards").long("shards").value_name("N").requires("plan").value_parser(whole::<u32>);
+    command = command.args(pictures.into_iter().map(picture)).args([
+        plan.help("Measure nothing yet, but store a plan in FILE"),
+        shards.help("Deal the jobs out among N shards, each to be run on any machine"),
+    ]);
+    command = ForceArgs::augment_args(command);
     // What is said of the table comes last: options that are flattened in say something, too.
     let About { help, more, examples, .. } = table.about();
     let examples = examples.iter().map(|example| format!("\n  tautline reproduce {example}"));

@@ -14,6 +14,8 @@ use tempfile::TempDir;
 mod files;
 #[path = "cli/locate.rs"]
 mod locate;
+#[path = "cli/shards.rs"]
+mod shards;
 
 fn tautline(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_tautline"));

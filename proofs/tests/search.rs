@@ -192,3 +192,54 @@ fn bounds_that_cannot_be_searched_are_refused() {
     assert!(matches!(refused(1, 0), Some(Unsearchable::Team(Refused::TooFewRobots { robots: 1 }))));
     assert!(matches!(refused(65, 0), Some(Unsearchable::Team(Refused::TooManyRobots { .. }))));
 }
+
+/// Of a hunt that is worth dealing out.
+const DEALT: usize = 8;
+
+#[test]
+fn the_shards_of_a_search_count_what_one_search_counts() {
+    let bounds = Bounds::new(Observed::PUBLISHED, 4, 3);
+    let whole = found(&bounds);
+    for shards in [1, 3, DEALT] {
+        let deal = Search::new(&bounds).expect("four robots fit").deal(shards);
+        let text = serde_json::to_string(&deal).expect("numbers");
+        let deal = serde_json::from_str(&text).expect("what was written");
+        let searched = |shard| {
+            let mut search = Search::shard(&bounds, &deal, shard).expect("a shard of its own");
+            for _ in 0..3 {
+                search.wave();
+            }
+            // It may go on elsewhere.
+            let mut search =
+                Search::shard_at(&bounds, &deal, shard, &search.position()).expect("a position of its own");
+            while search.wave() {}
+            search.position()
+        };
+        let mut ends: Vec<Position> = (0..shards).map(searched).collect();
+        let merged = Search::merged(&bounds, &deal, &ends).expect("all shards");
+        assert_eq!(merged.found(), whole, "{shards} shards");
+        // Neither one too few nor one that is not at its end.
+        let begun = Search::shard(&bounds, &deal, 0).expect("a shard").position();
+        let last = ends.pop().expect("a shard");
+        assert!(Search::merged(&bounds, &deal, &ends).is_err());
+        ends.push(begun);
+        assert!(shards == 1 || Search::merged(&bounds, &deal, &ends).is_err());
+        assert_ne!(ends.last(), Some(&last));
+        assert!(Search::shard(&bounds, &deal, shards).is_err());
+    }
+}
+
+/// The largest shard has at most 1.3 times the mean.
+#[test]
+fn a_search_is_dealt_out_evenly() {
+    let bounds = Bounds::new(Observed::PUBLISHED, 4, 4);
+    let deal = Search::new(&bounds).expect("four robots fit").deal(DEALT);
+    let moves = |shard| {
+        let mut search = Search::shard(&bounds, &deal, shard).expect("a shard of its own");
+        while search.wave() {}
+        search.progress().moves
+    };
+    let moves: Vec<u64> = (0..DEALT).map(moves).collect();
+    let (most, sum) = (moves.iter().max().expect("shards"), moves.iter().sum::<u64>());
+    assert!(10 * most * DEALT as u64 <= 13 * sum, "{moves:?}");
+}

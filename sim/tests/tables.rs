@@ -1,5 +1,8 @@
 //! The catalogue of tables: names, options and settings agree, and jobs are independent of each other.
 
+#[path = "../../tests/schema/mod.rs"]
+mod schema;
+
 use std::collections::BTreeSet;
 
 use tautline_sim::tables::parameter::Values;
@@ -55,12 +58,15 @@ fn merged_from_shards(table: &dyn Entry, shards: usize) -> Vec<String> {
 }
 
 #[test]
-fn jobs_give_the_same_table_in_any_order_and_in_shards() {
+fn jobs_give_the_same_table_in_any_order_and_in_shards_and_its_json_is_as_its_schema_says() {
     // The atlas has no small settings.
     for &table in TABLES.iter().filter(|table| table.about().id != "atlas") {
-        let asked = small(table);
+        let (asked, id) = (small(table), table.about().id);
         let at_once = told(table, &*asked.run(&()).expect("a table"));
-        assert_eq!(merged_from_shards(table, 3), at_once, "{}", table.about().id);
+        assert_eq!(merged_from_shards(table, 3), at_once, "{id}");
+        let json = serde_json::from_str(&at_once[1]).expect("JSON");
+        let title = format!("tautline reproduce {id}");
+        schema::is_up_to_date(&format!("reproduce-{id}"), &title, &[json]);
     }
 }
 

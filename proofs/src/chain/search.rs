@@ -20,6 +20,9 @@ pub type Found = tree::Found<Invariant, Frame>;
 /// Where a search is.
 pub type Position = tree::Position<Invariant>;
 
+/// A search dealt out among shards.
+pub type Deal = tree::Deal<Invariant>;
+
 /// Why there is no search.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Unsearchable {
@@ -101,6 +104,46 @@ impl Search {
         let mut search = Self::new(bounds)?;
         search.0.go_to(position)?;
         Ok(search)
+    }
+
+    /// The search of one shard of a deal, the first being 0, at its start.
+    ///
+    /// # Errors
+    /// [`Unsearchable`] if the bounds are beyond what can be searched, or the deal is none of this search.
+    pub fn shard(bounds: &Bounds, deal: &Deal, shard: usize) -> Result<Self, Unsearchable> {
+        let mut search = Self::new(bounds)?;
+        search.0.take(deal, shard)?;
+        Ok(search)
+    }
+
+    /// The same at `position`, where it was.
+    ///
+    /// # Errors
+    /// [`Unsearchable`], also if the position is none of this shard.
+    pub fn shard_at(
+        bounds: &Bounds,
+        deal: &Deal,
+        shard: usize,
+        position: &Position,
+    ) -> Result<Self, Unsearchable> {
+        let mut search = Self::shard(bounds, deal, shard)?;
+        search.0.go_to(position)?;
+        Ok(search)
+    }
+
+    /// The search that has done what all shards of a deal have, which are at these positions.
+    ///
+    /// # Errors
+    /// [`Unsearchable`], also if a shard is not at its end.
+    pub fn merged(bounds: &Bounds, deal: &Deal, shards: &[Position]) -> Result<Self, Unsearchable> {
+        let mut search = Self::new(bounds)?;
+        search.0.merge(deal, shards)?;
+        Ok(search)
+    }
+
+    /// Deals the search out among so many shards. It goes no further then.
+    pub fn deal(mut self, shards: usize) -> Deal {
+        self.0.deal(shards)
     }
 
     /// Searches a little further. Returns whether there is more to do, and to spend.

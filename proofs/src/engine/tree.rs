@@ -15,6 +15,7 @@
 //! Whoever implements [`Game`] has all of this: levels, threads, resuming, replaying. What is here knows no scheme.
 
 mod count;
+mod deal;
 mod forecast;
 mod lane;
 mod search;
@@ -27,6 +28,7 @@ use std::ops::ControlFlow;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::choice::Oracle;
 
+pub use self::deal::Deal;
 pub use self::search::{Position, Tree, Waves, search};
 use super::Until;
 use crate::words::counted;
@@ -198,21 +200,12 @@ impl Progress<'_> {
         span
     }
 
-    /// Team moves in all, if the numbers of walls grow on as they have so far. The runs that meet *k* walls are
-    /// about as many as sets of *k* edges, so their growth falls as that of the sets does.
+    /// Team moves in all, if the numbers of walls grow on as they have so far.
     #[expect(clippy::cast_precision_loss, reason = "an estimate")]
     pub fn expected_moves(&self) -> Option<f64> {
-        let [.., before, last] = self.levels else { return None };
-        let growth_of_sets = |walls: f64| (f64::from(self.edges) - walls + 1.0) / walls;
-        let done = self.levels.len() as f64 - 1.0;
-        let excess = last.moves as f64 / before.moves as f64 / growth_of_sets(done);
-        let mut level = last.moves as f64;
-        let mut sum = self.levels.iter().map(|level| level.moves as f64).sum::<f64>();
-        for walls in self.levels.len()..=self.max_walls as usize {
-            level *= excess * growth_of_sets(walls as f64);
-            sum += level;
-        }
-        Some(sum)
+        forecast::next(self.levels, self.edges)?;
+        let levels = forecast::levels(self.levels, self.edges, self.max_walls);
+        Some(levels.iter().map(|level| level.moves as f64).sum())
     }
 }
 

@@ -6,9 +6,11 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use serde_json::Value;
+use serde_json::value::RawValue;
 use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::run::Run;
+use tautline_proofs::words::counted;
 
 use super::clause::ClauseId;
 use super::rule::RuleId;
@@ -16,6 +18,7 @@ use super::run::{Limits, OnViolation};
 use super::setup::{Profile, Setup};
 use crate::fault::Fault;
 use crate::layout::{Layout, Problem, Size};
+use crate::part::Part;
 
 /// A search of all layouts within bounds for runs that break a clause.
 pub trait Hunt: fmt::Debug + Sync {
@@ -39,6 +42,55 @@ pub trait Hunt: fmt::Debug + Sync {
     /// # Errors
     /// A [`Fault`] if it cannot be searched so.
     fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault>;
+
+    /// The same hunt dealt out among shards, if that is possible.
+    fn deals(&self) -> Option<&dyn Deals> {
+        None
+    }
+}
+
+/// A hunt that can be dealt out among shards, each of which is searched where one likes.
+pub trait Deals {
+    /// Deals out what is `asked` among so many shards.
+    ///
+    /// # Errors
+    /// A [`Fault`] if it cannot be searched so.
+    fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Fault>;
+
+    /// One shard of a deal, the first being 0, where it was.
+    ///
+    /// # Errors
+    /// A [`Fault`] if there is no such deal, or the shard was never there.
+    fn part(
+        &self,
+        deal: &RawValue,
+        shard: usize,
+        far: Option<&RawValue>,
+        budget_moves: Option<u64>,
+    ) -> Result<Box<dyn Part>, Fault>;
+
+    /// What all shards have found.
+    ///
+    /// # Errors
+    /// A [`Fault`] if they do not fit their deal.
+    fn merge(
+        &self,
+        scheme: &'static Profile,
+        rule: RuleId,
+        deal: &RawValue,
+        shards: &[Box<RawValue>],
+    ) -> Result<Hunted, Fault>;
+}
+
+/// A hunt that is dealt out.
+#[derive(Clone, Debug)]
+pub struct Dealt {
+    /// The deal, as a plan has it.
+    pub deal: Box<RawValue>,
+    /// About how many team moves each shard has.
+    pub left: Vec<u64>,
+    /// Team moves that were made to deal it out.
+    pub moves: u64,
 }
 
 /// A bound that some hunts take and others do not.
@@ -95,6 +147,22 @@ pub struct Asked<'a> {
 }
 
 impl Asked<'_> {
+    /// The hunt of a scheme by a rule, everything else being its own to choose.
+    pub const fn new(scheme: &'static Profile, rule: RuleId) -> Self {
+        Self {
+            scheme,
+            rule,
+            robots: None,
+            size: None,
+            budget: None,
+            max_walls: None,
+            max_misses: None,
+            max_losses: None,
+            error_cells: None,
+            resume: None,
+        }
+    }
+
     /// Refuses a bound that is given and that `hunt` does not take.
     ///
     /// # Errors
@@ -112,6 +180,19 @@ impl Asked<'_> {
             let (what, remedy) = hunt.refusal(bound);
             Err(Fault::usage(what, remedy))
         })
+    }
+}
+
+impl fmt::Display for Dealt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (shards, sum) = (self.left.len() as u64, self.left.iter().sum::<u64>());
+        let (mean, most) = (sum / shards.max(1), self.left.iter().max().copied().unwrap_or(0));
+        let (made, mean, most) = (self.moves, counted(mean, "team move"), counted(most, "team move"));
+        write!(
+            f,
+            "{} of about {mean}, the largest {most}; {made} are made already.",
+            counted(shards, "shard")
+        )
     }
 }
 

@@ -41,7 +41,7 @@ pub trait Entry: fmt::Debug + Sync {
 }
 
 /// A table with its settings.
-pub trait Asked {
+pub trait Asked: Sync {
     /// Its settings as JSON.
     ///
     /// # Errors

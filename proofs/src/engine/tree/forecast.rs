@@ -9,6 +9,27 @@ const PARTS: u64 = 8;
 /// A fraction of one is a number of these.
 const ONE: u64 = 1 << 20;
 
+/// Team moves of the next level, if the levels grow on as they have so far. The runs that meet *k* walls are about as many as
+/// sets of *k* edges, so their growth falls as that of the sets does.
+#[expect(clippy::cast_precision_loss, reason = "an estimate")]
+pub(super) fn next(levels: &[Level], edges: u32) -> Option<f64> {
+    let [.., before, last] = levels else { return None };
+    let growth_of_sets = |walls: f64| (f64::from(edges) - walls + 1.0) / walls;
+    let done = levels.len() as f64 - 1.0;
+    let excess = last.moves as f64 / before.moves as f64 / growth_of_sets(done);
+    Some(last.moves as f64 * excess * growth_of_sets(done + 1.0))
+}
+
+/// The levels up to that of `last` walls: those that are known, and what is expected of the others.
+pub(super) fn levels(known: &[Level], edges: u32, last: u32) -> Vec<Level> {
+    let mut levels = known.to_vec();
+    while levels.len() <= last as usize {
+        let moves = next(&levels, edges).unwrap_or_default().max(1.0) as u64;
+        levels.push(Level { runs: 0, moves });
+    }
+    levels
+}
+
 /// How many team moves to expect.
 pub(super) struct Forecast {
     /// Team moves of a usual run.

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::count::{Broken, Count, Violation};
+use super::deal::{Deal, Ways};
 use super::forecast::Forecast;
 use super::lane::{self, Lane, Place};
 use super::{Counterexample, Found, Game, Level, Limits, Progress, Unsearchable, Watch};
@@ -16,9 +17,9 @@ use crate::engine::{Unfit, Until};
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Position<D> {
-    levels: Vec<Level>,
-    count: Count<D>,
-    lanes: Vec<Place>,
+    pub(super) levels: Vec<Level>,
+    pub(super) count: Count<D>,
+    pub(super) lanes: Vec<Place>,
 }
 
 impl<D> Position<D> {
@@ -43,6 +44,18 @@ pub trait Waves<D, F> {
     fn position(&self) -> Position<D>;
     /// What it has found so far.
     fn found(&self) -> Found<D, F>;
+    /// Deals what is left of the search out among so many shards, each of which can be searched elsewhere.
+    fn deal(&mut self, shards: usize) -> Deal<D>;
+    /// Becomes the search of one shard of a deal, the first being 0, at its start.
+    ///
+    /// # Errors
+    /// [`Unsearchable`] if the deal is none of this search, or has no such shard.
+    fn take(&mut self, deal: &Deal<D>, shard: usize) -> Result<(), Unsearchable>;
+    /// Becomes the search that has done what all shards of a deal have.
+    ///
+    /// # Errors
+    /// [`Unsearchable`] if they are not those of the deal, or not at their ends.
+    fn merge(&mut self, deal: &Deal<D>, shards: &[Position<D>]) -> Result<(), Unsearchable>;
     /// Plays a run that breaks `demand` again, whose answers these are. It is one run, whatever number of runs break it.
     ///
     /// # Errors
@@ -88,16 +101,18 @@ const COUNTED_AGAIN: usize = 2;
 
 /// The tree of runs of a game.
 pub struct Tree<G: Game> {
-    game: G,
-    limits: Limits<G::Demand>,
+    pub(super) game: G,
+    pub(super) limits: Limits<G::Demand>,
     most_lanes: usize,
     /// The levels that are done.
-    levels: Vec<Level>,
-    count: Count<G::Demand>,
+    pub(super) levels: Vec<Level>,
+    pub(super) count: Count<G::Demand>,
     /// What is left of this level.
-    lanes: Vec<Lane<G>>,
+    pub(super) lanes: Vec<Lane<G>>,
     /// Team moves that the shares of the last wave made.
     wave: Vec<u64>,
+    /// If this is the search of a shard: where it begins at each level, and the levels as they are known or expected.
+    pub(super) shard: Option<(Ways, Vec<Level>)>,
 }
 
 /// The first lanes, in their order, in shares in each of which enough is left that it can make `moves`: how many lanes each
@@ -118,6 +133,11 @@ fn share_out(left: &[u64], moves: u64, most: usize) -> Vec<usize> {
     if shares.is_empty() { vec![left.len()] } else { shares }
 }
 
+/// Bytes that a lane may need: every fork of a run reveals an edge.
+fn lane_bytes<G: Game>(game: &G) -> u64 {
+    u64::from(game.edges().max(1)) * Lane::<G>::FORK_BYTES as u64
+}
+
 impl<G: Game> Tree<G> {
     /// The search of `game` within `limits`, at its start.
     ///
@@ -128,8 +148,7 @@ impl<G: Game> Tree<G> {
         if max_walls > edges {
             return Err(Unsearchable::TooManyWalls { max_walls, edges });
         }
-        // Every fork of a run reveals an edge.
-        let bytes = u64::from(edges.max(1)) * Lane::<G>::FORK_BYTES as u64;
+        let bytes = lane_bytes(&game);
         if bytes > MEMORY {
             return Err(Unsearchable::TooLarge { bytes, most: MEMORY });
         }
@@ -142,14 +161,33 @@ impl<G: Game> Tree<G> {
             count: Count::default(),
             lanes,
             wave: Vec::new(),
+            shard: None,
         })
     }
 
     /// Begins the next level, if there is one.
-    fn begin(&mut self) {
+    pub(super) fn begin(&mut self) {
         let walls = self.levels.len() as u32;
         if walls <= self.limits.max_walls {
-            self.lanes.push(Lane::whole(&self.game, walls));
+            match &self.shard {
+                None => self.lanes.push(Lane::whole(&self.game, walls)),
+                Some((ways, _)) => {
+                    let places = ways.get(walls as usize).into_iter().flatten();
+                    self.lanes.extend(places.filter_map(|place| Lane::at(&self.game, walls, place)));
+                }
+            }
+        }
+    }
+
+    /// Ends the levels of which nothing is left, and begins the next.
+    pub(super) fn end_levels(&mut self) {
+        while self.lanes.is_empty() && self.levels.len() <= self.limits.max_walls as usize {
+            let done = |of: fn(&Level) -> u64| self.levels.iter().map(of).sum::<u64>();
+            self.levels.push(Level {
+                runs: self.count.runs - done(|level| level.runs),
+                moves: self.count.moves - done(|level| level.moves),
+            });
+            self.begin();
         }
     }
 
@@ -220,7 +258,8 @@ impl<G: Game> Tree<G> {
 
     /// Splits the lanes with most left, until there are as many as there may be. About how much is left of each.
     fn split(&mut self) -> Vec<u64> {
-        let forecast = Forecast::new(&self.levels);
+        let known = self.shard.as_ref().map_or(&self.levels, |(_, levels)| levels);
+        let forecast = Forecast::new(known);
         let mut left: Vec<u64> = self.lanes.iter().map(|lane| lane.left(&forecast)).collect();
         let mut most: BinaryHeap<(u64, usize)> = left.iter().copied().zip(0..).collect();
         while self.lanes.len() < self.most_lanes
@@ -237,7 +276,7 @@ impl<G: Game> Tree<G> {
     }
 
     /// The smallest run that breaks a demand again; `None` if it does not.
-    fn record(&self, broken: &Broken<G::Demand>) -> Option<Counterexample<G::Demand, G::Frame>> {
+    pub(super) fn record(&self, broken: &Broken<G::Demand>) -> Option<Counterexample<G::Demand, G::Frame>> {
         let Violation { mishaps, steps, answers } = &broken.smallest;
         let ((demand, words), frames) = lane::record(&self.game, *mishaps, *steps, answers)?;
         let (runs, answers) = (broken.runs, answers.clone());
@@ -253,7 +292,7 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
         if last > self.limits.max_walls {
             return Err(Unsearchable::Beyond { walls: last });
         }
-        if !self.counts_again(position) {
+        if self.shard.is_none() && !self.counts_again(position) {
             return Err(Unsearchable::Foreign);
         }
         let lane = |place| Lane::at(&self.game, walls, place).ok_or(Unsearchable::Foreign);
@@ -278,14 +317,7 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
             return false;
         }
         self.search();
-        if self.lanes.is_empty() {
-            let done = |of: fn(&Level) -> u64| self.levels.iter().map(of).sum::<u64>();
-            self.levels.push(Level {
-                runs: self.count.runs - done(|level| level.runs),
-                moves: self.count.moves - done(|level| level.moves),
-            });
-            self.begin();
-        }
+        self.end_levels();
         !self.is_over()
     }
 
@@ -326,6 +358,18 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
             complete,
             counterexamples,
         }
+    }
+
+    fn deal(&mut self, shards: usize) -> Deal<G::Demand> {
+        self.dealt(shards)
+    }
+
+    fn take(&mut self, deal: &Deal<G::Demand>, shard: usize) -> Result<(), Unsearchable> {
+        self.taken(deal, shard)
+    }
+
+    fn merge(&mut self, deal: &Deal<G::Demand>, shards: &[Position<G::Demand>]) -> Result<(), Unsearchable> {
+        self.merged(deal, shards)
     }
 
     fn replay(

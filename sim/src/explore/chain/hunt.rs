@@ -2,18 +2,21 @@
 
 use std::time::{Duration, Instant};
 
-use serde_json::json;
+use serde::{Deserialize, Serialize};
+use serde_json::value::{RawValue, to_raw_value};
+use serde_json::{Value, json};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::Observed;
-use tautline_proofs::chain::search::{Bounds, Found, Search, Unsearchable};
-use tautline_proofs::engine::tree;
+use tautline_proofs::chain::search::{Bounds, Deal, Found, Position, Search, Unsearchable};
+use tautline_proofs::engine::tree::{self, Progress};
 use tautline_proofs::words::counted;
 
 use super::saved::{AGAIN, Saved};
-use crate::explore::ClauseId;
-use crate::explore::hunt::{Asked, Bound, Far, Hunt, Hunted, Hunter, Quarry, Shown, setup};
-use crate::fault::Fault;
+use crate::explore::hunt::{Asked, Bound, Deals, Dealt, Far, Hunt, Hunted, Hunter, Quarry, Shown, setup};
+use crate::explore::{ClauseId, Profile, RuleId};
+use crate::fault::{Fault, Halt};
 use crate::layout::Size;
+use crate::part::Part;
 
 /// How often a hunt is kept in its file.
 const KEEP_EVERY: Duration = Duration::from_secs(5);
@@ -47,33 +50,143 @@ impl Hunt for Walls {
     }
 
     fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault> {
-        let (robots, walls) =
-            (asked.robots.unwrap_or(DEFAULT_ROBOTS), asked.max_walls.unwrap_or(DEFAULT_WALLS));
+        let (robots, walls) = team(asked);
         let mut bounds = bounds(self.0, robots, walls, asked.size)?;
         bounds.budget_moves = asked.budget;
         let found = search(asked, &bounds, hunter)?;
-        let quarries = found.counterexamples.iter().map(|counterexample| {
-            let run = bounds.run(counterexample);
-            let setup = setup(asked.scheme, asked.rule, &run)?;
-            let (walls, steps) = (run.walls.len(), counterexample.frames.len());
-            let runs = counterexample.runs;
-            let broken = counterexample.broken.breach().map(ClauseId::from);
-            Ok(Quarry {
-                clause: counterexample.broken.clause(),
-                facts: vec![("runs", json!(runs)), ("walls", json!(walls)), ("steps", json!(steps))],
-                title: format!(
-                    "{}, {}; broken in {}",
-                    counted(walls, "wall"),
-                    counted(steps, "team move"),
-                    counted(runs, "run")
-                ),
-                setup,
-                shown: broken.map_or(Shown::Endless, Shown::Run),
-            })
-        });
-        let quarries = quarries.collect::<Result<Vec<Quarry>, Fault>>()?;
-        Ok(hunted(&bounds, &found, quarries))
+        told(asked.scheme, asked.rule, &bounds, &found)
     }
+
+    fn deals(&self) -> Option<&dyn Deals> {
+        Some(self)
+    }
+}
+
+/// A hunt dealt out.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Plan {
+    robots: u64,
+    max_walls: u32,
+    size: Option<(i16, i16)>,
+    deal: Deal,
+}
+
+impl Plan {
+    fn read(text: &RawValue) -> Result<Self, Fault> {
+        serde_json::from_str(text.get()).map_err(|error| Fault::usage(error, "plan anew"))
+    }
+
+    fn bounds(&self, observed: Observed) -> Result<Bounds, Fault> {
+        let size = self.size.map(|(width, height)| Size::new(width as u64, height as u64)).transpose();
+        let size = size.map_err(|problem| Fault::usage(problem, "plan anew"))?;
+        bounds(observed, self.robots, self.max_walls, size)
+    }
+}
+
+impl Deals for Walls {
+    fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Fault> {
+        let (robots, max_walls) = team(asked);
+        let search = start(&bounds(self.0, robots, max_walls, asked.size)?)?;
+        let deal = search.deal(shards);
+        let (left, moves) = (deal.left().to_vec(), deal.moves());
+        let size = asked.size.map(|size| (size.width(), size.height()));
+        let deal = to_raw_value(&Plan { robots, max_walls, size, deal });
+        let deal = deal.map_err(|error| Fault::usage(error, "report it: this is a bug of tautline"))?;
+        Ok(Dealt { deal, left, moves })
+    }
+
+    fn part(
+        &self,
+        deal: &RawValue,
+        shard: usize,
+        far: Option<&RawValue>,
+        budget_moves: Option<u64>,
+    ) -> Result<Box<dyn Part>, Fault> {
+        let plan = Plan::read(deal)?;
+        let bounds = Bounds { budget_moves, ..plan.bounds(self.0)? };
+        let search = match far {
+            None => Search::shard(&bounds, &plan.deal, shard),
+            Some(far) => Search::shard_at(&bounds, &plan.deal, shard, &position(far)?),
+        };
+        Ok(Box::new(Shard(search.map_err(fault)?)))
+    }
+
+    fn merge(
+        &self,
+        scheme: &'static Profile,
+        rule: RuleId,
+        deal: &RawValue,
+        shards: &[Box<RawValue>],
+    ) -> Result<Hunted, Fault> {
+        let plan = Plan::read(deal)?;
+        let bounds = plan.bounds(self.0)?;
+        let positions = shards.iter().map(|far| position(far)).collect::<Result<Vec<_>, _>>()?;
+        let merged = Search::merged(&bounds, &plan.deal, &positions).map_err(fault)?;
+        told(scheme, rule, &bounds, &merged.found())
+    }
+}
+
+fn position(far: &RawValue) -> Result<Position, Fault> {
+    serde_json::from_str(far.get()).map_err(|error| Fault::usage(error, "run the shard again"))
+}
+
+/// A shard of a hunt.
+struct Shard(Search);
+
+impl Part for Shard {
+    fn step(&mut self) -> Result<bool, Halt> {
+        Ok(self.0.wave())
+    }
+
+    fn far(&self) -> Result<Box<RawValue>, Fault> {
+        to_raw_value(&self.0.position())
+            .map_err(|error| Fault::usage(error, "report it: this is a bug of tautline"))
+    }
+
+    fn is_done(&self) -> bool {
+        self.0.found().complete
+    }
+
+    fn facts(&self) -> Vec<(&'static str, Value)> {
+        let Progress { runs, moves, .. } = self.0.progress();
+        vec![("runs", json!(runs)), ("moves", json!(moves))]
+    }
+
+    fn words(&self) -> String {
+        let Progress { runs, moves, .. } = self.0.progress();
+        format!("{}, {}", counted(runs, "run"), counted(moves, "team move"))
+    }
+}
+
+/// Robots and walls that are asked for.
+fn team(asked: &Asked<'_>) -> (u64, u32) {
+    (asked.robots.unwrap_or(DEFAULT_ROBOTS), asked.max_walls.unwrap_or(DEFAULT_WALLS))
+}
+
+/// What is told of a search, and of each run that it found.
+fn told(scheme: &'static Profile, rule: RuleId, bounds: &Bounds, found: &Found) -> Result<Hunted, Fault> {
+    let quarries = found.counterexamples.iter().map(|counterexample| {
+        let run = bounds.run(counterexample);
+        let setup = setup(scheme, rule, &run)?;
+        let (walls, steps) = (run.walls.len(), counterexample.frames.len());
+        let runs = counterexample.runs;
+        let broken = counterexample.broken.breach().map(ClauseId::from);
+        Ok(Quarry {
+            clause: counterexample.broken.clause(),
+            facts: vec![("runs", json!(runs)), ("walls", json!(walls)), ("steps", json!(steps))],
+            title: format!(
+                "{}, {}; broken in {}",
+                counted(walls, "wall"),
+                counted(steps, "team move"),
+                counted(runs, "run")
+            ),
+            setup,
+            shown: broken.map_or(Shown::Endless, Shown::Run),
+        })
+    });
+    let quarries = quarries.collect::<Result<Vec<Quarry>, Fault>>()?;
+    Ok(hunted(bounds, found, quarries))
 }
 
 /// What is told of a search.

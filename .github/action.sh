@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# Runs a command that stores counterexamples in the folder $OUT, makes a page of each, and ends as the command did.
+set -uo pipefail
+mkdir -p "$OUT"
+"$@"
+code=$?
+for run in "$OUT"/*.jsonl; do
+    # A refutation that is no run has no page.
+    [ -e "$run" ] && "${TAUTLINE:-tautline}" replay "$run" --html "${run%.jsonl}.html" > "${run%.jsonl}.txt" 2> /dev/null
+done
+exit "$code"

@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# All shards of a plan by GNU parallel, on this machine or on those of its --sshlogin. A shard that fails is tried again,
+# and goes on from where it was.
+#
+#     tautline hunt --robots 5 --max-walls 4 --plan plan.json --shards 64
+#     docs/recipes/parallel.sh hunt plan.json 64
+set -euo pipefail
+command=$1 plan=$2 shards=$3
+tautline=${TAUTLINE:-tautline}
+
+# One thread for each shard: parallel runs as many shards as there are cores.
+export RAYON_NUM_THREADS=1
+seq "$shards" | parallel --will-cite --retries 3 "$tautline" "$command" --plan "$plan" --shard {}
+"$tautline" merge "$plan"

@@ -1,0 +1,175 @@
+//! A search dealt out among shards, for those who have many machines. Its small levels are searched by the dealer; each of the
+//! others is begun, until it is in many parts, and the parts are dealt out by how much is expected to be left of each. A shard
+//! searches its parts as a search of its own, which can be left and taken up again. What all shards count together is what one
+//! search counts.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use serde::{Deserialize, Serialize};
+
+use super::count::{Broken, Count};
+use super::forecast::{self, Forecast};
+use super::lane::{Lane, Place};
+use super::search::{Position, Tree};
+use super::{Game, Level, Unsearchable, Waves};
+
+/// For each number of walls, from none on, the places where a search begins.
+pub(super) type Ways = Vec<Vec<Place>>;
+
+/// A part is at most so small a share of what a shard has, so that what is not foreseen of one is made up for by others.
+const PARTS: u64 = 96;
+
+/// Team moves that are made in a part that is too large, before it is looked for places to divide it.
+const MOVES: u64 = 64;
+
+/// A level of fewer team moves is not dealt out.
+const WORTH_DEALING: f64 = 1e5;
+
+/// A search dealt out among shards.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Deal<D> {
+    /// The levels that are done.
+    levels: Vec<Level>,
+    /// What is counted of the others.
+    begun: Vec<Level>,
+    /// All levels, as they are known or expected.
+    expected: Vec<Level>,
+    /// What is counted of all levels.
+    count: Count<D>,
+    shards: Vec<Ways>,
+    /// About how many team moves each shard has.
+    left: Vec<u64>,
+}
+
+impl<D> Deal<D> {
+    /// About how many team moves each shard has.
+    pub fn left(&self) -> &[u64] {
+        &self.left
+    }
+
+    /// Team moves that are counted already.
+    pub const fn moves(&self) -> u64 {
+        self.count.moves
+    }
+
+    /// The most parts of a shard.
+    pub fn most_parts(&self) -> usize {
+        let parts = |ways: &Ways| ways.iter().map(Vec::len).sum();
+        self.shards.iter().map(parts).max().unwrap_or(0)
+    }
+}
+
+impl<G: Game> Tree<G> {
+    pub(super) fn dealt(&mut self, shards: usize) -> Deal<G::Demand> {
+        let (edges, last) = (self.game.edges(), self.limits.max_walls as usize);
+        let is_small =
+            |levels: &[Level]| forecast::next(levels, edges).is_none_or(|moves| moves < WORTH_DEALING);
+        while is_small(&self.levels) && self.wave() {}
+        let mut deal = Deal {
+            levels: self.levels.clone(),
+            begun: Vec::new(),
+            expected: forecast::levels(&self.levels, edges, self.limits.max_walls),
+            count: Count::default(),
+            shards: vec![vec![Vec::new(); self.levels.len()]; shards],
+            left: vec![0; shards],
+        };
+        let forecast = Forecast::new(&deal.expected);
+        self.shard = Some((Vec::new(), deal.expected.clone()));
+        let mut parts = Vec::new();
+        for walls in self.levels.len()..=last {
+            let before = (self.count.runs, self.count.moves);
+            let most = deal.expected[walls].moves / (shards as u64 * PARTS).max(1);
+            parts.extend(
+                self.divided(walls, &forecast, most).into_iter().map(|(left, place)| (left, walls, place)),
+            );
+            let (runs, moves) = (self.count.runs - before.0, self.count.moves - before.1);
+            deal.begun.push(Level { runs, moves });
+        }
+        self.lanes.clear();
+        deal.count = self.count.clone();
+        parts.sort_by_key(|&(left, walls, _)| (Reverse(left), walls));
+        deal.shards.iter_mut().for_each(|ways| ways.resize(last + 1, Vec::new()));
+        let mut least: BinaryHeap<Reverse<(u64, usize)>> =
+            (0..shards).map(|shard| Reverse((0, shard))).collect();
+        for (left, walls, place) in parts {
+            let Some(mut first) = least.peek_mut() else { break };
+            let Reverse((sum, shard)) = &mut *first;
+            *sum = sum.saturating_add(left);
+            deal.left[*shard] = *sum;
+            deal.shards[*shard][walls].push(place);
+        }
+        deal
+    }
+
+    /// A level in parts, of which no more than `most` is left unless they cannot be divided; and how much is left of each.
+    fn divided(&mut self, walls: usize, forecast: &Forecast, most: u64) -> Vec<(u64, Place)> {
+        let mut parts = Vec::new();
+        let mut large = vec![Lane::whole(&self.game, walls as u32)];
+        while let Some(mut lane) = large.pop() {
+            self.count.made = 0;
+            lane.search(&self.game, MOVES, u64::MAX, &mut self.count);
+            while lane.left(forecast) > most
+                && let Some(part) = lane.split()
+            {
+                large.push(part);
+            }
+            match lane.left(forecast) {
+                _ if !lane.has_more() => {}
+                left if left > most => large.push(lane),
+                left => parts.push((left, lane.place())),
+            }
+        }
+        parts
+    }
+
+    pub(super) fn taken(&mut self, deal: &Deal<G::Demand>, shard: usize) -> Result<(), Unsearchable> {
+        let ways = deal.shards.get(shard).ok_or(Unsearchable::Foreign)?;
+        let last = self.limits.max_walls as usize;
+        let gets_there = |(walls, places): (usize, &Vec<Place>)| {
+            places.iter().all(|place| Lane::at(&self.game, walls as u32, place).is_some())
+        };
+        if ways.len() != last + 1 || !ways.iter().enumerate().all(gets_there) {
+            return Err(Unsearchable::Foreign);
+        }
+        self.shard = Some((ways.clone(), deal.expected.clone()));
+        self.levels.clear();
+        self.count = Count::default();
+        self.lanes.clear();
+        self.begin();
+        self.end_levels();
+        Ok(())
+    }
+
+    pub(super) fn merged(
+        &mut self,
+        deal: &Deal<G::Demand>,
+        shards: &[Position<G::Demand>],
+    ) -> Result<(), Unsearchable> {
+        let levels = self.limits.max_walls as usize + 1;
+        let is_whole = |shard: &Position<_>| {
+            shard.lanes.is_empty() && shard.levels.len() == levels && shard.count.follows(&shard.levels)
+        };
+        let is_dealt = deal.levels.len() + deal.begun.len() == levels && shards.len() == deal.shards.len();
+        if !is_dealt || !shards.iter().all(is_whole) {
+            return Err(Unsearchable::Foreign);
+        }
+        self.levels = [&deal.levels[..], &deal.begun].concat();
+        self.count = deal.count.clone();
+        for Position { levels, count, .. } in shards {
+            self.count.add(count.clone());
+            for (sum, level) in self.levels.iter_mut().zip(levels) {
+                sum.runs += level.runs;
+                sum.moves += level.moves;
+            }
+        }
+        self.lanes.clear();
+        let is_recorded =
+            |broken: &Broken<_>| self.record(broken).is_some_and(|found| found.broken == broken.demand);
+        if !self.count.follows(&self.levels) || !self.count.broken.iter().all(is_recorded) {
+            return Err(Unsearchable::Foreign);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,30 @@
+//! A part of some work, which can be left and taken up again.
+
+use serde_json::Value;
+use serde_json::value::RawValue;
+
+use crate::fault::{Fault, Halt};
+
+/// A part of some work.
+pub trait Part {
+    /// Works a little further. Returns whether there is more to do, and to spend.
+    ///
+    /// # Errors
+    /// [`Halt`] if it cannot be done.
+    fn step(&mut self) -> Result<bool, Halt>;
+
+    /// How far it is: enough to go on from here, on any machine.
+    ///
+    /// # Errors
+    /// A [`Fault`] if that cannot be written.
+    fn far(&self) -> Result<Box<RawValue>, Fault>;
+
+    /// Whether nothing is left to do.
+    fn is_done(&self) -> bool;
+
+    /// How much is done, for programs.
+    fn facts(&self) -> Vec<(&'static str, Value)>;
+
+    /// The same for people.
+    fn words(&self) -> String;
+}

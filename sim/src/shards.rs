@@ -1,0 +1,20 @@
+//! Work dealt out to many machines: a *plan* says what is done, by which program, in how many shards; each shard keeps how far
+//! it is in a file of its own, from which it is taken up again after whatever has killed it; and all shards together give what
+//! one process gives, byte for byte. Who runs which shard where is the business of engines that exist.
+
+mod hunt;
+mod plan;
+mod table;
+
+use serde_json::value::RawValue;
+
+pub use self::hunt::{deal_hunt, hunt_part, merge_hunt};
+pub use self::plan::{Gap, Keeper, Of, Plan};
+pub use self::table::{deal_table, merge_table, restored, table_part};
+use crate::fault::Fault;
+
+/// `value` as JSON, as it stands in a file.
+fn written(value: &impl serde::Serialize) -> Result<Box<RawValue>, Fault> {
+    serde_json::value::to_raw_value(value)
+        .map_err(|error| Fault::usage(error, "report it: this is a bug of tautline"))
+}

@@ -1,0 +1,287 @@
+//! Plans and the files of their shards.
+
+use std::fmt::Write;
+use std::fs::File;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
+use sha2::{Digest, Sha256};
+
+use crate::aside::{Aside, Replaceable};
+use crate::explore::{Profile, RuleId};
+use crate::fault::{Fault, Halt};
+use crate::kept::{self, Header, Kept, Lines};
+use crate::part::Part;
+
+/// The most shards: more than there are machines.
+const MAX_SHARDS: u32 = 100_000;
+
+/// What is dealt out.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Of {
+    /// A hunt.
+    Hunt {
+        /// The scheme.
+        scheme: &'static Profile,
+        /// Its rule.
+        rule: RuleId,
+    },
+    /// A table.
+    Table {
+        /// Its name.
+        id: String,
+    },
+}
+
+/// The first line of a plan.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Planned {
+    format: String,
+    version: u32,
+    of: Of,
+    shards: u32,
+    /// The SHA-256 of the program.
+    program: String,
+}
+
+impl Header for Planned {
+    const FORMAT: &'static str = "tautline plan";
+    const NOUN: &'static str = "a plan";
+    const OTHER: &'static str = "this is another plan";
+    const FIELDS: &'static [&'static str] = &["of", "shards", "program"];
+    const AGAIN: &'static str = "name a plan, as a hunt or a table with `shards` writes it";
+    const ELSEWHERE: &'static str = "plan anew";
+}
+
+/// The first line of a shard's file.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Sharded {
+    format: String,
+    version: u32,
+    /// The SHA-256 of the plan: of what is done, by which program, and of what is dealt out.
+    plan: String,
+    shard: u32,
+    done: bool,
+}
+
+impl Header for Sharded {
+    const FORMAT: &'static str = "tautline shard";
+    const NOUN: &'static str = "a shard";
+    const OTHER: &'static str = "this is another shard";
+    const FIELDS: &'static [&'static str] = &["plan", "shard"];
+    const AGAIN: &'static str = "remove it, and run the shard again";
+    const ELSEWHERE: &'static str = "give the plan that it was run by, or remove it and run the shard again";
+}
+
+/// A plan.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    path: PathBuf,
+    /// What is dealt out.
+    pub of: Of,
+    /// Among how many shards.
+    pub shards: u32,
+    /// How it is dealt out.
+    pub deal: Box<RawValue>,
+    digest: String,
+}
+
+/// What keeps a merge from being whole.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Gap {
+    /// There is no file of this shard.
+    Missing(u32),
+    /// This shard is not at its end.
+    Unfinished(u32),
+}
+
+impl Plan {
+    /// Stores a plan. Its file has yet to be put in its place.
+    ///
+    /// # Errors
+    /// A [`Fault`] if nothing can be written there, or this program cannot be read.
+    pub fn store(
+        path: &Path,
+        of: Of,
+        shards: u32,
+        deal: &RawValue,
+        replaceable: &Replaceable,
+    ) -> Result<Aside, Fault> {
+        let header = Planned {
+            format: Planned::FORMAT.to_owned(),
+            version: kept::VERSION,
+            of,
+            shards,
+            program: program()?,
+        };
+        let mut aside = Aside::new(path, replaceable)?;
+        aside.append(kept::text(&header, &deal));
+        Ok(aside)
+    }
+
+    /// Checks that so many shards can be planned.
+    ///
+    /// # Errors
+    /// A [`Fault`] if they are none, or too many.
+    pub fn check(shards: u32) -> Result<(), Fault> {
+        if (1..=MAX_SHARDS).contains(&shards) {
+            return Ok(());
+        }
+        let remedy = format!("give `shards` a number from 1 to {MAX_SHARDS}");
+        Err(Fault::of_field("shards", format_args!("nothing is dealt out among {shards}"), remedy))
+    }
+
+    /// The plan that stands at `path`.
+    ///
+    /// # Errors
+    /// A [`Fault`] if there is none, it is damaged, or another program made it.
+    pub fn read(path: &Path) -> Result<Self, Fault> {
+        let Some(file) = kept::open::<Planned>(path)? else {
+            return Err(Fault::in_file(path, "there is no such file", Planned::AGAIN));
+        };
+        let lines = Lines::<Planned>::read(path, &file)?;
+        let Planned { of, shards, program: planned, .. } = lines.header().clone();
+        if !(1..=MAX_SHARDS).contains(&shards) {
+            let what = format!("there are no plans of {shards} shards");
+            return Err(lines.in_header("shards", what, Planned::AGAIN));
+        }
+        if planned != program()? {
+            let what = "another build of tautline made this plan".to_owned();
+            let remedy = "run all shards and the merge with that build, or plan anew";
+            return Err(lines.in_header("program", what, remedy));
+        }
+        let digest = hex(&Sha256::digest(lines.text()));
+        Ok(Self { path: path.to_owned(), of, shards, deal: lines.far()?, digest })
+    }
+
+    /// Where it stands.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Checks that it has this shard.
+    ///
+    /// # Errors
+    /// A [`Fault`] if it has not.
+    pub fn check_shard(&self, shard: u32) -> Result<(), Fault> {
+        if (1..=self.shards).contains(&shard) {
+            return Ok(());
+        }
+        let what = format!("there is no shard {shard} of {}", self.shards);
+        Err(Fault::of_field("shard", what, format!("give `shard` a number from 1 to {}", self.shards)))
+    }
+
+    /// Where the file of a shard stands unless it is said otherwise: beside the plan, with its number at the end of the name.
+    pub fn shard_path(&self, shard: u32) -> PathBuf {
+        let stem = self.path.file_stem().unwrap_or_default().to_string_lossy();
+        let end = self.path.extension().map_or(String::new(), |end| format!(".{}", end.to_string_lossy()));
+        self.path.with_file_name(format!("{stem}-{shard}{end}"))
+    }
+
+    fn header(&self, shard: u32) -> Sharded {
+        let (format, version) = (Sharded::FORMAT.to_owned(), kept::VERSION);
+        Sharded { format, version, plan: self.digest.clone(), shard, done: false }
+    }
+
+    /// How far each shard is that `files` tell of, in the order of the shards; or what is missing.
+    ///
+    /// # Errors
+    /// A [`Fault`] if a file is no shard of this plan, or two are the same shard.
+    pub fn results(&self, files: &[PathBuf]) -> Result<Result<Vec<Box<RawValue>>, Vec<Gap>>, Fault> {
+        let mut found: Vec<Option<(bool, Box<RawValue>)>> = (0..self.shards).map(|_| None).collect();
+        for path in files {
+            let Some(file) = kept::open::<Sharded>(path)? else {
+                return Err(Fault::in_file(path, "there is no such file", "give the files of shards"));
+            };
+            let lines = Lines::<Sharded>::read(path, &file)?;
+            let &Sharded { shard, done, .. } = lines.header();
+            lines.check(&self.header(shard))?;
+            let Some(place) = found.get_mut((shard as usize).wrapping_sub(1)) else {
+                let what = format!("there is no shard {shard} of {}", self.shards);
+                return Err(lines.in_header("shard", what, Sharded::AGAIN));
+            };
+            if place.is_some() {
+                let what = format!("shard {shard} is there twice");
+                return Err(lines.in_header("shard", what, "give each shard once"));
+            }
+            *place = Some((done, lines.far()?));
+        }
+        let gap = |(place, shard): (&Option<(bool, _)>, u32)| match place {
+            None => Some(Gap::Missing(shard)),
+            Some((false, _)) => Some(Gap::Unfinished(shard)),
+            Some((true, _)) => None,
+        };
+        let gaps: Vec<Gap> = found.iter().zip(1..).filter_map(gap).collect();
+        if !gaps.is_empty() {
+            return Ok(Err(gaps));
+        }
+        Ok(Ok(found.into_iter().flatten().map(|(_, far)| far).collect()))
+    }
+}
+
+/// Keeps how far a shard is.
+#[derive(Debug)]
+pub struct Keeper<'a> {
+    kept: Kept<'a, Sharded>,
+}
+
+impl<'a> Keeper<'a> {
+    /// The keeper of a shard of `plan`, whose file stands at `path`; and how far that shard is, if there is such a file.
+    ///
+    /// # Errors
+    /// A [`Fault`] if the file is damaged, of another shard or in use.
+    pub fn open(plan: &Plan, shard: u32, path: &'a Path) -> Result<(Self, Option<Box<RawValue>>), Fault> {
+        let mut kept = Kept::new(path, plan.header(shard));
+        let far = kept.read()?;
+        Ok((Self { kept }, far))
+    }
+
+    /// Keeps how far `part` is.
+    ///
+    /// # Errors
+    /// [`Halt`] if that cannot be written.
+    pub fn keep(&mut self, part: &dyn Part) -> Result<(), Halt> {
+        self.kept.header_mut().done = part.is_done();
+        Ok(self.kept.write(&part.far()?)?)
+    }
+}
+
+/// The SHA-256 of this program.
+fn program() -> Result<String, Fault> {
+    let read = || {
+        let mut file = File::open(std::env::current_exe()?)?;
+        let mut hash = Sha256::new();
+        io::copy(&mut file, &mut HashWriter(&mut hash))?;
+        Ok(hex(&hash.finalize()))
+    };
+    read().map_err(|error: io::Error| {
+        let what = format_args!("the file of this program cannot be read: {error}");
+        Fault::usage(what, "run it from a file that it may read: a plan says which program made it")
+    })
+}
+
+struct HashWriter<'a>(&'a mut Sha256);
+
+impl io::Write for HashWriter<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.update(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().fold(String::new(), |mut text, byte| {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
+}

@@ -1,0 +1,258 @@
+//! Work dealt out to many machines: a plan, one of its shards, and `tautline merge`, which makes one of them all.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use clap::{Args, value_parser};
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+use tautline_sim::explore::hunt::Asked;
+use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::part::Part;
+use tautline_sim::shards::{Gap, Keeper, Of, Plan, merge_hunt, merge_table, restored};
+
+use super::findings::FormatArgs;
+use super::hunt::{Found, check_folder, shown};
+use super::output::Output;
+use super::reproduce::tell;
+use super::{Exit, ForceArgs, Format, complain, interrupt, progress, whole};
+
+/// How often a shard is kept in its file.
+const KEEP_EVERY: Duration = Duration::from_secs(5);
+
+/// The most gaps that are named.
+const MOST_NAMED: usize = 20;
+
+/// One shard of a plan.
+#[derive(Debug, Args)]
+pub(super) struct ShardArgs {
+    /// The plan: with --shards it is stored in FILE, with --shard it is read from there.
+    #[arg(long, value_name = "FILE")]
+    pub(super) plan: Option<PathBuf>,
+    /// Do nothing yet, but deal the work out among N shards, each to be run on any machine.
+    #[arg(long, value_name = "N", value_parser = whole::<u32>, requires = "plan")]
+    #[arg(conflicts_with_all = ["shard", "resume", "budget", "out"])]
+    pub(super) shards: Option<u32>,
+    /// Run shard K of the plan, from 1 on, and keep how far it is beside the plan; if it was begun, go on.
+    #[arg(long, value_name = "K", value_parser = whole::<u32>, requires = "plan")]
+    #[arg(conflicts_with_all = ["scheme", "rule", "robots", "max_walls", "max_misses", "max_losses", "error", "size"])]
+    #[arg(conflicts_with_all = ["resume", "out", "force"])]
+    pub(super) shard: Option<u32>,
+}
+
+/// What is asked with a plan.
+pub(super) enum Wanted<'a> {
+    /// The work itself.
+    All,
+    /// A plan of so many shards.
+    Plan(&'a Path, u32),
+    /// One shard.
+    Shard(&'a Path, u32),
+}
+
+impl ShardArgs {
+    /// What is asked.
+    ///
+    /// # Errors
+    /// A [`Fault`] if a plan alone is given.
+    pub(super) fn wanted(&self) -> Result<Wanted<'_>, Fault> {
+        match (&self.plan, self.shards, self.shard) {
+            (None, ..) => Ok(Wanted::All),
+            (Some(plan), Some(shards), _) => Ok(Wanted::Plan(plan, shards)),
+            (Some(plan), None, Some(shard)) => Ok(Wanted::Shard(plan, shard)),
+            (Some(_), None, None) => {
+                let remedy =
+                    "give --shards to make the plan, --shard to run a shard of it, or tautline merge it";
+                Err(Fault::usage("--plan alone asks for nothing", remedy))
+            }
+        }
+    }
+}
+
+/// What is told of a new plan.
+#[derive(Serialize)]
+struct Planned<'a, F: Serialize> {
+    plan: String,
+    shards: u32,
+    #[serde(flatten)]
+    facts: &'a F,
+}
+
+/// Stores a plan, and tells of it.
+///
+/// # Errors
+/// [`Halt`] if it cannot be stored.
+pub(super) fn plan(
+    (path, shards): (&Path, u32),
+    (of, deal): (Of, &serde_json::value::RawValue),
+    (facts, words): (&impl Serialize, &str),
+    (force, format): (bool, Format),
+    out: &mut Output,
+) -> Result<Exit, Halt> {
+    let replaceable = ForceArgs { force }.replaceable([]);
+    let file = Plan::store(path, of, shards, deal, &replaceable)?;
+    file.keep()?;
+    match format {
+        Format::Json => out.json(&Planned { plan: shown(path), shards, facts })?,
+        Format::Text => out.text(format_args!("{words}\nThe plan is kept in {}.\n", shown(path)))?,
+    }
+    Ok(Exit::Expected)
+}
+
+/// How far a shard is, and where it is kept.
+struct Told<'a> {
+    plan: &'a Plan,
+    shard: u32,
+    part: &'a dyn Part,
+    kept: String,
+}
+
+impl Serialize for Told<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { plan, shard, part, kept } = self;
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("plan", &shown(plan.path()))?;
+        map.serialize_entry("shard", shard)?;
+        map.serialize_entry("shards", &plan.shards)?;
+        for (name, value) in part.facts() {
+            map.serialize_entry(name, &value)?;
+        }
+        map.serialize_entry("complete", &part.is_done())?;
+        map.serialize_entry("kept", kept)?;
+        map.end()
+    }
+}
+
+/// Runs a shard to its end, or until it is to stop.
+///
+/// # Errors
+/// [`Halt`] if it cannot be done, or not be kept.
+pub(super) fn run<'p>(
+    plan: &Plan,
+    shard: u32,
+    format: Format,
+    out: &mut Output,
+    part: impl FnOnce(Option<&serde_json::value::RawValue>) -> Result<Box<dyn Part + 'p>, Halt>,
+) -> Result<Exit, Halt> {
+    plan.check_shard(shard)?;
+    let path = plan.shard_path(shard);
+    let (mut keeper, far) = Keeper::open(plan, shard, &path)?;
+    let mut part = part(far.as_deref()).map_err(|halt| match halt {
+        Halt::Fault(fault) if far.is_some() => fault.found_in(&path).into(),
+        halt => halt,
+    })?;
+    interrupt::defer();
+    // What cannot be kept is refused before it has cost anything.
+    keeper.keep(&*part)?;
+    let spinner = progress::spinner(format!("shard {shard} of {}", plan.shards));
+    let mut written = Instant::now();
+    while !interrupt::is_requested() && part.step()? {
+        spinner.set_message(part.words());
+        if written.elapsed() > KEEP_EVERY {
+            // There may be room again later on; the last good one stands there until then.
+            if let Err(halt) = keeper.keep(&*part) {
+                tracing::warn!("{halt}");
+            }
+            written = Instant::now();
+        }
+    }
+    spinner.finish_and_clear();
+    keeper.keep(&*part)?;
+    let told = Told { plan, shard, part: &*part, kept: shown(&path) };
+    match format {
+        Format::Json => out.json(&told)?,
+        Format::Text => {
+            let end = if part.is_done() { "done" } else { "ended before its bound: run it again to go on" };
+            let (words, of) = (part.words(), plan.shards);
+            out.text(format_args!("Shard {shard} of {of}: {words}; {end}.\nIt is kept in {}.\n", told.kept))?;
+        }
+    }
+    Ok(if part.is_done() { Exit::Expected } else { Exit::Unfinished })
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  tautline hunt --robots 5 --max-walls 4 --plan plan.json --shards 64
+  tautline hunt --plan plan.json --shard 1
+  tautline merge plan.json
+  tautline merge plan.json node-1/plan-1.json node-2/plan-2.json --out counterexamples";
+
+/// Make one of all shards of a plan: what one process would have printed and stored.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Merge {
+    /// The plan.
+    plan: PathBuf,
+    /// The files of its shards. Without one, those beside the plan.
+    files: Vec<PathBuf>,
+    /// The folder for the counterexamples of a hunt.
+    #[arg(long, value_name = "DIR", default_value = ".")]
+    out: PathBuf,
+    /// Store a picture of a table: its name, as `reproduce ID --help` tells it, and a file.
+    #[arg(long = "picture", value_names = ["NAME", "FILE"], num_args = 2, value_parser = value_parser!(PathBuf))]
+    pictures: Vec<PathBuf>,
+    #[command(flatten)]
+    force: ForceArgs,
+    #[command(flatten)]
+    format: FormatArgs,
+}
+
+/// Tells what keeps a merge from being whole.
+fn refuse(plan: &Plan, gaps: &[Gap]) {
+    let words = |gap: &Gap| match gap {
+        Gap::Missing(shard) => format!("shard {shard} is missing"),
+        Gap::Unfinished(shard) => format!("shard {shard} is not at its end"),
+    };
+    let mut named: Vec<String> = gaps.iter().take(MOST_NAMED).map(words).collect();
+    if gaps.len() > MOST_NAMED {
+        named.push(format!("and {} more", gaps.len() - MOST_NAMED));
+    }
+    let what = format!("{} of {} shards are not there: {}", gaps.len(), plan.shards, named.join(", "));
+    complain(&Fault::in_file(plan.path(), what, "run them, and merge again"));
+}
+
+impl Merge {
+    pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
+        let plan = Plan::read(&self.plan)?;
+        let beside = || {
+            let paths = (1..=plan.shards).map(|shard| plan.shard_path(shard));
+            paths.filter(|path| path.exists()).collect()
+        };
+        let files: Vec<PathBuf> = if self.files.is_empty() { beside() } else { self.files.clone() };
+        let shards = match plan.results(&files)? {
+            Ok(shards) => shards,
+            Err(gaps) => {
+                refuse(&plan, &gaps);
+                return Ok(Exit::Gaps);
+            }
+        };
+        let inputs = files.into_iter().chain([self.plan.clone()]);
+        match plan.of {
+            Of::Hunt { scheme, rule } => {
+                if !self.pictures.is_empty() {
+                    return Err(Fault::usage("a hunt has no --picture", "leave --picture out").into());
+                }
+                check_folder(&self.out)?;
+                let asked = Asked::new(scheme, rule);
+                let hunted = merge_hunt(&plan, &shards)?;
+                Found { asked: &asked, hunted: &hunted, folder: &self.out }.tell(
+                    &self.force.replaceable(inputs),
+                    self.format.format,
+                    out,
+                )
+            }
+            Of::Table { .. } => {
+                let asked = restored(&plan)?;
+                let made = asked.merge(&merge_table(&plan, &shards)?)?;
+                let (names, paths): (Vec<_>, Vec<_>) = self
+                    .pictures
+                    .chunks(2)
+                    .map(|pair| (pair[0].to_string_lossy().into_owned(), Some(pair[1].clone())))
+                    .unzip();
+                let files = self.force.each(&paths)?;
+                let format = self.format.format.plain()?;
+                tell(&*made, names.iter().map(String::as_str).zip(files), format, out)
+            }
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! Work that is dealt out among shards, and put together again.
+
+use super::*;
+
+const HUNT: [&str; 7] = ["hunt", "--rule", "published", "--robots", "4", "--max-walls", "3"];
+const TABLE: [&str; 6] = ["reproduce", "frontier-fig7", "--layouts", "10", "--seed", "7"];
+
+fn hunt_shard(folder: &Path, plan: &str, shard: u32) {
+    printed(folder, &["hunt", "--plan", plan, "--shard", &shard.to_string()], 0);
+}
+
+fn planned(folder: &Path, work: &[&str], shards: &str) {
+    printed(folder, &[work, &["--plan", "plan.json", "--shards", shards]].concat(), 0);
+}
+
+fn read(folder: &Path, name: &str) -> String {
+    fs::read_to_string(folder.join(name)).expect("text")
+}
+
+#[test]
+fn the_shards_of_a_hunt_in_any_order_give_what_one_process_gives() {
+    let (one, many) = (folder(), folder());
+    let (one, many) = (one.path(), many.path());
+    let whole = printed(one, &HUNT, 1);
+    planned(many, &HUNT, "7");
+    for shard in [3, 7, 1, 2, 6, 4, 5] {
+        hunt_shard(many, "plan.json", shard);
+    }
+    // A shard that is done is not searched again.
+    let kept = read(many, "plan-3.json");
+    hunt_shard(many, "plan.json", 3);
+    assert_eq!(read(many, "plan-3.json"), kept);
+    assert_eq!(printed(many, &["merge", "plan.json"], 1), whole);
+    let runs = names(one);
+    assert!(!runs.is_empty());
+    for run in &runs {
+        assert_eq!(read(many, run), read(one, run), "{run}");
+    }
+    let shown = |folder, arguments: &[&str]| printed(folder, &[arguments, &["--format", "json"]].concat(), 1);
+    assert_eq!(shown(many, &["merge", "plan.json"]), shown(one, &HUNT));
+}
+
+#[test]
+fn a_shard_that_ran_out_of_its_budget_is_a_gap_until_it_has_gone_on() {
+    let folder = folder();
+    let folder = folder.path();
+    let whole = printed(folder, &HUNT, 1);
+    planned(folder, &HUNT, "2");
+    hunt_shard(folder, "plan.json", 1);
+    printed(folder, &["hunt", "--plan", "plan.json", "--shard", "2", "--budget", "5000"], 3);
+    let output = ran(folder, &["merge", "plan.json"]);
+    let said = String::from_utf8(output.stderr).expect("text");
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(4), 0), "{said}");
+    assert!(said.contains("1 of 2 shards are not there: shard 2 is not at its end"), "{said}");
+    hunt_shard(folder, "plan.json", 2);
+    assert_eq!(printed(folder, &["merge", "plan.json"], 1), whole);
+}
+
+#[test]
+fn the_shards_of_a_table_give_what_one_process_gives() {
+    let (one, many) = (folder(), folder());
+    let (one, many) = (one.path(), many.path());
+    let whole = printed(one, &[&TABLE[..], &["--svg", "cost.svg"]].concat(), 0);
+    planned(many, &TABLE, "3");
+    for shard in ["2", "3", "1"] {
+        printed(many, &["reproduce", "--plan", "plan.json", "--shard", shard], 0);
+    }
+    let merge = ["merge", "plan.json", "--picture", "svg", "cost.svg"];
+    assert_eq!(printed(many, &merge, 0), whole);
+    assert_eq!(read(many, "cost.svg"), read(one, "cost.svg"));
+}
+
+#[test]
+fn wrong_plans_and_shards() {
+    let folder = folder();
+    let folder = folder.path();
+    let small = ["hunt", "--rule", "published", "--robots", "3", "--max-walls", "2"];
+    planned(folder, &small, "3");
+    let other = ["hunt", "--rule", "repaired", "--robots", "3", "--max-walls", "2"];
+    printed(folder, &[&other[..], &["--plan", "other.json", "--shards", "3"]].concat(), 0);
+    planned_table(folder);
+    (1..=3).for_each(|shard| hunt_shard(folder, "plan.json", shard));
+    hunt_shard(folder, "other.json", 2);
+    let plan = read(folder, "plan.json");
+    // What is not the same in every build is not shown.
+    let (head, rest) = plan.split_once("\"program\":\"").expect("a program");
+    let foreign = format!("{head}\"program\":\"{}{}", "0".repeat(64), &rest[64..]);
+    let sealed = |text: &str| {
+        let lines: String = text.lines().take(2).map(|line| format!("{line}\n")).collect();
+        format!("{lines}{{\"crc32\":{}}}\n", crc32fast::hash(lines.as_bytes()))
+    };
+    fs::write(folder.join("foreign.json"), sealed(&foreign)).expect("a file");
+    let old = plan.replace("\"version\":1", "\"version\":0");
+    fs::write(folder.join("old.json"), sealed(&old)).expect("a file");
+    fs::write(folder.join("damaged.json"), plan.replace("\"answers\":[0", "\"answers\":[1")).expect("a file");
+    let cases: [&[&str]; 17] = [
+        &["hunt", "--plan", "plan.json"],
+        &["hunt", "--shards", "3"],
+        &["hunt", "--plan", "new.json", "--shards", "0"],
+        &["hunt", "--plan", "plan.json", "--shard", "0"],
+        &["hunt", "--plan", "plan.json", "--shard", "4"],
+        &["hunt", "--plan", "plan.json", "--shard", "1", "--robots", "3"],
+        &["hunt", "--plan", "none.json", "--shard", "1"],
+        &["hunt", "--plan", "foreign.json", "--shard", "1"],
+        &["hunt", "--plan", "old.json", "--shard", "1"],
+        &["hunt", "--plan", "damaged.json", "--shard", "1"],
+        &["hunt", "--plan", "table.json", "--shard", "1"],
+        &["hunt", "--plan", "plan-1.json", "--shard", "1"],
+        &["hunt", "--scheme", "bricks", "--plan", "new.json", "--shards", "2"],
+        &["hunt", "--plan", "new.json", "--shards", "2", "--format", "junit"],
+        &["merge", "plan.json", "plan-1.json", "plan-2.json", "plan-1.json"],
+        &["merge", "plan.json", "plan-1.json", "other-2.json"],
+        &["reproduce", "--plan", "plan.json", "--shard", "1"],
+    ];
+    let digest = |said: String| {
+        let is_hash = |word: &&str| word.len() == 64 && word.bytes().all(|byte| byte.is_ascii_hexdigit());
+        let hashes: Vec<String> = said
+            .split(|letter: char| !letter.is_ascii_alphanumeric())
+            .filter(is_hash)
+            .map(str::to_owned)
+            .collect();
+        hashes.iter().fold(said.clone(), |said, hash| said.replace(hash.as_str(), "<hash>"))
+    };
+    let said =
+        cases.map(|case| format!("$ tautline {}\n{}\n", case.join(" "), digest(refused(folder, case))));
+    assert_snapshot!(said.join("\n"));
+    assert!(!folder.join("new.json").exists());
+}
+
+fn planned_table(folder: &Path) {
+    printed(folder, &[&TABLE[..], &["--plan", "table.json", "--shards", "2"]].concat(), 0);
+}
+
+#[test]
+fn what_a_ci_shows_of_a_verdict() {
+    let folder = folder();
+    let folder = folder.path();
+    let hunt = ["hunt", "--rule", "published", "--robots", "3", "--max-walls", "2"];
+    let shown = |arguments: &[&str], format, code| {
+        printed(folder, &[arguments, &["--format", format]].concat(), code)
+    };
+    let annotations = shown(&hunt, "github", 1);
+    assert!(
+        annotations.lines().all(|line| line.starts_with("::error title=") || line.starts_with("::notice "))
+    );
+    let junit = shown(&hunt, "junit", 1);
+    let small = ["hunt", "--robots", "3", "--max-walls", "1"];
+    let passed = shown(&small, "junit", 0) + &shown(&small, "github", 0);
+    let proved = shown(&["prove", "LATTICE-1"], "github", 0);
+    assert_snapshot!([annotations, junit, passed, proved].join("\n"));
+    // A shell that fails at any other code than 0 goes on where it is asked to.
+    printed(folder, &[&hunt[..], &["--exit-zero"]].concat(), 0);
+}
