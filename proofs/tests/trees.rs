@@ -142,7 +142,8 @@ fn without_one_label_the_claim_behind_trees_that_stay_whole_fails() {
 fn an_agent_that_has_founded_as_many_trees_as_there_are_labels_founds_no_more_and_is_not_done() {
     let mut floor = Floor::new(&["...", ".#.", "..."]);
     let mut cell = Cell::new(0, 0);
-    let mut agent = Agent { founded: Label::TREES, ..Agent::new(0) };
+    let mut agent = Agent::new(0);
+    agent.founded = Label::TREES;
     settle(&mut floor, &[cell]);
     for _ in 0..100 {
         let (done, next) = act(Rule::TREE, &mut floor, &mut agent, cell, &mut Seeing);

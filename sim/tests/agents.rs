@@ -294,9 +294,10 @@ fn hunted(scheme: &'static Profile, rule: RuleId, (robots, max_misses): (u64, u8
 
 #[test]
 fn hunts_of_trees_find_the_smallest_early_end_and_it_is_a_run() {
-    for (scheme, rule, bound, title) in
-        [(&MDFS, RuleId::PUBLISHED, (2, 0), "?"), (&BRICKS, RuleId::new("tree"), (1, 1), "?")]
-    {
+    for (scheme, rule, bound, title) in [
+        (&MDFS, RuleId::PUBLISHED, (2, 0), "0 missed, 1x3 cells, 1 team move"),
+        (&BRICKS, RuleId::new("tree"), (1, 1), "1 missed, 3x3 cells, 5 team moves"),
+    ] {
         let hunted = hunted(scheme, rule, bound, 3);
         let [quarry] = &hunted.found[..] else { panic!("{hunted:?}") };
         assert_eq!(

@@ -45,15 +45,15 @@ impl Hunt for Traps {
             Bounds { way: self.0, agents, max_misses, max_width, max_height, budget_steps: asked.budget };
         let found = hunt(&bounds, &mut |found| hunter.hears(Far::Words(so_far(found, max_misses))));
         let quarries = found.trap.iter().map(|trap| quarry(asked, trap)).collect::<Result<Vec<_>, _>>()?;
-        Ok(hunted((bounds.agents, bounds.max_misses), size, &found, quarries))
+        Ok(hunted((bounds.agents, bounds.max_misses), size, (&found, "state"), quarries))
     }
 }
 
-/// What is told of a search.
+/// What is told of a search of so many `what`s: states, or runs.
 pub(super) fn hunted(
     (agents, max_misses): (u32, u8),
     size: Size,
-    found: &Found,
+    (found, what): (&Found, &str),
     quarries: Vec<Quarry>,
 ) -> Hunted {
     let Found { layouts, states, steps, levels, .. } = *found;
@@ -64,7 +64,7 @@ pub(super) fn hunted(
         None => "so far; the hunt was ended before it had covered all layouts".to_owned(),
     };
     let order = if agents == 1 { "" } else { " that act in turn" };
-    let (all_layouts, all_states) = (counted(layouts, "layout"), counted(states, "state"));
+    let (all_layouts, all_states) = (counted(layouts, "layout"), counted(states, what));
     Hunted {
         robots: agents.into(),
         facts: vec![

@@ -41,7 +41,7 @@ impl<K: Crew + Sync + fmt::Debug> Hunt for Tries<K> {
         found.is_complete = !is_ended;
         let trap = if is_ended { None } else { found.trap.take() };
         let quarries = trap.iter().map(|trap| quarry(asked, trap)).collect::<Result<Vec<_>, _>>()?;
-        Ok(hunted((sought.agents, sought.max_misses), sought.size, &found, quarries))
+        Ok(hunted((sought.agents, sought.max_misses), sought.size, (&found, "run"), quarries))
     }
 }
 

@@ -266,7 +266,8 @@ fn text(merged: &Merged) -> String {
         "Team moves over the lower bound, cells by agents; {runs} runs, seeds from {seed}, {} % of the sensors missed; means with\n\
          95 % intervals over the runs\n\n{}\n\
          until known: of the runs in which all agents were done. early: runs in which an agent was done although it could\n\
-         have got to an unexplored cell. ended: runs that were stopped after {max_steps} steps of all agents.\n",
+         have got to an unexplored cell. ended: runs that were stopped after {max_steps} steps of all agents. Agents of bricks-ants\n\
+         go on for as long as they may miss sensors: their runs are over when everything is explored.\n",
         miss * 100.0,
         columns.text()
     )
