@@ -20,7 +20,7 @@ use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};
 use tautline_sim::explore::depth_first::{HELPERS, MDFS};
 use tautline_sim::explore::hunt::{Asked, Far, Hunted, Hunter, Shown};
 use tautline_sim::explore::trees::{HELPERS_ROBUST, HELPERS_TRUSTING, TREE};
-use tautline_sim::explore::{Profile, Report, RuleId, RuleName, Setup, Stopped, explore};
+use tautline_sim::explore::{Profile, Report, RuleId, RuleName, Setup, Stopped, explore, team};
 use tautline_sim::fault::Fault;
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::layout::{self, Generator, Layout, MAX_CELLS, Size};
@@ -249,7 +249,7 @@ fn more_agents_than_an_id_counts_are_refused() {
     for (scheme, rule) in TREES.into_iter().chain([(&MDFS, RuleId::PUBLISHED)]) {
         let said = |robots| {
             let setup = Setup::new(scheme, rule, robots, layout.clone(), base);
-            explore(&setup, &mut |_| Ok(())).err().map(|halt| format!("{halt:?}"))
+            team(&setup).err().map(|fault| format!("{fault:?}"))
         };
         assert_eq!(said(255), None);
         assert!(said(256).is_some_and(|said| said.contains("256 agents are too many")), "{}", scheme.name);
