@@ -6,8 +6,9 @@ mod common;
 use criterion::{BenchmarkId, Criterion};
 use tautline_kernel::ants;
 use tautline_kernel::bricks::Rule;
+use tautline_proofs::bricks::tree as trees;
 use tautline_sim::explore::agents::{Agents, Crew, Way};
-use tautline_sim::explore::trees::{HELPERS_ROBUST, TREE};
+use tautline_sim::explore::trees::{HELPERS_ROBUST, HELPERS_TRUSTING, TREE};
 use tautline_sim::layout::Generator;
 use tautline_sim::layout::generate::Probability;
 
@@ -38,8 +39,12 @@ const SCHEMES: [(&str, Way); 3] = [
     ("ants", Way::Ants(ants::Rule::Repaired)),
 ];
 
-const TREES: [(&str, tautline_proofs::bricks::tree::Way); 2] =
-    [("bricks (tree)", TREE), ("helpers", HELPERS_ROBUST)];
+const TREES: [(&str, trees::Way); 4] = [
+    ("bricks (tree)", TREE),
+    ("helpers", HELPERS_ROBUST),
+    ("helpers (trusting)", HELPERS_TRUSTING),
+    ("mdfs", trees::Way::Mdfs),
+];
 
 const LAYOUTS: [&str; 4] = ["office:30x30:4x4", "open:30x30", "office:512x512:16x16", "open:512x512"];
 
@@ -76,10 +81,18 @@ fn main() {
     }
     criterion.final_summary();
 
-    println!("\nAgent steps a second, {AGENTS} agents, at most {MOST} team moves");
+    println!("\nAgent steps a second, and over those of bricks, {AGENTS} agents, at most {MOST} team moves");
+    let mut bricks = 1.0;
     for (described, scheme, cost) in rows {
         let seconds = 1e-6 * cost.micros * f64::from(cost.work.team_moves);
         let millions = 1e-6 * f64::from(cost.work.agent_steps) / seconds;
-        println!("  {described:22} {scheme:13} {:>8} steps {millions:>7.2} million/s", cost.work.agent_steps);
+        if scheme == "bricks" {
+            bricks = millions;
+        }
+        println!(
+            "  {described:22} {scheme:18} {:>8} steps {millions:>7.2} million/s {:>6.2}",
+            cost.work.agent_steps,
+            millions / bricks
+        );
     }
 }

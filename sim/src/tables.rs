@@ -9,6 +9,7 @@ pub mod chain_fig4;
 pub mod chain_radio;
 mod entry;
 pub mod floors;
+pub mod floors_missed;
 pub mod frontier_fig7;
 pub mod journeys;
 pub mod kit;
@@ -50,6 +51,7 @@ pub const TABLES: &[&dyn Entry] = &[
     &agents::BRICKS_FIG12,
     &agents::BRICKS_IDEAL,
     &floors::Floors,
+    &floors_missed::FloorsMissed,
     &antenna_fig4::AntennaFig4,
     &notice_fig5::NoticeFig5,
     &journeys::RESCUE_FIG6,

@@ -2,24 +2,28 @@
 //! knows that it is done, in random layouts and on published maps; ants and robust agents explore everything.
 
 use std::collections::BTreeSet;
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::{env, fs};
 
 use insta::assert_snapshot;
 use proptest::prelude::*;
 use tautline_kernel::bricks::Rule;
+use tautline_kernel::bricks::tree::Label;
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::course::{Course, Scene, Turn};
 use tautline_sim::draw::story;
-use tautline_sim::explore::agents::{Agents, Crew, Way};
+use tautline_sim::explore::agents::{Agents, Crew, PREMATURE, Way};
 use tautline_sim::explore::ants::ANTS;
 use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};
 use tautline_sim::explore::depth_first::{HELPERS, MDFS};
+use tautline_sim::explore::hunt::{Asked, Far, Hunted, Hunter, Shown};
 use tautline_sim::explore::trees::{HELPERS_ROBUST, HELPERS_TRUSTING, TREE};
-use tautline_sim::explore::{Report, RuleId, RuleName, Setup, Stopped, explore};
+use tautline_sim::explore::{Profile, Report, RuleId, RuleName, Setup, Stopped, explore, team};
+use tautline_sim::fault::Fault;
 use tautline_sim::layout::generate::Probability;
-use tautline_sim::layout::{self, Generator, Layout};
+use tautline_sim::layout::{self, Generator, Layout, MAX_CELLS, Size};
 
 /// More team moves than any run here has.
 const MANY: u32 = 300_000;
@@ -211,6 +215,102 @@ fn an_agent_with_a_tree_of_its_own_is_done_too_early() {
     };
     let places = [(0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1)];
     assert!(places.iter().any(|&one| places.iter().any(|&other| ends_early([one, other]))));
+}
+
+/// The rules of agents that search in trees until they know that they are done.
+const TREES: [(&Profile, RuleId); 4] = [
+    (&BRICKS, RuleId::new("tree")),
+    (&HELPERS, RuleId::new("trusting")),
+    (&HELPERS, RuleId::REPAIRED),
+    (&HELPERS, RuleId::new("doubting")),
+];
+
+#[test]
+fn agents_in_parts_that_are_not_connected_each_visit_their_own() {
+    let mut layout = Layout::open(7, 3).expect("a layout");
+    (0..3).for_each(|y| layout.block(Cell::new(3, y)));
+    layout.block(Cell::new(1, 1));
+    let base = Setup::choose_base(&mut layout, None).expect("a free cell");
+    let starts = [(0, 0), (6, 2), (2, 1), (4, 0)].map(|(x, y)| Cell::new(x, y)).to_vec();
+    for (scheme, rule) in TREES {
+        let setup = Setup::new(scheme, rule, 4, layout.clone(), base);
+        let report = run(&Setup { starts: Some(starts.clone()), ..setup });
+        assert_eq!(report.violations, [], "{} {rule}", scheme.name);
+        let parts: Vec<_> =
+            report.components.iter().map(|part| (part.cells, part.visited, part.active)).collect();
+        assert_eq!(parts, [(8, 8, 0), (9, 9, 0)], "{} {rule}", scheme.name);
+    }
+}
+
+#[test]
+fn more_agents_than_an_id_counts_are_refused() {
+    let layout = Layout::open(3, 3).expect("a layout");
+    let base = layout.default_base().expect("a free cell");
+    for (scheme, rule) in TREES.into_iter().chain([(&MDFS, RuleId::PUBLISHED)]) {
+        let said = |robots| {
+            let setup = Setup::new(scheme, rule, robots, layout.clone(), base);
+            team(&setup).err().map(|fault| format!("{fault:?}"))
+        };
+        assert_eq!(said(255), None);
+        assert!(said(256).is_some_and(|said| said.contains("256 agents are too many")), "{}", scheme.name);
+    }
+}
+
+#[test]
+fn no_layout_has_more_cells_than_there_are_labels_or_depths() {
+    assert_eq!(MAX_CELLS, u64::from(Label::TREES));
+    assert!(Size::new(4096, 4096).is_ok() && Size::new(4096, 4097).is_err());
+}
+
+/// Hears nothing.
+struct Deaf;
+
+impl Hunter for Deaf {
+    fn hears(&mut self, _: Far<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn is_not_kept(&mut self, _: &Fault) {}
+
+    fn is_left_out(&mut self, _: &Fault) {}
+}
+
+fn hunted(scheme: &'static Profile, rule: RuleId, (robots, max_misses): (u64, u8), side: u64) -> Hunted {
+    let asked = Asked {
+        scheme,
+        rule,
+        robots: Some(robots),
+        size: Some(Size::new(side, side).expect("a size")),
+        budget: None,
+        max_walls: None,
+        max_misses: Some(max_misses),
+        max_losses: None,
+        error_cells: None,
+        resume: None,
+    };
+    let rule = scheme.rules.iter().find(|row| row.name == rule).expect("a rule");
+    rule.hunt.expect("a hunt").hunt(&asked, &mut Deaf).expect("it can be searched")
+}
+
+#[test]
+fn hunts_of_trees_find_the_smallest_early_end_and_it_is_a_run() {
+    for (scheme, rule, bound, title) in [
+        (&MDFS, RuleId::PUBLISHED, (2, 0), "0 missed, 1x3 cells, 1 team move"),
+        (&BRICKS, RuleId::new("tree"), (1, 1), "1 missed, 3x3 cells, 5 team moves"),
+    ] {
+        let hunted = hunted(scheme, rule, bound, 3);
+        let [quarry] = &hunted.found[..] else { panic!("{hunted:?}") };
+        assert_eq!(
+            (quarry.title.as_str(), &quarry.shown),
+            (title, &Shown::Run(PREMATURE)),
+            "{}",
+            scheme.name
+        );
+        let report = run(&quarry.setup);
+        assert!(report.violations.iter().any(|violation| violation.clause == PREMATURE), "{report:?}");
+    }
+    let careful = hunted(&HELPERS, RuleId::REPAIRED, (1, 1), 3);
+    assert!(careful.is_complete && careful.found.is_empty(), "{careful:?}");
 }
 
 #[test]

@@ -56,7 +56,7 @@ step_checks! { Observed;
 }
 
 /// The clauses.
-pub static CLAUSES: [Clause; 11] = [
+pub static CLAUSES: [Clause; 12] = [
     Clause {
         id: "BRICKS-1",
         sentence: "Marking a cell MUST leave its accessible side neighbours connected with each other through the \
@@ -128,6 +128,7 @@ pub static CLAUSES: [Clause; 11] = [
             &tree::MDFS_KNOWING,
             &tree::TREE_HALF_BLIND,
             &tree::ROBUST_KNOWING,
+            &tree::DOUBTING_KNOWING,
         ],
     },
     Clause {
@@ -166,6 +167,9 @@ pub static CLAUSES: [Clause; 11] = [
             &tree::TREE_ENDS,
             &tree::HELPERS_ENDS,
             &tree::ROBUST_ENDS,
+            &tree::ROBUST_ENDS_ROUND,
+            &tree::DOUBTING_ENDS,
+            &tree::DOUBTING_ROUND,
         ],
     },
     Clause {
@@ -193,5 +197,10 @@ pub static CLAUSES: [Clause; 11] = [
         id: "BRICKS-11",
         sentence: "Agents that fail MUST not keep the others from an end with every cell visited.",
         checks: &[&Check::new(REPAIRED, &Floors::SURVIVES, Verdict::Refuted, &[]), &tree::SURVIVES],
+    },
+    Clause {
+        id: "BRICKS-12",
+        sentence: "An agent alone MUST make at most two moves a cell.",
+        checks: &[&tree::HELPERS_TWICE, &tree::TREE_TWICE],
     },
 ];

@@ -1,4 +1,4 @@
-//! Agents that search in trees on small floors (BRICKS-2 to BRICKS-11): brick-tree, helpers and MDFS, as systems whose states
+//! Agents that search in trees on small floors (BRICKS-2 to BRICKS-12): brick-tree, helpers and MDFS, as systems whose states
 //! are all looked at.
 
 pub(super) mod checks;

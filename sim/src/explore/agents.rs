@@ -285,6 +285,11 @@ impl<K: Crew> Agents<K> {
         self.is_premature
     }
 
+    /// How many sensors agents have asked about.
+    pub(super) const fn asked(&self) -> u32 {
+        self.misses.asked
+    }
+
     /// Makes one team move.
     pub fn advance(&mut self) {
         self.floor.clear_marked();

@@ -15,6 +15,7 @@ use super::stage::Knowledge;
 use super::survey::Survey;
 use super::traps::Traps;
 use super::trees::TREE;
+use super::tries::Tries;
 
 const PUBLISHED: Way = Way::Bricks(Bricks::PUBLISHED);
 const REPAIRED: Way = Way::Bricks(Bricks::REPAIRED);
@@ -31,7 +32,7 @@ pub static BRICKS: Profile = Profile {
             name: RuleId::new("tree"),
             about: "Trees close the loops in place of laps",
             start: |setup| Ok(start(setup, TREE)),
-            hunt: None,
+            hunt: Some(&Tries(TREE)),
         },
     ],
     ..MARKING

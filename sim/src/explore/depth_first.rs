@@ -7,7 +7,8 @@ use super::agents::start;
 use super::bricks::MARKING;
 use super::rule::RuleId;
 use super::setup::{Profile, Rule};
-use super::trees::{HELPERS_ROBUST, HELPERS_TRUSTING};
+use super::trees::{HELPERS_DOUBTING, HELPERS_ROBUST, HELPERS_TRUSTING};
+use super::tries::Tries;
 
 /// Multiple depth first search.
 pub static MDFS: Profile = Profile {
@@ -17,7 +18,7 @@ pub static MDFS: Profile = Profile {
         name: RuleId::PUBLISHED,
         about: "As the paper publishes it",
         start: |setup| Ok(start(setup, Way::Mdfs)),
-        hunt: None,
+        hunt: Some(&Tries(Way::Mdfs)),
     }],
     ..MARKING
 };
@@ -31,13 +32,19 @@ pub static HELPERS: Profile = Profile {
             name: RuleId::REPAIRED,
             about: "With the repairs of its refuted claims",
             start: |setup| Ok(start(setup, HELPERS_ROBUST)),
-            hunt: None,
+            hunt: Some(&Tries(HELPERS_ROBUST)),
         },
         Rule {
             name: RuleId::new("trusting"),
             about: "As if no sensor were ever missed",
             start: |setup| Ok(start(setup, HELPERS_TRUSTING)),
-            hunt: None,
+            hunt: Some(&Tries(HELPERS_TRUSTING)),
+        },
+        Rule {
+            name: RuleId::new("doubting"),
+            about: "Places sensors unasked, after three scans in a row that miss one",
+            start: |setup| Ok(start(setup, HELPERS_DOUBTING)),
+            hunt: Some(&Tries(HELPERS_DOUBTING)),
         },
     ],
     ..MARKING

@@ -1,8 +1,6 @@
 //! Traps: the hunt of agents on a sensor floor. A [`Trap`] becomes the setup of agents in its layout, with the sensors that
 //! they miss written down.
 
-use std::ops::ControlFlow;
-
 use serde_json::json;
 use tautline_proofs::floor::trap::{Bounds, End, Found, MAX_AGENTS, MAX_CELLS, Trap, Way, hunt};
 use tautline_proofs::words::counted;
@@ -33,51 +31,31 @@ pub(super) struct Traps(pub(super) Way);
 
 impl Hunt for Traps {
     fn takes(&self) -> &'static [Bound] {
-        &[Bound::Misses]
+        TAKEN
     }
 
     fn refusal(&self, bound: Bound) -> (String, String) {
-        let (what, remedy) = match bound {
-            Bound::Walls => (
-                "agents know every wall: no number of walls bounds their search",
-                "give `max-misses` for the sensors, and `size` for the layouts",
-            ),
-            Bound::Resume => (
-                "a hunt for traps is not kept in a file",
-                "leave `resume` out; a smaller `size` or `budget` makes it shorter",
-            ),
-            Bound::Misses | Bound::Losses | Bound::Error => {
-                ("agents send no messages and need no fixes", "give `max-misses` for the sensors")
-            }
-        };
-        (what.to_owned(), remedy.to_owned())
+        refusal(bound)
     }
 
     fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault> {
-        let size = match asked.size {
-            Some(size) => size,
-            None => Size::new(DEFAULT_SIDE, DEFAULT_SIDE)?,
-        };
-        let (agents, misses) =
-            (asked.robots.unwrap_or(DEFAULT_AGENTS), asked.max_misses.unwrap_or(DEFAULT_MISSES));
-        let bounds = Bounds { budget_steps: asked.budget, ..bounds(self.0, agents, misses, size)? };
-        let found = hunt(&bounds, &mut |found| {
-            let Found { layouts, states, levels, .. } = found;
-            let words =
-                format!("misses {levels} of {}, layouts {layouts}, states {states}", bounds.max_misses);
-            match hunter.hears(Far::Words(words)) {
-                ControlFlow::Break(()) => ControlFlow::Break(()),
-                ControlFlow::Continue(()) => ControlFlow::Continue(()),
-            }
-        });
+        let Sought { agents, max_misses, size } = sought(asked)?;
+        let (max_width, max_height) = (size.width(), size.height());
+        let bounds =
+            Bounds { way: self.0, agents, max_misses, max_width, max_height, budget_steps: asked.budget };
+        let found = hunt(&bounds, &mut |found| hunter.hears(Far::Words(so_far(found, max_misses))));
         let quarries = found.trap.iter().map(|trap| quarry(asked, trap)).collect::<Result<Vec<_>, _>>()?;
-        Ok(hunted(&bounds, size, &found, quarries))
+        Ok(hunted((bounds.agents, bounds.max_misses), size, (&found, "state"), quarries))
     }
 }
 
-/// What is told of a search.
-fn hunted(bounds: &Bounds, size: Size, found: &Found, quarries: Vec<Quarry>) -> Hunted {
-    let Bounds { agents, max_misses, .. } = *bounds;
+/// What is told of a search of so many `what`s: states, or runs.
+pub(super) fn hunted(
+    (agents, max_misses): (u32, u8),
+    size: Size,
+    (found, what): (&Found, &str),
+    quarries: Vec<Quarry>,
+) -> Hunted {
     let Found { layouts, states, steps, levels, .. } = *found;
     let done = levels.checked_sub(1);
     let bound = match done {
@@ -86,7 +64,7 @@ fn hunted(bounds: &Bounds, size: Size, found: &Found, quarries: Vec<Quarry>) -> 
         None => "so far; the hunt was ended before it had covered all layouts".to_owned(),
     };
     let order = if agents == 1 { "" } else { " that act in turn" };
-    let (all_layouts, all_states) = (counted(layouts, "layout"), counted(states, "state"));
+    let (all_layouts, all_states) = (counted(layouts, "layout"), counted(states, what));
     Hunted {
         robots: agents.into(),
         facts: vec![
@@ -114,7 +92,7 @@ fn hunted(bounds: &Bounds, size: Size, found: &Found, quarries: Vec<Quarry>) -> 
     }
 }
 
-fn quarry(asked: &Asked<'_>, trap: &Trap) -> Result<Quarry, Fault> {
+pub(super) fn quarry(asked: &Asked<'_>, trap: &Trap) -> Result<Quarry, Fault> {
     let Trap { width, height, moves, .. } = *trap;
     let misses = trap.missed.len();
     let (clause, shown) = match trap.end {
@@ -131,11 +109,23 @@ fn quarry(asked: &Asked<'_>, trap: &Trap) -> Result<Quarry, Fault> {
     Ok(Quarry { clause, facts, title, setup: setup(asked.scheme, asked.rule, trap)?, shown })
 }
 
-/// The bounds of a hunt for traps of so many agents that decide by `way`, in layouts of at most `size`.
+/// What a hunt for traps is asked for.
+pub(super) struct Sought {
+    pub(super) agents: u32,
+    pub(super) max_misses: u8,
+    pub(super) size: Size,
+}
+
+/// What is asked for.
 ///
 /// # Errors
 /// A [`Fault`] if there are too few or too many agents or cells.
-fn bounds(way: Way, agents: u64, max_misses: u8, size: Size) -> Result<Bounds, Fault> {
+pub(super) fn sought(asked: &Asked<'_>) -> Result<Sought, Fault> {
+    let size = match asked.size {
+        Some(size) => size,
+        None => Size::new(DEFAULT_SIDE, DEFAULT_SIDE)?,
+    };
+    let agents = asked.robots.unwrap_or(DEFAULT_AGENTS);
     let fitting = u32::try_from(agents).ok().filter(|agents| (1..=MAX_AGENTS).contains(agents));
     let agents = fitting.ok_or_else(|| {
         let what = format!("a hunt for traps of {agents} agents");
@@ -146,15 +136,41 @@ fn bounds(way: Way, agents: u64, max_misses: u8, size: Size) -> Result<Bounds, F
         let remedy = format!("give `size` at most {MAX_CELLS} cells, for example 4x4 or 8x2");
         return Err(Fault::of_field("size", what, remedy));
     }
-    let (max_width, max_height) = (size.width(), size.height());
-    Ok(Bounds { way, agents, max_misses, max_width, max_height, budget_steps: None })
+    Ok(Sought { agents, max_misses: asked.max_misses.unwrap_or(DEFAULT_MISSES), size })
+}
+
+/// The bounds that hunts for traps take.
+pub(super) const TAKEN: &[Bound] = &[Bound::Misses];
+
+/// Why they do not take `bound`.
+pub(super) fn refusal(bound: Bound) -> (String, String) {
+    let (what, remedy) = match bound {
+        Bound::Walls => (
+            "agents know every wall: no number of walls bounds their search",
+            "give `max-misses` for the sensors, and `size` for the layouts",
+        ),
+        Bound::Resume => (
+            "a hunt for traps is not kept in a file",
+            "leave `resume` out; a smaller `size` or `budget` makes it shorter",
+        ),
+        Bound::Misses | Bound::Losses | Bound::Error => {
+            ("agents send no messages and need no fixes", "give `max-misses` for the sensors")
+        }
+    };
+    (what.to_owned(), remedy.to_owned())
+}
+
+/// How far a hunt is, in words.
+pub(super) fn so_far(found: &Found, max_misses: u8) -> String {
+    let Found { layouts, states, levels, .. } = found;
+    format!("misses {levels} of {max_misses}, layouts {layouts}, states {states}")
 }
 
 /// The run that `trap` is; it stops at the violation.
 ///
 /// # Errors
 /// [`Problem`] if the trap does not fit into a layout.
-fn setup(scheme: &'static Profile, rule: RuleId, trap: &Trap) -> Result<Setup, Problem> {
+pub(super) fn setup(scheme: &'static Profile, rule: RuleId, trap: &Trap) -> Result<Setup, Problem> {
     let mut layout = Layout::open(trap.width as u64, trap.height as u64)?;
     for &cell in &trap.blocked {
         layout.block(cell);

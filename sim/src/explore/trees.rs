@@ -1,4 +1,4 @@
-//! Agents that search in trees on a sensor floor (BRICKS-8 to BRICKS-11): brick-tree, helpers and MDFS. The team is that of all
+//! Agents that search in trees on a sensor floor (BRICKS-8 to BRICKS-12): brick-tree, helpers and MDFS. The team is that of all
 //! agents.
 
 use tautline_kernel::bricks::tree::{Next, Note, Rule as Trees, View, settle};
@@ -15,6 +15,8 @@ pub const TREE: Way = Way::Trees(Trees::TREE);
 pub const HELPERS_TRUSTING: Way = Way::Trees(Trees::HELPERS);
 /// Helpers, robust against missed sensors.
 pub const HELPERS_ROBUST: Way = Way::Trees(Trees::ROBUST);
+/// Helpers that place sensors unasked, and doubt what they miss.
+pub const HELPERS_DOUBTING: Way = Way::Trees(Trees::DOUBTING);
 
 impl Crew for Way {
     type Stored = Note;

@@ -41,16 +41,12 @@ pub struct Team {
 
 /// How the agents of a team decide.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Explorer {
+pub(super) enum Explorer {
     Marks(Way),
     Trees(tree::Way),
 }
 
-impl Team {
-    const fn new(scheme: &'static Profile, rule: RuleId, way: Explorer) -> Self {
-        Self { scheme, rule, way }
-    }
-
+impl Explorer {
     /// A run of agents that start in these cells of `layout`, of at most so many steps of all of them.
     pub(super) fn run(
         self,
@@ -59,15 +55,32 @@ impl Team {
         (miss, seed): (Probability, u64),
         max_steps: u32,
     ) -> Outcome {
-        match self.way {
-            Explorer::Marks(way) => follow(explore::Agents::new(way, layout, starts, miss, seed), max_steps),
-            Explorer::Trees(way) => follow(explore::Agents::new(way, layout, starts, miss, seed), max_steps),
+        match self {
+            Self::Marks(way) => follow(explore::Agents::new(way, layout, starts, miss, seed), max_steps),
+            Self::Trees(way) => follow(explore::Agents::new(way, layout, starts, miss, seed), max_steps),
         }
     }
 }
 
+impl Team {
+    const fn new(scheme: &'static Profile, rule: RuleId, way: Explorer) -> Self {
+        Self { scheme, rule, way }
+    }
+
+    /// A run of its agents, as [`Explorer::run`] has it.
+    pub(super) fn run(
+        self,
+        layout: &Layout,
+        starts: &[Cell],
+        chance: (Probability, u64),
+        max_steps: u32,
+    ) -> Outcome {
+        self.way.run(layout, starts, chance, max_steps)
+    }
+}
+
 const REPAIRED: Explorer = Explorer::Marks(Way::Bricks(bricks::Rule::REPAIRED));
-const ROBUST: Explorer = Explorer::Marks(Way::Bricks(bricks::Rule::ROBUST));
+pub(super) const ROBUST: Explorer = Explorer::Marks(Way::Bricks(bricks::Rule::ROBUST));
 const ANTS_REPAIRED: Explorer = Explorer::Marks(Way::Ants(ants::Rule::Repaired));
 const ANTS_PUBLISHED: Explorer = Explorer::Marks(Way::Ants(ants::Rule::Published));
 

@@ -244,17 +244,17 @@ impl Line {
 }
 
 /// How likely it is that a sensor is missed.
-fn probability(text: &str) -> Result<f64, &'static str> {
+pub(super) fn probability(text: &str) -> Result<f64, &'static str> {
     real(text).and_then(|miss| Some(miss).filter(|miss| (0.0..=0.5).contains(miss)).ok_or("write 0 to 0.5"))
 }
 
 /// The layout that a text stands for.
-fn loaded(text: &str, seed: u64) -> Result<Layout, String> {
+pub(super) fn loaded(text: &str, seed: u64) -> Result<Layout, String> {
     layout::load(text, seed, None).map_err(|fault| fault.to_string())
 }
 
 /// The cells of the largest part of `layout`, the first such part.
-fn largest_part(layout: &Layout) -> Vec<Cell> {
+pub(super) fn largest_part(layout: &Layout) -> Vec<Cell> {
     let (width, mut largest) = (usize::from(layout.width().unsigned_abs()), Vec::new());
     let place = |cell: Cell| cell.y as usize * width + cell.x as usize;
     let mut is_seen = vec![false; layout.size().cells()];
@@ -282,7 +282,7 @@ fn largest_part(layout: &Layout) -> Vec<Cell> {
 }
 
 /// The start with this number among the cells of `part`.
-fn start(layout: &Layout, part: &[Cell], (seed, number): (u64, u32)) -> Cell {
+pub(super) fn start(layout: &Layout, part: &[Cell], (seed, number): (u64, u32)) -> Cell {
     let centre = Cell::new(layout.width() / 2, layout.height() / 2);
     let apart = |cell: &&Cell| {
         let (columns, rows) = cell.apart(centre);

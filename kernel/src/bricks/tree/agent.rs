@@ -1,6 +1,8 @@
 //! One action of an agent that searches in trees: it scans, writes into the sensor of its cell and of the one that it
 //! enters, and goes there. Reading and writing are one step: two agents whose scans overlap take turns (BRICKS-3).
 
+use core::mem;
+
 use super::note::{Label, Note, Notes, State};
 use super::rule::{Condition, Rule};
 use super::view::View;
@@ -9,6 +11,11 @@ use crate::bricks::rule as paper;
 use crate::choice::Oracle;
 use crate::floor::Ring;
 use crate::ground::{Cell, Side};
+
+/// Cells around that read as unexplored: in the last scan, in the last two, and so on.
+type Missed = [Ring; Rule::MOST_READINGS as usize - 1];
+
+const NONE_MISSED: Missed = [Ring(0); Rule::MOST_READINGS as usize - 1];
 
 /// What an agent remembers. It has no map and knows no place.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -21,6 +28,8 @@ pub struct Agent {
     back: Option<Side>,
     /// The cells around its cell that it knows to have sensors.
     known: Ring,
+    /// Those that have read as unexplored in its last scan, in its last two scans, and so on.
+    missed: Missed,
 }
 
 /// What an agent does after a scan.
@@ -60,15 +69,19 @@ impl Next {
 impl Agent {
     /// An agent before its first action.
     pub const fn new(id: u8) -> Self {
-        Self { id, founded: 0, back: None, known: Ring(0) }
+        Self { id, founded: 0, back: None, known: Ring(0), missed: NONE_MISSED }
     }
 
     /// What it does after a scan.
     pub fn decide(&mut self, rule: Rule, view: &View) -> Act {
-        let view = view.knowing(self.known);
+        let view = View { doubted: self.doubted(rule, view.scan.unexplored), ..view.knowing(self.known) };
+        let view = if rule.has(Condition::Restores) { View { here: view.restored(), ..view } } else { view };
         let act = self.choose(rule, &view);
         if rule.has(Condition::Remembers) {
             self.known = act.next.side().map_or(view.known, |side| view.known.seen_beyond(side));
+        }
+        if rule.readings > 1 {
+            self.misses(view.scan.unexplored, act.next.side());
         }
         self.back = match act.next {
             Next::Explores(side) if rule.has(Condition::Underfoot) => Some(side.opposite()),
@@ -76,6 +89,24 @@ impl Agent {
             Next::Goes(_) | Next::Adopts(_) | Next::Explores(_) | Next::Done => None,
         };
         act
+    }
+
+    /// Those of the cells that read as `unexplored` which have done so too few times in a row.
+    fn doubted(&self, rule: Rule, unexplored: Ring) -> Ring {
+        let often = usize::from(rule.readings).checked_sub(2).and_then(|before| self.missed.get(before));
+        often.map_or(Ring::default(), |often| unexplored.and(often.not()))
+    }
+
+    /// Counts the cells that read as `unexplored`, and goes through `side`.
+    fn misses(&mut self, unexplored: Ring, side: Option<Side>) {
+        let before = mem::replace(&mut self.missed, [unexplored; NONE_MISSED.len()]);
+        for (now, before) in self.missed.iter_mut().skip(1).zip(before) {
+            *now = unexplored.and(before);
+        }
+        if let Some(side) = side {
+            let left = Ring::of(side.opposite());
+            self.missed = self.missed.map(|missed| missed.seen_beyond(side).and(left.not()));
+        }
     }
 
     fn choose(&mut self, rule: Rule, view: &View) -> Act {
@@ -101,8 +132,10 @@ impl Agent {
         if here.state == State::Open {
             return here;
         }
-        if let Some((side, label)) = view.trees().max_by_key(|&(_, label)| label) {
-            return here.of_tree(label, Some(side));
+        if let Some((side, note)) =
+            view.neighbours().max_by_key(|(_, note)| note.tree()).filter(|(_, note)| note.tree().is_some())
+        {
+            return child(rule, here, note, side);
         }
         if rule.has(Condition::Bricks) && view.unexplored() != Ring::default() {
             return here;
@@ -110,11 +143,17 @@ impl Agent {
         match Label::new(self.founded, self.id) {
             Some(label) => {
                 self.founded += 1;
-                here.of_tree(label.lowest(rule.label_bits), None)
+                here.of_tree(label.lowest(rule.label_bits), None).at_depth(0)
             }
             None => here,
         }
     }
+}
+
+/// What `note` stores as a child of `parent`, which is beyond `side`.
+fn child(rule: Rule, note: Note, parent: Note, side: Side) -> Note {
+    let note = note.of_tree(parent.label, Some(side));
+    if rule.has(Condition::Restores) { note.at_depth(parent.depth.saturating_add(1)) } else { note }
 }
 
 /// Whether the trees allow that the cell is marked.
@@ -214,7 +253,7 @@ pub fn carry_out(rule: Rule, floor: &mut impl Notes, cell: Cell, act: &Act) -> C
     let entered = found.entered();
     let is_new = found.state == State::Unexplored;
     let is_adopted = is_child && (is_new || matches!(next, Next::Adopts(_)));
-    let entered = if is_adopted { entered.of_tree(here.label, Some(side.opposite())) } else { entered };
+    let entered = if is_adopted { child(rule, entered, here, side.opposite()) } else { entered };
     floor.write(beyond, entered);
     beyond
 }

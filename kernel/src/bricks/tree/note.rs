@@ -60,11 +60,18 @@ pub struct Note {
     pub side: Option<Side>,
     /// How many times an agent has entered; it stays at [`Note::MOST_CROSSINGS`].
     pub crossings: u16,
+    /// Of an open cell, how many cells are on its way to the root, where that is stored ([`Condition::Restores`]).
+    ///
+    /// [`Condition::Restores`]: super::Condition::Restores
+    pub depth: u32,
 }
 
 impl Note {
     /// The bits that a sensor stores: 2 for the state, 32 for the label, 3 for the side, 11 for the crossings.
     pub const BITS: u32 = 48;
+
+    /// The bits that a sensor stores which stores its depth, too: 24 for it, and 24 for the label.
+    pub const BITS_WITH_DEPTH: u32 = Self::BITS - 8 + 24;
 
     /// The greatest number of crossings that fits.
     pub const MOST_CROSSINGS: u16 = (1 << 11) - 1;
@@ -104,11 +111,18 @@ impl Note {
         Self { state: State::Open, label, side, ..self }
     }
 
+    /// The same so deep in its tree, at most as deep as fits.
+    #[inline]
+    #[must_use]
+    pub const fn at_depth(self, depth: u32) -> Self {
+        Self { depth: if depth < Label::TREES { depth } else { Label::TREES - 1 }, ..self }
+    }
+
     /// What it stores once it is done with, `side` leading to where more is left to do.
     #[inline]
     #[must_use]
     pub const fn visited(self, side: Option<Side>) -> Self {
-        Self { state: State::Visited, label: Label(0), side, ..self }
+        Self { state: State::Visited, label: Label(0), side, depth: 0, ..self }
     }
 
     /// What it stores once one agent more has entered.
@@ -123,7 +137,7 @@ impl Note {
         Self { state, crossings, ..self }
     }
 
-    /// All that it stores, in the lowest [`Note::BITS`] bits.
+    /// All that it stores but its depth, in the lowest [`Note::BITS`] bits.
     #[inline]
     pub const fn to_bits(self) -> u64 {
         let side = match self.side {
@@ -133,7 +147,7 @@ impl Note {
         self.state as u64 | side << 2 | (self.crossings as u64) << 5 | (self.label.0 as u64) << 16
     }
 
-    /// The sensor that stores `bits`; `None` if no sensor does.
+    /// The sensor that stores `bits`, and no depth; `None` if no sensor does.
     #[inline]
     pub const fn from_bits(bits: u64) -> Option<Self> {
         let state = match bits & 0b11 {
@@ -155,15 +169,17 @@ impl Note {
             label: Label((bits >> 16) as u32),
             side,
             crossings: (bits >> 5) as u16 & Self::MOST_CROSSINGS,
+            depth: 0,
         })
     }
 }
 
-/// In one word, not field by field: searches spend much of their time hashing floors.
+/// In two words, not field by field: searches spend much of their time hashing floors.
 impl Hash for Note {
     #[inline]
     fn hash<H: Hasher>(&self, hasher: &mut H) {
         hasher.write_u64(self.to_bits());
+        hasher.write_u32(self.depth);
     }
 }
 
@@ -187,6 +203,7 @@ pub fn settle(floor: &mut impl Notes, starts: &[Cell]) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Rule;
     use super::*;
 
     #[test]
@@ -196,6 +213,7 @@ mod tests {
             label: Label(u32::MAX),
             side: Some(Side::North),
             crossings: Note::MOST_CROSSINGS,
+            depth: 0,
         };
         assert_eq!(full.to_bits() >> Note::BITS, 0);
         for note in [full, full.visited(None), Note::default().entered(), Note::default()] {
@@ -203,6 +221,15 @@ mod tests {
         }
         assert_eq!((full.entered(), Note::from_bits(1 << Note::BITS)), (full, None));
         assert_eq!(Note::from_bits(7 << 2), None);
+    }
+
+    #[test]
+    fn a_depth_fits_into_the_bits_that_a_shorter_label_leaves() {
+        let label = Label(u32::MAX).lowest(Rule::DOUBTING.label_bits);
+        let deepest = Note::default().of_tree(label, None).at_depth(u32::MAX);
+        let bits = u32::BITS - deepest.depth.leading_zeros() + u32::BITS - label.number().leading_zeros();
+        assert_eq!((Note::BITS_WITH_DEPTH, Note::BITS - u32::BITS + bits), (64, 64));
+        assert_eq!(deepest.visited(None).depth, 0);
     }
 
     #[test]

@@ -19,6 +19,9 @@ pub enum Condition {
     Remembers,
     /// Robustness: an agent that has come into a cell places a sensor only if there is none underfoot.
     Underfoot,
+    /// Robustness: a cell of a tree stores how deep it is, and one whose children are less deep than its own children would be, or
+    /// have a greater label, has been replaced: it is made their parent again.
+    Restores,
 }
 
 conditions!(Condition);
@@ -28,8 +31,11 @@ conditions!(Condition);
 pub struct Rule {
     /// The conditions in force.
     pub conditions: Conditions,
-    /// The lowest bits of a label that a sensor stores: all but in a mutant.
+    /// The lowest bits of a label that a sensor stores.
     pub label_bits: u8,
+    /// How many scans in a row must miss a cell's sensor before the agent takes the cell for unexplored; from 1 to
+    /// [`Rule::MOST_READINGS`].
+    pub readings: u8,
 }
 
 impl Rule {
@@ -43,6 +49,7 @@ impl Rule {
             Condition::Exit,
         ]),
         label_bits: 32,
+        readings: 1,
     };
 
     /// Depth first search with helpers, for sensors that are not missed.
@@ -53,6 +60,22 @@ impl Rule {
         conditions: Self::HELPERS.conditions.with(Condition::Remembers).with(Condition::Underfoot),
         ..Self::TREE
     };
+
+    /// Helpers that place sensors unasked, as the paper's agents do, and doubt what they miss: being done is likely to be right.
+    pub const DOUBTING: Self = Self {
+        conditions: Self::HELPERS.conditions.with(Condition::Remembers).with(Condition::Restores),
+        label_bits: 24,
+        readings: 3,
+    };
+
+    /// The most scans that an agent counts for a cell.
+    pub const MOST_READINGS: u8 = 4;
+
+    /// The rule with so many readings.
+    #[must_use]
+    pub const fn reading(self, readings: u8) -> Self {
+        Self { readings, ..self }
+    }
 
     /// The rule without `condition`.
     pub const fn without(self, condition: Condition) -> Self {

@@ -1,5 +1,7 @@
 //! What an agent sees from a cell, trees included.
 
+use core::cmp::Reverse;
+
 use super::note::{Label, Note, Notes, State};
 use crate::bricks::agent::most_walled;
 use crate::choice::Oracle;
@@ -18,6 +20,8 @@ pub struct View {
     pub beside: [Note; 4],
     /// The cells around that are known to have sensors, seen or not.
     pub known: Ring,
+    /// The cells around that read as unexplored, and have not done so often enough to be believed.
+    pub doubted: Ring,
 }
 
 impl View {
@@ -37,7 +41,7 @@ impl View {
             }
         }
         let known = scan.explored.or(scan.visited);
-        Self { here: floor.note(cell).unwrap_or_default(), scan, beside, known }
+        Self { here: floor.note(cell).unwrap_or_default(), scan, beside, known, doubted: Ring::default() }
     }
 
     /// The side neighbours that were seen.
@@ -55,14 +59,10 @@ impl View {
         self.scan.unexplored.and(self.scan.beside)
     }
 
-    /// Those of them that are not known to have sensors.
-    pub fn unknown(&self) -> Ring {
-        self.unexplored().and(self.known.not())
-    }
-
-    /// The one among those to go to: that with the most inaccessible sides.
+    /// The one to go to among those that are believed: that with the most inaccessible sides.
     pub fn way_on(&self) -> Option<Side> {
-        most_walled(&Scan { open: self.scan.open.and(self.known.not()), ..self.scan })
+        let believed = self.known.or(self.doubted).not();
+        most_walled(&Scan { open: self.scan.open.and(believed), ..self.scan })
     }
 
     /// The side neighbours that belong to trees, with their labels.
@@ -73,5 +73,27 @@ impl View {
     /// The children of the cell.
     pub fn children(&self) -> impl Iterator<Item = (Side, Note)> + Clone + use<> {
         self.neighbours().filter(|&(side, note)| note.is_child_beyond(side))
+    }
+
+    /// What the sensor underfoot stores, or, if its children show that it has been placed in the stead of their parent's, what
+    /// that one stored as far as is seen around. A parent that is not seen is left as it is.
+    pub fn restored(&self) -> Note {
+        let here = self.here;
+        let Some(own) = here.tree() else { return here };
+        let is_older = |note: &Note| note.label > own || note.label == own && note.depth <= here.depth;
+        let older = self.children().map(|(_, note)| note).filter(is_older);
+        let Some(child) = older.max_by_key(|note| (note.label, Reverse(note.depth))) else { return here };
+        let depth = child.depth.saturating_sub(1);
+        if depth == 0 {
+            return here.of_tree(child.label, None).at_depth(0);
+        }
+        let others = self.neighbours().filter(|&(side, note)| !note.is_child_beyond(side));
+        let above = others.filter(|(_, note)| match note.tree() {
+            Some(label) => label > child.label || label == child.label && note.depth < depth,
+            None => false,
+        });
+        let is_parent = |note: &Note| note.label == child.label && note.depth + 1 == depth;
+        let parent = above.max_by_key(|(_, note)| (is_parent(note), note.label, Reverse(note.depth)));
+        parent.map_or(here, |(side, _)| here.of_tree(child.label, Some(side)).at_depth(depth))
     }
 }

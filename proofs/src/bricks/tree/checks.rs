@@ -1,6 +1,8 @@
 //! The checks of agents that search in trees, by clause.
 
-use tautline_kernel::bricks::tree::Condition::{Bricks, Childless, Exit, LowerOnly};
+use tautline_kernel::bricks::tree::Condition::{
+    Bricks, Childless, Exit, LowerOnly, Remembers, Restores, Underfoot,
+};
 use tautline_kernel::bricks::tree::Rule;
 
 use super::floors::Floors;
@@ -13,6 +15,9 @@ const HELPERS: Named<Observed> = Named::new("helpers", Observed::following(Rule:
 const ROBUST: Named<Observed> = Named::new("careful", Observed::following(Rule::ROBUST));
 const MDFS: Named<Observed> = Named::new("mdfs", Observed { way: Way::Mdfs, at_once: false });
 const AT_ONCE: Observed = Observed { at_once: true, ..TREE.rule };
+
+/// Agents that believe one scan: those that run believe three in a row, which is more to search than small floors can show.
+const DOUBTING: Named<Observed> = Named::new("doubting-1", Observed::following(DOUBTING_RULE));
 
 /// Agents whose trees all have the same label.
 const WRAPPING: Named<Observed> =
@@ -29,6 +34,17 @@ const DEEPER: Named<Observed> = Named::new(
     "cells of the same tree adopted once more",
     Observed::following(Rule::TREE.without(LowerOnly)),
 );
+const TWICE_ADOPTED: Named<Observed> = Named::new(
+    "cells of the same tree adopted once more",
+    Observed::following(Rule::HELPERS.without(LowerOnly)),
+);
+const UNASKED: Named<Observed> =
+    Named::new("sensors placed unasked", Observed::following(Rule::ROBUST.without(Underfoot)));
+const NOT_RESTORED: Named<Observed> =
+    Named::new("sensors not restored", Observed::following(DOUBTING_RULE.without(Restores)));
+const FORGETFUL: Named<Observed> =
+    Named::new("known sensors replaced", Observed::following(DOUBTING_RULE.without(Remembers)));
+const DOUBTING_RULE: Rule = Rule::DOUBTING.reading(1);
 const TRUSTING: Named<Observed> = Named::new("what is seen is believed", TREE.rule);
 
 /// A check that holds.
@@ -59,7 +75,7 @@ pub(in crate::bricks) static IN_TURNS: Check<Observed> =
     holds(TREE, &Floors::CONNECTED_IN_TURNS, &[Named::new("agents beside each other act at once", AT_ONCE)]);
 /// BRICKS-3, the shortest break.
 pub(in crate::bricks) static BOTH_AT_ONCE: Check<Observed> =
-    refuted(Named::new("at-once", AT_ONCE), &Floors::CONNECTED_IN_TURNS);
+    refuted(Named::new("at-once", AT_ONCE), &Floors::CONNECTED_AT_ONCE);
 /// BRICKS-4
 pub(in crate::bricks) static TREE_KNOWING: Check<Observed> = holds(TREE, &Floors::KNOWING, &[NO_EXITS]);
 /// BRICKS-4
@@ -91,3 +107,18 @@ pub(in crate::bricks) static TREE_BOUNDED: Check<Observed> = holds(TREE, &Floors
 pub(in crate::bricks) static HELPERS_BOUNDED: Check<Observed> = holds(HELPERS, &Floors::BOUNDED, &[]);
 /// BRICKS-11
 pub(in crate::bricks) static SURVIVES: Check<Observed> = holds(TREE, &Floors::SURVIVES, &[NO_EXITS]);
+/// BRICKS-4, sensors missed and placed unasked.
+pub(in crate::bricks) static DOUBTING_KNOWING: Check<Observed> = holds(DOUBTING, &Floors::KNOWING_ROUND, &[]);
+/// BRICKS-6, sensors missed, crossings counted to a few.
+pub(in crate::bricks) static ROBUST_ENDS_ROUND: Check<Observed> =
+    holds(ROBUST, &Floors::ENDS_ROUND, &[UNASKED]);
+/// BRICKS-6, sensors missed and placed unasked.
+pub(in crate::bricks) static DOUBTING_ENDS: Check<Observed> =
+    holds(DOUBTING, &Floors::ENDS_ROUND, &[NOT_RESTORED, FORGETFUL]);
+/// BRICKS-6, one more missed.
+pub(in crate::bricks) static DOUBTING_ROUND: Check<Observed> = refuted(DOUBTING, &Floors::ENDS_THRICE_MISSED);
+/// BRICKS-12
+pub(in crate::bricks) static HELPERS_TWICE: Check<Observed> =
+    holds(HELPERS, &Floors::TWICE, &[TWICE_ADOPTED]);
+/// BRICKS-12
+pub(in crate::bricks) static TREE_TWICE: Check<Observed> = refuted(TREE, &Floors::TWICE);

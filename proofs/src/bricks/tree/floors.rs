@@ -1,6 +1,8 @@
 //! The small floors of the checks of agents that search in trees: which plans, how many agents, what they miss, whether they
 //! fail, and what is demanded of every state.
 
+use tautline_kernel::bricks::tree::Note;
+
 use super::Observed;
 use super::state::State;
 use super::team::{Demand, Team, Turns};
@@ -18,16 +20,27 @@ struct Series {
     max_misses: u8,
     turns: Turns,
     may_fail: bool,
+    /// How far sensors count crossings, so that runs that go on for ever come round.
+    most_crossings: u16,
 }
+
+/// How far sensors count crossings where an agent is to go on for ever: an agent reads which of two counts is less.
+const FEW: u16 = 3;
 
 impl Series {
     /// Every action one step, every schedule, nothing missed, nobody fails.
     const fn new(area: Area, agents: u32) -> Self {
-        Self { area, agents, max_misses: 0, turns: Turns::Whole, may_fail: false }
+        let turns = Turns::Whole;
+        Self { area, agents, max_misses: 0, turns, may_fail: false, most_crossings: Note::MOST_CROSSINGS }
     }
 
     const fn missing(area: Area, agents: u32, max_misses: u8) -> Self {
         Self { max_misses, ..Self::new(area, agents) }
+    }
+
+    /// Sensors count no farther than to [`FEW`].
+    const fn counting(area: Area, agents: u32, max_misses: u8) -> Self {
+        Self { most_crossings: FEW, ..Self::missing(area, agents, max_misses) }
     }
 
     const fn failing(area: Area, agents: u32) -> Self {
@@ -41,15 +54,16 @@ impl Series {
 
     /// The teams, one in each plan.
     fn teams(self, observed: &Observed, demand: Demand) -> Vec<Team> {
-        let Self { area, agents: _, max_misses, turns, may_fail } = self;
+        let Self { area, agents: _, max_misses, turns, may_fail, most_crossings } = self;
         let turns = if turns == Turns::Overlapping && observed.at_once { Turns::Free } else { turns };
-        let team = |plan| Team { plan, way: observed.way, turns, max_misses, may_fail, demand };
+        let team =
+            |plan| Team { plan, way: observed.way, turns, max_misses, may_fail, most_crossings, demand };
         area.plans().map(team).collect()
     }
 
     /// What it is, `who` standing for its agents.
     fn words(self, who: &str) -> String {
-        let Self { area, agents, max_misses, turns, may_fail } = self;
+        let Self { area, agents, max_misses, turns, may_fail, most_crossings } = self;
         let turns = match turns {
             Turns::Whole => None,
             Turns::Overlapping => Some("scans and writes in every order unless scans overlap".to_owned()),
@@ -59,6 +73,7 @@ impl Series {
             Some(format!("{agents}{who} to {area}")),
             (max_misses > 0).then(|| format!("{max_misses} missed")),
             may_fail.then(|| "all but one may fail".to_owned()),
+            (most_crossings == FEW).then(|| format!("crossings counted to {FEW}")),
             turns,
         ];
         words.into_iter().flatten().collect::<Vec<_>>().join(", ")
@@ -81,6 +96,8 @@ impl Floors {
     pub(super) const CONNECTED_HALF_BLIND: Self = Self { series: &HALF_BLIND, demand: Demand::Connected };
     /// BRICKS-3
     pub(super) const CONNECTED_IN_TURNS: Self = Self { series: &IN_TURNS, demand: Demand::Connected };
+    /// BRICKS-3, the smallest areas first.
+    pub(super) const CONNECTED_AT_ONCE: Self = Self { series: &AT_ONCE, demand: Demand::Connected };
     /// BRICKS-4
     pub(super) const KNOWING: Self = Self { series: &TOGETHER, demand: Demand::Knowing };
     /// BRICKS-4, more orders for each floor.
@@ -101,12 +118,20 @@ impl Floors {
     pub(super) const RISING: Self = Self { series: &TOGETHER, demand: Demand::Rising };
     /// BRICKS-10
     pub(super) const BOUNDED: Self = Self { series: &COUNTED, demand: Demand::Bounded };
+    /// BRICKS-12
+    pub(super) const TWICE: Self = Self { series: &ALONE, demand: Demand::Twice };
+    /// BRICKS-4, sensors missed, and counted so far that what goes on for ever comes round.
+    pub(super) const KNOWING_ROUND: Self = Self { series: &ROUND, demand: Demand::Knowing };
+    /// BRICKS-6, likewise.
+    pub(super) const ENDS_ROUND: Self = Self { series: &ROUND, demand: Demand::Ends };
+    /// BRICKS-6, with one missed more than [`Floors::ENDS_ROUND`] has.
+    pub(super) const ENDS_THRICE_MISSED: Self = Self { series: &THRICE_MISSED, demand: Demand::Ends };
     /// BRICKS-11
     pub(super) const SURVIVES: Self = Self { series: &FAILING, demand: Demand::Ends };
 
     /// The same floors with the demands of all clauses that are about them, if these are several.
     fn together(self) -> Option<Self> {
-        let is_shared = [&TOGETHER[..], &HELPING, &HALF_BLIND].contains(&self.series);
+        let is_shared = [&TOGETHER[..], &HELPING, &HALF_BLIND, &ROUND].contains(&self.series);
         is_shared.then_some(Self { demand: Demand::All, ..self })
     }
 
@@ -202,8 +227,31 @@ const HALF_BLIND: [Series; 5] = [
     Series::missing(Area::blocked(3, 2), 2, 1),
 ];
 
+/// Sensors missed on rings of cells, and crossings counted so far that runs that go on for ever come round.
+const ROUND: [Series; 1] = [Series::counting(Area::blocked(3, 3), 1, 2)];
+
+/// One missed more, the smallest areas first.
+const THRICE_MISSED: [Series; 3] = [
+    Series::counting(Area::blocked(3, 1), 1, 3),
+    Series::counting(Area::blocked(2, 2), 1, 3),
+    Series::counting(Area::blocked(3, 2), 1, 3),
+];
+
+/// Moves of one agent are counted.
+const ALONE: [Series; 3] = [
+    Series::new(Area::blocked(3, 3), 1),
+    Series::new(Area::walled(3, 3), 1),
+    Series::new(Area::blocked(4, 4), 1),
+];
+
 /// Scanning and writing are two steps.
 const IN_TURNS: [Series; 1] = [Series::taking_turns(Area::blocked(5, 2))];
+
+/// The same for those who do not take turns, the smallest areas first. They may go on for ever.
+const AT_ONCE: [Series; 2] = [
+    Series { most_crossings: FEW, ..Series::taking_turns(Area::blocked(2, 1)) },
+    Series { most_crossings: FEW, ..Series::taking_turns(Area::blocked(3, 1)) },
+];
 
 /// Moves are counted.
 const COUNTED: [Series; 3] = [

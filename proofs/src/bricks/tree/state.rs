@@ -104,6 +104,11 @@ impl State {
         }
     }
 
+    /// No sensor counts farther than to `most`.
+    pub(super) fn count_to(&mut self, most: u16) {
+        self.notes.iter_mut().for_each(|note| note.crossings = note.crossings.min(most));
+    }
+
     /// The cells of `plan` of which this is so.
     pub(super) fn cells(&self, plan: &FloorPlan, is: impl Fn(&Note) -> bool) -> u16 {
         let cells = (0..).zip(&self.notes).filter(|(_, note)| is(note));

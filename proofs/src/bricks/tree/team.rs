@@ -33,6 +33,8 @@ pub(super) enum Demand {
     Rising,
     /// BRICKS-10
     Bounded,
+    /// BRICKS-12
+    Twice,
     /// BRICKS-2, BRICKS-4, BRICKS-5, BRICKS-6, BRICKS-8 and BRICKS-9, looked at in one pass.
     All,
 }
@@ -47,6 +49,8 @@ pub(super) struct Team {
     pub(super) max_misses: u8,
     /// Whether agents may fail, all but one.
     pub(super) may_fail: bool,
+    /// Where sensors count crossings no farther than to this, so that runs that go on for ever come round.
+    pub(super) most_crossings: u16,
     pub(super) demand: Demand,
 }
 
@@ -54,7 +58,9 @@ impl Team {
     /// The start with the agents in these cells.
     pub(super) fn start(&self, cells: &[Cell]) -> State {
         let body = |(id, &cell)| Body::new(self.way.memory(id), cell);
-        State::start(&self.plan, cells, (0..).zip(cells).map(body).collect())
+        let mut state = State::start(&self.plan, cells, (0..).zip(cells).map(body).collect());
+        state.count_to(self.most_crossings);
+        state
     }
 
     /// The starts of `agents`, each in any free cell.
@@ -88,9 +94,11 @@ impl Team {
         if is_asked(Demand::Rising) && !state.do_labels_rise(plan) {
             return Some("labels never fall towards the root");
         }
-        let is_far = u32::from(moves) > 4 * plan.free.count_ones();
-        (*demand == Demand::Bounded && founded(state) <= 1 && is_far)
-            .then_some("with one tree an agent makes at most four moves a cell")
+        let is_beyond = |each| u32::from(moves) > each * plan.free.count_ones();
+        if *demand == Demand::Bounded && founded(state) <= 1 && is_beyond(4) {
+            return Some("with one tree an agent makes at most four moves a cell");
+        }
+        (*demand == Demand::Twice && is_beyond(2)).then_some("an agent alone makes at most two moves a cell")
     }
 }
 
@@ -110,6 +118,7 @@ impl Team {
             | Demand::Ends
             | Demand::Whole
             | Demand::Rising
+            | Demand::Twice
             | Demand::All => false,
         };
         if awake == 0 || is_over {
@@ -161,12 +170,14 @@ impl Team {
             body.cell = self.way.carry_out(&mut floor, body.cell, &act);
             body.is_done = act.next == Next::Done;
             if let Some(side) = act.next.side() {
-                body.moves = if self.demand == Demand::Bounded { body.moves.saturating_add(1) } else { 0 };
+                let is_counted = matches!(self.demand, Demand::Bounded | Demand::Twice);
+                body.moves = if is_counted { body.moves.saturating_add(1) } else { 0 };
                 step = Step::Cross(side);
             }
         } else {
             body.pending = Some(act);
         }
+        state.count_to(self.most_crossings);
         let breaks = self.broken(&state, agent);
         Some(Turned { state, agent, step, unseen, fails: false, breaks })
     }
@@ -246,7 +257,12 @@ impl System for Team {
 
     fn broken_at_end(&self, state: &State) -> Option<&'static str> {
         match self.demand {
-            Demand::Connected | Demand::Knowing | Demand::Whole | Demand::Rising | Demand::Bounded => None,
+            Demand::Connected
+            | Demand::Knowing
+            | Demand::Whole
+            | Demand::Rising
+            | Demand::Bounded
+            | Demand::Twice => None,
             Demand::Explores => (!state.is_explored(&self.plan)).then_some("every cell is explored"),
             Demand::Ends | Demand::All => {
                 (state.left(&self.plan) != 0).then_some("when all agents are done, every cell is visited")
@@ -256,7 +272,12 @@ impl System for Team {
 
     fn broken_by_endless_runs(&self) -> Option<&'static str> {
         match self.demand {
-            Demand::Connected | Demand::Knowing | Demand::Whole | Demand::Rising | Demand::Bounded => None,
+            Demand::Connected
+            | Demand::Knowing
+            | Demand::Whole
+            | Demand::Rising
+            | Demand::Bounded
+            | Demand::Twice => None,
             Demand::Explores => Some("every cell is explored: no run goes on for ever before"),
             Demand::Ends | Demand::All => {
                 Some("no run goes on for ever in which every agent acts again and again")
