@@ -11,11 +11,13 @@
 //! for each other robot.
 
 mod map;
+mod pairs;
 mod place;
 mod robot;
 mod rule;
 
 pub use map::{Map, Reached, Scratch, Status, TinyMap};
+pub use pairs::Pair;
 pub use place::{HALF, Occupancy, Place, SIDE, Threshold, clamped, taken_for};
 pub use robot::{Next, Other, Robot, Sight, Slot, Stance, View};
 pub use rule::{Condition, Conditions, Otherwise, Rule, Ties};

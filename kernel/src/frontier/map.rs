@@ -2,6 +2,7 @@
 
 use core::ops::ControlFlow;
 
+use super::pairs::Pair;
 use crate::ground::{Area, Cell, Side};
 
 /// What a robot knows of a cell.
@@ -123,6 +124,24 @@ pub struct Scratch<'a> {
     pub queue: &'a mut [Cell],
     /// Searches so far: it goes on from the last one with the same memory.
     pub rounds: &'a mut u32,
+    /// As many as the square of the robots; with fewer, fewer of the nearest cells are compared.
+    pub pairs: &'a mut [Option<Pair>],
+}
+
+/// The memory of one search.
+#[derive(Debug)]
+pub(super) struct Search<'a> {
+    pub(super) reached: &'a mut [Reached],
+    pub(super) queue: &'a mut [Cell],
+    pub(super) rounds: &'a mut u32,
+}
+
+impl Scratch<'_> {
+    /// The memory of searches, and of pairs.
+    pub(super) const fn parts(&mut self) -> (Search<'_>, &mut [Option<Pair>]) {
+        let Self { reached, queue, rounds, pairs } = self;
+        (Search { reached, queue, rounds }, pairs)
+    }
 }
 
 /// A cell that a search has reached.
@@ -140,22 +159,22 @@ pub(super) struct Found {
 pub(super) fn search<M: Map>(
     map: &M,
     from: Cell,
-    scratch: &mut Scratch<'_>,
+    memory: &mut Search<'_>,
     mut tell: impl FnMut(Found) -> ControlFlow<()>,
 ) {
     let area = map.area();
     let place = |cell| area.locate(cell).map(|(column, row)| row * area.width() + column);
-    *scratch.rounds = scratch.rounds.wrapping_add(1);
-    let round = *scratch.rounds;
+    *memory.rounds = memory.rounds.wrapping_add(1);
+    let round = *memory.rounds;
     let (mut head, mut tail) = (0, 0);
     let mut at = Found { cell: from, distance: 0, first: Side::East };
-    if let Some(reached) = place(from).and_then(|place| scratch.reached.get_mut(place)) {
+    if let Some(reached) = place(from).and_then(|place| memory.reached.get_mut(place)) {
         *reached = Reached { round, ..Reached::NEVER };
     }
     loop {
         for side in BY_NUMBER {
             let cell = at.cell.beyond(side);
-            let Some(reached) = place(cell).and_then(|place| scratch.reached.get_mut(place)) else {
+            let Some(reached) = place(cell).and_then(|place| memory.reached.get_mut(place)) else {
                 continue;
             };
             let status = map.status(cell);
@@ -169,14 +188,14 @@ pub(super) fn search<M: Map>(
                 if tell(found).is_break() {
                     return;
                 }
-            } else if let Some(next) = scratch.queue.get_mut(tail) {
+            } else if let Some(next) = memory.queue.get_mut(tail) {
                 *next = cell;
                 tail += 1;
             }
         }
-        let Some(&cell) = scratch.queue.get(head).filter(|_| head < tail) else { return };
+        let Some(&cell) = memory.queue.get(head).filter(|_| head < tail) else { return };
         head += 1;
-        let Some(reached) = place(cell).and_then(|place| scratch.reached.get(place)) else { return };
+        let Some(reached) = place(cell).and_then(|place| memory.reached.get(place)) else { return };
         at = Found { cell, distance: reached.distance, first: reached.first };
     }
 }

@@ -1,7 +1,7 @@
 //! A repository of any size, which remembers in which order it learned what it knows: so a robot that joins it again looks
 //! only at what is new.
 
-use tautline_kernel::frontier::{Map, Reached, Scratch, Status};
+use tautline_kernel::frontier::{Map, Pair, Reached, Scratch, Status};
 use tautline_kernel::ground::{Area, Cell};
 
 /// A repository on the heap.
@@ -74,15 +74,23 @@ pub(super) struct Memory {
     reached: Vec<Reached>,
     queue: Vec<Cell>,
     rounds: u32,
+    pairs: Vec<Option<Pair>>,
 }
 
 impl Memory {
-    pub(super) fn new(area: Area) -> Self {
+    /// For so many robots.
+    pub(super) fn new(area: Area, robots: usize) -> Self {
         let cells = area.width() * area.height();
-        Self { reached: vec![Reached::NEVER; cells], queue: vec![Cell::new(0, 0); cells], rounds: 0 }
+        Self {
+            reached: vec![Reached::NEVER; cells],
+            queue: vec![Cell::new(0, 0); cells],
+            rounds: 0,
+            pairs: vec![None; robots * robots],
+        }
     }
 
     pub(super) fn scratch(&mut self) -> Scratch<'_> {
-        Scratch { reached: &mut self.reached, queue: &mut self.queue, rounds: &mut self.rounds }
+        let Self { reached, queue, rounds, pairs } = self;
+        Scratch { reached, queue, rounds, pairs }
     }
 }
