@@ -24,6 +24,11 @@ pub trait Map {
     /// The status of `cell`; outside the area all are obstacles.
     fn status(&self, cell: Cell) -> Status;
 
+    /// How many unexplored cells are beside explored ones, or more: a search that has found so many looks no farther.
+    fn frontier(&self) -> usize {
+        usize::MAX
+    }
+
     /// Notes that `cell` is explored, whatever was known of it; no effect outside the area.
     fn explore(&mut self, cell: Cell);
 
@@ -154,11 +159,12 @@ pub(super) struct Found {
     pub(super) first: Side,
 }
 
-/// Tells of the unexplored cells that are reached from `from` through explored ones, the nearest first, until it is told to
-/// stop. Of ways as short the one counts whose first side leads to the lowest number.
+/// Tells of the unexplored cells that are reached from `from` through explored ones in at most so many moves, the nearest first,
+/// until it is told to stop. Of ways as short the one counts whose first side leads to the lowest number.
 pub(super) fn search<M: Map>(
     map: &M,
     from: Cell,
+    most: u32,
     memory: &mut Search<'_>,
     mut tell: impl FnMut(Found) -> ControlFlow<()>,
 ) {
@@ -167,24 +173,29 @@ pub(super) fn search<M: Map>(
     *memory.rounds = memory.rounds.wrapping_add(1);
     let round = *memory.rounds;
     let (mut head, mut tail) = (0, 0);
+    let mut left = map.frontier();
     let mut at = Found { cell: from, distance: 0, first: Side::East };
     if let Some(reached) = place(from).and_then(|place| memory.reached.get_mut(place)) {
         *reached = Reached { round, ..Reached::NEVER };
     }
-    loop {
+    while at.distance < most && left > 0 {
         for side in BY_NUMBER {
             let cell = at.cell.beyond(side);
             let Some(reached) = place(cell).and_then(|place| memory.reached.get_mut(place)) else {
                 continue;
             };
+            if reached.round == round {
+                continue;
+            }
             let status = map.status(cell);
-            if reached.round == round || status == Status::Obstacle {
+            if status == Status::Obstacle {
                 continue;
             }
             let first = if at.distance == 0 { side } else { at.first };
             *reached = Reached { round, distance: at.distance + 1, first };
             let found = Found { cell, distance: at.distance + 1, first };
             if status == Status::Unexplored {
+                left = left.saturating_sub(1);
                 if tell(found).is_break() {
                     return;
                 }

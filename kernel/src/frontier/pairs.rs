@@ -79,78 +79,118 @@ fn rank<M: Map>(map: &M, rule: &Rule, seeker: Seeker, found: &Found) -> Rank {
     }
 }
 
-/// Fills `list` with the pairs of `seeker` that come first, and returns the first one, and `None` if there is none.
+/// A list of pairs of one robot, those that come first.
+type List = [Option<Pair>];
+
+/// Puts `pair` into its place of `list`, of which the last one falls out.
+fn insert(list: &mut List, pair: Pair) {
+    let place = list.iter().position(|known| known.is_none_or(|known| pair.rank < known.rank));
+    if let Some(after) = place.and_then(|place| list.get_mut(place..)) {
+        after.rotate_right(1);
+        if let Some(free) = after.first_mut() {
+            *free = Some(pair);
+        }
+    }
+}
+
+/// Fills `list` with the pairs of `seeker` whose cells are no farther than the nearest one from `least` on, nor than `most`. Returns
+/// how far that one is, and `None` if there is none.
 fn fill<M: Map>(
     map: &M,
     rule: &Rule,
     seeker: Seeker,
-    search_in: &mut Search<'_>,
-    list: &mut [Option<Pair>],
-) -> Option<Found> {
+    (least, most): (u32, u32),
+    memory: &mut Search<'_>,
+    list: &mut List,
+) -> Option<u32> {
     list.fill(None);
-    let mut best: Option<Pair> = None;
-    search(map, seeker.cell, search_in, |found| {
-        let last = list.last().map_or(best, |last| *last);
-        if last.is_some_and(|last| last.rank.distance < found.distance) {
+    let mut level = None;
+    search(map, seeker.cell, most, memory, |found| {
+        let is_beyond = |last: u32| last < found.distance;
+        let last = list.last().copied().flatten().map(|last| last.rank.distance);
+        if level.is_some_and(is_beyond) || last.is_some_and(is_beyond) {
             return ControlFlow::Break(());
         }
-        let pair = Pair { rank: rank(map, rule, seeker, &found), first: found.first };
-        best = Some(best.filter(|best| best.rank < pair.rank).unwrap_or(pair));
-        let place = list.iter().position(|known| known.is_none_or(|known| pair.rank < known.rank));
-        if let Some(after) = place.and_then(|place| list.get_mut(place..)) {
-            after.rotate_right(1);
-            if let Some(free) = after.first_mut() {
-                *free = Some(pair);
-            }
+        if found.distance >= least {
+            level = Some(found.distance);
         }
+        insert(list, Pair { rank: rank(map, rule, seeker, &found), first: found.first });
         ControlFlow::Continue(())
     });
-    best.map(|best| best.found())
+    level
 }
 
-/// The unexplored cell that `own` is paired with among `others`, or the one that comes first for it if all cells are the others';
-/// `None` if it reaches none.
-///
-/// A robot that is nowhere near enough to a cell of those that count, measured by columns and rows, takes none of these before they do,
-/// and is left out.
-pub(super) fn paired<M: Map>(
-    map: &M,
-    rule: &Rule,
-    own: Seeker,
-    others: impl ExactSizeIterator<Item = Seeker> + Clone,
-    search_in: &mut Search<'_>,
-    pairs: &mut [Option<Pair>],
-) -> Option<Found> {
-    let robots = others.len() + 1;
-    let each = (pairs.len() / robots).min(robots);
-    let Some((own_list, rest)) = pairs.split_at_mut_checked(each) else { return None };
-    let first = fill(map, rule, own, search_in, own_list)?;
-    rest.fill(None);
-    let mut filled = each;
-    loop {
-        let before = filled;
-        for other in others.clone() {
-            let (known, free) = pairs.split_at_mut(filled);
-            let is_in = known.iter().flatten().any(|pair| pair.rank.robot == number(other.cell));
-            let counts = known.iter().flatten().any(|pair| pair.may_be_lost_to(other.cell));
-            if is_in || !counts {
-                continue;
+/// The pair of `own`, and how far the others are looked at for it, which is as far as its own cells are.
+#[derive(Debug)]
+pub(super) struct Pairing<'a, 'm, M, I> {
+    pub(super) map: &'a M,
+    pub(super) rule: &'a Rule,
+    pub(super) own: Seeker,
+    pub(super) others: I,
+    pub(super) memory: Search<'m>,
+    pub(super) pairs: &'a mut List,
+}
+
+impl<M: Map, I: ExactSizeIterator<Item = Seeker> + Clone> Pairing<'_, '_, M, I> {
+    /// The way to the unexplored cell that the robot is paired with, or to the one that comes first for it if all cells are the
+    /// others'; `None` if it reaches none.
+    ///
+    /// Pairs that are farther come later, so that cells are looked at level by level, no farther than it takes.
+    pub(super) fn found(&mut self) -> Option<Found> {
+        let robots = self.others.len() + 1;
+        let each = (self.pairs.len() / robots).min(robots);
+        let (mut first, mut level) = (None, 0);
+        loop {
+            let bounds = (level + 1, u32::MAX);
+            let list = self.pairs.get_mut(..each)?;
+            let Some(next) = fill(self.map, self.rule, self.own, bounds, &mut self.memory, list) else {
+                return first;
+            };
+            first = first.or_else(|| list.first().copied().flatten().map(|pair| pair.found()));
+            level = next;
+            let filled = self.fill_others(each, level);
+            let paired = self.paired(filled);
+            if paired.is_some() {
+                return paired;
             }
-            let Some(list) = free.get_mut(..each) else { continue };
-            if fill(map, rule, other, search_in, list).is_some() {
-                filled += each;
-            }
-        }
-        if filled == before {
-            break;
         }
     }
-    while let Some(next) = pairs.iter().take(filled).flatten().min_by_key(|pair| pair.rank).copied() {
-        if next.rank.robot == number(own.cell) {
-            return Some(next.found());
+
+    /// Adds a list for each other robot that may be as near to a cell of the lists as the robots that these are of, and returns how
+    /// many places of the lists are in use. Measured by columns and rows, the others are farther, and take none of these cells first.
+    fn fill_others(&mut self, each: usize, level: u32) -> usize {
+        let mut filled = each;
+        loop {
+            let before = filled;
+            for other in self.others.clone() {
+                let (known, free) = self.pairs.split_at_mut(filled);
+                let mut known = known.iter().flatten();
+                let counts = known.clone().any(|pair| pair.may_be_lost_to(other.cell));
+                if !counts || known.any(|pair| pair.rank.robot == number(other.cell)) {
+                    continue;
+                }
+                let Some(list) = free.get_mut(..each) else { continue };
+                fill(self.map, self.rule, other, (u32::MAX, level), &mut self.memory, list);
+                if list.first().is_some_and(Option::is_some) {
+                    filled += each;
+                }
+            }
+            if filled == before {
+                return filled;
+            }
         }
-        let is_over = |pair: &Pair| pair.rank.robot == next.rank.robot || pair.rank.cell == next.rank.cell;
-        pairs.iter_mut().filter(|pair| pair.as_ref().is_some_and(is_over)).for_each(|pair| *pair = None);
     }
-    Some(first)
+
+    /// Takes pairs out of the lists, the first one first, until it is the robot's own.
+    fn paired(&mut self, filled: usize) -> Option<Found> {
+        let pairs = self.pairs.get_mut(..filled)?;
+        while let Some(next) = pairs.iter().flatten().min_by_key(|pair| pair.rank).copied() {
+            if next.rank.robot == number(self.own.cell) {
+                return Some(next.found());
+            }
+            let is_over = |pair: &Pair| pair.rank.robot == next.rank.robot || pair.rank.cell == next.rank.cell;
+            pairs.iter_mut().filter(|pair| pair.as_ref().is_some_and(is_over)).for_each(|pair| *pair = None);
+        }
+        None
+    }
 }

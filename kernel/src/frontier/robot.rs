@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 
 use super::map::{BY_NUMBER, Found, Map, Scratch, Status, search};
-use super::pairs::{Seeker, paired};
+use super::pairs::{Pairing, Seeker};
 use super::place::Place;
 use super::rule::{Condition, Otherwise, Rule, Ties};
 use crate::choice::Oracle;
@@ -190,8 +190,8 @@ impl<M: Map> Robot<M> {
         let own = Seeker { cell: self.at, aim: self.aim };
         let others = if rule.has(Condition::Nearer) { view.others } else { &[] };
         let others = others.iter().map(|other| Seeker { cell: other.cell, aim: other.aim });
-        let (mut memory, pairs) = scratch.parts();
-        paired(&self.map, rule, own, others, &mut memory, pairs)
+        let (memory, pairs) = scratch.parts();
+        Pairing { map: &self.map, rule, own, others, memory, pairs }.found()
     }
 
     /// Any of the first moves of the shortest ways to the nearest unexplored cells.
@@ -203,7 +203,7 @@ impl<M: Map> Robot<M> {
                 Status::Unexplored => Some(Found { cell, distance: 1, first: side }),
                 Status::Explored => {
                     let mut way = None;
-                    search(&self.map, cell, &mut scratch.parts().0, |found| {
+                    search(&self.map, cell, u32::MAX, &mut scratch.parts().0, |found| {
                         way = Some(Found { distance: found.distance + 1, first: side, ..found });
                         ControlFlow::Break(())
                     });
