@@ -5,8 +5,9 @@
 
 use core::ops::ControlFlow;
 
-use super::map::{BY_NUMBER, Found, Map, Search, Status, search};
+use super::map::{BY_NUMBER, Map, Status};
 use super::rule::{Condition, Rule};
+use super::search::{Found, Reached, Search, search};
 use crate::ground::{Area, Cell, Side};
 
 /// A robot and an unexplored cell that it could go to.
@@ -28,6 +29,27 @@ struct Rank {
     inland: u16,
     robot: (i16, i16),
     cell: (i16, i16),
+}
+
+/// The memory of searches, for as many cells as the area has.
+#[derive(Debug)]
+pub struct Scratch<'a> {
+    /// One for each cell.
+    pub reached: &'a mut [Reached],
+    /// One for each cell.
+    pub queue: &'a mut [Cell],
+    /// Searches so far: it goes on from the last one with the same memory.
+    pub rounds: &'a mut u32,
+    /// As many as the square of the robots; with fewer, fewer of the nearest cells are compared.
+    pub pairs: &'a mut [Option<Pair>],
+}
+
+impl Scratch<'_> {
+    /// The memory of searches, and of pairs.
+    pub(super) const fn parts(&mut self) -> (Search<'_>, &mut [Option<Pair>]) {
+        let Self { reached, queue, rounds, pairs } = self;
+        (Search { reached, queue, rounds }, pairs)
+    }
 }
 
 /// A robot that is to be paired.
@@ -72,7 +94,11 @@ fn rank<M: Map>(map: &M, rule: &Rule, seeker: Seeker, found: &Found) -> Rank {
     Rank {
         distance: found.distance,
         is_unclaimed: rule.has(Condition::Claim) && seeker.aim != Some(found.cell),
-        unexplored: if is_corner { BY_NUMBER.iter().filter(|side| unexplored(side)).count() as u8 } else { 0 },
+        unexplored: if is_corner {
+            BY_NUMBER.iter().filter(|side| unexplored(side)).count() as u8
+        } else {
+            0
+        },
         inland: if is_corner { inland(map.area(), found.cell) } else { 0 },
         robot: number(seeker.cell),
         cell: number(found.cell),
@@ -188,7 +214,8 @@ impl<M: Map, I: ExactSizeIterator<Item = Seeker> + Clone> Pairing<'_, '_, M, I> 
             if next.rank.robot == number(self.own.cell) {
                 return Some(next.found());
             }
-            let is_over = |pair: &Pair| pair.rank.robot == next.rank.robot || pair.rank.cell == next.rank.cell;
+            let is_over =
+                |pair: &Pair| pair.rank.robot == next.rank.robot || pair.rank.cell == next.rank.cell;
             pairs.iter_mut().filter(|pair| pair.as_ref().is_some_and(is_over)).for_each(|pair| *pair = None);
         }
         None

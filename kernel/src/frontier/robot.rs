@@ -2,10 +2,11 @@
 
 use core::ops::ControlFlow;
 
-use super::map::{BY_NUMBER, Found, Map, Scratch, Status, search};
-use super::pairs::{Pairing, Seeker};
+use super::map::{BY_NUMBER, Map, Status};
+use super::pairs::{Pairing, Scratch, Seeker};
 use super::place::Place;
 use super::rule::{Condition, Otherwise, Rule, Ties};
+use super::search::{Found, search};
 use crate::choice::Oracle;
 use crate::ground::{Cell, Side};
 

@@ -230,10 +230,12 @@ pub static CLAUSES: [Clause; 8] = [
 
 #[cfg(test)]
 mod tests {
+    use super::super::areas::setting;
+    use super::super::world::Setting;
     use super::*;
     use crate::decide::{Desk, Memory, Method, Seen};
     use crate::engine::Until;
-    use crate::engine::states::Room;
+    use crate::engine::states::{Limits, Room, search};
     use crate::engine::tree::unwatched;
 
     #[test]
@@ -271,5 +273,28 @@ mod tests {
         assert_eq!(told(&wrong(Demand::Marks), &Rule::PUBLISHED), (cells("2×1"), 2));
         let unshared = told(&lossy(Demand::Ends), &NO_SHARE.rule);
         assert_eq!(unshared.0, cells("3×1"));
+    }
+
+    /// States of larger areas than clauses search, by robots and lost messages: seconds with optimisation, the last one two minutes.
+    #[test]
+    #[ignore = "takes minutes: cargo test --release -p tautline-proofs -- --ignored --nocapture larger_areas"]
+    fn larger_areas_break_nothing_either() {
+        fn states<const ROBOTS: usize>((columns, rows): Size, max_losses: u8) -> u64 {
+            let sizes = (1..=rows).flat_map(|height| (1..=columns).map(move |width| (width, height)));
+            let searched = sizes.map(|size| {
+                let setting =
+                    Setting { max_losses, ..setting::<ROBOTS>(Rule::REPAIRED, size).expect("it is small") };
+                let found = search(&setting, setting.starts(), Limits::NONE);
+                assert!(found.is_whole && found.broken.is_empty(), "{size:?}: {:?}", found.broken);
+                found.states
+            });
+            let states = searched.sum();
+            println!("{ROBOTS} robots up to {columns}×{rows} cells, {max_losses} lost: {states} states");
+            states
+        }
+        assert_eq!(states::<1>((4, 4), 0), 302_543);
+        assert_eq!(states::<2>((3, 3), 1), 1_525_048);
+        assert_eq!(states::<2>((4, 3), 0), 5_268_146);
+        assert_eq!(states::<3>((3, 3), 0), 18_955_238);
     }
 }

@@ -217,8 +217,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             ([Reached::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS], 0);
         let mut pairs = [[None; ROBOTS]; ROBOTS];
         let pairs = pairs.as_flattened_mut();
-        let mut scratch =
-            Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds, pairs };
+        let mut scratch = Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds, pairs };
         world.robots[robot].next(&self.rule, view, &mut scratch, oracle)
     }
 
