@@ -169,31 +169,6 @@ fn circles_that_do_not_meet_are_told_unless_the_noise_explains_it() {
 }
 
 #[test]
-fn positions_turn_and_are_mirrored_with_their_anchors() {
-    let mut drawn = Drawn(7);
-    for number in 0..300 {
-        let ranges = wrong(&mut drawn);
-        let (sine, cosine) = (f64::from(number) / 10.0).sin_cos();
-        let side = if number % 2 == 0 { 1.0 } else { -1.0 };
-        let turn =
-            |at: Point| Point::new(cosine * at.x_m - sine * at.y_m, side * (sine * at.x_m + cosine * at.y_m));
-        let turned: Vec<Range> =
-            ranges.iter().map(|range| Range::new(turn(range.anchor), range.distance_m)).collect();
-        let [here, there] = [&ranges, &turned].map(|ranges| linear(ranges).expect("a triangle"));
-        assert!(turn(here).distance_m(there) < 1e-9, "{ranges:?}: {here:?}, {there:?}");
-        for residual in [Residual::Metres, Residual::Decibels] {
-            let [here, there] = [&ranges, &turned].map(|ranges| {
-                let fix = locate(ranges, residual, &signal(1.0), None).expect("a triangle");
-                *fix.best()
-            });
-            assert!((here.cost - there.cost).abs() < 1e-6 * (1.0 + here.cost), "{here:?}, {there:?}");
-            let far_m = turn(here.at).distance_m(there.at);
-            assert!(far_m < 1e-3 || here.flags.is_unsettled, "{far_m} m: {here:?}, {there:?}");
-        }
-    }
-}
-
-#[test]
 fn anchors_on_a_line_leave_two_positions_and_the_closed_form_none() {
     let anchors = [0.0, 7.0, 20.0].map(|along| Point::new(along, 2.0 * along + 1.0));
     let at = Point::new(3.0, 15.0);
