@@ -12,7 +12,9 @@ use tautline_sim::columns::{Column, Columns, Width};
 use tautline_sim::draw;
 use tautline_sim::explore::RuleName;
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::position::{Advice, Anchors, Errors, Found, Measured, Place, Report, Setting, Solver};
+use tautline_sim::position::{
+    Advice, Anchors, Errors, Found, Measured, Place, Power, Report, Setting, Solver,
+};
 use tautline_sim::reading::{Metres, within};
 use tautline_sim::words::Worded;
 
@@ -28,9 +30,10 @@ Examples:
   tautline locate --solver pso --rule published --at 5,5 --svg positions.svg
   tautline locate --noise-db 0.25 --advice
   tautline locate measurements.csv --noise-db 2 --format json
+  tautline locate levels.csv --power-dbm -40 --exponent 2.7
 
 FILE holds measurements: its first line is fix,x_m,y_m,range_m, and each other line has one distance, with the name of the \
-position that it belongs to, the place of the anchor, and the metres measured.
+position that it belongs to, the place of the anchor, and the metres measured. With --power-dbm the last column is level_dbm, the strength with which the anchor is heard.
 
 What the JSON says: error_m is how far positions are from where the robot is, optimum_m how far they are from where the \
 distances miss least, each with median, p95 and rms and the 95 % interval of these; crlb_rms_m is the Cramér-Rao bound, below \
@@ -62,6 +65,9 @@ pub(super) struct Locate {
     /// Power falls with the distance to the power of this, from 2 to 5.
     #[arg(long, value_name = "ALPHA", allow_hyphen_values = true, default_value = "2", value_parser = propagation)]
     exponent: Propagation,
+    /// For a FILE of levels: how strong an anchor is heard at one metre, in dBm.
+    #[arg(long, value_name = "DBM", allow_hyphen_values = true, value_parser = power)]
+    power_dbm: Option<Power>,
     /// How a position is found.
     #[arg(long, value_parser = chosen::<Solver>(), default_value = "decibel")]
     solver: Solver,
@@ -93,6 +99,10 @@ fn noise(text: &str) -> Result<f64, &'static str> {
     let noise_db =
         text.parse().ok().filter(|&noise_db| Signal::new(Propagation::FREE_SPACE, noise_db).is_some());
     noise_db.ok_or("write decibels from 0 to 100")
+}
+
+fn power(text: &str) -> Result<Power, &'static str> {
+    text.parse().ok().and_then(Power::new).ok_or("write dBm from -200 to 90")
 }
 
 fn propagation(text: &str) -> Result<Propagation, &'static str> {
@@ -146,6 +156,9 @@ impl Locate {
     }
 
     fn tried(&self, signal: Signal, out: &mut Output) -> Result<Exit, Halt> {
+        if self.power_dbm.is_some() {
+            return Err(needless("--power-dbm", "there is no file of levels").into());
+        }
         let [picture] = self.force.files([&self.svg], [])?;
         let named = self.anchors.iter().map(|&Metres([x_m, y_m])| Point::new(x_m, y_m));
         let places = if self.anchors.is_empty() { SQUARE.to_vec() } else { named.collect() };
@@ -193,7 +206,7 @@ impl Locate {
             return Err(needless(option, "the positions of measurements are found").into());
         }
         let [picture] = self.force.files([&self.svg], [file.to_path_buf()])?;
-        let measured = Measured::read(file)?;
+        let measured = Measured::read(file, signal, self.power_dbm)?;
         let found = measured.locate(self.solver, self.rule(), signal, self.seed.unwrap_or(0))?;
         if let Some(mut picture) = picture {
             let title = format!("Positions by {}", self.solver.word());

@@ -12,6 +12,8 @@ use tempfile::TempDir;
 
 #[path = "cli/files.rs"]
 mod files;
+#[path = "cli/frontier.rs"]
+mod frontier;
 #[path = "cli/locate.rs"]
 mod locate;
 #[path = "cli/shards.rs"]

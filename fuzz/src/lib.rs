@@ -5,8 +5,10 @@
 #![allow(clippy::missing_panics_doc, reason = "a panic is how a body tells what it found")]
 
 mod floor;
+mod frontier;
 mod network;
 mod perception;
+mod position;
 #[path = "../../src/report.rs"]
 #[expect(dead_code, reason = "a fuzzer has no terminal")]
 mod report;
@@ -36,18 +38,21 @@ use tautline_sim::trace::Trace;
 use tautline_sim::wide::WideGrid;
 
 pub use floor::floor;
+pub use frontier::frontier;
 pub use network::network;
 pub use perception::perception;
+pub use position::position;
 pub use rescue::{rescue, rescue_trace};
 
 /// The body of a target.
 pub type Body = fn(&[u8]);
 
 /// Every target's name and body.
-pub const TARGETS: [(&str, Body); 15] = [
+pub const TARGETS: [(&str, Body); 17] = [
     ("chain", chain),
     ("chain_log", chain_log),
     ("floor", floor),
+    ("frontier", frontier),
     ("judge", judge),
     ("kept_hunt", kept_hunt),
     ("layout_movingai", layout_movingai),
@@ -57,6 +62,7 @@ pub const TARGETS: [(&str, Body); 15] = [
     ("perception", perception),
     ("plan_cost", plan_cost),
     ("plan_cost_far", plan_cost_far),
+    ("position", position),
     ("rescue", rescue),
     ("rescue_trace", rescue_trace),
     ("trace", trace),

@@ -7,7 +7,7 @@ mod measured;
 mod solver;
 mod trials;
 
-pub use measured::{Found, Measured, Place};
+pub use measured::{Found, Measured, Place, Power};
 pub(crate) use solver::PARTICLES;
 pub use solver::Solver;
 pub(crate) use trials::distances;

@@ -94,10 +94,28 @@ fn positions_of_measurements_are_found_and_drawn() {
 }
 
 #[test]
+fn levels_tell_the_distances_that_they_fall_over() {
+    let folder = folder();
+    let folder = folder.path();
+    // A robot at 3,4 hears anchors at −40 dBm at one metre, and 25 dB less at ten times the distance.
+    let at = [(0.0, 0.0), (20.0, 0.0), (0.0, 20.0)];
+    let level = |(x, y): (f64, f64)| -40.0 - 25.0 * (x - 3.0).hypot(y - 4.0).log10();
+    let lines = at.map(|anchor| format!("a,{},{},{:.6}\n", anchor.0, anchor.1, level(anchor)));
+    fs::write(folder.join("levels.csv"), format!("fix,x_m,y_m,level_dbm\n{}", lines.concat()))
+        .expect("a file");
+    let found = json(folder, &["locate", "levels.csv", "--power-dbm", "-40", "--exponent", "2.5"], 0);
+    let place = &found["fixes"][0]["positions"][0];
+    for (name, expected_m) in [("x_m", 3.0), ("y_m", 4.0)] {
+        let told_m = place[name].as_f64().expect("a number");
+        assert!((told_m - expected_m).abs() < 1e-3, "{name}: {told_m}");
+    }
+}
+
+#[test]
 fn what_tells_no_position_is_refused_with_what_would_be_right() {
     let folder = folder();
     let folder = folder.path();
-    let wrong: [&[&str]; 17] = [
+    let wrong: [&[&str]; 20] = [
         &["--anchors", "0,0", "--anchors", "20,0"],
         &["--anchors", "0,0", "--anchors", "20,0", "--anchors", "0,0"],
         &["--anchors", "0,0", "--anchors", "10,10", "--anchors", "20,20"],
@@ -126,6 +144,9 @@ fn what_tells_no_position_is_refused_with_what_would_be_right() {
         &["--inside", "--solver", "pso"],
         &["nowhere.csv"],
         &["nowhere.csv", "--trials", "5"],
+        &["nowhere.csv", "--power-dbm", "-201"],
+        &["nowhere.csv", "--power-dbm", "NaN"],
+        &["--power-dbm", "-40"],
     ];
     let said = wrong.map(|arguments| {
         format!(
@@ -156,6 +177,21 @@ fn what_tells_no_position_is_refused_with_what_would_be_right() {
         format!("{content}\n{}\n", refused(folder, &["locate", "m.csv"]))
     });
     assert_snapshot!("wrong_measurements", said.join("\n"));
+    let head = "fix,x_m,y_m,level_dbm\n";
+    let levels = [
+        format!("{head}1,0,0,-50\n1,20,0,loud\n"),
+        format!("{head}1,0,0,-50\n1,20,0,inf\n"),
+        format!("{head}1,0,0,-50\n1,20,0,-250\n"),
+        format!("{head}1,0,0,-50\n1,20,0,-60\n"),
+        "fix,x_m,y_m,range_m\n1,0,0,5\n".to_owned(),
+    ];
+    let said = levels.map(|content| {
+        fs::write(folder.join("m.csv"), &content).expect("a file");
+        format!("{content}\n{}\n", refused(folder, &["locate", "m.csv", "--power-dbm", "-40"]))
+    });
+    assert_snapshot!("wrong_levels", said.join("\n"));
+    fs::write(folder.join("m.csv"), format!("{head}1,0,0,-50\n")).expect("a file");
+    assert!(refused(folder, &["locate", "m.csv"]).contains("power-dbm"));
     fs::write(folder.join("m.csv"), MEASUREMENTS).expect("a file");
     // The closed form knows no mirror images.
     assert!(refused(folder, &["locate", "m.csv", "--solver", "pso"]).contains("on one line"));

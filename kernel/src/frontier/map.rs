@@ -1,6 +1,4 @@
-//! A robot's repository: the status of each cell, and the way to the cells that it knows nothing of.
-
-use core::ops::ControlFlow;
+//! A robot's repository: the status of each cell.
 
 use crate::ground::{Area, Cell, Side};
 
@@ -22,6 +20,11 @@ pub trait Map {
 
     /// The status of `cell`; outside the area all are obstacles.
     fn status(&self, cell: Cell) -> Status;
+
+    /// How many unexplored cells are beside explored ones, or more: a search that has found so many looks no farther.
+    fn frontier(&self) -> usize {
+        usize::MAX
+    }
 
     /// Notes that `cell` is explored, whatever was known of it; no effect outside the area.
     fn explore(&mut self, cell: Cell);
@@ -97,86 +100,5 @@ impl Map for TinyMap {
 
     fn block(&mut self, cell: Cell) {
         self.obstacles |= self.bit(cell) & !self.explored;
-    }
-}
-
-/// What a search knows of a cell.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Reached {
-    /// The search that has reached it last.
-    round: u32,
-    distance: u32,
-    first: Side,
-}
-
-impl Reached {
-    /// No search has reached it.
-    pub const NEVER: Self = Self { round: 0, distance: 0, first: Side::East };
-}
-
-/// The memory of searches, for as many cells as the area has.
-#[derive(Debug)]
-pub struct Scratch<'a> {
-    /// One for each cell.
-    pub reached: &'a mut [Reached],
-    /// One for each cell.
-    pub queue: &'a mut [Cell],
-    /// Searches so far: it goes on from the last one with the same memory.
-    pub rounds: &'a mut u32,
-}
-
-/// A cell that a search has reached.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Found {
-    pub(super) cell: Cell,
-    /// Moves to it.
-    pub(super) distance: u32,
-    /// The side through which the first of them goes.
-    pub(super) first: Side,
-}
-
-/// Tells of the unexplored cells that are reached from `from` through explored ones, the nearest first, until it is told to
-/// stop. Of ways as short the one counts whose first side leads to the lowest number.
-pub(super) fn search<M: Map>(
-    map: &M,
-    from: Cell,
-    scratch: &mut Scratch<'_>,
-    mut tell: impl FnMut(Found) -> ControlFlow<()>,
-) {
-    let area = map.area();
-    let place = |cell| area.locate(cell).map(|(column, row)| row * area.width() + column);
-    *scratch.rounds = scratch.rounds.wrapping_add(1);
-    let round = *scratch.rounds;
-    let (mut head, mut tail) = (0, 0);
-    let mut at = Found { cell: from, distance: 0, first: Side::East };
-    if let Some(reached) = place(from).and_then(|place| scratch.reached.get_mut(place)) {
-        *reached = Reached { round, ..Reached::NEVER };
-    }
-    loop {
-        for side in BY_NUMBER {
-            let cell = at.cell.beyond(side);
-            let Some(reached) = place(cell).and_then(|place| scratch.reached.get_mut(place)) else {
-                continue;
-            };
-            let status = map.status(cell);
-            if reached.round == round || status == Status::Obstacle {
-                continue;
-            }
-            let first = if at.distance == 0 { side } else { at.first };
-            *reached = Reached { round, distance: at.distance + 1, first };
-            let found = Found { cell, distance: at.distance + 1, first };
-            if status == Status::Unexplored {
-                if tell(found).is_break() {
-                    return;
-                }
-            } else if let Some(next) = scratch.queue.get_mut(tail) {
-                *next = cell;
-                tail += 1;
-            }
-        }
-        let Some(&cell) = scratch.queue.get(head).filter(|_| head < tail) else { return };
-        head += 1;
-        let Some(reached) = place(cell).and_then(|place| scratch.reached.get(place)) else { return };
-        at = Found { cell, distance: reached.distance, first: reached.first };
     }
 }

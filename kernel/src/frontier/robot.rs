@@ -2,9 +2,11 @@
 
 use core::ops::ControlFlow;
 
-use super::map::{BY_NUMBER, Found, Map, Scratch, Status, search};
+use super::map::{BY_NUMBER, Map, Status};
+use super::pairs::{Pairing, Scratch, Seeker};
 use super::place::Place;
 use super::rule::{Condition, Otherwise, Rule, Ties};
+use super::search::{Found, search};
 use crate::choice::Oracle;
 use crate::ground::{Cell, Side};
 
@@ -183,37 +185,14 @@ impl<M: Map> Robot<M> {
         }
     }
 
-    /// The way to a nearest unexplored cell: of several as near to one that is left to nobody else, or else to one that nobody has
-    /// claimed. A preference never leads farther than to a nearest one: robots that leave cells to each other and go elsewhere
-    /// instead can do so for ever, three of them in 3×2 cells.
+    /// The way to the unexplored cell that it is paired with. The nearest pair comes first: so the robot that is nearest to an
+    /// unexplored cell goes there, and none that stands can be in its way.
     fn preferred(&self, rule: &Rule, view: View<'_>, scratch: &mut Scratch<'_>) -> Option<Found> {
-        let is_claimed =
-            |cell| rule.has(Condition::Claim) && view.others.iter().any(|other| other.aim == Some(cell));
-        let is_nearer_to_another = |found: &Found| {
-            rule.has(Condition::Nearer)
-                && view.others.iter().any(|other| {
-                    let (columns, rows) = other.cell.apart(found.cell);
-                    u32::from(columns) + u32::from(rows) < found.distance
-                })
-        };
-        let [mut unclaimed, mut nearest]: [Option<Found>; 2] = [None; 2];
-        let mut best = None;
-        search(&self.map, self.at, scratch, |found| {
-            let least = nearest.get_or_insert(found).distance;
-            if self.waits || found.distance > least {
-                return ControlFlow::Break(());
-            }
-            if is_claimed(found.cell) {
-                return ControlFlow::Continue(());
-            }
-            unclaimed = unclaimed.or(Some(found));
-            if is_nearer_to_another(&found) {
-                return ControlFlow::Continue(());
-            }
-            best = Some(found);
-            ControlFlow::Break(())
-        });
-        best.or(unclaimed).or(nearest)
+        let own = Seeker { cell: self.at, aim: self.aim };
+        let others = if rule.has(Condition::Nearer) { view.others } else { &[] };
+        let others = others.iter().map(|other| Seeker { cell: other.cell, aim: other.aim });
+        let (memory, pairs) = scratch.parts();
+        Pairing { map: &self.map, rule, own, others, memory, pairs }.found()
     }
 
     /// Any of the first moves of the shortest ways to the nearest unexplored cells.
@@ -225,7 +204,7 @@ impl<M: Map> Robot<M> {
                 Status::Unexplored => Some(Found { cell, distance: 1, first: side }),
                 Status::Explored => {
                     let mut way = None;
-                    search(&self.map, cell, scratch, |found| {
+                    search(&self.map, cell, u32::MAX, &mut scratch.parts().0, |found| {
                         way = Some(Found { distance: found.distance + 1, first: side, ..found });
                         ControlFlow::Break(())
                     });
@@ -271,7 +250,7 @@ impl<M: Map> Robot<M> {
         let Stance::Enters(side) = self.stance else { return };
         self.at = if rule.has(Condition::Track) { self.at.beyond(side) } else { fix };
         self.stance = Stance::Stands;
-        self.aim = None;
+        self.aim = self.aim.filter(|&aim| rule.has(Condition::Claim) && aim != self.at);
         self.map.explore(self.at);
     }
 

@@ -25,15 +25,19 @@ pub enum Condition {
     /// Repair: a message has the whole repository of its sender, and whoever hears it joins both. As published it has the one
     /// cell that the sender has explored or found blocked.
     Share,
-    /// Preference: a robot leaves an unexplored cell to another one that has claimed it.
-    Claim,
-    /// Preference: a robot leaves an unexplored cell to another one that is nearer to it.
+    /// Preference: robots and unexplored cells are paired, the nearest pair first, and a robot goes to the cell of its pair: so it
+    /// leaves to another robot a cell to which that one is nearer. A robot goes to the nearest cell if all are the others'.
     Nearer,
+    /// Preference: of pairs as near, the one comes first whose robot has claimed the cell: it keeps its aim.
+    Claim,
+    /// Preference: of pairs as near, the one comes first whose cell has the fewest unexplored neighbours, and of these the one whose
+    /// cell is nearest to the rim of the area: nobody has to come back for it.
+    Corner,
 }
 
 impl Condition {
     /// Every condition.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Route,
         Self::Record,
         Self::Look,
@@ -41,8 +45,9 @@ impl Condition {
         Self::Tell,
         Self::Track,
         Self::Share,
-        Self::Claim,
         Self::Nearer,
+        Self::Claim,
+        Self::Corner,
     ];
 }
 
@@ -104,8 +109,10 @@ impl Rule {
     pub const REPAIRED: Self = Self { conditions: Conditions::of(&Condition::ALL), ..Self::PUBLISHED };
 
     /// With all repairs, without preferences: of several nearest cells any may be taken.
-    pub const PLAIN: Self =
-        Self { ties: Ties::Any, ..Self::REPAIRED.without(Condition::Claim).without(Condition::Nearer) };
+    pub const PLAIN: Self = Self {
+        ties: Ties::Any,
+        ..Self::REPAIRED.without(Condition::Nearer).without(Condition::Claim).without(Condition::Corner)
+    };
 
     /// This rule with one condition taken out.
     #[must_use]

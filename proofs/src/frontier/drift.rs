@@ -96,9 +96,10 @@ impl Drift {
     /// A move, and the fix after it; `None` if there is none.
     fn go(&self, state: &State, oracle: &mut dyn Oracle) -> Option<(State, &'static str)> {
         let mut after = *state;
-        let (mut reached, mut queue, mut rounds) =
-            ([Reached::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS], 0);
-        let mut scratch = Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds };
+        let (mut reached, mut queue) = ([Reached::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS]);
+        let (mut rounds, mut pairs) = (0, [None]);
+        let mut scratch =
+            Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds, pairs: &mut pairs };
         let view = View { others: &[], slot: Slot::Own };
         let next = state.robot.next(&self.rule, view, &mut scratch, oracle);
         let Next::Tries { side, aim } = next else { return None };

@@ -215,7 +215,9 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let view = View { others: &others, slot };
         let (mut reached, mut queue, mut rounds) =
             ([Reached::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS], 0);
-        let mut scratch = Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds };
+        let mut pairs = [[None; ROBOTS]; ROBOTS];
+        let pairs = pairs.as_flattened_mut();
+        let mut scratch = Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds, pairs };
         world.robots[robot].next(&self.rule, view, &mut scratch, oracle)
     }
 

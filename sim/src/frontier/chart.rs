@@ -1,8 +1,8 @@
 //! A repository of any size, which remembers in which order it learned what it knows: so a robot that joins it again looks
 //! only at what is new.
 
-use tautline_kernel::frontier::{Map, Reached, Scratch, Status};
-use tautline_kernel::ground::{Area, Cell};
+use tautline_kernel::frontier::{Map, Pair, Reached, Scratch, Status};
+use tautline_kernel::ground::{Area, Cell, Side};
 
 /// A repository on the heap.
 #[derive(Clone, Debug)]
@@ -11,13 +11,15 @@ pub struct Chart {
     cells: Vec<Status>,
     /// What it has learned, in order.
     learned: Vec<(Cell, Status)>,
+    /// Unexplored cells beside explored ones.
+    frontier: usize,
 }
 
 impl Chart {
     /// Nothing known of `area`.
     pub fn new(area: Area) -> Self {
         let cells = vec![Status::Unexplored; area.width() * area.height()];
-        Self { area, cells, learned: Vec::new() }
+        Self { area, cells, learned: Vec::new(), frontier: 0 }
     }
 
     /// What it has learned since it knew so much.
@@ -35,6 +37,26 @@ impl Chart {
         self.learned.is_empty()
     }
 
+    /// Whether a cell is unexplored and beside an explored one.
+    fn is_frontier(&self, cell: Cell) -> bool {
+        let is_explored = |side: Side| self.status(cell.beyond(side)) == Status::Explored;
+        self.status(cell) == Status::Unexplored && Side::ALL.into_iter().any(is_explored)
+    }
+
+    /// Notes what is so of a cell, and counts the frontier anew around it.
+    fn learn(&mut self, cell: Cell, status: Status) {
+        let around = |chart: &Self| {
+            let beside = Side::ALL.map(|side| cell.beyond(side));
+            beside.into_iter().chain([cell]).filter(|&cell| chart.is_frontier(cell)).count()
+        };
+        let before = around(self);
+        if let Some(place) = self.place(cell) {
+            self.cells[place] = status;
+            self.learned.push((cell, status));
+        }
+        self.frontier = self.frontier + around(self) - before;
+    }
+
     fn place(&self, cell: Cell) -> Option<usize> {
         self.area.locate(cell).map(|(column, row)| row * self.area.width() + column)
     }
@@ -49,21 +71,19 @@ impl Map for Chart {
         self.place(cell).map_or(Status::Obstacle, |place| self.cells[place])
     }
 
+    fn frontier(&self) -> usize {
+        self.frontier
+    }
+
     fn explore(&mut self, cell: Cell) {
-        if let Some(place) = self.place(cell)
-            && self.cells[place] != Status::Explored
-        {
-            self.cells[place] = Status::Explored;
-            self.learned.push((cell, Status::Explored));
+        if self.place(cell).is_some() && self.status(cell) != Status::Explored {
+            self.learn(cell, Status::Explored);
         }
     }
 
     fn block(&mut self, cell: Cell) {
-        if let Some(place) = self.place(cell)
-            && self.cells[place] == Status::Unexplored
-        {
-            self.cells[place] = Status::Obstacle;
-            self.learned.push((cell, Status::Obstacle));
+        if self.status(cell) == Status::Unexplored {
+            self.learn(cell, Status::Obstacle);
         }
     }
 }
@@ -74,15 +94,23 @@ pub(super) struct Memory {
     reached: Vec<Reached>,
     queue: Vec<Cell>,
     rounds: u32,
+    pairs: Vec<Option<Pair>>,
 }
 
 impl Memory {
-    pub(super) fn new(area: Area) -> Self {
+    /// For so many robots.
+    pub(super) fn new(area: Area, robots: usize) -> Self {
         let cells = area.width() * area.height();
-        Self { reached: vec![Reached::NEVER; cells], queue: vec![Cell::new(0, 0); cells], rounds: 0 }
+        Self {
+            reached: vec![Reached::NEVER; cells],
+            queue: vec![Cell::new(0, 0); cells],
+            rounds: 0,
+            pairs: vec![None; robots * robots],
+        }
     }
 
     pub(super) fn scratch(&mut self) -> Scratch<'_> {
-        Scratch { reached: &mut self.reached, queue: &mut self.queue, rounds: &mut self.rounds }
+        let Self { reached, queue, rounds, pairs } = self;
+        Scratch { reached, queue, rounds, pairs }
     }
 }

@@ -64,7 +64,7 @@ impl Explorers {
             told: vec![others; starts.len()],
             heard: vec![heard; starts.len()],
             radio: Radio::new(options, area, seed),
-            memory: Memory::new(area),
+            memory: Memory::new(area, starts.len()),
             robots,
             slot: 0,
             idle: 0,

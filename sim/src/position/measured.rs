@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
-use std::ops::Range as Bytes;
+use std::ops::{Range as Bytes, RangeInclusive};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -18,8 +18,31 @@ use crate::explore::RuleName;
 use crate::fault::{BOM, Fault};
 use crate::stats::decimals;
 
-/// The columns that a file must have, in any order.
-const COLUMNS: [&str; 4] = ["fix", "x_m", "y_m", "range_m"];
+/// The columns that a file of distances must have, in any order.
+const COLUMNS: [&str; 4] = ["fix", "x_m", "y_m", RANGE];
+
+/// Those of a file of levels.
+const COLUMNS_OF_LEVELS: [&str; 4] = ["fix", "x_m", "y_m", LEVEL];
+
+/// A distance, in metres.
+const RANGE: &str = "range_m";
+
+/// The strength with which an anchor is heard, in dBm.
+const LEVEL: &str = "level_dbm";
+
+/// The strengths that are taken for levels, in dBm: from below all noise to a megawatt.
+const LEVELS_DBM: RangeInclusive<f64> = -200.0..=90.0;
+
+/// How strong anchors are heard at one metre, in dBm: levels tell distances by it.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Power(f64);
+
+impl Power {
+    /// The strength `level_dbm`; `None` unless it is from -200 to 90 dBm.
+    pub fn new(level_dbm: f64) -> Option<Self> {
+        LEVELS_DBM.contains(&level_dbm).then_some(Self(level_dbm))
+    }
+}
 
 /// Larger files are refused before they are read.
 const MAX_BYTES: u64 = 16 << 20;
@@ -73,11 +96,11 @@ pub struct Place {
 const PARTS: f64 = 1e5;
 
 impl Measured {
-    /// Reads a file.
+    /// Reads a file of distances, or of levels where `power` says what these are at one metre; `signal` says how fast they fall.
     ///
     /// # Errors
-    /// A [`Fault`] if it cannot be read, a column is missing, or a value is no number.
-    pub fn read(file: &Path) -> Result<Self, Fault> {
+    /// A [`Fault`] if it cannot be read, a column is missing, or a value is no number or no level.
+    pub fn read(file: &Path, signal: &Signal, power: Option<Power>) -> Result<Self, Fault> {
         let mut text = String::new();
         let read = File::open(file).and_then(|opened| opened.take(MAX_BYTES + 1).read_to_string(&mut text));
         read.map_err(|error| match error.kind() {
@@ -96,11 +119,12 @@ impl Measured {
             return Err(Fault::in_file(file, format_args!("the file has more than {most} MiB"), "split it"));
         }
         let mut measured = Self { file: file.to_owned(), text: String::new(), fixes: Vec::new() };
-        measured.take(&text)?;
+        measured.take(&text, signal, power)?;
         Ok(Self { text, ..measured })
     }
 
-    fn take(&mut self, text: &str) -> Result<(), Fault> {
+    fn take(&mut self, text: &str, signal: &Signal, power: Option<Power>) -> Result<(), Fault> {
+        let columns = if power.is_some() { COLUMNS_OF_LEVELS } else { COLUMNS };
         let begin = text.len() - text.strip_prefix(BOM).unwrap_or(text).len();
         let mut lines = text[begin..].split_inclusive('\n').scan(begin, |next, line| {
             let start = *next;
@@ -109,10 +133,15 @@ impl Measured {
         });
         let (start, header) = lines.next().unwrap_or((begin, ""));
         let names: Vec<&str> = header.split(',').map(str::trim).collect();
+        if power.is_none() && names.contains(&LEVEL) && !names.contains(&RANGE) {
+            let what = format!("the column `{LEVEL}` tells no distance by itself");
+            let remedy = "give `power-dbm`, the level at one metre, and `exponent`, how fast levels fall";
+            return Err(self.fault(text, start..start + header.len(), what, remedy));
+        }
         let mut places = [0; COLUMNS.len()];
-        for (place, column) in places.iter_mut().zip(COLUMNS) {
+        for (place, column) in places.iter_mut().zip(columns) {
             *place = names.iter().position(|&name| name == column).ok_or_else(|| {
-                let remedy = format!("begin with the names of the columns: {}", COLUMNS.join(","));
+                let remedy = format!("begin with the names of the columns: {}", columns.join(","));
                 self.fault(
                     text,
                     start..start + header.len(),
@@ -133,16 +162,33 @@ impl Measured {
                 );
                 return Err(self.fault(text, whole, what, format_args!("give a value for each of {header}")));
             }
-            let number = |column: usize| {
+            let value = |column: usize| {
                 let value = values[places[column]];
                 let offset = values[..places[column]].iter().map(|before| before.len() + 1).sum::<usize>();
-                value.trim().parse::<f64>().map_err(|_| {
-                    let at = start + offset..start + offset + value.len();
-                    let what = format!("`{}` of the column `{}` is no number", value.trim(), COLUMNS[column]);
-                    self.fault(text, at, what, "give metres, with a point before decimals")
+                (value.trim(), start + offset..start + offset + value.len())
+            };
+            let number = |column: usize| {
+                let (value, at) = value(column);
+                value.parse::<f64>().map_err(|_| {
+                    let what = format!("`{value}` of the column `{}` is no number", columns[column]);
+                    let unit = if columns[column] == LEVEL { "dBm" } else { "metres" };
+                    self.fault(text, at, what, format_args!("give {unit}, with a point before decimals"))
                 })
             };
-            let range = Range::new(Point::new(number(1)?, number(2)?), number(3)?);
+            let (anchor, told) = (Point::new(number(1)?, number(2)?), number(3)?);
+            let distance_m = match power {
+                None => told,
+                Some(Power(at_one_metre)) if LEVELS_DBM.contains(&told) => {
+                    signal.distance_m(told - at_one_metre)
+                }
+                Some(_) => {
+                    let (value, at) = value(3);
+                    let what = format!("`{value}` dBm is no level of a radio");
+                    let (least, most) = (LEVELS_DBM.start(), LEVELS_DBM.end());
+                    return Err(self.fault(text, at, what, format_args!("give dBm from {least} to {most}")));
+                }
+            };
+            let range = Range::new(anchor, distance_m);
             let name = values[places[0]].trim();
             let number = *known.entry(name).or_insert(self.fixes.len());
             if number == self.fixes.len() {

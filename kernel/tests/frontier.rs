@@ -1,0 +1,204 @@
+//! Frontier cells (FRONTIER): pairs are those of a program that compares all of them, and decisions turn with the area.
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+
+use proptest::prelude::*;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::frontier::{
+    Condition, Map, Next, Other, Place, Reached, Robot, Rule, Scratch, Sight, Slot, Status, Ties, TinyMap,
+    View,
+};
+use tautline_kernel::ground::{Area, Cell, Side};
+
+/// The side of the square area.
+const SIDE: i16 = 7;
+
+/// An oracle that always picks this one, or the last one.
+struct Nth(u32);
+
+impl Oracle for Nth {
+    fn pick(&mut self, below: u32) -> u32 {
+        self.0.min(below - 1)
+    }
+}
+
+/// A map, and robots in explored cells of it with what they have claimed.
+#[derive(Clone, Debug)]
+struct Team {
+    map: TinyMap,
+    robots: Vec<(Cell, Option<Cell>)>,
+}
+
+fn area() -> Area {
+    Area::new(Cell::new(0, 0), Cell::new(SIDE - 1, SIDE - 1)).expect("an area")
+}
+
+fn blank() -> TinyMap {
+    TinyMap::new(area()).expect("49 cells")
+}
+
+/// Two cells of three are explored, and each eighth is an obstacle.
+fn teams() -> impl Strategy<Value = Team> {
+    let cells = (SIDE * SIDE) as usize;
+    let robots = proptest::collection::vec((0..cells, proptest::option::of(0..cells)), 1..6);
+    (proptest::collection::vec(0..24_u8, cells), robots).prop_map(|(statuses, robots)| {
+        let cell = |number: usize| Cell::new((number as i16) % SIDE, (number as i16) / SIDE);
+        let mut map = blank();
+        for (number, status) in statuses.into_iter().enumerate() {
+            match status {
+                0..16 => map.explore(cell(number)),
+                16..19 => map.block(cell(number)),
+                _ => {}
+            }
+        }
+        let mut placed: BTreeMap<usize, Option<Cell>> = BTreeMap::new();
+        for (number, aim) in robots {
+            placed.insert(number, aim.map(cell));
+            map.explore(cell(number));
+        }
+        Team { map, robots: placed.into_iter().map(|(number, aim)| (cell(number), aim)).collect() }
+    })
+}
+
+fn next(team: &Team, robot: usize, rule: &Rule, pick: u32) -> Next {
+    let (at, aim) = team.robots[robot];
+    let mut own = Robot::new(team.map, at, &[]);
+    if let Some(aim) = aim {
+        // A robot that has arrived on its way keeps what it has claimed; it takes itself to be where it was.
+        own.tries(Side::East, aim);
+        own.looked(rule, Sight::Open);
+        own.arrived(&rule.without(Condition::Track), at);
+    }
+    let other = |&(cell, aim): &(Cell, Option<Cell>)| Other { cell, place: Place::midpoint(cell), aim };
+    let others: Vec<Other> = team
+        .robots
+        .iter()
+        .enumerate()
+        .filter(|&(number, _)| number != robot)
+        .map(|(_, robot)| other(robot))
+        .collect();
+    let (mut reached, mut queue) = ([Reached::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS]);
+    let (mut rounds, mut pairs) = (0, [None; 36]);
+    let mut scratch =
+        Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds, pairs: &mut pairs };
+    let view = View { others: &others, slot: Slot::Own };
+    own.next(rule, view, &mut scratch, &mut Nth(pick))
+}
+
+/// How far the unexplored cells are that are reached through explored ones.
+fn ways(map: &TinyMap, from: Cell) -> BTreeMap<Cell, u32> {
+    let (mut ways, mut queue) = (BTreeMap::from([(from, 0)]), VecDeque::from([from]));
+    while let Some(cell) = queue.pop_front() {
+        if map.status(cell) == Status::Unexplored {
+            continue;
+        }
+        for beside in Side::ALL.map(|side| cell.beyond(side)) {
+            if map.status(beside) != Status::Obstacle && !ways.contains_key(&beside) {
+                ways.insert(beside, ways[&cell] + 1);
+                queue.push_back(beside);
+            }
+        }
+    }
+    ways.retain(|&cell, _| map.status(cell) == Status::Unexplored);
+    ways
+}
+
+/// The aims of all robots: all pairs of all robots are compared.
+fn aims(team: &Team) -> Vec<Option<Cell>> {
+    let mut pairs = Vec::new();
+    for (robot, &(at, aim)) in team.robots.iter().enumerate() {
+        for (cell, distance) in ways(&team.map, at) {
+            let beside = Side::ALL.map(|side| team.map.status(cell.beyond(side)));
+            let unexplored = beside.into_iter().filter(|&status| status == Status::Unexplored).count();
+            let rim = cell.x.min(cell.y).min(SIDE - 1 - cell.x).min(SIDE - 1 - cell.y);
+            pairs.push((
+                (distance, aim != Some(cell), unexplored, rim, (at.y, at.x), (cell.y, cell.x)),
+                robot,
+                cell,
+            ));
+        }
+    }
+    pairs.sort_unstable();
+    let mut aims: Vec<Option<Cell>> = vec![None; team.robots.len()];
+    for &(_, robot, cell) in &pairs {
+        if aims[robot].is_none() && !aims.contains(&Some(cell)) {
+            aims[robot] = Some(cell);
+        }
+    }
+    let nearest = |robot: usize| pairs.iter().find(|pair| pair.1 == robot).map(|&(_, _, cell)| cell);
+    aims.iter().enumerate().map(|(robot, aim)| aim.or_else(|| nearest(robot))).collect()
+}
+
+/// The sides through which a robot may go.
+fn sides(team: &Team, robot: usize, rule: &Rule) -> BTreeSet<Cell> {
+    let told = (0..4).filter_map(|pick| match next(team, robot, rule, pick) {
+        Next::Tries { side, .. } => Some(team.robots[robot].0.beyond(side)),
+        Next::Waits | Next::Stops | Next::Done => None,
+    });
+    told.collect()
+}
+
+/// The team in the area turned by a quarter, or mirrored.
+fn moved(team: &Team, turn: fn(Cell) -> Cell) -> Team {
+    let mut map = blank();
+    for cell in area().cells() {
+        match team.map.status(cell) {
+            Status::Explored => map.explore(turn(cell)),
+            Status::Obstacle => map.block(turn(cell)),
+            Status::Unexplored => {}
+        }
+    }
+    let robots = team.robots.iter().map(|&(at, aim)| (turn(at), aim.map(turn)));
+    Team { map, robots: robots.collect() }
+}
+
+const TURNS: [fn(Cell) -> Cell; 3] = [
+    |cell| Cell::new(SIDE - 1 - cell.y, cell.x),
+    |cell| Cell::new(SIDE - 1 - cell.x, cell.y),
+    |cell| Cell::new(cell.y, cell.x),
+];
+
+proptest! {
+    #[test]
+    fn a_robot_finds_the_pair_that_comparing_all_pairs_finds(team in teams()) {
+        for (robot, aim) in aims(&team).into_iter().enumerate() {
+            let told = match next(&team, robot, &Rule::REPAIRED, 0) {
+                Next::Tries { aim, .. } => Some(aim),
+                Next::Waits | Next::Stops | Next::Done => None,
+            };
+            prop_assert_eq!(told, aim, "robot {} of {:?}", robot, team);
+        }
+    }
+
+    #[test]
+    fn robots_that_decide_alone_go_to_different_cells_while_there_are_enough(team in teams()) {
+        let aims = aims(&team);
+        let cells: BTreeSet<Cell> = team.robots.iter().flat_map(|&(at, _)| ways(&team.map, at).into_keys()).collect();
+        let is_apart = aims.iter().flatten().collect::<BTreeSet<_>>().len() == aims.iter().flatten().count();
+        let reach_all = team.robots.iter().all(|&(at, _)| ways(&team.map, at).len() == cells.len());
+        prop_assert!(is_apart || cells.len() < team.robots.len() || !reach_all, "{:?}", team);
+    }
+
+    #[test]
+    fn plain_and_published_decisions_turn_with_the_area(team in teams()) {
+        let any = Rule { ties: Ties::Any, ..Rule::PUBLISHED };
+        for rule in [Rule::PLAIN, any] {
+            for turn in TURNS {
+                let there = moved(&team, turn);
+                for robot in 0..team.robots.len() {
+                    let turned: BTreeSet<Cell> = sides(&team, robot, &rule).into_iter().map(turn).collect();
+                    prop_assert_eq!(&turned, &sides(&there, robot, &rule), "{:?}", team);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_repaired_robot_that_is_alone_moves_as_a_plain_one_may(team in teams()) {
+        let alone = Team { robots: team.robots[..1].to_vec(), ..team };
+        let (repaired, plain) = (sides(&alone, 0, &Rule::REPAIRED), sides(&alone, 0, &Rule::PLAIN));
+        prop_assert!(repaired.is_subset(&plain) && repaired.is_empty() == plain.is_empty(), "{:?}", alone);
+        let bare = Rule::REPAIRED.without(Condition::Corner);
+        prop_assert!(sides(&alone, 0, &bare).is_subset(&plain), "{:?}", alone);
+    }
+}
