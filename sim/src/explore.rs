@@ -23,6 +23,7 @@ mod stage;
 mod survey;
 mod traps;
 pub mod trees;
+mod watched;
 
 pub use self::clause::ClauseId;
 pub use self::misfit::Misfit;

@@ -1,7 +1,7 @@
 //! Runs on small lattices that break a clause: the one with the fewest walls, the same run on a lattice that is given, and what
 //! happens in it.
 
-use tautline_kernel::ground::{Cell, Side};
+use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side};
 use tautline_kernel::kit::{Next, Sight};
 
 use super::world::{Demand, Event, Setting, Turned, World};
@@ -50,10 +50,11 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         cells.try_into().ok()
     }
 
-    /// The same run where the walls that it has met are given, and no others: the setting, and the number of each step.
-    pub fn given(&self) -> Option<(Setting<ROBOTS>, Vec<u32>)> {
+    /// The walls that the run has met, and the number of each step where these are given, and no others.
+    pub fn given(&self) -> Option<(Vec<Edge>, Vec<u32>)> {
         let (start, steps) = self.steps()?;
         let truth = steps.last().map_or(start.truth, |turned| turned.world.truth);
+        let walls = self.setting.area.edges().filter(|&edge| truth.edge_has(EdgeMark::Wall, edge));
         let setting = Setting { given: Some(truth), demand: None, ..self.setting };
         let mut world = start;
         let numbers = steps.iter().map(|step| {
@@ -63,7 +64,7 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
             Some(number as u32)
         });
         let numbers = numbers.collect::<Option<Vec<u32>>>()?;
-        Some((setting, numbers))
+        Some((walls.collect(), numbers))
     }
 
     /// Drives from the start on, those of a round once.

@@ -116,7 +116,8 @@ impl Symmetric {
         let swapped = |bits: u8| bits >> 1 & 1 | (bits & 1) << 1;
         let is_swapped = order == [1, 0];
         let fresh = if is_swapped { swapped(world.fresh) } else { world.fresh };
-        let first = if is_swapped { 1 - world.first } else { world.first };
+        let is_told = self.setting.speeds == Speeds::Equal;
+        let first = if is_swapped && is_told { 1 - world.first } else { world.first };
         self.setting.settled(World { team, truth, walls: world.walls, fresh, first })
     }
 
