@@ -5,6 +5,7 @@
 #![allow(clippy::missing_panics_doc, reason = "a panic is how a body tells what it found")]
 
 mod floor;
+mod kit;
 mod network;
 mod perception;
 #[path = "../../src/report.rs"]
@@ -36,6 +37,7 @@ use tautline_sim::trace::Trace;
 use tautline_sim::wide::WideGrid;
 
 pub use floor::floor;
+pub use kit::kit;
 pub use network::network;
 pub use perception::perception;
 pub use rescue::{rescue, rescue_trace};
@@ -44,12 +46,13 @@ pub use rescue::{rescue, rescue_trace};
 pub type Body = fn(&[u8]);
 
 /// Every target's name and body.
-pub const TARGETS: [(&str, Body); 15] = [
+pub const TARGETS: [(&str, Body); 16] = [
     ("chain", chain),
     ("chain_log", chain_log),
     ("floor", floor),
     ("judge", judge),
     ("kept_hunt", kept_hunt),
+    ("kit", kit),
     ("layout_movingai", layout_movingai),
     ("layout_ros", layout_ros),
     ("layout_text", layout_text),

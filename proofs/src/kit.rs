@@ -8,4 +8,6 @@ mod pairs;
 mod plain;
 pub mod symmetry;
 mod talks;
+#[cfg(test)]
+mod traps;
 pub mod world;
