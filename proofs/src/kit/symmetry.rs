@@ -373,7 +373,7 @@ mod tests {
         }
     }
 
-    /// Three robots that radio alone binds, side by side on a small lattice: no path undriven.
+    /// Three robots that radio alone binds, side by side on a small lattice, leave no path undriven.
     #[test]
     #[ignore = "715,382 states, 11 s: cargo test --release -p tautline-proofs -- --ignored --nocapture without_ties"]
     fn three_robots_without_ties_drive_everything_in_two_rows_of_three_nodes() {
