@@ -110,10 +110,8 @@ impl<const ROBOTS: usize> Scripted<ROBOTS> {
     }
 
     fn clause(&self, demand: Demand) -> ClauseId {
-        match (self.setting.speeds, demand) {
-            (Speeds::Equal, Demand::Contact) => EQUAL,
-            _ => ClauseId::new(demand.clause(ROBOTS)),
-        }
+        let is_at_equal_speeds = self.setting.speeds == Speeds::Equal && demand == Demand::Contact;
+        if is_at_equal_speeds { EQUAL } else { ClauseId::new(demand.clause(ROBOTS)) }
     }
 }
 
