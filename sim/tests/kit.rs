@@ -280,12 +280,14 @@ fn run_again(hunted: &Hunted) -> usize {
         Shown::Run(clause) | Shown::Story(clause, _) => Some((clause, quarry)),
         Shown::Endless | Shown::Told(_) => None,
     });
-    let again = stored.map(|(clause, quarry)| {
+    let mut count = 0;
+    for (clause, quarry) in stored {
         let report = run(&quarry.setup);
         let is_broken = report.violations.iter().any(|violation| violation.clause == clause);
         assert!(is_broken, "{clause}: {:?}", report.violations);
-    });
-    again.count()
+        count += 1;
+    }
+    count
 }
 
 #[test]
