@@ -1,7 +1,7 @@
 //! A team that keeps in touch: the lattice, its walls, the rule, the starts, who acts next and what is seen are in the bytes.
 //! When the bytes have ended, there are no more walls, and the first robot acts that can.
 
-use tautline_kernel::choice::{Oracle, one_of};
+use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, SmallGrid, TinyGrid};
 use tautline_kernel::kit::{Condition, Kit, Message, Next, Reach, Rule, Sight, Stance, touch};
 use tautline_proofs::engine::Tape;
@@ -55,7 +55,10 @@ pub fn kit(bytes: &[u8]) {
 }
 
 fn message(rule: &Rule, oracle: &mut dyn Oracle) {
-    let fields = std::array::from_fn(|_| (256 * oracle.pick(4) + oracle.pick(256)) as i16 - 512);
+    let fields = std::array::from_fn(|place| {
+        // Flag, x and y, and four sides.
+        if place < 3 { (256 * oracle.pick(4) + oracle.pick(256)) as i16 - 512 } else { oracle.pick(3) as i16 }
+    });
     if let Ok((message, number)) = Message::decode(fields, rule) {
         let written = message.encode(number, rule);
         assert_eq!(Message::decode(written, rule), Ok((message, number)), "{fields:?}");
@@ -85,7 +88,7 @@ fn run<const ROBOTS: usize>(rule: Rule, oracle: &mut dyn Oracle) {
             break;
         }
         assert!(act < PATIENT, "the team is still under way");
-        let robot = one_of(oracle, &acting);
+        let robot = acting[oracle.pick(acting.len() as u32) as usize];
         if team.may_decide(robot) {
             decide(&mut team, robot, &mut walls, oracle);
         } else {
