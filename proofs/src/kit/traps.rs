@@ -137,7 +137,7 @@ fn published_robots_are_trapped_in_some_layouts() {
             edges.for_each(|(_, edge)| given.put_edge(EdgeMark::Wall, edge));
             let start = setting.area.cells().nth(start).expect("a node");
             let (given, answers) = (Some(given), Answers::AtOnce);
-            let fate = fate(&Setting { given, answers, speeds, ..setting }, start, goal);
+            let fate = fate(&Setting { speeds, answers, given, ..setting }, start, goal);
             for (number, _) in fate.iter().enumerate().filter(|&(_, &is)| is) {
                 counts[number][walls.count_ones() as usize] += count;
             }
