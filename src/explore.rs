@@ -64,7 +64,8 @@ pub(super) struct Explore {
     /// How likely it is that an agent misses a sensor, from 0 to 1. Without it 0.
     #[arg(long, value_name = "PROBABILITY", value_parser = probability, allow_hyphen_values = true)]
     miss: Option<Probability>,
-    /// How many cells a message of robots that explore cells is heard; without it all hear it.
+    /// How many cells a message of robots that explore cells is heard; without it all hear it. Robots that keep in touch
+    /// hear 2 or 3 cells; without it 10 m, and a cell is 3 m wide.
     #[arg(long, value_name = "CELLS", value_parser = whole::<u16>)]
     range: Option<u16>,
     /// How likely it is that such a message is lost, from 0 to 1. Without it 0.
@@ -76,6 +77,12 @@ pub(super) struct Explore {
     /// Below which occupancy probability a cell is a candidate, from 0 to 1. Without it 0.5.
     #[arg(long, value_name = "PROBABILITY", value_parser = real, allow_hyphen_values = true)]
     threshold: Option<f64>,
+    /// How fast robots that keep in touch drive, in metres a second. Without it 0.3.
+    #[arg(long, value_name = "METRES", value_parser = real, allow_hyphen_values = true)]
+    speed: Option<f64>,
+    /// By which share each of their drives may be faster or slower, from 0 to 0.999. Without it 0.
+    #[arg(long, value_name = "SHARE", value_parser = real, allow_hyphen_values = true)]
+    spread: Option<f64>,
     /// Stop when a robot has entered so many cells.
     #[arg(long, value_name = "CELLS", value_parser = positive)]
     max_moves: Option<NonZeroU32>,
@@ -192,6 +199,8 @@ impl Explore {
             loss: self.loss.unwrap_or(usual.loss),
             noise_db: self.noise_db.unwrap_or(usual.noise_db),
             threshold: self.threshold.unwrap_or(usual.threshold),
+            speed_mps: self.speed,
+            spread: self.spread,
         };
         let setup = Setup {
             scheme,
@@ -347,7 +356,8 @@ pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
     }
     text.push('\n');
     if let Some(milliseconds) = report.milliseconds {
-        let _ = writeln!(text, "the slowest agent took {} s", milliseconds / 1000);
+        let robot = run.stage().look.robot();
+        let _ = writeln!(text, "the slowest {robot} took {} s", milliseconds / 1000);
     }
     match run.stage().knowledge {
         None => {}

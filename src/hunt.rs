@@ -35,7 +35,9 @@ Examples:
   tautline hunt --scheme bricks --max-misses 2
   tautline hunt --scheme bricks-ants --max-misses 2 --size 3x3
   tautline hunt --scheme frontier --rule published --robots 2 --size 3x1
-  tautline hunt --scheme frontier --robots 2 --size 3x3 --max-losses 1";
+  tautline hunt --scheme frontier --robots 2 --size 3x3 --max-losses 1
+  tautline hunt --scheme kit --rule published --size 5x1
+  tautline hunt --scheme kit --robots 2 --size 3x2 --max-walls 4";
 
 /// Search all layouts with few walls for runs that break a clause, and store the smallest.
 ///

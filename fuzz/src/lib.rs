@@ -6,6 +6,7 @@
 
 mod floor;
 mod frontier;
+mod kit;
 mod network;
 mod perception;
 mod position;
@@ -39,6 +40,7 @@ use tautline_sim::wide::WideGrid;
 
 pub use floor::floor;
 pub use frontier::frontier;
+pub use kit::kit;
 pub use network::network;
 pub use perception::perception;
 pub use position::position;
@@ -48,13 +50,14 @@ pub use rescue::{rescue, rescue_trace};
 pub type Body = fn(&[u8]);
 
 /// Every target's name and body.
-pub const TARGETS: [(&str, Body); 17] = [
+pub const TARGETS: [(&str, Body); 18] = [
     ("chain", chain),
     ("chain_log", chain_log),
     ("floor", floor),
     ("frontier", frontier),
     ("judge", judge),
     ("kept_hunt", kept_hunt),
+    ("kit", kit),
     ("layout_movingai", layout_movingai),
     ("layout_ros", layout_ros),
     ("layout_text", layout_text),

@@ -2,10 +2,12 @@
 //! messages, and over all pairs of places.
 
 pub mod clauses;
+pub mod counterexample;
 mod lattices;
 mod pairs;
 mod plain;
+pub mod symmetry;
 mod talks;
-mod world;
-
-pub use lattices::{Smallest, smallest};
+#[cfg(test)]
+mod traps;
+pub mod world;

@@ -40,6 +40,10 @@ pub const fn legend(look: Look) -> &'static str {
             "1, 2, … are the agents, K× stands for K of them in one cell; · is explored, : explored and entered by \
              nobody any more, ░░░ visited, ▒▒▒ sealed, ## blocked; ? is a sensor that an agent missed."
         }
+        Look::Robots => {
+            "1, 2, … are the robots, K× stands for K of them in one cell; · is explored, ## blocked; \
+             x stands where a robot met a wall."
+        }
     }
 }
 
@@ -308,8 +312,10 @@ impl Labels<'_> {
                 Mark::Visited => "░░░".to_owned(),
                 Mark::Sealed => "▒▒▒".to_owned(),
             },
-            (Look::Apart, here) if self.unseen.contains(&cell) => format!("{}?", self.team(here)),
-            (Look::Apart, here) => self.team(here),
+            (Look::Apart | Look::Robots, here) if self.unseen.contains(&cell) => {
+                format!("{}?", self.team(here))
+            }
+            (Look::Apart | Look::Robots, here) => self.team(here),
             (Look::Linked { .. } | Look::Tree { .. }, here) => self.names(here),
         }
     }

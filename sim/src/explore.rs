@@ -24,6 +24,7 @@ mod survey;
 mod traps;
 pub mod trees;
 mod tries;
+mod watched;
 
 pub use self::clause::ClauseId;
 pub use self::misfit::Misfit;

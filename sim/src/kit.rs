@@ -42,6 +42,9 @@ pub struct Pace {
 }
 
 impl Pace {
+    /// The greatest spread.
+    pub const MOST_SPREAD: u32 = 999;
+
     /// The paper gives no speed: 0.3 m/s, always.
     pub const STEADY: Self = Self { speed: NonZeroU32::new(300).expect("not 0"), spread: 0 };
 

@@ -1,14 +1,22 @@
 //! Robots that keep in touch, in random layouts: the repaired team breaks nothing, drives every path and knows it; the
 //! published one does not keep its promises; and teams that cannot start say why.
 
+use std::fs;
 use std::num::NonZeroU32;
+use std::ops::ControlFlow;
+use std::path::Path;
 
 use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule;
+use tautline_sim::counterexample::refutation;
+use tautline_sim::explore::hunt::{Asked, Far, Hunted, Hunter, Shown};
 use tautline_sim::explore::kit::{APART, CONNECTED, CONTACT, KIT};
 use tautline_sim::explore::{Report, RuleName, Setup, Stopped, explore};
+use tautline_sim::fault::Fault;
+use tautline_sim::frontier::Options;
 use tautline_sim::kit::{self, Drive, Pace, REACH_MILLIMETRES};
-use tautline_sim::layout::{Generator, Layout};
+use tautline_sim::layout::{Generator, Layout, Size};
+use tautline_sim::trace::Trace;
 
 fn generated(description: &str, seed: u64) -> Layout {
     description.parse::<Generator>().expect("a generator").generate(seed).expect("a layout")
@@ -143,4 +151,219 @@ fn teams_that_cannot_start_say_why() {
 fn two_robots_drive_all_paths_of_a_large_map() {
     let report = run(&setup(RuleName::Repaired, 2, generated("walls:24x24:0.1", 3), 3));
     assert_eq!((report.stopped, report.violations), (Stopped::Explored, vec![]));
+}
+
+/// What is wrong with a setup, where, and what would be right.
+fn wrong(setup: &Setup) -> Option<String> {
+    let wrong = tautline_sim::explore::team(setup).err();
+    wrong.map(|fault| fault.to_string())
+}
+
+#[test]
+fn speeds_and_their_spread_are_those_that_are_told() {
+    let with = |speed_mps, spread| {
+        let usual = setup(RuleName::Repaired, 2, generated("open:4x4", 0), 1);
+        Setup { options: Options { speed_mps, spread, ..Options::default() }, ..usual }
+    };
+    let milliseconds = |speed, spread| run(&with(speed, spread)).milliseconds.expect("a clock");
+    let usual = milliseconds(None, None);
+    assert_eq!(milliseconds(Some(0.3), Some(0.0)), usual);
+    // Ten times as fast, and in whole milliseconds.
+    assert_eq!(milliseconds(Some(3.0), None), usual / 10);
+    assert_ne!(milliseconds(None, Some(0.5)), usual);
+    for speed in [0.0, -0.3, f64::NAN, f64::INFINITY, 0.0004] {
+        let wrong = wrong(&with(Some(speed), None)).unwrap_or_default();
+        assert!(wrong.contains("0.001 to 1000 m/s"), "{speed}: {wrong}");
+    }
+    for spread in [-0.1, 1.0, f64::NAN] {
+        let wrong = wrong(&with(None, Some(spread))).unwrap_or_default();
+        assert!(wrong.contains("by less than the whole speed"), "{spread}: {wrong}");
+    }
+}
+
+#[test]
+fn a_shorter_range_keeps_robots_nearer() {
+    let with = |range, robots| {
+        let usual = setup(RuleName::Repaired, robots, generated("walls:6x5:0.1", 4), 2);
+        Setup { options: Options { range_cells: Some(range), ..Options::default() }, ..usual }
+    };
+    for range in [2, 3] {
+        let setup = with(range, 2);
+        let mut widest = 0;
+        let report = explore(&setup, &mut |made| {
+            let (dx, dy) = made.frame.cells[0].apart(made.frame.cells[1]);
+            widest = widest.max(dx * dx + dy * dy);
+            Ok(())
+        });
+        let report = report.expect("a run");
+        assert_eq!((report.violations, report.stopped), (vec![], Stopped::Explored), "range {range}");
+        assert!(widest <= range * range && widest > (range - 1) * (range - 1), "range {range}: {widest}");
+    }
+    let wrong = |range, robots| wrong(&with(range, robots)).unwrap_or_default();
+    assert!(wrong(0, 2).contains("below one path"), "{}", wrong(0, 2));
+    assert!(wrong(1, 2).contains("no robot can drive"), "{}", wrong(1, 2));
+    assert!(wrong(4, 2).contains("more than the 10 m"), "{}", wrong(4, 2));
+    assert!(wrong(2, 3).contains("stay tied within 10 m"), "{}", wrong(2, 3));
+}
+
+#[test]
+fn teams_without_room_or_contact_say_so() {
+    let one = |robots| setup(RuleName::Repaired, robots, generated("open:1x1", 0), 0);
+    assert!(wrong(&one(1)).unwrap_or_default().contains("one node, and no path"));
+    assert!(wrong(&one(2)).unwrap_or_default().contains("do not find room"));
+    let apart = |starts: [(i16, i16); 2]| {
+        let layout = generated("cells:9x3:0.2", 1);
+        let starts = starts.map(Cell::from).to_vec();
+        let base = starts[0];
+        Setup { starts: Some(starts), ..Setup::new(&KIT, RuleName::Repaired, 2, layout, base) }
+    };
+    let layout = apart([(0, 0); 2]).layout;
+    let free: Vec<Cell> = layout.cells().filter(|&cell| layout.is_free(cell)).collect();
+    let wall = layout.cells().find(|&cell| !layout.is_free(cell)).expect("a blocked cell");
+    let (first, last) = (free[0], free[free.len() - 1]);
+    let far = wrong(&apart([first.into(), last.into()])).unwrap_or_default();
+    assert!(far.contains("do not hear each other"), "{far}");
+    let blocked = wrong(&apart([first.into(), wall.into()])).unwrap_or_default();
+    assert!(blocked.contains("blocked") || blocked.contains("not free"), "{blocked}");
+    let many = Setup { robots: 9, ..setup(RuleName::Repaired, 8, generated("open:9x9", 0), 0) };
+    assert!(wrong(&many).unwrap_or_default().contains("9 robots are too many"), "{:?}", wrong(&many));
+}
+
+struct Unwatched;
+
+impl Hunter for Unwatched {
+    fn hears(&mut self, _: Far<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn is_not_kept(&mut self, fault: &Fault) {
+        panic!("{fault}");
+    }
+
+    fn is_left_out(&mut self, fault: &Fault) {
+        panic!("{fault}");
+    }
+}
+
+fn asked(rule: RuleName, robots: u64, (columns, rows): (u64, u64)) -> Asked<'static> {
+    Asked {
+        scheme: &KIT,
+        rule: rule.into(),
+        robots: Some(robots),
+        size: Some(Size::new(columns, rows).expect("a size")),
+        budget: None,
+        max_walls: Some(2),
+        max_misses: None,
+        max_losses: None,
+        error_cells: None,
+        resume: None,
+    }
+}
+
+fn hunted(asked: &Asked<'_>) -> Result<Hunted, Fault> {
+    let hunt = KIT.rule(asked.rule).and_then(|rule| rule.hunt).expect("it is hunted");
+    asked.check(hunt)?;
+    hunt.hunt(asked, &mut Unwatched)
+}
+
+/// The clauses that are broken, each with its columns, rows, walls and drives.
+fn broken(hunted: &Hunted) -> Vec<(&'static str, [u64; 4])> {
+    let size = |facts: &[(&str, serde_json::Value)]| -> [u64; 4] {
+        std::array::from_fn(|place| facts[place].1.as_u64().expect("a number"))
+    };
+    hunted.found.iter().map(|quarry| (quarry.clause, size(&quarry.facts))).collect()
+}
+
+/// Runs each counterexample that a file tells again: it breaks its clause.
+fn run_again(hunted: &Hunted) -> usize {
+    let stored = hunted.found.iter().filter_map(|quarry| match quarry.shown {
+        Shown::Run(clause) | Shown::Story(clause, _) => Some((clause, quarry)),
+        Shown::Endless | Shown::Told(_) => None,
+    });
+    let mut count = 0;
+    for (clause, quarry) in stored {
+        let report = run(&quarry.setup);
+        let is_broken = report.violations.iter().any(|violation| violation.clause == clause);
+        assert!(is_broken, "{clause}: {:?}", report.violations);
+        count += 1;
+    }
+    count
+}
+
+#[test]
+fn the_smallest_runs_that_break_the_published_rule() {
+    let hunted = hunted(&asked(RuleName::Published, 2, (5, 1))).expect("a hunt");
+    assert!(hunted.is_complete);
+    let found = broken(&hunted);
+    for expected in [("KIT-1", [5, 1, 0, 5]), ("KIT-3", [3, 1, 0, 3]), ("KIT-6", [3, 1, 0, 1])] {
+        assert!(found.contains(&expected), "{expected:?} in {found:?}");
+    }
+    assert!(run_again(&hunted) >= 6, "{found:?}");
+}
+
+#[test]
+fn a_repaired_team_breaks_nothing_within_the_bound() {
+    for robots in [1, 2] {
+        let hunted = hunted(&asked(RuleName::Repaired, robots, (4, 1))).expect("a hunt");
+        assert!(hunted.is_complete && hunted.found.is_empty(), "{robots} robots: {hunted:?}");
+    }
+}
+
+/// Robots that no known paths join can shut each other in.
+#[test]
+fn three_robots_that_start_anywhere_may_shut_each_other_in() {
+    let hunted = hunted(&asked(RuleName::Repaired, 3, (2, 2))).expect("a hunt");
+    assert_eq!(broken(&hunted).iter().map(|found| found.0).collect::<Vec<_>>(), ["KIT-6", "KIT-8"]);
+    assert_eq!(run_again(&hunted), 2);
+}
+
+#[test]
+fn a_hunt_ends_at_its_budget_and_says_so() {
+    let hunted =
+        hunted(&Asked { budget: Some(100), ..asked(RuleName::Repaired, 2, (4, 2)) }).expect("a hunt");
+    assert!(!hunted.is_complete && hunted.found.is_empty());
+}
+
+#[test]
+fn hunts_that_cannot_be_made_say_why() {
+    let wrong = |asked: Asked<'_>| hunted(&asked).err().map(|fault| fault.to_string()).unwrap_or_default();
+    let one = wrong(asked(RuleName::Repaired, 2, (1, 1)));
+    assert!(one.contains("one node, and no path"), "{one}");
+    let many = wrong(asked(RuleName::Repaired, 9, (4, 2)));
+    assert!(many.contains("the joint search holds 3 robots, and not 9"), "{many}");
+    let none = wrong(asked(RuleName::Repaired, 0, (4, 2)));
+    assert!(none.contains("0 robots"), "{none}");
+    let full = wrong(asked(RuleName::Repaired, 3, (2, 1)));
+    assert!(full.contains("do not find room in 2 nodes"), "{full}");
+    for size in [(9, 1), (5, 4)] {
+        let large = wrong(asked(RuleName::Repaired, 2, size));
+        assert!(large.contains("too many to search"), "{large}");
+    }
+    let lost = wrong(Asked { max_losses: Some(1), ..asked(RuleName::Repaired, 2, (2, 1)) });
+    assert!(lost.contains("`max-losses` does not bound this hunt"), "{lost}");
+}
+
+/// The counterexamples that `docs/kit.md` shows.
+#[test]
+fn whatever_the_page_shows_can_be_played_again() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
+    let mut played = 0;
+    for entry in fs::read_dir(docs).expect("the documents") {
+        let path = entry.expect("an entry").path();
+        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default().to_owned();
+        if !name.starts_with("kit-") || !name.ends_with(".jsonl") {
+            continue;
+        }
+        let text = fs::read_to_string(&path).expect("a file");
+        let clause = if text.starts_with("{\"format\":\"tautline run\"") {
+            let report =
+                Trace::open(&path).expect("a run").replay(&mut |_| Ok(())).expect("it is made again");
+            report.violations.last().expect("it breaks something").clause.to_string()
+        } else {
+            refutation::replay(&path).expect("it is played again").clause.id.to_owned()
+        };
+        assert!(name.starts_with(&format!("{}-published", clause.to_lowercase())), "{name} breaks {clause}");
+        played += 1;
+    }
+    assert!(played > 1);
 }

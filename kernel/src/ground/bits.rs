@@ -6,7 +6,7 @@ use super::plane::Plane;
 use super::{Area, Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Side, Step, Steps, links};
 
 /// A grid in machine words: at most [`Plane::COLUMNS`] columns and [`Plane::ROWS`] rows.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct BitGrid<P> {
     area: Area,
     cells: [P; 4],

@@ -1,7 +1,7 @@
 //! The nodes within three columns and rows of one, as the bits of a word: what is in reach of it, and what is joined with it
 //! by short paths.
 
-use super::stance::in_reach;
+use super::stance::Reach;
 use crate::ground::{Cell, Step};
 
 /// Nodes around one, a bit for each: 8·(rows + 3) + columns + 3, of −3 to 3 columns and rows.
@@ -15,19 +15,29 @@ pub(super) const fn bit(columns: i16, rows: i16) -> u32 {
 /// The node itself.
 pub(super) const HERE: Places = 1 << bit(0, 0);
 
-/// The places in reach, but for the very same node.
-pub(super) const IN_REACH: Places = {
-    let mut places = 0;
+/// The places within each squared distance, but for the very same node.
+const WITHIN: [Places; Reach::PAPER.squared() as usize + 1] = {
+    let mut within = [0; Reach::PAPER.squared() as usize + 1];
     let mut place = 0;
     while place < 56 {
-        let offset = Cell::new(place % 8 - 3, place / 8 - 3);
-        if in_reach(Cell::new(0, 0), offset) && place != bit(0, 0) as i16 && place % 8 < 7 {
-            places |= 1 << place;
+        let (x, y) = (place % 8 - 3, place / 8 - 3);
+        let mut squared = (x * x + y * y) as usize;
+        while 0 < squared && squared < within.len() && x <= 3 {
+            within[squared] |= 1 << place;
+            squared += 1;
         }
         place += 1;
     }
-    places
+    within
 };
+
+/// The places in reach, but for the very same node.
+pub(super) const fn in_reach(reach: Reach) -> Places {
+    WITHIN[reach.squared() as usize]
+}
+
+/// The places in the paper's reach, but for the very same node.
+pub(super) const IN_REACH: Places = in_reach(Reach::PAPER);
 
 /// The place of `other` around `node`, if it is so near.
 pub(super) fn place_of(node: Cell, other: Cell) -> Option<Places> {

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use super::stance::Reach;
 use super::team::MAX_ROBOTS;
 use crate::ground::Cell;
 
@@ -21,8 +22,10 @@ pub enum Refused {
     },
     /// Two robots start at one node.
     OneNode(Cell),
-    /// The robots do not hear each other.
-    OutOfContact,
+    /// The robots do not hear each other within this reach.
+    OutOfContact(Reach),
+    /// A team of so many has a shorter reach than the paper's: it could not stay tied.
+    ShortReach(usize),
 }
 
 impl fmt::Display for Refused {
@@ -36,10 +39,19 @@ impl fmt::Display for Refused {
             Self::OneNode(start) => {
                 write!(f, "two robots start at {start}: give each a node of its own")
             }
-            Self::OutOfContact => f.write_str(
+            Self::OutOfContact(Reach::PAPER) => f.write_str(
                 "the robots do not hear each other where they start: a node is in reach of another at most 3 columns or rows \
                  away, and 1 to the side",
             ),
+            Self::OutOfContact(reach) => write!(
+                f,
+                "the robots do not hear each other where they start: a node is in reach of another if the squares of the \
+                 columns and rows between them add up to at most {}",
+                reach.squared()
+            ),
+            Self::ShortReach(robots) => {
+                write!(f, "{robots} robots stay tied within 10 m, and not within a shorter reach")
+            }
         }
     }
 }

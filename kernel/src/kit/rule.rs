@@ -1,6 +1,7 @@
 //! KIT's rule as a set of named conditions, with what the paper leaves open as parameters. The first condition is the
 //! paper's; the others repair contact, collisions, deadlocks, coverage and the end of a run.
 
+use super::stance::Reach;
 use crate::conditions;
 
 /// One condition of the rule, by the sentence it stands for.
@@ -123,6 +124,8 @@ pub struct Rule {
     pub filter: Filter,
     /// When a robot answers.
     pub answers: Answers,
+    /// How far robots hear each other.
+    pub reach: Reach,
 }
 
 impl Rule {
@@ -134,6 +137,7 @@ impl Rule {
         fallback: Fallback::Nearest,
         filter: Filter::Everywhere,
         answers: Answers::Driving,
+        reach: Reach::PAPER,
     };
 
     /// With all repairs.

@@ -7,16 +7,46 @@ use crate::ground::{Cell, EdgeMark, Side};
 /// grid has for edges; robots of a chain use it for virtual obstacles.
 pub(super) const SEEN: EdgeMark = EdgeMark::Virtual;
 
-/// The largest squared distance of two nodes in contact: (10 m / 3 m)² = 11.1.
-const REACH_SQUARED: u32 = 11;
+/// How far robots hear each other.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Reach {
+    /// The largest squared distance of two nodes in contact, in squared paths.
+    squared: u8,
+}
 
-/// Whether robots at these nodes hear each other.
+impl Reach {
+    /// The paper's 10 m: (10 m / 3 m)² = 11.1.
+    pub const PAPER: Self = Self { squared: 11 };
+
+    /// So many paths, two or three. Within one path no robot could drive, and more than the paper's 10 m are not planned for.
+    pub const fn of_paths(paths: u16) -> Option<Self> {
+        match paths {
+            2 => Some(Self { squared: 4 }),
+            3 => Some(Self { squared: 9 }),
+            _ => None,
+        }
+    }
+
+    /// The largest squared distance of two nodes in contact, in squared paths: at most 11.
+    #[inline]
+    pub const fn squared(self) -> u8 {
+        self.squared
+    }
+
+    /// Whether robots at these nodes hear each other.
+    #[inline]
+    pub const fn joins(self, one: Cell, other: Cell) -> bool {
+        let (dx, dy) = one.apart(other);
+        let (dx, dy) = (dx as u32, dy as u32);
+        // Far apart, squares would not fit.
+        dx < 4 && dy < 4 && dx * dx + dy * dy <= self.squared as u32
+    }
+}
+
+/// Whether robots at these nodes hear each other within the paper's 10 m.
 #[inline]
 pub const fn in_reach(one: Cell, other: Cell) -> bool {
-    let (dx, dy) = one.apart(other);
-    let (dx, dy) = (dx as u32, dy as u32);
-    // Far apart, squares would not fit.
-    dx < 4 && dy < 4 && dx * dx + dy * dy <= REACH_SQUARED
+    Reach::PAPER.joins(one, other)
 }
 
 /// Where a robot is.
@@ -68,10 +98,16 @@ impl Stance {
     /// of how far each has come, so it is largest where both are at an end: the four corners decide.
     #[inline]
     pub const fn is_sure_of(self, other: Self) -> bool {
-        in_reach(self.from(), other.from())
-            && in_reach(self.from(), other.to())
-            && in_reach(self.to(), other.from())
-            && in_reach(self.to(), other.to())
+        self.is_sure_within(other, Reach::PAPER)
+    }
+
+    /// The same with another reach.
+    #[inline]
+    pub const fn is_sure_within(self, other: Self, reach: Reach) -> bool {
+        reach.joins(self.from(), other.from())
+            && reach.joins(self.from(), other.to())
+            && reach.joins(self.to(), other.from())
+            && reach.joins(self.to(), other.to())
     }
 
     /// Whether robots with these stances are at least one path, 3 m, apart at whatever speeds they drive: two paths of the
@@ -111,6 +147,14 @@ mod tests {
         assert!(in_reach(HERE, Cell::new(3, 1)) && in_reach(HERE, Cell::new(-2, 2)));
         assert!(!in_reach(HERE, Cell::new(3, 2)) && !in_reach(HERE, Cell::new(4, 0)));
         assert!(!in_reach(Cell::new(i16::MIN, 0), Cell::new(i16::MAX, 0)));
+    }
+
+    #[test]
+    fn a_shorter_reach_is_two_or_three_paths() {
+        let [two, three] = [2, 3].map(|paths| Reach::of_paths(paths).expect("a reach"));
+        assert!(two.joins(HERE, Cell::new(2, 0)) && !two.joins(HERE, Cell::new(2, 1)));
+        assert!(three.joins(HERE, Cell::new(2, 2)) && !three.joins(HERE, Cell::new(3, 1)));
+        assert_eq!([0, 1, 4].map(Reach::of_paths), [None; 3]);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::refused::{NotNow, Refused};
 use super::rule::{Condition, Fallback, Filter, Rule, Runs};
 use super::sets::{Set, sets};
-use super::stance::{SEEN, Stance};
+use super::stance::{Reach, SEEN, Stance};
 use crate::choice::Oracle;
 use crate::ground::{Cell, Edge, EdgeMark, Grid, Side, Step, Steps};
 
@@ -36,7 +36,7 @@ pub enum Sight {
 
 /// Why it takes a side.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-enum Why {
+pub(super) enum Why {
     /// It leads straight on.
     Ahead,
     /// Another robot stands there, and nobody knows whether the path is free.
@@ -51,7 +51,7 @@ enum Why {
 
 /// What a robot is about.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-enum Task {
+pub(super) enum Task {
     /// It drives, or has yet to decide.
     None,
     /// It looks at a side, and these are left for the same reason.
@@ -65,9 +65,9 @@ enum Task {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) struct Robot {
     pub(super) stance: Stance,
-    task: Task,
+    pub(super) task: Task,
     /// The way that it drove last.
-    heading: Option<Side>,
+    pub(super) heading: Option<Side>,
     /// Whether the path that it drives was new when it left.
     pub(super) is_new: bool,
 }
@@ -83,7 +83,7 @@ pub struct Kit<G, const ROBOTS: usize, const NODES: usize> {
     pub(super) robots: [Robot; ROBOTS],
     /// Robots that have entered. Of those that start at one node each enters when the one before has left.
     pub(super) entered: u8,
-    turn: u8,
+    pub(super) turn: u8,
 }
 
 impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
@@ -103,6 +103,9 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         if nodes > NODES {
             return Err(Refused::TooManyNodes { nodes, most: NODES });
         }
+        if ROBOTS > 2 && rule.reach != Reach::PAPER && rule.has(Condition::Tether) {
+            return Err(Refused::ShortReach(ROBOTS));
+        }
         if let Some(&outside) = starts.iter().find(|&&start| !area.contains(start)) {
             return Err(Refused::Outside(outside));
         }
@@ -117,9 +120,11 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         let kit =
             Self { rule, records: [map; ROBOTS], union: map, robots: starts.map(robot), entered, turn: 0 };
         let all = (1_u32 << ROBOTS).wrapping_sub(1) as Set;
-        let sure = |one: usize, other: usize| kit.robots[one].stance.is_sure_of(kit.robots[other].stance);
+        let sure = |one: usize, other: usize| {
+            kit.robots[one].stance.is_sure_within(kit.robots[other].stance, rule.reach)
+        };
         let [_, apart @ ..] = &sets::<ROBOTS>(all, sure)[..] else { return Err(Refused::Robots(ROBOTS)) };
-        if apart.iter().all(|&set| set == 0) { Ok(kit) } else { Err(Refused::OutOfContact) }
+        if apart.iter().all(|&set| set == 0) { Ok(kit) } else { Err(Refused::OutOfContact(rule.reach)) }
     }
 
     /// Its rule.
@@ -159,9 +164,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 
     /// Whether `robot` stands, has been answered, and has not decided yet.
     pub fn may_decide(&self, robot: usize) -> bool {
-        let stands = |robot: &Robot| robot.stance.stands() && robot.task == Task::None;
-        let entered = usize::from(self.entered);
-        if robot >= entered || !self.robots.get(robot).is_some_and(stands) {
+        if robot >= usize::from(self.entered) || !self.asks(robot) {
             return false;
         }
         if let Some(turn) = self.turn() {
@@ -169,6 +172,11 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         }
         // The other robots answer while they drive.
         self.others(robot).all(|other| !other.stands())
+    }
+
+    /// Whether `robot` stands and has something to decide, whoever has the turn.
+    pub fn asks(&self, robot: usize) -> bool {
+        self.robots.get(robot).is_some_and(|robot| robot.stance.stands() && robot.task == Task::None)
     }
 
     /// Begins the decision of `robot`. Where several sides are as good, `oracle` picks one.
@@ -455,7 +463,7 @@ mod tests {
     fn a_team_that_cannot_start_is_refused() {
         let start = |starts| Pair::new(Rule::REPAIRED, map(5, 1), starts).err();
         let (first, last) = (Cell::new(0, 0), Cell::new(4, 0));
-        assert_eq!(start([first, last]), Some(Refused::OutOfContact));
+        assert_eq!(start([first, last]), Some(Refused::OutOfContact(Reach::PAPER)));
         assert_eq!(start([first, first]), Some(Refused::OneNode(first)));
         assert_eq!(start([first, Cell::new(5, 0)]), Some(Refused::Outside(Cell::new(5, 0))));
         let small = Kit::<_, 1, 4>::new(Rule::REPAIRED, map(5, 1), [first]).err();

@@ -8,7 +8,7 @@
 use super::around::{HERE, IN_REACH, Places, at_offset, bit, offsets, place_of};
 use super::rule::Condition;
 use super::sets::{Set, robots, sets};
-use super::stance::{Stance, in_reach};
+use super::stance::Stance;
 use super::team::Kit;
 use crate::ground::{Cell, Grid, Side, Step};
 
@@ -186,16 +186,18 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 
     /// Whether robots with these stances count as sure to hear each other.
     fn hears(&self, one: Stance, other: Stance) -> bool {
-        let next = in_reach(one.to(), other.to());
-        let from = in_reach(one.from(), other.to())
-            && in_reach(one.to(), other.from())
-            && in_reach(one.from(), other.from());
+        let reach = self.rule.reach;
+        let next = reach.joins(one.to(), other.to());
+        let from = reach.joins(one.from(), other.to())
+            && reach.joins(one.to(), other.from())
+            && reach.joins(one.from(), other.from());
         (next || !self.rule.has(Condition::NextInReach)) && (from || !self.rule.has(Condition::FromInReach))
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::stance::in_reach;
     use super::*;
 
     #[test]

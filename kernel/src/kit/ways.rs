@@ -10,7 +10,7 @@
 //! Three robots and more have too many places for that. There the robot goes that can come to an uncovered side alone, the
 //! others staying where they go; if there is none, all go together: see `caravan.rs`.
 
-use super::around::{HERE, IN_REACH, Places, at_offset, bit, moved, offsets, place_of};
+use super::around::{HERE, Places, at_offset, bit, in_reach, moved, offsets, place_of};
 use super::rule::Condition;
 use super::team::Kit;
 use crate::ground::{Cell, EdgeMark, Grid, Steps};
@@ -75,7 +75,8 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     fn joint(&self, robot: usize) -> Option<(u32, Steps)> {
         let at = self.stance(robot)?.to();
         let other = self.others(robot).next()?.to();
-        let admitted = if self.rule().has(Condition::Apart) { IN_REACH } else { IN_REACH | HERE };
+        let around = in_reach(self.rule().reach);
+        let admitted = if self.rule().has(Condition::Apart) { around } else { around | HERE };
         let pair = place_of(at, other)? & admitted;
         let place = self.place(at).filter(|_| pair != 0)?;
         let ends = [at, other];

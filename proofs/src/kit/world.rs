@@ -2,20 +2,21 @@
 //! turns, whether it sees another one, and whether a side is blocked, are choices. What the clauses demand is in plain
 //! arithmetic here; of the kernel's rule only what robots do is used.
 
-use tautline_kernel::choice::Oracle;
-use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, Step, Steps, TinyGrid};
-use tautline_kernel::kit::{Condition, Kit, Next, Records, Rule, Sight, Stance, touch};
+mod broken;
+mod turns;
+
+use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, TinyGrid};
+use tautline_kernel::kit::{Condition, Kit, Next, Rule, Sight, Stance};
 
 use super::plain::Found;
-use crate::engine::outcomes;
 use crate::engine::states::{self, Bits, Places, System};
 
 /// A team on a small lattice.
-pub(super) type Team<const ROBOTS: usize> = Kit<TinyGrid, ROBOTS, 64>;
+pub type Team<const ROBOTS: usize> = Kit<TinyGrid, ROBOTS, 64>;
 
 /// What is demanded.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) enum Demand {
+pub enum Demand {
     /// KIT-1, KIT-2, KIT-12
     Contact,
     /// KIT-3
@@ -35,6 +36,21 @@ pub(super) enum Demand {
 }
 
 impl Demand {
+    /// The clause that so many robots break with it.
+    pub const fn clause(self, robots: usize) -> &'static str {
+        match self {
+            Self::Contact if robots > 2 => "KIT-12",
+            Self::Contact => "KIT-1",
+            Self::Apart => "KIT-3",
+            Self::Moves => "KIT-6",
+            Self::Ends => "KIT-7",
+            Self::Covers => "KIT-8",
+            Self::Marks => "KIT-10",
+            Self::Shortens => "KIT-11",
+            Self::Whole => "KIT-13",
+        }
+    }
+
     pub(super) const fn words(self) -> &'static str {
         match self {
             Self::Contact => "the robots hear each other all the way",
@@ -51,7 +67,7 @@ impl Demand {
 
 /// Where robots start.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Starts {
+pub enum Starts {
     /// At any nodes that the rule lets them start at.
     Anywhere,
     /// Each beside another one, and free paths between them join all.
@@ -60,16 +76,18 @@ pub(super) enum Starts {
 
 /// How fast robots are.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Speeds {
+pub enum Speeds {
     /// Each drive takes any time.
     Any,
     /// All drives take the same time: who has left first arrives first.
     Equal,
+    /// Nobody decides while another one drives.
+    OneByOne,
 }
 
 /// Whether robots wait for answers.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Answers {
+pub enum Answers {
     /// A robot that stands may be overtaken by the arrival of the other one.
     AnyTime,
     /// A robot is answered at the moment when it arrives.
@@ -78,34 +96,42 @@ pub(super) enum Answers {
 
 /// The lattice and what goes on there.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Setting<const ROBOTS: usize> {
-    pub(super) rule: Rule,
-    pub(super) area: Area,
+pub struct Setting<const ROBOTS: usize> {
+    /// The rule that the robots follow.
+    pub rule: Rule,
+    /// The nodes.
+    pub area: Area,
     /// Most walls that are met in one run.
-    pub(super) max_walls: u8,
-    pub(super) speeds: Speeds,
-    pub(super) answers: Answers,
-    pub(super) starts: Starts,
+    pub max_walls: u8,
+    /// How fast the robots are.
+    pub speeds: Speeds,
+    /// Whether they wait for answers.
+    pub answers: Answers,
+    /// Where they start.
+    pub starts: Starts,
     /// The one demand that is looked at; all if there is none.
-    pub(super) demand: Option<Demand>,
+    pub demand: Option<Demand>,
+    /// The walls of the lattice, if they are not decided as they are met.
+    pub given: Option<TinyGrid>,
 }
 
 /// A team and what is decided of its lattice.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) struct World<const ROBOTS: usize> {
-    pub(super) team: Team<ROBOTS>,
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct World<const ROBOTS: usize> {
+    /// The robots.
+    pub team: Team<ROBOTS>,
     /// Sides that are open, and walls that were met.
-    pub(super) truth: TinyGrid,
-    walls: u8,
+    pub truth: TinyGrid,
+    pub(super) walls: u8,
     /// The robots that drive a path which was new when they left, a bit for each.
-    fresh: u8,
+    pub(super) fresh: u8,
     /// Of two robots that drive, the one that has left first.
-    first: u8,
+    pub(super) first: u8,
 }
 
 /// What happens.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) enum Event {
+pub enum Event {
     /// A robot arrives at a node.
     Arrives(usize, Cell),
     /// A robot looks at sides of its node, and does what comes of it.
@@ -113,24 +139,38 @@ pub(super) enum Event {
 }
 
 /// A step, with what happens in it.
-pub(super) struct Turned<const ROBOTS: usize> {
-    pub(super) world: World<ROBOTS>,
-    pub(super) events: Vec<Event>,
-    robot: usize,
-    situation: &'static str,
-    breaks: Vec<Demand>,
+#[derive(Clone, Debug)]
+pub struct Turned<const ROBOTS: usize> {
+    /// The world after it.
+    pub world: World<ROBOTS>,
+    /// What happens, in order.
+    pub events: Vec<Event>,
+    pub(super) robot: usize,
+    pub(super) situation: &'static str,
+    /// What it breaks.
+    pub breaks: Vec<Demand>,
 }
 
 impl<const ROBOTS: usize> Setting<ROBOTS> {
+    /// A lattice of so many columns and rows, with any walls, any starts and any speeds, of which everything is demanded; `None`
+    /// if it is too large.
+    pub fn new(rule: Rule, (columns, rows): (i16, i16)) -> Option<Self> {
+        let area = Area::new(Cell::new(0, 0), Cell::new(columns.checked_sub(1)?, rows.checked_sub(1)?))?;
+        TinyGrid::new(area)?;
+        let (speeds, answers, starts) = (Speeds::Any, Answers::AnyTime, Starts::Anywhere);
+        let max_walls = area.edges().count() as u8;
+        Some(Self { rule, area, max_walls, speeds, answers, starts, demand: None, given: None })
+    }
+
     /// The start with the robots at these nodes, if the rule lets them start there.
-    pub(super) fn start(&self, cells: [Cell; ROBOTS]) -> Option<World<ROBOTS>> {
+    pub fn start(&self, cells: [Cell; ROBOTS]) -> Option<World<ROBOTS>> {
         let map = TinyGrid::new(self.area)?;
         let team = Team::new(self.rule, map, cells).ok()?;
         Some(World { team, truth: map, walls: 0, fresh: 0, first: 0 })
     }
 
     /// Every start.
-    pub(super) fn starts(&self) -> Vec<World<ROBOTS>> {
+    pub fn starts(&self) -> Vec<World<ROBOTS>> {
         match self.starts {
             Starts::Anywhere => self.placed().collect(),
             Starts::SideBySide => self.placed().flat_map(|world| self.joined(&world)).collect(),
@@ -224,227 +264,9 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     }
 }
 
-/// What happens next.
-impl<const ROBOTS: usize> Setting<ROBOTS> {
-    /// Every step from `world`.
-    pub(super) fn turns(&self, world: &World<ROBOTS>) -> Vec<Turned<ROBOTS>> {
-        let mut turns = Vec::new();
-        for robot in 0..ROBOTS {
-            let is_driving = world.team.stance(robot).is_some_and(|stance| !stance.stands());
-            if !is_driving {
-                turns.extend(outcomes(|oracle| self.decide(world, robot, oracle)).flatten());
-                continue;
-            }
-            let all_drive = world.team.stances().all(|stance| !stance.stands());
-            if self.speeds == Speeds::Equal && all_drive && usize::from(world.first) != robot {
-                continue;
-            }
-            let mut after = *world;
-            if after.team.arrived(robot).is_err() {
-                continue;
-            }
-            after.fresh &= !(1 << robot);
-            // Of two, the other one is now the one that has left first.
-            after.first = u8::from(robot == 0 && ROBOTS > 1);
-            let node = Self::ends(&after)[robot];
-            let arrival = Event::Arrives(robot, node);
-            if self.answers == Answers::AtOnce && after.team.may_decide(robot) {
-                let decided = outcomes(|oracle| self.decide(&after, robot, oracle)).flatten();
-                turns.extend(decided.map(|mut turned| {
-                    turned.events.insert(0, arrival.clone());
-                    turned
-                }));
-                continue;
-            }
-            let breaks = self.broken_by_marks(&after);
-            turns.push(Turned {
-                world: self.settled(after),
-                events: vec![arrival],
-                robot,
-                situation: "an arrival",
-                breaks,
-            });
-        }
-        turns
-    }
-
-    /// `robot` decides, if it may.
-    fn decide(&self, world: &World<ROBOTS>, robot: usize, oracle: &mut dyn Oracle) -> Option<Turned<ROBOTS>> {
-        let mut after = *world;
-        let from = Self::ends(world)[robot];
-        let mut next = after.team.decide(robot, oracle).ok()?;
-        let mut looks = Vec::new();
-        let mut is_old = false;
-        while let Next::Looks(side) = next {
-            is_old = world.team.known(EdgeMark::Open, from).has(Step::Cross(side));
-            let sight = self.see(&mut after, (robot, from, side), oracle);
-            looks.push((side, sight));
-            next = after.team.looked(robot, sight, oracle).ok()?;
-        }
-        let situation = match next {
-            Next::Drives(_) if is_old => "an old path",
-            Next::Drives(_) => "a new path",
-            Next::Stays | Next::Looks(_) => "a stay",
-            Next::Done => "done",
-        };
-        let mut breaks = self.broken_by_marks(&after);
-        if let Next::Drives(to) = next {
-            if !is_old {
-                after.fresh |= 1 << robot;
-            }
-            let others_drive = world.team.stances().any(|stance| !stance.stands());
-            after.first = if others_drive { world.first } else { robot as u8 };
-            let seen = World { team: world.team, ..after };
-            breaks.extend(self.broken_by_drive(&seen, robot, Stance::Drives { from, to }, is_old));
-        }
-        let events = vec![Event::Decides(robot, looks, next)];
-        Some(Turned { world: self.settled(after), events, robot, situation, breaks })
-    }
-
-    /// What `robot` sees at a side of its node.
-    fn see(
-        &self,
-        world: &mut World<ROBOTS>,
-        (robot, node, side): (usize, Cell, Side),
-        oracle: &mut dyn Oracle,
-    ) -> Sight {
-        let edge = Edge::new(node, side);
-        if !world.truth.edge_has(EdgeMark::Wall, edge) && !world.truth.edge_has(EdgeMark::Open, edge) {
-            let is_wall = world.walls < self.max_walls && oracle.mishap();
-            world.walls += u8::from(is_wall);
-            world.truth.put_edge(if is_wall { EdgeMark::Wall } else { EdgeMark::Open }, edge);
-        }
-        if world.truth.edge_has(EdgeMark::Wall, edge) {
-            return Sight::Obstacle;
-        }
-        let others = world.team.stances().enumerate().filter(|&(other, _)| other != robot);
-        let seen: Vec<Option<bool>> = others.map(|(_, stance)| touch(node, side, stance)).collect();
-        let is_seen = seen.contains(&Some(true)) || seen.contains(&None) && oracle.flip();
-        if is_seen { Sight::Robot } else { Sight::Free }
-    }
-
-    /// Where all records count, it does not matter who has driven a path.
-    fn settled(&self, mut world: World<ROBOTS>) -> World<ROBOTS> {
-        if self.rule.records == Records::Union {
-            let blank = TinyGrid::new(self.area).unwrap_or(world.truth);
-            let mut records = [blank; ROBOTS];
-            for record in world.team.records() {
-                records[0].add_edges(record);
-            }
-            world.team = world.team.with_records(records);
-        }
-        world
-    }
-}
-
-/// What is broken.
-impl<const ROBOTS: usize> Setting<ROBOTS> {
-    fn broken_by_marks(&self, world: &World<ROBOTS>) -> Vec<Demand> {
-        if !self.is_wanted(Demand::Marks) {
-            return Vec::new();
-        }
-        let map = self.found(world);
-        let is_covered = |node, side| {
-            let edge = Edge::new(node, side);
-            map.edge_has(EdgeMark::Open, edge) || map.edge_has(EdgeMark::Wall, edge)
-        };
-        let sides =
-            |node| Steps::ALL.filter(|step| matches!(step, Step::Cross(side) if is_covered(node, side)));
-        let is_right = |robot| self.area.cells().all(|node| world.team.covered(robot, node) == sides(node));
-        if (0..ROBOTS).all(is_right) { Vec::new() } else { vec![Demand::Marks] }
-    }
-
-    /// What is broken by a drive that `robot` begins.
-    fn broken_by_drive(
-        &self,
-        before: &World<ROBOTS>,
-        robot: usize,
-        path: Stance,
-        is_old: bool,
-    ) -> Vec<Demand> {
-        let others: Vec<(usize, Stance)> =
-            before.team.stances().enumerate().filter(|&(other, _)| other != robot).collect();
-        let mut breaks = Vec::new();
-        if self.is_wanted(Demand::Contact) && !self.is_in_contact(&others, path) {
-            breaks.push(Demand::Contact);
-        }
-        if self.is_wanted(Demand::Apart) && others.iter().any(|(_, other)| other.has(path.to())) {
-            breaks.push(Demand::Apart);
-        }
-        if is_old && self.is_wanted(Demand::Shortens) && !self.is_shorter(before, robot, path.to()) {
-            breaks.push(Demand::Shortens);
-        }
-        breaks
-    }
-
-    /// Whether the robots are connected while one of them drives this path.
-    fn is_in_contact(&self, others: &[(usize, Stance)], path: Stance) -> bool {
-        let hear = |one: Stance, other: Stance| {
-            let near = |one: Cell, other: Cell| {
-                let (dx, dy) = one.apart(other);
-                9 * (u32::from(dx).pow(2) + u32::from(dy).pow(2)) <= 100
-            };
-            let both = near(one.from(), other.from()) && near(one.to(), other.to());
-            // Of two robots of one speed, who has left later is not at its end while the other is where it left.
-            let late = near(one.to(), other.from())
-                || self.speeds == Speeds::Equal && one == path && !other.stands();
-            let early = near(one.from(), other.to())
-                || self.speeds == Speeds::Equal && other == path && !one.stands();
-            both && late && early
-        };
-        let mut reached = vec![path];
-        let mut rest: Vec<Stance> = others.iter().map(|&(_, stance)| stance).collect();
-        let mut place = 0;
-        while place < reached.len() {
-            let (near, far): (Vec<_>, Vec<_>) = rest.iter().partition(|&&other| hear(reached[place], other));
-            reached.extend(near);
-            rest = far;
-            place += 1;
-        }
-        rest.is_empty()
-    }
-
-    /// Whether the team, or the robot alone while another one drives a new path, is nearer to an uncovered side at `to`.
-    fn is_shorter(&self, before: &World<ROBOTS>, robot: usize, to: Cell) -> bool {
-        let map = self.found(before);
-        let cells = Self::ends(before);
-        let mut after = cells;
-        after[robot] = to;
-        let is_nearer = |left, movers| {
-            let found = Found { map: &map, left };
-            match (found.distance(after, movers), found.distance(cells, movers)) {
-                (Some(after), Some(before)) => after < before,
-                (_, None) | (None, Some(_)) => false,
-            }
-        };
-        let left =
-            |other: usize| before.team.stance(other).filter(|stance| !stance.stands()).map(Stance::from);
-        let goes_alone = self.rule.has(Condition::Meanwhile) && before.fresh & !(1 << robot) != 0;
-        is_nearer([None; ROBOTS], u8::MAX) || goes_alone && is_nearer(std::array::from_fn(left), 1 << robot)
-    }
-
-    /// The first of the demands that are looked at and broken by staying in `world`.
-    fn broken_by_staying(&self, world: &World<ROBOTS>) -> Option<Demand> {
-        let is_over = world.team.is_over();
-        let is_stuck = || !is_over && self.is_owed(world);
-        if self.is_wanted(Demand::Moves) && is_stuck() {
-            return Some(Demand::Moves);
-        }
-        let is_short = || !is_over || self.is_owed(world);
-        if self.is_wanted(Demand::Covers) && is_short() {
-            return Some(Demand::Covers);
-        }
-        let is_left_over = || {
-            let map = self.found(world);
-            !is_over || Found { map: &map, left: [None; ROBOTS] }.is_left_over(Self::ends(world))
-        };
-        (self.is_wanted(Demand::Whole) && is_left_over()).then_some(Demand::Whole)
-    }
-}
-
 /// What a world is made of.
-#[derive(Clone, PartialEq, Eq, Hash)]
-pub(super) enum Part<const ROBOTS: usize> {
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub enum Part<const ROBOTS: usize> {
     /// A record, or the truth.
     Map(TinyGrid),
     /// All but the maps.

@@ -179,7 +179,7 @@ fn words(look: Look, made: &TeamMove<'_>, report: &Report) -> String {
     let kind = match (look, made.frame.kind) {
         (Look::Linked { .. }, Kind::Advance) => ", an advance",
         (Look::Linked { .. }, Kind::Backtrack) => ", a backtrack",
-        (Look::Tree { .. } | Look::Apart, Kind::Advance | Kind::Backtrack) => "",
+        (Look::Tree { .. } | Look::Apart | Look::Robots, Kind::Advance | Kind::Backtrack) => "",
     };
     let mut words = format!("Team move {} of {}{kind}", made.step, report.steps);
     let blocked = (1..).zip(&made.frame.blocked).filter(|&(_, &blocked)| blocked);

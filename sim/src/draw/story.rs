@@ -34,6 +34,7 @@ pub fn of(run: &dyn Play, chart: &Survey, made: &TeamMove<'_>) -> String {
     let look = run.stage().look;
     let who = match look {
         Look::Linked { .. } | Look::Tree { .. } => "R_",
+        Look::Robots => "Robot ",
         Look::Apart => "Agent ",
     };
     for (robot, &from) in made.before.iter().enumerate().skip(first_drawn(look)) {

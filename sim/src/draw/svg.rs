@@ -386,7 +386,7 @@ pub(super) fn team(look: Look, frame: Frame, made: &TeamMove<'_>) -> String {
     body += &match look {
         Look::Linked { is_lost } => links(frame, is_lost, before, after) + &base_with(frame, after),
         Look::Tree { is_linked } => tree(frame, is_linked, after) + &base_with(frame, after),
-        Look::Apart => String::new(),
+        Look::Apart | Look::Robots => String::new(),
     };
     for (robot, &from) in before.iter().enumerate().skip(first_drawn(look)) {
         if let Step::Cross(side) = made.frame.steps[robot] {
@@ -487,7 +487,9 @@ fn robot(look: Look, frame: Frame, team: &[Cell], robot: usize) -> String {
     let class = match (look, all > 2 && !is_base, robot + 1 == team.len()) {
         (Look::Linked { .. } | Look::Tree { .. }, true, _) => "crowded",
         (Look::Linked { .. }, false, true) => "leader",
-        (Look::Linked { .. }, false, false) | (Look::Tree { .. }, false, _) | (Look::Apart, ..) => "robot",
+        (Look::Linked { .. }, false, false)
+        | (Look::Tree { .. }, false, _)
+        | (Look::Apart | Look::Robots, ..) => "robot",
     };
     let radius = if all == 1 && !is_base { 9 } else { 6 };
     let at = (x + dx, y + dy);

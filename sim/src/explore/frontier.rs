@@ -3,7 +3,6 @@
 
 mod hunt;
 mod scripted;
-mod watched;
 
 use std::collections::{BTreeSet, VecDeque};
 

@@ -4,17 +4,22 @@
 //! As published no robot knows when everything is driven: whoever watches them ends the run then. A team that has driven no
 //! new path for twenty drives a path is taken to go round for ever.
 
+mod hunt;
+mod scripted;
+
 use std::collections::BTreeSet;
+use std::num::NonZeroU32;
 
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, Step};
-use tautline_kernel::kit::{Refused, Rule as Kit, Stance};
+use tautline_kernel::kit::{Reach, Refused, Rule as Kit, Stance};
 use tautline_proofs::run::Frame;
 
+use self::hunt::Searched;
+
 use super::clause::ClauseId;
-use super::rule::RuleId;
 use super::run::{End, Team};
-use super::setup::{Clause, Profile, Rule, Senses, Setup, Starts};
+use super::setup::{Clause, Extra, Profile, Rule, Senses, Setup, Starts};
 use super::stage::Look;
 use super::survey::Survey;
 use crate::fault::Fault;
@@ -23,6 +28,9 @@ use crate::layout::Layout;
 
 /// Of two robots, one may not hear the other at all speeds.
 pub const CONTACT: ClauseId = ClauseId::new("KIT-1");
+
+/// Of two robots at equal speeds, one may not hear the other.
+pub const EQUAL: ClauseId = ClauseId::new("KIT-2");
 
 /// A robot drives to where another one is or goes.
 pub const APART: ClauseId = ClauseId::new("KIT-3");
@@ -33,8 +41,17 @@ pub const MOVES: ClauseId = ClauseId::new("KIT-6");
 /// All robots are done, and a path within reach is not driven.
 pub const COVERS: ClauseId = ClauseId::new("KIT-8");
 
+/// A side counts as covered that nobody has covered, or the other way round.
+pub const MARKS: ClauseId = ClauseId::new("KIT-10");
+
+/// A drive over an old path shortens no way.
+pub const SHORTENS: ClauseId = ClauseId::new("KIT-11");
+
 /// Of three robots and more, one may be cut off at some speeds.
 pub const CONNECTED: ClauseId = ClauseId::new("KIT-12");
+
+/// Three robots and more that start side by side leave a path undriven that paths join to their starts.
+pub const WHOLE: ClauseId = ClauseId::new("KIT-13");
 
 const MISSED: &str = "Within reach and not driven to";
 
@@ -46,32 +63,26 @@ pub static KIT: Profile = Profile {
     name: "kit",
     about: "Keep In Touch: robots that drive every path between two cells, and keep in radio contact",
     rules: &[
-        Rule {
-            name: RuleId::PUBLISHED,
-            about: "As the paper publishes it",
-            start: |setup| start(setup, Kit::PUBLISHED),
-            hunt: None,
-        },
-        Rule {
-            name: RuleId::REPAIRED,
-            about: "With the repairs of its refuted claims",
-            start: |setup| start(setup, Kit::REPAIRED),
-            hunt: None,
-        },
+        Rule::published(|setup| start(setup, Kit::PUBLISHED), &Searched(Kit::PUBLISHED)),
+        Rule::repaired(|setup| start(setup, Kit::REPAIRED), &Searched(Kit::REPAIRED)),
     ],
     team: "team",
     robots: 1..=MOST_ROBOTS,
     starts: Starts::Beside,
     senses: Senses::Bumps,
-    extras: &[],
-    look: Look::Apart,
+    extras: &[Extra::Range, Extra::Speed, Extra::Spread],
+    look: Look::Robots,
     knowledge: None,
     clauses: &[
         Clause::new(CONTACT.as_str()),
+        Clause::new(EQUAL.as_str()),
         Clause::new(APART.as_str()),
         Clause { missed: Some(MISSED), ..Clause::new(MOVES.as_str()) },
         Clause { missed: Some(MISSED), ..Clause::new(COVERS.as_str()) },
+        Clause::new(MARKS.as_str()),
+        Clause::new(SHORTENS.as_str()),
         Clause::new(CONNECTED.as_str()),
+        Clause { missed: Some(MISSED), ..Clause::new(WHOLE.as_str()) },
     ],
 };
 
@@ -82,13 +93,49 @@ struct KitTeam {
     due: Vec<Edge>,
     /// Drives since the last new path.
     idle: usize,
+    reach: Reach,
 }
 
 /// The team of `setup`, each robot at its start.
 fn start(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Fault> {
+    if setup.layout.free_cells() < 2 {
+        let what = "this layout has one node, and no path to drive";
+        return Err(Fault::of_field("layout", what, "take a layout of at least two free cells"));
+    }
+    if !setup.choices.is_empty() {
+        return scripted::start(setup, rule);
+    }
     let cells = setup.starts();
-    let course = course(rule, &setup.layout, &cells, Pace::STEADY, setup.seed).map_err(fault)?;
-    Ok(Box::new(KitTeam { course, due: paths(&setup.layout, setup.base), cells, idle: 0 }))
+    let rule = Kit { reach: reach(setup)?, ..rule };
+    let course = course(rule, &setup.layout, &cells, pace(setup), setup.seed);
+    let course = course.map_err(fault)?;
+    let (due, reach) = (paths(&setup.layout, setup.base), rule.reach);
+    Ok(Box::new(KitTeam { course, due, cells, idle: 0, reach }))
+}
+
+/// How far the robots of `setup` hear each other.
+fn reach(setup: &Setup) -> Result<Reach, Fault> {
+    let Some(paths) = setup.options.range_cells else { return Ok(Reach::PAPER) };
+    Reach::of_paths(paths).ok_or_else(|| {
+        let what = match paths {
+            0 => "a range of 0 cells is below one path".to_owned(),
+            1 => "within 1 cell no robot can drive while another one stays in range".to_owned(),
+            paths => format!("a range of {paths} cells is more than the 10 m that robots plan for"),
+        };
+        Fault::of_field(
+            "range",
+            what,
+            "give `range` 2 or 3 cells, or leave it out for 10 m, which are 3.33 cells",
+        )
+    })
+}
+
+/// How fast the robots of `setup` drive. Whatever is out of bounds was refused before.
+fn pace(setup: &Setup) -> Pace {
+    let thousandths = |number: f64| (number * 1000.0).round() as u32;
+    let speed = setup.options.speed_mps.and_then(|metres| NonZeroU32::new(thousandths(metres)));
+    let spread = setup.options.spread.map_or(0, thousandths);
+    Pace { speed: speed.unwrap_or(Pace::STEADY.speed), spread: spread.min(Pace::MOST_SPREAD) }
 }
 
 /// The fault of a team that is refused.
@@ -96,7 +143,8 @@ fn fault(refused: Refused) -> Fault {
     let (field, remedy) = match refused {
         Refused::Robots(_) => ("robots", format!("give `robots` a number from 1 to {MOST_ROBOTS}")),
         Refused::TooManyNodes { .. } => ("layout", "take a layout of at most 64 columns and rows".to_owned()),
-        Refused::Outside(_) | Refused::OneNode(_) | Refused::OutOfContact => {
+        Refused::ShortReach(_) => ("range", "leave `range` out, or give `robots` 1 or 2".to_owned()),
+        Refused::Outside(_) | Refused::OneNode(_) | Refused::OutOfContact(_) => {
             ("starts", "give each robot a start beside another one's".to_owned())
         }
     };
@@ -149,7 +197,7 @@ impl Team for KitTeam {
         let driver = before.iter().zip(&frame.cells).position(|(before, after)| before != after);
         let others = || stances.iter().enumerate().filter(|&(robot, _)| Some(robot) != driver);
         let is_near = driver.is_some_and(|driver| others().any(|(_, other)| other.has(frame.cells[driver])));
-        let is_whole = is_connected(&stances);
+        let is_whole = is_connected(&stances, self.reach);
         let is_cut = |robots: bool, clause: ClauseId| (robots && !is_whole).then_some(clause);
         [is_cut(before.len() == 2, CONTACT), is_near.then_some(APART), is_cut(before.len() > 2, CONNECTED)]
             .into_iter()
@@ -180,13 +228,13 @@ fn nodes(paths: &[Edge], cells: &[Cell]) -> BTreeSet<Cell> {
 }
 
 /// Whether robots hear each other at whatever speeds they drive, directly or over others.
-fn is_connected(stances: &[Stance]) -> bool {
+fn is_connected(stances: &[Stance], reach: Reach) -> bool {
     let Some((&first, rest)) = stances.split_first() else { return true };
     let (mut reached, mut rest) = (vec![first], rest.to_vec());
     let mut place = 0;
     while let Some(&from) = reached.get(place) {
         let (near, far): (Vec<Stance>, Vec<Stance>) =
-            rest.into_iter().partition(|other| from.is_sure_of(*other));
+            rest.into_iter().partition(|other| from.is_sure_within(*other, reach));
         reached.extend(near);
         rest = far;
         place += 1;

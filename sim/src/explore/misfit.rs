@@ -1,6 +1,7 @@
 //! What of a setup does not fit its scheme, wherever it comes from.
 
 use std::fmt;
+use std::ops::RangeInclusive;
 
 use tautline_kernel::frontier::Threshold;
 use tautline_kernel::ground::Cell;
@@ -15,6 +16,12 @@ use crate::layout::Problem;
 
 /// The greatest standard deviation of the noise of positions, in dB.
 const MOST_NOISE_DB: f64 = 100.0;
+
+/// The slowest and the fastest robots, in metres a second.
+const SPEEDS_MPS: RangeInclusive<f64> = 0.001..=1000.0;
+
+/// How much speeds may differ.
+const SPREADS: RangeInclusive<f64> = 0.0..=0.999;
 
 /// What does not fit: `Display` says what, [`Misfit::remedy`] what would be right.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -45,9 +52,11 @@ pub enum Misfit {
     StartsAtBase(&'static Profile),
     /// There are starts for another number of agents.
     Starts {
+        /// The scheme.
+        scheme: &'static Profile,
         /// So many starts.
         starts: usize,
-        /// So many agents.
+        /// So many agents or robots.
         robots: u16,
     },
     /// A start is not a free cell.
@@ -67,6 +76,10 @@ pub enum Misfit {
     Threshold,
     /// No noise.
     Noise,
+    /// No speed.
+    Speed,
+    /// No spread of speeds.
+    Spread,
 }
 
 impl Misfit {
@@ -81,6 +94,8 @@ impl Misfit {
             Self::Extra(_, extra) => extra.field(),
             Self::Threshold => Extra::Threshold.field(),
             Self::Noise => Extra::Noise.field(),
+            Self::Speed => Extra::Speed.field(),
+            Self::Spread => Extra::Spread.field(),
         }
     }
 
@@ -105,7 +120,9 @@ impl Misfit {
             Self::MissAll => "give a probability below 1, or end the run by `max-moves`".to_owned(),
             Self::Missed => "number them from 1 on, in order, each once".to_owned(),
             Self::StartsAtBase(_) => "give the base another place by `base`".to_owned(),
-            Self::Starts { .. } => "give one start for all, or one for each agent".to_owned(),
+            Self::Starts { scheme, .. } => {
+                format!("give one start for all, or one for each {}", scheme.look.robot())
+            }
             Self::Start(problem) => problem.remedy(),
             Self::Together(_) => "give each robot a start of its own".to_owned(),
             Self::Full { cells, .. } => {
@@ -118,6 +135,8 @@ impl Misfit {
             }
             Self::Threshold => "give `threshold` a number from 0 to 1".to_owned(),
             Self::Noise => "give `noise-db` a number of decibels from 0 to 100".to_owned(),
+            Self::Speed => "give `speed` a number of metres a second from 0.001 to 1000".to_owned(),
+            Self::Spread => "give `spread` a share from 0 to 0.999".to_owned(),
         }
     }
 }
@@ -147,8 +166,9 @@ impl fmt::Display for Misfit {
             Self::StartsAtBase(scheme) => {
                 write!(f, "the {}s of a {} start at the base", scheme.look.robot(), scheme.team)
             }
-            Self::Starts { starts, robots } => {
-                write!(f, "{} for {}", counted(*starts, "start"), counted(*robots, "agent"))
+            Self::Starts { scheme, starts, robots } => {
+                let robots = counted(*robots, scheme.look.robot());
+                write!(f, "{} for {robots}", counted(*starts, "start"))
             }
             Self::Start(problem) => problem.fmt(f),
             Self::Together(cell) => write!(f, "two robots start in the cell {cell}"),
@@ -161,6 +181,8 @@ impl fmt::Display for Misfit {
             }
             Self::Threshold => f.write_str("a threshold of the occupancy probability is from 0 to 1"),
             Self::Noise => f.write_str("a standard deviation of noise is from 0 to 100 dB"),
+            Self::Speed => f.write_str("a robot drives from 0.001 to 1000 m/s"),
+            Self::Spread => f.write_str("drives are faster or slower by less than the whole speed"),
         }
     }
 }
@@ -204,8 +226,8 @@ impl Setup {
         }
         self.check_extras()?;
         match (scheme.starts, starts) {
-            (Starts::Alone, None) => return Err(Misfit::Starts { starts: 1, robots: *robots }),
-            (Starts::Alone, Some(starts)) if self.is_full(starts) => {
+            (Starts::Alone, None) => return Err(Misfit::Starts { scheme, starts: 1, robots: *robots }),
+            (Starts::Alone | Starts::Beside, Some(starts)) if self.is_full(starts) => {
                 return Err(Misfit::Full { robots: *robots, cells: starts.len() });
             }
             (Starts::Base, Some(_)) => return Err(Misfit::StartsAtBase(scheme)),
@@ -213,7 +235,7 @@ impl Setup {
             (Starts::Anywhere | Starts::Beside | Starts::Alone, Some(starts))
                 if starts.len() != usize::from(*robots) =>
             {
-                return Err(Misfit::Starts { starts: starts.len(), robots: *robots });
+                return Err(Misfit::Starts { scheme, starts: starts.len(), robots: *robots });
             }
             (Starts::Anywhere | Starts::Beside | Starts::Alone, starts) => {
                 let starts = starts.as_deref().unwrap_or(std::slice::from_ref(&self.base));
@@ -238,12 +260,15 @@ impl Setup {
 
     /// Refuses what the scheme cannot be told, and what is out of bounds.
     fn check_extras(&self) -> Result<(), Misfit> {
-        let (Options { range_cells, loss, noise_db, threshold }, usual) = (self.options, Options::default());
+        let Options { range_cells, loss, noise_db, threshold, speed_mps, spread } = self.options;
+        let usual = Options::default();
         let told = [
             (Extra::Range, range_cells.is_some()),
             (Extra::Loss, !loss.is_never()),
             (Extra::Noise, noise_db.to_bits() != usual.noise_db.to_bits()),
             (Extra::Threshold, threshold.to_bits() != usual.threshold.to_bits()),
+            (Extra::Speed, speed_mps.is_some()),
+            (Extra::Spread, spread.is_some()),
         ];
         let refused =
             told.into_iter().find(|(extra, is_told)| *is_told && !self.scheme.extras.contains(extra));
@@ -252,6 +277,12 @@ impl Setup {
         }
         if Threshold::new(threshold).is_none() {
             return Err(Misfit::Threshold);
+        }
+        if speed_mps.is_some_and(|speed| !SPEEDS_MPS.contains(&speed)) {
+            return Err(Misfit::Speed);
+        }
+        if spread.is_some_and(|spread| !SPREADS.contains(&spread)) {
+            return Err(Misfit::Spread);
         }
         if (0.0..=MOST_NOISE_DB).contains(&noise_db) { Ok(()) } else { Err(Misfit::Noise) }
     }

@@ -98,6 +98,10 @@ pub enum Extra {
     Noise,
     /// The threshold of the occupancy probability.
     Threshold,
+    /// How fast robots drive.
+    Speed,
+    /// How much their speeds differ.
+    Spread,
 }
 
 impl Extra {
@@ -108,6 +112,8 @@ impl Extra {
             Self::Loss => "loss",
             Self::Noise => "noise-db",
             Self::Threshold => "threshold",
+            Self::Speed => "speed",
+            Self::Spread => "spread",
         }
     }
 }

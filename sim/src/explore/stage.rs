@@ -25,6 +25,8 @@ pub enum Look {
     },
     /// Every robot is an agent for itself.
     Apart,
+    /// The same, and agents are called robots.
+    Robots,
 }
 
 impl Look {
@@ -32,14 +34,14 @@ impl Look {
     pub const fn has_base(self) -> bool {
         match self {
             Self::Linked { .. } | Self::Tree { .. } => true,
-            Self::Apart => false,
+            Self::Apart | Self::Robots => false,
         }
     }
 
     /// What a robot is called.
     pub const fn robot(self) -> &'static str {
         match self {
-            Self::Linked { .. } | Self::Tree { .. } => "robot",
+            Self::Linked { .. } | Self::Tree { .. } | Self::Robots => "robot",
             Self::Apart => "agent",
         }
     }

@@ -12,11 +12,11 @@ use tautline_kernel::position::{self, Point, Range, Residual, Signal, locate};
 use crate::layout::generate::{self, Probability};
 use crate::radio::deviation_db;
 
-/// What a run of frontier cells is told besides. The default is what it is without a word.
+/// What a run of frontier cells, or of robots that keep in touch, is told besides. The default is what it is without a word.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Options {
-    /// Farther than so many cells no message is heard; without it all are.
+    /// Farther than so many cells no message is heard. Without it all are; robots that keep in touch hear 10 m.
     pub range_cells: Option<u16>,
     /// How likely it is that a message is lost, for each robot that could hear it.
     pub loss: Probability,
@@ -24,11 +24,18 @@ pub struct Options {
     pub noise_db: f64,
     /// The threshold T of the occupancy probability, from 0 to 1.
     pub threshold: f64,
+    /// How fast robots that keep in touch drive, in metres a second; without it 0.3.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed_mps: Option<f64>,
+    /// By which share of it each of their drives may be faster or slower, below 1; without it 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spread: Option<f64>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { range_cells: None, loss: Probability::NEVER, noise_db: 0.0, threshold: 0.5 }
+        let (range_cells, speed_mps, spread) = (None, None, None);
+        Self { range_cells, loss: Probability::NEVER, noise_db: 0.0, threshold: 0.5, speed_mps, spread }
     }
 }
 

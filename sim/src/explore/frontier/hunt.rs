@@ -1,22 +1,21 @@
 //! Hunts of robots that explore cells. Of the kernel's robots all states are searched: all obstacles, all starts, all orders,
 //! lost messages and wrong fixes. Of rivals all layouts and starts are tried, smallest first.
 
-use std::cell::{Cell as Flag, RefCell};
 use std::ops::ControlFlow;
 
 use serde_json::json;
 use tautline_kernel::frontier::{Map, Rule as Frontier, Status, TinyMap};
 use tautline_kernel::ground::Cell;
-use tautline_proofs::engine::states::{Found, Limits as Most, System, search};
+use tautline_proofs::engine::states::Limits as Most;
 use tautline_proofs::frontier::areas::{Counterexample, fewest, setting};
 use tautline_proofs::frontier::drift::{Drift, PARTS};
 use tautline_proofs::frontier::world::{Demand, Event, Setting};
 use tautline_proofs::words::counted;
 
-use super::watched::Watched;
 use super::{ENDS, reachable};
 use crate::explore::hunt::{Asked, Bound, Fact, Far, Hunt, Hunted, Hunter, Quarry, Shown};
 use crate::explore::run::{Limits, OnViolation, run};
+use crate::explore::watched::{Count, watched};
 use crate::explore::{ClauseId, Setup, team};
 use crate::fault::{Fault, Halt};
 use crate::layout::{Layout, Size};
@@ -43,16 +42,6 @@ pub(super) struct Searched(pub(super) Frontier);
 /// Rivals, of which every layout is tried.
 #[derive(Debug)]
 pub(super) struct Simulated;
-
-/// How much was searched.
-#[derive(Default)]
-struct Count {
-    states: u64,
-    steps: u64,
-    /// The cells up to which all areas were searched.
-    cells: Option<usize>,
-    is_complete: bool,
-}
 
 /// All areas up to a size, fewest cells first.
 fn areas(size: Size) -> Vec<(i16, i16)> {
@@ -182,29 +171,6 @@ fn drifting(
 /// Most obstacles that one run meets.
 fn most_obstacles(asked: &Asked<'_>) -> u8 {
     asked.max_walls.map_or(MOST_CELLS as u8, |walls| walls.min(MOST_CELLS as u32) as u8)
-}
-
-/// Searches a system, watched; what was found, and whether the work was ended.
-fn watched<S: System>(
-    system: &S,
-    starts: Vec<S::State>,
-    what: String,
-    asked: &Asked<'_>,
-    count: &mut Count,
-    hunter: &mut dyn Hunter,
-) -> (Found<S::Demand>, bool) {
-    let left = asked.budget.map_or(u64::MAX, |budget| budget.saturating_sub(count.steps));
-    let watched = Watched {
-        system,
-        hunter: RefCell::new(hunter),
-        what,
-        states: Flag::new(count.states),
-        is_stopped: Flag::new(false),
-    };
-    let found = search(&watched, starts, Most { most_steps: left, ..Most::NONE });
-    count.states += found.states;
-    count.steps += found.steps;
-    (found, watched.is_stopped.get())
 }
 
 fn searched<const ROBOTS: usize>(

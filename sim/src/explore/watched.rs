@@ -2,22 +2,55 @@
 
 use std::cell::{Cell, RefCell};
 
-use tautline_proofs::engine::states::{Bits, Places, Step, System};
+use tautline_proofs::engine::states::{Bits, Found, Limits, Places, Step, System, search};
 
-use crate::explore::hunt::{Far, Hunter};
+use super::hunt::{Asked, Far, Hunter};
 
 /// States between two words about how far the search is.
 const BETWEEN: u64 = 1 << 14;
 
+/// How much was searched.
+#[derive(Default)]
+pub(super) struct Count {
+    pub(super) states: u64,
+    pub(super) steps: u64,
+    /// The cells up to which all areas were searched.
+    pub(super) cells: Option<usize>,
+    pub(super) is_complete: bool,
+}
+
+/// Searches a system, watched, as far as the budget goes; what was found, and whether the work was ended.
+pub(super) fn watched<S: System>(
+    system: &S,
+    starts: Vec<S::State>,
+    what: String,
+    asked: &Asked<'_>,
+    count: &mut Count,
+    hunter: &mut dyn Hunter,
+) -> (Found<S::Demand>, bool) {
+    let left = asked.budget.map_or(u64::MAX, |budget| budget.saturating_sub(count.steps));
+    let watched = Watched {
+        system,
+        hunter: RefCell::new(hunter),
+        what,
+        states: Cell::new(count.states),
+        is_stopped: Cell::new(false),
+    };
+    let found = search(&watched, starts, Limits { most_steps: left, ..Limits::NONE });
+    count.states += found.states;
+    count.steps += found.steps;
+    (found, watched.is_stopped.get())
+}
+
 /// A watched system.
-pub(super) struct Watched<'a, 'h, S> {
-    pub(super) system: &'a S,
-    pub(super) hunter: RefCell<&'h mut dyn Hunter>,
+struct Watched<'a, 'h, S> {
+    system: &'a S,
+    hunter: RefCell<&'h mut dyn Hunter>,
     /// What is searched.
-    pub(super) what: String,
-    pub(super) states: Cell<u64>,
+    what: String,
+    states: Cell<u64>,
     /// Whether the work was ended.
-    pub(super) is_stopped: Cell<bool>,
+    is_stopped: Cell<bool>,
 }
 
 impl<S: System> System for Watched<'_, '_, S> {

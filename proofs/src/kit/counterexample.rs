@@ -1,0 +1,127 @@
+//! Runs on small lattices that break a clause: the one with the fewest walls, the same run on a lattice that is given, and what
+//! happens in it.
+
+use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side};
+use tautline_kernel::kit::{Next, Sight};
+
+use super::world::{Demand, Event, Setting, Turned, World};
+use crate::engine::states::{Limits, Run, search};
+
+/// A run that breaks a demand, and where.
+#[derive(Clone, Debug)]
+pub struct Counterexample<const ROBOTS: usize> {
+    /// The lattice, and the most walls that the run may meet.
+    pub setting: Setting<ROBOTS>,
+    /// The run.
+    pub run: Run<Demand>,
+}
+
+/// The shortest run with the fewest walls that breaks `demand` on the lattice of `setting`; `None` if there is none within the
+/// walls of `setting` and the `limits`.
+pub fn fewest<const ROBOTS: usize>(
+    setting: Setting<ROBOTS>,
+    demand: Demand,
+    limits: Limits<'_>,
+) -> Option<Counterexample<ROBOTS>> {
+    (0..=setting.max_walls).find_map(|max_walls| {
+        let setting = Setting { max_walls, demand: Some(demand), ..setting };
+        let found = search(&setting, setting.starts(), limits);
+        Some(Counterexample { setting, run: found.broken.into_iter().next()? })
+    })
+}
+
+impl<const ROBOTS: usize> Counterexample<ROBOTS> {
+    /// The world at the start, and each step; fewer steps if the run is not one of the setting.
+    fn steps(&self) -> Option<(World<ROBOTS>, Vec<Turned<ROBOTS>>)> {
+        let start = self.setting.starts().into_iter().nth(self.run.start)?;
+        let mut steps: Vec<Turned<ROBOTS>> = Vec::new();
+        for &number in self.run.steps.iter().chain(self.run.round()) {
+            let world = steps.last().map_or(&start, |turned| &turned.world);
+            let Some(turned) = self.setting.turns(world).into_iter().nth(number as usize) else { break };
+            steps.push(turned);
+        }
+        Some((start, steps))
+    }
+
+    /// Where the robots start.
+    pub fn starts(&self) -> Option<[Cell; ROBOTS]> {
+        let (start, _) = self.steps()?;
+        let cells: Vec<Cell> = (0..ROBOTS).filter_map(|robot| Some(start.team.stance(robot)?.to())).collect();
+        cells.try_into().ok()
+    }
+
+    /// The walls that the run has met, and the number of each step where these are given, and no others.
+    pub fn given(&self) -> Option<(Vec<Edge>, Vec<u32>)> {
+        let (start, steps) = self.steps()?;
+        let truth = steps.last().map_or(start.truth, |turned| turned.world.truth);
+        let walls = self.setting.area.edges().filter(|&edge| truth.edge_has(EdgeMark::Wall, edge));
+        let setting = Setting { given: Some(truth), demand: None, ..self.setting };
+        let mut world = start;
+        let numbers = steps.iter().map(|step| {
+            let turns = setting.turns(&world);
+            let number = turns.iter().position(|turned| turned.events == step.events)?;
+            world = turns[number].world;
+            Some(number as u32)
+        });
+        let numbers = numbers.collect::<Option<Vec<u32>>>()?;
+        Some((walls.collect(), numbers))
+    }
+
+    /// Drives from the start on, those of a round once.
+    pub fn drives(&self) -> usize {
+        let steps = self.steps().map_or_else(Vec::new, |(_, steps)| steps);
+        let events = steps.iter().flat_map(|turned| &turned.events);
+        events.filter(|event| matches!(event, Event::Decides(.., Next::Drives(_)))).count()
+    }
+
+    /// What happens, a line for each event.
+    pub fn story(&self) -> String {
+        let (width, height) = (self.setting.area.width(), self.setting.area.height());
+        let mut lines = format!("{width}×{height} nodes, 3 m apart\n");
+        let Some((start, steps)) = self.steps() else { return lines };
+        let starts = (0..ROBOTS).filter_map(|robot| Some((robot + 1, start.team.stance(robot)?.to())));
+        let starts: Vec<String> = starts.map(|(robot, node)| format!("R{robot} starts at {node}")).collect();
+        lines += &starts.join(", ");
+        lines.push('\n');
+        for (number, turned) in steps.iter().enumerate() {
+            if number == self.run.steps.len() {
+                lines += "and from here on over and over:\n";
+            }
+            for event in &turned.events {
+                lines += &words(event);
+                lines.push('\n');
+            }
+        }
+        lines
+    }
+}
+
+/// An event in words.
+fn words(event: &Event) -> String {
+    match event {
+        Event::Arrives(robot, node) => format!("R{} arrives at {node}", robot + 1),
+        Event::Decides(robot, looks, next) => {
+            let look = |&(side, sight): &(Side, Sight)| {
+                let side = match side {
+                    Side::East => "east",
+                    Side::South => "south",
+                    Side::West => "west",
+                    Side::North => "north",
+                };
+                let sight = match sight {
+                    Sight::Free => "free",
+                    Sight::Obstacle => "blocked",
+                    Sight::Robot => "a robot",
+                };
+                format!("looks {side}: {sight}; ")
+            };
+            let looks: String = looks.iter().map(look).collect();
+            let next = match next {
+                Next::Drives(to) => format!("drives to {to}"),
+                Next::Stays | Next::Looks(_) => "stays".to_owned(),
+                Next::Done => "is done".to_owned(),
+            };
+            format!("R{} {looks}{next}", robot + 1)
+        }
+    }
+}

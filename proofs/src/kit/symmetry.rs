@@ -1,0 +1,389 @@
+//! Images of a lattice: turned, in a mirror, and with other numbers on two robots. A rule does alike in all of them
+//! (`two_robots_do_alike_in_every_image`), so that of all images of a team one is searched.
+
+use std::cell::Cell as Counter;
+
+use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, TinyGrid};
+use tautline_kernel::kit::{Condition, Stance};
+
+use super::world::{Demand, Part, Setting, Speeds, World};
+use crate::engine::states::{Bits, Places, Step, System};
+
+/// A way to turn or mirror an area, so that it covers itself.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct Image {
+    /// Whether columns become rows.
+    transposes: bool,
+    /// Whether columns, and whether rows, are counted from the other end then.
+    flips: [bool; 2],
+    /// Where each edge is taken, by its number.
+    edges: Vec<u8>,
+}
+
+impl Image {
+    /// Every image of an area whose first node is 0,0, the area itself first.
+    pub(super) fn all(area: Area) -> Vec<Self> {
+        let edges: Vec<Edge> = area.edges().collect();
+        let is_square = area.width() == area.height();
+        let ways = [false, true].into_iter().take(if is_square { 2 } else { 1 }).flat_map(|transposes| {
+            [[false, false], [true, false], [false, true], [true, true]].map(|flips| (transposes, flips))
+        });
+        let image = |(transposes, flips)| {
+            let mut image = Self { transposes, flips, edges: Vec::new() };
+            let taken = edges.iter().map(|edge| {
+                let [one, other] = [edge.cell(), edge.cell().beyond(edge.side())];
+                let ends = [one, other].map(|node| image.node(area, node));
+                let is_image = |edge: &Edge| {
+                    let (one, other) = (edge.cell(), edge.cell().beyond(edge.side()));
+                    ends == [one, other] || ends == [other, one]
+                };
+                edges.iter().position(is_image).unwrap_or_default() as u8
+            });
+            image.edges = taken.collect();
+            image
+        };
+        ways.map(image).collect()
+    }
+
+    /// Where a node is taken.
+    pub(super) fn node(&self, area: Area, node: Cell) -> Cell {
+        let last = area.last();
+        let (x, y) = if self.transposes { (node.y, node.x) } else { (node.x, node.y) };
+        let [flips_columns, flips_rows] = self.flips;
+        Cell::new(if flips_columns { last.x - x } else { x }, if flips_rows { last.y - y } else { y })
+    }
+
+    /// Where the edges of a set are taken.
+    pub(super) fn set(&self, edges: u64) -> u64 {
+        let mut rest = edges;
+        let mut image = 0;
+        while rest != 0 {
+            image |= 1 << self.edges[rest.trailing_zeros() as usize];
+            rest &= rest - 1;
+        }
+        image
+    }
+}
+
+/// By what images of a state are compared: of each robot where it was, where it goes, whether it is done, whether it may decide,
+/// and whether it drives a new path; and whose turn it is.
+type Robots = ([(Cell, Cell, bool, bool, bool); 2], Option<usize>);
+
+/// Edges that are walls, that are known to be free, and that were driven.
+type Edges = [u64; 3];
+
+/// A lattice with two robots of which one image of each state is searched. An endless run is one that goes round, whoever acts in
+/// it, since an image may have other numbers on its robots.
+#[derive(Clone, Debug)]
+pub struct Symmetric {
+    setting: Setting<2>,
+    edges: Vec<Edge>,
+    images: Vec<Image>,
+    /// In which orders the robots may be numbered.
+    orders: &'static [[usize; 2]],
+    drives: Counter<u64>,
+}
+
+impl Symmetric {
+    /// This lattice, with all its images.
+    pub fn new(setting: Setting<2>) -> Self {
+        let area = setting.area;
+        // Else the first robot enters before the second one.
+        let are_alike = setting.rule.has(Condition::Turn) && setting.rule.has(Condition::Apart);
+        let orders: &[[usize; 2]] = if are_alike { &[[0, 1], [1, 0]] } else { &[[0, 1]] };
+        let (edges, images) = (area.edges().collect(), Image::all(area));
+        Self { setting, edges, images, orders, drives: Counter::new(0) }
+    }
+
+    /// How many drives were looked at so far.
+    pub const fn drives(&self) -> u64 {
+        self.drives.get()
+    }
+
+    /// The image of a state.
+    fn image(&self, world: &World<2>, image: &Image, order: [usize; 2]) -> World<2> {
+        let area = self.setting.area;
+        let Some(blank) = TinyGrid::new(area) else { return *world };
+        let mut truth = blank;
+        for (edge, &taken) in self.edges.iter().zip(&image.edges) {
+            for mark in [EdgeMark::Wall, EdgeMark::Open] {
+                if world.truth.edge_has(mark, *edge) {
+                    truth.put_edge(mark, self.edges[usize::from(taken)]);
+                }
+            }
+        }
+        let team = world.team.image(blank, |node| image.node(area, node), order);
+        let swapped = |bits: u8| bits >> 1 & 1 | (bits & 1) << 1;
+        let is_swapped = order == [1, 0];
+        let fresh = if is_swapped { swapped(world.fresh) } else { world.fresh };
+        let is_told = self.setting.speeds == Speeds::Equal;
+        let first = if is_swapped && is_told { 1 - world.first } else { world.first };
+        self.setting.settled(World { team, truth, walls: world.walls, fresh, first })
+    }
+
+    /// A state without what nobody asks for any more.
+    fn stripped(&self, world: &World<2>) -> World<2> {
+        let first = if self.setting.speeds == Speeds::Equal { world.first } else { 0 };
+        World { team: world.team.settled(), first, ..*world }
+    }
+
+    fn robots(&self, world: &World<2>, image: &Image, order: [usize; 2]) -> Robots {
+        let area = self.setting.area;
+        let robot = |robot: usize| {
+            let stance = world.team.stance(robot).unwrap_or(Stance::Stands(area.first()));
+            let [from, to] = [stance.from(), stance.to()].map(|node| image.node(area, node));
+            (from, to, world.team.is_done(robot), world.team.asks(robot), world.fresh >> robot & 1 == 1)
+        };
+        let turn = world.team.turn().and_then(|turn| order.iter().position(|&robot| robot == turn));
+        (order.map(robot), turn)
+    }
+
+    fn edges(&self, world: &World<2>) -> Edges {
+        let set = |map: &TinyGrid, mark| {
+            let marked = self.edges.iter().enumerate().filter(|&(_, &edge)| map.edge_has(mark, edge));
+            marked.fold(0, |set: u64, (number, _)| set | 1 << number)
+        };
+        let truth = &world.truth;
+        let [record, _] = world.team.records();
+        [set(truth, EdgeMark::Wall), set(truth, EdgeMark::Open), set(record, EdgeMark::Open)]
+    }
+}
+
+impl System for Symmetric {
+    type State = World<2>;
+    type Part = Part<2>;
+    type Demand = Demand;
+
+    fn make_canonical(&self, state: &mut World<2>) {
+        let world = self.stripped(state);
+        let edges = self.edges(&world);
+        let all = self.images.iter().flat_map(|image| self.orders.iter().map(move |&order| (image, order)));
+        let mut least: Option<(Robots, Edges, &Image, [usize; 2])> = None;
+        for (image, order) in all {
+            let robots = self.robots(&world, image, order);
+            if least.as_ref().is_some_and(|(known, ..)| *known < robots) {
+                continue;
+            }
+            let edges = edges.map(|set| image.set(set));
+            if least.as_ref().is_none_or(|least| (&robots, &edges) < (&least.0, &least.1)) {
+                least = Some((robots, edges, image, order));
+            }
+        }
+        *state = match least {
+            Some((.., image, order)) if *image != self.images[0] || order != [0, 1] => {
+                self.image(&world, image, order)
+            }
+            Some(_) | None => world,
+        };
+    }
+
+    fn places(&self, state: &World<2>) -> usize {
+        self.setting.places(state)
+    }
+
+    fn part(&self, state: &World<2>, place: usize) -> Part<2> {
+        self.setting.part(state, place)
+    }
+
+    fn differing(&self, one: &World<2>, other: &World<2>) -> Places {
+        self.setting.differing(one, other)
+    }
+
+    fn put(&self, state: &mut World<2>, place: usize, part: &Part<2>) {
+        self.setting.put(state, place, part);
+    }
+
+    fn steps(&self, state: &World<2>) -> impl Iterator<Item = Step<World<2>, Demand>> {
+        self.setting.steps(state).inspect(|step| {
+            let is_drive = matches!(step.situation, "a new path" | "an old path");
+            self.drives.set(self.drives.get() + u64::from(is_drive));
+        })
+    }
+
+    fn broken_at_end(&self, state: &World<2>) -> Option<Demand> {
+        self.setting.broken_at_end(state)
+    }
+
+    fn broken_by_endless_runs(&self) -> Option<Demand> {
+        self.setting.broken_by_endless_runs()
+    }
+
+    fn awake(&self, _: &World<2>) -> Bits {
+        0
+    }
+
+    fn is_enough(&self, demand: Demand) -> bool {
+        self.setting.is_enough(demand)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+    use std::time::Instant;
+
+    use tautline_kernel::choice::Oracle;
+    use tautline_kernel::kit::{Reach, Rule};
+
+    use super::super::world::Starts;
+    use super::*;
+    use crate::engine::Seeded;
+    use crate::engine::states::{Found, Limits, search};
+
+    /// What can happen next, and where it leads, as it looks in this image.
+    type Nexts = HashSet<(&'static str, Vec<&'static str>, World<2>)>;
+
+    fn nexts(lattice: &Symmetric, world: &World<2>, image: &Image, order: [usize; 2]) -> Nexts {
+        let turns = lattice.setting.turns(world).into_iter();
+        let next = turns.map(|turned| {
+            let breaks = turned.breaks.iter().map(|demand| demand.words()).collect();
+            let after = lattice.image(&lattice.stripped(&turned.world), image, order);
+            (turned.situation, breaks, after)
+        });
+        next.collect()
+    }
+
+    /// Whether what can happen next is the same in every image, in the states of random runs of so many columns and rows.
+    fn do_alike(rule: Rule, size: (i16, i16), orders: &'static [[usize; 2]]) -> bool {
+        let setting = Setting::new(rule, size).expect("a lattice");
+        let lattice = Symmetric { orders, ..Symmetric::new(setting) };
+        let starts = setting.starts();
+        let identity = &lattice.images[0];
+        (0..4).all(|seed| {
+            let mut dice = Seeded::new(seed, 16);
+            let mut world = starts[dice.pick(starts.len() as u32) as usize];
+            (0..40).all(|_| {
+                let images =
+                    lattice.images.iter().flat_map(|image| orders.iter().map(move |&order| (image, order)));
+                let is_alike = images.into_iter().all(|(image, order)| {
+                    let other = lattice.image(&lattice.stripped(&world), image, order);
+                    nexts(&lattice, &world, image, order) == nexts(&lattice, &other, identity, [0, 1])
+                });
+                let turns = setting.turns(&world);
+                if !turns.is_empty() {
+                    world = turns[dice.pick(turns.len() as u32) as usize].world;
+                }
+                is_alike
+            })
+        })
+    }
+
+    #[test]
+    fn two_robots_do_alike_in_every_image() {
+        const BOTH: &[[usize; 2]] = &[[0, 1], [1, 0]];
+        for size in [(3, 3), (4, 2), (5, 1)] {
+            assert!(do_alike(Rule::REPAIRED, size, BOTH), "{size:?}");
+            assert!(do_alike(Rule::PUBLISHED, size, &BOTH[..1]), "{size:?}");
+        }
+        let near = Rule { reach: Reach::of_paths(2).expect("a reach"), ..Rule::REPAIRED };
+        assert!(do_alike(near, (3, 3), BOTH));
+        // As published the first robot enters before the second one.
+        assert!(!do_alike(Rule::PUBLISHED, (3, 3), BOTH));
+    }
+
+    #[test]
+    fn one_image_of_each_state_is_enough() {
+        for size in [(3, 1), (2, 2), (4, 1)] {
+            let setting = Setting::new(Rule::REPAIRED, size).expect("a lattice");
+            let all = search(&setting, setting.starts(), Limits::NONE);
+            let lattice = Symmetric::new(setting);
+            let one = search(&lattice, setting.starts(), Limits::NONE);
+            assert!(one.is_whole && one.broken.is_empty() && one.states < all.states, "{size:?}");
+            assert_eq!(one.covered, all.covered);
+            // Of each state there are the images that differ from it.
+            let mut images = HashSet::new();
+            let mut worlds: Vec<World<2>> = setting.starts();
+            let mut known: HashSet<World<2>> = worlds.iter().copied().collect();
+            while let Some(world) = worlds.pop() {
+                let mut least = world;
+                lattice.make_canonical(&mut least);
+                images.insert(least);
+                worlds.extend(
+                    setting
+                        .turns(&world)
+                        .into_iter()
+                        .map(|turned| turned.world)
+                        .filter(|world| known.insert(*world)),
+                );
+            }
+            assert_eq!((images.len() as u64, known.len() as u64), (one.states, all.states), "{size:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_broken_is_broken_in_an_image() {
+        for lost in [Condition::NextInReach, Condition::Apart, Condition::Marked, Condition::Stays] {
+            let rule = Rule::REPAIRED.without(lost);
+            let demands = |found: Found<Demand>| -> HashSet<&'static str> {
+                found.broken.iter().map(|run| run.demand.words()).collect()
+            };
+            let setting = Setting { max_walls: 1, ..Setting::new(rule, (5, 1)).expect("a lattice") };
+            let all = demands(search(&setting, setting.starts(), Limits::NONE));
+            let one = demands(search(&Symmetric::new(setting), setting.starts(), Limits::NONE));
+            assert!(all.is_subset(&one) && !one.is_empty(), "{lost:?}: {all:?}, {one:?}");
+        }
+    }
+
+    #[test]
+    fn a_shorter_reach_keeps_contact_and_apart() {
+        for paths in [2, 3] {
+            let rule = Rule { reach: Reach::of_paths(paths).expect("a reach"), ..Rule::REPAIRED };
+            for size in [(5, 1), (3, 2)] {
+                let setting = Setting::new(rule, size).expect("a lattice");
+                let found = search(&Symmetric::new(setting), setting.starts(), Limits::NONE);
+                assert!(found.is_whole && found.broken.is_empty(), "{size:?}: {:?}", found.broken);
+            }
+        }
+    }
+
+    /// Searches all teams of two on one lattice, of each one image: none breaks anything.
+    fn all_teams((columns, rows): (i16, i16), max_walls: u8, speeds: Speeds) {
+        let begun = Instant::now();
+        let setting = Setting::new(Rule::REPAIRED, (columns, rows)).expect("a lattice");
+        let setting = Setting { max_walls: max_walls.min(setting.max_walls), speeds, ..setting };
+        let lattice = Symmetric::new(setting);
+        let found = search(&lattice, setting.starts(), Limits::NONE);
+        println!(
+            "{columns}×{rows}, at most {} walls, {speeds:?}: {} states, {} steps, {} drives, {} MiB, {:.0} s",
+            setting.max_walls,
+            found.states,
+            found.steps,
+            lattice.drives(),
+            found.bytes >> 20,
+            begun.elapsed().as_secs_f64()
+        );
+        assert!(found.is_whole && found.broken.is_empty(), "{:?}", found.broken);
+    }
+
+    #[test]
+    #[ignore = "3,751,960 states at most, 88 s: cargo test --release -p tautline-proofs -- --ignored --nocapture all_walls"]
+    fn two_robots_keep_every_promise_with_all_walls() {
+        for speeds in [Speeds::OneByOne, Speeds::Any] {
+            for size in [(3, 2), (4, 2), (3, 3), (5, 2)] {
+                all_teams(size, u8::MAX, speeds);
+            }
+        }
+    }
+
+    #[test]
+    #[ignore = "10,174,954 states at most, 118 s, 671 MiB: cargo test --release -p tautline-proofs -- --ignored --nocapture few_walls"]
+    fn two_robots_keep_every_promise_with_few_walls() {
+        for (size, walls) in [((6, 2), 4), ((4, 3), 3)] {
+            all_teams(size, walls, Speeds::OneByOne);
+        }
+    }
+
+    /// Three robots that radio alone binds, side by side on a small lattice, leave no path undriven.
+    #[test]
+    #[ignore = "715,382 states, 11 s: cargo test --release -p tautline-proofs -- --ignored --nocapture without_ties"]
+    fn three_robots_without_ties_drive_everything_in_two_rows_of_three_nodes() {
+        let begun = Instant::now();
+        let rule = Rule::REPAIRED.without(Condition::Tether);
+        // Two rows of four nodes with at most one wall did not come to an end within eight minutes, and nothing was broken so far.
+        let setting = Setting::<3>::new(rule, (3, 2)).expect("a lattice");
+        let setting = Setting { starts: Starts::SideBySide, demand: Some(Demand::Whole), ..setting };
+        let found = search(&setting, setting.starts(), Limits::NONE);
+        println!("{} states, {:.0} s", found.states, begun.elapsed().as_secs_f64());
+        assert!(found.is_whole && found.broken.is_empty(), "{:?}", found.broken);
+    }
+}

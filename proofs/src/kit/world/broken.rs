@@ -1,0 +1,111 @@
+//! What is broken on a small lattice, by a drive or by staying.
+
+use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Step, Steps};
+use tautline_kernel::kit::{Condition, Stance};
+
+use super::{Demand, Setting, Speeds, World};
+use crate::kit::plain::Found;
+
+impl<const ROBOTS: usize> Setting<ROBOTS> {
+    pub(super) fn broken_by_marks(&self, world: &World<ROBOTS>) -> Vec<Demand> {
+        if !self.is_wanted(Demand::Marks) {
+            return Vec::new();
+        }
+        let map = self.found(world);
+        let is_covered = |node, side| {
+            let edge = Edge::new(node, side);
+            map.edge_has(EdgeMark::Open, edge) || map.edge_has(EdgeMark::Wall, edge)
+        };
+        let sides =
+            |node| Steps::ALL.filter(|step| matches!(step, Step::Cross(side) if is_covered(node, side)));
+        let is_right = |robot| self.area.cells().all(|node| world.team.covered(robot, node) == sides(node));
+        if (0..ROBOTS).all(is_right) { Vec::new() } else { vec![Demand::Marks] }
+    }
+
+    /// What is broken by a drive that `robot` begins.
+    pub(super) fn broken_by_drive(
+        &self,
+        before: &World<ROBOTS>,
+        robot: usize,
+        path: Stance,
+        is_old: bool,
+    ) -> Vec<Demand> {
+        let others: Vec<(usize, Stance)> =
+            before.team.stances().enumerate().filter(|&(other, _)| other != robot).collect();
+        let mut breaks = Vec::new();
+        if self.is_wanted(Demand::Contact) && !self.is_in_contact(&others, path) {
+            breaks.push(Demand::Contact);
+        }
+        if self.is_wanted(Demand::Apart) && others.iter().any(|(_, other)| other.has(path.to())) {
+            breaks.push(Demand::Apart);
+        }
+        if is_old && self.is_wanted(Demand::Shortens) && !self.is_shorter(before, robot, path.to()) {
+            breaks.push(Demand::Shortens);
+        }
+        breaks
+    }
+
+    /// Whether the robots are connected while one of them drives this path.
+    fn is_in_contact(&self, others: &[(usize, Stance)], path: Stance) -> bool {
+        let hear = |one: Stance, other: Stance| {
+            let near = |one: Cell, other: Cell| {
+                let (dx, dy) = one.apart(other);
+                9 * (u32::from(dx).pow(2) + u32::from(dy).pow(2)) <= 100
+            };
+            let both = near(one.from(), other.from()) && near(one.to(), other.to());
+            // Of two robots of one speed, who has left later is not at its end while the other is where it left.
+            let late = near(one.to(), other.from())
+                || self.speeds == Speeds::Equal && one == path && !other.stands();
+            let early = near(one.from(), other.to())
+                || self.speeds == Speeds::Equal && other == path && !one.stands();
+            both && late && early
+        };
+        let mut reached = vec![path];
+        let mut rest: Vec<Stance> = others.iter().map(|&(_, stance)| stance).collect();
+        let mut place = 0;
+        while place < reached.len() {
+            let (near, far): (Vec<_>, Vec<_>) = rest.iter().partition(|&&other| hear(reached[place], other));
+            reached.extend(near);
+            rest = far;
+            place += 1;
+        }
+        rest.is_empty()
+    }
+
+    /// Whether the team, or the robot alone while another one drives a new path, is nearer to an uncovered side at `to`.
+    fn is_shorter(&self, before: &World<ROBOTS>, robot: usize, to: Cell) -> bool {
+        let map = self.found(before);
+        let cells = Self::ends(before);
+        let mut after = cells;
+        after[robot] = to;
+        let is_nearer = |left, movers| {
+            let found = Found { map: &map, left };
+            match (found.distance(after, movers), found.distance(cells, movers)) {
+                (Some(after), Some(before)) => after < before,
+                (_, None) | (None, Some(_)) => false,
+            }
+        };
+        let left =
+            |other: usize| before.team.stance(other).filter(|stance| !stance.stands()).map(Stance::from);
+        let goes_alone = self.rule.has(Condition::Meanwhile) && before.fresh & !(1 << robot) != 0;
+        is_nearer([None; ROBOTS], u8::MAX) || goes_alone && is_nearer(std::array::from_fn(left), 1 << robot)
+    }
+
+    /// The first of the demands that are looked at and broken by staying in `world`.
+    pub(super) fn broken_by_staying(&self, world: &World<ROBOTS>) -> Option<Demand> {
+        let is_over = world.team.is_over();
+        let is_stuck = || !is_over && self.is_owed(world);
+        if self.is_wanted(Demand::Moves) && is_stuck() {
+            return Some(Demand::Moves);
+        }
+        let is_short = || !is_over || self.is_owed(world);
+        if self.is_wanted(Demand::Covers) && is_short() {
+            return Some(Demand::Covers);
+        }
+        let is_left_over = || {
+            let map = self.found(world);
+            !is_over || Found { map: &map, left: [None; ROBOTS] }.is_left_over(Self::ends(world))
+        };
+        (self.is_wanted(Demand::Whole) && is_left_over()).then_some(Demand::Whole)
+    }
+}

@@ -1,0 +1,128 @@
+//! What happens next on a small lattice: whoever drives arrives, and whoever may decide decides.
+
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side, Step, TinyGrid};
+use tautline_kernel::kit::{Next, Records, Sight, Stance, touch};
+
+use super::{Answers, Event, Setting, Speeds, Turned, World};
+use crate::engine::outcomes;
+
+impl<const ROBOTS: usize> Setting<ROBOTS> {
+    /// Every step from `world`.
+    pub fn turns(&self, world: &World<ROBOTS>) -> Vec<Turned<ROBOTS>> {
+        let mut turns = Vec::new();
+        let is_in_between =
+            self.speeds == Speeds::OneByOne && world.team.stances().any(|stance| !stance.stands());
+        for robot in 0..ROBOTS {
+            let is_driving = world.team.stance(robot).is_some_and(|stance| !stance.stands());
+            if !is_driving && is_in_between {
+                continue;
+            }
+            if !is_driving {
+                turns.extend(outcomes(|oracle| self.decide(world, robot, oracle)).flatten());
+                continue;
+            }
+            let all_drive = world.team.stances().all(|stance| !stance.stands());
+            if self.speeds == Speeds::Equal && all_drive && usize::from(world.first) != robot {
+                continue;
+            }
+            let mut after = *world;
+            if after.team.arrived(robot).is_err() {
+                continue;
+            }
+            after.fresh &= !(1 << robot);
+            // Of two, the other one is now the one that has left first.
+            after.first = u8::from(robot == 0 && ROBOTS > 1);
+            let node = Self::ends(&after)[robot];
+            let arrival = Event::Arrives(robot, node);
+            if self.answers == Answers::AtOnce && after.team.may_decide(robot) {
+                let decided = outcomes(|oracle| self.decide(&after, robot, oracle)).flatten();
+                turns.extend(decided.map(|mut turned| {
+                    turned.events.insert(0, arrival.clone());
+                    turned
+                }));
+                continue;
+            }
+            let breaks = self.broken_by_marks(&after);
+            turns.push(Turned {
+                world: self.settled(after),
+                events: vec![arrival],
+                robot,
+                situation: "an arrival",
+                breaks,
+            });
+        }
+        turns
+    }
+
+    /// `robot` decides, if it may.
+    fn decide(&self, world: &World<ROBOTS>, robot: usize, oracle: &mut dyn Oracle) -> Option<Turned<ROBOTS>> {
+        let mut after = *world;
+        let from = Self::ends(world)[robot];
+        let mut next = after.team.decide(robot, oracle).ok()?;
+        let mut looks = Vec::new();
+        let mut is_old = false;
+        while let Next::Looks(side) = next {
+            is_old = world.team.known(EdgeMark::Open, from).has(Step::Cross(side));
+            let sight = self.see(&mut after, (robot, from, side), oracle);
+            looks.push((side, sight));
+            next = after.team.looked(robot, sight, oracle).ok()?;
+        }
+        let situation = match next {
+            Next::Drives(_) if is_old => "an old path",
+            Next::Drives(_) => "a new path",
+            Next::Stays | Next::Looks(_) => "a stay",
+            Next::Done => "done",
+        };
+        let mut breaks = self.broken_by_marks(&after);
+        if let Next::Drives(to) = next {
+            if !is_old {
+                after.fresh |= 1 << robot;
+            }
+            let others_drive = world.team.stances().any(|stance| !stance.stands());
+            after.first = if others_drive { world.first } else { robot as u8 };
+            let seen = World { team: world.team, ..after };
+            breaks.extend(self.broken_by_drive(&seen, robot, Stance::Drives { from, to }, is_old));
+        }
+        let events = vec![Event::Decides(robot, looks, next)];
+        Some(Turned { world: self.settled(after), events, robot, situation, breaks })
+    }
+
+    /// What `robot` sees at a side of its node.
+    fn see(
+        &self,
+        world: &mut World<ROBOTS>,
+        (robot, node, side): (usize, Cell, Side),
+        oracle: &mut dyn Oracle,
+    ) -> Sight {
+        let edge = Edge::new(node, side);
+        if !world.truth.edge_has(EdgeMark::Wall, edge) && !world.truth.edge_has(EdgeMark::Open, edge) {
+            let is_wall = match &self.given {
+                Some(given) => given.edge_has(EdgeMark::Wall, edge),
+                None => world.walls < self.max_walls && oracle.mishap(),
+            };
+            world.walls += u8::from(is_wall);
+            world.truth.put_edge(if is_wall { EdgeMark::Wall } else { EdgeMark::Open }, edge);
+        }
+        if world.truth.edge_has(EdgeMark::Wall, edge) {
+            return Sight::Obstacle;
+        }
+        let others = world.team.stances().enumerate().filter(|&(other, _)| other != robot);
+        let seen: Vec<Option<bool>> = others.map(|(_, stance)| touch(node, side, stance)).collect();
+        let is_seen = seen.contains(&Some(true)) || seen.contains(&None) && oracle.flip();
+        if is_seen { Sight::Robot } else { Sight::Free }
+    }
+
+    /// Where all records count, it does not matter who has driven a path.
+    pub(in crate::kit) fn settled(&self, mut world: World<ROBOTS>) -> World<ROBOTS> {
+        if self.rule.records == Records::Union {
+            let blank = TinyGrid::new(self.area).unwrap_or(world.truth);
+            let mut records = [blank; ROBOTS];
+            for record in world.team.records() {
+                records[0].add_edges(record);
+            }
+            world.team = world.team.with_records(records);
+        }
+        world
+    }
+}

@@ -1,0 +1,286 @@
+//! Hunts of robots that keep in touch: all walls, all starts, and all orders of decisions and arrivals on all small lattices. Of
+//! two robots one image of each state is searched; what is broken there is searched again as it is, with as few walls as can
+//! be.
+
+use serde_json::json;
+use tautline_kernel::ground::Cell;
+use tautline_kernel::kit::Rule as Kit;
+use tautline_proofs::engine::states::{Found, Limits as Most};
+use tautline_proofs::kit::counterexample::{Counterexample, fewest};
+use tautline_proofs::kit::symmetry::Symmetric;
+use tautline_proofs::kit::world::{Demand, Setting, Speeds, Starts};
+use tautline_proofs::words::counted;
+
+use super::EQUAL;
+use crate::explore::hunt::{Asked, Bound, Fact, Hunt, Hunted, Hunter, Quarry, Shown};
+use crate::explore::run::{Limits, OnViolation};
+use crate::explore::watched::{Count, watched};
+use crate::explore::{ClauseId, Setup};
+use crate::fault::Fault;
+use crate::layout::{Layout, Size};
+
+/// Robots when nobody says how many.
+const DEFAULT_ROBOTS: u64 = 2;
+
+/// The most robots of which all states are searched together.
+const MOST_ROBOTS: u64 = 3;
+
+/// Columns and rows at most when nobody says.
+const DEFAULT_SIZE: (u64, u64) = (3, 2);
+
+/// Nodes of the largest lattices, and nodes on their longest side.
+const MOST_NODES: usize = 16;
+const MOST_SIDE: i16 = 8;
+
+/// A rule of the kernel, whose states are searched.
+#[derive(Debug)]
+pub(super) struct Searched(pub(super) Kit);
+
+/// What is looked for in one search.
+#[derive(Clone, Copy)]
+struct Pass {
+    speeds: Speeds,
+    starts: Starts,
+    /// The one demand that is looked at; all if there is none.
+    demand: Option<Demand>,
+}
+
+impl Pass {
+    const ALL: Self = Self { speeds: Speeds::Any, starts: Starts::Anywhere, demand: None };
+    const EQUAL: Self = Self { speeds: Speeds::Equal, demand: Some(Demand::Contact), ..Self::ALL };
+    const WHOLE: Self = Self { starts: Starts::SideBySide, demand: Some(Demand::Whole), ..Self::ALL };
+
+    fn setting<const ROBOTS: usize>(
+        self,
+        rule: Kit,
+        size: (i16, i16),
+        asked: &Asked<'_>,
+    ) -> Option<Setting<ROBOTS>> {
+        let Self { speeds, starts, demand } = self;
+        let setting = Setting::new(rule, size)?;
+        let walls = u32::from(setting.max_walls);
+        let max_walls = asked.max_walls.map_or(walls, |most| most.min(walls)) as u8;
+        Some(Setting { max_walls, speeds, starts, demand, ..setting })
+    }
+
+    /// The clause that a run of so many robots breaks with this demand.
+    fn clause(self, demand: Demand, robots: usize) -> ClauseId {
+        match self.speeds {
+            Speeds::Equal => EQUAL,
+            Speeds::Any | Speeds::OneByOne => ClauseId::new(demand.clause(robots)),
+        }
+    }
+}
+
+/// A counterexample, and what was looked for when it was found.
+struct Broken<const ROBOTS: usize> {
+    clause: ClauseId,
+    demand: Demand,
+    found: Counterexample<ROBOTS>,
+}
+
+/// How all states of a lattice are searched; whether the work was ended is said beside what was found.
+type SearchAll<const ROBOTS: usize> =
+    fn(Setting<ROBOTS>, &Asked<'_>, &mut Count, &mut dyn Hunter) -> (Found<Demand>, bool);
+
+fn as_it_is<const ROBOTS: usize>(
+    setting: Setting<ROBOTS>,
+    asked: &Asked<'_>,
+    count: &mut Count,
+    hunter: &mut dyn Hunter,
+) -> (Found<Demand>, bool) {
+    watched(&setting, setting.starts(), what(&setting), asked, count, hunter)
+}
+
+fn in_one_image(
+    setting: Setting<2>,
+    asked: &Asked<'_>,
+    count: &mut Count,
+    hunter: &mut dyn Hunter,
+) -> (Found<Demand>, bool) {
+    watched(&Symmetric::new(setting), setting.starts(), what(&setting), asked, count, hunter)
+}
+
+fn what<const ROBOTS: usize>(setting: &Setting<ROBOTS>) -> String {
+    format!("lattices up to {}×{}", setting.area.width(), setting.area.height())
+}
+
+impl Hunt for Searched {
+    fn takes(&self) -> &'static [Bound] {
+        &[Bound::Walls]
+    }
+
+    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault> {
+        let (size, robots) = bounds(asked)?;
+        let mut count = Count { is_complete: true, ..Count::default() };
+        let found = match robots {
+            1 => self.searched::<1>(&[Pass::ALL], as_it_is, size, asked, &mut count, hunter),
+            2 => self.searched(&[Pass::ALL, Pass::EQUAL], in_one_image, size, asked, &mut count, hunter),
+            _ => self.searched::<3>(&[Pass::ALL, Pass::WHOLE], as_it_is, size, asked, &mut count, hunter),
+        }?;
+        Ok(told(asked, (size, robots), &count, found))
+    }
+}
+
+/// All lattices up to a size that have a path, fewest nodes first, and each once: one that lies on its side is the same.
+fn lattices(size: Size) -> Vec<(i16, i16)> {
+    let (columns, rows) = (size.width(), size.height());
+    let all = (1..=rows).flat_map(|height| (1..=columns).map(move |width| (width, height)));
+    let is_new = |&(width, height): &(i16, i16)| width >= height || height > columns || width > rows;
+    let mut lattices: Vec<(i16, i16)> = all.filter(|&size| size != (1, 1)).filter(is_new).collect();
+    lattices.sort_by_key(|&(width, height)| (width * height, width.min(height)));
+    lattices
+}
+
+/// The size and the number of robots that are asked for.
+fn bounds(asked: &Asked<'_>) -> Result<(Size, u64), Fault> {
+    let size = match asked.size {
+        Some(size) => size,
+        None => Size::new(DEFAULT_SIZE.0, DEFAULT_SIZE.1)?,
+    };
+    let nodes = size.cells();
+    if nodes == 1 {
+        let what = "1x1 is one node, and no path to drive";
+        return Err(Fault::of_field("size", what, "give `size` at least 2 nodes, for example 2x1"));
+    }
+    if nodes > MOST_NODES || size.width().max(size.height()) > MOST_SIDE {
+        let what = format!("{size} nodes are {nodes}, too many to search all their layouts");
+        let remedy = format!(
+            "give `size` at most {MOST_NODES} nodes and {MOST_SIDE} on a side, for example 4x3 or 8x2"
+        );
+        return Err(Fault::of_field("size", what, remedy));
+    }
+    let robots = asked.robots.unwrap_or(DEFAULT_ROBOTS);
+    if !(1..=MOST_ROBOTS).contains(&robots) {
+        let what = match robots {
+            0 => "a hunt for 0 robots".to_owned(),
+            _ => format!("the joint search holds {MOST_ROBOTS} robots, and not {robots}"),
+        };
+        let remedy = format!("give `robots` a number from 1 to {MOST_ROBOTS}");
+        return Err(Fault::of_field("robots", what, remedy));
+    }
+    if robots > nodes as u64 {
+        let what = format!("{robots} robots do not find room in {nodes} nodes");
+        let remedy = format!("give `robots` a number up to {nodes}, or a larger `size`");
+        return Err(Fault::of_field("robots", what, remedy));
+    }
+    Ok((size, robots))
+}
+
+impl Searched {
+    fn searched<const ROBOTS: usize>(
+        &self,
+        passes: &[Pass],
+        search_all: SearchAll<ROBOTS>,
+        size: Size,
+        asked: &Asked<'_>,
+        count: &mut Count,
+        hunter: &mut dyn Hunter,
+    ) -> Result<Vec<Quarry>, Fault> {
+        let mut all: Vec<Broken<ROBOTS>> = Vec::new();
+        'lattices: for lattice in lattices(size) {
+            for &pass in passes {
+                // Runs at equal speeds are runs, and less is demanded of them.
+                let is_kept = all.iter().all(|broken| broken.demand != Demand::Contact);
+                if pass.speeds == Speeds::Equal && is_kept {
+                    continue;
+                }
+                let Some(setting) = pass.setting(self.0, lattice, asked) else { continue };
+                let is_known =
+                    |clause: ClauseId| all.iter().any(|broken: &Broken<ROBOTS>| broken.clause == clause);
+                if pass.demand.is_some_and(|demand| is_known(pass.clause(demand, ROBOTS))) {
+                    continue;
+                }
+                let (looked, is_stopped) = search_all(setting, asked, count, hunter);
+                let mut demands: Vec<Demand> = looked.broken.iter().map(|run| run.demand).collect();
+                demands.retain(|&demand| !is_known(pass.clause(demand, ROBOTS)));
+                all.extend(demands.into_iter().filter_map(|demand| {
+                    let clause = pass.clause(demand, ROBOTS);
+                    Some(Broken { clause, demand, found: fewest(setting, demand, Most::NONE)? })
+                }));
+                if is_stopped || !looked.is_whole {
+                    count.is_complete = false;
+                    break 'lattices;
+                }
+            }
+            count.cells = Some((lattice.0 * lattice.1) as usize);
+        }
+        all.sort_by_key(|broken| broken.clause);
+        all.iter().map(|broken| quarry(asked, broken)).collect()
+    }
+}
+
+/// A counterexample of a search as one that can be stored, unless its run goes on for ever.
+fn quarry<const ROBOTS: usize>(asked: &Asked<'_>, broken: &Broken<ROBOTS>) -> Result<Quarry, Fault> {
+    let Broken { clause, found, .. } = broken;
+    let area = found.setting.area;
+    let (columns, rows) = (area.width(), area.height());
+    let mut layout = Layout::open(columns as u64, rows as u64)?;
+    let (walls, choices) = found.given().unwrap_or_default();
+    for &wall in &walls {
+        layout.build_wall(wall);
+    }
+    let starts = found.starts().map_or_else(Vec::new, |starts| starts.to_vec());
+    let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
+    layout.place_base(base)?;
+    // The run may break another clause before.
+    let limits = Limits { violation: OnViolation::StopAt(*clause), ..Limits::default() };
+    let setup = Setup::new(asked.scheme, asked.rule, ROBOTS as u16, layout, base);
+    let starts = Some(starts).filter(|starts| starts.iter().any(|&start| start != base));
+    let choices = super::scripted::choices(found.setting.speeds, &choices);
+    let story = found.story();
+    let (drives, walls) = (found.drives(), walls.len());
+    Ok(Quarry {
+        clause: clause.as_str(),
+        facts: sizes([columns, rows], walls, drives),
+        title: format!("{columns}x{rows} nodes, {}, {}", counted(walls, "wall"), counted(drives, "drive")),
+        shown: if found.run.round().is_empty() { Shown::Story(*clause, story) } else { Shown::Told(story) },
+        setup: Setup { starts, choices, limits, ..setup },
+    })
+}
+
+fn sizes([columns, rows]: [usize; 2], walls: usize, drives: usize) -> Vec<Fact> {
+    vec![
+        ("columns", json!(columns)),
+        ("rows", json!(rows)),
+        ("walls", json!(walls)),
+        ("steps", json!(drives)),
+    ]
+}
+
+/// What is told of a hunt.
+fn told(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Vec<Quarry>) -> Hunted {
+    let Count { states, steps, cells, is_complete } = *count;
+    let (all_states, all_steps) = (counted(states, "state"), counted(steps, "step"));
+    let bound = match (is_complete, cells) {
+        (true, _) => "in any layout within this bound".to_owned(),
+        (false, Some(nodes)) => {
+            let nodes = counted(nodes, "node");
+            format!("in any layout of at most {nodes}; the hunt was ended before its bound")
+        }
+        (false, None) => "so far; the hunt was ended before it had covered any layout".to_owned(),
+    };
+    let walls =
+        asked.max_walls.map_or_else(String::new, |walls| format!(", at most {}", counted(walls, "wall")));
+    Hunted {
+        robots,
+        facts: vec![
+            ("size", json!(size.to_string())),
+            ("states", json!(states)),
+            ("steps", json!(steps)),
+            ("max_walls", json!(asked.max_walls)),
+        ],
+        is_complete,
+        done: ("nodes_done", json!(cells)),
+        title: format!(
+            "{}, layouts up to {size}{walls}: {all_states}, {all_steps}",
+            counted(robots, "robot")
+        ),
+        through: format!("{all_states} and {all_steps}"),
+        outcome: match found[..] {
+            [] => format!("No clause is broken {bound}."),
+            _ => format!("The smallest counterexample to each clause that is broken {bound}:"),
+        },
+        found,
+    }
+}
