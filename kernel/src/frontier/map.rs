@@ -6,6 +6,7 @@ use crate::ground::{Area, Cell, Side};
 
 /// What a robot knows of a cell.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Status {
     /// Nothing: status 0.
     Unexplored,
@@ -35,6 +36,7 @@ pub(super) const BY_NUMBER: [Side; 4] = [Side::North, Side::West, Side::East, Si
 
 /// A repository of at most 64 cells, in two machine words.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TinyMap {
     explored: u64,
     obstacles: u64,
@@ -102,6 +104,7 @@ impl Map for TinyMap {
 
 /// What a search knows of a cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Reached {
     /// The search that has reached it last.
     round: u32,
@@ -116,6 +119,7 @@ impl Reached {
 
 /// The memory of searches, for as many cells as the area has.
 #[derive(Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Scratch<'a> {
     /// One for each cell.
     pub reached: &'a mut [Reached],
@@ -127,6 +131,7 @@ pub struct Scratch<'a> {
 
 /// A cell that a search has reached.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Found {
     pub(super) cell: Cell,
     /// Moves to it.

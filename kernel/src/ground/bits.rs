@@ -141,6 +141,7 @@ fn rectangle<P: Plane>(width: usize, height: usize) -> P {
 /// The cells by their distance from one of them, modulo 3: the distances of two cells with an open side between them
 /// differ by one.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Layers<P>([P; 3]);
 
 impl<P: Plane> Grid for BitGrid<P> {

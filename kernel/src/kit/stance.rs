@@ -21,6 +21,7 @@ pub const fn in_reach(one: Cell, other: Cell) -> bool {
 
 /// Where a robot is.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Stance {
     /// At this node.
     Stands(Cell),

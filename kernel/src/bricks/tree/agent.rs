@@ -12,6 +12,7 @@ use crate::ground::{Cell, Side};
 
 /// What an agent remembers. It has no map and knows no place.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Agent {
     /// No two agents have the same.
     pub id: u8,
@@ -25,6 +26,7 @@ pub struct Agent {
 
 /// What an agent does after a scan.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Act {
     /// What the sensor of its cell stores from now on.
     pub here: Note,
@@ -34,6 +36,7 @@ pub struct Act {
 
 /// What becomes of an agent after an action.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Next {
     /// It goes through a side, to a cell whose sensor it has seen.
     Goes(Side),
