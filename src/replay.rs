@@ -16,7 +16,7 @@ use tautline_proofs::judge::floor;
 use tautline_proofs::ledger::indented;
 
 use super::evidence::{Shown, setup, shown, story};
-use super::explore::{Summary, among, check_panels, draw_moves, panels, play, summary};
+use super::explore::{among, check_panels, draw_moves, panels, play, summary};
 use super::output::Output;
 use super::rescue::{Files, tell};
 use super::{Exit, ForceArgs, Format, FormatArgs};
@@ -24,7 +24,7 @@ use tautline_sim::aside::Aside;
 use tautline_sim::counterexample::exhibit::{exhibit, of_agent, of_course, written_down};
 use tautline_sim::counterexample::refutation::{self, Refutation};
 use tautline_sim::draw::svg;
-use tautline_sim::explore::{ClauseId, Judge, Play, Report, Stage, team};
+use tautline_sim::explore::{ClauseId, Judge, Play, Report, Stage, Summary, team};
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::trace::{self, Recorded, Stored, StoredMove, Trace, lines};
 use tautline_sim::{draw, rescue};

@@ -216,8 +216,10 @@ pub unsafe extern "C" fn tautline_chain_begin(
         let memory = unsafe { &raw mut (*chain).memory };
         // SAFETY: a state fits in size and alignment.
         unsafe { memory.cast::<State>().write(state) };
-        // SAFETY: as above.
-        unsafe { (&raw mut (*chain).mark).write(MARK) };
+        // SAFETY: the caller's promise.
+        let mark = unsafe { &raw mut (*chain).mark };
+        // SAFETY: a number fits where it is declared.
+        unsafe { mark.write(MARK) };
         Ok(TautlineStatus::Ok)
     };
     status(begin())
