@@ -82,6 +82,9 @@ pub(super) struct Explore {
     /// Store the run as JSON lines.
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
+    /// Store the run in the Informal Trace Format, for the viewers of model checkers.
+    #[arg(long, value_name = "FILE")]
+    itf: Option<PathBuf>,
     /// Store the run as a page that plays it.
     #[arg(long, value_name = "FILE")]
     replay: Option<PathBuf>,
@@ -112,8 +115,8 @@ const SMALL_COLUMNS: usize = 33;
 impl Explore {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let setup = self.setup()?;
-        let files = [&self.trace, &self.replay, &self.svg];
-        let [trace, page, picture] = self.force.files(files, self.layout.inputs())?;
+        let files = [&self.trace, &self.replay, &self.svg, &self.itf];
+        let [trace, page, picture, itf] = self.force.files(files, self.layout.inputs())?;
         if page.is_some() || picture.is_some() {
             svg::check_size(team(&setup)?.area(&setup.layout))?;
         }
@@ -134,6 +137,10 @@ impl Explore {
         }
         if let Some(page) = page {
             play(page, &setup, &report, &(1..=report.steps), out)?;
+        }
+        if let Some(mut itf) = itf {
+            trace::itf::write(&mut itf, &setup)?;
+            out.keep(itf);
         }
         if let Some(mut picture) = picture {
             match self.draw {

@@ -322,6 +322,14 @@ impl Run {
         Self::file(py, &path, &Replaceable::new(foreign, []), |aside| self.traced(aside))
     }
 
+    /// The run in the Informal Trace Format of Apalache, as `--itf` stores it.
+    fn itf(&self, py: Python<'_>) -> PyResult<String> {
+        self.text(py, |run, mut aside| {
+            trace::itf::write(&mut aside, run.play())?;
+            Ok(aside)
+        })
+    }
+
     /// How the last team move breaks its clause, in words and drawn.
     fn story(&self, py: Python<'_>) -> PyResult<String> {
         story::last_move(self.play()).map_err(|halt| halted(py, &halt))
