@@ -1,6 +1,5 @@
 //! `tautline explore`: one run.
 
-use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::num::NonZeroU32;
 use std::ops::RangeInclusive;
@@ -8,7 +7,6 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::{Args, ValueEnum};
-use serde::Serialize;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::words::counted;
 
@@ -23,11 +21,10 @@ use tautline_sim::draw::page::Page;
 use tautline_sim::draw::svg;
 use tautline_sim::explore::floor::Component;
 use tautline_sim::explore::{
-    Knowledge, Limits, Milestone, Misfit, OnViolation, Play, Profile, Report, RuleId, Senses, Setup, Stage,
-    Starts, Stopped, Violation, Watcher, explore, team,
+    Asked, Knowledge, Limits, Milestone, OnViolation, Play, Profile, Report, RuleId, Setup, Stage, Stopped,
+    Summary, Violation, Watcher, explore, team,
 };
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::frontier::Options;
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::reading::real;
 use tautline_sim::{draw, trace};
@@ -92,6 +89,9 @@ pub(super) struct Explore {
     /// Store the run as JSON lines.
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
+    /// Store the run in the Informal Trace Format, for the viewers of model checkers.
+    #[arg(long, value_name = "FILE")]
+    itf: Option<PathBuf>,
     /// Store the run as a page that plays it.
     #[arg(long, value_name = "FILE")]
     replay: Option<PathBuf>,
@@ -119,14 +119,11 @@ enum Draw {
 /// Wider areas are drawn only when asked for.
 const SMALL_COLUMNS: usize = 33;
 
-/// Robots of a team when nobody says how many: the team of the paper.
-const DEFAULT_ROBOTS: u16 = 8;
-
 impl Explore {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let setup = self.setup()?;
-        let files = [&self.trace, &self.replay, &self.svg];
-        let [trace, page, picture] = self.force.files(files, self.layout.inputs())?;
+        let files = [&self.trace, &self.replay, &self.svg, &self.itf];
+        let [trace, page, picture, itf] = self.force.files(files, self.layout.inputs())?;
         if page.is_some() || picture.is_some() {
             svg::check_size(team(&setup)?.area(&setup.layout))?;
         }
@@ -147,6 +144,10 @@ impl Explore {
         }
         if let Some(page) = page {
             play(page, &setup, &report, &(1..=report.steps), out)?;
+        }
+        if let Some(mut itf) = itf {
+            trace::itf::write(&mut itf, &setup)?;
+            out.keep(itf);
         }
         if let Some(mut picture) = picture {
             match self.draw {
@@ -169,55 +170,33 @@ impl Explore {
     }
 
     fn setup(&self) -> Result<Setup, Fault> {
-        if self.scheme.senses == Senses::Bumps && self.miss.is_some() {
-            return Err(Misfit::Miss(self.scheme).into());
-        }
+        let asked = self.asked();
+        asked.check()?;
         if self.draw.is_some() && self.format.format == Format::Json && self.svg.is_none() {
             return Err(needless("--draw", "JSON has no drawing, and no picture is stored"));
         }
-        let miss = self.miss.unwrap_or(Probability::NEVER);
-        let mut layout = self.layout.load(if miss.is_never() { Chance::None } else { Chance::Some })?;
-        let robots = self.robots.unwrap_or_else(|| layout.robots().unwrap_or(DEFAULT_ROBOTS).into());
-        let robots = Setup::count(self.scheme, robots)?;
-        let starts: Vec<Cell> = self.start.iter().map(|&CellArg(cell)| cell).collect();
-        if let Some(&first) = starts.first() {
-            layout.check_start(first)?;
-        }
-        let asked = self.base.map(|CellArg(cell)| cell).or(starts.first().copied());
-        let base = Setup::choose_base(&mut layout, asked)?;
-        let limits = Limits { until: self.until, max_moves: self.max_moves, violation: OnViolation::GoOn };
-        let starts = match (self.scheme.starts, starts.len()) {
-            (_, 0) => self.scheme.default_starts(self.rule, &layout, base, robots),
-            (Starts::Anywhere | Starts::Beside, 1) => None,
-            (Starts::Base | Starts::Anywhere | Starts::Beside | Starts::Alone, _) => Some(starts),
-        };
-        let (scheme, rule, seed) = (self.scheme, self.rule, self.layout.seed());
-        let (missed, choices) = (Vec::new(), Vec::new());
-        let usual = Options::default();
-        let options = Options {
+        let is_random = self.miss.is_some_and(|miss| !miss.is_never());
+        let layout = self.layout.load(if is_random { Chance::Some } else { Chance::None })?;
+        asked.setup(layout)
+    }
+
+    fn asked(&self) -> Asked {
+        Asked {
+            scheme: self.scheme,
+            rule: self.rule,
+            robots: self.robots,
+            seed: self.layout.seed(),
+            base: self.base.map(|CellArg(cell)| cell),
+            starts: self.start.iter().map(|&CellArg(cell)| cell).collect(),
+            miss: self.miss,
             range_cells: self.range,
-            loss: self.loss.unwrap_or(usual.loss),
-            noise_db: self.noise_db.unwrap_or(usual.noise_db),
-            threshold: self.threshold.unwrap_or(usual.threshold),
+            loss: self.loss,
+            noise_db: self.noise_db,
+            threshold: self.threshold,
             speed_mps: self.speed,
             spread: self.spread,
-        };
-        let setup = Setup {
-            scheme,
-            rule,
-            robots,
-            seed,
-            layout,
-            base,
-            starts,
-            miss,
-            missed,
-            options,
-            choices,
-            limits,
-        };
-        setup.check()?;
-        Ok(setup)
+            limits: Limits { until: self.until, max_moves: self.max_moves, violation: OnViolation::GoOn },
+        }
     }
 
     fn draw(&self, setup: &Setup, report: &Report, out: &mut Output) -> Result<(), Halt> {
@@ -440,111 +419,4 @@ fn violations(report: &Report) -> String {
         }
     }
     text
-}
-
-/// The JSON of a run.
-#[derive(Serialize)]
-pub(super) struct Summary<'a> {
-    scheme: &'a str,
-    rule: &'a str,
-    robots: u16,
-    seed: u64,
-    layout: &'a str,
-    base: Cell,
-    #[serde(flatten)]
-    floor: Option<FloorSummary<'a>>,
-    steps: u32,
-    explored: u32,
-    cells: u32,
-    milestones: BTreeMap<u32, Option<u32>>,
-    stopped: Stopped,
-    violations: Vec<trace::StoredViolation>,
-}
-
-/// What there is of a sensor floor besides. Ants mark nothing and never know that they are done: of them nothing is said
-/// about that.
-#[derive(Serialize)]
-struct FloorSummary<'a> {
-    miss: Probability,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    starts: Option<&'a [Cell]>,
-    #[serde(flatten)]
-    marked: Option<Marked>,
-    /// How long the slowest agent scanned and went.
-    seconds: f64,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    components: Vec<Part>,
-}
-
-/// How long the slowest agent took; exact, since no run takes 2⁵³ milliseconds.
-#[expect(clippy::cast_precision_loss, reason = "285,000 years are fewer milliseconds than 2⁵³")]
-fn seconds(report: &Report) -> f64 {
-    report.milliseconds.unwrap_or(0) as f64 / 1000.0
-}
-
-/// What agents that mark cells have done and know.
-#[derive(Serialize)]
-struct Marked {
-    visited: u32,
-    terminated: bool,
-}
-
-/// A part of the layout that is not connected with the others.
-#[derive(Serialize)]
-struct Part {
-    robots: u16,
-    cells: u32,
-    explored: u32,
-    #[serde(flatten)]
-    marked: Option<Marked>,
-}
-
-impl Marked {
-    fn of(knowledge: Knowledge, component: &Component) -> Option<Self> {
-        match knowledge {
-            Knowledge::None => None,
-            Knowledge::Visited => {
-                Some(Self { visited: component.visited, terminated: component.active == 0 })
-            }
-        }
-    }
-}
-
-impl<'a> FloorSummary<'a> {
-    fn of(knowledge: Knowledge, stage: &Stage<'a>, report: &Report) -> Self {
-        let part = |component: &Component| {
-            let Component { robots, cells, explored, .. } = *component;
-            Part { robots, cells, explored, marked: Marked::of(knowledge, component) }
-        };
-        let parts = if report.components.len() < 2 { &[] } else { report.components.as_slice() };
-        Self {
-            miss: stage.miss,
-            starts: stage.starts,
-            marked: Marked::of(knowledge, &report.whole()),
-            seconds: seconds(report),
-            components: parts.iter().map(part).collect(),
-        }
-    }
-}
-
-impl<'a> Summary<'a> {
-    pub(super) fn new(run: &'a dyn Play, layout: &'a str, report: &Report) -> Self {
-        let stage = run.stage();
-        let milestones = Milestone::ALL.map(|milestone| (milestone.percent(), report.reached(milestone)));
-        Self {
-            scheme: stage.scheme,
-            rule: stage.rule,
-            robots: stage.robots,
-            seed: stage.seed,
-            layout,
-            base: stage.base,
-            floor: stage.knowledge.map(|knowledge| FloorSummary::of(knowledge, &stage, report)),
-            steps: report.steps,
-            explored: report.explored,
-            cells: report.cells,
-            milestones: milestones.into(),
-            stopped: report.stopped,
-            violations: report.violations.iter().map(|violation: &Violation| violation.into()).collect(),
-        }
-    }
 }

@@ -16,7 +16,7 @@ use tautline_proofs::judge::floor;
 use tautline_proofs::ledger::indented;
 
 use super::evidence::{Shown, setup, shown, story};
-use super::explore::{Summary, among, check_panels, draw_moves, panels, play, summary};
+use super::explore::{among, check_panels, draw_moves, panels, play, summary};
 use super::output::Output;
 use super::rescue::{Files, tell};
 use super::{Exit, ForceArgs, Format, FormatArgs};
@@ -24,7 +24,7 @@ use tautline_sim::aside::Aside;
 use tautline_sim::counterexample::exhibit::{exhibit, of_agent, of_course, written_down};
 use tautline_sim::counterexample::refutation::{self, Refutation};
 use tautline_sim::draw::svg;
-use tautline_sim::explore::{ClauseId, Judge, Play, Report, Stage, team};
+use tautline_sim::explore::{ClauseId, Judge, Play, Report, Stage, Summary, team};
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::trace::{self, Recorded, Stored, StoredMove, Trace, lines};
 use tautline_sim::{draw, rescue};
@@ -51,6 +51,9 @@ pub(super) struct Replay {
     /// Store the team moves as a picture, by default the last one; of a rescue the map.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// Store the run in the Informal Trace Format, for the viewers of model checkers.
+    #[arg(long, value_name = "FILE")]
+    itf: Option<PathBuf>,
     #[command(flatten)]
     force: ForceArgs,
     #[command(flatten)]
@@ -130,26 +133,27 @@ struct Refuted {
 
 impl Replay {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        let [page, picture] = self.force.files([&self.html, &self.svg], [self.file.clone()])?;
+        let files = [&self.html, &self.svg, &self.itf];
+        let [page, picture, itf] = self.force.files(files, [self.file.clone()])?;
         match lines::format(&self.file).as_deref() {
             Some(rescue::trace::FORMAT) => self.run_rescue(Files { trace: None, page, map: picture }, out),
             Some(refutation::FORMAT) => self.run_refutation(out),
-            Some(trace::FORMAT) => self.run_stored(trace::open(&self.file)?, [page, picture], out),
+            Some(trace::FORMAT) => self.run_stored(trace::open(&self.file)?, [page, picture, itf], out),
             Some(_) | None => {
                 let foreign = |fault: Fault| fault.with_remedy(REPLAYABLE);
-                self.run_stored(trace::open(&self.file).map_err(foreign)?, [page, picture], out)
+                self.run_stored(trace::open(&self.file).map_err(foreign)?, [page, picture, itf], out)
             }
         }
     }
 
-    fn run_stored(&self, stored: Stored, files: [Option<Aside>; 2], out: &mut Output) -> Result<Exit, Halt> {
+    fn run_stored(&self, stored: Stored, files: [Option<Aside>; 3], out: &mut Output) -> Result<Exit, Halt> {
         match stored {
             Stored::Known(trace) => self.run_team(trace, files, out),
             Stored::Foreign(run) => self.run_recorded(&run, files, out),
         }
     }
 
-    fn run_team(&self, trace: Trace, files: [Option<Aside>; 2], out: &mut Output) -> Result<Exit, Halt> {
+    fn run_team(&self, trace: Trace, files: [Option<Aside>; 3], out: &mut Output) -> Result<Exit, Halt> {
         let (setup, clause) = (trace.setup.clone(), trace.clause);
         self.check_drawing(team(&setup)?.area(&setup.layout), &files)?;
         let judge = clause.and_then(|clause| setup.scheme.clause(clause)?.judge);
@@ -190,7 +194,7 @@ impl Replay {
     fn run_recorded(
         &self,
         run: &Recorded,
-        files: [Option<Aside>; 2],
+        files: [Option<Aside>; 3],
         out: &mut Output,
     ) -> Result<Exit, Halt> {
         let Stage { scheme, rule, layout, .. } = run.stage();
@@ -214,12 +218,13 @@ impl Replay {
     }
 
     /// Checks that a page and a picture can hold what they are to show of `area`.
-    fn check_drawing(&self, area: Area, files: &[Option<Aside>; 2]) -> Result<(), Fault> {
-        if files.iter().any(Option::is_some) {
+    fn check_drawing(&self, area: Area, files: &[Option<Aside>; 3]) -> Result<(), Fault> {
+        let [page, picture, _] = files;
+        if page.is_some() || picture.is_some() {
             svg::check_size(area)?;
         }
-        match (files, &self.moves) {
-            ([_, Some(_)], Some(Moves(moves))) => check_panels(moves),
+        match (picture, &self.moves) {
+            (Some(_), Some(Moves(moves))) => check_panels(moves),
             _ => Ok(()),
         }
     }
@@ -231,7 +236,7 @@ impl Replay {
         report: &Report,
         clause: Option<ClauseId>,
         told: Told,
-        [page, picture]: [Option<Aside>; 2],
+        [page, picture, itf]: [Option<Aside>; 3],
         out: &mut Output,
     ) -> Result<Exit, Halt> {
         let is_drawn = page.is_none() && picture.is_none();
@@ -244,6 +249,10 @@ impl Replay {
             let moves = self.moves.as_ref().map_or(report.steps..=report.steps, |Moves(moves)| moves.clone());
             picture.draw(panels(run, report, &moves))?;
             out.keep(picture);
+        }
+        if let Some(mut itf) = itf {
+            trace::itf::write(&mut itf, run)?;
+            out.keep(itf);
         }
         let name = self.file.display().to_string();
         match self.format.format {
@@ -271,6 +280,10 @@ impl Replay {
     }
 
     fn run_rescue(&self, files: Files, out: &mut Output) -> Result<Exit, Halt> {
+        if self.itf.is_some() {
+            let what = "a rescue has no trace of team moves";
+            return Err(Fault::usage(what, "leave out --itf, or name a run of a team").into());
+        }
         if self.moves.is_some() {
             let what = "a rescue has no team moves";
             return Err(Fault::usage(what, "leave out --moves, or name a run of a team").into());
@@ -280,9 +293,9 @@ impl Replay {
     }
 
     fn run_refutation(&self, out: &mut Output) -> Result<Exit, Halt> {
-        if self.moves.is_some() || self.html.is_some() || self.svg.is_some() {
+        if self.moves.is_some() || [&self.html, &self.svg, &self.itf].into_iter().any(Option::is_some) {
             let what = "a refutation has no team moves to choose from, no page and no picture";
-            let remedy = "leave out --moves, --html and --svg, or name a run of a team";
+            let remedy = "leave out --moves, --html, --svg and --itf, or name a run of a team";
             return Err(Fault::usage(what, remedy).into());
         }
         let Refutation { clause, check, evidence } = refutation::replay(&self.file)?;

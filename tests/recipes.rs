@@ -76,7 +76,8 @@ fn the_action_keeps_a_page_of_each_counterexample_and_ends_as_its_command() {
     let entries = fs::read_dir(folder.path().join("out")).expect("a folder");
     let mut names: Vec<PathBuf> = entries.map(|entry| entry.expect("a file").path()).collect();
     names.sort();
-    let runs: Vec<&PathBuf> = names.iter().filter(|name| name.extension().is_some_and(|end| end == "jsonl")).collect();
+    let runs: Vec<&PathBuf> =
+        names.iter().filter(|name| name.extension().is_some_and(|end| end == "jsonl")).collect();
     assert!(!runs.is_empty());
     for run in runs {
         let page = fs::read_to_string(run.with_extension("html")).expect("a page");
@@ -100,7 +101,8 @@ fn the_recipes_that_are_not_run_can_be_read() {
         (".github/workflows/ci.yml", "jobs"),
     ] {
         let text = fs::read_to_string(recipe(file)).expect("text");
-        let read: serde_json::Value = serde_saphyr::from_str(&text).unwrap_or_else(|error| panic!("{file}: {error}"));
+        let read: serde_json::Value =
+            serde_saphyr::from_str(&text).unwrap_or_else(|error| panic!("{file}: {error}"));
         assert!(read[key].is_object(), "{file}");
     }
 }

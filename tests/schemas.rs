@@ -22,7 +22,8 @@ fn each_schema_is_that_of_what_is_printed() {
     let folder = folder.path();
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let stored = |name: &str| format!("replay {}", root.join("docs").join(name).display());
-    let replays = ["chain-2-published-n4.jsonl", "bricks-4-repaired-n1.jsonl", "kit-1-published.jsonl"].map(stored);
+    let replays =
+        ["chain-2-published-n4.jsonl", "bricks-4-repaired-n1.jsonl", "kit-1-published.jsonl"].map(stored);
     let schemas: [(&str, &str, Vec<String>); 12] = [
         ("prove", "tautline prove", own(&["prove NOTICE-4 LATTICE-1 CHAIN-2 BRICKS-4 --out refuted"])),
         (
@@ -61,17 +62,28 @@ fn each_schema_is_that_of_what_is_printed() {
                 "explore cells:6x6:0.1 --scheme frontier --robots 2",
             ]),
         ),
-        ("replay", "tautline replay", replays.into_iter().chain(own(&["replay run.jsonl --moves 1..2"])).collect()),
+        (
+            "replay",
+            "tautline replay",
+            replays.into_iter().chain(own(&["replay run.jsonl --moves 1..2"])).collect(),
+        ),
         ("minimise", "tautline minimise", own(&["minimise chain-13-published-n3.jsonl --out ."])),
         (
             "rescue",
             "tautline rescue",
-            own(&["rescue --nodes 300 --seeds 0..3", "rescue --nodes 300 --wfr 2 --robots 2 --seeds 0..3 --loss 0.1"]),
+            own(&[
+                "rescue --nodes 300 --seeds 0..3",
+                "rescue --nodes 300 --wfr 2 --robots 2 --seeds 0..3 --loss 0.1",
+            ]),
         ),
         (
             "locate",
             "tautline locate",
-            own(&["locate --trials 20", "locate --solver closed-form --trials 20 --noise-db 0", "locate --advice"]),
+            own(&[
+                "locate --trials 20",
+                "locate --solver closed-form --trials 20 --noise-db 0",
+                "locate --advice",
+            ]),
         ),
         ("show", "tautline show", own(&["show open:3x3"])),
         ("show-environments", "tautline show environments", own(&["show environments"])),

@@ -7,6 +7,7 @@ use crate::ground::{Cell, Side};
 
 /// What a sensor counts from that is placed where none was, or where one was missed: an ant cannot tell which.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Rule {
     /// From nothing, as published: it says 1.
     Published,

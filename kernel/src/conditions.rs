@@ -23,6 +23,8 @@ macro_rules! conditions {
         #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
         pub struct Conditions(u16);
 
+        $crate::format_conditions!();
+
         impl Conditions {
             /// The set of these conditions.
             pub const fn of(conditions: &[$condition]) -> Self {
@@ -54,4 +56,26 @@ macro_rules! conditions {
             }
         }
     };
+}
+
+/// What logs a set of conditions by defmt: its bits.
+#[cfg(feature = "defmt")]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! format_conditions {
+    () => {
+        impl $crate::defmt::Format for Conditions {
+            fn format(&self, f: $crate::defmt::Formatter<'_>) {
+                $crate::defmt::Format::format(&self.0, f);
+            }
+        }
+    };
+}
+
+/// Nothing: sets are logged only where the feature `defmt` is on.
+#[cfg(not(feature = "defmt"))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! format_conditions {
+    () => {};
 }

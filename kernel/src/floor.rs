@@ -31,6 +31,7 @@ pub trait Floor {
 
 /// What an agent goes to find in the cell that it enters.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Entry {
     /// The sensor that it has seen there.
     Known,

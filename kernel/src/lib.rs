@@ -22,3 +22,8 @@ pub mod notice;
 pub mod perception;
 pub mod position;
 pub mod tan;
+
+/// For [`conditions!`], wherever it is used.
+#[cfg(feature = "defmt")]
+#[doc(hidden)]
+pub use defmt;

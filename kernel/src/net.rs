@@ -7,15 +7,18 @@ pub use propagation::Propagation;
 
 /// The identity of a node: its number in the network.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct NodeId(pub u32);
 
 /// The identity of a robot: MID.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RobotId(pub u16);
 
 /// The number of a WFR's call: from 1 on, each larger than the one before. A call under a new epoch is a new event to the
 /// nodes, and spreads through the network anew.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Epoch(pub u32);
 
 impl Epoch {
@@ -30,6 +33,7 @@ impl Epoch {
 
 /// One call for help.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Call {
     /// SN: who calls.
     pub wfr: NodeId,
@@ -39,6 +43,7 @@ pub struct Call {
 
 /// NOTICE⟨RID, ID, HC⟩ (paper 003, 3.2), with the number of the call, which the paper leaves out.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Notice {
     /// RID: the node that waits for rescue; and which of its calls.
     pub call: Call,
@@ -50,6 +55,7 @@ pub struct Notice {
 
 /// A message as it is heard.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Heard<M> {
     /// The message.
     pub message: M,
@@ -61,4 +67,5 @@ pub struct Heard<M> {
 
 /// How strong a signal is: a larger number is a stronger signal.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Strength(pub i32);

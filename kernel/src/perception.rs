@@ -10,6 +10,7 @@ pub mod time;
 /// A place in a picture: `x` grows to the right, `y` downwards, both from the middle of the pixel in the upper left
 /// corner, in 256ths of a pixel.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Default, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Point {
     /// To the right, in 256ths of a pixel.
     pub x: u32,

@@ -13,8 +13,8 @@ use tempfile::NamedTempFile;
 
 use crate::fault::{Fault, Halt};
 
-/// How the files begin that this program writes: stored runs and kept hunts, pictures, pages, manual pages.
-const OURS: [&str; 4] = ["{\"format\":\"tautline ", SVG_HEAD, HTML_HEAD, MAN_HEAD];
+/// How the files begin that this program writes: stored runs and kept hunts, pictures, pages, manual pages, ITF traces.
+const OURS: [&str; 5] = ["{\"format\":\"tautline ", SVG_HEAD, HTML_HEAD, MAN_HEAD, ITF_HEAD];
 
 /// The beginning of a picture.
 pub(crate) const SVG_HEAD: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" data-generator=\"tautline\" ";
@@ -26,6 +26,9 @@ pub(crate) const HTML_HEAD: &str = "<!doctype html>
 <meta charset=\"utf-8\">
 <meta name=\"generator\" content=\"tautline\">
 ";
+
+/// The beginning of a trace for the viewers of model checkers.
+pub(crate) const ITF_HEAD: &str = "{\"#meta\":{\"source\":\"tautline\",";
 
 /// The beginning of a manual page: a comment.
 /// How a manual page begins.

@@ -4,6 +4,7 @@
 
 pub mod agents;
 pub mod ants;
+mod asked;
 pub mod bricks;
 pub mod catalogue;
 pub mod chain;
@@ -20,12 +21,14 @@ mod rule;
 mod run;
 mod setup;
 mod stage;
+mod summary;
 mod survey;
 mod traps;
 pub mod trees;
 mod tries;
 mod watched;
 
+pub use self::asked::Asked;
 pub use self::clause::ClauseId;
 pub use self::misfit::Misfit;
 pub use self::own::Own;
@@ -35,6 +38,7 @@ pub use self::run::{
 };
 pub use self::setup::{Clause, Extra, Judge, Profile, Rule, Senses, Setup, Start, Starts};
 pub use self::stage::{Knowledge, Look, Play, Stage};
+pub use self::summary::Summary;
 pub use self::survey::Survey;
 
 use tautline_kernel::ground::Cell;

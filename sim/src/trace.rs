@@ -10,6 +10,7 @@
 //! ```
 
 mod format;
+pub mod itf;
 pub mod lines;
 mod recorded;
 

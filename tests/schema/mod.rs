@@ -95,7 +95,8 @@ impl Object {
         }
         for (name, (shape, is_always)) in other.fields {
             let known = self.fields.remove(&name);
-            let merged = known.map_or((shape.clone(), false), |(known, both)| (known.or(shape), both && is_always));
+            let merged =
+                known.map_or((shape.clone(), false), |(known, both)| (known.or(shape), both && is_always));
             self.fields.insert(name, merged);
         }
         self

@@ -11,6 +11,7 @@ use crate::ground::{Cell, Side};
 
 /// What an agent remembers. It has no map and knows no place.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Agent {
     /// No two agents have the same.
     pub id: u8,
@@ -29,6 +30,7 @@ pub struct Agent {
 
 /// Whether visited cells count as walls (see [`Condition::SecondPass`]).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Pass {
     /// Yes: the agent explores and marks.
     First,
@@ -38,6 +40,7 @@ pub enum Pass {
 
 /// What an agent does after a scan.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Act {
     /// What the sensor of its cell stores from now on, before the agent leaves.
     pub here: Sensor,
@@ -49,6 +52,7 @@ pub struct Act {
 
 /// What becomes of an agent after an action.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Next {
     /// It goes through a side into a cell on which it leaves this claim.
     Goes(Side, Entry, Option<Claim>),
@@ -271,6 +275,7 @@ impl Agent {
 
 /// What comes of a lap that is over, and which side it began with where that matters.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Ended {
     /// The side is shut.
     Shut(Side),

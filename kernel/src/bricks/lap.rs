@@ -11,6 +11,7 @@ use crate::ground::{Cell, Side};
 
 /// The hand that an agent keeps on the material.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) enum Hand {
     Left,
     Right,
@@ -18,6 +19,7 @@ pub(super) enum Hand {
 
 /// A lap under way, as an agent remembers it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Lap {
     /// The side that it began with.
     pub first: Side,

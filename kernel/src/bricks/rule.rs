@@ -4,6 +4,7 @@ use crate::conditions;
 
 /// One condition of the rule, by the sentence it stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Condition {
     /// Two side neighbours are connected past the cell only if the corner between them can be gone through.
     Corners,
@@ -25,6 +26,7 @@ conditions!(Condition);
 
 /// Whose lap is void when an agent on a lap comes to the cell where another's began.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Precedence {
     /// That of the agent with the lower id.
     Higher,
@@ -36,6 +38,7 @@ pub enum Precedence {
 
 /// The rule of a team of agents.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rule {
     /// The conditions in force.
     pub conditions: Conditions,

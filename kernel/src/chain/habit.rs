@@ -4,6 +4,7 @@ use crate::conditions;
 
 /// One habit of the reel, by the sentence it stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Habit {
     /// A task is begun only if a rehearsal on the known map carries it through.
     Rehearses,

@@ -8,6 +8,7 @@ use crate::ground::Step;
 
 /// How a robot's step came out.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Outcome {
     /// It is where the plan sent it.
     Arrived,
@@ -19,6 +20,7 @@ pub enum Outcome {
 
 /// One robot's message about one team move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Message {
     /// What it tried.
     pub step: Step,
@@ -28,6 +30,7 @@ pub struct Message {
 
 /// Why messages cannot be those of this team. Robots are numbered from 1, the base.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Damaged {
     /// A byte is no message.
     Byte(u8),

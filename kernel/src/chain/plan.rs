@@ -12,6 +12,7 @@ use crate::ground::{Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Side, Step, Ste
 
 /// Whether a team move seeks new cells or takes an earlier move back.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Kind {
     /// A planned exploration move.
@@ -22,6 +23,7 @@ pub enum Kind {
 
 /// What every robot of a team is to do in one team move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Plan<const ROBOTS: usize> {
     /// Why.
     pub kind: Kind,

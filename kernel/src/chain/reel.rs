@@ -22,6 +22,7 @@ use crate::ground::{Cell, CellMark, Grid, Step, Steps};
 
 /// What the team is at.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) enum Task {
     /// Nothing: the next team move begins something.
     None,
@@ -37,6 +38,7 @@ pub(super) enum Task {
 
 /// What the reel remembers from one team move to the next.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Reel<const ROBOTS: usize> {
     pub(super) task: Task,
     /// Team moves left of the task.
@@ -48,6 +50,7 @@ pub(super) struct Reel<const ROBOTS: usize> {
 
 /// What the team does next.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) enum Next<const ROBOTS: usize> {
     /// This team move.
     Go([Step; ROBOTS]),

@@ -8,6 +8,7 @@ use crate::ground::{Cell, Circle, Step, Steps, neighbouring_steps, neighbours};
 
 /// One condition of the rule, by the sentence it stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Condition {
     /// A follower plans to be in E_S of the planned position ahead: P′_i ∈ E_S(P′_{i+1}).
     SafeAhead,
@@ -55,6 +56,7 @@ conditions!(Condition);
 /// Which position of the robot ahead P_high is read from. The planned one is the paper's meaning: the other
 /// gives 458 moves, or no end, where this one gives 62.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum High {
     /// P′_{i+1}
     Planned,
@@ -64,6 +66,7 @@ pub enum High {
 
 /// Whether a robot leads the chain or follows.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Role {
     /// R_N
     Leader,
@@ -73,6 +76,7 @@ pub enum Role {
 
 /// How a chain chooses among the team moves that the conditions admit.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Pursuit {
     /// As the paper does: virtual obstacles, backtracks and epochs.
     Epochs,
@@ -82,6 +86,7 @@ pub enum Pursuit {
 
 /// The rule of a chain: its conditions, the two circles, how P_high is read, what a plan may cost, and how it chooses.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rule {
     /// The conditions in force.
     pub conditions: Conditions,
@@ -101,6 +106,7 @@ pub struct Rule {
 /// tested again because a step that it relied on was struck out. Counting looks, and not time, makes the plan the same on
 /// every machine.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Budget {
     /// A plan is sought to the end, as in the paper.
     Unlimited,
@@ -111,6 +117,7 @@ pub enum Budget {
 
 /// A robot's planned move, as its neighbours see it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Move {
     /// P: where it is.
     pub from: Cell,

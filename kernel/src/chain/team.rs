@@ -14,6 +14,7 @@ use crate::ground::{Area, Cell, CellMark, Edge, EdgeMark, Grid, Step};
 
 /// Why a chain cannot be set up.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Refused {
     /// A chain is a base and at least one robot.
     TooFewRobots {
@@ -52,6 +53,7 @@ impl core::error::Error for Refused {}
 
 /// How a run ended by itself.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum End {
     /// Every cell of the area is explored.
     Explored,
@@ -62,6 +64,7 @@ pub enum End {
 
 /// What the team is about to do.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Intent<const ROBOTS: usize> {
     /// A team move.
     Go(Plan<ROBOTS>),
@@ -71,6 +74,7 @@ pub enum Intent<const ROBOTS: usize> {
 
 /// What came of a team move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Settled<const ROBOTS: usize> {
     messages: [u8; ROBOTS],
     robots: usize,
@@ -85,6 +89,7 @@ impl<const ROBOTS: usize> Settled<ROBOTS> {
 
 /// How far an epoch is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Stage {
     /// The chain is being unfolded towards an unexplored cell, and has not yet explored one or found a wall.
     Unfolding,

@@ -6,6 +6,7 @@ use crate::ground::{Cell, Edge, EdgeMark, Grid, Link, Side, Step, link};
 
 /// A walk with the robots on it. Robots are counted from 0, the base.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Walk<const ROBOTS: usize> {
     /// The cells one after the other.
     cells: [[Cell; 2]; ROBOTS],
@@ -133,6 +134,7 @@ impl<const ROBOTS: usize> Walk<ROBOTS> {
 
 /// Where the place of a robot on a walk is looked for that may visit a cell twice.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) enum Lookup {
     /// From the robot ahead backwards.
     LastFirst,

@@ -5,6 +5,7 @@ use crate::ground::Side;
 
 /// A set of the eight cells around a cell, or of the eight edges between each of them and the next.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Ring(pub u8);
 
 impl Ring {

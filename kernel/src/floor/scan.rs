@@ -7,6 +7,7 @@ use crate::ground::{Cell, Edge, Side};
 /// One scan: the sensor underfoot, which is always found, and what was seen around. A sensor that was missed reads as
 /// an unexplored cell, as the paper has it; walls are always seen.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Scan {
     /// The sensor of the cell.
     pub here: Sensor,

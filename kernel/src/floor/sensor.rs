@@ -6,6 +6,7 @@ use crate::ground::Side;
 
 /// The state of a cell (paper 004, II.A). Walls have no sensor.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Mark {
     /// No agent has been in the cell.
     #[default]
@@ -22,6 +23,7 @@ pub enum Mark {
 
 /// A set of sides of a cell.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Sides(u8);
 
 impl Sides {
@@ -43,6 +45,7 @@ impl Sides {
 
 /// An agent's hold on the cell where its lap began (clause BRICKS-2).
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Claim {
     /// The agent.
     pub owner: u8,
@@ -50,6 +53,7 @@ pub struct Claim {
 
 /// The memory of one sensor.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Sensor {
     /// The state of the cell.
     pub mark: Mark,

@@ -4,6 +4,7 @@ use crate::ground::{Area, Cell, Side};
 
 /// What a robot knows of a cell.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Status {
     /// Nothing: status 0.
     Unexplored,
@@ -38,6 +39,7 @@ pub(super) const BY_NUMBER: [Side; 4] = [Side::North, Side::West, Side::East, Si
 
 /// A repository of at most 64 cells, in two machine words.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TinyMap {
     explored: u64,
     obstacles: u64,

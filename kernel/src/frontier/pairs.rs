@@ -12,6 +12,7 @@ use crate::ground::{Area, Cell, Side};
 
 /// A robot and an unexplored cell that it could go to.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Pair {
     rank: Rank,
     /// The side through which the robot leaves its cell.
@@ -20,6 +21,7 @@ pub struct Pair {
 
 /// What is less goes first. Robots and cells count by the row and the column of their cells.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Rank {
     distance: u32,
     is_unclaimed: bool,
@@ -33,6 +35,7 @@ struct Rank {
 
 /// The memory of searches, for as many cells as the area has.
 #[derive(Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Scratch<'a> {
     /// One for each cell.
     pub reached: &'a mut [Reached],
@@ -54,6 +57,7 @@ impl Scratch<'_> {
 
 /// A robot that is to be paired.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Seeker {
     pub(super) cell: Cell,
     /// The cell that it has claimed.
@@ -148,6 +152,7 @@ fn fill<M: Map>(
 
 /// The pair of `own`, and how far the others are looked at for it, which is as far as its own cells are.
 #[derive(Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Pairing<'a, 'm, M, I> {
     pub(super) map: &'a M,
     pub(super) rule: &'a Rule,

@@ -12,6 +12,7 @@ pub const HALF: i32 = SIDE / 2;
 
 /// A place: `x` grows eastwards, `y` southwards, from the midpoint of the cell 0,0.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Place {
     /// Eastwards.
     pub x: i32,
@@ -68,6 +69,7 @@ pub fn clamped(cell: Cell, fix: Place) -> Place {
 
 /// How the occupancy probability of a cell follows from a robot's distance d to its midpoint (equation (11)).
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Occupancy {
     /// d / (L/2), as the equation is printed, at most 1: 0 at the midpoint.
     Printed,
@@ -89,6 +91,7 @@ impl Occupancy {
 
 /// The threshold T of the occupancy probability, from 0 to 1.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Threshold(u16);
 
 impl Threshold {

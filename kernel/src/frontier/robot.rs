@@ -12,6 +12,7 @@ use crate::ground::{Cell, Side};
 
 /// What a robot is about.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Stance {
     /// It stands in its cell.
     Stands,
@@ -23,6 +24,7 @@ pub enum Stance {
 
 /// What a robot sees of the cell that it is about to enter.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Sight {
     /// Nothing is in the way.
     Open,
@@ -34,6 +36,7 @@ pub enum Sight {
 
 /// What a robot does next.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Next {
     /// It goes to the rim of its cell at this side, on its way to an unexplored cell: tell what it sees by [`Robot::looked`].
     Tries {
@@ -52,6 +55,7 @@ pub enum Next {
 
 /// Another robot, as far as it has told.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Other {
     /// The cell that it is in.
     pub cell: Cell,
@@ -63,6 +67,7 @@ pub struct Other {
 
 /// What a robot knows besides its repository when it decides.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct View<'a> {
     /// The others.
     pub others: &'a [Other],
@@ -72,6 +77,7 @@ pub struct View<'a> {
 
 /// Whose slot it is.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Slot {
     /// The robot's own.
     Own,
@@ -81,6 +87,7 @@ pub enum Slot {
 
 /// A robot that explores cells.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Robot<M> {
     map: M,
     at: Cell,

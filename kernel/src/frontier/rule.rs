@@ -6,6 +6,7 @@ use crate::conditions;
 /// One condition of the rule, by the sentence it stands for. As published there is none but [`Condition::Record`], and not
 /// even that one if the paper's avoidance of obstacles is taken literally.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Condition {
     /// Repair: a robot without an unexplored neighbour goes through explored cells, the shortest way to the nearest
     /// unexplored one.
@@ -55,6 +56,7 @@ conditions!(Condition);
 
 /// What a robot does that has no candidate, where it knows no [`Condition::Route`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Otherwise {
     /// It stops for good: the paper says nothing else.
     Stops,
@@ -64,6 +66,7 @@ pub enum Otherwise {
 
 /// Which of several cells a robot takes that are as good.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Ties {
     /// The one with the lowest number: cells are numbered row by row.
     Lowest,
@@ -73,6 +76,7 @@ pub enum Ties {
 
 /// The rule of a robot.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rule {
     /// The conditions in force.
     pub conditions: Conditions,

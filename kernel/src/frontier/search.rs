@@ -7,6 +7,7 @@ use crate::ground::{Cell, Side};
 
 /// What a search knows of a cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Reached {
     /// The search that has reached it last.
     round: u32,
@@ -21,6 +22,7 @@ impl Reached {
 
 /// The memory of one search.
 #[derive(Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Search<'a> {
     pub(super) reached: &'a mut [Reached],
     pub(super) queue: &'a mut [Cell],
@@ -29,6 +31,7 @@ pub(super) struct Search<'a> {
 
 /// A cell that a search has reached.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Found {
     pub(super) cell: Cell,
     /// Moves to it.

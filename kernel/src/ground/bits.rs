@@ -7,6 +7,7 @@ use super::{Area, Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Side, Step, Steps
 
 /// A grid in machine words: at most [`Plane::COLUMNS`] columns and [`Plane::ROWS`] rows.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BitGrid<P> {
     area: Area,
     cells: [P; 4],
@@ -141,6 +142,7 @@ fn rectangle<P: Plane>(width: usize, height: usize) -> P {
 /// The cells by their distance from one of them, modulo 3: the distances of two cells with an open side between them
 /// differ by one.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Layers<P>([P; 3]);
 
 impl<P: Plane> Grid for BitGrid<P> {

@@ -8,6 +8,7 @@ use super::{Cell, Edge, Side, Step, Steps};
 
 /// What is marked on cells.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum CellMark {
     /// A robot has occupied the cell. Cells outside the area count as explored: nothing is to be found there.
     Explored,
@@ -21,6 +22,7 @@ pub enum CellMark {
 
 /// What is marked on edges.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum EdgeMark {
     /// Known to be a wall. The area's border is known from the start.
     Wall,
@@ -32,6 +34,7 @@ pub enum EdgeMark {
 
 /// What a path to the frontier may not cross.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Avoid {
     /// Known walls: the followers' distance.
     Walls,
@@ -128,6 +131,7 @@ pub trait Grid {
 
 /// A rectangle of cells, not empty: what a team is to explore.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Area {
     first: Cell,
     last: Cell,

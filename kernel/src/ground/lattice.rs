@@ -54,6 +54,14 @@ impl Cell {
     }
 }
 
+/// As it is printed.
+#[cfg(feature = "defmt")]
+impl defmt::Format for Cell {
+    fn format(&self, f: defmt::Formatter<'_>) {
+        defmt::write!(f, "{=i16},{=i16}", self.x, self.y);
+    }
+}
+
 impl fmt::Debug for Cell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "({},{})", self.x, self.y)
@@ -80,6 +88,7 @@ impl From<Cell> for (i16, i16) {
 
 /// One of the four sides of a cell, in the direction order that settles every tie: +x, +y, −x, −y.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Side {
     /// +x
     East,
@@ -133,6 +142,7 @@ impl Side {
 
 /// What one robot does in one team move: cross a side of its cell, or stay.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Step {
     /// Go to the cell beyond this side.
     Cross(Side),
@@ -172,6 +182,7 @@ impl Step {
 /// The common side of two neighbouring cells: where a wall can stand. Both ways of naming it, from either
 /// cell, are the same value.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Edge {
     cell: Cell,
     axis: Axis,
@@ -179,6 +190,7 @@ pub struct Edge {
 
 /// Which way an edge is crossed.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Axis {
     EastWest,
     SouthNorth,
@@ -218,6 +230,7 @@ impl fmt::Debug for Edge {
 
 /// A circle round the centre of a cell, by four times its squared radius, so that all arithmetic is exact.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Circle {
     four_radius_squared: u64,
 }

@@ -6,6 +6,7 @@ use super::{Cell, Edge, EdgeMark, Grid, Side};
 
 /// How two cells are linked.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Link {
     /// By a side that is no known wall.
     Side,

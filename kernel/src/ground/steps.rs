@@ -4,6 +4,7 @@ use super::Step;
 
 /// A set of steps, one bit each in direction order.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Steps(u8);
 
 impl Steps {

@@ -20,6 +20,7 @@ const FLAGS: i16 = 4;
 
 /// What a robot says.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Message {
     /// Which sides of this node are covered?
     Request {
@@ -43,6 +44,7 @@ pub enum Message {
 
 /// Why fields are no message.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Damaged {
     /// No message has this flag.
     Flag(i16),

@@ -8,6 +8,7 @@ use crate::ground::Cell;
 
 /// Why a team cannot start.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Refused {
     /// A team has 1 to [`MAX_ROBOTS`] robots.
     Robots(usize),
@@ -60,6 +61,7 @@ impl core::error::Error for Refused {}
 
 /// A robot was told something that does not fit what it does.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum NotNow {
     /// It may not decide now: see [`Kit::may_decide`](super::Kit::may_decide).
     Decides,

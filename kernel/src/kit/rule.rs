@@ -6,6 +6,7 @@ use crate::conditions;
 
 /// One condition of the rule, by the sentence it stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Condition {
     /// A robot drives to a node in reach of the node where the other one goes (section 4).
     NextInReach,
@@ -64,6 +65,7 @@ conditions!(Condition);
 
 /// Where a robot runs KIT.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Runs {
     /// At every node.
     Every,
@@ -73,6 +75,7 @@ pub enum Runs {
 
 /// Whose records tell a robot which sides of its node are covered.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Records {
     /// Its own and the others'.
     Union,
@@ -82,6 +85,7 @@ pub enum Records {
 
 /// Which side a robot takes that does not stay although no side is left that is uncovered and in reach.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Fallback {
     /// The one that leads nearest to where the other one goes (section 4).
     Nearest,
@@ -91,6 +95,7 @@ pub enum Fallback {
 
 /// Where the conditions on the next node are looked at.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Filter {
     /// Wherever a robot drives, but in the paper's fallback.
     Everywhere,
@@ -100,6 +105,7 @@ pub enum Filter {
 
 /// When a robot answers a request.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Answers {
     /// While it drives (section 5); under [`Condition::Turn`] also while it stays.
     Driving,
@@ -111,6 +117,7 @@ pub enum Answers {
 
 /// The rule of a team.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rule {
     /// The conditions in force.
     pub conditions: Conditions,

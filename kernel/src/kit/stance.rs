@@ -9,6 +9,7 @@ pub(super) const SEEN: EdgeMark = EdgeMark::Virtual;
 
 /// How far robots hear each other.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Reach {
     /// The largest squared distance of two nodes in contact, in squared paths.
     squared: u8,
@@ -51,6 +52,7 @@ pub const fn in_reach(one: Cell, other: Cell) -> bool {
 
 /// Where a robot is.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Stance {
     /// At this node.
     Stands(Cell),

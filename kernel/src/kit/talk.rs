@@ -19,6 +19,7 @@ const fn after(number: u8) -> u8 {
 
 /// A message with the number of its request.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Letter {
     /// The number; 0 always without [`Condition::Repeats`].
     pub number: u8,
@@ -28,6 +29,7 @@ pub struct Letter {
 
 /// What a robot does.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Phase {
     /// It drives.
     Drives,
@@ -43,6 +45,7 @@ pub enum Phase {
 
 /// One of two robots, as they talk to each other.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Talk {
     rule: Rule,
     is_second: bool,

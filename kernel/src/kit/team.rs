@@ -12,6 +12,7 @@ pub const MAX_ROBOTS: usize = 16;
 
 /// What a robot does next.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Next {
     /// It turns to this side and looks: tell what it sees by [`Kit::looked`].
     Looks(Side),
@@ -25,6 +26,7 @@ pub enum Next {
 
 /// What a robot sees that looks at a side.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Sight {
     /// Nothing within 3.5 m.
     Free,
@@ -36,6 +38,7 @@ pub enum Sight {
 
 /// Why it takes a side.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) enum Why {
     /// It leads straight on.
     Ahead,
@@ -51,6 +54,7 @@ pub(super) enum Why {
 
 /// What a robot is about.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) enum Task {
     /// It drives, or has yet to decide.
     None,
@@ -63,6 +67,7 @@ pub(super) enum Task {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Robot {
     pub(super) stance: Stance,
     pub(super) task: Task,
@@ -74,6 +79,7 @@ pub(super) struct Robot {
 
 /// A team of robots on a map of at most `NODES` nodes.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Kit<G, const ROBOTS: usize, const NODES: usize> {
     pub(super) rule: Rule,
     /// What each has driven ([`EdgeMark::Open`]) and seen blocked ([`EdgeMark::Wall`]).

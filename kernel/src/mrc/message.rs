@@ -5,6 +5,7 @@ use crate::net::{Call, NodeId, Notice, RobotId};
 
 /// What a WFR chooses by.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Bid {
     /// MHC: hops from the robot to the WFR.
     pub hops: u16,
@@ -14,6 +15,7 @@ pub struct Bid {
 
 /// RESB⟨RSN, MID⟩, on its way to one of the robots that sent MOVE.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Resb {
     /// The call.
     pub call: Call,
@@ -25,6 +27,7 @@ pub struct Resb {
 
 /// What a robot gets.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Downward {
     /// A call for help.
     Notice(Notice),
@@ -34,6 +37,7 @@ pub enum Downward {
 
 /// What a robot has to say to a WFR.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Word {
     /// MOVE: it could come.
     Move {
@@ -48,6 +52,7 @@ pub enum Word {
 
 /// What a robot sends to a WFR, from parent to parent.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Upward {
     /// The call that it answers.
     pub call: Call,

@@ -6,6 +6,7 @@ use crate::net::{Call, NodeId, RobotId};
 
 /// Who is one hop away.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Hop {
     /// A path node.
     Node(NodeId),
@@ -14,6 +15,7 @@ pub enum Hop {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Route {
     call: Call,
     robot: RobotId,
@@ -22,6 +24,7 @@ struct Route {
 
 /// A path node that remembers at most `ROUTES` ways back: it needs one for each robot and WFR.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Relay<const ROUTES: usize> {
     id: NodeId,
     routes: [Option<Route>; ROUTES],

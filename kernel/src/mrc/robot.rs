@@ -6,6 +6,7 @@ use crate::net::{Call, NodeId, Notice, RobotId};
 
 /// SBit: whether a robot still has to do with a call.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Served {
     /// 0: it may ask for it.
     No,
@@ -15,6 +16,7 @@ pub enum Served {
 
 /// A record of T_REQ.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Request {
     /// SN, and the newest epoch heard of it.
     pub call: Call,
@@ -28,6 +30,7 @@ pub struct Request {
 
 /// What a robot does.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Task {
     /// It knows of no call that it may ask for.
     Free,
@@ -47,6 +50,7 @@ pub enum Task {
 
 /// A robot's one timer. It starts anew whenever [`Robot::timer`] changes.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RobotTimer {
     /// The call on whose RESB it waits. Longer than the way of a MOVE, the WFR's window and the way of the RESB.
     pub call: Call,
@@ -56,6 +60,7 @@ pub struct RobotTimer {
 
 /// A robot that knows of at most `CALLS` WFRs at a time.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Robot<const CALLS: usize> {
     rule: Rule,
     id: RobotId,

@@ -6,6 +6,7 @@ use crate::conditions;
 
 /// One condition of the rule, by the sentence it stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Condition {
     /// A free robot asks for the call of least HC.
     NearestCall,
@@ -56,6 +57,7 @@ conditions!(Condition);
 
 /// The rule of a rescue.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rule {
     /// The conditions in force.
     pub conditions: Conditions,

@@ -7,6 +7,7 @@ use crate::net::{Call, Epoch, NodeId, Notice, RobotId};
 
 /// How far a rescue has come.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Phase {
     /// Nothing has happened.
     Idle,
@@ -36,6 +37,7 @@ pub enum Phase {
 
 /// A WFR's one timer. It starts anew whenever [`Wfr::timer`] changes.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum WfrTimer {
     /// The collection window: longer than the way of the NOTICE to the robots and of a MOVE back.
     Window(Epoch),
@@ -52,6 +54,7 @@ pub enum WfrTimer {
 
 /// What a WFR sends.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Sent<const ROBOTS: usize> {
     /// Nothing.
     Nothing,
@@ -66,6 +69,7 @@ pub enum Sent<const ROBOTS: usize> {
 /// A WFR that remembers at most `ROBOTS` robots that have asked. A robot beyond them is heard and may be chosen, but is
 /// told of the choice only when it repeats its MOVE.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Wfr<const ROBOTS: usize> {
     rule: Rule,
     call: Call,

@@ -7,6 +7,7 @@
 
 /// How the power of a signal falls with the distance.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Propagation {
     exponent: f64,
 }

@@ -10,6 +10,7 @@ use crate::net::{Call, Epoch, Heard, NodeId, Notice};
 
 /// How far a node is with an event.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Stage {
     /// It has heard of none.
     Unaware,
@@ -26,6 +27,7 @@ pub enum Stage {
 
 /// What a NOTICE makes of a node.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Reaction {
     /// Nothing at all.
     Ignored,
@@ -42,6 +44,7 @@ pub enum Reaction {
 
 /// The state of one node for the events of one source.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Node {
     id: NodeId,
     source: NodeId,
@@ -57,6 +60,7 @@ pub struct Node {
 
 /// A [`Stage`] without its time: beside it a node takes one cache line.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Phase {
     Unaware,
     Waiting,
@@ -66,6 +70,7 @@ enum Phase {
 
 /// Senders heard, as many as are counted, ascending: the same senders are the same value in whatever order they came.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Senders {
     senders: [NodeId; HEARD],
     count: u8,

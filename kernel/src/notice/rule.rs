@@ -8,6 +8,7 @@ use crate::conditions;
 
 /// One condition of the rule, by the sentence it stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Condition {
     /// From forwarding on, a node's parent and hop count stay what they are. Without it, a NOTICE with a hop count up to
     /// the node's own makes its sender the parent.
@@ -47,6 +48,7 @@ impl Conditions {
 /// How many NOTICEs are counted, from 1 to [`Count::MOST`]. Each is that of another sender, so that a node has to
 /// remember as many.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Count(u8);
 
 impl Count {
@@ -70,6 +72,7 @@ impl Count {
 
 /// Which nodes forward, and how long they wait before.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Scheme {
     /// k-FNF: who has heard `k` other senders besides the first before its wait is over does not forward. The wait is
     /// equation (2): the farther the first sender, the shorter. `None` is k = ∞.
@@ -96,6 +99,7 @@ pub enum Scheme {
 
 /// The rule of a broadcast.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rule {
     /// Who forwards.
     pub scheme: Scheme,

@@ -5,6 +5,7 @@ use crate::net::NodeId;
 
 /// The neighbours of a node and of the sender that it hears. The other schemes know of none: [`Surroundings::none`].
 #[derive(Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Surroundings<'a> {
     /// The node's neighbours, ascending.
     pub neighbours: &'a [NodeId],

@@ -29,6 +29,7 @@ pub fn is_on(identifier: u32, bits: u8, interval: u8) -> bool {
 
 /// A sensor that is followed over pictures.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Track {
     place: Point,
     identifier: u32,
@@ -39,6 +40,7 @@ pub struct Track {
 
 /// What the latest picture shows of a sensor.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Seen {
     Off,
     On(Point),
@@ -47,6 +49,7 @@ enum Seen {
 
 /// Why a sensor has no identifier.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Unidentified {
     /// No picture was taken.
     NotAsked,

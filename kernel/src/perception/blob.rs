@@ -19,6 +19,7 @@ use super::Point;
 
 /// A pixel by its three components.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Default, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Pixel {
     /// Luminance, Y in the paper.
     pub y: u8,
@@ -30,6 +31,7 @@ pub struct Pixel {
 
 /// A picture: lines of pixels from top to bottom, each from left to right.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Picture<'a> {
     pixels: &'a [Pixel],
     width: u16,
@@ -61,6 +63,7 @@ impl<'a> Picture<'a> {
 
 /// A range for each component.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Colours {
     least: Pixel,
     greatest: Pixel,
@@ -68,6 +71,7 @@ pub struct Colours {
 
 /// Why there is nothing to calibrate with.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum NoSample {
     /// The rectangle has no pixel.
     Empty,
@@ -150,6 +154,7 @@ impl Colours {
 
 /// The two parameters of the paper.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Thresholds {
     /// The least number of pixels of a blob. It leaves out sensors that are farther than an adjacent cell.
     pub least_pixels: u32,
@@ -167,6 +172,7 @@ impl Thresholds {
 
 /// A set of pixels in one line: what [`find`] wants a buffer of.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Set {
     row: u16,
     first: u16,
@@ -195,6 +201,7 @@ impl Set {
 
 /// Pixels of the right colours that belong together.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Blob {
     pixels: u32,
     /// The sum of the columns of all pixels.
@@ -227,6 +234,7 @@ impl Blob {
 
 /// The buffer has no place for the sets of a picture.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct TooManySets {
     /// The line in which it was full.
     pub row: u16,

@@ -19,6 +19,7 @@ use super::Point;
 
 /// An angle in 2⁻³² of a whole turn, so that angles wrap round as numbers do.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Angle {
     parts: u32,
 }
@@ -47,6 +48,7 @@ impl Angle {
 
 /// How an agent looks round.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Round {
     /// Turning steps from the first sensor until it is seen again.
     pub steps: NonZeroU16,
@@ -58,6 +60,7 @@ pub struct Round {
 
 /// A place seen from the agent.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Polar {
     /// Where to.
     pub angle: Angle,
@@ -67,6 +70,7 @@ pub struct Polar {
 
 /// Why a light has no place.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Unplaced {
     /// It is beyond the right rim of the picture.
     Column,

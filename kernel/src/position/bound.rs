@@ -5,6 +5,7 @@ use super::{Point, Range, Residual, Signal, Symmetric};
 
 /// How exact a position is.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Precision {
     /// The covariance of the position, in m².
     pub covariance: Symmetric,

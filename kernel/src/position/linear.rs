@@ -7,6 +7,7 @@ use super::{Point, Range, Refusal};
 
 /// How anchors stand: their centre, the line along which they are spread most, and how much along and across it.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Layout {
     /// The mean of their places.
     pub centre: Point,

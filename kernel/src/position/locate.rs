@@ -8,6 +8,7 @@ use super::{Area, Layout, Point, Range, Refusal, Signal};
 
 /// What is made small.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Residual {
     /// What a distance misses, in metres.
     Metres,
@@ -17,6 +18,7 @@ pub enum Residual {
 
 /// What is to be said with an estimate.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Flags {
     /// The anchors tell one direction badly: the dilution of precision is above 20, or there is none.
     pub is_weak: bool,
@@ -28,6 +30,7 @@ pub struct Flags {
 
 /// A position, and how far it can be trusted.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Estimate {
     /// Where.
     pub at: Point,
@@ -45,6 +48,7 @@ pub struct Estimate {
 
 /// The positions that fit.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Fix {
     /// One.
     One(Estimate),

@@ -2,6 +2,7 @@
 
 /// A place, in metres.
 #[derive(Clone, Copy, PartialEq, Default, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Point {
     /// Along +x.
     pub x_m: f64,
@@ -35,6 +36,7 @@ impl Point {
 
 /// A rectangle, its rim included.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Area {
     least: Point,
     greatest: Point,
@@ -70,6 +72,7 @@ impl Area {
 
 /// A symmetric matrix of two rows: a covariance in m², or the normal matrix of a step.
 #[derive(Clone, Copy, PartialEq, Default, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Symmetric {
     /// Above, left.
     pub xx: f64,

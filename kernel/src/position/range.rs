@@ -6,6 +6,7 @@ use super::{Point, Signal};
 
 /// An anchor, and how far from it the robot is by the strength of its signal.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Range {
     /// Where the anchor is.
     pub anchor: Point,
@@ -29,6 +30,7 @@ pub(super) const LEAST_M: f64 = 1e-6;
 
 /// Why there is no position. Anchors are counted from 0 in the order of the ranges.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Refusal {
     /// There are fewer than three anchors, or, for the closed form, another number.
     Anchors {

@@ -4,6 +4,7 @@ use crate::net::Propagation;
 
 /// Path loss with its exponent, and the standard deviation of the noise.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Signal {
     propagation: Propagation,
     noise_db: f64,

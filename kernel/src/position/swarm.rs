@@ -11,6 +11,7 @@ use crate::choice::Oracle;
 
 /// Which velocity moves a particle.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Order {
     /// x(t+1) = x(t) + v(t): equation (10) as it is printed.
     Published,
@@ -20,6 +21,7 @@ pub enum Order {
 
 /// What `rand()` of equation (9) is drawn for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Draws {
     /// Each term and particle: a velocity stays in the plane of what draws it.
     Particle,
@@ -29,6 +31,7 @@ pub enum Draws {
 
 /// w, by which a velocity is kept.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Inertia {
     /// The same at every iteration.
     Constant(f64),
@@ -43,6 +46,7 @@ pub enum Inertia {
 
 /// The constants of a swarm.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Parameters {
     /// w.
     pub inertia: Inertia,
@@ -93,6 +97,7 @@ impl Parameters {
 
 /// A particle: what [`Swarm::start`] wants a buffer of.
 #[derive(Clone, Copy, PartialEq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Particle {
     at: Point,
     velocity: Point,
@@ -110,6 +115,7 @@ impl Particle {
 
 /// Particles on their way: a lent buffer, and the best position so far.
 #[derive(Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Swarm<'a> {
     ranges: &'a [Range],
     parameters: Parameters,

@@ -10,6 +10,7 @@ const COSINES: [i32; 7] = [1_000_000, 965_926, 866_025, 707_107, 500_000, 258_81
 
 /// A direction: a multiple of 15° from +x towards +y.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Heading(u8);
 
 impl Heading {
@@ -59,6 +60,7 @@ fn cosine(step: u8) -> i32 {
 
 /// One turn of the antenna, direction after direction.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Scan {
     at: u8,
     best: Option<(Strength, Heading)>,

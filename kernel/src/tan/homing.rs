@@ -12,6 +12,7 @@ use crate::net::{NodeId, RobotId, Strength};
 
 /// REQNAV⟨SN, MID, PID⟩.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ReqNav {
     /// SN: where the robot goes.
     pub wfr: NodeId,
@@ -23,6 +24,7 @@ pub struct ReqNav {
 
 /// NAV: a path node's signal, with its parent in it, as the paper suggests.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Nav {
     /// SN: the root of the tree.
     pub wfr: NodeId,
@@ -36,6 +38,7 @@ pub struct Nav {
 
 /// What a node does for a time of length T_x.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Conduct {
     /// It has nothing to do with a robot.
     Idle,
@@ -47,6 +50,7 @@ pub enum Conduct {
 
 /// A path node's part in TAN.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Guide {
     /// What it does until T_x has passed.
     pub conduct: Conduct,
@@ -87,6 +91,7 @@ impl Guide {
 
 /// When a robot is at a node.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Nearness {
     /// The node's signal is at least as strong.
     pub near: Strength,
@@ -98,6 +103,7 @@ pub struct Nearness {
 
 /// How far a robot has come.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Stage {
     /// It has asked a node for its signal.
     Asking {
@@ -128,6 +134,7 @@ pub enum Stage {
 
 /// What the robot is to do next.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Order {
     /// Send this and wait for the signal.
     Ask(ReqNav),
@@ -141,6 +148,7 @@ pub enum Order {
 
 /// A robot on its way through the tree of a WFR.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Homing {
     wfr: NodeId,
     robot: RobotId,

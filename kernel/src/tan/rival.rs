@@ -6,6 +6,7 @@ use crate::net::NodeId;
 
 /// A place, in micrometres.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Position {
     /// Along +x.
     pub x_um: i64,
@@ -15,6 +16,7 @@ pub struct Position {
 
 /// A neighbour of Verma's robot.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Station {
     /// Where it is.
     pub at: Position,
@@ -44,6 +46,7 @@ pub fn verma(neighbours: impl IntoIterator<Item = Station>) -> Option<Position> 
 
 /// A neighbour of Reich's robot.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Gradient {
     /// Which sensor.
     pub node: NodeId,

@@ -6,6 +6,7 @@ use crate::net::Strength;
 
 /// What the robot is to do next, a step of a length that the caller gives.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Walk {
     /// A step that way.
     Step(Heading),
@@ -14,6 +15,7 @@ pub enum Walk {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Leg {
     /// The first step of a line: it may be the wrong way.
     Trying,
@@ -25,6 +27,7 @@ enum Leg {
 
 /// A robot that seeks a guide node by the strength of its beacon alone.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BackAndForth {
     heading: Heading,
     leg: Leg,

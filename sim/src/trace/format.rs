@@ -113,6 +113,19 @@ impl StoredMove {
         }
     }
 
+    /// Whether it seeks new cells or takes a move back, in a word.
+    pub(super) const fn kind(&self) -> &'static str {
+        match self.kind {
+            Kind::Advance => "advance",
+            Kind::Backtrack => "backtrack",
+        }
+    }
+
+    /// One letter a robot.
+    pub(super) fn tried(&self) -> &str {
+        &self.tried
+    }
+
     /// The team move that it tells of robots in the cells `before`.
     ///
     /// # Errors

@@ -19,6 +19,7 @@ const NONE_MISSED: Missed = [Ring(0); Rule::MOST_READINGS as usize - 1];
 
 /// What an agent remembers. It has no map and knows no place.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Agent {
     /// No two agents have the same.
     pub id: u8,
@@ -34,6 +35,7 @@ pub struct Agent {
 
 /// What an agent does after a scan.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Act {
     /// What the sensor of its cell stores from now on.
     pub here: Note,
@@ -43,6 +45,7 @@ pub struct Act {
 
 /// What becomes of an agent after an action.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Next {
     /// It goes through a side, to a cell whose sensor it has seen.
     Goes(Side),

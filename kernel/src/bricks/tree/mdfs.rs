@@ -8,6 +8,7 @@ use crate::ground::Side;
 
 /// An agent: its id, and the side that it went through last.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Agent {
     /// No two agents have the same.
     pub id: u8,

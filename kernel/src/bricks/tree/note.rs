@@ -7,6 +7,7 @@ use crate::ground::{Cell, Edge, Side};
 
 /// What has become of a cell.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum State {
     /// No agent has been in it.
     #[default]
@@ -21,6 +22,7 @@ pub enum State {
 
 /// The name of a tree. No two trees have the same, and of trees that meet the one with the greater label grows.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Label(u32);
 
 impl Label {
@@ -50,6 +52,7 @@ impl Label {
 
 /// The memory of one sensor.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Note {
     /// What has become of the cell.
     pub state: State,

@@ -4,6 +4,7 @@ use crate::conditions;
 
 /// One condition of the rule, by the sentence it stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Condition {
     /// An agent marks its cell as soon as the cell does not block (BRICKS-1), and a cell joins a tree only if it blocks.
     Bricks,
@@ -28,6 +29,7 @@ conditions!(Condition);
 
 /// The rule of a team of agents.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rule {
     /// The conditions in force.
     pub conditions: Conditions,

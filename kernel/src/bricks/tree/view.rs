@@ -10,6 +10,7 @@ use crate::ground::{Cell, Side};
 
 /// One scan: what the sensor underfoot stores, and what was seen around. A sensor that was missed reads as an unexplored cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct View {
     /// The sensor of the cell.
     pub here: Note,

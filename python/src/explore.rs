@@ -1,0 +1,124 @@
+//! One run of a rule of the catalogue.
+
+use std::collections::BTreeMap;
+use std::num::NonZeroU32;
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use tautline_kernel::chain;
+use tautline_sim::explore::{Asked, Limits, Milestone, Misfit, OnViolation, Profile, RuleId, catalogue};
+use tautline_sim::layout::generate::Probability;
+use tautline_sim::words::Worded;
+
+use crate::fault::{Kind, error, raised};
+use crate::layout::{Given, Pair};
+use crate::run::{Run, cell};
+
+/// The scheme of this name.
+pub(crate) fn scheme(py: Python<'_>, name: &str) -> PyResult<&'static Profile> {
+    catalogue::scheme(name).ok_or_else(|| {
+        let names: Vec<&str> = catalogue::SCHEMES.iter().map(|scheme| scheme.name).collect();
+        error(
+            py,
+            Kind::Input,
+            format_args!("there is no scheme {name:?}"),
+            format_args!("take one of {}", names.join(", ")),
+        )
+    })
+}
+
+/// The rule of this name.
+pub(crate) fn rule(py: Python<'_>, scheme: &'static Profile, name: &str) -> PyResult<RuleId> {
+    let known = scheme.rules.iter().find(|rule| rule.name.as_str() == name);
+    known.map(|rule| rule.name).ok_or_else(|| {
+        let remedy = Misfit::Rule { scheme, rule: RuleId::REPAIRED }.remedy();
+        error(py, Kind::Input, format_args!("{} has no rule {name:?}", scheme.name), remedy)
+    })
+}
+
+fn probability(py: Python<'_>, name: &str, value: Option<f64>) -> PyResult<Option<Probability>> {
+    let read = |value| {
+        Probability::new(value).ok_or_else(|| {
+            error(
+                py,
+                Kind::Input,
+                format_args!("{name} is {value}"),
+                format_args!("give {name} a number from 0 to 1"),
+            )
+        })
+    };
+    value.map(read).transpose()
+}
+
+/// When a run is stopped.
+pub(crate) fn limits(py: Python<'_>, until: Option<u32>, max_moves: Option<NonZeroU32>) -> PyResult<Limits> {
+    let read = |percent: u32| {
+        <Milestone as Worded>::of(&percent.to_string()).ok_or_else(|| {
+            error(py, Kind::Input, format_args!("until is {percent}"), "give until 50, 75 or 100")
+        })
+    };
+    Ok(Limits { until: until.map(read).transpose()?, max_moves, violation: OnViolation::GoOn })
+}
+
+/// Explores a layout once, and checks every team move: see `tautline explore --help`.
+#[pyfunction]
+#[pyo3(signature = (
+    layout, scheme="chain", *, rule="repaired", robots=None, seed=0, base=None, starts=Vec::new(), miss=None,
+    message_range=None, loss=None, noise_db=None, threshold=None, max_moves=None, until=None
+))]
+#[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+pub(crate) fn explore(
+    py: Python<'_>,
+    layout: Given<'_>,
+    scheme: &str,
+    rule: &str,
+    robots: Option<u64>,
+    seed: u64,
+    base: Option<Pair>,
+    starts: Vec<Pair>,
+    miss: Option<f64>,
+    message_range: Option<u16>,
+    loss: Option<f64>,
+    noise_db: Option<f64>,
+    threshold: Option<f64>,
+    max_moves: Option<NonZeroU32>,
+    until: Option<u32>,
+) -> PyResult<Run> {
+    let scheme = self::scheme(py, scheme)?;
+    let rule = self::rule(py, scheme, rule)?;
+    let asked = Asked {
+        robots,
+        seed,
+        base: base.map(cell),
+        starts: starts.into_iter().map(cell).collect(),
+        miss: probability(py, "miss", miss)?,
+        range_cells: message_range,
+        loss: probability(py, "loss", loss)?,
+        noise_db,
+        threshold,
+        limits: limits(py, until, max_moves)?,
+        ..Asked::new(scheme, rule)
+    };
+    let layout = layout.load(py, seed)?;
+    let setup = asked.setup(layout.ground).map_err(|fault| raised(py, &fault))?;
+    Run::of(py, setup, layout.name, None)
+}
+
+/// The run in a file, made again and compared line by line.
+#[pyfunction]
+pub(crate) fn replay(py: Python<'_>, path: PathBuf) -> PyResult<Run> {
+    Run::read(py, &path)
+}
+
+/// By the names of all schemes, the names of their rules.
+#[pyfunction]
+pub(crate) fn schemes() -> BTreeMap<&'static str, Vec<&'static str>> {
+    let rules = |scheme: &Profile| scheme.rules.iter().map(|rule| rule.name.as_str()).collect();
+    catalogue::SCHEMES.iter().map(|scheme| (scheme.name, rules(scheme))).collect()
+}
+
+/// Whether two robots of the repaired chain are in contact: each in E_C of the other (CHAIN-1).
+#[pyfunction]
+pub(crate) fn in_contact(one: Pair, other: Pair) -> bool {
+    chain::Rule::REPAIRED.keeps_contact(cell(one), cell(other))
+}

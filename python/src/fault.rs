@@ -1,0 +1,70 @@
+//! Faults as Python's exceptions: those of the module `tautline._errors`, each with what is wrong and what would be right.
+
+use std::fmt::Display;
+
+use pyo3::exceptions::PyKeyboardInterrupt;
+use pyo3::prelude::*;
+use tautline_sim::counterexample::minimise::Failure;
+use tautline_sim::fault::{Fault, Halt};
+
+/// The exceptions of the package, by their names.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Kind {
+    /// Something that was given is wrong.
+    Input,
+    /// A rule has returned what no rule may return.
+    WrongType,
+    /// A rule has not returned.
+    NeverEnds,
+    /// A rule does not answer the same to the same.
+    NotPure,
+    /// A rule has raised an exception.
+    Raised,
+}
+
+impl Kind {
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Input => "InputError",
+            Self::WrongType => "RuleWrongType",
+            Self::NeverEnds => "RuleNeverEnds",
+            Self::NotPure => "RuleNotPure",
+            Self::Raised => "RuleRaised",
+        }
+    }
+}
+
+/// The exception of this kind.
+pub(crate) fn error(py: Python<'_>, kind: Kind, what: impl Display, remedy: impl Display) -> PyErr {
+    let class = py.import("tautline._errors").and_then(|errors| errors.getattr(kind.name()));
+    let made = class.and_then(|class| class.call1((what.to_string(), remedy.to_string())));
+    made.map_or_else(|error| error, PyErr::from_value)
+}
+
+/// The exception of a fault. Its remedy names fields, which are written as Python's keywords.
+pub(crate) fn raised(py: Python<'_>, fault: &Fault) -> PyErr {
+    let keyword = |words: &str| {
+        let named = words.split('`').enumerate();
+        named
+            .map(|(place, part)| if place % 2 == 1 { part.replace('-', "_") } else { part.to_owned() })
+            .collect::<String>()
+    };
+    let place = fault.place().to_string();
+    error(py, Kind::Input, format_args!("{place}{}", keyword(fault.what())), keyword(fault.remedy()))
+}
+
+/// The exception of what ended a piece of work.
+pub(crate) fn halted(py: Python<'_>, halt: &Halt) -> PyErr {
+    match halt {
+        Halt::Fault(fault) => raised(py, fault),
+        Halt::Interrupted => PyKeyboardInterrupt::new_err(()),
+    }
+}
+
+/// The exception of a run that cannot be made minimal.
+pub(crate) fn failed(py: Python<'_>, failure: &Failure) -> PyErr {
+    match failure {
+        Failure::Refused(refused) => error(py, Kind::Input, refused, refused.remedy()),
+        Failure::Halted(halt) => halted(py, halt),
+    }
+}

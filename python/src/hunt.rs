@@ -1,0 +1,165 @@
+//! A hunt of a rule of the catalogue: all layouts within a bound, until something breaks.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use pyo3::prelude::*;
+use tautline_sim::explore::hunt::{Asked, Far, Hunter, Quarry, Shown};
+use tautline_sim::fault::Fault;
+use tautline_sim::layout::Size;
+
+use crate::explore::{rule, scheme};
+use crate::fault::{Kind, raised};
+use crate::layout::Layout;
+use crate::run::Run;
+use crate::wait::wait_for;
+
+/// What came of a hunt.
+#[pyclass(frozen, module = "tautline", get_all)]
+pub(crate) struct Hunted {
+    /// The name of the scheme.
+    scheme: &'static str,
+    /// The name of its rule.
+    rule: &'static str,
+    /// Robots.
+    robots: u64,
+    /// How much was searched, and within which bounds.
+    facts: Py<PyAny>,
+    /// Whether every layout within the bounds was covered.
+    complete: bool,
+    /// `holds`, `refuted`, or `open`.
+    verdict: &'static str,
+    /// What follows from it.
+    outcome: String,
+    /// The smallest run that breaks each clause.
+    counterexamples: Vec<Py<Counterexample>>,
+}
+
+/// A clause that is broken, and how.
+#[pyclass(frozen, module = "tautline", get_all)]
+pub(crate) struct Counterexample {
+    /// The clause.
+    clause: &'static str,
+    /// How large the run is.
+    facts: Py<PyAny>,
+    /// The same for people.
+    title: String,
+    /// Where it runs.
+    layout: Py<Layout>,
+    /// The run; none of one without end, and of one that no file tells.
+    run: Option<Py<Run>>,
+}
+
+#[pymethods]
+impl Hunted {
+    fn __repr__(&self) -> String {
+        let Self { scheme, rule, verdict, outcome, .. } = self;
+        format!("<tautline.Hunted {scheme} ({rule}): {verdict}. {outcome}>")
+    }
+}
+
+#[pymethods]
+impl Counterexample {
+    fn __repr__(&self) -> String {
+        format!("<tautline.Counterexample {}, {}>", self.clause, self.title)
+    }
+}
+
+/// Stops a hunt when it is told to.
+struct Stopped<'a>(&'a AtomicBool);
+
+impl Hunter for Stopped<'_> {
+    fn hears(&mut self, _: Far<'_>) -> ControlFlow<()> {
+        if self.0.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    fn is_not_kept(&mut self, _: &Fault) {}
+
+    fn is_left_out(&mut self, _: &Fault) {}
+}
+
+/// Searches all layouts with few walls for runs that break a clause: see `tautline hunt --help`.
+#[pyfunction]
+#[pyo3(signature = (
+    scheme="chain", *, rule="repaired", robots=None, size=None, max_walls=None, max_misses=None, max_losses=None,
+    error=None, budget=None
+))]
+#[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+pub(crate) fn hunt(
+    py: Python<'_>,
+    scheme: &str,
+    rule: &str,
+    robots: Option<u64>,
+    size: Option<(u64, u64)>,
+    max_walls: Option<u32>,
+    max_misses: Option<u8>,
+    max_losses: Option<u8>,
+    error: Option<f64>,
+    budget: Option<u64>,
+) -> PyResult<Hunted> {
+    let scheme = self::scheme(py, scheme)?;
+    let rule = self::rule(py, scheme, rule)?;
+    let hunt = scheme.rule(rule).and_then(|rule| rule.hunt).ok_or_else(|| {
+        crate::fault::error(
+            py,
+            Kind::Input,
+            format_args!("nothing is hunted of {}", scheme.name),
+            "hunt another scheme",
+        )
+    })?;
+    let size = size.map(|(width, height)| {
+        Size::new(width, height).map_err(|problem| raised(py, &Fault::usage(&problem, problem.remedy())))
+    });
+    let size = size.transpose()?;
+    let (error_cells, resume) = (error, None);
+    let asked =
+        Asked { scheme, rule, robots, size, budget, max_walls, max_misses, max_losses, error_cells, resume };
+    let found = wait_for(py, |is_stopped| {
+        asked.check(hunt)?;
+        hunt.hunt(&asked, &mut Stopped(is_stopped))
+    })?;
+    let found = found.map_err(|fault: Fault| raised(py, &fault))?;
+    let (verdict, complete) = (verdict(found.found.is_empty(), found.is_complete), found.is_complete);
+    let told = |quarry: &Quarry| told(py, quarry);
+    Ok(Hunted {
+        scheme: scheme.name,
+        rule: rule.as_str(),
+        robots: found.robots,
+        facts: facts(py, &found.facts)?,
+        complete,
+        verdict,
+        outcome: found.outcome,
+        counterexamples: found.found.iter().map(told).collect::<PyResult<_>>()?,
+    })
+}
+
+/// The word of the program for it.
+pub(crate) const fn verdict(is_unbroken: bool, is_complete: bool) -> &'static str {
+    match (is_unbroken, is_complete) {
+        (false, _) => "refuted",
+        (true, true) => "holds",
+        (true, false) => "open",
+    }
+}
+
+/// Numbers and words by their names.
+fn facts(py: Python<'_>, facts: &[tautline_sim::explore::hunt::Fact]) -> PyResult<Py<PyAny>> {
+    let map: serde_json::Map<String, serde_json::Value> =
+        facts.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect();
+    Ok(py.import("json")?.call_method1("loads", (serde_json::Value::Object(map).to_string(),))?.unbind())
+}
+
+fn told(py: Python<'_>, quarry: &Quarry) -> PyResult<Py<Counterexample>> {
+    let name = quarry.clause.to_owned();
+    let run = match &quarry.shown {
+        Shown::Run(clause) | Shown::Story(clause, _) => {
+            let run = Run::of(py, quarry.setup.clone(), name.clone(), Some(*clause))?;
+            Some(Py::new(py, run)?)
+        }
+        Shown::Endless | Shown::Told(_) => None,
+    };
+    let layout = Layout { ground: quarry.setup.layout.clone(), name };
+    let (clause, title) = (quarry.clause, quarry.title.clone());
+    let layout = Py::new(py, layout)?;
+    Py::new(py, Counterexample { clause, facts: facts(py, &quarry.facts)?, title, layout, run })
+}

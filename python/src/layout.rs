@@ -1,0 +1,228 @@
+//! Layouts: loaded, generated, made of arrays, and given as such.
+
+use std::hash::{Hash, Hasher};
+use std::num::NonZeroU16;
+use std::path::PathBuf;
+
+use pyo3::prelude::*;
+use tautline_kernel::ground::{Cell, Edge, Side};
+use tautline_sim::draw::svg;
+use tautline_sim::fault::Fault;
+use tautline_sim::layout::{self as layouts, Layout as Ground};
+
+use crate::arrays::{Rows, rows, view};
+use crate::fault::{Kind, error, raised};
+
+/// A column and a row.
+pub(crate) type Pair = (i16, i16);
+
+/// The ground truth of a run: cells, walls between them, blocked cells.
+#[pyclass(frozen, module = "tautline", eq, hash)]
+#[derive(Clone)]
+pub(crate) struct Layout {
+    pub(crate) ground: Ground,
+    /// What it was loaded by.
+    pub(crate) name: String,
+}
+
+/// Layouts are equal that have the same cells, walls, base and number of robots, wherever they come from.
+impl PartialEq for Layout {
+    fn eq(&self, other: &Self) -> bool {
+        self.ground == other.ground
+    }
+}
+
+impl Eq for Layout {}
+
+impl Hash for Layout {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.ground.hash(state);
+    }
+}
+
+/// Which way a letter leads.
+pub(crate) fn side(letter: char) -> Option<Side> {
+    match letter {
+        'E' => Some(Side::East),
+        'S' => Some(Side::South),
+        'W' => Some(Side::West),
+        'N' => Some(Side::North),
+        _ => None,
+    }
+}
+
+/// The layout of an argument that is one, or that describes one.
+#[derive(FromPyObject)]
+pub(crate) enum Given<'py> {
+    /// A layout.
+    Made(Bound<'py, Layout>),
+    /// A file or a generator.
+    Named(PathBuf),
+}
+
+impl Given<'_> {
+    /// The layout and its name.
+    pub(crate) fn load(&self, py: Python<'_>, seed: u64) -> PyResult<Layout> {
+        match self {
+            Self::Made(layout) => Ok(layout.get().clone()),
+            Self::Named(name) => Layout::load(py, name.clone(), seed, None),
+        }
+    }
+}
+
+#[pymethods]
+impl Layout {
+    /// A file or a generator, as `tautline explore` takes it.
+    #[staticmethod]
+    #[pyo3(signature = (description, *, seed=0, image=None))]
+    fn load(py: Python<'_>, description: PathBuf, seed: u64, image: Option<PathBuf>) -> PyResult<Self> {
+        let name = description.display().to_string();
+        let ground = py.detach(|| layouts::load(&name, seed, image.as_deref()));
+        Ok(Self { ground: ground.map_err(|fault| raised(py, &fault))?, name })
+    }
+
+    /// A drawing of ours.
+    #[staticmethod]
+    fn parse(py: Python<'_>, drawing: &str) -> PyResult<Self> {
+        let read = drawing.parse::<Ground>();
+        let fault = |misread: layouts::Misread| {
+            let layouts::Misread { at, problem } = misread;
+            raised(py, &Fault::at("drawing", drawing, at, &problem, problem.remedy()))
+        };
+        Ok(Self { ground: read.map_err(fault)?, name: "drawing".to_owned() })
+    }
+
+    /// Of arrays, rows by columns: which cells are blocked, and where a wall stands on the eastern and on the southern side of a
+    /// cell.
+    #[staticmethod]
+    #[pyo3(signature = (blocked, *, east=None, south=None, base=None, robots=None))]
+    fn from_arrays(
+        py: Python<'_>,
+        blocked: Bound<'_, PyAny>,
+        east: Option<Bound<'_, PyAny>>,
+        south: Option<Bound<'_, PyAny>>,
+        base: Option<Pair>,
+        robots: Option<NonZeroU16>,
+    ) -> PyResult<Self> {
+        let Rows { height, width, values } = rows("blocked", &blocked)?;
+        let fault = |problem: layouts::Problem| raised(py, &Fault::usage(&problem, problem.remedy()));
+        let mut ground = Ground::open(width as u64, height as u64).map_err(fault)?;
+        for (cell, _) in ground.cells().zip(values).filter(|(_, is_blocked)| *is_blocked) {
+            ground.block(cell);
+        }
+        for (name, side, array) in [("east", Side::East, east), ("south", Side::South, south)] {
+            let Some(array) = array else { continue };
+            let walls = rows(name, &array)?;
+            if (walls.height, walls.width) != (height, width) {
+                let what = format!(
+                    "{name} has {} rows and {} columns, and blocked has {height} and {width}",
+                    walls.height, walls.width
+                );
+                return Err(error(py, Kind::Input, what, "give all arrays the same shape"));
+            }
+            for (cell, _) in ground.cells().zip(walls.values).filter(|(_, is_wall)| *is_wall) {
+                ground.build_wall(Edge::new(cell, side));
+            }
+        }
+        if let Some((x, y)) = base {
+            ground.place_base(Cell::new(x, y)).map_err(fault)?;
+        }
+        if let Some(robots) = robots {
+            ground.set_robots(robots);
+        }
+        Ok(Self { ground, name: "arrays".to_owned() })
+    }
+
+    /// Columns.
+    #[getter]
+    fn width(&self) -> i16 {
+        self.ground.width()
+    }
+
+    /// Rows.
+    #[getter]
+    fn height(&self) -> i16 {
+        self.ground.height()
+    }
+
+    /// The base, if the layout names one.
+    #[getter]
+    fn base(&self) -> Option<Pair> {
+        self.ground.base().map(|cell| (cell.x, cell.y))
+    }
+
+    /// How many robots it is meant for, if it says so.
+    #[getter]
+    fn robots(&self) -> Option<u16> {
+        self.ground.robots()
+    }
+
+    /// How many cells are free.
+    #[getter]
+    fn free_cells(&self) -> usize {
+        self.ground.free_cells()
+    }
+
+    /// Which cells are blocked, rows by columns.
+    #[getter]
+    fn blocked<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.plane(py, |cell| !self.ground.is_free(cell))
+    }
+
+    /// On the eastern side of which cells a wall stands, the rim left out.
+    #[getter]
+    fn east<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.walls(py, Side::East)
+    }
+
+    /// On the southern side of which cells a wall stands, the rim left out.
+    #[getter]
+    fn south<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.walls(py, Side::South)
+    }
+
+    /// The cell where a robot is that tries this side, one of E, S, W and N; none if it meets a wall or a blocked cell.
+    fn beyond(&self, py: Python<'_>, cell: Pair, letter: char) -> PyResult<Option<Pair>> {
+        let Some(side) = side(letter) else {
+            return Err(error(
+                py,
+                Kind::Input,
+                format_args!("{letter:?} is no side"),
+                "give one of E, S, W and N",
+            ));
+        };
+        let edge = Edge::new(Cell::new(cell.0, cell.1), side);
+        let next = Cell::new(cell.0, cell.1).beyond(side);
+        Ok(self.ground.is_open(edge).then_some((next.x, next.y)))
+    }
+
+    /// A picture.
+    fn svg(&self) -> String {
+        svg::picture(&self.name, &[svg::layout(&self.ground)])
+    }
+
+    fn _repr_svg_(&self) -> String {
+        self.svg()
+    }
+
+    fn __str__(&self) -> String {
+        self.ground.to_string()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<tautline.Layout {} of {}x{} cells>", self.name, self.width(), self.height())
+    }
+}
+
+impl Layout {
+    fn plane<'py>(&self, py: Python<'py>, has: impl Fn(Cell) -> bool) -> PyResult<Bound<'py, PyAny>> {
+        let bytes: Vec<u8> = self.ground.cells().map(|cell| u8::from(has(cell))).collect();
+        view(py, &bytes, "?", &[self.height() as usize, self.width() as usize])
+    }
+
+    fn walls<'py>(&self, py: Python<'py>, side: Side) -> PyResult<Bound<'py, PyAny>> {
+        self.plane(py, |cell| {
+            self.ground.contains(cell.beyond(side)) && self.ground.has_wall(Edge::new(cell, side))
+        })
+    }
+}

@@ -1,0 +1,34 @@
+//! The native half of the Python package `tautline`: what is slow in Python, or is Tautline's own. The other half, in the
+//! folder `tautline`, has the classes that a person derives from, the errors, and the type stubs.
+
+mod arrays;
+mod estimate;
+mod explore;
+mod fault;
+mod hunt;
+mod layout;
+mod rule;
+mod run;
+mod sweep;
+mod wait;
+
+/// What `tautline` imports.
+#[pyo3::pymodule]
+mod _native {
+    #[pymodule_export]
+    use crate::estimate::{Estimate, estimate, estimate_ratio, estimate_share};
+    #[pymodule_export]
+    use crate::explore::{explore, in_contact, replay, schemes};
+    #[pymodule_export]
+    use crate::hunt::{Counterexample, Hunted, hunt};
+    #[pymodule_export]
+    use crate::layout::Layout;
+    #[pymodule_export]
+    use crate::rule::moved::Moved;
+    #[pymodule_export]
+    use crate::rule::{OwnCounterexample, OwnHunted, hunt_rule};
+    #[pymodule_export]
+    use crate::run::Run;
+    #[pymodule_export]
+    use crate::sweep::{Sweep, sweep};
+}

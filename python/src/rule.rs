@@ -1,0 +1,260 @@
+//! A rule written in Python, hunted in all layouts within its bound. The rule is asked on one thread: it is pure, but Python has
+//! one lock.
+
+mod game;
+pub(crate) mod moved;
+mod player;
+mod written;
+
+use std::fs;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+use pyo3::prelude::*;
+use rayon::ThreadPoolBuilder;
+use tautline_kernel::ground::{Area, Cell};
+use tautline_proofs::engine::Until;
+use tautline_proofs::engine::tree::{self, Limits as Bounds, Tree, Waves};
+use tautline_proofs::run::{Frame, Run as Found, walls};
+use tautline_proofs::team::Promise;
+use tautline_sim::aside::{Aside, Replaceable};
+use tautline_sim::counterexample::minimise::{Broken, Case, shrink};
+use tautline_sim::explore::hunt::layout as layout_of;
+use tautline_sim::explore::{ClauseId, Limits, OnViolation, Report, Stage, TeamMove, run};
+use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::layout::Layout;
+use tautline_sim::trace::{self, Stored, Writer};
+
+use self::game::InRule;
+use self::player::Player;
+use self::written::{Demand, Written};
+use crate::fault::{Kind, error, halted};
+use crate::hunt::verdict;
+use crate::run::{Made, Run};
+use crate::wait::wait;
+
+/// What came of a hunt of a rule written in Python.
+#[pyclass(frozen, module = "tautline", get_all)]
+pub(crate) struct OwnHunted {
+    /// The name of the scheme.
+    scheme: String,
+    /// The name of the rule.
+    rule: String,
+    /// Runs that were made.
+    runs: u64,
+    /// Team moves that were made.
+    moves: u64,
+    /// Team moves of the longest run.
+    longest: u32,
+    /// Runs that were given up, as they neither ended nor came back.
+    given_up: u64,
+    /// For each number of walls, from none on, the runs and the team moves.
+    levels: Vec<(u64, u64)>,
+    /// Whether every layout within the bound was covered.
+    complete: bool,
+    /// The situations that occurred.
+    covered: Vec<String>,
+    /// `holds`, `refuted`, or `open`.
+    verdict: &'static str,
+    /// How often Python was called.
+    calls: u64,
+    /// The run with the fewest walls that breaks each demand.
+    counterexamples: Vec<Py<OwnCounterexample>>,
+}
+
+/// A demand that is broken, and how.
+#[pyclass(frozen, module = "tautline", get_all)]
+pub(crate) struct OwnCounterexample {
+    /// The clause.
+    clause: &'static str,
+    /// What it demands, in words.
+    words: &'static str,
+    /// How many runs break it.
+    runs: u64,
+    /// The run that meets the fewest walls.
+    run: Py<Run>,
+    /// The smallest that it shrinks to.
+    minimal: Py<Run>,
+}
+
+#[pymethods]
+impl OwnHunted {
+    fn __repr__(&self) -> String {
+        let Self { scheme, rule, verdict, runs, moves, .. } = self;
+        format!("<tautline.OwnHunted {scheme} ({rule}): {verdict}; {runs} runs, {moves} team moves>")
+    }
+}
+
+#[pymethods]
+impl OwnCounterexample {
+    fn __repr__(&self) -> String {
+        format!("<tautline.OwnCounterexample {}: not so that {}>", self.clause, self.words)
+    }
+}
+
+/// A counterexample before Python has it.
+struct Plain {
+    demand: usize,
+    runs: u64,
+    run: Run,
+    minimal: Run,
+}
+
+/// What was found before Python has it.
+struct Outcome {
+    found: tree::Found<Promise, Frame>,
+    counterexamples: Vec<Plain>,
+}
+
+/// Searches all layouts within the bound of a rule for runs that break its demands.
+#[pyfunction]
+#[pyo3(signature = (rule, *, budget=None, patience_s=10.0))]
+pub(crate) fn hunt_rule(
+    py: Python<'_>,
+    rule: Bound<'_, PyAny>,
+    budget: Option<u64>,
+    patience_s: f64,
+) -> PyResult<OwnHunted> {
+    let written = Arc::new(Written::read(&rule)?);
+    let mut patience = written.patience(patience_s)?;
+    let worker = Arc::clone(&written);
+    let found = wait(
+        py,
+        &written.is_stopped,
+        || {
+            let pool = ThreadPoolBuilder::new().num_threads(1).build().map_err(|error| {
+                Python::attach(|py| crate::fault::error(py, Kind::Input, error, "end other programs"))
+            })?;
+            pool.install(|| Python::attach(|py| found(py, &worker, budget)))
+        },
+        |py| patience.look(py),
+    )?;
+    let Outcome { found, counterexamples } = found?;
+    let told = |plain: Plain| {
+        let Demand { clause, words, .. } = &written.demands[plain.demand];
+        let (clause, words, runs) = (clause.as_str(), *words, plain.runs);
+        let (run, minimal) = (Py::new(py, plain.run)?, Py::new(py, plain.minimal)?);
+        Py::new(py, OwnCounterexample { clause, words, runs, run, minimal })
+    };
+    let is_whole = found.complete && found.given_up == 0 && found.covered.len() == written.covers.len();
+    Ok(OwnHunted {
+        scheme: written.scheme.to_owned(),
+        rule: written.name.to_owned(),
+        runs: found.runs,
+        moves: found.moves,
+        longest: found.longest,
+        given_up: found.given_up,
+        levels: found.levels.iter().map(|level| (level.runs, level.moves)).collect(),
+        complete: found.complete,
+        covered: found.covered.iter().map(|&name| name.to_owned()).collect(),
+        verdict: verdict(counterexamples.is_empty(), is_whole),
+        calls: written.calls.load(Ordering::Relaxed),
+        counterexamples: counterexamples.into_iter().map(told).collect::<PyResult<_>>()?,
+    })
+}
+
+/// The search, and its counterexamples made again and made small. On the thread that asks the rule.
+fn found(py: Python<'_>, written: &Arc<Written>, budget: Option<u64>) -> PyResult<Outcome> {
+    written.begin(py)?;
+    let wanted = Vec::new();
+    let limits =
+        Bounds { max_walls: written.max_walls, budget_moves: budget, wanted, until: Until::Exhausted };
+    let game = InRule(Arc::clone(written));
+    let mut tree = Tree::new(game, &limits)
+        .map_err(|refused| error(py, Kind::Input, refused, "give fewer max_walls, or a smaller size"))?;
+    while tree.wave() {
+        written.checked(py)?;
+    }
+    written.checked(py)?;
+    let found = tree.found();
+    written.checked(py)?;
+    let is_found = |demand: &usize| found.counterexamples.iter().any(|example| example.broken.0 == *demand);
+    if !written.seen().iter().all(is_found) {
+        return Err(written.not_pure(py));
+    }
+    let mut counterexamples = Vec::new();
+    for example in &found.counterexamples {
+        let demand = example.broken.0;
+        let clause = written.demands[demand].clause;
+        let run = Found {
+            scheme: written.scheme,
+            area: Area::of(Cell::new(0, 0)),
+            starts: written.starts().to_vec(),
+            walls: walls(&example.frames),
+            frames: Vec::new(),
+            breaks: Some(clause.as_str()),
+        };
+        let run = Found { area: written.area(py)?, ..run };
+        let halted = |halt: Halt| written.failure(py).unwrap_or_else(|| halted(py, &halt));
+        let (layout, _) =
+            layout_of(&run).map_err(|problem| halted(Fault::usage(&problem, problem.remedy()).into()))?;
+        let (made, report) = stored(written, &layout, clause).map_err(halted)?;
+        if !report.violations.iter().any(|broken| broken.clause == clause) {
+            return Err(written.not_pure(py));
+        }
+        let small = shrunk(written, layout, clause, report.steps).map_err(halted)?;
+        let (minimal, smallest) = stored(written, &small, clause).map_err(halted)?;
+        let named = |made, report| Run { made, name: clause.to_string(), report, clause: Some(clause) };
+        let (run, minimal) = (named(made, report), named(minimal, smallest));
+        counterexamples.push(Plain { demand, runs: example.runs, run, minimal });
+    }
+    Ok(Outcome { found, counterexamples })
+}
+
+/// The run of the rule in `layout`, as far as it breaks `clause`.
+fn played(
+    written: &Written,
+    layout: &Layout,
+    clause: ClauseId,
+    watch: &mut dyn FnMut(&TeamMove<'_>) -> Result<(), Halt>,
+) -> Result<Report, Halt> {
+    let limits = Limits { violation: OnViolation::StopAt(clause), ..Limits::default() };
+    let mut left = written.longest_run;
+    let report = run(&mut Player::new(written), layout, limits, &mut |made| {
+        left = left.saturating_sub(1);
+        // A smaller layout may have a run that neither ends nor comes back.
+        if written.is_over() || left == 0 { Err(Halt::Interrupted) } else { watch(made) }
+    })?;
+    if written.is_over() { Err(Halt::Interrupted) } else { Ok(report) }
+}
+
+/// The same, written to a file and read again.
+fn stored(written: &Written, layout: &Layout, clause: ClauseId) -> Result<(Made, Report), Halt> {
+    let folder = tempfile::tempdir().map_err(|error| Fault::usage(error, "make room for temporary files"))?;
+    let path = folder.path().join("run.jsonl");
+    let stage = Stage::new(written.scheme, written.name, layout, written.starts());
+    let aside = Aside::new(&path, &Replaceable::default())?;
+    let mut writer = Writer::new(aside, &stage, Some(clause)).map_err(Fault::from)?;
+    let report = played(written, layout, clause, &mut |made| {
+        writer.add(made);
+        Ok(())
+    })?;
+    writer.end(&report).keep()?;
+    let unread = |error| Fault::in_file(&path, error, "make room for temporary files");
+    let text = fs::read_to_string(&path).map_err(unread)?;
+    match trace::open(&path)? {
+        Stored::Foreign(recorded) => Ok((Made::Recorded(Box::new(recorded), text), report)),
+        Stored::Known(_) => {
+            let what = format!("{} is a scheme of tautline", written.scheme);
+            Err(Fault::usage(what, "give the rule's scheme another name").into())
+        }
+    }
+}
+
+/// The smallest layout that the run shrinks to. The robots start where they did.
+fn shrunk(written: &Written, layout: Layout, clause: ClauseId, steps: u32) -> Result<Layout, Halt> {
+    let starts = written.starts();
+    let (base, robots) = (starts[0], starts.len() as u16);
+    let shrunk = shrink(Case { robots, layout, base }, steps, robots, &mut |case, _| {
+        if case.base != base || !starts.iter().all(|&cell| case.layout.is_free(cell)) {
+            return Ok(None);
+        }
+        let report = match played(written, &case.layout, clause, &mut |_| Ok(())) {
+            Err(Halt::Interrupted) if !written.is_over() => return Ok(None),
+            report => report?,
+        };
+        let broken = report.violations.iter().find(|broken| broken.clause == clause);
+        Ok(broken.map(|broken| Broken { steps: broken.step, met: None }))
+    })?;
+    Ok(shrunk.case.layout)
+}

@@ -1,0 +1,84 @@
+//! The rule in one layout, as a run plays it.
+
+use tautline_kernel::chain::Kind;
+use tautline_kernel::ground::{Cell, Edge, Step};
+use tautline_proofs::run::Frame;
+use tautline_sim::explore::{ClauseId, End, Survey, Team};
+use tautline_sim::layout::Layout;
+
+use super::written::{Blocked, Cells, MAX_ROBOTS, Move, Written};
+
+/// A team that follows the rule.
+pub(super) struct Player<'a> {
+    written: &'a Written,
+    now: Place,
+    last: Option<Move>,
+    /// Where the team was, moved on at powers of two (Brent's search for cycles).
+    mark: Place,
+    made: u32,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Place {
+    state: u32,
+    cells: Cells,
+    blocked: Blocked,
+}
+
+impl<'a> Player<'a> {
+    /// At its start.
+    pub(super) fn new(written: &'a Written) -> Self {
+        let (state, cells) = written.start();
+        let now = Place { state, cells, blocked: [false; MAX_ROBOTS] };
+        Self { written, now, last: None, mark: now, made: 0 }
+    }
+
+    fn clause(&self, broken: Option<usize>) -> Vec<ClauseId> {
+        broken.map(|demand| self.written.demands[demand].clause).into_iter().collect()
+    }
+}
+
+impl Team for Player<'_> {
+    fn cells(&self) -> &[Cell] {
+        &self.now.cells[..self.written.robots]
+    }
+
+    fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+        if self.made > 0 && self.mark == self.now {
+            return Err(End::Endless);
+        }
+        if self.made.is_power_of_two() {
+            self.mark = self.now;
+        }
+        self.made += 1;
+        let Place { state: before, cells: from, blocked } = self.now;
+        let (after, steps) = self.written.step(before, &from, &blocked).ok_or(End::Exhausted)?;
+        let (mut to, mut blocked) = (from, [false; MAX_ROBOTS]);
+        let robots = self.written.robots;
+        for (robot, step) in steps.iter().enumerate().take(robots) {
+            blocked[robot] = matches!(*step, Step::Cross(side) if !is_open(Edge::new(to[robot], side)));
+            if !blocked[robot] {
+                to[robot] = to[robot].after(*step);
+            }
+        }
+        self.now = Place { state: after, cells: to, blocked };
+        self.last = Some(Move { before, after, from, to, steps, blocked });
+        Ok(Frame {
+            kind: Kind::Advance,
+            steps: steps[..robots].to_vec(),
+            blocked: blocked[..robots].to_vec(),
+            cells: to[..robots].to_vec(),
+        })
+    }
+
+    fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<ClauseId> {
+        self.clause(self.last.as_ref().and_then(|moved| self.written.broken_by(moved)))
+    }
+
+    fn broken_at_end(&self, _: &Layout, _: &Survey, end: End) -> Vec<ClauseId> {
+        self.clause(match end {
+            End::Explored | End::Exhausted => self.written.broken_at_end(self.now.state, &self.now.cells),
+            End::Endless => self.written.broken_by_endless(),
+        })
+    }
+}

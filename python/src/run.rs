@@ -1,0 +1,409 @@
+//! A run: what came of it, its team moves as arrays, how it is drawn, stored and made minimal.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::fs;
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use pyo3::prelude::*;
+use serde::Serialize;
+use tautline_kernel::ground::Cell;
+use tautline_sim::aside::{Aside, Foreign, Replaceable};
+use tautline_sim::counterexample::minimise::minimise;
+use tautline_sim::draw::page::Page;
+use tautline_sim::draw::{story, svg, title_of};
+use tautline_sim::explore::{ClauseId, Milestone, Play, Report, Setup, Summary, TeamMove, catalogue};
+use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::trace::{self, Recorded, Stored, Writer};
+
+use crate::arrays::view;
+use crate::fault::{Kind, error, failed, halted, raised};
+use crate::layout::{Layout, Pair};
+use crate::wait::wait_for;
+
+/// The version of the JSON of a run: that of the program.
+const SCHEMA_VERSION: u32 = 1;
+
+/// Team moves that one picture shows at most.
+const MAX_PANELS: u32 = 200;
+
+/// What makes a run again.
+#[derive(Clone)]
+pub(crate) enum Made {
+    /// A rule of the catalogue.
+    Known(Box<Setup>),
+    /// A file with a rule that the catalogue does not have, and its text.
+    Recorded(Box<Recorded>, String),
+}
+
+impl Made {
+    fn play(&self) -> &(dyn Play + Sync) {
+        match self {
+            Self::Known(setup) => &**setup,
+            Self::Recorded(run, _) => &**run,
+        }
+    }
+}
+
+/// A run that is over.
+#[pyclass(frozen, module = "tautline")]
+pub(crate) struct Run {
+    pub(crate) made: Made,
+    /// What its layout was loaded by.
+    pub(crate) name: String,
+    pub(crate) report: Report,
+    /// The clause that it is a counterexample to.
+    pub(crate) clause: Option<ClauseId>,
+}
+
+/// What every JSON object begins with.
+#[derive(Serialize)]
+struct Versioned<T> {
+    schema_version: u32,
+    #[serde(flatten)]
+    content: T,
+}
+
+/// Why the work of another thread ended: it was told to.
+pub(crate) fn stopped(is_stopped: &AtomicBool) -> Result<(), Halt> {
+    if is_stopped.load(Ordering::Relaxed) { Err(Halt::Interrupted) } else { Ok(()) }
+}
+
+impl Run {
+    /// The run of `setup`, made now.
+    pub(crate) fn of(py: Python<'_>, setup: Setup, name: String, clause: Option<ClauseId>) -> PyResult<Self> {
+        let report = wait_for(py, |is_stopped| setup.play(&mut |_| stopped(is_stopped)))?;
+        let report = report.map_err(|halt| halted(py, &halt))?;
+        Ok(Self { made: Made::Known(Box::new(setup)), name, report, clause })
+    }
+
+    /// The run in a file, checked.
+    pub(crate) fn read(py: Python<'_>, path: &Path) -> PyResult<Self> {
+        let name = path.display().to_string();
+        let stored = trace::open(path).map_err(|fault| raised(py, &fault))?;
+        let (made, report, clause) = match stored {
+            Stored::Known(stored) => {
+                let (setup, clause) = (stored.setup.clone(), stored.clause);
+                let report = wait_for(py, |is_stopped| stored.replay(&mut |_| stopped(is_stopped)))?;
+                (Made::Known(Box::new(setup)), report.map_err(|halt| halted(py, &halt))?, clause)
+            }
+            Stored::Foreign(run) => {
+                let unread =
+                    |_| raised(py, &Fault::in_file(path, "it was there, and is gone", "store it again"));
+                let text = fs::read_to_string(path).map_err(unread)?;
+                let report = run.play(&mut |_| Ok(())).map_err(|halt| halted(py, &halt))?;
+                let clause = run.clause;
+                (Made::Recorded(Box::new(run), text), report, clause)
+            }
+        };
+        Ok(Self { made, name, report, clause })
+    }
+
+    fn play(&self) -> &(dyn Play + Sync) {
+        self.made.play()
+    }
+
+    /// Each team move, in their order.
+    fn each(&self, py: Python<'_>, mut see: impl FnMut(&TeamMove<'_>) + Send) -> PyResult<()> {
+        let run = self.play();
+        let made = wait_for(py, |is_stopped| {
+            run.play(&mut |made| {
+                see(made);
+                stopped(is_stopped)
+            })
+        })?;
+        made.map(|_| ()).map_err(|halt| halted(py, &halt))
+    }
+
+    /// Writes to a file what `put` has to say.
+    fn file(
+        py: Python<'_>,
+        path: &Path,
+        replaceable: &Replaceable,
+        put: impl FnOnce(Aside) -> Result<Aside, Halt> + Send,
+    ) -> PyResult<()> {
+        let write = || {
+            let aside = put(Aside::new(path, replaceable)?)?;
+            Ok(aside.keep()?)
+        };
+        py.detach(write).map_err(|halt: Halt| halted(py, &halt))
+    }
+
+    /// Writes the trace.
+    fn traced(&self, aside: Aside) -> Result<Aside, Halt> {
+        match &self.made {
+            Made::Known(setup) => {
+                let mut writer = Writer::new(aside, &setup.stage(), self.clause).map_err(Fault::from)?;
+                let report = setup.play(&mut |made| {
+                    writer.add(made);
+                    Ok(())
+                })?;
+                Ok(writer.end(&report))
+            }
+            Made::Recorded(_, text) => {
+                let mut aside = aside;
+                aside.append(text);
+                Ok(aside)
+            }
+        }
+    }
+
+    fn paged(&self, mut aside: Aside) -> Result<Aside, Halt> {
+        let run = self.play();
+        svg::check_size(self.report.chart.area())?;
+        let mut page = Page::new(&mut aside, run, &self.report, &(1..=self.report.steps));
+        run.play(&mut |made| {
+            page.add(made);
+            Ok(())
+        })?;
+        page.finish();
+        Ok(aside)
+    }
+
+    /// What is written to a file, as text.
+    fn text(
+        &self,
+        py: Python<'_>,
+        put: impl FnOnce(&Self, Aside) -> Result<Aside, Halt> + Send,
+    ) -> PyResult<String> {
+        let folder = tempfile::tempdir()?;
+        let path = folder.path().join("text");
+        Self::file(py, &path, &Replaceable::default(), |aside| put(self, aside))?;
+        Ok(fs::read_to_string(&path)?)
+    }
+
+    fn panels(&self, py: Python<'_>, moves: &RangeInclusive<u32>) -> PyResult<String> {
+        if moves.end().saturating_sub(*moves.start()) >= MAX_PANELS {
+            let what = format!("a picture of more than {MAX_PANELS} team moves");
+            return Err(error(py, Kind::Input, what, "give the first and the last of fewer moves"));
+        }
+        let (run, chart) = (self.play(), &self.report.chart);
+        let mut panels = Vec::new();
+        self.each(py, |made| {
+            if moves.contains(&made.step) {
+                panels.push(svg::team_move(run, chart, made));
+            }
+        })?;
+        Ok(svg::picture(&title_of(run), &panels))
+    }
+}
+
+#[pymethods]
+impl Run {
+    /// The name of the scheme.
+    #[getter]
+    fn scheme(&self) -> String {
+        self.play().stage().scheme.to_owned()
+    }
+
+    /// The name of its rule.
+    #[getter]
+    fn rule(&self) -> String {
+        self.play().stage().rule.to_owned()
+    }
+
+    /// How many robots there are, the base counted if there is one.
+    #[getter]
+    fn robots(&self) -> u16 {
+        self.play().stage().robots
+    }
+
+    /// The seed of whatever was left to chance.
+    #[getter]
+    fn seed(&self) -> u64 {
+        self.play().stage().seed
+    }
+
+    /// Where it ran.
+    #[getter]
+    fn layout(&self) -> Layout {
+        Layout { ground: self.play().stage().layout.clone(), name: self.name.clone() }
+    }
+
+    /// Team moves, backtracks included.
+    #[getter]
+    fn steps(&self) -> u32 {
+        self.report.steps
+    }
+
+    /// Cells that were occupied.
+    #[getter]
+    fn explored(&self) -> u32 {
+        self.report.explored
+    }
+
+    /// Cells that the team was to explore.
+    #[getter]
+    fn cells(&self) -> u32 {
+        self.report.cells
+    }
+
+    /// By percent of the cells: in which team move so many were explored.
+    #[getter]
+    fn milestones(&self) -> BTreeMap<u32, Option<u32>> {
+        Milestone::ALL.map(|milestone| (milestone.percent(), self.report.reached(milestone))).into()
+    }
+
+    /// Why it is over, in a word.
+    #[getter]
+    fn stopped(&self) -> PyResult<String> {
+        let word = serde_json::to_value(self.report.stopped);
+        let word = word.ok().and_then(|word| Some(word.as_str()?.to_owned()));
+        word.ok_or_else(|| pyo3::exceptions::PyRuntimeError::new_err("a bug of tautline: no word"))
+    }
+
+    /// Which clause was broken in which team move.
+    #[getter]
+    fn violations(&self) -> Vec<(&'static str, u32)> {
+        self.report.violations.iter().map(|broken| (broken.clause.as_str(), broken.step)).collect()
+    }
+
+    /// The clause that it is a counterexample to, if it is one.
+    #[getter]
+    fn clause(&self) -> Option<&'static str> {
+        self.clause.map(ClauseId::as_str)
+    }
+
+    /// Where each robot is, at the start and after each team move: an array of moves, robots, and column and row.
+    fn positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let put = |cells: &[Cell], bytes: &mut Vec<u8>| {
+            for cell in cells {
+                bytes.extend(cell.x.to_ne_bytes());
+                bytes.extend(cell.y.to_ne_bytes());
+            }
+        };
+        let (mut bytes, robots) = (Vec::new(), self.report.team.len());
+        put(&self.play().stage().starts(), &mut bytes);
+        self.each(py, |made| put(&made.frame.cells, &mut bytes))?;
+        view(py, &bytes, "h", &[bytes.len() / (4 * robots.max(1)), robots, 2])
+    }
+
+    /// In which team move each cell was first occupied, 0 for the start and -1 for never: an array of rows and columns.
+    fn order<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let layout = self.play().stage().layout;
+        let step = |cell| self.report.chart.step(cell).map_or(-1, u32::cast_signed);
+        let bytes: Vec<u8> = layout.cells().flat_map(|cell| step(cell).to_ne_bytes()).collect();
+        view(py, &bytes, "i", &[layout.height() as usize, layout.width() as usize])
+    }
+
+    /// The team moves as the trace has them.
+    fn moves<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let mut lines = Vec::new();
+        let mut wrong = None;
+        self.each(py, |made| match serde_json::to_string(&trace::StoredMove::new(made.step, made.frame)) {
+            Ok(line) => lines.push(line),
+            Err(error) => wrong = Some(error),
+        })?;
+        match wrong {
+            None => py.import("json")?.call_method1("loads", (format!("[{}]", lines.join(",")),)),
+            Some(error) => Err(pyo3::exceptions::PyRuntimeError::new_err(error.to_string())),
+        }
+    }
+
+    /// One JSON object in a line: what `tautline explore --format json` prints.
+    fn json(&self) -> PyResult<String> {
+        let content = Summary::new(self.play(), &self.name, &self.report);
+        let text = serde_json::to_string(&Versioned { schema_version: SCHEMA_VERSION, content });
+        text.map(|text| text + "\n")
+            .map_err(|error| pyo3::exceptions::PyRuntimeError::new_err(error.to_string()))
+    }
+
+    /// The text of the file that `tautline explore --trace` stores.
+    fn trace(&self, py: Python<'_>) -> PyResult<String> {
+        self.text(py, Self::traced)
+    }
+
+    /// Stores that file.
+    #[pyo3(signature = (path, *, force=false))]
+    fn store(&self, py: Python<'_>, path: PathBuf, force: bool) -> PyResult<()> {
+        let foreign = if force { Foreign::Replace } else { Foreign::Keep };
+        Self::file(py, &path, &Replaceable::new(foreign, []), |aside| self.traced(aside))
+    }
+
+    /// The run in the Informal Trace Format of Apalache, as `--itf` stores it.
+    fn itf(&self, py: Python<'_>) -> PyResult<String> {
+        self.text(py, |run, mut aside| {
+            trace::itf::write(&mut aside, run.play())?;
+            Ok(aside)
+        })
+    }
+
+    /// How the last team move breaks its clause, in words and drawn.
+    fn story(&self, py: Python<'_>) -> PyResult<String> {
+        story::last_move(self.play()).map_err(|halt| halted(py, &halt))
+    }
+
+    /// A picture: the order of exploration, or these team moves; of a counterexample the last one.
+    #[pyo3(signature = (moves=None))]
+    fn svg(&self, py: Python<'_>, moves: Option<(u32, u32)>) -> PyResult<String> {
+        svg::check_size(self.report.chart.area()).map_err(|fault| raised(py, &fault))?;
+        match (moves, self.clause) {
+            (Some((first, last)), _) => self.panels(py, &(first..=last.min(self.report.steps))),
+            (None, Some(_)) if self.report.steps > 0 => {
+                self.panels(py, &(self.report.steps..=self.report.steps))
+            }
+            (None, _) => {
+                let run = self.play();
+                Ok(svg::picture(&title_of(run), &[svg::order(run, &self.report.chart)]))
+            }
+        }
+    }
+
+    /// A page that plays the run: one file without anything from elsewhere.
+    fn html(&self, py: Python<'_>) -> PyResult<String> {
+        self.text(py, Self::paged)
+    }
+
+    /// The smallest run that it shrinks to and that breaks the same clause.
+    #[pyo3(signature = (clause=None))]
+    fn minimise(&self, py: Python<'_>, clause: Option<&str>) -> PyResult<Self> {
+        let setup = match &self.made {
+            Made::Known(setup) => setup,
+            Made::Recorded(..) => {
+                let what = "a run of a rule that is not in the catalogue";
+                return Err(error(py, Kind::Input, what, "take the minimal run that hunt_rule has found"));
+            }
+        };
+        let asked = clause
+            .map(|id| catalogue::clause(id).map_err(|none| error(py, Kind::Input, &none, none.remedy())));
+        let asked = asked.transpose()?.or(self.clause);
+        let minimal = wait_for(py, |is_stopped| minimise(setup, asked, &mut |_| stopped(is_stopped)))?;
+        let minimal = minimal.map_err(|failure| failed(py, &failure))?;
+        Self::of(py, minimal.setup, self.name.clone(), Some(minimal.clause))
+    }
+
+    fn _repr_svg_(&self, py: Python<'_>) -> PyResult<String> {
+        self.svg(py, None)
+    }
+
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        let page = self.html(py)?;
+        let page = page.replace('&', "&amp;").replace('"', "&quot;");
+        Ok(format!(
+            "<iframe srcdoc=\"{page}\" title=\"a run\" style=\"width:100%;height:40em;border:0\"></iframe>"
+        ))
+    }
+
+    fn __repr__(&self) -> String {
+        let stage = self.play().stage();
+        let Report { steps, explored, cells, violations, .. } = &self.report;
+        let mut text = format!("<tautline.Run {} ({})", stage.scheme, stage.rule);
+        // Writing to a string cannot fail.
+        let _ = write!(
+            text,
+            ", {} robots: {steps} team moves, {explored} of {cells} cells explored",
+            stage.robots
+        );
+        if let Some(broken) = violations.first() {
+            let _ = write!(text, ", {} broken in team move {}", broken.clause, broken.step);
+        }
+        text + ">"
+    }
+}
+
+/// The cell of a pair.
+pub(crate) const fn cell((x, y): Pair) -> Cell {
+    Cell::new(x, y)
+}

@@ -1,0 +1,189 @@
+import time
+
+import numpy as np
+import pytest
+
+import tautline
+from followers import Followers
+from tautline import RuleNeverEnds, RuleNotPure, RuleRaised, RuleWrongType
+
+
+def test_the_rule_of_the_tutorial_is_refuted_in_two_moves_with_one_wall(tmp_path):
+    found = tautline.hunt_rule(Followers())
+    assert (found.verdict, found.complete, found.given_up) == ("refuted", True, 0)
+    first = found.counterexamples[0]
+    assert (first.clause, first.run.steps, first.run.clause) == ("FOLLOW-1", 2, "FOLLOW-1")
+    assert np.asarray(first.run.layout.east).sum() + np.asarray(first.run.layout.south).sum() == 1
+    assert first.minimal.layout.width * first.minimal.layout.height < 12
+    assert first.minimal._repr_svg_().startswith("<svg ")
+    first.minimal.store(tmp_path / "found.jsonl")
+    assert tautline.replay(tmp_path / "found.jsonl").violations == first.minimal.violations
+
+
+def test_repaired_it_holds_in_all_layouts():
+    found = tautline.hunt_rule(Followers(leader=(0, 0)))
+    assert (found.verdict, found.counterexamples) == ("holds", [])
+    # As the rule in Rust of the tutorial: docs/own-rule.md.
+    assert found.runs == 24
+    assert found.covered == ["a step", "a wall"]
+    assert found.levels[0][0] == 1 and sum(runs for runs, _ in found.levels) == found.runs
+
+
+class Walker(tautline.Rule):
+    """One robot that goes east until it meets a wall, or for ever back and forth."""
+
+    scheme = "walker"
+    robots = 1
+    size = (3, 1)
+    max_walls = 2
+    patrols = False
+
+    def start(self):
+        return 0, [(0, 0)]
+
+    def step(self, state, cells, blocked):
+        if blocked[0]:
+            return (1 - state, "EW"[1 - state]) if self.patrols else None
+        return state, "EW"[state]
+
+    demands = [tautline.never_endless("WALK-1", "no run comes back")]
+
+
+def test_each_demand_is_decided_in_its_own_way():
+    assert tautline.hunt_rule(Walker()).verdict == "holds"
+
+    class Patrol(Walker):
+        patrols = True
+
+    endless = tautline.hunt_rule(Patrol())
+    assert [(found.clause, found.run.stopped) for found in endless.counterexamples] == [("WALK-1", "endless")]
+
+    class Arrives(Walker):
+        demands = [tautline.at_the_end("WALK-2", "it arrives", lambda state, cells: cells == ((2, 0),))]
+
+    left = tautline.hunt_rule(Arrives())
+    assert left.verdict == "refuted" and left.counterexamples[0].run.steps == 1
+
+
+def test_a_situation_that_never_occurs_leaves_the_question_open():
+    class Uncovered(Walker):
+        covers = [("a step north", lambda moved: moved.tried == "N")]
+
+    found = tautline.hunt_rule(Uncovered())
+    assert (found.verdict, found.covered) == ("open", [])
+
+
+def test_a_run_that_neither_ends_nor_comes_back_is_given_up():
+    class Counts(Walker):
+        longest_run = 50
+
+        def step(self, state, cells, blocked):
+            return state + 1, "."
+
+    found = tautline.hunt_rule(Counts())
+    assert (found.verdict, found.given_up, found.longest) == ("open", 1, 50)
+
+
+def test_a_rule_that_raises_is_refused_with_the_cause():
+    class Raises(Walker):
+        def step(self, state, cells, blocked):
+            return {}["missing"]
+
+    with pytest.raises(RuleRaised, match="step of the rule written raised KeyError") as refused:
+        tautline.hunt_rule(Raises())
+    assert isinstance(refused.value.__cause__, KeyError) and refused.value.remedy
+
+    class Demanding(Walker):
+        demands = [tautline.always("WALK-3", "words", lambda moved: 1 / 0)]
+
+    with pytest.raises(RuleRaised, match="WALK-3"):
+        tautline.hunt_rule(Demanding())
+
+
+@pytest.mark.parametrize(
+    "answer", [7, "E", (0,), (0, 1), (0, "EE"), (0, "X"), (0, "E", 1), ([], "E"), (0, None), object()]
+)
+def test_a_rule_that_returns_a_wrong_type_is_refused(answer):
+    class Wrong(Walker):
+        def step(self, state, cells, blocked):
+            return answer
+
+    with pytest.raises(RuleWrongType) as refused:
+        tautline.hunt_rule(Wrong())
+    assert refused.value.remedy and isinstance(refused.value, TypeError)
+
+
+@pytest.mark.parametrize("answer", [None, 7, (0, [(0, 0), (1, 0)]), (0, [(5, 5)]), (0, ["a"]), ([], [(0, 0)])])
+def test_a_wrong_start_is_refused(answer):
+    class Wrong(Walker):
+        def start(self):
+            return answer
+
+    with pytest.raises(RuleWrongType):
+        tautline.hunt_rule(Wrong())
+
+
+def test_a_demand_that_says_neither_yes_nor_no_is_refused():
+    class Wrong(Walker):
+        demands = [tautline.always("WALK-3", "words", lambda moved: "yes")]
+
+    with pytest.raises(RuleWrongType, match="True or False"):
+        tautline.hunt_rule(Wrong())
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"size": (17, 1)},
+        {"size": (0, 1)},
+        {"size": "large"},
+        {"robots": 9},
+        {"robots": 0},
+        {"max_walls": 99},
+        {"max_walls": -1},
+        {"scheme": "chain"},
+        {"scheme": "<b>"},
+        {"demands": [7]},
+        {"demands": 7},
+        {"covers": [("a", 1, 2)]},
+    ],
+)
+def test_a_rule_that_is_none_is_refused(change):
+    wrong = type("Wrong", (Walker,), change)
+    with pytest.raises((tautline.InputError, RuleWrongType)) as refused:
+        tautline.hunt_rule(wrong())
+    assert refused.value.remedy
+
+
+def test_a_rule_that_never_ends_is_interrupted():
+    class Stuck(Walker):
+        def step(self, state, cells, blocked):
+            while True:
+                pass
+
+    begun = time.monotonic()
+    with pytest.raises(RuleNeverEnds, match="has not returned") as refused:
+        tautline.hunt_rule(Stuck(), patience_s=0.2)
+    assert time.monotonic() - begun < 5
+    assert "patience_s" in refused.value.remedy
+    with pytest.raises(tautline.InputError):
+        tautline.hunt_rule(Walker(), patience_s=0)
+
+
+def test_a_rule_that_is_not_pure_is_refused():
+    class Moody(Walker):
+        calls = 0
+
+        def step(self, state, cells, blocked):
+            type(self).calls += 1
+            return (0, "E") if type(self).calls < 3 else None
+
+        demands = [tautline.always("WALK-3", "words", lambda moved: moved.cells != ((2, 0),))]
+
+    with pytest.raises(RuleNotPure):
+        tautline.hunt_rule(Moody())
+
+
+def test_a_budget_leaves_the_question_open():
+    found = tautline.hunt_rule(Followers(leader=(0, 0)), budget=5)
+    assert (found.verdict, found.complete) == ("open", False)

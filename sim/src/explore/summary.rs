@@ -1,0 +1,120 @@
+//! What came of a run, as JSON has it, for the program and for others.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+use tautline_kernel::ground::Cell;
+
+use super::floor::Component;
+use super::run::{Milestone, Report, Stopped, Violation};
+use super::stage::{Knowledge, Play, Stage};
+use crate::layout::generate::Probability;
+use crate::trace::StoredViolation;
+
+/// The JSON of a run.
+#[derive(Serialize)]
+pub struct Summary<'a> {
+    scheme: &'a str,
+    rule: &'a str,
+    robots: u16,
+    seed: u64,
+    layout: &'a str,
+    base: Cell,
+    #[serde(flatten)]
+    floor: Option<FloorSummary<'a>>,
+    steps: u32,
+    explored: u32,
+    cells: u32,
+    milestones: BTreeMap<u32, Option<u32>>,
+    stopped: Stopped,
+    violations: Vec<StoredViolation>,
+}
+
+/// What there is of a sensor floor besides. Ants mark nothing and never know that they are done: of them nothing is said
+/// about that.
+#[derive(Serialize)]
+struct FloorSummary<'a> {
+    miss: Probability,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    starts: Option<&'a [Cell]>,
+    #[serde(flatten)]
+    marked: Option<Marked>,
+    /// How long the slowest agent scanned and went.
+    seconds: f64,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    components: Vec<Part>,
+}
+
+/// How long the slowest agent took; exact, since no run takes 2⁵³ milliseconds.
+#[expect(clippy::cast_precision_loss, reason = "285,000 years are fewer milliseconds than 2⁵³")]
+fn seconds(report: &Report) -> f64 {
+    report.milliseconds.unwrap_or(0) as f64 / 1000.0
+}
+
+/// What agents that mark cells have done and know.
+#[derive(Serialize)]
+struct Marked {
+    visited: u32,
+    terminated: bool,
+}
+
+/// A part of the layout that is not connected with the others.
+#[derive(Serialize)]
+struct Part {
+    robots: u16,
+    cells: u32,
+    explored: u32,
+    #[serde(flatten)]
+    marked: Option<Marked>,
+}
+
+impl Marked {
+    fn of(knowledge: Knowledge, component: &Component) -> Option<Self> {
+        match knowledge {
+            Knowledge::None => None,
+            Knowledge::Visited => {
+                Some(Self { visited: component.visited, terminated: component.active == 0 })
+            }
+        }
+    }
+}
+
+impl<'a> FloorSummary<'a> {
+    fn of(knowledge: Knowledge, stage: &Stage<'a>, report: &Report) -> Self {
+        let part = |component: &Component| {
+            let Component { robots, cells, explored, .. } = *component;
+            Part { robots, cells, explored, marked: Marked::of(knowledge, component) }
+        };
+        let parts = if report.components.len() < 2 { &[] } else { report.components.as_slice() };
+        Self {
+            miss: stage.miss,
+            starts: stage.starts,
+            marked: Marked::of(knowledge, &report.whole()),
+            seconds: seconds(report),
+            components: parts.iter().map(part).collect(),
+        }
+    }
+}
+
+impl<'a> Summary<'a> {
+    /// That of a run which came out as `report`, in the layout that is called `layout`.
+    pub fn new(run: &'a dyn Play, layout: &'a str, report: &Report) -> Self {
+        let stage = run.stage();
+        let milestones = Milestone::ALL.map(|milestone| (milestone.percent(), report.reached(milestone)));
+        Self {
+            scheme: stage.scheme,
+            rule: stage.rule,
+            robots: stage.robots,
+            seed: stage.seed,
+            layout,
+            base: stage.base,
+            floor: stage.knowledge.map(|knowledge| FloorSummary::of(knowledge, &stage, report)),
+            steps: report.steps,
+            explored: report.explored,
+            cells: report.cells,
+            milestones: milestones.into(),
+            stopped: report.stopped,
+            violations: report.violations.iter().map(|violation: &Violation| violation.into()).collect(),
+        }
+    }
+}
