@@ -4,6 +4,8 @@
 //! As published no robot knows when everything is driven: whoever watches them ends the run then. A team that has driven no
 //! new path for twenty drives a path is taken to go round for ever.
 
+mod shown;
+
 use std::collections::BTreeSet;
 
 use tautline_kernel::chain::Kind;
@@ -14,11 +16,12 @@ use tautline_proofs::run::Frame;
 use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::{End, Team};
+use super::scene::{Layer, Scene};
 use super::setup::{Clause, Profile, Rule, Senses, Setup, Starts};
 use super::stage::Look;
 use super::survey::Survey;
 use crate::fault::Fault;
-use crate::kit::{Course, MOST_ROBOTS, Pace, course, paths};
+use crate::kit::{Course, Drive, MOST_ROBOTS, Pace, course, paths};
 use crate::layout::Layout;
 
 /// Of two robots, one may not hear the other at all speeds.
@@ -82,13 +85,15 @@ struct KitTeam {
     due: Vec<Edge>,
     /// Drives since the last new path.
     idle: usize,
+    /// The last one.
+    drive: Option<Drive>,
 }
 
 /// The team of `setup`, each robot at its start.
 fn start(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Fault> {
     let cells = setup.starts();
     let course = course(rule, &setup.layout, &cells, Pace::STEADY, setup.seed).map_err(fault)?;
-    Ok(Box::new(KitTeam { course, due: paths(&setup.layout, setup.base), cells, idle: 0 }))
+    Ok(Box::new(KitTeam { course, due: paths(&setup.layout, setup.base), cells, idle: 0, drive: None }))
 }
 
 /// The fault of a team that is refused.
@@ -125,6 +130,7 @@ impl Team for KitTeam {
         let Some(drive) = self.course.drive() else {
             return Err(if self.is_driven() { End::Explored } else { End::Exhausted });
         };
+        self.drive = Some(drive);
         self.idle = if drive.is_new { 0 } else { self.idle + 1 };
         let mut steps = vec![Step::Stay; self.cells.len()];
         let across = Step::ALL.into_iter().find(|&step| drive.from.after(step) == drive.to);
@@ -170,6 +176,16 @@ impl Team for KitTeam {
 
     fn milliseconds(&self) -> Option<u64> {
         Some(self.course.clock())
+    }
+
+    fn layers(&self) -> Vec<Layer> {
+        shown::layers()
+    }
+
+    fn show(&self, _: &[Cell], scene: &mut Scene) {
+        if let Some(drive) = self.drive {
+            shown::show(&*self.course, drive, self.cells.len(), scene);
+        }
     }
 }
 
