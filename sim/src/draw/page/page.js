@@ -493,6 +493,7 @@ function drawSides() {
           pen.moveTo(px(x), py(y)); pen.lineTo(px(x + dx), py(y + dy));
         }
       });
+      pen.lineCap = value.ink === "barred" ? "butt" : "square";
       stroke(pen, ink[value.ink], wallWidth() * (value.ink === "open" ? 1 : 1.6), value.ink === "barred" ? [view.scale * .16, view.scale * .14] : []);
     }
   }
@@ -534,7 +535,10 @@ function drawLinks(at) {
     if (followed >= 0 && view.scale >= 8 && layer.joins === "next") {
       for (const [k, one] of [...layer.zones.entries()].reverse()) {
         pen.fillStyle = ink.link; pen.globalAlpha = .07;
-        for (const [dx, dy] of one.cells) pen.fillRect(px(at[followed][0] + dx - .5), py(at[followed][1] + dy - .5), view.scale, view.scale);
+        for (const [dx, dy] of one.cells) {
+          const [x, y] = [at[followed][0] + dx - .5, at[followed][1] + dy - .5];
+          if (x >= 0 && y >= 0 && x < columns && y < rows) pen.fillRect(px(x), py(y), view.scale, view.scale);
+        }
         pen.globalAlpha = 1;
       }
     }
@@ -646,18 +650,22 @@ for (let i = 0; i <= last; i++) {
 }
 const failed = i => failures.filter(one => one.i <= i).map(one => one.of);
 
+function star(pen, x, y, radius) {
+  pen.beginPath();
+  for (let tip = 0; tip < 8; tip++) {
+    const r = tip % 2 ? radius * .4 : radius, turn = tip * Math.PI / 4;
+    pen.lineTo(x + r * Math.sin(turn), y - r * Math.cos(turn));
+  }
+  pen.closePath();
+  pen.fillStyle = ink.bad; pen.fill();
+}
+
 function drawCallers() {
   if (inCells || !shows("field")) return;
   const unit = devicePixelRatio || 1;
   for (const [k, [x, y]] of board.callers.entries()) {
     const at = [px(x / 1000), py(y / 1000)];
-    pen.beginPath();
-    for (let tip = 0; tip < 8; tip++) {
-      const r = (tip % 2 ? 4 : 10) * unit, turn = tip * Math.PI / 4;
-      pen.lineTo(at[0] + r * Math.sin(turn), at[1] - r * Math.cos(turn));
-    }
-    pen.closePath();
-    pen.fillStyle = ink.bad; pen.fill();
+    star(pen, at[0], at[1], 10 * unit);
     pen.font = `600 ${13 * unit}px system-ui, sans-serif`; pen.textAlign = "left"; pen.textBaseline = "middle";
     pen.fillStyle = ink.ink; pen.fillText(`WFR ${k + 1}`, at[0] + 12 * unit, at[1]);
   }
@@ -740,7 +748,7 @@ function draw(now = performance.now()) {
   if (!isStill) drawStill();
   pen.drawImage(still, 0, 0);
   if (inCells) { drawSigns(); drawSides(); drawLinks(at); drawMissed(); }
-  drawCircles(at); drawWays(); drawCallers(); drawPlan(); drawRobots(at); drawMessages(at);
+  drawCircles(at); drawWays(); drawCallers(); drawMessages(at); drawPlan(); drawRobots(at);
   drawCurve();
   if (moved < 1) drawSoon();
 }
@@ -983,8 +991,9 @@ function key(name) {
     ownPen.fillRect((w - h) / 2, 0, h, h);
   } else {
     ownPen.beginPath(); ownPen.arc(w / 2, h / 2, name === "node" ? 2 * unit : 5 * unit, 0, 7);
-    ownPen.fillStyle = { message: ink.message, node: ink.soft, caller: ink.bad }[name];
-    if (name === "dead" || name === "deaf") {
+    ownPen.fillStyle = { message: ink.message, node: ink.soft }[name];
+    if (name === "caller") star(ownPen, w / 2, h / 2, h / 2);
+    else if (name === "dead" || name === "deaf") {
       ownPen.beginPath();
       const r = h * .3;
       ownPen.moveTo(w / 2 - r, h / 2 - r); ownPen.lineTo(w / 2 + r, h / 2 + r); ownPen.moveTo(w / 2 - r, h / 2 + r); ownPen.lineTo(w / 2 + r, h / 2 - r);
@@ -1081,7 +1090,7 @@ function fillIn() {
 function setAxis() {
   stop();
   const byTime = isByTime(), list = byTime ? PACES : SPEEDS, at = find("at");
-  find("speed").replaceChildren(...list.map(value => element("option", byTime ? `${value} s a second` : `${value} a second`, { value })));
+  find("speed").replaceChildren(...list.map(value => element("option", byTime ? `× ${value}` : `${value} a second`, { value })));
   // The whole run takes about a minute, but no slower than two steps a second.
   const least = byTime ? span() / 60000 : Math.max(last / 60, 2);
   find("speed").value = list.find(value => value >= least) ?? list.at(-1);
