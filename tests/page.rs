@@ -7,6 +7,7 @@ use std::fs::{self, File};
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::time::Instant;
 
 use serde_json::{Value, json};
 
@@ -238,4 +239,32 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
                    document.getElementById('at').value = 1000, document.getElementById('at').oninput({ target: document.getElementById('at') })");
     browser.value(used);
     assert!(browser.errors().is_empty(), "{:#?}", browser.errors());
+}
+
+/// Loads the page of 10,000 team moves on 512×512 cells and steps through parts of it; a step counts until its picture is there.
+#[test]
+#[ignore = "takes ten seconds: cargo test --release --test page -- --ignored --nocapture (790 kB, 0.5 s, a step 1 ms, 41 ms at most)"]
+fn a_page_of_ten_thousand_team_moves_is_small_and_quick() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = &folder.path().canonicalize().expect("a folder");
+    let Some(mut browser) = Browser::open(folder) else {
+        println!("skipped: there is no chromium; TAUTLINE_BROWSER can name a browser like it");
+        return;
+    };
+    let layout = ["explore", "cells:512x512:0.1", "--scheme", "bricks", "--rule", "tree", "--robots", "20"];
+    run(folder, &[&layout[..], &["--max-moves", "10000", "--replay", "run.html"]].concat());
+    let bytes = fs::metadata(folder.join("run.html")).expect("a page").len();
+    let begun = Instant::now();
+    browser.load(&folder.join("run.html"), "");
+    assert!(browser.text(SAID).starts_with("The start"));
+    let loaded = begun.elapsed();
+    let steps = "(() => { const times = []; \
+                 for (const from of [0, 4000, 9000]) { go(from); draw(); \
+                 for (let step = 0; step < 100; step++) { const begun = performance.now(); go(shown + 1); draw(); \
+                 pen.getImageData(0, 0, 1, 1); times.push(performance.now() - begun); } } \
+                 times.sort((one, other) => one - other); return [times[150], times[299]]; })()";
+    let times = browser.value(steps);
+    println!("{bytes} bytes, loaded in {loaded:?}, a step in {} ms, {} ms at most", times[0], times[1]);
+    assert!(bytes <= 10_000_000 && loaded.as_secs() < 5);
+    assert!(times[1].as_f64().expect("milliseconds") < 50.0, "{times}");
 }

@@ -102,6 +102,7 @@ fn film(setting: &Setting, seed: u64, [title, outcome]: [&str; 2], report: &Repo
                 .map(|of| [of.west_m, of.north_m, of.east_m, of.south_m].map(metres))
                 .collect(),
             nodes: report.field.nodes().iter().map(|&node| millimetres(node)).collect(),
+            caller: "WFR",
             callers: report.wfrs.iter().map(|&wfr| millimetres(wfr)).collect(),
             paths: report.paths.iter().map(|path| way(path)).collect(),
         },

@@ -95,6 +95,8 @@ pub(in crate::draw) enum Board {
         nodes: Vec<[u32; 2]>,
         /// Who waits for robots.
         callers: Vec<[u32; 2]>,
+        /// What one of them is called.
+        caller: &'static str,
         /// Robot by robot where it was: milliseconds, east and south, each as what it is more than before.
         paths: Vec<String>,
     },

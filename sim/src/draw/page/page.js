@@ -285,7 +285,9 @@ const BUILT_IN = inCells ? [
   { name: "field", about: "nodes and obstacles", keys: [["node", "node"], ["blocked", "obstacle"], ["caller", "waits for a robot"], ["dead", "has failed"]] },
   { name: "ways", about: "where robots have been", keys: [["trail", "way"]] },
 ];
-const isOn = { "way": false, "radio circle": film.robots <= 3 };
+// Many circles hide more than they show.
+const isOn = { way: false };
+for (const layer of film.layers) if (layer.shape === "circle") isOn[layer.name] = film.robots <= 3;
 const shows = name => isOn[name] !== false;
 const shapes = shape => film.layers.filter(layer => layer.shape === shape && layer.used && shows(layer.name));
 
@@ -667,7 +669,7 @@ function drawCallers() {
     const at = [px(x / 1000), py(y / 1000)];
     star(pen, at[0], at[1], 10 * unit);
     pen.font = `600 ${13 * unit}px system-ui, sans-serif`; pen.textAlign = "left"; pen.textBaseline = "middle";
-    pen.fillStyle = ink.ink; pen.fillText(`WFR ${k + 1}`, at[0] + 12 * unit, at[1]);
+    pen.fillStyle = ink.ink; pen.fillText(`${board.caller} ${k + 1}`, at[0] + 12 * unit, at[1]);
   }
   pen.beginPath();
   for (const { i, of } of deaths) {
@@ -856,7 +858,7 @@ function tell(i, line) {
     bytes.slice(1).forEach((byte, k) => says.set(k + 1, `0x${byte.toString(16).padStart(2, "0")}`));
   }
   for (const { layer, kind, from, to } of line.said) {
-    const text = `${film.layers[layer].kinds[kind].name}${to === null ? "" : `: ${to.map(who => who < film.robots ? `R${who + 1}` : `WFR ${who - film.robots + 1}`).join(", ")}`}`;
+    const text = `${film.layers[layer].kinds[kind].name}${to === null ? "" : `: ${to.map(who => who < film.robots ? `R${who + 1}` : `${board.caller} ${who - film.robots + 1}`).join(", ")}`}`;
     says.set(from, says.has(from) ? `${says.get(from)}; ${text}` : text);
   }
   const gone = new Set(failed(i));
