@@ -202,8 +202,14 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
     assert!(browser.text(SAID).ends_with("breaks CHAIN-2"));
     assert_eq!(browser.value(HASH), "#32");
     let why = browser.text("document.getElementById('why').textContent");
-    assert!(why.contains("There MUST never be three robots or more in one cell other than the base."), "{why}");
-    assert!(why.contains("R_2, R_3, R_4 are in one cell, 3,2") && why.contains("meets a wall and stays"), "{why}");
+    assert!(
+        why.contains("There MUST never be three robots or more in one cell other than the base."),
+        "{why}"
+    );
+    assert!(
+        why.contains("R_2, R_3, R_4 are in one cell, 3,2") && why.contains("meets a wall and stays"),
+        "{why}"
+    );
     // Every layer off and on, zoom, follow, and by seconds: nothing goes wrong.
     let used = "for (const box of document.querySelectorAll('#layers input')) { box.click(); box.click(); } \
                 for (const key of ['+', '-', 'f', 'f', '0', '[', ']', 'ArrowLeft', 'Home']) \
@@ -213,7 +219,10 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
     // Of a rescue the events, and where each robot is at them.
     run(
         folder,
-        &["rescue", "--wfr", "2", "--robots", "2", "--seeds", "8", "--trace", "r.jsonl", "--replay", "r.html"],
+        &[
+            "rescue", "--wfr", "2", "--robots", "2", "--seeds", "8", "--trace", "r.jsonl", "--replay",
+            "r.html",
+        ],
     );
     browser.load(&folder.join("r.html"), "");
     let trace = fs::read_to_string(folder.join("r.jsonl")).expect("a trace");
@@ -224,7 +233,10 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
         let Some(arrives) = event.get("arrives") else { continue };
         browser.value(&format!("location.hash = '#{step}', new Promise(done => setTimeout(done, 20))"));
         let said = browser.text(SAID);
-        assert!(said.contains(&format!("robot {} reaches WFR {}", arrives["robot"], arrives["wfr"])), "{said}");
+        assert!(
+            said.contains(&format!("robot {} reaches WFR {}", arrives["robot"], arrives["wfr"])),
+            "{said}"
+        );
         let robot = arrives["robot"].as_u64().expect("a number") as usize - 1;
         let place = browser.value(WHERE)[robot].as_str().expect("a place").to_owned();
         let told: Vec<f64> =

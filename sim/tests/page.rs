@@ -98,7 +98,8 @@ fn read(page: &str) -> (Value, Vec<State>) {
                     let (layer, value) = name.split_once('.').expect("a value");
                     for robot in robots.split(',') {
                         for place in numbers(rest) {
-                            let key = (layer.parse().expect("a layer"), robot.parse().expect("a robot"), place);
+                            let key =
+                                (layer.parse().expect("a layer"), robot.parse().expect("a robot"), place);
                             match value.parse().expect("a value") {
                                 0 => state.values.remove(&key),
                                 value => state.values.insert(key, value),
@@ -224,10 +225,13 @@ fn a_page_of_some_team_moves_begins_with_what_there_was_before() {
 #[test]
 fn each_robots_record_grows_and_is_its_own() {
     let setups = setups();
-    let of = |scheme: &str| setups.iter().find(|setup| setup.scheme.name == scheme && setup.rule.as_str() == "repaired");
+    let of = |scheme: &str| {
+        setups.iter().find(|setup| setup.scheme.name == scheme && setup.rule.as_str() == "repaired")
+    };
     for (scheme, layer) in [("kit", 2), ("frontier", 0)] {
         let mut setup = of(scheme).expect("a repaired rule").clone();
-        setup.options.loss = if scheme == "frontier" { Probability::new(0.5).expect("a half") } else { setup.options.loss };
+        setup.options.loss =
+            if scheme == "frontier" { Probability::new(0.5).expect("a half") } else { setup.options.loss };
         let (page, _, frames) = page(&setup, &(1..=u32::MAX));
         let (_, states) = read(&page);
         let of_robot = |state: &State, robot: usize| -> BTreeMap<u32, u32> {

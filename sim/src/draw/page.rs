@@ -220,7 +220,8 @@ fn notes(report: &Report) -> Vec<(u32, String)> {
 
 /// How to make the run again, and others.
 fn again(stage: &Stage<'_>) -> Again {
-    let Stage { scheme, rule, robots, seed, base, starts, miss, missed, options, choices, limits, .. } = *stage;
+    let Stage { scheme, rule, robots, seed, base, starts, miss, missed, options, choices, limits, .. } =
+        *stage;
     let is_small = stage.layout.size().area().cells().nth(MOST_PRINTED).is_none();
     let layout = is_small.then(|| {
         let mut layout = stage.layout.clone();

@@ -176,7 +176,9 @@ pub(super) fn steps(frame: &Frame) -> String {
             many => text += &format!("{many}."),
         }
         resting = 0;
-        text.extend(letter.map(|letter| if blocked == Some(&true) { letter.to_ascii_lowercase() } else { letter }));
+        text.extend(
+            letter.map(|letter| if blocked == Some(&true) { letter.to_ascii_lowercase() } else { letter }),
+        );
     }
     text
 }

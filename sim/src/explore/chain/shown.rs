@@ -34,7 +34,8 @@ pub(super) fn layers() -> Vec<Layer> {
         },
         Layer {
             name: "messages",
-            about: "after a team move every robot tells in one byte what it tried and what came of it".to_owned(),
+            about: "after a team move every robot tells in one byte what it tried and what came of it"
+                .to_owned(),
             shape: Shape::Reports,
         },
     ]

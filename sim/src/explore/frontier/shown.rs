@@ -24,11 +24,7 @@ pub(super) fn layers(robots: &Explorers) -> Vec<Layer> {
     let mut layers = vec![
         layer("repositories", "what the followed robot has stored of cells", Shape::CellsOfEach(REPOSITORY)),
         layer("claims", "the unexplored cells that robots are going to", Shape::Cells(CLAIM)),
-        layer(
-            "messages",
-            "what robots tell, and who does not hear it",
-            Shape::Messages(KINDS),
-        ),
+        layer("messages", "what robots tell, and who does not hear it", Shape::Messages(KINDS)),
     ];
     if let Some(range_cells) = robots.range_cells() {
         let about = format!("{range_cells} cells: so far a robot is heard");

@@ -26,13 +26,21 @@ pub(super) fn layers() -> Vec<Layer> {
         &[Value { name: "driven", ink: Ink::Open }, Value { name: "seen blocked", ink: Ink::Wall }];
     let layer = |name, about: &str, shape| Layer { name, about: about.to_owned(), shape };
     vec![
-        layer("links", "robots that hear each other at the nodes where they go", Shape::Links(Joins::All, &[REACH])),
+        layer(
+            "links",
+            "robots that hear each other at the nodes where they go",
+            Shape::Links(Joins::All, &[REACH]),
+        ),
         layer(
             "radio circle",
             "10 m: so far a robot is heard",
             Shape::Circle((REACH_MILLIMETRES * 1000 / PATH_MILLIMETRES) as u32),
         ),
-        layer("records", "what the followed robot has driven and seen blocked itself", Shape::SidesOfEach(RECORD)),
+        layer(
+            "records",
+            "what the followed robot has driven and seen blocked itself",
+            Shape::SidesOfEach(RECORD),
+        ),
         layer(
             "messages",
             "a robot that stands asks the others for their records, and drives when they have answered",
