@@ -176,6 +176,7 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
             _ => "The start: 3 agents",
         };
         assert!(browser.text(SAID).starts_with(start), "{scheme}");
+        assert_eq!(browser.value(HASH), "#0", "{scheme}");
         // From the end backwards, forwards again over a step, and to the end by a key.
         for step in [last, last / 2, 1, 2] {
             browser.value(&format!("location.hash = '#{step}', new Promise(done => setTimeout(done, 20))"));

@@ -229,12 +229,12 @@ fn again(stage: &Stage<'_>) -> Again {
         let _ = layout.place_base(base);
         layout.to_string()
     });
-    let Some(profile) = catalogue::scheme(scheme) else { return Again { command: None, layout } };
+    let by_search = Again { command: None, layout, seed: None };
+    let Some(profile) = catalogue::scheme(scheme) else { return by_search };
     if !choices.is_empty() || !missed.is_empty() {
-        return Again { command: None, layout };
+        return by_search;
     }
-    let mut command =
-        format!("tautline explore LAYOUT --scheme {scheme} --rule {rule} --robots {robots} --seed {seed}");
+    let mut command = format!("tautline explore LAYOUT --scheme {scheme} --rule {rule} --robots {robots}");
     // Writing to a string cannot fail.
     match (profile.starts, starts) {
         (Starts::Base, _) | (_, None) => {
@@ -247,7 +247,7 @@ fn again(stage: &Stage<'_>) -> Again {
         }
     }
     if !miss.is_never() {
-        let _ = write!(command, " --miss {miss}");
+        let _ = write!(command, " --miss {miss} --seed {seed}");
     }
     let usual = Options::default();
     if let Some(range) = options.range_cells {
@@ -265,5 +265,6 @@ fn again(stage: &Stage<'_>) -> Again {
     if let Some(most) = limits.max_moves {
         let _ = write!(command, " --max-moves {most}");
     }
-    Again { command: Some(command + " --replay run.html"), layout }
+    let seed = (miss.is_never() && seed > 0).then_some(seed);
+    Again { command: Some(command + " --replay run.html"), seed, ..by_search }
 }
