@@ -162,12 +162,14 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
         ("frontier", &["cells:9x9:0.1", "--robots", "3", "--range", "4", "--loss", "0.2"]),
     ];
     for (scheme, arguments) in schemes {
-        let files = ["--trace", "run.jsonl", "--replay", "run.html", "--force"];
+        // Each has a file of its own: to another move of the same page a browser goes without loading it anew.
+        let page = format!("{scheme}.html");
+        let files = ["--trace", "run.jsonl", "--replay", &page, "--force"];
         run(folder, &[&["explore", "--scheme", scheme][..], arguments, &files].concat());
         let trace = fs::read_to_string(folder.join("run.jsonl")).expect("a trace");
         let moves: Vec<&str> = trace.lines().filter(|line| line.starts_with("{\"move\"")).collect();
         let last = moves.len();
-        browser.load(&folder.join("run.html"), &format!("#{last}"));
+        browser.load(&folder.join(&page), &format!("#{last}"));
         browser.value("dispatchEvent(new KeyboardEvent('keydown', { key: 'Home' }))");
         let start = match scheme {
             "chain" => "The start: the base, with 4 robots in its cell",
