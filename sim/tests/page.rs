@@ -92,7 +92,9 @@ fn read(page: &str) -> (Value, Vec<State>) {
                 "+" => state.milliseconds += name.parse::<u64>().expect("milliseconds"),
                 "x" => state.explored.extend(numbers(rest)),
                 "o" | "w" => state.known.extend(numbers(rest).into_iter().map(|side| (side, kind == "o"))),
-                "c" => state.values.retain(|&(layer, ..), _| layer != name.parse().expect("a layer")),
+                "c" => {
+                    state.values.retain(|&(layer, ..), _| layer != name.parse::<usize>().expect("a layer"))
+                }
                 "p" => {
                     let (name, robots) = name.split_once('@').unwrap_or((name, "0"));
                     let (layer, value) = name.split_once('.').expect("a value");
