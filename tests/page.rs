@@ -47,12 +47,12 @@ impl Browser {
         let asks = File::options().write(true).open(asks).expect("a pipe");
         let answers = BufReader::new(File::open(answers).expect("a pipe"));
         let mut browser = Self { child, asks, answers, session: None, asked: 0, events: Vec::new() };
-        let target = browser.ask("Target.createTarget", json!({ "url": "about:blank" }));
+        let target = browser.ask("Target.createTarget", &json!({ "url": "about:blank" }));
         let attached = json!({ "targetId": target["targetId"], "flatten": true });
-        let session = browser.ask("Target.attachToTarget", attached);
+        let session = browser.ask("Target.attachToTarget", &attached);
         browser.session = session["sessionId"].as_str().map(str::to_owned);
         for part in ["Page", "Runtime", "Log"] {
-            browser.ask(&format!("{part}.enable"), json!({}));
+            browser.ask(&format!("{part}.enable"), &json!({}));
         }
         Some(browser)
     }
@@ -64,7 +64,7 @@ impl Browser {
         serde_json::from_slice(&message).expect("the browser is there, and tells JSON")
     }
 
-    fn ask(&mut self, method: &str, parameters: Value) -> Value {
+    fn ask(&mut self, method: &str, parameters: &Value) -> Value {
         self.asked += 1;
         let mut question = json!({ "id": self.asked, "method": method, "params": parameters });
         if let Some(session) = &self.session {
@@ -83,7 +83,7 @@ impl Browser {
 
     /// Loads the page in this file, at a move.
     fn load(&mut self, page: &Path, hash: &str) {
-        self.ask("Page.navigate", json!({ "url": format!("file://{}{hash}", page.display()) }));
+        self.ask("Page.navigate", &json!({ "url": format!("file://{}{hash}", page.display()) }));
         while !self.events.iter().any(|event| event["method"] == "Page.loadEventFired") {
             let message = self.next();
             self.events.push(message);
@@ -94,7 +94,7 @@ impl Browser {
     /// What an expression of JavaScript comes to; a promise is waited for.
     fn value(&mut self, expression: &str) -> Value {
         let asked = json!({ "expression": expression, "awaitPromise": true, "returnByValue": true });
-        let answer = self.ask("Runtime.evaluate", asked);
+        let answer = self.ask("Runtime.evaluate", &asked);
         assert!(answer["exceptionDetails"].is_null(), "{expression}: {answer}");
         answer["result"]["value"].clone()
     }
@@ -142,6 +142,68 @@ fn run(folder: &Path, arguments: &[&str]) {
     let output = program.current_dir(folder).args(arguments).output().expect("the program runs");
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.code().is_some_and(|code| code < 2), "{arguments:?}: {errors}");
+}
+
+/// Every layer off and on, zoom, follow, jumps: nothing goes wrong.
+const USED: &str = "for (const box of document.querySelectorAll('#layers input')) { box.click(); box.click(); } \
+                for (const key of ['+', '-', 'f', 'f', '0', '[', ']', 'ArrowLeft', 'Home']) \
+                dispatchEvent(new KeyboardEvent('keydown', { key })); \
+                new Promise(done => setTimeout(done, 50))";
+
+/// The counterexample stops where it breaks the clause, and says how.
+fn shows_how_a_clause_is_broken(browser: &mut Browser, folder: &Path) {
+    let stored = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/chain-2-published-n4.jsonl");
+    run(folder, &["replay", stored, "--html", "broken.html"]);
+    browser.load(&folder.join("broken.html"), "#20");
+    let played = "document.getElementById('speed').value = 60, document.getElementById('toggle').click(), \
+                  new Promise(done => { const wait = setInterval(() => { \
+                  if (document.getElementById('toggle').textContent === 'Play') { clearInterval(wait); done(); } }, 20); })";
+    browser.value(played);
+    assert!(browser.text(SAID).ends_with("breaks CHAIN-2"));
+    assert_eq!(browser.value(HASH), "#32");
+    let why = browser.text("document.getElementById('why').textContent");
+    assert!(
+        why.contains("There MUST never be three robots or more in one cell other than the base."),
+        "{why}"
+    );
+    assert!(
+        why.contains("R_2, R_3, R_4 are in one cell, 3,2") && why.contains("meets a wall and stays"),
+        "{why}"
+    );
+}
+
+/// The page of a rescue says at each arrival where the robot is.
+fn shows_a_rescue(browser: &mut Browser, folder: &Path) {
+    run(
+        folder,
+        &[
+            "rescue", "--wfr", "2", "--robots", "2", "--seeds", "8", "--trace", "r.jsonl", "--replay",
+            "r.html",
+        ],
+    );
+    browser.load(&folder.join("r.html"), "");
+    let trace = fs::read_to_string(folder.join("r.jsonl")).expect("a trace");
+    let events: Vec<&str> = trace.lines().filter(|line| line.starts_with("{\"at_ns\"")).collect();
+    let mut arrivals = 0;
+    for (step, line) in (1..).zip(events) {
+        let event: Value = serde_json::from_str(line).expect("JSON");
+        let Some(arrives) = event.get("arrives") else { continue };
+        browser.value(&format!("location.hash = '#{step}', new Promise(done => setTimeout(done, 20))"));
+        let said = browser.text(SAID);
+        assert!(
+            said.contains(&format!("robot {} reaches WFR {}", arrives["robot"], arrives["wfr"])),
+            "{said}"
+        );
+        let robot = arrives["robot"].as_u64().expect("a number") as usize - 1;
+        let place = browser.value(WHERE)[robot].as_str().expect("a place").to_owned();
+        let told: Vec<f64> =
+            place.trim_end_matches(" m").split(", ").map(|part| part.parse().expect("metres")).collect();
+        for (told, at) in told.iter().zip(arrives["at"].as_array().expect("a place")) {
+            assert!((told - at.as_f64().expect("millimetres") / 1000.0).abs() < 0.1, "{place}: {line}");
+        }
+        arrivals += 1;
+    }
+    assert_eq!(arrivals, 2);
 }
 
 #[test]
@@ -194,65 +256,12 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
         let due = format!("Cells explored: {} of {}", end["end"]["explored"], end["end"]["cells"]);
         assert_eq!(share, due, "{scheme}");
     }
-    // The counterexample stops where it breaks the clause, and says how.
-    let stored = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/chain-2-published-n4.jsonl");
-    run(folder, &["replay", stored, "--html", "broken.html"]);
-    browser.load(&folder.join("broken.html"), "#20");
-    let played = "document.getElementById('speed').value = 60, document.getElementById('toggle').click(), \
-                  new Promise(done => { const wait = setInterval(() => { \
-                  if (document.getElementById('toggle').textContent === 'Play') { clearInterval(wait); done(); } }, 20); })";
-    browser.value(played);
-    assert!(browser.text(SAID).ends_with("breaks CHAIN-2"));
-    assert_eq!(browser.value(HASH), "#32");
-    let why = browser.text("document.getElementById('why').textContent");
-    assert!(
-        why.contains("There MUST never be three robots or more in one cell other than the base."),
-        "{why}"
-    );
-    assert!(
-        why.contains("R_2, R_3, R_4 are in one cell, 3,2") && why.contains("meets a wall and stays"),
-        "{why}"
-    );
-    // Every layer off and on, zoom, follow, and by seconds: nothing goes wrong.
-    let used = "for (const box of document.querySelectorAll('#layers input')) { box.click(); box.click(); } \
-                for (const key of ['+', '-', 'f', 'f', '0', '[', ']', 'ArrowLeft', 'Home']) \
-                dispatchEvent(new KeyboardEvent('keydown', { key })); \
-                new Promise(done => setTimeout(done, 50))";
-    browser.value(used);
-    // Of a rescue the events, and where each robot is at them.
-    run(
-        folder,
-        &[
-            "rescue", "--wfr", "2", "--robots", "2", "--seeds", "8", "--trace", "r.jsonl", "--replay",
-            "r.html",
-        ],
-    );
-    browser.load(&folder.join("r.html"), "");
-    let trace = fs::read_to_string(folder.join("r.jsonl")).expect("a trace");
-    let events: Vec<&str> = trace.lines().filter(|line| line.starts_with("{\"at_ns\"")).collect();
-    let mut arrivals = 0;
-    for (step, line) in (1..).zip(events) {
-        let event: Value = serde_json::from_str(line).expect("JSON");
-        let Some(arrives) = event.get("arrives") else { continue };
-        browser.value(&format!("location.hash = '#{step}', new Promise(done => setTimeout(done, 20))"));
-        let said = browser.text(SAID);
-        assert!(
-            said.contains(&format!("robot {} reaches WFR {}", arrives["robot"], arrives["wfr"])),
-            "{said}"
-        );
-        let robot = arrives["robot"].as_u64().expect("a number") as usize - 1;
-        let place = browser.value(WHERE)[robot].as_str().expect("a place").to_owned();
-        let told: Vec<f64> =
-            place.trim_end_matches(" m").split(", ").map(|part| part.parse().expect("metres")).collect();
-        for (told, at) in told.iter().zip(arrives["at"].as_array().expect("a place")) {
-            assert!((told - at.as_f64().expect("millimetres") / 1000.0).abs() < 0.1, "{place}: {line}");
-        }
-        arrivals += 1;
-    }
-    assert_eq!(arrivals, 2);
+    shows_how_a_clause_is_broken(&mut browser, folder);
+    browser.value(USED);
+    shows_a_rescue(&mut browser, folder);
     browser.value("document.getElementById('axis').value = 'time', document.getElementById('axis').onchange(), \
                    document.getElementById('at').value = 1000, document.getElementById('at').oninput({ target: document.getElementById('at') })");
-    browser.value(used);
+    browser.value(USED);
     assert!(browser.errors().is_empty(), "{:#?}", browser.errors());
 }
 

@@ -200,7 +200,7 @@ fn the_lines_of_a_page_say_what_the_run_does() {
             for edge in frame.bumps().filter(|edge| area.contains(edge.cell().beyond(edge.side()))) {
                 let axis = u32::from(matches!(edge.side(), Side::South | Side::North));
                 if area.contains(edge.cell()) {
-                    assert_eq!(state.known[&(2 * place(edge.cell()) + axis)], false, "{name}");
+                    assert!(!state.known[&(2 * place(edge.cell()) + axis)], "{name}");
                 }
             }
         }

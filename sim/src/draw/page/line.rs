@@ -1,6 +1,7 @@
 //! A line of a page's data: what a team move changes, in words of a few letters. `docs/formats.md` says what they mean.
 
 use std::collections::BTreeMap;
+use std::fmt::Write;
 
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
@@ -68,17 +69,19 @@ impl Line {
             text += " b";
         }
         if let Some(milliseconds) = made.team.milliseconds() {
-            text += &format!(" +{}", milliseconds - self.milliseconds.min(milliseconds));
+            let later = milliseconds - self.milliseconds.min(milliseconds);
+            // Writing to a string cannot fail.
+            let _ = write!(text, " +{later}");
             self.milliseconds = milliseconds;
         }
         let mut unseen: Vec<u32> = made.unseen.iter().filter_map(|&cell| place_of(self.area, cell)).collect();
         unseen.sort_unstable();
-        text += &if unseen.is_empty() { String::new() } else { format!(" {}", word("u", &unseen)) };
+        text += &listed("u", &unseen);
         if let Look::Linked { is_lost } = look {
             let pairs = made.before.windows(2).zip(made.frame.cells.windows(2)).enumerate();
             let lost = pairs.filter(|(_, (from, to))| is_lost(from, to)).map(|(robot, _)| robot as u32);
             let lost: Vec<u32> = lost.collect();
-            text += &if lost.is_empty() { String::new() } else { format!(" {}", word("l", &lost)) };
+            text += &listed("l", &lost);
         }
         self.is_new = false;
         text + &self.changes(scene)
@@ -93,7 +96,9 @@ impl Line {
                 Change::Clear { layer } => {
                     let of_layer = (*layer, None, 0)..(layer + 1, None, 0);
                     let gone: Vec<_> = self.values.range(of_layer).map(|(&key, _)| key).collect();
-                    text += &if gone.is_empty() { String::new() } else { format!(" c{layer}") };
+                    if !gone.is_empty() {
+                        let _ = write!(text, " c{layer}");
+                    }
                     for key in gone {
                         self.values.remove(&key);
                     }
@@ -126,9 +131,11 @@ impl Line {
                             robots.iter().map(usize::to_string).collect::<Vec<_>>().join(",")
                         }
                     };
-                    said += &format!(" s{layer}.{kind}:{from}>{to}");
+                    let _ = write!(said, " s{layer}.{kind}:{from}>{to}");
                 }
-                Change::Take { robot, milliseconds } => said += &format!(" d{robot}:{milliseconds}"),
+                Change::Take { robot, milliseconds } => {
+                    let _ = write!(said, " d{robot}:{milliseconds}");
+                }
             }
         }
         let [mut blocked, mut open] = sides;
@@ -173,7 +180,9 @@ pub(super) fn steps(frame: &Frame) -> String {
         match resting {
             0 => {}
             1 => text.push('.'),
-            many => text += &format!("{many}."),
+            many => {
+                let _ = write!(text, "{many}.");
+            }
         }
         resting = 0;
         text.extend(
@@ -212,12 +221,13 @@ pub(in crate::draw) fn base36(text: &mut String, number: i64) {
     text.extend(digits.iter().rev());
 }
 
+/// A word with a blank before it; nothing if there are no numbers.
+fn listed(name: &str, numbers: &[u32]) -> String {
+    if numbers.is_empty() { String::new() } else { format!(" {}", word(name, numbers)) }
+}
+
 fn known(is_open: bool, places: &[u32]) -> String {
-    match (places.is_empty(), is_open) {
-        (true, _) => String::new(),
-        (false, true) => format!(" {}", word("o", places)),
-        (false, false) => format!(" {}", word("w", places)),
-    }
+    listed(if is_open { "o" } else { "w" }, places)
 }
 
 /// Values that places get, those of one layer, value and robot together.
@@ -240,7 +250,7 @@ impl Puts {
         for ((layer, value, robots), places) in groups {
             let robots: Vec<String> = robots.iter().flatten().map(usize::to_string).collect();
             let of = if robots.is_empty() { String::new() } else { format!("@{}", robots.join(",")) };
-            text += &format!(" {}", word(&format!("p{layer}.{value}{of}"), &places));
+            text += &listed(&format!("p{layer}.{value}{of}"), &places);
         }
         text
     }
