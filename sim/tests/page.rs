@@ -73,14 +73,15 @@ fn read(page: &str) -> (Value, Vec<State>) {
         for (robot, tried) in tried(words.next().expect("steps")).into_iter().enumerate() {
             let Some((letter, is_blocked)) = tried else { continue };
             let from = state.cells[robot];
+            // Of the rim nothing is noted in the west and in the north.
             let (to, side) = match letter {
-                'E' => (from + 1, 2 * from),
-                'S' => (from + columns, 2 * from + 1),
-                'W' => (from.wrapping_sub(1), 2 * from.wrapping_sub(1)),
-                'N' => (from.wrapping_sub(columns), 2 * from.wrapping_sub(columns) + 1),
+                'E' => (from + 1, Some(2 * from)),
+                'S' => (from + columns, Some(2 * from + 1)),
+                'W' => (from.wrapping_sub(1), (from % columns > 0).then(|| 2 * (from - 1))),
+                'N' => (from.wrapping_sub(columns), from.checked_sub(columns).map(|cell| 2 * cell + 1)),
                 other => panic!("{other}"),
             };
-            state.known.insert(side, !is_blocked);
+            state.known.extend(side.map(|side| (side, !is_blocked)));
             if !is_blocked {
                 state.cells[robot] = to;
             }
