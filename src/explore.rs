@@ -258,7 +258,7 @@ pub(super) fn play(
     out: &mut Output,
 ) -> Result<(), Halt> {
     let mut page = Page::new(&mut file, run, report, moves);
-    among(run, moves, &mut |made| {
+    among(run, &(1..=*moves.end()), &mut |made| {
         page.add(made);
         Ok(())
     })?;

@@ -285,7 +285,8 @@ pub(super) fn tell(
         let broken = if broken.is_empty() { none_broken() } else { format!("{} broken", broken.join(", ")) };
         let (events, what) = (summary.assignments.events, counted_as(setting));
         let outcome = format!("{served} of {events} {what} served; {broken}.");
-        page.draw(draw::rescue::page(&title, &outcome, report).map_err(Halt::from))?;
+        let drawn = draw::rescue::page(page.path(), (setting, seed), [&title, &outcome], report);
+        page.draw(drawn.map_err(Halt::from))?;
         out.keep(page);
     }
     if let Some(mut map) = files.map {

@@ -19,6 +19,7 @@ mod own;
 pub mod rivals;
 mod rule;
 mod run;
+mod scene;
 mod setup;
 mod stage;
 mod summary;
@@ -36,6 +37,7 @@ pub use self::rule::{RuleId, RuleName};
 pub use self::run::{
     End, Limits, Milestone, OnViolation, Report, Stopped, Team, TeamMove, Violation, Watcher, run,
 };
+pub use self::scene::{Change, Hearers, Ink, Joins, Kind, Layer, Place, Scene, Shape, Value, Zone};
 pub use self::setup::{Clause, Extra, Judge, Profile, Rule, Senses, Setup, Start, Starts};
 pub use self::stage::{Knowledge, Look, Play, Stage};
 pub use self::summary::Summary;

@@ -10,7 +10,7 @@ use std::num::NonZeroU32;
 
 use rand_chacha::ChaCha8Rng;
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::ground::{Area, Cell, Edge, Grid, MediumGrid, Side, SmallGrid};
+use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, MediumGrid, Side, SmallGrid};
 use tautline_kernel::kit::{Condition, Kit, Next, Refused, Rule, Sight, Stance, touch};
 
 use crate::layout::Layout;
@@ -91,6 +91,9 @@ pub trait Course {
 
     /// The paths that were driven, with a bit for each robot that has driven them.
     fn driven(&self) -> &BTreeMap<Edge, u16>;
+
+    /// What `robot` has recorded of the sides of the node that it was at last: whether they can be driven.
+    fn recorded(&self, robot: usize) -> Vec<(Edge, bool)>;
 
     /// The farthest that robots have been apart, where each is as near as it can be to those that are linked with another:
     /// squared, in square millimetres.
@@ -270,6 +273,20 @@ impl<G: Grid + Copy + 'static, const ROBOTS: usize, const NODES: usize> Course f
 
     fn driven(&self) -> &BTreeMap<Edge, u16> {
         &self.driven
+    }
+
+    fn recorded(&self, robot: usize) -> Vec<(Edge, bool)> {
+        let (Some(record), Some(stance)) = (self.kit.records().get(robot), self.kit.stance(robot)) else {
+            return Vec::new();
+        };
+        let node = stance.from();
+        let sides = Side::ALL.into_iter().filter(|&side| record.area().contains(node.beyond(side)));
+        let recorded = |side: Side| {
+            let edge = Edge::new(node, side);
+            let is_open = record.edge_has(EdgeMark::Open, edge);
+            (is_open || record.edge_has(EdgeMark::Wall, edge)).then_some((edge, is_open))
+        };
+        sides.filter_map(recorded).collect()
     }
 
     fn apart(&self) -> i64 {

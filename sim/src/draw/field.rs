@@ -9,7 +9,7 @@ use crate::radio::{Field, Point};
 use crate::rescue::Ordinal;
 
 /// The longest side of a map that stands alone, and of one among others.
-pub(super) const ALONE: i32 = 600;
+const ALONE: i32 = 600;
 const AMONG: i32 = 290;
 /// Maps in a row.
 const ROW: usize = 3;
@@ -19,7 +19,7 @@ const LINE: i32 = 20;
 const SAMPLE: i32 = 36;
 
 /// A robot, round 0,0: a disc.
-pub(super) const ROBOT: &str = "m-6 0a6 6 0 1 0 12 0a6 6 0 1 0-12 0z";
+const ROBOT: &str = "m-6 0a6 6 0 1 0 12 0a6 6 0 1 0-12 0z";
 /// A WFR: a star of four points.
 const WFR: &str = "m0-9l2.5 6.5l6.5 2.5l-6.5 2.5l-2.5 6.5l-2.5-6.5l-6.5-2.5l6.5-2.5z";
 /// Where a robot has given up: a cross.
@@ -27,7 +27,7 @@ const CROSS: &str = "m-5-5l10 10m0-10l-10 10";
 /// Where a robot has failed: a square.
 const SQUARE: &str = "m-5-5h10v10h-10z";
 
-pub(super) const STYLE: &str = "\
+const STYLE: &str = "\
 .rim{fill:none;stroke:var(--ink)}.obstacle{fill:var(--blocked);stroke:var(--blocked);stroke-width:2;stroke-linejoin:round}.start{text-anchor:start}.title{text-anchor:start;font-size:15px;font-weight:600}\
 .tree{stroke:var(--blocked);stroke-opacity:.6;fill:none}\
 .nodes{stroke:var(--ink);stroke-opacity:.45;stroke-width:2.5;stroke-linecap:round;fill:none}\
@@ -171,11 +171,11 @@ impl Drawn {
 
 /// From metres to places in the picture.
 #[derive(Clone, Copy)]
-pub(super) struct Scale(f64);
+struct Scale(f64);
 
 impl Scale {
     /// That at which a map has its longest side, and its size.
-    pub(super) fn of(map: &Map<'_>, side: i32) -> (Self, (i32, i32)) {
+    fn of(map: &Map<'_>, side: i32) -> (Self, (i32, i32)) {
         let area = map.field.area();
         let scale = f64::from(side) / area.width_m().max(area.height_m());
         let size = |side_m: f64| (side_m * scale).ceil() as i32;
@@ -183,7 +183,7 @@ impl Scale {
     }
 
     /// In tenths.
-    pub(super) fn place(self, point: Point) -> String {
+    fn place(self, point: Point) -> String {
         format!("{:.1} {:.1}", point.x_m * self.0, point.y_m * self.0)
     }
 }
@@ -194,13 +194,13 @@ fn star(place: &str) -> String {
 }
 
 /// A WFR with its number.
-pub(super) fn numbered(place: &str, number: Ordinal) -> String {
+fn numbered(place: &str, number: Ordinal) -> String {
     let (x, y) = place.split_once(' ').unwrap_or_default();
     format!("{}<text class=\"start\" dx=\"10\" x=\"{x}\" y=\"{y}\">{number}</text>", star(place))
 }
 
 /// The area with obstacles, links and nodes.
-pub(super) fn ground(map: &Map<'_>, scale: Scale) -> String {
+fn ground(map: &Map<'_>, scale: Scale) -> String {
     let (mut obstacles, mut links, mut nodes) = (String::new(), String::new(), String::new());
     for obstacle in map.field.obstacles() {
         let corner = |x_m, y_m| scale.place(Point { x_m, y_m });

@@ -1,171 +1,204 @@
-//! A page that plays a run: one file without anything from elsewhere, stepped by buttons, slider and keys, in light and
-//! dark. The pictures are those of [`svg`]; the page draws one team move at a time. Of the cells it holds only what changes
-//! from move to move, and nothing that is not shown; it is written as the run goes on.
+//! A page that plays a run: one file without anything from elsewhere, drawn on a canvas from data. Of each team move it holds
+//! what changes, so that long runs stay small; it is written as the run goes on. What a scheme shows beside its robots comes
+//! from its [`Layer`]s: the page knows no scheme.
 
+pub(super) mod film;
+pub(super) mod line;
+
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::ops::RangeInclusive;
 
-use tautline_kernel::chain::Kind;
-use tautline_kernel::floor::Mark;
-use tautline_kernel::ground::{Cell, Step};
-use tautline_proofs::run::Frame as Outcome;
+use tautline_kernel::ground::Cell;
 use tautline_proofs::words::counted;
 
-use super::svg::{self, Frame};
-use crate::aside::{Aside, HTML_HEAD};
-use crate::explore::{Look, Play, Report, Stage, Survey, TeamMove};
+use self::film::{Again, Board, Ended, Film, Share};
+use self::line::Line;
+use super::story;
+use crate::aside::Aside;
+use crate::explore::{Layer, Look, Milestone, Play, Report, Scene, Stage, Starts, TeamMove, catalogue};
 use crate::fault::Fault;
+use crate::frontier::Options;
 
-/// Bytes of a page. What is larger no browser shows.
-const MAX_BYTES: usize = 64 << 20;
+/// Bytes of a page. Larger ones take a browser too long.
+const MAX_BYTES: usize = 10_000_000;
 
-const TEMPLATE: &str = include_str!("page.html");
+/// Layouts of more cells are not printed on a page.
+const MOST_PRINTED: usize = 64 * 64;
 
 /// A page in the making. One that grows too large is left out.
 #[derive(Debug)]
 pub struct Page<'a> {
     file: &'a mut Aside,
-    stage: Stage<'a>,
+    run: &'a dyn Play,
     report: &'a Report,
-    /// How many bytes it has.
+    moves: RangeInclusive<u32>,
     bytes: usize,
-    /// What comes after the team moves.
-    foot: String,
-    is_begun: bool,
+    layers: Vec<Layer>,
+    line: Line,
+    /// Where the robots were before the first of the team moves, once that is known.
+    start: Option<Vec<Cell>>,
+    /// What is broken in the last of the team moves so far.
+    broken: Vec<&'static str>,
+    /// By clause, what it says.
+    clauses: BTreeMap<&'static str, &'static str>,
 }
 
 impl<'a> Page<'a> {
-    /// The page in `file` that plays these team moves of a run that came out as `report`.
+    /// The page in `file` that plays these team moves of a run that came out as `report`. All team moves up to the last one
+    /// are to be added.
     pub fn new(
         file: &'a mut Aside,
         run: &'a dyn Play,
         report: &'a Report,
         moves: &RangeInclusive<u32>,
     ) -> Self {
-        let outcome = format!(
-            "{}: {}. {} of {} explored; {}.",
-            counted(report.steps, "team move"),
-            report.stopped.words(),
-            report.explored,
-            counted(report.cells, "cell"),
-            broken(report)
-        );
-        let title = super::title_of(run);
-        let [head, middle, foot] = parts(svg::STYLE, ["team move", "Team moves"], &title, &outcome);
-        let area = report.chart.area();
-        let stage = run.stage();
-        let mut page = Self { file, stage, report, bytes: 0, foot, is_begun: false };
-        page.put(&(head + &svg::open(area) + &svg::blocked(stage.layout, area)));
-        page.put(&marked(&report.chart, moves));
-        page.put(&(svg::lines(area) + &svg::walls(stage.layout, area) + TEAM + "</g></svg>" + &middle));
+        let mut page = Self {
+            file,
+            run,
+            report,
+            moves: moves.clone(),
+            bytes: 0,
+            layers: Vec::new(),
+            line: Line::new(report.chart.area()),
+            start: None,
+            broken: Vec::new(),
+            clauses: BTreeMap::new(),
+        };
+        page.put(&film::head(&super::title_of(run)));
         page
     }
 
     fn put(&mut self, text: &str) {
         self.bytes += text.len();
         if self.bytes > MAX_BYTES {
-            let what = format!("a page of more than {} MiB is left out", MAX_BYTES >> 20);
-            let remedy = "store a trace, and give `tautline replay` fewer `moves` to show";
-            self.file.leave_out(Fault::in_file(self.file.path(), what, remedy));
+            self.file.leave_out(too_large(
+                self.file.path(),
+                "store a trace, and give `tautline replay` fewer `moves` to show",
+            ));
         } else {
             self.file.append(text);
         }
     }
 
-    /// Adds a team move; before the first one, where the robots were.
-    pub fn add(&mut self, made: &TeamMove<'_>) {
-        if !self.is_begun {
-            self.is_begun = true;
-            let robots = made.before.len();
-            let start = Outcome {
-                kind: Kind::Advance,
-                steps: vec![Step::Stay; robots],
-                blocked: vec![false; robots],
-                cells: made.before.to_vec(),
-            };
-            let step = made.step - 1;
-            let start = TeamMove { step, before: made.before, frame: &start, unseen: &[], broken: &[] };
-            let words = if step == 0 { started(&self.stage) } else { format!("After team move {step}") };
-            self.push(&start, &words);
-        }
-        self.push(made, &words(self.stage.look, made, self.report));
+    /// The number of the team move before the first.
+    fn first(&self) -> u32 {
+        self.moves.start().saturating_sub(1)
     }
 
-    fn push(&mut self, made: &TeamMove<'_>, words: &str) {
-        let team = svg::team(self.stage.look, Frame(self.report.chart.area()), made);
-        self.put(&moved(made.step, words, &team));
+    /// Adds a team move; those before the first are shown as what the team knows by then.
+    pub fn add(&mut self, made: &TeamMove<'_>) {
+        if self.line.is_new() {
+            self.layers = made.team.layers();
+        }
+        let mut scene = Scene::default();
+        made.team.show(made.before, &mut scene);
+        if made.step <= self.first() {
+            self.line.take(made, &scene);
+            return;
+        }
+        self.begin(made.before);
+        let mut text = self.line.of(self.run.stage().look, made, &scene);
+        self.broken = made.broken.iter().map(|clause| clause.as_str()).collect();
+        if !made.broken.is_empty() {
+            let told: Vec<(&str, Vec<String>)> = made
+                .broken
+                .iter()
+                .map(|&clause| (clause.as_str(), self.run.told(clause, &self.report.chart, made)))
+                .collect();
+            for &clause in made.broken {
+                self.clauses.insert(clause.as_str(), story::sentence(clause).unwrap_or_default());
+            }
+            text += &film::told(&BTreeMap::from([("broken", told)]));
+        }
+        self.put(&(text + "\n"));
+    }
+
+    /// Writes what there was before the first team move, once.
+    fn begin(&mut self, cells: &[Cell]) {
+        if self.start.is_none() {
+            self.start = Some(cells.to_vec());
+            let text = self.line.before(&self.report.chart, self.first());
+            self.put(&(text + "\n"));
+        }
     }
 
     /// Adds what comes after the team moves.
     pub fn finish(mut self) {
-        let foot = std::mem::take(&mut self.foot);
-        self.put(&foot);
+        let team = self.report.team.clone();
+        self.begin(&team);
+        let text = film::foot(&self.film());
+        self.put(&text);
     }
-}
 
-/// Where a picture shows one step after the other.
-pub(super) const TEAM: &str = "<g id=\"team\"></g>";
-
-/// A step of a page, in one line, as it is drawn in [`TEAM`].
-pub(super) fn moved(step: u32, words: &str, drawn: &str) -> String {
-    format!("<g class=\"move\" data-step=\"{step}\"><title>{words}</title>{drawn}</g>\n")
-}
-
-/// A page in three parts. The first ends where its picture begins, which holds [`TEAM`] and parts of the class `cell`, in the
-/// order of their steps, which it shows from their step on. The second ends where the steps stand, which [`moved`] makes.
-/// `steps` are the words for one step, and for many.
-pub(super) fn parts(style: &str, steps: [&str; 2], title: &str, outcome: &str) -> [String; 3] {
-    let [step, steps] = steps;
-    let filled = |part: &str| {
-        part.replace("{{style}}", style)
-            .replace("{{step}}", step)
-            .replace("{{steps}}", steps)
-            .replace("{{title}}", title)
-            .replace("{{outcome}}", outcome)
-    };
-    let (head, rest) = TEMPLATE.split_once("{{picture}}").unwrap_or((TEMPLATE, ""));
-    let (middle, foot) = rest.split_once("{{moves}}\n").unwrap_or((rest, ""));
-    [HTML_HEAD.to_owned() + &filled(head), filled(middle), filled(foot)]
-}
-
-/// The cells as they are before the first of `moves`, and what becomes of them in these.
-fn marked(chart: &Survey, moves: &RangeInclusive<u32>) -> String {
-    let frame = Frame(chart.area());
-    let before = moves.start().saturating_sub(1);
-    let mut text = String::new();
-    for mark in [Mark::Explored, Mark::Closing, Mark::Visited, Mark::Sealed] {
-        let cells = chart.area().cells().filter(|&cell| chart.mark(cell, before) == mark);
-        let path = svg::stripes(frame, cells);
-        if let (Some(class), false) = (svg::class(mark), path.is_empty()) {
-            // Writing to a string cannot fail.
-            let _ = write!(text, "<path class=\"{class}\" d=\"{path}\"/>");
+    fn film(&mut self) -> Film {
+        let (stage, report) = (self.run.stage(), self.report);
+        let area = report.chart.area();
+        let start = self.start.take().unwrap_or_default();
+        let ends = self.ends();
+        Film {
+            title: super::title_of(self.run),
+            outcome: outcome(report),
+            unit: "team move",
+            robot: stage.look.robot(),
+            robots: start.len(),
+            has_base: stage.look.has_base(),
+            has_leader: matches!(stage.look, Look::Linked { .. }),
+            first: self.first(),
+            of: report.steps,
+            share: Share { of: report.cells, what: "cells explored" },
+            board: Board::cells(stage.layout, area, &start, stage.knowledge.is_some()),
+            layers: self.layers.iter().map(film::layer).collect(),
+            clauses: self.clauses.iter().map(|(&id, &says)| (id, says)).collect(),
+            ends,
+            notes: notes(report),
+            again: again(&stage),
         }
     }
-    let explored = chart.area().cells().filter_map(|cell| Some((cell, chart.step(cell)?, Mark::Explored)));
-    let mut changes: Vec<(u32, Mark, Cell)> = explored
-        .chain(chart.marks())
-        .filter(|&(_, step, _)| step > before && step <= *moves.end())
-        .map(|(cell, step, mark)| (step, mark, cell))
-        .collect();
-    changes.sort_unstable_by_key(|&(step, mark, cell)| (step, mark as u8, cell));
-    for alike in changes.chunk_by(|one, other| (one.0, one.1) == (other.0, other.1)) {
-        let (step, mark, _) = alike[0];
-        if let Some(class) = svg::class(mark) {
-            let path = svg::stripes(frame, alike.iter().map(|&(_, _, cell)| cell));
-            let _ = write!(text, "<path class=\"cell {class}\" data-step=\"{step}\" d=\"{path}\"/>");
+
+    /// What the end of the run breaks, if the end is shown.
+    fn ends(&mut self) -> Vec<Ended> {
+        let report = self.report;
+        if !self.moves.contains(&report.steps) && report.steps > 0 {
+            return Vec::new();
         }
+        let mut left = self.broken.clone();
+        let mut ends = Vec::new();
+        for violation in report.violations.iter().filter(|broken| broken.step == report.steps) {
+            let clause = violation.clause;
+            if let Some(place) = left.iter().position(|&id| id == clause.as_str()) {
+                left.remove(place);
+                continue;
+            }
+            self.clauses.insert(clause.as_str(), story::sentence(clause).unwrap_or_default());
+            let (what, cells) = self.run.missed(clause, &report.chart).unwrap_or(("", Vec::new()));
+            let cells = cells.iter().filter_map(|&cell| line::place_of(report.chart.area(), cell)).collect();
+            ends.push(Ended { clause: clause.as_str(), what, cells });
+        }
+        ends
     }
-    text
 }
 
-/// Who stands where before the first team move.
-fn started(stage: &Stage<'_>) -> String {
-    let robot = stage.look.robot();
-    if stage.look.has_base() {
-        format!("The start: the base, with {} in its cell", counted(stage.robots - 1, robot))
-    } else {
-        format!("The start: {}", counted(stage.robots, robot))
-    }
+/// The fault of a page that is too large.
+pub(super) fn too_large(path: &std::path::Path, remedy: &str) -> Fault {
+    let what = format!("a page of more than {} MB is left out", MAX_BYTES / 1_000_000);
+    Fault::in_file(path, what, remedy)
+}
+
+/// Whether a page of so many bytes is too large.
+pub(super) const fn is_too_large(bytes: usize) -> bool {
+    bytes > MAX_BYTES
+}
+
+fn outcome(report: &Report) -> String {
+    format!(
+        "{}: {}. {} of {} explored; {}.",
+        counted(report.steps, "team move"),
+        report.stopped.words(),
+        report.explored,
+        counted(report.cells, "cell"),
+        broken(report)
+    )
 }
 
 fn broken(report: &Report) -> String {
@@ -175,19 +208,70 @@ fn broken(report: &Report) -> String {
     }
 }
 
-fn words(look: Look, made: &TeamMove<'_>, report: &Report) -> String {
-    let kind = match (look, made.frame.kind) {
-        (Look::Linked { .. }, Kind::Advance) => ", an advance",
-        (Look::Linked { .. }, Kind::Backtrack) => ", a backtrack",
-        (Look::Tree { .. } | Look::Apart | Look::Robots, Kind::Advance | Kind::Backtrack) => "",
+/// What is told beside violations: the milestones and the end.
+fn notes(report: &Report) -> Vec<(u32, String)> {
+    let reached = |milestone: Milestone| {
+        let step = report.reached(milestone)?;
+        Some((step, format!("{} % of the cells are explored", milestone.percent())))
     };
-    let mut words = format!("Team move {} of {}{kind}", made.step, report.steps);
-    let blocked = (1..).zip(&made.frame.blocked).filter(|&(_, &blocked)| blocked);
-    for (robot, _) in blocked {
-        let _ = write!(words, "; R{robot} meets a wall");
+    let end = (report.steps, format!("The end: {}", report.stopped.words()));
+    Milestone::ALL.into_iter().filter_map(reached).chain([end]).collect()
+}
+
+/// How to make the run again, and others.
+fn again(stage: &Stage<'_>) -> Again {
+    let Stage { scheme, rule, robots, seed, base, starts, miss, missed, options, choices, limits, .. } =
+        *stage;
+    let is_small = stage.layout.size().area().cells().nth(MOST_PRINTED).is_none();
+    let layout = is_small.then(|| {
+        let mut layout = stage.layout.clone();
+        // Without a base where none can stand, the drawing is as good.
+        let _ = layout.place_base(base);
+        layout.to_string()
+    });
+    let by_search = Again { command: None, layout, seed: None };
+    let Some(profile) = catalogue::scheme(scheme) else { return by_search };
+    if !choices.is_empty() || !missed.is_empty() {
+        return by_search;
     }
-    for clause in made.broken {
-        let _ = write!(words, "; breaks {clause}");
+    let mut command = format!("tautline explore LAYOUT --scheme {scheme} --rule {rule} --robots {robots}");
+    // Writing to a string cannot fail.
+    match (profile.starts, starts) {
+        (Starts::Base, _) | (_, None) => {
+            let _ = write!(command, " --base {},{}", base.x, base.y);
+        }
+        (Starts::Anywhere | Starts::Beside | Starts::Alone, Some(starts)) => {
+            for start in starts {
+                let _ = write!(command, " --start {},{}", start.x, start.y);
+            }
+        }
     }
-    words
+    if !miss.is_never() {
+        let _ = write!(command, " --miss {miss} --seed {seed}");
+    }
+    let usual = Options::default();
+    if let Some(range) = options.range_cells {
+        let _ = write!(command, " --range {range}");
+    }
+    if options.loss != usual.loss {
+        let _ = write!(command, " --loss {}", options.loss);
+    }
+    for (name, given, usual) in [
+        ("noise-db", Some(options.noise_db), Some(usual.noise_db)),
+        ("threshold", Some(options.threshold), Some(usual.threshold)),
+        ("speed", options.speed_mps, usual.speed_mps),
+        ("spread", options.spread, usual.spread),
+    ] {
+        if let Some(given) = given.filter(|_| given != usual) {
+            let _ = write!(command, " --{name} {given}");
+        }
+    }
+    if let Some(milestone) = limits.until {
+        let _ = write!(command, " --until {}", milestone.percent());
+    }
+    if let Some(most) = limits.max_moves {
+        let _ = write!(command, " --max-moves {most}");
+    }
+    let seed = (miss.is_never() && seed > 0).then_some(seed);
+    Again { command: Some(command + " --replay run.html"), seed, ..by_search }
 }

@@ -1,16 +1,20 @@
 //! Rescues drawn: a map of the ways that robots went, and a page that plays what happened, event by event.
 
 use std::fmt::Write;
+use std::path::Path;
 
-use super::field::{ALONE, Map, ROBOT, STYLE, Scale, Terminus, Trail, ground, numbered};
-use super::page::{TEAM, moved, parts};
-use super::svg::{MARGIN, SERIES, SERIES_STYLE, document, text_width};
+use serde::Serialize;
+
+use super::field::{Map, Terminus, Trail};
+use super::page::film::{self, Again, Board, Film, Share};
+use super::page::line::{base36, word};
+use super::page::{is_too_large, too_large};
+use super::story;
+use crate::explore::{ClauseId, Kind, Layer, Shape};
 use crate::fault::Fault;
 use crate::radio::Point;
-use crate::rescue::{Event, Fix, Logged, Ordinal, Report, seconds};
-
-/// Robots that a page can draw, over all its events.
-const MAX_DRAWN: usize = 100_000;
+use crate::rescue::{Event, Fix, Journey, Logged, Ordinal, Report, SchemeName, Setting, seconds};
+use crate::words::Worded;
 
 /// The map of a rescue: the nodes, the WFRs, and where each robot went. The place where one failed is marked.
 pub fn map(caption: String, report: &Report) -> Map<'_> {
@@ -31,102 +35,203 @@ pub fn map(caption: String, report: &Report) -> Map<'_> {
     }
 }
 
-/// The page that plays a rescue.
+/// The places of the layers.
+const MESSAGES: usize = 0;
+
+/// The kinds of messages.
+const KINDS: &[Kind] = &[
+    Kind::heard("NOTICE: calls"),
+    Kind::heard("NOTICE: has come"),
+    Kind::heard("MOVE: asks"),
+    Kind::heard("RESB: chooses"),
+    Kind::heard("declines"),
+];
+
+/// The page that plays a rescue by `setting` with this seed.
 ///
 /// # Errors
-/// A [`Fault`] if it would be too large.
-pub fn page(title: &str, outcome: &str, report: &Report) -> Result<String, Fault> {
-    if (report.log.len() + 1) * report.paths.len() > MAX_DRAWN {
-        let what = format!("a page of more than {MAX_DRAWN} robots in all its events");
-        return Err(Fault::usage(what, "take fewer robots or WFRs, or store a trace"));
+/// A [`Fault`] if it would be too large to stand at `path`.
+pub fn page(
+    path: &Path,
+    (setting, seed): (&Setting, u64),
+    [title, outcome]: [&str; 2],
+    report: &Report,
+) -> Result<String, Fault> {
+    let film = film(setting, seed, [title, outcome], report);
+    let page = film::head(title) + &lines(report) + &film::foot(&film);
+    if is_too_large(page.len()) {
+        return Err(too_large(path, "take fewer nodes, robots or WFRs, or store a trace"));
     }
-    let map = map(String::new(), report);
-    let (scale, (width, height)) = Scale::of(&map, ALONE);
-    let mut body = format!("<g transform=\"translate({MARGIN},{MARGIN})\">{}", ground(&map, scale));
-    for (number, &wfr) in (0..).map(Ordinal).zip(&report.wfrs) {
-        body.push_str(&numbered(&scale.place(wfr), number));
+    Ok(page)
+}
+
+fn film(setting: &Setting, seed: u64, [title, outcome]: [&str; 2], report: &Report) -> Film {
+    let events = report.fates.len() as u32;
+    let messages = Layer {
+        name: "messages",
+        about: "who calls, asks, chooses and declines; from node to node in between".to_owned(),
+        shape: Shape::Messages(KINDS),
+    };
+    let range = Layer {
+        name: "radio circle",
+        about: format!("{} m: the radio range, where nothing is in the way", setting.range_m),
+        shape: Shape::Circle((setting.range_m * 1000.0) as u32),
+    };
+    let clauses = report.violations.iter().map(|broken| broken.demand.clause());
+    let sentence = |id: &'static str| (id, story::sentence(ClauseId::new(id)).unwrap_or_default());
+    Film {
+        title: title.to_owned(),
+        outcome: outcome.to_owned(),
+        unit: "event",
+        robot: "robot",
+        robots: report.paths.len(),
+        has_base: false,
+        has_leader: false,
+        first: 0,
+        of: report.log.len() as u32,
+        share: Share { of: events, what: "events served" },
+        board: Board::Metres {
+            size: {
+                let area = report.field.area();
+                [area.width_m(), area.height_m()].map(metres)
+            },
+            obstacles: report
+                .field
+                .obstacles()
+                .iter()
+                .map(|of| [of.west_m, of.north_m, of.east_m, of.south_m].map(metres))
+                .collect(),
+            nodes: report.field.nodes().iter().map(|&node| millimetres(node)).collect(),
+            caller: "WFR",
+            callers: report.wfrs.iter().map(|&wfr| millimetres(wfr)).collect(),
+            paths: report.paths.iter().map(|path| way(path)).collect(),
+        },
+        layers: [messages, range].iter().map(film::layer).collect(),
+        clauses: clauses.map(sentence).collect(),
+        ends: Vec::new(),
+        notes: Vec::new(),
+        again: Again { command: Some(command(setting, seed)), layout: None, seed: None },
     }
-    let mut before_ns = 0;
-    let mut moves = moved(0, "The start", &robots(report, scale, 0));
-    for (step, Logged { at_ns, event }) in (1..).zip(&report.log) {
-        let words = format!("{:.3} s: {event}", seconds(*at_ns));
-        body += &ways(report, scale, step, (before_ns, *at_ns));
-        moves += &moved(step, &words, &robots(report, scale, *at_ns));
-        before_ns = *at_ns;
+}
+
+fn metres(length_m: f64) -> u32 {
+    (length_m * 1000.0).round() as u32
+}
+
+fn millimetres(at: Point) -> [u32; 2] {
+    [at.x_m, at.y_m].map(metres)
+}
+
+const fn milliseconds(at_ns: u64) -> u64 {
+    at_ns / 1_000_000
+}
+
+/// Where a robot was: milliseconds, millimetres east and south, each as what it is more than before.
+fn way(path: &[Fix]) -> String {
+    let (mut text, mut last) = (String::new(), [0; 3]);
+    for fix in path {
+        let [x, y] = millimetres(fix.at).map(i64::from);
+        let now = [milliseconds(fix.at_ns) as i64, x, y];
+        for (new, old) in now.into_iter().zip(last) {
+            text.push_str(if text.is_empty() { "" } else { "," });
+            base36(&mut text, new - old);
+        }
+        last = now;
     }
-    body = body + TEAM + "</g>";
-    let names = (0..report.paths.len()).map(|robot| format!("robot {}", Ordinal(robot)));
-    let mut x = MARGIN;
-    let y = height + 2 * MARGIN;
-    for (look, name) in names.enumerate() {
+    text
+}
+
+/// The lines: the start, then one for each event, with the clauses that are broken by then.
+fn lines(report: &Report) -> String {
+    let robots = report.paths.len();
+    let mut broken = report.violations.clone();
+    broken.sort_by_key(|violation| violation.at_ns);
+    let mut broken = broken.into_iter().peekable();
+    let (mut text, mut before, mut served) = ("-\n".to_owned(), 0, 0);
+    for (place, &Logged { at_ns, event }) in report.log.iter().enumerate() {
+        let now = milliseconds(at_ns);
+        let says = |kind: usize, from: usize, to: &str| format!(" s{MESSAGES}.{kind}:{from}>{to}");
+        let caller = |wfr: Ordinal| robots + wfr.0;
+        let words = match event {
+            Event::Calls { wfr, .. } => says(0, caller(wfr), "*"),
+            Event::Hears { robot, wfr, .. } => says(1, caller(wfr), &robot.0.to_string()),
+            Event::Asks { robot, wfr, .. } => says(2, robot.0, &caller(wfr).to_string()),
+            Event::Chooses { wfr, robot, .. } => says(3, caller(wfr), &robot.0.to_string()),
+            Event::Declines { robot, wfr, .. } => says(4, robot.0, &caller(wfr).to_string()),
+            Event::RobotFails { robot, .. } => format!(" {}", word("f", &[robot.0 as u32])),
+            Event::NodeFails { node } => format!(" {}", word("n", &[node])),
+            Event::Recurs { .. }
+            | Event::CountsOn { .. }
+            | Event::SetsOut { .. }
+            | Event::Passes { .. }
+            | Event::LosesItsWay { .. }
+            | Event::LetsGo { .. }
+            | Event::Arrives { .. } => String::new(),
+        };
+        if report.journeys.iter().any(|journey| is_arrival(journey, at_ns, event)) {
+            served += 1;
+        }
+        let is_last = place + 1 == report.log.len();
+        let mut here = Vec::new();
+        while let Some(found) = broken.next_if(|found| is_last || found.at_ns <= at_ns) {
+            let (wfr, of) = (Ordinal(found.wfr), Ordinal(found.event));
+            let told = format!("So it is after {:.3} s for WFR {wfr}, event {of}.", seconds(found.at_ns));
+            here.push((found.demand.clause(), vec![told]));
+        }
         // Writing to a string cannot fail.
-        let _ = write!(
-            body,
-            "<g class=\"trail-{}\" transform=\"translate({x},{y})\"><path class=\"mark\" d=\"M6 0{ROBOT}\"/></g>\
-             <text class=\"start\" x=\"{}\" y=\"{y}\">{name}</text>",
-            look % SERIES,
-            x + 18
-        );
-        x += 18 + text_width(&name) + MARGIN;
+        let _ = write!(text, "- +{}{words} ={served}", now - before);
+        text += &film::told(&Told { note: event.to_string(), broken: here });
+        text.push('\n');
+        before = now;
     }
-    let size = (x.max(width + 2 * MARGIN), y + MARGIN);
-    let picture = document(title, &format!("{SERIES_STYLE}{STYLE}"), size, &body);
-    let [head, middle, foot] = parts("", ["event", "Events"], title, outcome);
-    Ok([head, picture, middle, moves, foot].concat())
+    text
 }
 
-/// Where the robots have gone between an event and the one before.
-fn ways(report: &Report, scale: Scale, step: u32, (from_ns, to_ns): (u64, u64)) -> String {
-    let mut ways = String::new();
-    for (look, path) in report.paths.iter().enumerate() {
-        let (from, to) = (place(path, from_ns), place(path, to_ns));
-        let between = path.iter().filter(|fix| (from_ns..to_ns).contains(&fix.at_ns)).map(|fix| fix.at);
-        let look = look % SERIES;
-        if from != to {
-            let mut line = format!("M{}", scale.place(from));
-            for at in between.chain([to]) {
-                let _ = write!(line, "L{}", scale.place(at));
-            }
-            let _ = write!(ways, "<path class=\"trail trail-{look}\" d=\"{line}\"/>");
-        }
-    }
-    if ways.is_empty() { ways } else { format!("<g class=\"cell\" data-step=\"{step}\">{ways}</g>\n") }
+/// What a line says beside its words.
+#[derive(Serialize)]
+struct Told {
+    note: String,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    broken: Vec<(&'static str, Vec<String>)>,
 }
 
-/// Where the robots are at a time.
-fn robots(report: &Report, scale: Scale, at_ns: u64) -> String {
-    report.paths.iter().enumerate().fold(String::new(), |mut robots, (look, path)| {
-        let (look, at) = (look % SERIES, scale.place(place(path, at_ns)));
-        let _ = write!(robots, "<g class=\"trail-{look}\"><path class=\"mark\" d=\"M{at}{ROBOT}\"/></g>");
-        robots
-    })
+/// Whether a robot's first arrival for an event is this.
+fn is_arrival(journey: &Journey, at_ns: u64, event: Event) -> bool {
+    let arrives = |robot: Ordinal, wfr: Ordinal| (robot.0, wfr.0) == (journey.robot, journey.wfr);
+    journey.at_ns == at_ns && matches!(event, Event::Arrives { robot, wfr, .. } if arrives(robot, wfr))
 }
 
-/// Where a robot is at a time.
-#[expect(clippy::cast_precision_loss, reason = "a place in a drawing")]
-fn place(path: &[Fix], at_ns: u64) -> Point {
-    let after = path.partition_point(|fix| fix.at_ns <= at_ns);
-    match (path.get(after.wrapping_sub(1)), path.get(after)) {
-        (Some(from), Some(to)) => {
-            let part = (at_ns - from.at_ns) as f64 / (to.at_ns - from.at_ns).max(1) as f64;
-            let along = |from: f64, to: f64| from + part * (to - from);
-            Point { x_m: along(from.at.x_m, to.at.x_m), y_m: along(from.at.y_m, to.at.y_m) }
-        }
-        (Some(only), None) | (None, Some(only)) => only.at,
-        (None, None) => Point { x_m: 0.0, y_m: 0.0 },
+/// The command that makes the rescue again.
+fn command(setting: &Setting, seed: u64) -> String {
+    let Setting { rule, scheme, nodes, area_m: [width_m, height_m], range_m, .. } = setting;
+    let mut command = format!(
+        "tautline rescue --seeds {seed} --rule {rule} --scheme {} --nodes {nodes} --area {width_m}x{height_m} \
+         --range {range_m} --wfr {} --robots {} --events {} --calls {} --channel {} --loss {} --shadowing-db {} \
+         --exponent {} --noise-db {} --failing {} --failing-nodes {}",
+        scheme.word(),
+        setting.wfrs,
+        setting.robots,
+        setting.events_per_wfr,
+        setting.calls.word(),
+        setting.channel.word(),
+        setting.loss,
+        setting.shadowing_db,
+        setting.exponent,
+        setting.noise_db,
+        setting.failing,
+        setting.failing_nodes,
+    );
+    if matches!(scheme, SchemeName::KFnf | SchemeName::Counter) {
+        let _ = write!(command, " --k {}", setting.k);
     }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn between_two_fixes_a_robot_goes_straight() {
-        let fix = |at_ns: u64, x_m: f64| Fix { at_ns, at: Point { x_m, y_m: 2.0 } };
-        let path = [fix(0, 1.0), fix(10, 1.0), fix(20, 3.0)];
-        for (at_ns, x_m) in [(0, 1.0), (5, 1.0), (10, 1.0), (15, 2.0), (20, 3.0), (99, 3.0)] {
-            assert_eq!(place(&path, at_ns), Point { x_m, y_m: 2.0 });
-        }
+    for [west, north, east, south] in &setting.obstacles_m {
+        let _ = write!(command, " --obstacle {west},{north},{east},{south}");
     }
+    for node in &setting.wfrs_at {
+        let _ = write!(command, " --wfr-at {node}");
+    }
+    for [x, y] in &setting.robots_at_m {
+        let _ = write!(command, " --robot {x},{y}");
+    }
+    command + " --replay rescue.html"
 }

@@ -22,7 +22,7 @@ const CAPTION: i32 = 22;
 const PAGE_WIDTH: i32 = 960;
 
 /// The colours of all pictures, by the class of what they paint.
-pub(super) const STYLE: &str = "\
+const STYLE: &str = "\
 svg{--ground:#fff;--ink:#1b1f24;--faint:#d4d9e0;--explored:#e3edf9;--visited:#f0d6ba;--sealed:#d9a878;--blocked:#9aa4b1;--robot:#1d5fa8;--leader:#0b7a53;\
 --base:#5b3a8c;--bad:#c4261d;font:12px system-ui,sans-serif;background:var(--ground)}\
 @media(prefers-color-scheme:dark){svg{--ground:#14181d;--ink:#e6eaef;--faint:#333b45;--explored:#1f3550;--visited:#4f3a26;--sealed:#7d5632;--blocked:#5d6875;\
@@ -130,16 +130,6 @@ pub(super) fn document(title: &str, style: &str, (width, height): (i32, i32), bo
         "{SVG_HEAD}viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" role=\"img\" \
          aria-label=\"{title}\">\n<title>{title}</title>\n<style>{STYLE}{style}</style>\n\
          <rect width=\"{width}\" height=\"{height}\" style=\"fill:var(--ground)\"/>\n{body}</svg>\n"
-    )
-}
-
-/// The beginning of a picture of `area` alone, for a page that has the style; it ends with `</g></svg>`.
-pub(super) fn open(area: Area) -> String {
-    let (width, height) = (CELL * area.width() as i32 + MARGIN, CELL * area.height() as i32 + MARGIN);
-    let half = MARGIN / 2;
-    format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" \
-         height=\"{height}\" role=\"img\" aria-label=\"The team in its area\"><g transform=\"translate({half},{half})\">"
     )
 }
 
@@ -256,7 +246,7 @@ fn whole(layout: &Layout) -> Area {
 
 /// Where the cells of an area are in its picture.
 #[derive(Clone, Copy)]
-pub(super) struct Frame(pub(super) Area);
+struct Frame(Area);
 
 impl Frame {
     fn corner(self, cell: Cell) -> (i32, i32) {
@@ -271,7 +261,7 @@ impl Frame {
 }
 
 /// The lines between cells.
-pub(super) fn lines(area: Area) -> String {
+fn lines(area: Area) -> String {
     let (columns, rows) = (area.width() as i32, area.height() as i32);
     let mut path = String::new();
     for column in 0..=columns {
@@ -289,13 +279,13 @@ fn ground(layout: &Layout, area: Area) -> String {
 }
 
 /// The blocked cells.
-pub(super) fn blocked(layout: &Layout, area: Area) -> String {
+fn blocked(layout: &Layout, area: Area) -> String {
     let path = stripes(Frame(area), area.cells().filter(|&cell| !layout.is_free(cell)));
     if path.is_empty() { path } else { format!("<path class=\"blocked\" d=\"{path}\"/>") }
 }
 
 /// The outlines of `cells`, which come row by row; those beside each other have one.
-pub(super) fn stripes(frame: Frame, cells: impl IntoIterator<Item = Cell>) -> String {
+fn stripes(frame: Frame, cells: impl IntoIterator<Item = Cell>) -> String {
     let mut path = String::new();
     let mut cells = cells.into_iter().peekable();
     while let Some(first) = cells.next() {
@@ -311,7 +301,7 @@ pub(super) fn stripes(frame: Frame, cells: impl IntoIterator<Item = Cell>) -> St
 }
 
 /// The walls and the rim.
-pub(super) fn walls(layout: &Layout, area: Area) -> String {
+fn walls(layout: &Layout, area: Area) -> String {
     let frame = Frame(area);
     let (columns, rows) = (CELL * area.width() as i32, CELL * area.height() as i32);
     let mut path = format!("M0 0h{columns}v{rows}h-{columns}z");
@@ -330,7 +320,7 @@ fn side(frame: Frame, edge: Edge) -> String {
 }
 
 /// The class of cells with a mark, unless they are unexplored.
-pub(super) const fn class(mark: Mark) -> Option<&'static str> {
+const fn class(mark: Mark) -> Option<&'static str> {
     match mark {
         Mark::Unexplored => None,
         Mark::Explored => Some("explored"),
@@ -380,7 +370,7 @@ fn name((x, y): (i32, i32), text: &str) -> String {
 }
 
 /// The links and the base of a team that has them, the ways of the robots and the robots.
-pub(super) fn team(look: Look, frame: Frame, made: &TeamMove<'_>) -> String {
+fn team(look: Look, frame: Frame, made: &TeamMove<'_>) -> String {
     let (before, after) = (made.before, made.frame.cells.as_slice());
     let mut body: String = made.unseen.iter().map(|&cell| unseen(frame, cell)).collect();
     body += &match look {

@@ -18,8 +18,9 @@ pub use tautline_proofs::floor::trap::Way;
 use tautline_proofs::run::Frame;
 
 use super::clause::ClauseId;
-use super::floor::{Component, SensorFloor, Stored, is_visited};
+use super::floor::{self, Component, SensorFloor, Stored, is_visited};
 use super::run::{End, Team};
+use super::scene::{Layer, Scene};
 use super::setup::{Profile, Senses, Setup, Starts};
 use super::stage::Look;
 use super::survey::Survey;
@@ -430,6 +431,14 @@ impl<K: Crew> Team for Watched<K> {
 
     fn milliseconds(&self) -> Option<u64> {
         Some(self.team.milliseconds())
+    }
+
+    fn layers(&self) -> Vec<Layer> {
+        floor::layers()
+    }
+
+    fn show(&self, _: &[Cell], scene: &mut Scene) {
+        floor::show(self.team.floor.marked(), scene);
     }
 }
 

@@ -3,6 +3,7 @@
 
 pub mod hunt;
 mod saved;
+mod shown;
 
 use tautline_kernel::chain::{self, Chain, Intent, MAX_ROBOTS, Refused};
 use tautline_kernel::ground::{Area, Cell, Edge, Grid, MediumGrid, SmallGrid};
@@ -17,6 +18,7 @@ pub use self::saved::Saved;
 use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::{End, Team, TeamMove};
+use super::scene::{Layer, Scene};
 use super::setup::{Clause, Judge, Profile, Rule, Senses, Setup, Starts};
 use super::stage::Look;
 use super::survey::Survey;
@@ -86,6 +88,8 @@ pub static CHAIN: Profile = Profile {
 struct ChainTeam<G, const ROBOTS: usize> {
     chain: Chain<G, ROBOTS>,
     log: Vec<u8>,
+    /// Epochs before the last team move.
+    epochs: u32,
 }
 
 /// The chain of `setup`, all robots at the base.
@@ -107,7 +111,7 @@ fn begin<G: Grid + 'static, const ROBOTS: usize>(
     let area = chain::area(setup.layout.size().area(), base, robots).ok_or(Refused::BaseOutside { base })?;
     let grid = grid(area).ok_or(Refused::TooManyRobots { robots, most: ROBOTS })?;
     let chain = Chain::<G, ROBOTS>::new(rule, robots, base, grid)?;
-    Ok(Box::new(ChainTeam { chain, log: Vec::new() }))
+    Ok(Box::new(ChainTeam { chain, log: Vec::new(), epochs: 0 }))
 }
 
 /// The fault of a chain that is refused.
@@ -129,6 +133,7 @@ impl<G: Grid, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
     }
 
     fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+        self.epochs = self.chain.epochs();
         match self.chain.plan(&self.log) {
             Ok(Intent::Go(plan)) => {
                 let settled = self.chain.settle(&plan, is_open);
@@ -159,6 +164,14 @@ impl<G: Grid, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
 
     fn broken_at_end(&self, layout: &Layout, chart: &Survey, _: End) -> Vec<ClauseId> {
         if self.missed(layout, chart).is_empty() { Vec::new() } else { vec![Breach::Completeness.into()] }
+    }
+
+    fn layers(&self) -> Vec<Layer> {
+        shown::layers()
+    }
+
+    fn show(&self, before: &[Cell], scene: &mut Scene) {
+        shown::show(self.chain.grid(), before, self.epochs < self.chain.epochs(), scene);
     }
 }
 

@@ -7,6 +7,7 @@ use tautline_kernel::bricks::tree::{Note, Notes};
 use tautline_kernel::floor::{Claim, Floor, Mark, Sensor};
 use tautline_kernel::ground::{Cell, Edge, Side};
 
+use super::scene::{Ink, Layer, Place as Shown, Scene, Shape, Value};
 use crate::layout::{Layout, Size};
 
 /// The cells that are connected with a start, and what has become of them.
@@ -29,6 +30,30 @@ pub const fn is_visited(mark: Mark) -> bool {
     match mark {
         Mark::Unexplored | Mark::Explored | Mark::Closing => false,
         Mark::Visited | Mark::Sealed => true,
+    }
+}
+
+/// What a page shows of a sensor floor: the marks.
+pub(super) fn layers() -> Vec<Layer> {
+    const MARKS: &[Value] = &[
+        Value { name: "entered by nobody any more", ink: Ink::Closing },
+        Value { name: "visited", ink: Ink::Closed },
+        Value { name: "sealed", ink: Ink::Sealed },
+    ];
+    let about = "what the sensors say of cells that are done with".to_owned();
+    vec![Layer { name: "marks", about, shape: Shape::Cells(MARKS) }]
+}
+
+/// The marks that have changed.
+pub(super) fn show(marked: &[(Cell, Mark)], scene: &mut Scene) {
+    for &(cell, mark) in marked {
+        let value = match mark {
+            Mark::Unexplored | Mark::Explored => 0,
+            Mark::Closing => 1,
+            Mark::Visited => 2,
+            Mark::Sealed => 3,
+        };
+        scene.put(0, Shown::Cell(cell), value);
     }
 }
 

@@ -3,6 +3,7 @@
 
 mod hunt;
 mod scripted;
+mod shown;
 
 use std::collections::{BTreeSet, VecDeque};
 
@@ -14,6 +15,7 @@ use self::hunt::{Searched, Simulated};
 use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::{End, Team};
+use super::scene::{Layer, Scene};
 use super::setup::{Clause, Extra, Profile, Rule, Senses, Setup, Starts};
 use super::stage::Look;
 use super::survey::Survey;
@@ -220,6 +222,20 @@ impl Team for FrontierTeam {
             .into_iter()
             .flatten()
             .collect()
+    }
+
+    fn layers(&self) -> Vec<Layer> {
+        match &self.who {
+            Who::Robots(robots) => shown::layers(robots),
+            Who::Assigned(_) => Vec::new(),
+        }
+    }
+
+    fn show(&self, _: &[Cell], scene: &mut Scene) {
+        match &self.who {
+            Who::Robots(robots) => shown::show(robots, scene),
+            Who::Assigned(_) => {}
+        }
     }
 }
 

@@ -6,6 +6,7 @@
 
 mod hunt;
 mod scripted;
+mod shown;
 
 use std::collections::BTreeSet;
 use std::num::NonZeroU32;
@@ -19,11 +20,12 @@ use self::hunt::Searched;
 
 use super::clause::ClauseId;
 use super::run::{End, Team};
+use super::scene::{Layer, Scene};
 use super::setup::{Clause, Extra, Profile, Rule, Senses, Setup, Starts};
 use super::stage::Look;
 use super::survey::Survey;
 use crate::fault::Fault;
-use crate::kit::{Course, MOST_ROBOTS, Pace, course, paths};
+use crate::kit::{Course, Drive, MOST_ROBOTS, Pace, course, paths};
 use crate::layout::Layout;
 
 /// Of two robots, one may not hear the other at all speeds.
@@ -94,6 +96,8 @@ struct KitTeam {
     /// Drives since the last new path.
     idle: usize,
     reach: Reach,
+    /// The last one.
+    drive: Option<Drive>,
 }
 
 /// The team of `setup`, each robot at its start.
@@ -110,7 +114,7 @@ fn start(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Fault> {
     let course = course(rule, &setup.layout, &cells, pace(setup), setup.seed);
     let course = course.map_err(fault)?;
     let (due, reach) = (paths(&setup.layout, setup.base), rule.reach);
-    Ok(Box::new(KitTeam { course, due, cells, idle: 0, reach }))
+    Ok(Box::new(KitTeam { course, due, cells, idle: 0, reach, drive: None }))
 }
 
 /// How far the robots of `setup` hear each other.
@@ -173,6 +177,7 @@ impl Team for KitTeam {
         let Some(drive) = self.course.drive() else {
             return Err(if self.is_driven() { End::Explored } else { End::Exhausted });
         };
+        self.drive = Some(drive);
         self.idle = if drive.is_new { 0 } else { self.idle + 1 };
         let mut steps = vec![Step::Stay; self.cells.len()];
         let across = Step::ALL.into_iter().find(|&step| drive.from.after(step) == drive.to);
@@ -218,6 +223,16 @@ impl Team for KitTeam {
 
     fn milliseconds(&self) -> Option<u64> {
         Some(self.course.clock())
+    }
+
+    fn layers(&self) -> Vec<Layer> {
+        shown::layers()
+    }
+
+    fn show(&self, _: &[Cell], scene: &mut Scene) {
+        if let Some(drive) = self.drive {
+            shown::show(&*self.course, drive, self.cells.len(), scene);
+        }
     }
 }
 

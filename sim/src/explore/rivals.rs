@@ -7,6 +7,7 @@ use tautline_proofs::run::Frame;
 
 use super::rule::RuleId;
 use super::run::{End, Team};
+use super::scene::{Joins, Layer, Shape, Zone};
 use super::setup::{Profile, Rule, Senses, Setup, Starts};
 use super::stage::Look;
 use crate::fault::Fault;
@@ -146,5 +147,18 @@ impl Team for Rivals {
 
     fn area(&self, _: &Layout) -> Area {
         self.0.area()
+    }
+
+    fn layers(&self) -> Vec<Layer> {
+        const COVERED: Zone = Zone {
+            name: "E_C",
+            about: "wholly within r_cov: in contact",
+            has: |one, other| Circle::COVERED.covers(one, other),
+        };
+        vec![Layer {
+            name: "links",
+            about: "a tree of links from the base".to_owned(),
+            shape: Shape::Links(Joins::Tree, &[COVERED]),
+        }]
     }
 }

@@ -1,6 +1,7 @@
 //! The run loop. A [`Team`] sees what its robots know and makes one team move at a time; the layout answers for the edges
 //! it tries. A run goes on after a violation, so that its cost can be compared. Any team can be run, of this program or not.
 
+use std::fmt;
 use std::num::NonZeroU32;
 
 use serde::{Deserialize, Serialize};
@@ -10,6 +11,7 @@ use tautline_proofs::run::Frame;
 
 use super::clause::ClauseId;
 use super::floor::Component;
+use super::scene::{Layer, Scene};
 use super::survey::Survey;
 use crate::fault::Halt;
 use crate::layout::Layout;
@@ -74,7 +76,24 @@ pub trait Team {
     fn milliseconds(&self) -> Option<u64> {
         None
     }
+
+    /// What a page can show of the team beside its robots and the cells that they enter.
+    fn layers(&self) -> Vec<Layer> {
+        Vec::new()
+    }
+
+    /// What the last team move has changed in [`layers`](Self::layers), whose robots were in the cells `before`.
+    fn show(&self, before: &[Cell], scene: &mut Scene) {
+        let _ = (before, scene);
+    }
 }
+
+impl fmt::Debug for dyn Team + '_ {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.cells()).finish()
+    }
+}
+
 /// When a run is stopped before it ends by itself.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -214,6 +233,8 @@ pub struct TeamMove<'a> {
     pub unseen: &'a [Cell],
     /// What was broken.
     pub broken: &'a [ClauseId],
+    /// Who made it.
+    pub team: &'a dyn Team,
 }
 
 /// Sees every team move of a run, and may stop the run for good.
@@ -341,7 +362,7 @@ pub fn run(
         let step = report.steps;
         report.violations.extend(broken.iter().map(|&clause| Violation { clause, step }));
         let unseen = team.unseen();
-        watch(&TeamMove { step, before: &before, frame: &frame, unseen, broken: &broken })?;
+        watch(&TeamMove { step, before: &before, frame: &frame, unseen, broken: &broken, team })?;
         before = frame.cells;
     }
 }

@@ -1,5 +1,7 @@
 //! What stands still while a run goes on, and a run that can be made as often as it is drawn.
 
+use std::fmt;
+
 use tautline_kernel::ground::Cell;
 
 use super::clause::ClauseId;
@@ -138,5 +140,11 @@ pub trait Play {
     fn missed(&self, clause: ClauseId, chart: &Survey) -> Option<(&'static str, Vec<Cell>)> {
         let _ = (clause, chart);
         None
+    }
+}
+
+impl fmt::Debug for dyn Play + '_ {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.stage().fmt(f)
     }
 }

@@ -79,6 +79,11 @@ impl Radio {
         Self { options, dice: Dice(generate::source(seed, *b"frontier")), anchors, rim, signal }
     }
 
+    /// How far messages are heard, if not everywhere.
+    pub(super) const fn range_cells(&self) -> Option<u16> {
+        self.options.range_cells
+    }
+
     /// Whether positions have an error.
     pub(super) const fn is_noisy(&self) -> bool {
         self.signal.is_some()

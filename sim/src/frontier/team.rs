@@ -37,6 +37,12 @@ pub struct Explorers {
     entered: Chart,
     /// Whether a robot has noted in the last team move what is not so.
     is_wrong: bool,
+    /// Whether there was a team move.
+    has_begun: bool,
+    /// How much each robot knew before the last team move.
+    known: Vec<usize>,
+    /// Who has told something in the last team move, and who has not heard it.
+    told_now: Vec<(usize, Vec<usize>)>,
 }
 
 impl Explorers {
@@ -70,6 +76,9 @@ impl Explorers {
             idle: 0,
             entered,
             is_wrong: false,
+            has_begun: false,
+            known: vec![0; starts.len()],
+            told_now: Vec::new(),
         }
     }
 
@@ -83,6 +92,27 @@ impl Explorers {
         self.is_wrong
     }
 
+    /// How far messages are heard, if not everywhere.
+    pub const fn range_cells(&self) -> Option<u16> {
+        self.radio.range_cells()
+    }
+
+    /// By robot what it has learned in the last team move, and in the first one with what it knew before: where all start.
+    pub fn news(&self) -> impl Iterator<Item = (usize, &[(Cell, Status)])> {
+        let news = |(robot, &known): (usize, &usize)| (robot, self.robots[robot].map().learned(known));
+        self.known.iter().enumerate().map(news)
+    }
+
+    /// The cells that robots have claimed.
+    pub fn claims(&self) -> impl Iterator<Item = Cell> {
+        self.robots.iter().filter_map(Robot::aim)
+    }
+
+    /// Who has told something in the last team move, and who has not heard the last of it.
+    pub fn told(&self) -> impl Iterator<Item = (usize, &Vec<usize>)> {
+        self.told_now.iter().map(|(from, deaf)| (*from, deaf))
+    }
+
     /// Makes a team move.
     ///
     /// # Errors
@@ -91,6 +121,11 @@ impl Explorers {
         let robots = self.robots.len();
         let mut moves = Moves::none(robots);
         self.is_wrong = false;
+        self.told_now.clear();
+        if self.has_begun {
+            self.known = self.robots.iter().map(|robot| robot.map().len()).collect();
+        }
+        self.has_begun = true;
         let before: usize = self.robots.iter().map(|robot| robot.map().len()).sum();
         let (mut does_any, mut know_all) = (false, true);
         let mut entering: Vec<Option<(Cell, Place)>> = vec![None; robots];
@@ -200,13 +235,16 @@ impl Explorers {
 
     /// `from` tells what it knows, where it is and what it has claimed.
     fn tell(&mut self, from: usize) {
-        let Self { rule, robots, cells, told, heard, radio, fixes, .. } = self;
+        let Self { rule, robots, cells, told, heard, radio, fixes, told_now, .. } = self;
+        let mut deaf = Vec::new();
         let says = Other { cell: robots[from].at(), place: fixes[from], aim: robots[from].aim() };
         let knows = robots[from].map().len();
         for to in (0..robots.len()).filter(|&to| to != from) {
             let is_heard = radio.is_heard(cells[from], cells[to]);
             if is_heard {
                 told[to][from] = says;
+            } else {
+                deaf.push(to);
             }
             // Whoever does not share says only once what is new.
             if is_heard || !rule.has(Condition::Share) {
@@ -217,6 +255,9 @@ impl Explorers {
                 }
             }
         }
+        // Of what it tells in one team move, the last has everything.
+        told_now.retain(|&(teller, _)| teller != from);
+        told_now.push((from, deaf));
     }
 }
 

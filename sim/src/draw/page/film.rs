@@ -1,0 +1,236 @@
+//! What stands on a page beside the lines of its data: the ground, who takes part, the layers and what they mean.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+use tautline_kernel::ground::{Area, Cell, Edge, Side};
+
+use super::line::place_of;
+use crate::aside::HTML_HEAD;
+use crate::draw::svg::escaped;
+use crate::explore::{Layer, Shape, Value, Zone};
+use crate::layout::Layout;
+
+const TEMPLATE: &str = include_str!("page.html");
+const SCRIPT: &str = include_str!("page.js");
+
+/// What stands still on a page.
+#[derive(Serialize)]
+pub(in crate::draw) struct Film {
+    pub(in crate::draw) title: String,
+    /// What came of the run, in a sentence.
+    pub(in crate::draw) outcome: String,
+    /// What a line is.
+    pub(in crate::draw) unit: &'static str,
+    /// What a robot is called.
+    pub(in crate::draw) robot: &'static str,
+    pub(in crate::draw) robots: usize,
+    /// Whether the first robot is a base.
+    pub(in crate::draw) has_base: bool,
+    /// Whether the last robot leads.
+    pub(in crate::draw) has_leader: bool,
+    /// The number of the first line, which is what there was before.
+    pub(in crate::draw) first: u32,
+    /// How many there are in the whole run.
+    pub(in crate::draw) of: u32,
+    pub(in crate::draw) share: Share,
+    pub(in crate::draw) board: Board,
+    pub(in crate::draw) layers: Vec<Shown>,
+    /// By clause that is broken, its sentence.
+    pub(in crate::draw) clauses: BTreeMap<&'static str, &'static str>,
+    /// What the end breaks.
+    pub(in crate::draw) ends: Vec<Ended>,
+    /// What is worth a jump, by the number of its line.
+    pub(in crate::draw) notes: Vec<(u32, String)>,
+    pub(in crate::draw) again: Again,
+}
+
+/// What the curve under the board counts.
+#[derive(Serialize)]
+pub(in crate::draw) struct Share {
+    pub(in crate::draw) of: u32,
+    pub(in crate::draw) what: &'static str,
+}
+
+/// A clause that the end of the run breaks, and the cells that are missed.
+#[derive(Serialize)]
+pub(in crate::draw) struct Ended {
+    pub(in crate::draw) clause: &'static str,
+    pub(in crate::draw) what: &'static str,
+    pub(in crate::draw) cells: Vec<u32>,
+}
+
+/// How to make another run.
+#[derive(Serialize)]
+pub(in crate::draw) struct Again {
+    /// The command, in which LAYOUT is a file; none where the run was not made by one.
+    pub(in crate::draw) command: Option<String>,
+    /// The drawing of the layout, if it is small.
+    pub(in crate::draw) layout: Option<String>,
+    /// The seed of the run, if the command cannot give it: it takes one only where sensors are missed by chance.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(in crate::draw) seed: Option<u64>,
+}
+
+/// Where the run takes place.
+#[derive(Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub(in crate::draw) enum Board {
+    /// In cells.
+    Cells {
+        columns: usize,
+        rows: usize,
+        /// The column and the row of the first cell.
+        first: [i16; 2],
+        /// Row by row, a letter for so many cells: `a`, one letter more if they are blocked, two for a wall in the east and
+        /// four for one in the south.
+        ground: Vec<String>,
+        /// Where the robots are before the first line.
+        start: Vec<u32>,
+        /// Whether robots see which sides of their cells are open.
+        sees: bool,
+    },
+    /// In an area; lengths in millimetres.
+    Metres {
+        size: [u32; 2],
+        /// West, north, east and south.
+        obstacles: Vec<[u32; 4]>,
+        nodes: Vec<[u32; 2]>,
+        /// Who waits for robots.
+        callers: Vec<[u32; 2]>,
+        /// What one of them is called.
+        caller: &'static str,
+        /// Robot by robot where it was: milliseconds, east and south, each as what it is more than before.
+        paths: Vec<String>,
+    },
+}
+
+impl Board {
+    /// The cells of `area`, with the robots in these cells; whether they see the sides of their cells.
+    pub(super) fn cells(layout: &Layout, area: Area, start: &[Cell], sees: bool) -> Self {
+        let letter = |cell: Cell| {
+            let wall = |side: Side, bit: u8| u8::from(layout.has_wall(Edge::new(cell, side))) * bit;
+            let code = u8::from(!layout.is_free(cell)) + wall(Side::East, 2) + wall(Side::South, 4);
+            char::from(b'a' + code)
+        };
+        let row = |y: i16| {
+            let letters: Vec<char> =
+                (area.first().x..=area.last().x).map(|x| letter(Cell::new(x, y))).collect();
+            letters.chunk_by(|one, other| one == other).fold(String::new(), |row, alike| match alike.len() {
+                1 => format!("{row}{}", alike[0]),
+                many => format!("{row}{many}{}", alike[0]),
+            })
+        };
+        Self::Cells {
+            columns: area.width(),
+            rows: area.height(),
+            first: [area.first().x, area.first().y],
+            ground: (area.first().y..=area.last().y).map(row).collect(),
+            start: start.iter().filter_map(|&cell| place_of(area, cell)).collect(),
+            sees,
+        }
+    }
+}
+
+/// A layer as the page reads it.
+#[derive(Serialize)]
+pub(in crate::draw) struct Shown {
+    name: &'static str,
+    about: String,
+    shape: &'static str,
+    /// Whether each robot has values of its own.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    each: bool,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    values: Vec<Named>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    zones: Vec<Reach>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    joins: Option<&'static str>,
+    /// The radius of a circle, in thousandths.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    radius: Option<u32>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    kinds: Vec<Told>,
+}
+
+#[derive(Serialize)]
+struct Named {
+    name: &'static str,
+    ink: &'static str,
+}
+
+#[derive(Serialize)]
+struct Told {
+    name: &'static str,
+    heard: bool,
+}
+
+#[derive(Serialize)]
+struct Reach {
+    name: &'static str,
+    about: &'static str,
+    cells: Vec<[i16; 2]>,
+}
+
+/// A layer as the page reads it.
+pub(in crate::draw) fn layer(layer: &Layer) -> Shown {
+    let plain = Shown {
+        name: layer.name,
+        about: layer.about.clone(),
+        shape: "",
+        each: false,
+        values: Vec::new(),
+        zones: Vec::new(),
+        joins: None,
+        radius: None,
+        kinds: Vec::new(),
+    };
+    let named = |values: &[Value]| {
+        values.iter().map(|value| Named { name: value.name, ink: value.ink.word() }).collect::<Vec<_>>()
+    };
+    let reach = |zone: &Zone| Reach { name: zone.name, about: zone.about, cells: zone.offsets() };
+    match layer.shape {
+        Shape::Cells(values) => Shown { shape: "cells", values: named(values), ..plain },
+        Shape::Sides(values) => Shown { shape: "sides", values: named(values), ..plain },
+        Shape::CellsOfEach(values) => Shown { shape: "cells", each: true, values: named(values), ..plain },
+        Shape::SidesOfEach(values) => Shown { shape: "sides", each: true, values: named(values), ..plain },
+        Shape::Links(joins, zones) => {
+            let zones = zones.iter().map(reach).collect();
+            Shown { shape: "links", zones, joins: Some(joins.word()), ..plain }
+        }
+        Shape::Circle(radius) => Shown { shape: "circle", radius: Some(radius), ..plain },
+        Shape::Messages(kinds) => {
+            let kinds = kinds.iter().map(|kind| Told { name: kind.name, heard: kind.is_heard }).collect();
+            Shown { shape: "messages", kinds, ..plain }
+        }
+        Shape::Reports => Shown { shape: "reports", ..plain },
+    }
+}
+
+/// A page up to where its lines begin.
+pub(in crate::draw) fn head(title: &str) -> String {
+    let (head, _) = halves();
+    HTML_HEAD.to_owned() + &head.replace("{{title}}", &escaped(title))
+}
+
+/// A page from the end of its lines on.
+pub(in crate::draw) fn foot(film: &Film) -> String {
+    let (_, foot) = halves();
+    foot.replace("{{film}}", &json(film)).replace("{{script}}\n", SCRIPT)
+}
+
+fn halves() -> (&'static str, &'static str) {
+    TEMPLATE.split_once("{{lines}}\n").unwrap_or((TEMPLATE, ""))
+}
+
+/// What is told at the end of a line beside its words.
+pub(in crate::draw) fn told(told: &impl Serialize) -> String {
+    format!("\t{}", json(told))
+}
+
+/// JSON that can stand in a script: nothing in it ends one.
+fn json(value: &impl Serialize) -> String {
+    // Strings and numbers are always JSON.
+    serde_json::to_string(value).unwrap_or_default().replace('<', "\\u003c")
+}

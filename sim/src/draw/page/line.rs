@@ -1,0 +1,291 @@
+//! A line of a page's data: what a team move changes, in words of a few letters. `docs/formats.md` says what they mean.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use tautline_kernel::chain::Kind;
+use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
+use tautline_proofs::run::Frame;
+
+use crate::explore::{Change, Hearers, Look, Place, Scene, Survey, TeamMove};
+
+/// What is known of the sides and layers so far, and so need not be said again.
+#[derive(Debug)]
+pub(super) struct Line {
+    area: Area,
+    /// Whether a side can be crossed, by its place.
+    known: BTreeMap<u32, bool>,
+    /// What a place of a layer has: by layer, robot and place.
+    values: BTreeMap<(usize, Option<usize>, u32), u8>,
+    milliseconds: u64,
+    is_new: bool,
+}
+
+impl Line {
+    pub(super) const fn new(area: Area) -> Self {
+        Self { area, known: BTreeMap::new(), values: BTreeMap::new(), milliseconds: 0, is_new: true }
+    }
+
+    /// Whether no team move was told yet.
+    pub(super) const fn is_new(&self) -> bool {
+        self.is_new
+    }
+
+    /// Takes in a team move that is not shown.
+    pub(super) fn take(&mut self, made: &TeamMove<'_>, scene: &Scene) {
+        self.changes(scene);
+        self.milliseconds = made.team.milliseconds().unwrap_or(0);
+        self.is_new = false;
+        for (robot, &from) in made.before.iter().enumerate() {
+            if let Step::Cross(side) = made.frame.steps[robot]
+                && let Some(place) = self.side(Edge::new(from, side))
+            {
+                self.known.insert(place, !made.frame.blocked[robot]);
+            }
+        }
+    }
+
+    /// All that there is before the first team move that is shown, the one after `step`.
+    pub(super) fn before(&self, chart: &Survey, step: u32) -> String {
+        let cells = self.area.cells();
+        let explored = cells.filter(|&cell| chart.step(cell).is_some_and(|explored| explored <= step));
+        let explored: Vec<u32> = explored.filter_map(|cell| place_of(self.area, cell)).collect();
+        let mut text = format!("- +{} {}", self.milliseconds, word("x", &explored));
+        for is_open in [true, false] {
+            let sides = self.known.iter().filter(|&(_, &open)| open == is_open).map(|(&place, _)| place);
+            text += &known(is_open, &sides.collect::<Vec<_>>());
+        }
+        let mut puts = Puts::default();
+        for (&(layer, robot, place), &value) in self.values.iter().filter(|&(_, &value)| value > 0) {
+            puts.add(layer, robot, place, value);
+        }
+        text + &puts.text()
+    }
+
+    /// A team move.
+    pub(super) fn of(&mut self, look: Look, made: &TeamMove<'_>, scene: &Scene) -> String {
+        let mut text = steps(made.frame);
+        if made.frame.kind == Kind::Backtrack {
+            text += " b";
+        }
+        if let Some(milliseconds) = made.team.milliseconds() {
+            let later = milliseconds - self.milliseconds.min(milliseconds);
+            // Writing to a string cannot fail.
+            let _ = write!(text, " +{later}");
+            self.milliseconds = milliseconds;
+        }
+        let mut unseen: Vec<u32> = made.unseen.iter().filter_map(|&cell| place_of(self.area, cell)).collect();
+        unseen.sort_unstable();
+        text += &listed("u", &unseen);
+        if let Look::Linked { is_lost } = look {
+            let pairs = made.before.windows(2).zip(made.frame.cells.windows(2)).enumerate();
+            let lost = pairs.filter(|(_, (from, to))| is_lost(from, to)).map(|(robot, _)| robot as u32);
+            let lost: Vec<u32> = lost.collect();
+            text += &listed("l", &lost);
+        }
+        self.is_new = false;
+        text + &self.changes(scene)
+    }
+
+    /// What a scene changes, in words; and is from now on known.
+    fn changes(&mut self, scene: &Scene) -> String {
+        let (mut text, mut said) = (String::new(), String::new());
+        let (mut puts, mut sides) = (Puts::default(), [Vec::new(), Vec::new()]);
+        for change in scene.changes() {
+            match change {
+                Change::Clear { layer } => {
+                    let of_layer = (*layer, None, 0)..(layer + 1, None, 0);
+                    let gone: Vec<_> = self.values.range(of_layer).map(|(&key, _)| key).collect();
+                    if !gone.is_empty() {
+                        let _ = write!(text, " c{layer}");
+                    }
+                    for key in gone {
+                        self.values.remove(&key);
+                    }
+                }
+                &Change::Put { layer, robot, place, value } => {
+                    let place = match place {
+                        Place::Cell(cell) => place_of(self.area, cell),
+                        Place::Side(edge) => self.side(edge),
+                    };
+                    let Some(place) = place else { continue };
+                    let before = match value {
+                        0 => self.values.remove(&(layer, robot, place)),
+                        _ => self.values.insert((layer, robot, place), value),
+                    };
+                    if before.unwrap_or(0) != value {
+                        puts.add(layer, robot, place, value);
+                    }
+                }
+                &Change::Know { side, is_open } => {
+                    if let Some(place) = self.side(side)
+                        && self.known.insert(place, is_open) != Some(is_open)
+                    {
+                        sides[usize::from(is_open)].push(place);
+                    }
+                }
+                Change::Say { layer, kind, from, to } => {
+                    let to = match to {
+                        Hearers::All => "*".to_owned(),
+                        Hearers::These(robots) => {
+                            robots.iter().map(usize::to_string).collect::<Vec<_>>().join(",")
+                        }
+                    };
+                    let _ = write!(said, " s{layer}.{kind}:{from}>{to}");
+                }
+                Change::Take { robot, milliseconds } => {
+                    let _ = write!(said, " d{robot}:{milliseconds}");
+                }
+            }
+        }
+        let [mut blocked, mut open] = sides;
+        blocked.sort_unstable();
+        open.sort_unstable();
+        text + &known(true, &open) + &known(false, &blocked) + &puts.text() + &said
+    }
+
+    /// The number of a side between two cells: that of the western or northern cell, twice, and one more for its southern
+    /// side; none on the rim.
+    fn side(&self, edge: Edge) -> Option<u32> {
+        let axis = match edge.side() {
+            Side::East | Side::West => 0,
+            Side::South | Side::North => 1,
+        };
+        place_of(self.area, edge.cell()).map(|place| 2 * place + axis)
+    }
+}
+
+/// The number of a cell, row by row.
+pub(super) fn place_of(area: Area, cell: Cell) -> Option<u32> {
+    area.locate(cell).map(|(column, row)| (row * area.width() + column) as u32)
+}
+
+/// What robots tried: a letter each, small where a wall was met; a number before a point is how many robots in a row stay.
+pub(super) fn steps(frame: &Frame) -> String {
+    let (mut text, mut resting) = (String::new(), 0);
+    for (step, blocked) in frame.steps.iter().zip(&frame.blocked).map(Some).chain([None]).map(Option::unzip) {
+        let letter = match step {
+            Some(Step::Stay) => {
+                resting += 1;
+                continue;
+            }
+            Some(Step::Cross(side)) => Some(match side {
+                Side::East => 'E',
+                Side::South => 'S',
+                Side::West => 'W',
+                Side::North => 'N',
+            }),
+            None => None,
+        };
+        match resting {
+            0 => {}
+            1 => text.push('.'),
+            many => {
+                let _ = write!(text, "{many}.");
+            }
+        }
+        resting = 0;
+        text.extend(
+            letter.map(|letter| if blocked == Some(&true) { letter.to_ascii_lowercase() } else { letter }),
+        );
+    }
+    text
+}
+
+/// A word with numbers in rising order: the first, then each as what it is more than the one before, to the base 36.
+pub(in crate::draw) fn word(name: &str, numbers: &[u32]) -> String {
+    let (mut text, mut last) = (format!("{name}:"), 0);
+    for (place, &number) in numbers.iter().enumerate() {
+        if place > 0 {
+            text.push(',');
+        }
+        base36(&mut text, i64::from(number - last));
+        last = number;
+    }
+    text
+}
+
+/// A number to the base 36.
+pub(in crate::draw) fn base36(text: &mut String, number: i64) {
+    if number < 0 {
+        text.push('-');
+    }
+    let (mut left, mut digits) = (number.unsigned_abs(), Vec::new());
+    loop {
+        digits.extend(char::from_digit((left % 36) as u32, 36));
+        left /= 36;
+        if left == 0 {
+            break;
+        }
+    }
+    text.extend(digits.iter().rev());
+}
+
+/// A word with a blank before it; nothing if there are no numbers.
+fn listed(name: &str, numbers: &[u32]) -> String {
+    if numbers.is_empty() { String::new() } else { format!(" {}", word(name, numbers)) }
+}
+
+fn known(is_open: bool, places: &[u32]) -> String {
+    listed(if is_open { "o" } else { "w" }, places)
+}
+
+/// Values that places get, those of one layer, value and robot together.
+#[derive(Default)]
+struct Puts(BTreeMap<(usize, u8, u32), Vec<Option<usize>>>);
+
+impl Puts {
+    fn add(&mut self, layer: usize, robot: Option<usize>, place: u32, value: u8) {
+        self.0.entry((layer, value, place)).or_default().push(robot);
+    }
+
+    fn text(self) -> String {
+        // Robots that get the same in the same places are told of together.
+        let mut groups = BTreeMap::<(usize, u8, Vec<Option<usize>>), Vec<u32>>::new();
+        for ((layer, value, place), mut robots) in self.0 {
+            robots.sort_unstable();
+            groups.entry((layer, value, robots)).or_default().push(place);
+        }
+        let mut text = String::new();
+        for ((layer, value, robots), places) in groups {
+            let robots: Vec<String> = robots.iter().flatten().map(usize::to_string).collect();
+            let of = if robots.is_empty() { String::new() } else { format!("@{}", robots.join(",")) };
+            text += &listed(&format!("p{layer}.{value}{of}"), &places);
+        }
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn robots_that_stay_are_counted() {
+        let [east, north] = [Side::East, Side::North].map(Step::Cross);
+        let frame = |steps: &[Step]| Frame {
+            kind: Kind::Advance,
+            blocked: steps.iter().map(|&step| step == north).collect(),
+            steps: steps.to_vec(),
+            cells: vec![Cell::new(0, 0); steps.len()],
+        };
+        let stay = Step::Stay;
+        for (steps_made, text) in [
+            (&[stay, stay, east, stay, north][..], "2.E.n"),
+            (&[stay; 12][..], "12."),
+            (&[east, stay][..], "E."),
+            (&[][..], ""),
+        ] {
+            assert_eq!(steps(&frame(steps_made)), text);
+        }
+    }
+
+    #[test]
+    fn numbers_are_written_as_what_they_are_more() {
+        assert_eq!(word("x", &[0, 35, 36, 1332]), "x:0,z,1,100");
+        assert_eq!(word("x", &[]), "x:");
+        let mut text = String::new();
+        base36(&mut text, -37);
+        assert_eq!(text, "-11");
+    }
+}

@@ -1,0 +1,62 @@
+//! What a page shows of robots that explore cells: each robot's repository, the cells that they have claimed, how far they
+//! are heard, and who misses what they say.
+
+use tautline_kernel::frontier::Status;
+
+use crate::explore::{Change, Hearers, Ink, Kind, Layer, Place, Scene, Shape, Value};
+use crate::frontier::Explorers;
+
+/// The places among the layers.
+const REPOSITORIES: usize = 0;
+const CLAIMS: usize = 1;
+const MESSAGES: usize = 2;
+
+const KINDS: &[Kind] = &[Kind::heard("tells what it knows"), Kind::lost("is not heard")];
+
+const EXPLORED: u8 = 1;
+const OBSTACLE: u8 = 2;
+
+pub(super) fn layers(robots: &Explorers) -> Vec<Layer> {
+    const REPOSITORY: &[Value] =
+        &[Value { name: "explored", ink: Ink::Open }, Value { name: "obstacle", ink: Ink::Wall }];
+    const CLAIM: &[Value] = &[Value { name: "claimed", ink: Ink::Aim }];
+    let layer = |name, about: &str, shape| Layer { name, about: about.to_owned(), shape };
+    let mut layers = vec![
+        layer("repositories", "what the followed robot has stored of cells", Shape::CellsOfEach(REPOSITORY)),
+        layer("claims", "the unexplored cells that robots are going to", Shape::Cells(CLAIM)),
+        layer("messages", "what robots tell, and who does not hear it", Shape::Messages(KINDS)),
+    ];
+    if let Some(range_cells) = robots.range_cells() {
+        let about = format!("{range_cells} cells: so far a robot is heard");
+        layers.push(Layer {
+            name: "radio circle",
+            about,
+            shape: Shape::Circle(u32::from(range_cells) * 1000),
+        });
+    }
+    layers
+}
+
+/// What robots have learned, claimed and told in the last team move.
+pub(super) fn show(robots: &Explorers, scene: &mut Scene) {
+    for (robot, news) in robots.news() {
+        for &(cell, status) in news {
+            let value = match status {
+                Status::Unexplored => 0,
+                Status::Explored => EXPLORED,
+                Status::Obstacle => OBSTACLE,
+            };
+            scene.put_for(REPOSITORIES, robot, Place::Cell(cell), value);
+        }
+    }
+    scene.note(Change::Clear { layer: CLAIMS });
+    for cell in robots.claims() {
+        scene.put(CLAIMS, Place::Cell(cell), 1);
+    }
+    for (from, deaf) in robots.told() {
+        scene.say(MESSAGES, 0, from, Hearers::All);
+        if !deaf.is_empty() {
+            scene.say(MESSAGES, 1, from, Hearers::These(deaf.clone()));
+        }
+    }
+}

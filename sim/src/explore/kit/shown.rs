@@ -1,0 +1,69 @@
+//! What a page shows of robots that keep in touch: the radio circle, who hears whom at all speeds, each robot's record, and
+//! who asks before it drives.
+
+use tautline_kernel::kit::in_reach;
+
+use crate::explore::{Change, Hearers, Ink, Joins, Kind, Layer, Place, Scene, Shape, Value, Zone};
+use crate::kit::{Course, Drive, PATH_MILLIMETRES, REACH_MILLIMETRES};
+
+/// The places of the records and of the messages among the layers.
+const RECORDS: usize = 2;
+const MESSAGES: usize = 3;
+
+/// The places of the kinds of messages.
+const ASKS: usize = 0;
+const ANSWERS: usize = 1;
+
+const KINDS: &[Kind] =
+    &[Kind::heard("asks for the covered sides"), Kind::heard("answers with the covered sides")];
+
+const DRIVEN: u8 = 1;
+const BLOCKED: u8 = 2;
+
+pub(super) fn layers() -> Vec<Layer> {
+    const REACH: Zone = Zone { name: "in reach", about: "at most 10 m from node to node", has: in_reach };
+    const RECORD: &[Value] =
+        &[Value { name: "driven", ink: Ink::Open }, Value { name: "seen blocked", ink: Ink::Wall }];
+    let layer = |name, about: &str, shape| Layer { name, about: about.to_owned(), shape };
+    vec![
+        layer(
+            "links",
+            "robots that hear each other at the nodes where they go",
+            Shape::Links(Joins::All, &[REACH]),
+        ),
+        layer(
+            "radio circle",
+            "10 m: so far a robot is heard",
+            Shape::Circle((REACH_MILLIMETRES * 1000 / PATH_MILLIMETRES) as u32),
+        ),
+        layer(
+            "records",
+            "what the followed robot has driven and seen blocked itself",
+            Shape::SidesOfEach(RECORD),
+        ),
+        layer(
+            "messages",
+            "a robot that stands asks the others for their records, and drives when they have answered",
+            Shape::Messages(KINDS),
+        ),
+    ]
+}
+
+/// What the team has learned when a drive begins, and how long the drive takes.
+pub(super) fn show(course: &dyn Course, drive: Drive, robots: usize, scene: &mut Scene) {
+    for robot in 0..robots {
+        for (side, is_open) in course.recorded(robot) {
+            scene.note(Change::Know { side, is_open });
+            scene.put_for(RECORDS, robot, Place::Side(side), if is_open { DRIVEN } else { BLOCKED });
+        }
+    }
+    let others: Vec<usize> = (0..robots).filter(|&other| other != drive.robot).collect();
+    if !others.is_empty() {
+        scene.say(MESSAGES, ASKS, drive.robot, Hearers::All);
+    }
+    for other in others {
+        scene.say(MESSAGES, ANSWERS, other, Hearers::These(vec![drive.robot]));
+    }
+    let [begin, end] = drive.time;
+    scene.note(Change::Take { robot: drive.robot, milliseconds: end - begin });
+}

@@ -1,0 +1,240 @@
+//! What a team shows beside its robots and the cells that they enter: named layers, and what each team move changes in them.
+//! A page draws a layer by its shape; it knows no scheme.
+
+use tautline_kernel::ground::{Cell, Edge};
+
+/// What can be shown or hidden on a page.
+#[derive(Clone, Debug)]
+pub struct Layer {
+    /// What it is called in the legend.
+    pub name: &'static str,
+    /// What it means, in one line.
+    pub about: String,
+    /// How it is drawn.
+    pub shape: Shape,
+}
+
+/// How a layer is drawn.
+#[derive(Clone, Copy, Debug)]
+pub enum Shape {
+    /// Cells that [`Scene::put`] gives one of these values, for the whole team.
+    Cells(&'static [Value]),
+    /// Sides of cells, likewise.
+    Sides(&'static [Value]),
+    /// Cells as each robot has them for itself: the page shows those of the robot that it follows.
+    CellsOfEach(&'static [Value]),
+    /// Sides of cells, likewise.
+    SidesOfEach(&'static [Value]),
+    /// Links of robots, drawn by the first of these zones, the narrowest first, in which one has the other.
+    Links(Joins, &'static [Zone]),
+    /// A circle round each robot, its radius in thousandths of a cell's side.
+    Circle(u32),
+    /// What [`Scene::say`] tells, by its kind.
+    Messages(&'static [Kind]),
+    /// After each team move every robot tells all others what it tried and what came of it.
+    Reports,
+}
+
+/// What a cell or a side can be in a layer.
+#[derive(Clone, Copy, Debug)]
+pub struct Value {
+    /// What it is called in the legend.
+    pub name: &'static str,
+    /// How it is painted.
+    pub ink: Ink,
+}
+
+/// A kind of message.
+#[derive(Clone, Copy, Debug)]
+pub struct Kind {
+    /// What it is called.
+    pub name: &'static str,
+    /// Whether it comes to those whom it is for.
+    pub is_heard: bool,
+}
+
+impl Kind {
+    /// A kind of message that is heard.
+    pub const fn heard(name: &'static str) -> Self {
+        Self { name, is_heard: true }
+    }
+
+    /// A kind of message that is not.
+    pub const fn lost(name: &'static str) -> Self {
+        Self { name, is_heard: false }
+    }
+}
+
+/// How something is painted. No two inks differ by their colours alone.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Ink {
+    /// Free to go through.
+    Open,
+    /// In the way.
+    Wall,
+    /// In the way by agreement.
+    Barred,
+    /// Where somebody is going.
+    Aim,
+    /// About to be closed.
+    Closing,
+    /// Done with.
+    Closed,
+    /// Done with, and shut.
+    Sealed,
+}
+
+impl Ink {
+    /// Its name on a page.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Open => "open",
+            Self::Wall => "wall",
+            Self::Barred => "barred",
+            Self::Aim => "aim",
+            Self::Closing => "closing",
+            Self::Closed => "closed",
+            Self::Sealed => "sealed",
+        }
+    }
+}
+
+/// Which robots have links.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Joins {
+    /// Each with the next, in the order of their numbers.
+    Next,
+    /// A tree from the first robot on, by the fewest links, of those that are in a zone.
+    Tree,
+    /// All that are in a zone.
+    All,
+}
+
+impl Joins {
+    /// Its name on a page.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Next => "next",
+            Self::Tree => "tree",
+            Self::All => "all",
+        }
+    }
+}
+
+/// The cells round a robot in which another one is.
+#[derive(Clone, Copy, Debug)]
+pub struct Zone {
+    /// What it is called in the legend.
+    pub name: &'static str,
+    /// What it means, in one line.
+    pub about: &'static str,
+    /// Whether the zone round the first cell has the second one, which is at most [`Zone::REACH`] away in columns and rows.
+    pub has: fn(Cell, Cell) -> bool,
+}
+
+impl Zone {
+    /// How far zones reach.
+    pub const REACH: i16 = 8;
+
+    /// The columns and rows from a robot to the cells of its zone.
+    pub fn offsets(&self) -> Vec<[i16; 2]> {
+        let across = || -Self::REACH..=Self::REACH;
+        let square = across().flat_map(|y| across().map(move |x| [x, y]));
+        square.filter(|&[x, y]| (self.has)(Cell::new(0, 0), Cell::new(x, y))).collect()
+    }
+}
+
+/// A place in a layer.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Place {
+    /// A cell.
+    Cell(Cell),
+    /// A side of a cell.
+    Side(Edge),
+}
+
+/// Who hears a message.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Hearers {
+    /// All other robots.
+    All,
+    /// These.
+    These(Vec<usize>),
+}
+
+/// What a team move changes.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Change {
+    /// A layer, by its place among [`Team::layers`](super::Team::layers), is empty.
+    Clear {
+        /// The layer.
+        layer: usize,
+    },
+    /// A place has a value, by its number from 1; 0 takes it away.
+    Put {
+        /// The layer.
+        layer: usize,
+        /// For which robot, in a layer of each.
+        robot: Option<usize>,
+        /// The place.
+        place: Place,
+        /// The value.
+        value: u8,
+    },
+    /// The team knows a side without having tried it.
+    Know {
+        /// The side.
+        side: Edge,
+        /// Whether it can be crossed.
+        is_open: bool,
+    },
+    /// A robot says something.
+    Say {
+        /// The layer.
+        layer: usize,
+        /// What kind of message it is, by its place in the layer.
+        kind: usize,
+        /// Who says it.
+        from: usize,
+        /// Who hears it.
+        to: Hearers,
+    },
+    /// A robot is on its way for so many milliseconds.
+    Take {
+        /// The robot.
+        robot: usize,
+        /// How long.
+        milliseconds: u64,
+    },
+}
+
+/// What a team move changes in the layers of its team.
+#[derive(Clone, Debug, Default)]
+pub struct Scene(Vec<Change>);
+
+impl Scene {
+    /// Notes a change.
+    pub fn note(&mut self, change: Change) {
+        self.0.push(change);
+    }
+
+    /// A place of a layer of the whole team has a value.
+    pub fn put(&mut self, layer: usize, place: Place, value: u8) {
+        self.note(Change::Put { layer, robot: None, place, value });
+    }
+
+    /// A place has a value for this robot.
+    pub fn put_for(&mut self, layer: usize, robot: usize, place: Place, value: u8) {
+        self.note(Change::Put { layer, robot: Some(robot), place, value });
+    }
+
+    /// A robot says something of this kind.
+    pub fn say(&mut self, layer: usize, kind: usize, from: usize, to: Hearers) {
+        self.note(Change::Say { layer, kind, from, to });
+    }
+
+    /// The changes, in order.
+    pub fn changes(&self) -> &[Change] {
+        &self.0
+    }
+}
