@@ -22,11 +22,12 @@ use tautline_sim::draw::svg;
 use tautline_sim::explore::floor::Component;
 use tautline_sim::explore::{
     Asked, Knowledge, Limits, Milestone, OnViolation, Play, Profile, Report, RuleId, Setup, Stage, Stopped,
-    Summary, Violation, Watcher, explore, team,
+    Violation, Watcher, explore, team,
 };
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::reading::real;
+use tautline_sim::trace::Summary;
 use tautline_sim::{draw, trace};
 
 const EXAMPLES: &str = "\

@@ -316,9 +316,10 @@ impl Told<'_> {
         });
         let mut findings = broken.collect::<Result<Vec<_>, Halt>>()?;
         if !self.hunted.is_complete || findings.is_empty() {
-            let outcome = match self.hunted.is_complete {
-                true => Outcome::Expected,
-                false => Outcome::Unfinished("the hunt was ended before its bound".to_owned()),
+            let outcome = if self.hunted.is_complete {
+                Outcome::Expected
+            } else {
+                Outcome::Unfinished("the hunt was ended before its bound".to_owned())
             };
             let name = format!("every clause by {} ({rule})", scheme.name);
             findings.push(Finding { class, name, outcome, seconds: None });

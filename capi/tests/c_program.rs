@@ -56,7 +56,7 @@ fn library() -> PathBuf {
     let folder = env::current_exe().expect("a program").parent().expect("a folder").to_owned();
     let is_ours = |path: &PathBuf| {
         let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-        name.starts_with("libtautline_capi") && name.ends_with(".a")
+        name.starts_with("libtautline_capi") && path.extension().is_some_and(|end| end == "a")
     };
     let files = fs::read_dir(&folder).expect("a folder").map(|entry| entry.expect("an entry").path());
     let newest =

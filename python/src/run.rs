@@ -14,9 +14,9 @@ use tautline_sim::aside::{Aside, Foreign, Replaceable};
 use tautline_sim::counterexample::minimise::minimise;
 use tautline_sim::draw::page::Page;
 use tautline_sim::draw::{story, svg, title_of};
-use tautline_sim::explore::{ClauseId, Milestone, Play, Report, Setup, Summary, TeamMove, catalogue};
+use tautline_sim::explore::{ClauseId, Milestone, Play, Report, Setup, TeamMove, catalogue};
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::trace::{self, Recorded, Stored, Writer};
+use tautline_sim::trace::{self, Recorded, Stored, Summary, Writer};
 
 use crate::arrays::view;
 use crate::fault::{Kind, error, failed, halted, raised};

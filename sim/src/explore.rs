@@ -22,7 +22,6 @@ mod run;
 mod scene;
 mod setup;
 mod stage;
-mod summary;
 mod survey;
 mod traps;
 pub mod trees;
@@ -40,7 +39,6 @@ pub use self::run::{
 pub use self::scene::{Change, Hearers, Ink, Joins, Kind, Layer, Place, Scene, Shape, Value, Zone};
 pub use self::setup::{Clause, Extra, Judge, Profile, Rule, Senses, Setup, Start, Starts};
 pub use self::stage::{Knowledge, Look, Play, Stage};
-pub use self::summary::Summary;
 pub use self::survey::Survey;
 
 use tautline_kernel::ground::Cell;

@@ -51,7 +51,7 @@ struct Seal {
 pub(crate) struct Lines<H> {
     path: PathBuf,
     /// The lines without their ends.
-    lines: [String; 3],
+    text: [String; 3],
     header: H,
 }
 
@@ -90,7 +90,7 @@ impl<H: Header> Lines<H> {
             let what = format!("the file is damaged: its checksum is {}, its lines give {crc32}", seal.crc32);
             return Err(Fault::in_line(path, 3, third, 0..third.len(), what, H::AGAIN));
         }
-        Ok(Self { path: path.to_owned(), header, lines: [first, second, third].map(str::to_owned) })
+        Ok(Self { path: path.to_owned(), header, text: [first, second, third].map(str::to_owned) })
     }
 
     /// What is worked at.
@@ -103,17 +103,17 @@ impl<H: Header> Lines<H> {
     /// # Errors
     /// A [`Fault`] if the second line does not tell it.
     pub(crate) fn far<T: DeserializeOwned>(&self) -> Result<T, Fault> {
-        parse::<H, _>(&self.path, 2, &self.lines[1])
+        parse::<H, _>(&self.path, 2, &self.text[1])
     }
 
     /// The whole text.
     pub(crate) fn text(&self) -> String {
-        self.lines.join("\n") + "\n"
+        self.text.join("\n") + "\n"
     }
 
     /// A fault at a field of the first line.
     pub(crate) fn in_header(&self, field: &str, what: String, remedy: &str) -> Fault {
-        in_header(&self.path, &self.lines[0], field, what, remedy)
+        in_header(&self.path, &self.text[0], field, what, remedy)
     }
 
     /// Checks that it is of the work `asked` for.

@@ -13,6 +13,7 @@ mod format;
 pub mod itf;
 pub mod lines;
 mod recorded;
+mod summary;
 
 use std::path::Path;
 
@@ -26,6 +27,7 @@ use lines::Lines;
 
 pub use format::{FORMAT, StoredMove, StoredViolation, Writer};
 pub use recorded::Recorded;
+pub use summary::Summary;
 
 /// The header of a run that this program can make again.
 type Known = Header<&'static Profile, RuleId, Limits>;

@@ -94,7 +94,7 @@ fn read(page: &str) -> (Value, Vec<State>) {
                 "x" => state.explored.extend(numbers(rest)),
                 "o" | "w" => state.known.extend(numbers(rest).into_iter().map(|side| (side, kind == "o"))),
                 "c" => {
-                    state.values.retain(|&(layer, ..), _| layer != name.parse::<usize>().expect("a layer"))
+                    state.values.retain(|&(layer, ..), _| layer != name.parse::<usize>().expect("a layer"));
                 }
                 "p" => {
                     let (name, robots) = name.split_once('@').unwrap_or((name, "0"));

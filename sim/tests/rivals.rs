@@ -138,7 +138,7 @@ fn what_does_not_fit_is_refused_with_its_reason() {
         let layout = layout("open:23x23", 0);
         Setup::new(scheme(name).expect("a scheme"), rule, robots, layout, Cell::new(11, 11))
     };
-    let fault = |setup: &Setup| team(setup).err().expect("it does not fit").to_string();
+    let fault = |setup: &Setup| team(setup).expect_err("it does not fit").to_string();
     assert!(fault(&setup("full-search", RuleId::PUBLISHED, 8)).contains("7 robots cannot leave"));
     assert!(fault(&setup("full-search", RuleId::REPAIRED, 12)).contains("48828125"));
     assert!(fault(&setup("rooker-birk", RuleId::PUBLISHED, 8)).contains("four sides"));

@@ -86,7 +86,8 @@ fn wrong_plans_and_shards() {
     let (head, rest) = plan.split_once("\"program\":\"").expect("a program");
     let foreign = format!("{head}\"program\":\"{}{}", "0".repeat(64), &rest[64..]);
     let sealed = |text: &str| {
-        let lines: String = text.lines().take(2).map(|line| format!("{line}\n")).collect();
+        let lines: Vec<&str> = text.lines().take(2).collect();
+        let lines = lines.join("\n") + "\n";
         format!("{lines}{{\"crc32\":{}}}\n", crc32fast::hash(lines.as_bytes()))
     };
     fs::write(folder.join("foreign.json"), sealed(&foreign)).expect("a file");

@@ -11,7 +11,7 @@ use serde_json::{Map, Value, json};
 
 /// What values are like.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
-pub struct Shape {
+pub(crate) struct Shape {
     /// Names of the simple types that occurred.
     simple: Vec<&'static str>,
     items: Option<Box<Shape>>,
@@ -26,7 +26,7 @@ struct Object {
 
 impl Shape {
     /// Of all these values.
-    pub fn of<'a>(values: impl IntoIterator<Item = &'a Value>) -> Self {
+    pub(crate) fn of<'a>(values: impl IntoIterator<Item = &'a Value>) -> Self {
         values.into_iter().map(Self::one).reduce(Self::or).unwrap_or_default()
     }
 
@@ -107,7 +107,7 @@ impl Object {
 const RENEW: &str = "SCHEMAS_UPDATE=always cargo test --workspace schema";
 
 /// The committed schema of this name is that of these values.
-pub fn is_up_to_date(name: &str, title: &str, values: &[Value]) {
+pub(crate) fn is_up_to_date(name: &str, title: &str, values: &[Value]) {
     let mut schema = Map::new();
     schema.insert("$schema".to_owned(), json!("https://json-schema.org/draft/2020-12/schema"));
     schema.insert("title".to_owned(), json!(title));

@@ -105,7 +105,7 @@ mod tests {
     #[test]
     fn an_image_has_its_drives_and_walls_where_they_are_taken() {
         let area = |width, height| {
-            let area = Area::new(Cell::new(0, 0), Cell::new(width - 1, height - 1)).expect("an area");
+            let area = Area::new(Cell::new(0, 0), Cell::new(width - 1_i16, height - 1_i16)).expect("an area");
             TinyGrid::new(area).expect("a small map")
         };
         let starts = [Cell::new(0, 0), Cell::new(2, 0)];

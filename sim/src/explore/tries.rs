@@ -163,11 +163,16 @@ fn plans((width, height): (i16, i16)) -> Result<Vec<Plan>, Fault> {
     let cells: Vec<Cell> = (0..height).flat_map(|y| (0..width).map(move |x| Cell::new(x, y))).collect();
     let mut plans = Vec::new();
     for set in 0..(1_u32 << cells.len()) - 1 {
-        let (blocked, free): (Vec<(usize, Cell)>, Vec<(usize, Cell)>) =
-            cells.iter().copied().enumerate().partition(|(place, _)| set >> place & 1 == 1);
         let mut layout = Layout::open(width as u64, height as u64)?;
-        blocked.iter().for_each(|&(_, cell)| layout.block(cell));
-        let [blocked, free] = [blocked, free].map(|cells| cells.into_iter().map(|(_, cell)| cell).collect());
+        let (mut blocked, mut free) = (Vec::new(), Vec::new());
+        for (place, &cell) in cells.iter().enumerate() {
+            if set >> place & 1 == 1 {
+                layout.block(cell);
+                blocked.push(cell);
+            } else {
+                free.push(cell);
+            }
+        }
         let plan = Plan { layout, free, blocked };
         if plan.is_one() {
             plans.push(plan);

@@ -32,7 +32,7 @@ struct Far {
 
 struct Jobs<'a> {
     asked: &'a (dyn Asked + 'a),
-    jobs: Vec<String>,
+    all: Vec<String>,
     results: Vec<Box<RawValue>>,
 }
 
@@ -77,12 +77,12 @@ pub fn table_part<'a>(
     plan.check_shard(shard)?;
     let (first, of) = (shard as usize - 1, plan.shards as usize);
     let jobs: Vec<String> = asked.jobs()?.into_iter().skip(first).step_by(of).collect();
-    let results = far.map(|far| read::<Far>(far)).transpose()?.map_or(Vec::new(), |far| far.results);
+    let results = far.map(read::<Far>).transpose()?.map_or(Vec::new(), |far| far.results);
     if results.len() > jobs.len() {
         let what = format!("shard {shard} has {}, and kept are more", counted(jobs.len(), "job"));
         return Err(Fault::usage(what, "remove its file, and run it again").into());
     }
-    Ok(Box::new(Jobs { asked, jobs, results }))
+    Ok(Box::new(Jobs { asked, all: jobs, results }))
 }
 
 /// The results of all jobs, in their order.
@@ -106,7 +106,7 @@ pub fn merge_table(plan: &Plan, shards: &[Box<RawValue>]) -> Result<Vec<String>,
 impl Part for Jobs<'_> {
     fn step(&mut self) -> Result<bool, Halt> {
         let at_once = JOBS_AT_ONCE * rayon::current_num_threads();
-        let next = self.jobs.iter().skip(self.results.len()).take(at_once);
+        let next = self.all.iter().skip(self.results.len()).take(at_once);
         let next: Vec<&String> = next.collect();
         let measure = |job: &&String| Ok(raw(self.asked.measure(job)?)?);
         let measured = next.par_iter().map(measure).collect::<Result<Vec<_>, Halt>>()?;
@@ -119,14 +119,14 @@ impl Part for Jobs<'_> {
     }
 
     fn is_done(&self) -> bool {
-        self.results.len() == self.jobs.len()
+        self.results.len() == self.all.len()
     }
 
     fn facts(&self) -> Vec<(&'static str, Value)> {
-        vec![("jobs", json!(self.jobs.len())), ("jobs_done", json!(self.results.len()))]
+        vec![("jobs", json!(self.all.len())), ("jobs_done", json!(self.results.len()))]
     }
 
     fn words(&self) -> String {
-        format!("{} of {}", self.results.len(), counted(self.jobs.len(), "job"))
+        format!("{} of {}", self.results.len(), counted(self.all.len(), "job"))
     }
 }

@@ -5,11 +5,10 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 use tautline_kernel::ground::Cell;
 
-use super::floor::Component;
-use super::run::{Milestone, Report, Stopped, Violation};
-use super::stage::{Knowledge, Play, Stage};
+use super::StoredViolation;
+use crate::explore::floor::Component;
+use crate::explore::{Knowledge, Milestone, Play, Report, Stage, Stopped, Violation};
 use crate::layout::generate::Probability;
-use crate::trace::StoredViolation;
 
 /// The JSON of a run.
 #[derive(Serialize)]
