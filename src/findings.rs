@@ -81,7 +81,7 @@ pub(super) fn github(findings: &[Finding], summary: &str) -> String {
             }
         };
     }
-    let _ = writeln!(text, "::notice title=tautline::{}", message(summary.trim_end()));
+    let _ = writeln!(text, "::notice title=tautline::{}", message(summary.trim()));
     text
 }
 

@@ -23,7 +23,8 @@ const KNOWN_TO: &str = "
     proofs floor: ants bricks
     proofs ground: ledger chain
     proofs ants bricks chain frontier kit mrc notice position tan: ledger
-    sim tables:";
+    sim tables: shards
+    sim shards:";
 
 /// By crate and rooms: the only rooms that they may import.
 const KNOWS: &str = "

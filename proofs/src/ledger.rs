@@ -200,10 +200,17 @@ mod tests {
             clause.checks.iter().map(|check| check.rule()).collect()
         };
         let both = ["tree", "helpers"];
-        let known =
-            [&["published", "repaired", "published", "robust"][..], &both, &["mdfs", "tree", "careful"]];
+        let known = [
+            &["published", "repaired", "published", "robust"][..],
+            &both,
+            &["mdfs", "tree", "careful", "doubting-1"],
+        ];
         assert_eq!(labels("BRICKS-4"), known.concat());
-        let end = [&["published", "repaired", "robust", "published", "robust"][..], &both, &["careful"]];
+        let end = [
+            &["published", "repaired", "robust", "published", "robust"][..],
+            &both,
+            &["careful", "careful", "doubting-1", "doubting-1"],
+        ];
         assert_eq!(labels("BRICKS-6"), end.concat());
     }
 

@@ -60,7 +60,12 @@ fn what_refutes_a_clause_is_accepted_and_with_one_change_is_not() {
             assert!(judge(&changed) != Ok(Judgement::Broken), "{what} is accepted: {changed:?}");
         };
         let last = exhibit.turns.len() - 1;
-        rejects(&|changed| changed.turns.truncate(last), "a run that is cut");
+        // Of a round that is gone twice, a part is a round, too.
+        let is_round =
+            exhibit.round > 0 && exhibit.turns[last - 1].to == exhibit.turns[last - 1 - exhibit.round].to;
+        if !is_round {
+            rejects(&|changed| changed.turns.truncate(last), "a run that is cut");
+        }
         rejects(&|changed| changed.round = changed.turns.len() + 1, "a longer round than the run");
         rejects(&|changed| changed.turns[last].agent = 7, "nobody");
         rejects(&|changed| changed.turns[0].to = (9, 9), "a step out of the layout");

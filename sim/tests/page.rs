@@ -59,7 +59,7 @@ fn numbers(text: &str) -> Vec<u32> {
 /// What stands still, and what there is after each line.
 fn read(page: &str) -> (Value, Vec<State>) {
     let part = |id: &str| {
-        let begin = page.find(&format!("id=\"{id}\">")).expect("a part") + id.len() + 5;
+        let begin = page.find(&format!("id=\"{id}\">")).expect("a part") + id.len() + 6;
         &page[begin..begin + page[begin..].find("</script>").expect("its end")]
     };
     let film: Value = serde_json::from_str(part("film")).expect("JSON");
@@ -207,7 +207,10 @@ fn the_lines_of_a_page_say_what_the_run_does() {
         }
         let seconds = report.milliseconds.unwrap_or(0);
         assert!(states[states.len() - 1].milliseconds <= seconds, "{name}");
-        assert_eq!(seconds > 0, states[states.len() - 1].milliseconds > 0, "{name}");
+        // A line has the time at which a move begins: the first of each robot may all begin at once.
+        if report.steps > 4 {
+            assert_eq!(seconds > 0, states[states.len() - 1].milliseconds > 0, "{name}");
+        }
     }
     assert!(marks > 1000, "{marks}");
 }
@@ -218,6 +221,9 @@ fn a_page_of_some_team_moves_begins_with_what_there_was_before() {
         let name = format!("{} {}", setup.scheme.name, setup.rule);
         let (whole, report, _) = page(&setup, &(1..=u32::MAX));
         let (_, all) = read(&whole);
+        if report.steps < 2 {
+            continue;
+        }
         let (first, last) = (report.steps / 2 + 1, report.steps - 1);
         let (film, some) = read(&page(&setup, &(first..=last)).0);
         assert_eq!(film["first"], first - 1, "{name}");

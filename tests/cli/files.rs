@@ -244,7 +244,11 @@ fn a_page_or_picture_that_is_too_large_is_left_out_alone() {
     assert!(said.contains("a picture of more than 200 team moves"), "{said}");
     assert_eq!(names(folder), ["run.html", "run.jsonl"]);
     // Who does not hear whom takes the most room.
-    let deaf = ["explore", "open:9x9", "--scheme", "frontier", "--robots", "64", "--loss", "1"];
+    let deaf = [
+        &["explore", "open:9x9", "--scheme", "frontier", "--rule", "plain"][..],
+        &["--robots", "64", "--loss", "1"],
+    ]
+    .concat();
     let (told, said) = left_out(folder, &[&deaf[..], &["--trace", "c.jsonl", "--replay", "c.html"]].concat());
     assert!(told.contains("FRONTIER-3 is broken"), "{told}");
     assert!(said.contains("c.html: a page of more than 10 MB is left out"), "{said}");

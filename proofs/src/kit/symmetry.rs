@@ -331,7 +331,11 @@ mod tests {
             for size in [(5, 1), (3, 2)] {
                 let setting = Setting::new(rule, size).expect("a lattice");
                 let found = search(&Symmetric::new(setting), setting.starts(), Limits::NONE);
-                assert!(found.is_whole && found.broken.is_empty(), "{size:?}: {:?}", found.broken);
+                let keeps =
+                    found.broken.iter().all(|run| !matches!(run.demand, Demand::Contact | Demand::Apart));
+                assert!(found.is_whole && keeps, "{size:?}: {:?}", found.broken);
+                let is_driven = !found.broken.iter().any(|run| run.demand == Demand::Covers);
+                assert_eq!(is_driven, paths == 3, "{paths} paths, {size:?}");
             }
         }
     }
