@@ -94,7 +94,11 @@ fn wrong_plans_and_shards() {
     let old = plan.replace("\"version\":1", "\"version\":0");
     fs::write(folder.join("old.json"), sealed(&old)).expect("a file");
     fs::write(folder.join("damaged.json"), plan.replace("\"answers\":[0", "\"answers\":[1")).expect("a file");
-    let cases: [&[&str]; 17] = [
+    // How the sum is drawn depends on its digits, and it is another one for each build.
+    assert!(
+        refused(folder, &["hunt", "--plan", "damaged.json", "--shard", "1"]).contains("the file is damaged")
+    );
+    let cases: [&[&str]; 16] = [
         &["hunt", "--plan", "plan.json"],
         &["hunt", "--shards", "3"],
         &["hunt", "--plan", "new.json", "--shards", "0"],
@@ -104,7 +108,6 @@ fn wrong_plans_and_shards() {
         &["hunt", "--plan", "none.json", "--shard", "1"],
         &["hunt", "--plan", "foreign.json", "--shard", "1"],
         &["hunt", "--plan", "old.json", "--shard", "1"],
-        &["hunt", "--plan", "damaged.json", "--shard", "1"],
         &["hunt", "--plan", "table.json", "--shard", "1"],
         &["hunt", "--plan", "plan-1.json", "--shard", "1"],
         &["hunt", "--scheme", "bricks", "--plan", "new.json", "--shards", "2"],
@@ -113,8 +116,9 @@ fn wrong_plans_and_shards() {
         &["merge", "plan.json", "plan-1.json", "other-2.json"],
         &["reproduce", "--plan", "plan.json", "--shard", "1"],
     ];
+    // So is the digest of a plan, also where it is clipped.
     let digest = |said: String| {
-        let is_hash = |word: &&str| word.len() == 64 && word.bytes().all(|byte| byte.is_ascii_hexdigit());
+        let is_hash = |word: &&str| word.len() >= 16 && word.bytes().all(|byte| byte.is_ascii_hexdigit());
         let hashes: Vec<String> = said
             .split(|letter: char| !letter.is_ascii_alphanumeric())
             .filter(is_hash)
