@@ -188,7 +188,7 @@ impl Hunt {
             (path, shards),
             (of, &dealt.deal),
             (&facts, &words),
-            (self.force.force, self.format.format.plain()?),
+            (&self.force, self.format.format.plain()?),
             out,
         )
     }

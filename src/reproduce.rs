@@ -125,7 +125,7 @@ impl Wanted {
         Plan::check(shards)?;
         let (of, deal, jobs) = deal_table(self.table.about().id, asked)?;
         let words = format!("{} for {}.", counted(jobs, "job"), counted(shards, "shard"));
-        let how = (self.force.force, self.format.format);
+        let how = (&self.force, self.format.format);
         shards::plan((path, shards), (of, &deal), (&Planned { jobs }, &words), how, out)
     }
 }

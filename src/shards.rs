@@ -1,14 +1,15 @@
 //! Work dealt out to many machines: a plan, one of its shards, and `tautline merge`, which makes one of them all.
 
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use clap::{Args, value_parser};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
+use serde_json::value::RawValue;
 use tautline_sim::explore::hunt::Asked;
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::part::Part;
+use tautline_sim::part::{KEEP_EVERY, Part};
 use tautline_sim::shards::{Gap, Keeper, Of, Plan, merge_hunt, merge_table, restored};
 
 use super::findings::FormatArgs;
@@ -16,9 +17,6 @@ use super::hunt::{Found, check_folder, shown};
 use super::output::Output;
 use super::reproduce::tell;
 use super::{Exit, ForceArgs, Format, complain, interrupt, progress, whole};
-
-/// How often a shard is kept in its file.
-const KEEP_EVERY: Duration = Duration::from_secs(5);
 
 /// The most gaps that are named.
 const MOST_NAMED: usize = 20;
@@ -84,14 +82,12 @@ struct Planned<'a, F: Serialize> {
 /// [`Halt`] if it cannot be stored.
 pub(super) fn plan(
     (path, shards): (&Path, u32),
-    (of, deal): (Of, &serde_json::value::RawValue),
+    (of, deal): (Of, &RawValue),
     (facts, words): (&impl Serialize, &str),
-    (force, format): (bool, Format),
+    (force, format): (&ForceArgs, Format),
     out: &mut Output,
 ) -> Result<Exit, Halt> {
-    let replaceable = ForceArgs { force }.replaceable([]);
-    let file = Plan::store(path, of, shards, deal, &replaceable)?;
-    file.keep()?;
+    Plan::store(path, of, shards, deal, &force.replaceable([]))?.keep()?;
     match format {
         Format::Json => out.json(&Planned { plan: shown(path), shards, facts })?,
         Format::Text => out.text(format_args!("{words}\nThe plan is kept in {}.\n", shown(path)))?,
@@ -132,9 +128,8 @@ pub(super) fn run<'p>(
     shard: u32,
     format: Format,
     out: &mut Output,
-    part: impl FnOnce(Option<&serde_json::value::RawValue>) -> Result<Box<dyn Part + 'p>, Halt>,
+    part: impl FnOnce(Option<&RawValue>) -> Result<Box<dyn Part + 'p>, Halt>,
 ) -> Result<Exit, Halt> {
-    plan.check_shard(shard)?;
     let path = plan.shard_path(shard);
     let (mut keeper, far) = Keeper::open(plan, shard, &path)?;
     let mut part = part(far.as_deref()).map_err(|halt| match halt {

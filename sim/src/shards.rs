@@ -6,15 +6,6 @@ mod hunt;
 mod plan;
 mod table;
 
-use serde_json::value::RawValue;
-
 pub use self::hunt::{deal_hunt, hunt_part, merge_hunt};
 pub use self::plan::{Gap, Keeper, Of, Plan};
 pub use self::table::{deal_table, merge_table, restored, table_part};
-use crate::fault::Fault;
-
-/// `value` as JSON, as it stands in a file.
-fn written(value: &impl serde::Serialize) -> Result<Box<RawValue>, Fault> {
-    serde_json::value::to_raw_value(value)
-        .map_err(|error| Fault::usage(error, "report it: this is a bug of tautline"))
-}

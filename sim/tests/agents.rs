@@ -1,11 +1,13 @@
 //! Runs of agents on sensor floors: without missed sensors every cell that they can get to is visited and every agent
 //! knows that it is done, in random layouts and on published maps; ants and robust agents explore everything.
 
+mod common;
+
 use std::collections::BTreeSet;
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::{env, fs};
 
+use crate::common::Unwatched;
 use insta::assert_snapshot;
 use proptest::prelude::*;
 use tautline_kernel::bricks::Rule;
@@ -18,10 +20,9 @@ use tautline_sim::explore::agents::{Agents, Crew, PREMATURE, Way};
 use tautline_sim::explore::ants::ANTS;
 use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};
 use tautline_sim::explore::depth_first::{HELPERS, MDFS};
-use tautline_sim::explore::hunt::{Asked, Far, Hunted, Hunter, Shown};
+use tautline_sim::explore::hunt::{Asked, Hunted, Shown};
 use tautline_sim::explore::trees::{HELPERS_ROBUST, HELPERS_TRUSTING, TREE};
 use tautline_sim::explore::{Profile, Report, RuleId, RuleName, Setup, Stopped, explore, team};
-use tautline_sim::fault::Fault;
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::layout::{self, Generator, Layout, MAX_CELLS, Size};
 
@@ -262,19 +263,6 @@ fn no_layout_has_more_cells_than_there_are_labels_or_depths() {
     assert!(Size::new(4096, 4096).is_ok() && Size::new(4096, 4097).is_err());
 }
 
-/// Hears nothing.
-struct Deaf;
-
-impl Hunter for Deaf {
-    fn hears(&mut self, _: Far<'_>) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
-    fn is_not_kept(&mut self, _: &Fault) {}
-
-    fn is_left_out(&mut self, _: &Fault) {}
-}
-
 fn hunted(scheme: &'static Profile, rule: RuleId, (robots, max_misses): (u64, u8), side: u64) -> Hunted {
     let asked = Asked {
         scheme,
@@ -289,7 +277,7 @@ fn hunted(scheme: &'static Profile, rule: RuleId, (robots, max_misses): (u64, u8
         resume: None,
     };
     let rule = scheme.rules.iter().find(|row| row.name == rule).expect("a rule");
-    rule.hunt.expect("a hunt").hunt(&asked, &mut Deaf).expect("it can be searched")
+    rule.hunt.expect("a hunt").hunt(&asked, &mut Unwatched).expect("it can be searched")
 }
 
 #[test]

@@ -1,30 +1,14 @@
 //! Robots that go from frontier cell to frontier cell: hunts, their counterexamples as runs, and bad setups.
 
-use std::ops::ControlFlow;
+mod common;
 
+use crate::common::Unwatched;
 use tautline_kernel::ground::Cell;
 use tautline_sim::explore::frontier::FRONTIER;
-use tautline_sim::explore::hunt::{Asked, Far, Hunted, Hunter, Shown};
+use tautline_sim::explore::hunt::{Asked, Hunted, Shown};
 use tautline_sim::explore::{Misfit, RuleId, Setup, Stopped, explore};
-use tautline_sim::fault::Fault;
 use tautline_sim::frontier::Options;
 use tautline_sim::layout::{Layout, Size};
-
-struct Unwatched;
-
-impl Hunter for Unwatched {
-    fn hears(&mut self, _: Far<'_>) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
-    fn is_not_kept(&mut self, fault: &Fault) {
-        panic!("{fault}");
-    }
-
-    fn is_left_out(&mut self, fault: &Fault) {
-        panic!("{fault}");
-    }
-}
 
 fn hunted(rule: &'static str, robots: u64, (width, height): (u64, u64), max_losses: u8) -> Hunted {
     let asked = Asked {

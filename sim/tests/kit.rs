@@ -1,15 +1,17 @@
 //! Robots that keep in touch, in random layouts: the repaired team breaks nothing, drives every path and knows it; the
 //! published one does not keep its promises; and teams that cannot start say why.
 
+mod common;
+
 use std::fs;
 use std::num::NonZeroU32;
-use std::ops::ControlFlow;
 use std::path::Path;
 
+use crate::common::Unwatched;
 use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule;
 use tautline_sim::counterexample::refutation;
-use tautline_sim::explore::hunt::{Asked, Far, Hunted, Hunter, Shown};
+use tautline_sim::explore::hunt::{Asked, Hunted, Shown};
 use tautline_sim::explore::kit::{APART, CONNECTED, CONTACT, KIT};
 use tautline_sim::explore::{Report, RuleName, Setup, Stopped, explore};
 use tautline_sim::fault::Fault;
@@ -227,22 +229,6 @@ fn teams_without_room_or_contact_say_so() {
     assert!(blocked.contains("blocked") || blocked.contains("not free"), "{blocked}");
     let many = Setup { robots: 9, ..setup(RuleName::Repaired, 8, generated("open:9x9", 0), 0) };
     assert!(wrong(&many).unwrap_or_default().contains("9 robots are too many"), "{:?}", wrong(&many));
-}
-
-struct Unwatched;
-
-impl Hunter for Unwatched {
-    fn hears(&mut self, _: Far<'_>) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
-    fn is_not_kept(&mut self, fault: &Fault) {
-        panic!("{fault}");
-    }
-
-    fn is_left_out(&mut self, fault: &Fault) {
-        panic!("{fault}");
-    }
 }
 
 fn asked(rule: RuleName, robots: u64, (columns, rows): (u64, u64)) -> Asked<'static> {

@@ -151,6 +151,11 @@ impl Search {
         self.0.wave()
     }
 
+    /// Whether all layouts within the bounds are covered.
+    pub fn is_complete(&self) -> bool {
+        self.0.is_complete()
+    }
+
     /// How far it is.
     pub fn progress(&self) -> Progress<'_> {
         self.0.progress()

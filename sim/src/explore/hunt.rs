@@ -269,6 +269,22 @@ pub enum Shown {
     Told(String),
 }
 
+/// What follows from what a hunt has found: within its whole bound, or, where it was ended before, among the layouts that it
+/// had `covered` by then, if any.
+pub(super) fn outcome(found: &[Quarry], is_whole: bool, covered: Option<String>) -> String {
+    let bound = match (is_whole, covered) {
+        (true, _) => "in any layout within this bound".to_owned(),
+        (false, Some(covered)) => {
+            format!("in any layout {covered}; the hunt was ended before its bound")
+        }
+        (false, None) => "so far; the hunt was ended before it had covered any layout".to_owned(),
+    };
+    match found {
+        [] => format!("No clause is broken {bound}."),
+        _ => format!("The smallest counterexample to each clause that is broken {bound}:"),
+    }
+}
+
 /// The run of `scheme` that `found` is, in the area of its search; it stops at the violation.
 ///
 /// # Errors

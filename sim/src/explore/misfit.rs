@@ -195,6 +195,11 @@ impl From<Misfit> for Fault {
     }
 }
 
+/// The fault of choices that no search has made.
+pub(super) fn of_choices(what: impl fmt::Display) -> Fault {
+    Fault::of_field("choices", what, "hunt again: choices come from a counterexample alone")
+}
+
 impl Setup {
     /// `robots` as the number of a team of `scheme`.
     ///

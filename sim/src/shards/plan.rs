@@ -1,9 +1,8 @@
 //! Plans and the files of their shards.
 
 use std::fmt::Write;
-use std::fs::File;
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{env, fs, io};
 
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
@@ -253,29 +252,11 @@ impl<'a> Keeper<'a> {
 
 /// The SHA-256 of this program.
 fn program() -> Result<String, Fault> {
-    let read = || {
-        let mut file = File::open(std::env::current_exe()?)?;
-        let mut hash = Sha256::new();
-        io::copy(&mut file, &mut HashWriter(&mut hash))?;
-        Ok(hex(&hash.finalize()))
-    };
+    let read = || Ok(hex(&Sha256::digest(fs::read(env::current_exe()?)?)));
     read().map_err(|error: io::Error| {
         let what = format_args!("the file of this program cannot be read: {error}");
         Fault::usage(what, "run it from a file that it may read: a plan says which program made it")
     })
-}
-
-struct HashWriter<'a>(&'a mut Sha256);
-
-impl io::Write for HashWriter<'_> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.update(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
 }
 
 fn hex(bytes: &[u8]) -> String {

@@ -4,12 +4,12 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use serde_json::{Value, json};
-
-use super::{Of, Plan, written};
-use crate::fault::{Fault, Halt};
-use crate::part::Part;
-use crate::tables::{Asked, find};
 use tautline_proofs::words::counted;
+
+use super::{Of, Plan};
+use crate::fault::{Fault, Halt};
+use crate::part::{Part, written};
+use crate::tables::{Asked, find};
 
 /// Jobs for each thread that are measured before the results are kept.
 const JOBS_AT_ONCE: usize = 8;

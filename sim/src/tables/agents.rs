@@ -256,6 +256,20 @@ pub struct Outcome {
     pub(super) is_early: bool,
 }
 
+impl Outcome {
+    /// Team moves until a moment of the run, over the lower bound: its cells by its agents.
+    pub(super) fn ratio(&self, moment: Option<Moment>, agents: u16) -> Option<f64> {
+        let bound = f64::from(self.cells) / f64::from(agents);
+        moment.map(|moment| f64::from(moment.team_moves) / bound)
+    }
+
+    /// The mean of that over the runs that have such a moment.
+    pub(super) fn mean_ratio(all: &[Self], of: fn(&Self) -> Option<Moment>, agents: u16) -> Option<Estimate> {
+        let ratios = all.iter().filter_map(|outcome| outcome.ratio(of(outcome), agents));
+        Estimate::of_values(&ratios.collect::<Vec<_>>())
+    }
+}
+
 impl Table for Agents {
     type Settings = Settings;
     type Job = Job;

@@ -5,7 +5,7 @@ use rand_chacha::rand_core::Rng;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::{Cell, Edge, Side};
 
-use super::agents::{Moment, Outcome, TEAMS, Team};
+use super::agents::{Outcome, TEAMS, Team};
 use super::parameter::{Given, Parameter, Values, all_shown, put, put_all, shown};
 use super::{About, Chart, Observer, Table, point};
 use crate::columns::{Column, Columns, Width};
@@ -169,9 +169,8 @@ impl Table for Floors {
     }
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
-        let agents = |map| settings.agents.iter().map(move |&agents| (map, agents));
         let starts = |(map, agents)| (0..settings.starts).map(move |start| Job { map, agents, start });
-        Ok((0..settings.maps.len()).flat_map(agents).flat_map(starts).collect())
+        Ok(points(&settings.maps, &settings.agents).flat_map(starts).collect())
     }
 
     fn parts(&self, _: &Job) -> u64 {
@@ -203,9 +202,8 @@ impl Table for Floors {
             };
             TEAMS.into_iter().enumerate().map(line).collect::<Vec<_>>()
         };
-        let points =
-            (0..settings.maps.len()).flat_map(|map| settings.agents.iter().map(move |&agents| (map, agents)));
-        Ok(Merged { settings: settings.clone(), lines: points.flat_map(of).collect() })
+        let lines = points(&settings.maps, &settings.agents).flat_map(of).collect();
+        Ok(Merged { settings: settings.clone(), lines })
     }
 
     fn text(&self, _: &Settings, merged: &Merged) -> Result<String, Halt> {
@@ -215,18 +213,9 @@ impl Table for Floors {
 
 impl Line {
     fn of(map: String, team: Team, agents: u16, outcomes: &[Outcome]) -> Self {
-        let ratio = |outcome: &Outcome, moment: Option<Moment>| {
-            let bound = f64::from(outcome.cells) / f64::from(agents);
-            moment.map(|moment| f64::from(moment.team_moves) / bound)
-        };
-        let estimate = |of: fn(&Outcome) -> Option<Moment>| {
-            let ratios: Vec<f64> =
-                outcomes.iter().filter_map(|outcome| ratio(outcome, of(outcome))).collect();
-            Estimate::of_values(&ratios)
-        };
         let needed = |outcome: &Outcome| {
             let known = outcome.termination.filter(|_| !outcome.is_early);
-            ratio(outcome, known).map_or(0.0, |ratio| 100.0 / ratio)
+            outcome.ratio(known, agents).map_or(0.0, |ratio| 100.0 / ratio)
         };
         let count = |is: fn(&Outcome) -> bool| outcomes.iter().filter(|outcome| is(outcome)).count() as u32;
         Self {
@@ -234,13 +223,18 @@ impl Line {
             cells: outcomes.iter().map(|outcome| outcome.cells).max().unwrap_or(0),
             agents,
             team,
-            explored: estimate(|outcome| outcome.exploration),
-            known: estimate(|outcome| outcome.termination),
+            explored: Outcome::mean_ratio(outcomes, |outcome| outcome.exploration, agents),
+            known: Outcome::mean_ratio(outcomes, |outcome| outcome.termination, agents),
             early: count(|outcome| outcome.is_early),
             ended: count(|outcome| outcome.is_ended),
             needed: outcomes.iter().map(needed).collect(),
         }
     }
+}
+
+/// The numbers of the layouts, each with every number of agents.
+pub(super) fn points(maps: &[String], agents: &[u16]) -> impl Iterator<Item = (usize, u16)> {
+    (0..maps.len()).flat_map(|map| agents.iter().map(move |&agents| (map, agents)))
 }
 
 /// How likely it is that a sensor is missed.

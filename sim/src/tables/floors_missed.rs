@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use tautline_kernel::bricks::tree::Rule;
 use tautline_proofs::bricks::tree::Way;
 
-use super::agents::{Explorer, Moment, Outcome, ROBUST};
-use super::floors::{largest_part, loaded, probability, start};
+use super::agents::{Explorer, Outcome, ROBUST};
+use super::floors::{largest_part, loaded, points, probability, start};
 use super::parameter::{Given, Parameter, Values, all_shown, put, put_all, shown};
 use super::{About, Observer, Table};
 use crate::columns::{Column, Columns, Width};
@@ -174,7 +174,7 @@ impl Table for FloorsMissed {
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
         let runs = |(map, agents)| (0..settings.runs).map(move |run| Job { map, agents, run });
-        Ok(points(settings).flat_map(runs).collect())
+        Ok(points(&settings.maps, &settings.agents).flat_map(runs).collect())
     }
 
     fn parts(&self, _: &Job) -> u64 {
@@ -205,7 +205,8 @@ impl Table for FloorsMissed {
             };
             TEAMS.into_iter().enumerate().map(line).collect::<Vec<_>>()
         };
-        Ok(Merged { settings: settings.clone(), lines: points(settings).flat_map(of).collect() })
+        let lines = points(&settings.maps, &settings.agents).flat_map(of).collect();
+        Ok(Merged { settings: settings.clone(), lines })
     }
 
     fn text(&self, _: &Settings, merged: &Merged) -> Result<String, Halt> {
@@ -213,20 +214,8 @@ impl Table for FloorsMissed {
     }
 }
 
-/// The layouts with the numbers of agents.
-fn points(settings: &Settings) -> impl Iterator<Item = (usize, u16)> + '_ {
-    (0..settings.maps.len()).flat_map(|map| settings.agents.iter().map(move |&agents| (map, agents)))
-}
-
 impl Line {
     fn of(map: String, team: &'static str, agents: u16, outcomes: &[Outcome]) -> Self {
-        let estimate = |of: fn(&Outcome) -> Option<Moment>| {
-            let ratio = |outcome: &Outcome| {
-                let bound = f64::from(outcome.cells) / f64::from(agents);
-                of(outcome).map(|moment| f64::from(moment.team_moves) / bound)
-            };
-            Estimate::of_values(&outcomes.iter().filter_map(ratio).collect::<Vec<_>>())
-        };
         let share = |is: fn(&Outcome) -> bool| {
             let hits = outcomes.iter().filter(|outcome| is(outcome)).count() as u32;
             Estimate::share(hits, outcomes.len() as u32)
@@ -235,8 +224,8 @@ impl Line {
             map,
             agents,
             team,
-            explored: estimate(|outcome| outcome.exploration),
-            known: estimate(|outcome| outcome.termination),
+            explored: Outcome::mean_ratio(outcomes, |outcome| outcome.exploration, agents),
+            known: Outcome::mean_ratio(outcomes, |outcome| outcome.termination, agents),
             early: share(|outcome| outcome.is_early),
             ended: share(|outcome| outcome.is_ended),
         }

@@ -38,6 +38,8 @@ pub trait Waves<D, F> {
     fn go_to(&mut self, position: &Position<D>) -> Result<(), Unsearchable>;
     /// Searches a little further. Returns whether there is more to do, and to spend.
     fn wave(&mut self) -> bool;
+    /// Whether the whole tree is covered.
+    fn is_complete(&self) -> bool;
     /// How far it is.
     fn progress(&self) -> Progress<'_>;
     /// Where it is: enough to go on from here.
@@ -321,6 +323,10 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
         !self.is_over()
     }
 
+    fn is_complete(&self) -> bool {
+        self.lanes.is_empty()
+    }
+
     fn progress(&self) -> Progress<'_> {
         Progress {
             runs: self.count.runs,
@@ -347,7 +353,6 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
         let situations = self.game.covers().zip(0..);
         let covered = situations.filter(|(_, bit)| self.count.covered >> bit & 1 == 1);
         let counterexamples = broken.iter().filter_map(|broken| self.record(broken)).collect();
-        let complete = self.lanes.is_empty();
         Found {
             runs,
             moves,
@@ -355,7 +360,7 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
             given_up,
             covered: covered.map(|(situation, _)| situation).collect(),
             levels: self.levels.clone(),
-            complete,
+            complete: self.is_complete(),
             counterexamples,
         }
     }

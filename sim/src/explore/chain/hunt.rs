@@ -1,9 +1,9 @@
 //! The hunt of chains: all layouts, decided wall by wall as the team meets them.
 
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
-use serde_json::value::{RawValue, to_raw_value};
+use serde_json::value::RawValue;
 use serde_json::{Value, json};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::Observed;
@@ -12,14 +12,13 @@ use tautline_proofs::engine::tree::{self, Progress};
 use tautline_proofs::words::counted;
 
 use super::saved::{AGAIN, Saved};
-use crate::explore::hunt::{Asked, Bound, Deals, Dealt, Far, Hunt, Hunted, Hunter, Quarry, Shown, setup};
+use crate::explore::hunt::{
+    Asked, Bound, Deals, Dealt, Far, Hunt, Hunted, Hunter, Quarry, Shown, outcome, setup,
+};
 use crate::explore::{ClauseId, Profile, RuleId};
 use crate::fault::{Fault, Halt};
 use crate::layout::Size;
-use crate::part::Part;
-
-/// How often a hunt is kept in its file.
-const KEEP_EVERY: Duration = Duration::from_secs(5);
+use crate::part::{KEEP_EVERY, Part, written};
 
 /// Robots of a chain when nobody says how many.
 const DEFAULT_ROBOTS: u64 = 4;
@@ -91,8 +90,7 @@ impl Deals for Walls {
         let deal = search.deal(shards);
         let (left, moves) = (deal.left().to_vec(), deal.moves());
         let size = asked.size.map(|size| (size.width(), size.height()));
-        let deal = to_raw_value(&Plan { robots, max_walls, size, deal });
-        let deal = deal.map_err(|error| Fault::usage(error, "report it: this is a bug of tautline"))?;
+        let deal = written(&Plan { robots, max_walls, size, deal })?;
         Ok(Dealt { deal, left, moves })
     }
 
@@ -140,12 +138,11 @@ impl Part for Shard {
     }
 
     fn far(&self) -> Result<Box<RawValue>, Fault> {
-        to_raw_value(&self.0.position())
-            .map_err(|error| Fault::usage(error, "report it: this is a bug of tautline"))
+        written(&self.0.position())
     }
 
     fn is_done(&self) -> bool {
-        self.0.found().complete
+        self.0.is_complete()
     }
 
     fn facts(&self) -> Vec<(&'static str, Value)> {
@@ -194,14 +191,7 @@ fn hunted(bounds: &Bounds, found: &Found, quarries: Vec<Quarry>) -> Hunted {
     let Found { runs, moves, longest, levels, .. } = found;
     let max_walls = bounds.max_walls;
     let (robots, done) = (bounds.robots as u64, (levels.len() as u32).checked_sub(1));
-    let bound = match done {
-        Some(walls) if walls == max_walls => "in any layout within this bound".to_owned(),
-        Some(walls) => {
-            let walls = counted(walls, "wall");
-            format!("in any layout with at most {walls}; the hunt was ended before its bound")
-        }
-        None => "so far; the hunt was ended before it had covered any layout".to_owned(),
-    };
+    let covered = done.map(|walls| format!("with at most {}", counted(walls, "wall")));
     let (all_runs, all_moves) = (counted(*runs, "run"), counted(*moves, "team move"));
     Hunted {
         robots,
@@ -219,10 +209,7 @@ fn hunted(bounds: &Bounds, found: &Found, quarries: Vec<Quarry>) -> Hunted {
             counted(max_walls, "wall")
         ),
         through: format!("{all_runs} and {all_moves}"),
-        outcome: match quarries[..] {
-            [] => format!("No clause is broken {bound}."),
-            _ => format!("The smallest counterexample to each clause that is broken {bound}:"),
-        },
+        outcome: outcome(&quarries, done == Some(max_walls), covered),
         found: quarries,
     }
 }

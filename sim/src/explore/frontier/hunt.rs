@@ -13,7 +13,7 @@ use tautline_proofs::frontier::world::{Demand, Event, Setting};
 use tautline_proofs::words::counted;
 
 use super::{ENDS, reachable};
-use crate::explore::hunt::{Asked, Bound, Fact, Far, Hunt, Hunted, Hunter, Quarry, Shown};
+use crate::explore::hunt::{Asked, Bound, Fact, Far, Hunt, Hunted, Hunter, Quarry, Shown, outcome};
 use crate::explore::run::{Limits, OnViolation, run};
 use crate::explore::watched::{Count, watched};
 use crate::explore::{ClauseId, Setup, team};
@@ -257,16 +257,7 @@ fn told(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Ve
     let Count { states, steps, cells, is_complete } = *count;
     let (all_states, all_steps) = (counted(states, "state"), counted(steps, "step"));
     let losses = asked.max_losses.unwrap_or(0);
-    let bound = match (is_complete, cells) {
-        (true, _) => "in any layout within this bound".to_owned(),
-        (false, Some(cells)) => {
-            format!(
-                "in any layout of at most {}; the hunt was ended before its bound",
-                counted(cells, "cell")
-            )
-        }
-        (false, None) => "so far; the hunt was ended before it had covered any layout".to_owned(),
-    };
+    let covered = cells.map(|cells| format!("of at most {}", counted(cells, "cell")));
     let lost = if losses == 0 { String::new() } else { format!(", at most {losses} lost") };
     let walls = asked.max_walls.map_or_else(String::new, |walls| format!(", at most {walls} blocked"));
     Hunted {
@@ -286,10 +277,7 @@ fn told(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Ve
             counted(robots, "robot")
         ),
         through: format!("{all_states} and {all_steps}"),
-        outcome: match found[..] {
-            [] => format!("No clause is broken {bound}."),
-            _ => format!("The smallest counterexample to each clause that is broken {bound}:"),
-        },
+        outcome: outcome(&found, is_complete, covered),
         found,
     }
 }

@@ -12,6 +12,7 @@ use tautline_proofs::run::Frame;
 
 use super::{COVERS, KNOWS, reachable};
 use crate::explore::ClauseId;
+use crate::explore::misfit::of_choices;
 use crate::explore::run::{End, Team};
 use crate::explore::setup::Setup;
 use crate::explore::survey::Survey;
@@ -24,12 +25,8 @@ pub(super) fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Faul
         1 => begin::<1>(setup, rule),
         2 => begin::<2>(setup, rule),
         3 => begin::<3>(setup, rule),
-        robots => Err(misfit(format!("{robots} robots make no choices"))),
+        robots => Err(of_choices(format_args!("{robots} robots make no choices"))),
     }
-}
-
-fn misfit(what: String) -> Fault {
-    Fault::of_field("choices", what, "hunt again: choices come from a counterexample alone")
 }
 
 fn begin<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Fault> {
@@ -39,16 +36,16 @@ fn begin<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Box<dyn T
     let blank = TinyMap::new(layout.size().area());
     let cells = <[Cell; ROBOTS]>::try_from(starts.as_slice());
     let (Some(setting), Some(mut given), Ok(cells)) = (setting, blank, cells) else {
-        return Err(misfit("the layout is too large for choices".to_owned()));
+        return Err(of_choices("the layout is too large for choices"));
     };
     layout.cells().filter(|&cell| !layout.is_free(cell)).for_each(|cell| given.block(cell));
     let Some((&[max_losses, max_wrong], choices)) = setup.choices.split_first_chunk() else {
-        return Err(misfit("the choices do not say how much may go wrong".to_owned()));
+        return Err(of_choices("the choices do not say how much may go wrong"));
     };
     let (max_losses, max_wrong) = (max_losses as u8, max_wrong as u8);
     let setting = Setting { given: Some(given), max_losses, max_wrong, ..setting };
     let Some(world) = setting.start(cells) else {
-        return Err(misfit("the layout is too large for choices".to_owned()));
+        return Err(of_choices("the layout is too large for choices"));
     };
     let due = reachable(layout, &starts);
     let scripted = Scripted {

@@ -12,7 +12,7 @@ use tautline_proofs::kit::world::{Demand, Setting, Speeds, Starts};
 use tautline_proofs::words::counted;
 
 use super::EQUAL;
-use crate::explore::hunt::{Asked, Bound, Fact, Hunt, Hunted, Hunter, Quarry, Shown};
+use crate::explore::hunt::{Asked, Bound, Fact, Hunt, Hunted, Hunter, Quarry, Shown, outcome};
 use crate::explore::run::{Limits, OnViolation};
 use crate::explore::watched::{Count, watched};
 use crate::explore::{ClauseId, Setup};
@@ -252,14 +252,7 @@ fn sizes([columns, rows]: [usize; 2], walls: usize, drives: usize) -> Vec<Fact> 
 fn told(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Vec<Quarry>) -> Hunted {
     let Count { states, steps, cells, is_complete } = *count;
     let (all_states, all_steps) = (counted(states, "state"), counted(steps, "step"));
-    let bound = match (is_complete, cells) {
-        (true, _) => "in any layout within this bound".to_owned(),
-        (false, Some(nodes)) => {
-            let nodes = counted(nodes, "node");
-            format!("in any layout of at most {nodes}; the hunt was ended before its bound")
-        }
-        (false, None) => "so far; the hunt was ended before it had covered any layout".to_owned(),
-    };
+    let covered = cells.map(|nodes| format!("of at most {}", counted(nodes, "node")));
     let walls =
         asked.max_walls.map_or_else(String::new, |walls| format!(", at most {}", counted(walls, "wall")));
     Hunted {
@@ -277,10 +270,7 @@ fn told(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Ve
             counted(robots, "robot")
         ),
         through: format!("{all_states} and {all_steps}"),
-        outcome: match found[..] {
-            [] => format!("No clause is broken {bound}."),
-            _ => format!("The smallest counterexample to each clause that is broken {bound}:"),
-        },
+        outcome: outcome(&found, is_complete, covered),
         found,
     }
 }

@@ -10,6 +10,7 @@ use tautline_proofs::run::Frame;
 
 use super::{COVERS, EQUAL, MOVES, WHOLE, nodes};
 use crate::explore::ClauseId;
+use crate::explore::misfit::of_choices;
 use crate::explore::run::{End, Team};
 use crate::explore::setup::Setup;
 use crate::explore::survey::Survey;
@@ -36,12 +37,8 @@ pub(super) fn start(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Fault> {
         1 => begin::<1>(setup, rule),
         2 => begin::<2>(setup, rule),
         3 => begin::<3>(setup, rule),
-        robots => Err(misfit(format!("{robots} robots make no choices"))),
+        robots => Err(of_choices(format_args!("{robots} robots make no choices"))),
     }
-}
-
-fn misfit(what: String) -> Fault {
-    Fault::of_field("choices", what, "hunt again: choices come from a counterexample alone")
 }
 
 fn begin<const ROBOTS: usize>(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Fault> {
@@ -51,7 +48,7 @@ fn begin<const ROBOTS: usize>(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>,
     let blank = TinyGrid::new(layout.size().area());
     let cells = <[Cell; ROBOTS]>::try_from(starts.as_slice());
     let (Some(setting), Some(mut given), Ok(cells)) = (setting, blank, cells) else {
-        return Err(misfit("the layout is too large for choices".to_owned()));
+        return Err(of_choices("the layout is too large for choices"));
     };
     for edge in setting.area.edges().filter(|&edge| !layout.is_open(edge)) {
         given.put_edge(EdgeMark::Wall, edge);
@@ -59,11 +56,11 @@ fn begin<const ROBOTS: usize>(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>,
     let (speeds, choices) = match setup.choices.split_first() {
         Some((&ANY, choices)) => (Speeds::Any, choices),
         Some((&EQUALLY, choices)) => (Speeds::Equal, choices),
-        Some(_) | None => return Err(misfit("the choices do not say how fast robots drive".to_owned())),
+        Some(_) | None => return Err(of_choices("the choices do not say how fast robots drive")),
     };
     let setting = Setting { given: Some(given), speeds, ..setting };
     let Some(world) = setting.start(cells) else {
-        return Err(misfit("the robots cannot start so".to_owned()));
+        return Err(of_choices("the robots cannot start so"));
     };
     let due = paths(layout, setup.base);
     let choices = choices.to_vec();

@@ -1,0 +1,23 @@
+//! What the tests of several schemes need.
+
+use std::ops::ControlFlow;
+
+use tautline_sim::explore::hunt::{Far, Hunter};
+use tautline_sim::fault::Fault;
+
+/// Nobody watches; the hunts of these tests keep no file.
+pub(crate) struct Unwatched;
+
+impl Hunter for Unwatched {
+    fn hears(&mut self, _: Far<'_>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn is_not_kept(&mut self, fault: &Fault) {
+        panic!("{fault}");
+    }
+
+    fn is_left_out(&mut self, fault: &Fault) {
+        panic!("{fault}");
+    }
+}
