@@ -28,10 +28,14 @@ Check CHAIN_10.
 Print Assumptions CHAIN_10.
 Check CHAIN_13_step.
 Print Assumptions CHAIN_13_step.
-Check Hold.hold_keeps_contact.
-Print Assumptions Hold.hold_keeps_contact.
+Check Hold.CHAIN_19.
+Print Assumptions Hold.CHAIN_19.
 Check Hold.hold_keeps_coverage.
 Print Assumptions Hold.hold_keeps_coverage.
+Check Hold.admitted_is_held.
+Print Assumptions Hold.admitted_is_held.
+Check Hold.held_is_repaired.
+Print Assumptions Hold.held_is_repaired.
 Check Marking.BRICKS_2_marking.
 Print Assumptions Marking.BRICKS_2_marking.
 Check Notice.NOTICE_1.

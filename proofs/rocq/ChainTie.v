@@ -114,6 +114,7 @@ Definition agree (r : rule) (ahead : list N) (behind entry : N) : bool :=
 Lemma relation_agrees :
   agree PUBLISHED ahead_PUBLISHED behind_PUBLISHED entry_PUBLISHED
   && agree REPAIRED ahead_REPAIRED behind_REPAIRED entry_REPAIRED
+  && agree REEL ahead_REEL behind_REEL entry_REEL
   && agree without_SafeAhead ahead_without_SafeAhead behind_without_SafeAhead entry_without_SafeAhead
   && agree without_CoveredBehind ahead_without_CoveredBehind behind_without_CoveredBehind entry_without_CoveredBehind
   && agree without_UnsureAhead ahead_without_UnsureAhead behind_without_UnsureAhead entry_without_UnsureAhead
@@ -162,7 +163,7 @@ Proof.
   destruct (every_question_is_in_the_table N base wall st i L R Li) as [W _]; exact W.
 Qed.
 
-(** Every answer in the table is that of the definitions: of circles, steps and edges; of the relation, by seven
+(** Every answer in the table is that of the definitions: of circles, steps and edges; of the relation, by eight
     rules; of messages; of walks. *)
 Theorem chain_answers_agree :
   (agree_covers SAFE covers_SAFE = true /\ agree_covers COVERED covers_COVERED = true)
@@ -170,6 +171,7 @@ Theorem chain_answers_agree :
       /\ map reverse all_steps = map (fun k => nth k all_steps Stay) back)
   /\ (agree PUBLISHED ahead_PUBLISHED behind_PUBLISHED entry_PUBLISHED
       && agree REPAIRED ahead_REPAIRED behind_REPAIRED entry_REPAIRED
+      && agree REEL ahead_REEL behind_REEL entry_REEL
       && agree without_SafeAhead ahead_without_SafeAhead behind_without_SafeAhead entry_without_SafeAhead
       && agree without_CoveredBehind ahead_without_CoveredBehind behind_without_CoveredBehind
         entry_without_CoveredBehind

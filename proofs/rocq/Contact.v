@@ -24,7 +24,8 @@ Proof.
   assert (covers COVERED (to own) (to ahead) = true) as T
     by (rewrite covers_sym; eapply covers_mono; [|exact S]; unfold SAFE, COVERED; lia).
   destruct E as [-> | ->], E' as [-> | ->]; auto.
-  - destruct (is_sure ahead) eqn:Q; [rewrite K; auto | cbn in U; now rewrite covers_sym].
+  - destruct (is_sure ahead) eqn:Q; [rewrite K; auto|].
+    rewrite orb_true_r in U; cbn in U; now rewrite covers_sym.
   - destruct B as [-> | B]; auto.
 Qed.
 

@@ -1,13 +1,13 @@
-(** Contact whichever robots do not go, and in whatever order they go: what follows when the exception of
-    UnsureAhead is dropped, so that P'_i is always in E_C of P_{i+1}.
+(** CHAIN-19: contact whichever robots do not go, and in whatever order they go, by the condition Hold: P'_i is
+    always in E_C of P_{i+1}.
 
     A robot that the message of a move does not reach, that breaks down, that meets a wall where there was none,
     or that is slow, is where it was while others have gone on. Here the world picks in every team move any set
     of robots that go, in an advance and in a take-back alike; no layout is needed, since a wall is one reason
     among others. When a move is only taken back in part, what lay before it in the history is forgotten. The
-    rule is no condition of the kernel: its two conditions are, by their circles, compared in ChainTie.v. *)
+    kernel's answers by the rule with Hold are compared in ChainTie.v. *)
 From Coq Require Import ZArith QArith Lia Bool List Arith.
-From Tautline Require Import Lattice Rule Team Plane.
+From Tautline Require Import Lattice Rule Team Contact Plane.
 Import ListNotations.
 Local Open Scope nat_scope.
 
@@ -15,17 +15,17 @@ Local Open Scope nat_scope.
 Definition close (p q p' q' : cell) : Prop :=
   covers COVERED p p' = true /\ covers COVERED p q' = true /\ covers COVERED q p' = true /\ covers COVERED q q' = true.
 
-(** What the conditions ask of two neighbours: SafeAhead; P'_i in E_C of P_{i+1}, always; CoveredBehind, the
-    null move excepted. *)
+(** What the rule with Hold asks of two neighbours; of who stays where it is no CoveredBehind, as of the leader's
+    null move. *)
 Definition admits_hold (own ahead : move) : bool :=
-  covers SAFE (to ahead) (to own)
-  && covers COVERED (from ahead) (to own)
-  && (cell_eqb (to ahead) (from ahead) || covers COVERED (from own) (to ahead)).
+  admits_ahead REEL own ahead
+  && (cell_eqb (to ahead) (from ahead) || admits_behind REEL (to ahead) (from own)).
 
 Lemma pair_hold : forall own ahead, covers COVERED (from own) (from ahead) = true -> admits_hold own ahead = true ->
   close (from own) (to own) (from ahead) (to ahead).
 Proof.
-  intros own ahead C A; unfold admits_hold in A; rewrite !andb_true_iff, orb_true_iff in A; destruct A as [[S U] B].
+  intros own ahead C A; unfold admits_hold, admits_ahead, admits_behind in A; cbn in A.
+  rewrite !andb_true_iff, orb_true_iff in A; destruct A as [[S U] B].
   repeat split; auto.
   - destruct B as [B|B]; [apply cell_eqb_spec in B; now rewrite B | exact B].
   - now rewrite covers_sym.
@@ -118,9 +118,9 @@ Section Team.
   Qed.
 End Team.
 
-(** Under HOLD neighbours are in E_C of each other at every moment of every team move, whichever robots have
+(** Under Hold neighbours are in E_C of each other at every moment of every team move, whichever robots have
     gone by then and in whatever order, and whichever never go: after a plan and after a take-back. *)
-Theorem hold_keeps_contact : forall N base h q gone, holds_on N base h -> tries N h q ->
+Theorem CHAIN_19 : forall N base h q gone, holds_on N base h -> tries N h q ->
   forall i, S i < N -> covers COVERED (partly gone (places h) q i) (partly gone (places h) q (S i)) = true.
 Proof.
   intros N base h q gone H T i L.
@@ -150,4 +150,31 @@ Proof.
   exists {| from := (0, 0)%Z; does := Cross East; known_open := true |},
          {| from := (0, -2)%Z; does := Cross South; known_open := true |}.
   repeat split; vm_compute; reflexivity.
+Qed.
+
+(** What the rule with Hold admits of a whole team is admitted here, and by the repaired rule; so CHAIN_1 and
+    CHAIN_2 speak of its runs, too. *)
+Lemma hold_admits_less : forall own ahead, admits_ahead REEL own ahead = true -> admits_ahead REPAIRED own ahead = true.
+Proof.
+  intros own ahead A; unfold admits_ahead in *; cbn in *.
+  apply andb_true_iff in A; destruct A as [S U]; rewrite S, U; now rewrite orb_true_r.
+Qed.
+
+Theorem admitted_is_held : forall N base st pl, admitted N REEL base st pl = true ->
+  admitted_hold N (pos st) pl.
+Proof.
+  intros N base st pl A i L; unfold admits_hold; apply andb_true_iff; split.
+  - exact (admitted_ahead N REEL base st pl i A L).
+  - apply orb_true_iff; destruct (admitted_behind N REEL base st pl i A L) as [E|E]; [left | right; exact E].
+    apply cell_eqb_spec; exact E.
+Qed.
+
+Theorem held_is_repaired : forall N base wall st, reachable N REEL base wall st -> reachable N REPAIRED base wall st.
+Proof.
+  intros N base wall st [past R]; exists past; induction R as [st A|past st pl st' R IH A K|past st pl rest st' R IH E K].
+  - now apply run_start.
+  - eapply run_advance; [exact IH| |exact K].
+    unfold admitted in *; rewrite !andb_true_iff in *; destruct A as [[[B A] S] D]; repeat split; auto.
+    rewrite every_spec in *; intros i L; now apply hold_admits_less, A.
+  - eapply run_backtrack; eauto.
 Qed.

@@ -1,5 +1,5 @@
-(** Runs of the kernel's own planner, in generated/Runs.v, with walls, backtracks and unfolding among them, are
-    runs of Team.v.
+(** Runs of the kernel's own planners, in generated/Runs.v, with walls, backtracks and unfolding among them, are
+    runs of Team.v: of the repaired rule, and of the reel.
 
     A run is given by its walls and by the bytes that the robots sent. Each byte is decoded; each advance must
     be admitted, each robot that says that it met a wall must have one in its way, and no other; each backtrack
@@ -32,7 +32,7 @@ Definition says_so (n : nat) (walls : list edge) (s : listed) (l : list (step * 
     (map (fun i => negb (arrives (stands walls) (team_of (places s) i) (fst (nth (pred i) l (Stay, Arrived)))))
          (seq 1 (pred n))).
 
-Fixpoint replayed (n : nat) (base : cell) (walls : list edge) (s : listed) (sent : list N) : option listed :=
+Fixpoint replayed (rl : rule) (n : nat) (base : cell) (walls : list edge) (s : listed) (sent : list N) : option listed :=
   match sent with
   | [] => Some s
   | number :: sent =>
@@ -42,8 +42,8 @@ Fixpoint replayed (n : nat) (base : cell) (walls : list edge) (s : listed) (sent
           match team_move_of l with
           | None => None
           | Some m =>
-              match next n REPAIRED base walls s m with
-              | Some t => if says_so n walls s l then replayed n base walls t sent else None
+              match next n rl base walls s m with
+              | Some t => if says_so n walls s l then replayed rl n base walls t sent else None
               | None => None
               end
           end
@@ -53,25 +53,27 @@ Fixpoint replayed (n : nat) (base : cell) (walls : list edge) (s : listed) (sent
 Definition run_of_kernel : Type := nat * cell * list edge * list N * list cell.
 
 (** Where the definitions have the robots at the end of a run, and what they have of it. *)
-Definition end_of (r : run_of_kernel) : option listed :=
-  let '(n, base, walls, sent, _) := r in replayed n base walls (list_start n base) sent.
+Definition end_of (rl : rule) (r : run_of_kernel) : option listed :=
+  let '(n, base, walls, sent, _) := r in replayed rl n base walls (list_start n base) sent.
 
-Definition is_run (r : run_of_kernel) : bool :=
+Definition is_run (rl : rule) (r : run_of_kernel) : bool :=
   let '(_, _, _, _, last) := r in
-  match end_of r with Some s => list_eqb cell_eqb (places s) last | None => false end.
+  match end_of rl r with Some s => list_eqb cell_eqb (places s) last | None => false end.
 
-Lemma replayed_reachable : forall n base walls sent s t, reachable n REPAIRED base (stands walls) (state_of s) ->
-  replayed n base walls s sent = Some t -> reachable n REPAIRED base (stands walls) (state_of t).
+Lemma replayed_reachable : forall rl n base walls sent s t, reachable n rl base (stands walls) (state_of s) ->
+  replayed rl n base walls s sent = Some t -> reachable n rl base (stands walls) (state_of t).
 Proof.
-  intros n base walls sent; induction sent as [|number sent IH]; intros s t R E; cbn [replayed] in E;
+  intros rl n base walls sent; induction sent as [|number sent IH]; intros s t R E; cbn [replayed] in E;
     [now injection E as <-|].
   destruct (decoded _) as [l|]; [|discriminate]. destruct (team_move_of l) as [m|]; [|discriminate].
-  destruct (next n REPAIRED base walls s m) as [u|] eqn:X; [|discriminate]. destruct (says_so n walls s l);
+  destruct (next n rl base walls s m) as [u|] eqn:X; [|discriminate]. destruct (says_so n walls s l);
     [|discriminate].
   eapply IH; [|exact E]. eapply next_reachable; eauto.
 Qed.
 
-Lemma all_are_runs : forallb is_run runs = true.
+Definition runs_of_kernel : list (rule * list run_of_kernel) := [(REPAIRED, runs_REPAIRED); (REEL, runs_REEL)].
+
+Lemma all_are_runs : forallb (fun rs => forallb (is_run (fst rs)) (snd rs)) runs_of_kernel = true.
 Proof. vm_compute; reflexivity. Qed.
 
 Lemma list_eqb_cells : forall a b, list_eqb cell_eqb a b = true -> a = b.
@@ -82,11 +84,13 @@ Qed.
 
 (** Every run of the kernel ends in a state that can be reached by the relation, with the robots where the
     kernel has them. *)
-Theorem kernel_runs_are_runs : forall n base walls sent last, In (n, base, walls, sent, last) runs ->
-  exists st, reachable n REPAIRED base (stands walls) st /\ forall i, pos st i = nth i last (0, 0)%Z.
+Theorem kernel_runs_are_runs : forall rl rs n base walls sent last, In (rl, rs) runs_of_kernel ->
+  In (n, base, walls, sent, last) rs ->
+  exists st, reachable n rl base (stands walls) st /\ forall i, pos st i = nth i last (0, 0)%Z.
 Proof.
-  intros n base walls sent last I; pose proof all_are_runs as A; rewrite forallb_forall in A; specialize (A _ I).
-  unfold is_run in A; destruct (end_of _) as [s|] eqn:E; [|discriminate]; apply list_eqb_cells in A.
+  intros rl rs n base walls sent last I J; pose proof all_are_runs as A; rewrite forallb_forall in A;
+    specialize (A _ I); cbn [fst snd] in A; rewrite forallb_forall in A; specialize (A _ J).
+  unfold is_run in A; destruct (end_of rl _) as [s|] eqn:E; [|discriminate]; apply list_eqb_cells in A.
   exists (state_of s); split.
   - unfold end_of in E; eapply replayed_reachable; [|exact E]. eexists; apply run_start, alike_start.
   - intros i; cbn; unfold team_of; now rewrite A.

@@ -20,18 +20,22 @@ Record rule := {
   (** No follower enters a cell that two others occupy now, the base excepted; nor does the leader. *)
   full_for_follower : bool;
   full_for_leader : bool;
+  (** P'_i is in E_C of P_{i+1} also where the robot ahead is sure to arrive. *)
+  hold : bool;
 }.
 
-Definition REPAIRED : rule := Build_rule true true true true true true.
-Definition PUBLISHED : rule := Build_rule true true true false false false.
+Definition REPAIRED : rule := Build_rule true true true true true true false.
+Definition PUBLISHED : rule := Build_rule true true true false false false false.
+(** The repaired rule and Hold. *)
+Definition REEL : rule := Build_rule true true true true true true true.
 
 (** The repaired rule with one condition taken out. *)
-Definition without_SafeAhead := Build_rule false true true true true true.
-Definition without_CoveredBehind := Build_rule true false true true true true.
-Definition without_Distinct := Build_rule true true false true true true.
-Definition without_UnsureAhead := Build_rule true true true false true true.
-Definition without_FullForFollower := Build_rule true true true true false true.
-Definition without_FullForLeader := Build_rule true true true true true false.
+Definition without_SafeAhead := Build_rule false true true true true true false.
+Definition without_CoveredBehind := Build_rule true false true true true true false.
+Definition without_Distinct := Build_rule true true false true true true false.
+Definition without_UnsureAhead := Build_rule true true true false true true false.
+Definition without_FullForFollower := Build_rule true true true true false true false.
+Definition without_FullForLeader := Build_rule true true true true true false false.
 
 Inductive role := Leader | Follower.
 
@@ -48,8 +52,8 @@ Definition is_sure (m : move) : bool := match does m with Stay => true | Cross _
 (** Whether R_i may plan [own] while R_{i+1} plans [ahead]. *)
 Definition admits_ahead (r : rule) (own ahead : move) : bool :=
   let safe := negb (safe_ahead r) || covers SAFE (to ahead) (to own) in
-  let unsure := unsure_ahead r && negb (is_sure ahead) in
-  safe && (negb unsure || covers COVERED (from ahead) (to own)).
+  let doubts := hold r || unsure_ahead r && negb (is_sure ahead) in
+  safe && (negb doubts || covers COVERED (from ahead) (to own)).
 
 (** Whether a robot may plan to be at [c] while the robot behind it is at [behind]. *)
 Definition admits_behind (r : rule) (c behind : cell) : bool :=

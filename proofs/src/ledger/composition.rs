@@ -83,7 +83,7 @@ mod tests {
         let named = |name| Theorem::named(name).map(|theorem| (theorem.clause, theorem.part));
         assert_eq!(named("Leases.MRC_1"), Some(("MRC-1".to_owned(), None)));
         assert_eq!(named("CHAIN_13_step"), Some(("CHAIN-13".to_owned(), Some("step".to_owned()))));
-        for other in ["published_breaks_CHAIN_1", "hold_keeps_contact", "CHAIN_x", "_1", "CHAIN_"] {
+        for other in ["published_breaks_CHAIN_1", "hold_keeps_coverage", "CHAIN_x", "_1", "CHAIN_"] {
             assert_eq!(named(other), None, "{other}");
         }
     }

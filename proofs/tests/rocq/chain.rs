@@ -16,7 +16,7 @@ fn rules() -> Vec<(String, Rule)> {
     use Condition::{CoveredBehind, FullForFollower, FullForLeader, SafeAhead, UnsureAhead};
     let mutants = [SafeAhead, CoveredBehind, UnsureAhead, FullForFollower, FullForLeader]
         .map(|condition| (format!("without_{condition:?}"), Rule::REPAIRED.without(condition)));
-    let ours = [("PUBLISHED", Rule::PUBLISHED), ("REPAIRED", Rule::REPAIRED)];
+    let ours = [("PUBLISHED", Rule::PUBLISHED), ("REPAIRED", Rule::REPAIRED), ("REEL", Rule::REEL)];
     ours.map(|(name, rule)| (name.to_owned(), rule)).into_iter().chain(mutants).collect()
 }
 

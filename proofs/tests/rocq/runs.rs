@@ -26,18 +26,27 @@ struct Met {
     unfolding: usize,
 }
 
-/// Of each run: how many robots, the base, the walls, what the robots sent in each team move (R_2 in the lowest byte), and where
-/// they are at the end.
+/// Of each rule's runs: how many robots, the base, the walls, what the robots sent in each team move (R_2 in the lowest byte), and
+/// where they are at the end.
 pub(super) fn terms() -> String {
-    let (mut draw, mut met) = (Draw(2011), Met::default());
-    let runs: Vec<String> = (0..15).map(|number| run(2 + number % (MOST - 1), &mut draw, &mut met)).collect();
+    let (repaired, met) = runs("REPAIRED", Rule::REPAIRED);
     let Met { backtracks, blocked, unfolding } = met;
     assert!(backtracks > 100 && blocked > 100 && unfolding > 10, "{backtracks} {blocked} {unfolding}");
-    let kind = "list (nat * (Z * Z) * list ((Z * Z) * bool) * list N * list (Z * Z))";
-    definition("runs", kind, &list(runs))
+    let (reel, met) = runs("REEL", Rule::REEL);
+    let Met { backtracks, blocked, .. } = met;
+    assert!(backtracks > 10 && blocked > 100, "{backtracks} {blocked}");
+    repaired + &reel
 }
 
-fn run(robots: usize, draw: &mut Draw, met: &mut Met) -> String {
+fn runs(name: &str, rule: Rule) -> (String, Met) {
+    let (mut draw, mut met) = (Draw(2011), Met::default());
+    let runs: Vec<String> =
+        (0..15).map(|number| run(rule, 2 + number % (MOST - 1), &mut draw, &mut met)).collect();
+    let kind = "list (nat * (Z * Z) * list ((Z * Z) * bool) * list N * list (Z * Z))";
+    (definition(&format!("runs_{name}"), kind, &list(runs)), met)
+}
+
+fn run(rule: Rule, robots: usize, draw: &mut Draw, met: &mut Met) -> String {
     let whole = Area::new(Cell::new(0, 0), Cell::new(10, 10)).expect("an area");
     let area = area(whole, BASE, robots).expect("the base is inside");
     let share = 1 + draw.below(3);
@@ -49,7 +58,7 @@ fn run(robots: usize, draw: &mut Draw, met: &mut Met) -> String {
     let walls = walls.map(|edge| format!("({},{})", cell(edge.cell()), edge.side() == Side::East));
 
     let grid = MediumGrid::new(area).expect("it is small");
-    let mut chain = Chain::<_, MOST>::new(Rule::REPAIRED, robots, BASE, grid).expect("a chain");
+    let mut chain = Chain::<_, MOST>::new(rule, robots, BASE, grid).expect("a chain");
     let (mut log, mut sent) = (Vec::new(), Vec::new());
     while let Intent::Go(plan) = chain.plan(&log).expect("its own log") {
         met.unfolding += usize::from(chain.is_unfolding());
