@@ -16,7 +16,7 @@ pub(crate) enum Colour {
 }
 
 /// The fields of a request that have a flag of the same name.
-const FIELDS: [&str; 24] = [
+const FIELDS: [&str; 28] = [
     "robots",
     "base",
     "size",
@@ -36,6 +36,10 @@ const FIELDS: [&str; 24] = [
     "range",
     "loss",
     "noise-db",
+    "power-dbm",
+    "exponent",
+    "speed",
+    "spread",
     "threshold",
     "rule",
     "plan",

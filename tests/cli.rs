@@ -14,6 +14,8 @@ use tempfile::TempDir;
 mod files;
 #[path = "cli/frontier.rs"]
 mod frontier;
+#[path = "cli/kit.rs"]
+mod kit;
 #[path = "cli/locate.rs"]
 mod locate;
 #[path = "cli/shards.rs"]

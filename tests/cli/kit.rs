@@ -1,0 +1,58 @@
+//! Robots that keep in touch on the command line: a hunt with its files and exit codes, and what is refused.
+
+use std::fs;
+
+use super::{folder, json, names, printed, ran, refused};
+
+#[test]
+fn a_hunt_stores_what_breaks_and_each_file_breaks_it_again() {
+    let folder = folder();
+    let folder = folder.path();
+    fs::create_dir(folder.join("found")).expect("a folder");
+    let hunt = ["hunt", "--scheme", "kit", "--robots", "2", "--size", "3x1"];
+    let published = json(folder, &[&hunt[..], &["--rule", "published", "--out", "found"]].concat(), 1);
+    assert_eq!((&published["verdict"], &published["complete"]), (&"refuted".into(), &true.into()));
+    let found = published["counterexamples"].as_array().expect("a list");
+    let collision = found.iter().find(|quarry| quarry["clause"] == "KIT-3").expect("robots meet");
+    assert_eq!(collision["steps"], 3);
+    let stored = || found.iter().filter_map(|quarry| Some((quarry, quarry["file"].as_str()?)));
+    for (quarry, file) in stored() {
+        let replayed = printed(folder, &["replay", file], 1);
+        assert!(replayed.contains(quarry["clause"].as_str().expect("an id")), "{replayed}");
+    }
+    assert!(stored().count() >= 4);
+    assert_eq!(names(&folder.join("found")).len(), stored().count());
+
+    let repaired = json(folder, &hunt, 0);
+    assert_eq!((&repaired["verdict"], &repaired["complete"]), (&"holds".into(), &true.into()));
+    let stopped = ran(folder, &[&hunt[..], &["--budget", "10"]].concat());
+    assert_eq!(stopped.status.code(), Some(3));
+}
+
+#[test]
+fn what_no_robots_that_keep_in_touch_can_be_told_is_refused() {
+    let folder = folder();
+    let folder = folder.path();
+    let wrong: [(&[&str], &str); 12] = [
+        (&["explore", "open:1x1", "--robots", "2"], "--robots a number up to 1"),
+        (&["explore", "open:5x4", "--robots", "300"], "1 to 8 robots"),
+        (&["explore", "open:5x4", "--start", "9,9"], "columns go from 0 to 4"),
+        (
+            &["explore", "open:9x9", "--start", "0,0", "--start", "8,8", "--robots", "2"],
+            "a start beside another one's",
+        ),
+        (&["explore", "open:5x4", "--range", "0"], "--range"),
+        (&["explore", "open:5x4", "--speed", "0"], "--speed a number of metres a second"),
+        (&["explore", "open:5x4", "--speed", "-1"], "--speed a number of metres a second"),
+        (&["explore", "open:5x4", "--speed", "nan"], "--speed a number of metres a second"),
+        (&["explore", "open:5x4", "--spread", "1"], "--spread a share from 0 to 0.999"),
+        (&["hunt", "--robots", "5", "--size", "3x3"], "--robots a number from 1 to 3"),
+        (&["hunt", "--robots", "2", "--size", "9x9"], "--size at most 16 nodes"),
+        (&["hunt", "--robots", "2", "--size", "1x1"], "--size at least 2 nodes"),
+    ];
+    for (arguments, right) in wrong {
+        let said = refused(folder, &[arguments, &["--scheme", "kit"]].concat());
+        assert!(said.contains(right), "{arguments:?}: {said}");
+    }
+    assert!(names(folder).is_empty());
+}
