@@ -13,7 +13,7 @@ const SMALL: [(&str, &[&str]); 10] = [
     ("agents", &["1", "3"]),
     ("layouts", &["3"]),
     ("map", &["open:4x3"]),
-    ("max-steps", &["400"]),
+    ("max-steps", &["3000"]),
     ("max-walls", &["1"]),
     ("nodes", &["150"]),
     ("patience", &["20"]),

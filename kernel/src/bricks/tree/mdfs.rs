@@ -23,14 +23,14 @@ impl Agent {
 
     /// What it does after a scan. A new cell becomes one of its own, the cell that it comes from the parent. It goes to an
     /// unexplored neighbour; else it marks a cell of its own and goes to its parent; else, in another's cell or at its
-    /// root, to the explored neighbour that was entered least.
+    /// root, to the neighbour not yet visited that was entered least. Without one it is done.
     pub fn decide(&mut self, view: &View) -> Act {
         let own = Label::new(0, self.id).unwrap_or_default();
         let mut here = view.here;
         if here.state == State::Explored {
             here = here.of_tree(own, self.heading.map(Side::opposite));
         }
-        let others = || view.neighbours().filter(|(_, note)| note.state == State::Open);
+        let others = || view.neighbours().filter(|(_, note)| note.state != State::Visited);
         let least = || others().min_by_key(|(_, note)| note.crossings).map(|(side, _)| Next::Goes(side));
         let next = if let Some(side) = view.way_on() {
             Next::Explores(side)

@@ -1,0 +1,44 @@
+//! What errors say: what is wrong, and what would be right where somebody can do something about it.
+
+use std::error::Error;
+
+use tautline_kernel::perception::blink::Unidentified;
+use tautline_kernel::perception::blob::{NoSample, TooManySets};
+use tautline_kernel::perception::polar::Unplaced;
+use tautline_kernel::{chain, kit};
+
+#[test]
+fn errors_say_what_would_be_right() {
+    let said: [(&dyn Error, &str); 15] = [
+        (&chain::Damaged::Byte(0xff), "byte 0xff is no message of the chain"),
+        (
+            &chain::Damaged::Length { bytes: 6, sent: 7 },
+            "there are 6 messages, the team sent 7: keep all of them, in their order",
+        ),
+        (
+            &chain::Refused::TooFewRobots { robots: 1 },
+            "1 robots are no chain: it needs at least 2, the base counted",
+        ),
+        (
+            &chain::Refused::TooManyRobots { robots: 9, most: 8 },
+            "9 robots are too many: this chain holds at most 8, the base counted",
+        ),
+        (&kit::Damaged::Flag(4), "4 is no flag of a message: flags are 0 to 3"),
+        (&kit::Damaged::Covered(2), "a side is 0 or 1, and not 2"),
+        (&kit::Damaged::Overfull, "an acknowledgement has no node and no sides"),
+        (&kit::NotNow::Decides, "the robot may not decide now: ask `may_decide` before"),
+        (&kit::NotNow::Looks, "the robot looks at no side: `looked` comes after `Next::Looks`"),
+        (&kit::NotNow::Drives, "the robot does not drive: `arrived` comes after `Next::Drives`"),
+        (&Unidentified::Lost, "its LED was on in no picture; 0 is no identifier"),
+        (&NoSample::Empty, "the rectangle has no pixel: draw it round an LED"),
+        (&NoSample::Outside, "the rectangle reaches beyond the picture: draw it inside"),
+        (
+            &TooManySets { row: 7 },
+            "there is no place left for sets of pixels in line 7: lend more, or take fewer colours",
+        ),
+        (&Unplaced::Column, "the light is beyond the right rim of the picture"),
+    ];
+    for (error, words) in said {
+        assert_eq!(error.to_string(), words);
+    }
+}
