@@ -41,3 +41,11 @@ fn every_target_has_a_corpus() {
         assert!(!entries(Path::new("corpus").join(name)).is_empty(), "{name}");
     }
 }
+
+#[test]
+fn every_target_is_fuzzed_at_night() {
+    let workflow = Path::new(env!("CARGO_MANIFEST_DIR")).join(".github/workflows/fuzz.yml");
+    let workflow = fs::read_to_string(workflow).expect("a workflow");
+    let items = workflow.lines().filter_map(|line| line.strip_prefix("          - "));
+    assert!(items.eq(TARGETS.map(|(name, _)| name)));
+}

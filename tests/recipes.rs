@@ -94,13 +94,17 @@ fn the_recipes_that_are_not_run_can_be_read() {
         let output = Command::new("bash").arg("-n").arg(recipe(script)).output().expect("bash runs");
         assert!(output.status.success(), "{script}: {}", String::from_utf8_lossy(&output.stderr));
     }
-    for (file, key) in [
-        ("docs/recipes/kubernetes.yaml", "spec"),
-        ("docs/recipes/workflow.yml", "jobs"),
-        ("action.yml", "runs"),
-        (".github/workflows/ci.yml", "jobs"),
-    ] {
-        let text = fs::read_to_string(recipe(file)).expect("text");
+    let one = |file: &str, key| (recipe(file), key);
+    let workflows = fs::read_dir(recipe(".github/workflows")).expect("a folder");
+    let workflows = workflows.map(|entry| (entry.expect("a file").path(), "jobs"));
+    let files = [
+        one("docs/recipes/kubernetes.yaml", "spec"),
+        one("docs/recipes/workflow.yml", "jobs"),
+        one("action.yml", "runs"),
+    ];
+    for (file, key) in files.into_iter().chain(workflows) {
+        let text = fs::read_to_string(&file).expect("text");
+        let file = file.display();
         let read: serde_json::Value =
             serde_saphyr::from_str(&text).unwrap_or_else(|error| panic!("{file}: {error}"));
         assert!(read[key].is_object(), "{file}");
