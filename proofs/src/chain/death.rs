@@ -14,7 +14,7 @@ use super::whole::{listed, start};
 use crate::engine::{Outcome, Stop, require};
 
 /// Robots, and most walls, of [`in_few_walls`].
-const FEW_WALLS: [(usize, u32); 3] = [(3, 2), (4, 1), (5, 0)];
+const FEW_WALLS: [(usize, u32); 3] = [(3, 1), (4, 1), (5, 0)];
 
 /// Team moves before the death in [`in_few_walls`]: fewer than this.
 const MOMENTS: u32 = 60;
@@ -198,12 +198,12 @@ fn goes_on<G: Grid>(
 }
 
 /// Where robots were, and where they are.
-pub(super) fn ways(before: &[Cell], after: &[Cell]) -> Vec<[Cell; 2]> {
+fn ways(before: &[Cell], after: &[Cell]) -> Vec<[Cell; 2]> {
     before.iter().zip(after).map(|(&from, &to)| [from, to]).collect()
 }
 
 /// Whether neighbours are in contact, whoever of them has gone its way.
-pub(super) fn hold(ways: &[[Cell; 2]]) -> bool {
+fn hold(ways: &[[Cell; 2]]) -> bool {
     let in_contact = |one: [Cell; 2], other: [Cell; 2]| {
         one.iter().all(|&one| other.iter().all(|&other| in_covered(one, other)))
     };
