@@ -6,7 +6,7 @@ use std::mem::take;
 use rand_chacha::ChaCha8Rng;
 use tautline_kernel::chain::{self, Barrier, Chain, Heard, Intent, Kind, Parts, Plan, Reforming};
 use tautline_kernel::ground::{Area, Cell, Edge, Grid, Step};
-use tautline_proofs::chain::breach::{Breach, frame};
+use tautline_proofs::chain::breach::{Breach, CHEAP_LOOKS, frame};
 use tautline_proofs::chain::links::within_reach;
 use tautline_proofs::run::Frame;
 
@@ -330,6 +330,11 @@ impl<G: Grid, const ROBOTS: usize> Team for Faulty<G, ROBOTS> {
             broken.extend(seen.map(ClauseId::from));
         } else if self.parts().iter().any(|part| is_apart(part, &frame.cells)) {
             broken.push(DEATH);
+        }
+        if let Some(Whole::Chain(chain)) = &self.whole
+            && chain.looked_at() > CHEAP_LOOKS * chain.cells().len() as u32
+        {
+            broken.push(Breach::Costly.into());
         }
         if self.going == Going::OneByOne && !self.holds_one_by_one(before, &frame.cells) {
             broken.push(ANY_ORDER);
