@@ -134,7 +134,7 @@ pub(super) fn barrier(reading: &Reading, oracle: &mut dyn Oracle) -> Outcome {
                 situation = "a byte is lost";
             }
             (3, Some(byte)) => situation = pair.hear(robot, byte)?,
-            (0, _) | (_, None) | (4.., _) => return Err(Stop::Assumed),
+            (0 | 4.., _) | (_, None) => return Err(Stop::Assumed),
         }
     }
     let turns = pair.barriers.map(|barrier| barrier.turn());
