@@ -26,8 +26,8 @@ fn ran(rule: RuleId, robots: u16, density: f64, seed: u64, options: Options) -> 
     explore(&setup, &mut |_| Ok(())).map_err(|_| ()).expect("a run")
 }
 
-fn fail(robot: u16, step: u32) -> Option<Failure> {
-    Some(Failure { robot, step: step.try_into().expect("from 1 on") })
+fn failure(robot: u16, step: u32) -> Failure {
+    Failure { robot, step: step.try_into().expect("from 1 on") }
 }
 
 #[test]
@@ -81,7 +81,7 @@ fn deaths(density: f64, runs: u64) -> (Vec<u32>, usize) {
     let (mut taken_back, mut home) = (Vec::new(), 0);
     for seed in 0..runs {
         let (robot, step) = (2 + (seed % 7) as u16, 1 + (seed * 37 % 200) as u32);
-        let report = ran(REEL, 8, density, seed, Options { fail: fail(robot, step), ..USUAL });
+        let report = ran(REEL, 8, density, seed, Options { fail: Some(failure(robot, step)), ..USUAL });
         assert_eq!(report.violations, [], "{density} {seed}");
         let faults = report.faults.expect("something was to fail");
         if faults.died.is_some() {
@@ -122,7 +122,7 @@ fn deaths_in_1000_runs_a_density() {
 
 #[test]
 fn a_failure_after_the_end_of_a_run_changes_nothing() {
-    let late = ran(REEL, 8, 0.1, 3, Options { fail: fail(4, 100_000), ..USUAL });
+    let late = ran(REEL, 8, 0.1, 3, Options { fail: Some(failure(4, 100_000)), ..USUAL });
     let never = ran(REEL, 8, 0.1, 3, USUAL);
     assert_eq!((late.steps, late.stopped), (never.steps, never.stopped));
     assert_ne!(late.stopped, Stopped::Silent);
