@@ -25,6 +25,7 @@ use tautline_sim::explore::{
     Violation, Watcher, explore, team,
 };
 use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::faults::{Failure, Faults, Going};
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::reading::real;
 use tautline_sim::trace::Summary;
@@ -66,8 +67,8 @@ pub(super) struct Explore {
     /// hear 2 or 3 cells; without it 10 m, and a cell is 3 m wide.
     #[arg(long, value_name = "CELLS", value_parser = whole::<u16>)]
     range: Option<u16>,
-    /// How likely it is that such a message is lost, from 0 to 1. Without it 0.
-    #[arg(long, value_name = "PROBABILITY", value_parser = probability, allow_hyphen_values = true)]
+    /// How likely it is that such a message, or a byte of a chain, is lost, from 0 to 1. Without it 0.
+    #[arg(long, alias = "lose", value_name = "PROBABILITY", value_parser = probability, allow_hyphen_values = true)]
     loss: Option<Probability>,
     /// The noise of the signals by which robots that explore cells find their positions, in decibels. Without it 0.
     #[arg(long, value_name = "DECIBELS", value_parser = real, allow_hyphen_values = true)]
@@ -81,6 +82,12 @@ pub(super) struct Explore {
     /// By which share each of their drives may be faster or slower, from 0 to 0.999. Without it 0.
     #[arg(long, value_name = "SHARE", value_parser = real, allow_hyphen_values = true)]
     spread: Option<f64>,
+    /// Which robot of a chain dies, and in which team move: the others go on as a chain of one fewer.
+    #[arg(long, value_name = "ROBOT@MOVE", value_parser = str::parse::<Failure>)]
+    fail: Option<Failure>,
+    /// The robots of a chain go one after the other, in a new random order in each team move.
+    #[arg(long)]
+    speeds: bool,
     /// Stop when a robot has entered so many cells.
     #[arg(long, value_name = "CELLS", value_parser = positive)]
     max_moves: Option<NonZeroU32>,
@@ -196,6 +203,8 @@ impl Explore {
             threshold: self.threshold,
             speed_mps: self.speed,
             spread: self.spread,
+            fail: self.fail,
+            going: if self.speeds { Going::OneByOne } else { Going::AtOnce },
             limits: Limits { until: self.until, max_moves: self.max_moves, violation: OnViolation::GoOn },
         }
     }
@@ -339,6 +348,9 @@ pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
         let robot = run.stage().look.robot();
         let _ = writeln!(text, "the slowest {robot} took {} s", milliseconds / 1000);
     }
+    if let Some(faults) = &report.faults {
+        text.push_str(&failed(faults));
+    }
     match run.stage().knowledge {
         None => {}
         Some(Knowledge::None) => {
@@ -370,6 +382,29 @@ pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
         }
     }
     text + &violations(report)
+}
+
+/// What has failed, in a line or two.
+fn failed(faults: &Faults) -> String {
+    let Faults { lost_bytes, rounds, died, taken_back, home } = *faults;
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    if rounds > 0 {
+        let rounds = counted(rounds, "round");
+        let _ = writeln!(text, "{} lost; the robots said theirs in {rounds}", counted(lost_bytes, "byte"));
+    }
+    if let Some(died) = died {
+        let _ = write!(text, "a robot died in team move {died}");
+        if let Some(moves) = taken_back {
+            let _ =
+                write!(text, "; the others formed a chain after {} taken back", counted(moves, "team move"));
+        }
+        if home > 0 {
+            let _ = write!(text, ", and came home by {home} more");
+        }
+        text.push('\n');
+    }
+    text
 }
 
 /// Where the robots start.

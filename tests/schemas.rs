@@ -60,6 +60,8 @@ fn each_schema_is_that_of_what_is_printed() {
                 "explore cells:6x6:0.1 --scheme ants --max-moves 50",
                 "explore walls:5x5:0.1 --scheme kit --robots 2",
                 "explore cells:6x6:0.1 --scheme frontier --robots 2",
+                "explore open:7x7 --rule reel --robots 4 --fail 3@5",
+                "explore open:3x3 --rule reel --robots 2 --loss 0.1",
             ]),
         ),
         (

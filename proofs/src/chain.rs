@@ -1,10 +1,12 @@
 //! The chain (CHAIN): what is promised of it, the search over all layouts that it is played in, what it can reach, and in how
 //! few team moves.
 
+mod barrier;
 pub mod bounds;
 pub mod breach;
 pub mod clauses;
 mod crowd;
+mod death;
 mod environment;
 mod game;
 pub mod invariant;
@@ -16,6 +18,7 @@ mod pair;
 pub mod plain;
 pub mod reach;
 pub mod search;
+mod shut;
 mod small;
 mod three;
 mod walk;

@@ -7,6 +7,7 @@ pub mod counterexample;
 pub mod draw;
 pub mod explore;
 pub mod fault;
+pub mod faults;
 pub mod frontier;
 mod kept;
 pub mod kit;

@@ -5,10 +5,12 @@ use core::fmt;
 use super::MAX_ROBOTS;
 use super::habit::Habits;
 use super::message::{Damaged, Message, Outcome};
+use super::past::Past;
 use super::plan::{Kind, Plan, mark_occupied, unmark_occupied};
 use super::planner::{Looks, Planner};
 use super::reel::{Next, Reel, Task, Winder};
 use super::rule::{Condition, Pursuit, Rule};
+use super::settle::World;
 use super::unfold::unfold;
 use crate::ground::{Area, Cell, CellMark, Edge, EdgeMark, Grid, Step};
 
@@ -76,8 +78,8 @@ pub enum Intent<const ROBOTS: usize> {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Settled<const ROBOTS: usize> {
-    messages: [u8; ROBOTS],
-    robots: usize,
+    pub(super) messages: [u8; ROBOTS],
+    pub(super) robots: usize,
 }
 
 impl<const ROBOTS: usize> Settled<ROBOTS> {
@@ -90,7 +92,7 @@ impl<const ROBOTS: usize> Settled<ROBOTS> {
 /// How far an epoch is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-enum Stage {
+pub(super) enum Stage {
     /// The chain is being unfolded towards an unexplored cell, and has not yet explored one or found a wall.
     Unfolding,
     /// It has not yet explored a cell or found a wall.
@@ -108,24 +110,28 @@ pub fn area(whole: Area, base: Cell, robots: usize) -> Option<Area> {
 /// A chain of at most `ROBOTS` robots that explores a grid.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Chain<G, const ROBOTS: usize> {
-    rule: Rule,
-    grid: G,
+    pub(super) rule: Rule,
+    pub(super) grid: G,
     /// P_1 … P_N; the base first.
-    cells: [Cell; ROBOTS],
-    robots: usize,
+    pub(super) cells: [Cell; ROBOTS],
+    pub(super) robots: usize,
     /// Team moves made.
-    moves: u32,
+    pub(super) moves: u32,
     /// The log entry that a backtrack would take back.
-    last_open: Option<u32>,
+    pub(super) last_open: Option<u32>,
     /// Epochs that ended.
-    epochs: u32,
-    stage: Stage,
+    pub(super) epochs: u32,
+    pub(super) stage: Stage,
     /// What the last plan cost.
-    looks: Looks,
+    pub(super) looks: Looks,
     /// What the reel is at, if the chain has one.
-    reel: Reel<ROBOTS>,
+    pub(super) reel: Reel<ROBOTS>,
     /// Whether the last plan that was made was not admitted.
-    refused: bool,
+    pub(super) refused: bool,
+    /// Where the history begins.
+    pub(super) past: Past,
+    /// Whether walls stand for ever.
+    pub(super) world: World,
 }
 
 impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
@@ -160,6 +166,8 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             looks: Looks::new(rule.budget, robots),
             reel: Reel::NONE,
             refused: false,
+            past: Past::Home,
+            world: World::Lasting,
         })
     }
 
@@ -255,6 +263,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         if self.grid.is_explored() {
             return Ok(Intent::Done(End::Explored));
         }
+        self.forget_what_is_shut(log);
         match self.rule.pursuit {
             Pursuit::Epochs => self.plan_by_epochs(log),
             Pursuit::Reel(habits) => self.plan_by_reel(log, habits),
@@ -315,11 +324,44 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         }
     }
 
+    /// Bytes that the team has sent so far.
+    pub(super) const fn sent(&self) -> usize {
+        self.moves as usize * (self.robots - 1)
+    }
+
+    /// Whether all robots are in the base.
+    pub fn is_home(&self) -> bool {
+        self.cells().iter().all(|&cell| cell == self.cells[0])
+    }
+
+    /// Whether an unexplored cell is within reach of so many robots from the base, as far as the team knows.
+    pub fn has_more_within_reach(&mut self) -> bool {
+        let mut stops = self.cells;
+        self.grid.stops(self.cells[0], &mut stops[..self.robots]).is_some()
+    }
+
+    /// Forgets the history if the team move that would be taken back next leads over a side that is known to be a wall by now.
+    fn forget_what_is_shut(&mut self, log: &[u8]) {
+        let (World::Changing, Some(entry)) = (self.world, self.last_open) else { return };
+        let first = entry as usize * (self.robots - 1);
+        let is_shut = |(&cell, &byte): (&Cell, &u8)| {
+            let back = Message::decode(byte).map_or(Step::Stay, |message| message.made().reverse());
+            matches!(back, Step::Cross(side) if self.grid.edge_has(EdgeMark::Wall, Edge::new(cell, side)))
+        };
+        if self.cells().iter().skip(1).zip(log.get(first..).unwrap_or(&[])).any(is_shut) {
+            self.forget();
+        }
+    }
+
+    /// Leaves nothing to take back.
+    pub(super) const fn forget(&mut self) {
+        self.past = Past::Since(self.moves);
+        self.last_open = None;
+    }
+
     /// Whether there is an unexplored cell to unfold the chain towards.
     fn has_target(&mut self) -> bool {
-        let mut stops = self.cells;
-        self.rule.has(Condition::Unfold)
-            && self.grid.stops(self.cells[0], &mut stops[..self.robots]).is_some()
+        self.rule.has(Condition::Unfold) && self.is_home() && self.has_more_within_reach()
     }
 
     /// The plan that makes these `steps`, if they are admitted; else the null move.
@@ -333,7 +375,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
     /// The plan that takes log entry `entry` back.
     fn backtrack(&mut self, log: &[u8], entry: u32) -> Result<Plan<ROBOTS>, Damaged> {
         let movers = self.robots - 1;
-        let sent = self.moves as usize * movers;
+        let sent = self.sent();
         if log.len() != sent {
             return Err(Damaged::Length { bytes: log.len(), sent });
         }
@@ -369,120 +411,13 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
                 return Err(Damaged::Crowded);
             }
         }
-        // Read backwards, every backtrack pairs with the nearest open move before it.
-        let mut taken_back = 0_u32;
-        let mut last_open = None;
-        for index in (0..entry).rev() {
-            if log.get(index as usize * movers).is_some_and(|&byte| Message::is_backtrack(byte)) {
-                taken_back += 1;
-            } else if taken_back == 0 {
-                last_open = Some(index);
-                break;
-            } else {
-                taken_back -= 1;
-            }
-        }
+        let last_open = self.past.open_before(entry, log, movers);
         if last_open.is_none()
+            && self.past == Past::Home
             && let Some(robot) = team.iter().position(|&cell| cell != cells[0])
         {
             return Err(Damaged::NotHome { robot: robot + 1 });
         }
         Ok(Plan { kind: Kind::Backtrack, steps, robots: self.robots, last_open })
-    }
-
-    /// Carries `plan` out. `is_open` answers for every edge that is crossed without being known, once each, in
-    /// the order of the robots. All robots move at once; one that meets a wall stays, and all learn of it.
-    pub fn settle(&mut self, plan: &Plan<ROBOTS>, mut is_open: impl FnMut(Edge) -> bool) -> Settled<ROBOTS> {
-        let mut messages = [0; ROBOTS];
-        let movers = 1..self.robots.min(ROBOTS);
-        let team = messages[movers.clone()].iter_mut().zip(&mut self.cells[movers.clone()]);
-        for ((sent, cell), &step) in team.zip(&plan.steps[movers]) {
-            let outcome = match (plan.kind, step) {
-                (Kind::Backtrack, _) => Outcome::TookBack,
-                (Kind::Advance, Step::Stay) => Outcome::Arrived,
-                (Kind::Advance, Step::Cross(side)) => {
-                    try_edge(&mut self.grid, &mut self.stage, Edge::new(*cell, side), &mut is_open)
-                }
-            };
-            let message = Message { step, outcome };
-            *sent = message.encode();
-            *cell = cell.after(message.made());
-            if !self.grid.has(CellMark::Explored, *cell) {
-                self.grid.put(CellMark::Explored, *cell);
-                self.stage = Stage::Gained;
-            }
-        }
-        self.moves += 1;
-        self.last_open = plan.last_open;
-        if !self.gained() {
-            self.reel.went_on(self.cells[self.robots - 1]);
-        }
-        Settled { messages, robots: self.robots }
-    }
-
-    /// Carries `plan` out as one who plans along and hears of the rest: `messages` are those of R_2 … R_N about this team
-    /// move, one byte each. Afterwards the chain is what [`Chain::settle`] makes of the team that sent them.
-    ///
-    /// # Errors
-    /// [`Damaged`] if they cannot be about this plan and this world; then nothing has changed.
-    pub fn hear(&mut self, plan: &Plan<ROBOTS>, messages: &[u8]) -> Result<(), Damaged> {
-        let movers = self.robots - 1;
-        if messages.len() != movers {
-            return Err(Damaged::Length { bytes: messages.len(), sent: movers });
-        }
-        let edge = |robot: usize| match plan.steps[robot] {
-            Step::Cross(side) => Some(Edge::new(self.cells[robot], side)),
-            Step::Stay => None,
-        };
-        let mut outcomes = [Outcome::Arrived; ROBOTS];
-        for (robot, &byte) in (1..).zip(messages) {
-            let Message { step, outcome } = Message::decode(byte)?;
-            let is_back = outcome == Outcome::TookBack;
-            if step != plan.steps[robot] || is_back != (plan.kind == Kind::Backtrack) {
-                return Err(Damaged::OtherStep { robot: robot + 1 });
-            }
-            outcomes[robot] = outcome;
-            let Some(crossed) = edge(robot).filter(|_| !is_back) else { continue };
-            let known = if self.grid.edge_has(EdgeMark::Open, crossed) {
-                Some(Outcome::Arrived)
-            } else if self.grid.edge_has(EdgeMark::Wall, crossed) {
-                Some(Outcome::Blocked)
-            } else {
-                (1..robot).find(|&other| edge(other) == Some(crossed)).map(|other| outcomes[other])
-            };
-            if known.is_some_and(|known| known != outcome) {
-                return Err(Damaged::OtherWorld { robot: robot + 1 });
-            }
-        }
-        let crossed: [Option<Edge>; ROBOTS] =
-            core::array::from_fn(|robot| (robot < self.robots).then(|| edge(robot)).flatten());
-        self.settle(plan, |asked| {
-            let first = (1..ROBOTS).find(|&robot| crossed[robot] == Some(asked));
-            first.is_some_and(|robot| outcomes[robot] == Outcome::Arrived)
-        });
-        Ok(())
-    }
-}
-
-/// What comes of crossing `edge`.
-fn try_edge(
-    grid: &mut impl Grid,
-    stage: &mut Stage,
-    edge: Edge,
-    is_open: &mut impl FnMut(Edge) -> bool,
-) -> Outcome {
-    if grid.edge_has(EdgeMark::Open, edge) {
-        return Outcome::Arrived;
-    }
-    if grid.edge_has(EdgeMark::Wall, edge) {
-        return Outcome::Blocked;
-    }
-    if is_open(edge) {
-        grid.put_edge(EdgeMark::Open, edge);
-        Outcome::Arrived
-    } else {
-        grid.put_edge(EdgeMark::Wall, edge);
-        *stage = Stage::Gained;
-        Outcome::Blocked
     }
 }

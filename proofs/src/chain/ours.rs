@@ -1,16 +1,19 @@
-//! The clauses of what is ours in the chain: certified plans, the reel, and contact in any order. They follow
-//! those of [`super::clauses`] in the order of `SPEC.md`.
+//! The clauses of what is ours in the chain: certified plans, the reel, and contact in any order, and faults. They
+//! follow those of [`super::clauses`] in the order of `SPEC.md`.
 
 use tautline_kernel::chain::Condition::{CoveredBehind, SafeAhead};
-use tautline_kernel::chain::{Habit, Rule};
+use tautline_kernel::chain::{Habit, Rule, World};
 
+use super::barrier::{self, Reading};
 use super::clauses::{FOUR_FEWER_WALLS, PUBLISHED, REEL, REPAIRED, UNHELD};
+use super::death::{self, Dying, Then};
 use super::invariant::Invariant;
 use super::observed::Observed;
 use super::search::EveryLayout;
+use super::shut::{self, Shut};
 use super::{pair, whole};
 use crate::clause::{Check, Clause, Named};
-use crate::decide::{Sampled, Verdict};
+use crate::decide::{Exhaustive, Sampled, Verdict};
 use crate::ground::clauses::NARROWER;
 use crate::step_checks;
 
@@ -35,8 +38,84 @@ const NO_NEARER: Named<Observed> = Named::new(
 const TAKES_BACK_ONE: Named<Observed> =
     Named::new("take-backs always of one", Observed::without_habits(&[Habit::Doubles]));
 
+const BARRIER: Check<Reading> = Check::new(
+    Named::new("reel", Reading::True),
+    &Exhaustive {
+        body: barrier::barrier,
+        range: barrier::losses,
+        covers: &[
+            "a byte is lost",
+            "a byte of the team move before",
+            "a byte of the team move after",
+            "a byte that was missing",
+        ],
+    },
+    Verdict::Holds,
+    &[
+        Named::new("team moves are not told apart", Reading::Present),
+        Named::new("one bit counts team moves", Reading::OneBit),
+        Named::new("nobody says a byte again", Reading::Mute),
+    ],
+);
+
+/// A chain that re-forms when a robot dies.
+const fn dying(observed: Observed, then: Then) -> Dying {
+    Dying { observed, then }
+}
+
+const DEATHS: [&str; 2] = ["the chain goes on after some moves taken back", "the chain goes on at once"];
+
+const DEATH: Check<Dying> = Check::new(
+    Named::new("reel", dying(Observed::REEL, Then::Reform)),
+    &Exhaustive { body: death::in_few_walls, range: death::few_walls, covers: &DEATHS },
+    Verdict::Holds,
+    &[
+        Named::new("the robots ahead wait", dying(Observed::REEL, Then::Wait)),
+        Named::new("two team moves are taken back at once", dying(Observed::REEL, Then::Skip)),
+        Named::new("the chain never comes home", dying(Observed::REEL, Then::StayOut)),
+    ],
+);
+
+const DEATH_AT_RANDOM: Check<Dying> = Check::new(
+    DEATH.about,
+    &Sampled {
+        body: death::at_random,
+        runs: 200,
+        range: death::random_layouts,
+        covers: &[DEATHS[0], DEATHS[1], "the chain comes home before it goes on"],
+    },
+    Verdict::Unrefuted,
+    &[
+        Named::new("without hold", dying(Observed::UNHELD, Then::Reform)),
+        Named::new("as repaired", dying(Observed::REPAIRED, Then::Reform)),
+    ],
+);
+
+/// A chain in a world in which walls appear.
+const fn shut(observed: Observed, world: World) -> Shut {
+    Shut { observed, world }
+}
+
+const SHUT: Check<Shut> = Check::new(
+    Named::new("reel", shut(Observed::REEL, World::Changing)),
+    &Exhaustive {
+        body: shut::in_few_walls,
+        range: shut::few_walls,
+        covers: &["a wall appears", "no wall appears"],
+    },
+    Verdict::Holds,
+    &[Named::new("crossed sides are not tried", shut(Observed::REEL, World::Lasting))],
+);
+
+const SHUT_AT_RANDOM: Check<Shut> = Check::new(
+    SHUT.about,
+    &Sampled { body: shut::at_random, runs: 200, range: shut::random_layouts, covers: &["a wall appears"] },
+    Verdict::Unrefuted,
+    &[Named::new("as repaired", shut(Observed::REPAIRED, World::Changing))],
+);
+
 /// The clauses.
-pub static CLAUSES: [Clause; 4] = [
+pub static CLAUSES: [Clause; 7] = [
     Clause {
         id: "CHAIN-16",
         sentence: "A planner MUST make no plan that the admission relation refuses.",
@@ -119,13 +198,39 @@ pub static CLAUSES: [Clause; 4] = [
             ),
         ],
     },
+    Clause {
+        id: "CHAIN-20",
+        sentence: "Whichever bytes are lost, repeated or late, robots at the barrier MUST go on with the same messages of all, \
+                   and go on once no byte is lost.",
+        checks: &[&BARRIER],
+    },
+    Clause {
+        id: "CHAIN-21",
+        sentence: "When a robot dies, the parts of the reel behind and ahead of it MUST keep contact within themselves, come \
+                   into contact with each other, and explore all that is within reach of a chain of one robot fewer.",
+        checks: &[&DEATH, &DEATH_AT_RANDOM],
+    },
+    Clause {
+        id: "CHAIN-22",
+        sentence: "When walls appear where robots have crossed, the reel MUST keep to CHAIN-1 and CHAIN-2, take no robot to be \
+                   through a wall, and end its run.",
+        checks: &[&SHUT, &SHUT_AT_RANDOM],
+    },
 ];
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::chain::search::{Bounds, search};
+    use crate::clause::AnyCheck;
+    use crate::decide::Memory;
     use crate::engine::tree::unwatched;
+    use crate::engine::{Seeded, Stop};
+    use tautline_kernel::chain::{Chain, Intent};
+    use tautline_kernel::choice::Oracle;
+    use tautline_kernel::ground::SmallGrid;
+
+    use crate::chain::breach::Breach;
 
     /// Runs, team moves, and the longest run of both reels.
     fn searched(robots: usize, walls: u32) -> [(u64, u64, u32); 2] {
@@ -136,6 +241,59 @@ mod tests {
             assert!(found.complete && found.counterexamples.is_empty(), "{:?}", found.counterexamples);
             (found.runs, found.moves, found.longest)
         })
+    }
+
+    #[test]
+    fn whatever_is_lost_whoever_dies_and_whichever_walls_appear_the_reel_goes_on_and_mutants_do_not() {
+        let checks: [&dyn AnyCheck; 5] = [&BARRIER, &DEATH, &DEATH_AT_RANDOM, &SHUT, &SHUT_AT_RANDOM];
+        for check in checks {
+            let decision = check.decide(&mut Memory::default(), &mut unwatched).expect("it can be decided");
+            assert!(decision.is_as_registered(check), "{check:?}: {decision:?}");
+        }
+    }
+
+    /// Whether contact is lost when one robot stops on its way and the others go, in a run in a random layout.
+    fn breaks_when_one_stops(observed: Observed, seed: u64) -> bool {
+        let mut world = Seeded::new(23, seed);
+        let mut chain: Chain<SmallGrid, 8> = whole::start(&observed, 8, SmallGrid::new).expect("it fits");
+        let mut log = Vec::new();
+        while let Intent::Go(plan) = chain.plan(&log).expect("its own log") {
+            let before = chain.cells().to_vec();
+            log.extend_from_slice(chain.settle(&plan, |_| world.pick(100) >= 10).messages());
+            for robot in 1..before.len() {
+                let mut team = chain.cells().to_vec();
+                team[robot] = before[robot];
+                if Breach::Contact.is_in(&before, &team) {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    #[test]
+    fn the_repaired_rule_breaks_contact_in_each_of_three_ways() {
+        let broken = |runs: &dyn Fn(u64) -> bool| (0..100).filter(|&seed| runs(seed)).count();
+        let breaks = |observed: Observed| {
+            let world = |seed| Seeded::new(19, seed);
+            let speeds = broken(&|seed| whole::any_order(&observed, &mut world(seed)).is_err());
+            let stops = broken(&|seed| breaks_when_one_stops(observed, seed));
+            let lost = Err(Stop::Violated("neighbours are in contact when walls have appeared"));
+            let walls =
+                broken(&|seed| shut::at_random(&shut(observed, World::Changing), &mut world(seed)) == lost);
+            [speeds, stops, walls]
+        };
+        assert!(breaks(Observed::REPAIRED).iter().all(|&runs| runs > 0), "{:?}", breaks(Observed::REPAIRED));
+        assert_eq!(breaks(Observed::REEL), [0; 3]);
+    }
+
+    #[test]
+    fn while_tasks_are_rehearsed_no_promise_needs_the_last_place_on_a_walk() {
+        let observed = Observed::without_habits(&[Habit::LastPlace]);
+        let invariants = Invariant::Falls.companions(&observed.intended).to_vec();
+        let found = search(&Bounds { invariants, ..Bounds::new(observed, 3, 3) }, &mut unwatched);
+        let found = found.expect("it can be searched");
+        assert!(found.complete && found.counterexamples.is_empty(), "{:?}", found.counterexamples);
     }
 
     #[test]

@@ -19,7 +19,7 @@ pub(crate) fn area(robots: usize) -> (Area, Cell) {
     (Area::new(Cell::new(0, 0), Cell::new(2 * range, 2 * range)).unwrap_or(Area::of(base)), base)
 }
 
-fn start<G: Grid, const ROBOTS: usize>(
+pub(super) fn start<G: Grid, const ROBOTS: usize>(
     observed: &Observed,
     robots: usize,
     grid: impl Fn(Area) -> Option<G>,
@@ -39,7 +39,7 @@ pub(crate) fn chains(range: &RangeInclusive<u32>) -> String {
 }
 
 /// Numbers in words.
-fn listed<N: ToString>(numbers: impl IntoIterator<Item = N>) -> String {
+pub(super) fn listed<N: ToString>(numbers: impl IntoIterator<Item = N>) -> String {
     numbers.into_iter().map(|number| number.to_string()).collect::<Vec<_>>().join(", ")
 }
 

@@ -266,6 +266,12 @@ fn again(stage: &Stage<'_>) -> Again {
             let _ = write!(command, " --{name} {given}");
         }
     }
+    if let Some(failure) = options.fail {
+        let _ = write!(command, " --fail {failure}");
+    }
+    if !options.going.is_usual() {
+        command += " --speeds";
+    }
     if let Some(milestone) = limits.until {
         let _ = write!(command, " --until {}", milestone.percent());
     }

@@ -7,6 +7,7 @@ use super::rule::RuleId;
 use super::run::Limits;
 use super::setup::{Profile, Senses, Setup, Starts};
 use crate::fault::Fault;
+use crate::faults::{Failure, Going};
 use crate::frontier::Options;
 use crate::layout::Layout;
 use crate::layout::generate::Probability;
@@ -43,6 +44,10 @@ pub struct Asked {
     pub speed_mps: Option<f64>,
     /// How far their speeds differ, as a share of it.
     pub spread: Option<f64>,
+    /// Which robot dies, and when.
+    pub fail: Option<Failure>,
+    /// In what order robots go.
+    pub going: Going,
     /// When the run is stopped.
     pub limits: Limits,
 }
@@ -64,6 +69,8 @@ impl Asked {
             threshold: None,
             speed_mps: None,
             spread: None,
+            fail: None,
+            going: Going::AtOnce,
             limits: Limits::default(),
         }
     }
@@ -105,6 +112,8 @@ impl Asked {
             threshold: self.threshold.unwrap_or(usual.threshold),
             speed_mps: self.speed_mps,
             spread: self.spread,
+            fail: self.fail,
+            going: self.going,
         };
         let miss = self.miss.unwrap_or(Probability::NEVER);
         let setup =

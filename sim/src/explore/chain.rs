@@ -1,6 +1,7 @@
 //! The recursive chain (paper 000, III): its row, and its team: the kernel's chain, the log of messages that it reads its
 //! history from, and the smallest grid that holds its area.
 
+mod faulty;
 pub mod hunt;
 mod saved;
 mod shown;
@@ -13,16 +14,19 @@ use tautline_proofs::chain::links::within_reach;
 use tautline_proofs::run::Frame;
 use tautline_proofs::words::counted;
 
+use self::faulty::Faulty;
+pub use self::faulty::{ANY_ORDER, DEATH};
 use self::hunt::Walls;
 pub use self::saved::Saved;
 use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::{End, Team, TeamMove};
 use super::scene::{Layer, Scene};
-use super::setup::{Clause, Judge, Profile, Rule, Senses, Setup, Starts};
+use super::setup::{Clause, Extra, Judge, Profile, Rule, Senses, Setup, Starts};
 use super::stage::Look;
 use super::survey::Survey;
 use crate::fault::Fault;
+use crate::frontier::Options;
 use crate::layout::Layout;
 use crate::wide::WideGrid;
 
@@ -55,7 +59,7 @@ pub static CHAIN: Profile = Profile {
     robots: 2..=MAX_ROBOTS,
     starts: Starts::Base,
     senses: Senses::Bumps,
-    extras: &[],
+    extras: &[Extra::Loss, Extra::Fail, Extra::Speeds],
     look: Look::Linked {
         is_lost: |from, to| Breach::Contact.is_in(from, to) || Breach::Coverage.is_in(from, to),
     },
@@ -82,6 +86,8 @@ pub static CHAIN: Profile = Profile {
             missed: Some("Within reach and unexplored"),
             ..Clause::new(Breach::Completeness.clause())
         },
+        Clause::new(ANY_ORDER.as_str()),
+        Clause { missed: Some("Within reach of those left and unexplored"), ..Clause::new(DEATH.as_str()) },
     ],
 };
 
@@ -111,7 +117,11 @@ fn begin<G: Grid + 'static, const ROBOTS: usize>(
     let area = chain::area(setup.layout.size().area(), base, robots).ok_or(Refused::BaseOutside { base })?;
     let grid = grid(area).ok_or(Refused::TooManyRobots { robots, most: ROBOTS })?;
     let chain = Chain::<G, ROBOTS>::new(rule, robots, base, grid)?;
-    Ok(Box::new(ChainTeam { chain, log: Vec::new(), epochs: 0 }))
+    let Options { loss, fail, going, .. } = setup.options;
+    if loss.is_never() && fail.is_none() && going.is_usual() {
+        return Ok(Box::new(ChainTeam { chain, log: Vec::new(), epochs: 0 }));
+    }
+    Ok(Box::new(Faulty::new(setup, chain)))
 }
 
 /// The fault of a chain that is refused.

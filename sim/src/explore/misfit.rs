@@ -11,6 +11,7 @@ use super::catalogue::{SCHEMES, sensing};
 use super::rule::RuleId;
 use super::setup::{Extra, Profile, Rule, Senses, Setup, Starts};
 use crate::fault::Fault;
+use crate::faults::Failure;
 use crate::frontier::Options;
 use crate::layout::Problem;
 
@@ -80,6 +81,13 @@ pub enum Misfit {
     Speed,
     /// No spread of speeds.
     Spread,
+    /// No such robot can die.
+    Fail {
+        /// The robot, numbered from 1, the base.
+        robot: u16,
+        /// Robots that there are.
+        robots: u16,
+    },
 }
 
 impl Misfit {
@@ -96,6 +104,7 @@ impl Misfit {
             Self::Noise => Extra::Noise.field(),
             Self::Speed => Extra::Speed.field(),
             Self::Spread => Extra::Spread.field(),
+            Self::Fail { .. } => Extra::Fail.field(),
         }
     }
 
@@ -137,6 +146,7 @@ impl Misfit {
             Self::Noise => "give `noise-db` a number of decibels from 0 to 100".to_owned(),
             Self::Speed => "give `speed` a number of metres a second from 0.001 to 1000".to_owned(),
             Self::Spread => "give `spread` a share from 0 to 0.999".to_owned(),
+            Self::Fail { robots, .. } => format!("name a robot from 2 to {robots}, as in {robots}@20"),
         }
     }
 }
@@ -183,6 +193,10 @@ impl fmt::Display for Misfit {
             Self::Noise => f.write_str("a standard deviation of noise is from 0 to 100 dB"),
             Self::Speed => f.write_str("a robot drives from 0.001 to 1000 m/s"),
             Self::Spread => f.write_str("drives are faster or slower by less than the whole speed"),
+            Self::Fail { robot: 1, .. } => f.write_str("the base cannot fail: there is no chain without it"),
+            Self::Fail { robot, robots } => {
+                write!(f, "there is no robot {robot} that could fail among {robots}")
+            }
         }
     }
 }
@@ -265,7 +279,7 @@ impl Setup {
 
     /// Refuses what the scheme cannot be told, and what is out of bounds.
     fn check_extras(&self) -> Result<(), Misfit> {
-        let Options { range_cells, loss, noise_db, threshold, speed_mps, spread } = self.options;
+        let Options { range_cells, loss, noise_db, threshold, speed_mps, spread, fail, going } = self.options;
         let usual = Options::default();
         let told = [
             (Extra::Range, range_cells.is_some()),
@@ -274,11 +288,16 @@ impl Setup {
             (Extra::Threshold, threshold.to_bits() != usual.threshold.to_bits()),
             (Extra::Speed, speed_mps.is_some()),
             (Extra::Spread, spread.is_some()),
+            (Extra::Fail, fail.is_some()),
+            (Extra::Speeds, !going.is_usual()),
         ];
         let refused =
             told.into_iter().find(|(extra, is_told)| *is_told && !self.scheme.extras.contains(extra));
         if let Some((extra, _)) = refused {
             return Err(Misfit::Extra(self.scheme, extra));
+        }
+        if let Some(Failure { robot, .. }) = fail.filter(|fail| !(2..=self.robots).contains(&fail.robot)) {
+            return Err(Misfit::Fail { robot, robots: self.robots });
         }
         if Threshold::new(threshold).is_none() {
             return Err(Misfit::Threshold);

@@ -71,7 +71,7 @@ impl<T: team::Team<ROBOTS>, const ROBOTS: usize> Team for Own<T, ROBOTS> {
 
     fn broken_at_end(&self, _: &Layout, _: &Survey, end: End) -> Vec<ClauseId> {
         match end {
-            End::Explored | End::Exhausted => {
+            End::Explored | End::Exhausted | End::Silent => {
                 self.broken(|demand| demand.is_broken_at_end(&self.team, &self.cells))
             }
             End::Endless => self.broken(Demand::is_broken_by_endless_runs),

@@ -14,6 +14,7 @@ use super::floor::Component;
 use super::scene::{Layer, Scene};
 use super::survey::Survey;
 use crate::fault::Halt;
+use crate::faults::Faults;
 use crate::layout::Layout;
 use crate::words::Worded;
 
@@ -74,6 +75,11 @@ pub trait Team {
 
     /// How long the run has taken the slowest robot, where that is known.
     fn milliseconds(&self) -> Option<u64> {
+        None
+    }
+
+    /// What has failed so far, in a run in which something is to fail.
+    fn faults(&self) -> Option<Faults> {
         None
     }
 
@@ -177,6 +183,8 @@ pub enum End {
     Exhausted,
     /// The team goes round and round.
     Endless,
+    /// The robots that are left wait for one that is silent.
+    Silent,
 }
 
 /// Why a run is over.
@@ -189,6 +197,8 @@ pub enum Stopped {
     Exhausted,
     /// The team goes round and round, and would for ever.
     Endless,
+    /// The robots that are left wait for one that is silent, and would for ever.
+    Silent,
     /// A robot has entered as many cells as it may.
     MaxMoves,
     /// As much is explored as was asked for.
@@ -204,6 +214,7 @@ impl Stopped {
             Self::Explored => "every cell of the area is explored",
             Self::Exhausted => "the team can explore nothing more",
             Self::Endless => "the team is where it was, and would go round for ever",
+            Self::Silent => "the robots that are left stay where they are, and wait for one that is silent",
             Self::MaxMoves => "a robot has entered as many cells as it may",
             Self::Until => "as much is explored as was asked for",
             Self::Violation => "a clause was broken",
@@ -263,6 +274,8 @@ pub struct Report {
     pub components: Vec<Component>,
     /// How long the run took its slowest robot, where that is known.
     pub milliseconds: Option<u64>,
+    /// What has failed, in a run in which something was to fail.
+    pub faults: Option<Faults>,
 }
 
 impl Report {
@@ -295,6 +308,7 @@ impl Report {
             team: team.cells().to_vec(),
             components: Vec::new(),
             milliseconds: None,
+            faults: None,
         };
         report.note(team.cells(), &[]);
         report
@@ -319,7 +333,8 @@ impl Report {
     /// The report of a run that is over.
     fn ended(self, stopped: Stopped, team: &dyn Team) -> Self {
         let (cells, components) = (team.cells().to_vec(), team.components().to_vec());
-        Self { stopped, team: cells, components, milliseconds: team.milliseconds(), ..self }
+        let (milliseconds, faults) = (team.milliseconds(), team.faults());
+        Self { stopped, team: cells, components, milliseconds, faults, ..self }
     }
 }
 
@@ -347,6 +362,7 @@ pub fn run(
                     End::Explored => Stopped::Explored,
                     End::Exhausted => Stopped::Exhausted,
                     End::Endless => Stopped::Endless,
+                    End::Silent => Stopped::Silent,
                 };
                 let (step, broken) = (report.steps, team.broken_at_end(layout, &report.chart, end));
                 report.violations.extend(broken.into_iter().map(|clause| Violation { clause, step }));

@@ -206,6 +206,11 @@ pub enum Change {
         /// How long.
         milliseconds: u64,
     },
+    /// A robot has died.
+    Fail {
+        /// The robot.
+        robot: usize,
+    },
 }
 
 /// What a team move changes in the layers of its team.

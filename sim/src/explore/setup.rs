@@ -102,6 +102,10 @@ pub enum Extra {
     Speed,
     /// How much their speeds differ.
     Spread,
+    /// Which robot dies, and when.
+    Fail,
+    /// In what order robots go.
+    Speeds,
 }
 
 impl Extra {
@@ -114,6 +118,8 @@ impl Extra {
             Self::Threshold => "threshold",
             Self::Speed => "speed",
             Self::Spread => "spread",
+            Self::Fail => "fail",
+            Self::Speeds => "speeds",
         }
     }
 }

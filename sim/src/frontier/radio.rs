@@ -9,10 +9,11 @@ use tautline_kernel::ground::{Area, Cell};
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{self, Point, Range, Residual, Signal, locate};
 
+use crate::faults::{Failure, Going};
 use crate::layout::generate::{self, Probability};
 use crate::radio::deviation_db;
 
-/// What a run of frontier cells, or of robots that keep in touch, is told besides. The default is what it is without a word.
+/// What a run is told besides, if its scheme can be told that. The default is what it is without a word.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Options {
@@ -30,12 +31,26 @@ pub struct Options {
     /// By which share of it each of their drives may be faster or slower, below 1; without it 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spread: Option<f64>,
+    /// Which robot dies, and when.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fail: Option<Failure>,
+    /// In what order robots go.
+    #[serde(default, skip_serializing_if = "Going::is_usual")]
+    pub going: Going,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        let (range_cells, speed_mps, spread) = (None, None, None);
-        Self { range_cells, loss: Probability::NEVER, noise_db: 0.0, threshold: 0.5, speed_mps, spread }
+        Self {
+            range_cells: None,
+            loss: Probability::NEVER,
+            noise_db: 0.0,
+            threshold: 0.5,
+            speed_mps: None,
+            spread: None,
+            fail: None,
+            going: Going::AtOnce,
+        }
     }
 }
 

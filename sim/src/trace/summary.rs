@@ -8,6 +8,7 @@ use tautline_kernel::ground::Cell;
 use super::StoredViolation;
 use crate::explore::floor::Component;
 use crate::explore::{Knowledge, Milestone, Play, Report, Stage, Stopped, Violation};
+use crate::faults::Faults;
 use crate::layout::generate::Probability;
 
 /// The JSON of a run.
@@ -26,6 +27,9 @@ pub struct Summary<'a> {
     cells: u32,
     milestones: BTreeMap<u32, Option<u32>>,
     stopped: Stopped,
+    /// What has failed, where something was to fail.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    faults: Option<Faults>,
     violations: Vec<StoredViolation>,
 }
 
@@ -113,6 +117,7 @@ impl<'a> Summary<'a> {
             cells: report.cells,
             milestones: milestones.into(),
             stopped: report.stopped,
+            faults: report.faults,
             violations: report.violations.iter().map(|violation: &Violation| violation.into()).collect(),
         }
     }

@@ -136,6 +136,7 @@ impl Line {
                 Change::Take { robot, milliseconds } => {
                     let _ = write!(said, " d{robot}:{milliseconds}");
                 }
+                &Change::Fail { robot } => said += &listed("f", &[robot as u32]),
             }
         }
         let [mut blocked, mut open] = sides;

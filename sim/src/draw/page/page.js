@@ -514,9 +514,10 @@ function drawLinks(at) {
     const lines = {}, add = (name, one, other) => (lines[name] ??= []).push([one, other]);
     const places = frames.cells, lost = new Set(frames.line.lost);
     if (layer.joins === "next") {
-      for (let k = 0; k + 1 < places.length; k++) {
-        const found = zone(layer, places[k], places[k + 1]);
-        add(lost.has(k) || found < 0 ? "lost" : found, k, k + 1);
+      const gone = new Set(failed(shown)), left = Array.from(places.keys()).filter(robot => !gone.has(robot));
+      for (const [k, robot] of left.slice(0, -1).entries()) {
+        const next = left[k + 1], found = zone(layer, places[robot], places[next]);
+        add(gone.size === 0 && lost.has(robot) || found < 0 ? "lost" : found, robot, next);
       }
     } else if (layer.joins === "all") {
       for (let k = 0; k < places.length; k++) for (let j = k + 1; j < places.length; j++) if (zone(layer, places[k], places[j]) >= 0) add(0, k, j);
@@ -645,7 +646,7 @@ function drawRobots(at) {
 /** The robots that have failed by line `i`, and the nodes. */
 const failures = [], deaths = [];
 for (let i = 0; i <= last; i++) {
-  if (inCells) break;
+  if (inCells && !texts[i].includes(" f:")) continue;
   const line = read(texts[i]);
   for (const robot of line.failed) failures.push({ i, of: robot });
   for (const node of line.dead) deaths.push({ i, of: node });

@@ -2,7 +2,7 @@
 
 use tautline_kernel::ground::{Cell, Circle, Edge, EdgeMark, Grid, Step};
 
-use crate::explore::{Change, Ink, Joins, Layer, Place, Scene, Shape, Value, Zone};
+use crate::explore::{Change, Ink, Joins, Kind, Layer, Place, Scene, Shape, Value, Zone};
 
 /// The place of the virtual obstacles among the layers.
 const VIRTUAL: usize = 1;
@@ -39,6 +39,24 @@ pub(super) fn layers() -> Vec<Layer> {
             shape: Shape::Reports,
         },
     ]
+}
+
+/// The place of the lost bytes among the layers of a chain in which something fails.
+pub(super) const LOST: usize = 3;
+
+const LOST_BYTES: &[Kind] = &[Kind::lost("lost byte")];
+
+/// The same, and the bytes that are lost.
+pub(super) fn layers_with_loss() -> Vec<Layer> {
+    let lost = Layer {
+        name: "lost bytes",
+        about: "who did not hear a byte when it was first said; it is said again until all have it"
+            .to_owned(),
+        shape: Shape::Messages(LOST_BYTES),
+    };
+    let mut layers = layers();
+    layers.push(lost);
+    layers
 }
 
 /// The virtual obstacles that a team move from the cells `before` has set; whether an epoch ended before it.

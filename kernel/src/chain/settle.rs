@@ -1,0 +1,165 @@
+//! What comes of a plan: the world's answers, or the messages of those who met them. Walls stand for ever, or they may
+//! appear (ours): then every side is tried, also one that the team has crossed before (CHAIN-22). A robot that has died
+//! does not go (CHAIN-21).
+
+use super::message::{Damaged, Message, Outcome};
+use super::plan::{Kind, Plan};
+use super::team::{Chain, Settled, Stage};
+use crate::ground::{CellMark, Edge, EdgeMark, Grid, Step};
+
+/// Whether walls stand for ever.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum World {
+    /// What was crossed stays open: the paper's.
+    Lasting,
+    /// A wall may appear where a robot has crossed.
+    Changing,
+}
+
+impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
+    /// The same chain in such a world. In a changing one the world is asked for every side that a robot crosses, also in a
+    /// backtrack; a wall that is found is known from then on, and is a gain. A backtrack that meets one ends the history:
+    /// the chain goes on from where it is, and takes back no earlier team move. For walls that appear the rule needs
+    /// *Hold* to keep contact.
+    #[must_use]
+    pub fn in_world(self, world: World) -> Self {
+        Self { world, ..self }
+    }
+
+    /// Carries `plan` out. `is_open` answers for every edge that is crossed without being known, once each, in
+    /// the order of the robots. All robots move at once; one that meets a wall stays, and all learn of it.
+    pub fn settle(&mut self, plan: &Plan<ROBOTS>, is_open: impl FnMut(Edge) -> bool) -> Settled<ROBOTS> {
+        self.carry_out(plan, None, is_open)
+    }
+
+    /// Carries `plan` out as [`Chain::settle`] does, but `mute`, numbered from 1, the base, has died and does not go. Nobody
+    /// hears of it: its messages say that it stays, which no other robot relies on.
+    pub fn settle_without(
+        &mut self,
+        plan: &Plan<ROBOTS>,
+        mute: usize,
+        is_open: impl FnMut(Edge) -> bool,
+    ) -> Settled<ROBOTS> {
+        self.carry_out(plan, mute.checked_sub(1), is_open)
+    }
+
+    fn carry_out(
+        &mut self,
+        plan: &Plan<ROBOTS>,
+        mute: Option<usize>,
+        mut is_open: impl FnMut(Edge) -> bool,
+    ) -> Settled<ROBOTS> {
+        let mut messages = [0; ROBOTS];
+        let mut meets_wall_going_back = false;
+        for (robot, sent) in messages.iter_mut().enumerate().take(self.robots).skip(1) {
+            let step = if mute == Some(robot) { Step::Stay } else { plan.steps[robot] };
+            let cell = self.cells[robot];
+            let outcome = match (plan.kind, step, self.world) {
+                (Kind::Advance, Step::Stay, _) => Outcome::Arrived,
+                (Kind::Backtrack, Step::Stay, _) | (Kind::Backtrack, _, World::Lasting) => Outcome::TookBack,
+                (Kind::Advance, Step::Cross(side), _) => self.try_edge(Edge::new(cell, side), &mut is_open),
+                (Kind::Backtrack, Step::Cross(side), World::Changing) => {
+                    match self.try_edge(Edge::new(cell, side), &mut is_open) {
+                        Outcome::Blocked => Outcome::Blocked,
+                        Outcome::Arrived | Outcome::TookBack => Outcome::TookBack,
+                    }
+                }
+            };
+            meets_wall_going_back |= plan.kind == Kind::Backtrack && outcome == Outcome::Blocked;
+            let message = Message { step, outcome };
+            *sent = message.encode();
+            let to = cell.after(message.made());
+            self.cells[robot] = to;
+            if !self.grid.has(CellMark::Explored, to) {
+                self.grid.put(CellMark::Explored, to);
+                self.stage = Stage::Gained;
+            }
+        }
+        self.moves += 1;
+        self.last_open = plan.last_open;
+        if meets_wall_going_back {
+            self.forget();
+        }
+        if !self.gained() {
+            self.reel.went_on(self.cells[self.robots - 1]);
+        }
+        Settled { messages, robots: self.robots }
+    }
+
+    /// What comes of crossing `edge`.
+    fn try_edge(&mut self, edge: Edge, is_open: &mut impl FnMut(Edge) -> bool) -> Outcome {
+        if self.world == World::Lasting && self.grid.edge_has(EdgeMark::Open, edge) {
+            return Outcome::Arrived;
+        }
+        if self.grid.edge_has(EdgeMark::Wall, edge) {
+            return Outcome::Blocked;
+        }
+        if is_open(edge) {
+            self.grid.put_edge(EdgeMark::Open, edge);
+            Outcome::Arrived
+        } else {
+            self.grid.put_edge(EdgeMark::Wall, edge);
+            self.stage = Stage::Gained;
+            Outcome::Blocked
+        }
+    }
+
+    /// Carries `plan` out as one who plans along and hears of the rest: `messages` are those of R_2 … R_N about this team
+    /// move, one byte each. Afterwards the chain is what [`Chain::settle`] makes of the team that sent them.
+    ///
+    /// # Errors
+    /// [`Damaged`] if they cannot be about this plan and this world; then nothing has changed.
+    pub fn hear(&mut self, plan: &Plan<ROBOTS>, messages: &[u8]) -> Result<(), Damaged> {
+        self.take(plan, messages, None)
+    }
+
+    /// The same after the robot `mute`, numbered from 1, the base, has died: whatever stands for its message is not read.
+    /// Afterwards the chain is what [`Chain::settle_without`] makes of the team.
+    ///
+    /// # Errors
+    /// As of [`Chain::hear`].
+    pub fn hear_without(&mut self, plan: &Plan<ROBOTS>, messages: &[u8], mute: usize) -> Result<(), Damaged> {
+        self.take(plan, messages, mute.checked_sub(1))
+    }
+
+    fn take(&mut self, plan: &Plan<ROBOTS>, messages: &[u8], mute: Option<usize>) -> Result<(), Damaged> {
+        let movers = self.robots - 1;
+        if messages.len() != movers {
+            return Err(Damaged::Length { bytes: messages.len(), sent: movers });
+        }
+        let edge = |robot: usize| match plan.steps[robot] {
+            Step::Cross(side) if mute != Some(robot) => Some(Edge::new(self.cells[robot], side)),
+            Step::Cross(_) | Step::Stay => None,
+        };
+        let mut outcomes = [Outcome::Arrived; ROBOTS];
+        for (robot, &byte) in (1..).zip(messages).filter(|&(robot, _)| mute != Some(robot)) {
+            let Message { step, outcome } = Message::decode(byte)?;
+            let is_back = outcome == Outcome::TookBack;
+            let is_shut = outcome == Outcome::Blocked && self.world == World::Changing;
+            if step != plan.steps[robot] || (is_back != (plan.kind == Kind::Backtrack) && !is_shut) {
+                return Err(Damaged::OtherStep { robot: robot + 1 });
+            }
+            outcomes[robot] = outcome;
+            let is_tried = !is_back || self.world == World::Changing;
+            let Some(crossed) = edge(robot).filter(|_| is_tried) else { continue };
+            let known = if self.grid.edge_has(EdgeMark::Wall, crossed) {
+                Some(Outcome::Blocked)
+            } else if self.world == World::Lasting && self.grid.edge_has(EdgeMark::Open, crossed) {
+                Some(Outcome::Arrived)
+            } else {
+                (1..robot).find(|&other| edge(other) == Some(crossed)).map(|other| outcomes[other])
+            };
+            if known.is_some_and(|known| known != outcome) {
+                return Err(Damaged::OtherWorld { robot: robot + 1 });
+            }
+        }
+        let crossed: [Option<Edge>; ROBOTS] =
+            core::array::from_fn(|robot| (robot < self.robots).then(|| edge(robot)).flatten());
+        self.carry_out(plan, mute, |asked| {
+            let first = (1..ROBOTS).find(|&robot| crossed[robot] == Some(asked));
+            first.is_some_and(|robot| outcomes[robot] != Outcome::Blocked)
+        });
+        Ok(())
+    }
+}

@@ -1,0 +1,211 @@
+//! A robot of the chain dies, whichever and whenever, and the others go on with one fewer (CHAIN-21). Each unknown side is
+//! decided by the oracle when a robot first tries it.
+
+use std::collections::BTreeMap;
+
+use tautline_kernel::chain::{Chain, Intent, Reforming};
+use tautline_kernel::choice::{Oracle, one_of};
+use tautline_kernel::ground::{Cell, Edge, Grid, SmallGrid};
+
+use super::breach::Breach;
+use super::environment::in_covered;
+use super::observed::Observed;
+use super::whole::{listed, start};
+use crate::engine::{Outcome, Stop, require};
+
+/// Robots, and most walls, of [`in_few_walls`].
+const FEW_WALLS: [(usize, u32); 3] = [(3, 1), (4, 1), (5, 0)];
+
+/// Team moves before the death in [`in_few_walls`]: fewer than this.
+const MOMENTS: u32 = 60;
+
+/// Robots, and walls in percent, of [`at_random`]; team moves before the death: fewer than this.
+const RANDOM: (usize, [u32; 5]) = (8, [1, 5, 10, 15, 20]);
+const LATE_MOMENTS: u32 = 300;
+
+/// More team moves than any run has.
+const MANY: u32 = 20_000;
+
+/// What [`in_few_walls`] looks at.
+pub(super) fn few_walls() -> String {
+    let (robots, walls) = (FEW_WALLS.map(|(robots, _)| robots), FEW_WALLS.map(|(_, walls)| walls));
+    let (robots, walls) = (listed(robots), listed(walls));
+    format!("all layouts, N = {robots}, at most {walls} walls, any death in the first {MOMENTS} team moves")
+}
+
+/// What [`at_random`] draws.
+pub(super) fn random_layouts() -> String {
+    let (robots, walls) = RANDOM;
+    let walls = listed(walls);
+    format!(
+        "random layouts, N = {robots}, walls of {walls} %, a death in the first {LATE_MOMENTS} team moves"
+    )
+}
+
+/// A chain of which a robot dies, and what the others do.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Dying {
+    pub(super) observed: Observed,
+    pub(super) then: Then,
+}
+
+/// What the others do when a robot has died.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Then {
+    /// They re-form, and come home when they need what was before.
+    Reform,
+    /// The robots ahead wait where they are.
+    Wait,
+    /// They take two team moves back at once.
+    Skip,
+    /// They re-form, and never come home.
+    StayOut,
+}
+
+/// CHAIN-21 over all layouts with few walls.
+///
+/// # Errors
+/// [`Stop`] if it is no case, or breaks the clause.
+pub(super) fn in_few_walls(dying: &Dying, oracle: &mut dyn Oracle) -> Outcome {
+    let (robots, mut walls) = one_of(oracle, &FEW_WALLS);
+    let (moment, robot) = (oracle.pick(MOMENTS), 1 + oracle.pick(robots as u32 - 1) as usize);
+    let mut is_open = || {
+        let is_wall = walls > 0 && oracle.flip();
+        walls -= u32::from(is_wall);
+        !is_wall
+    };
+    Death { dying, moment, robot }.happens(robots, &mut is_open)
+}
+
+/// CHAIN-21 in a random layout.
+///
+/// # Errors
+/// As of [`in_few_walls`].
+pub(super) fn at_random(dying: &Dying, oracle: &mut dyn Oracle) -> Outcome {
+    let walls_percent = one_of(oracle, &RANDOM.1);
+    let (moment, robot) = (oracle.pick(LATE_MOMENTS), 1 + oracle.pick(RANDOM.0 as u32 - 1) as usize);
+    Death { dying, moment, robot }.happens(RANDOM.0, &mut || oracle.pick(100) >= walls_percent)
+}
+
+/// The robot in place `robot` dies after so many team moves, on its way in the next.
+struct Death<'a> {
+    dying: &'a Dying,
+    moment: u32,
+    robot: usize,
+}
+
+type Small = Chain<SmallGrid, 8>;
+
+impl Death<'_> {
+    fn happens(&self, robots: usize, decides: &mut dyn FnMut() -> bool) -> Outcome {
+        // What a side is stays what it is; the oracle is asked once for each.
+        let mut world = BTreeMap::new();
+        let mut is_open = |edge: Edge| {
+            let key = (edge.cell().x, edge.cell().y, edge.side() as u8);
+            *world.entry(key).or_insert_with(&mut *decides)
+        };
+        let mut chain: Small = start(&self.dying.observed, robots, SmallGrid::new)?;
+        let mut log = Vec::new();
+        for _ in 0..self.moment {
+            if !goes_on(&mut chain, &mut log, &mut is_open)? {
+                return Err(Stop::Assumed);
+            }
+        }
+        let Intent::Go(plan) = chain.plan(&log).map_err(|_| NO_MESSAGE)? else { return Err(Stop::Assumed) };
+        let (before, mut heard) = (chain, chain);
+        let settled = chain.settle_without(&plan, self.robot + 1, &mut is_open);
+        heard.hear_without(&plan, settled.messages(), self.robot + 1).map_err(|_| NO_MESSAGE)?;
+        require(heard == chain, "who hears the others knows what they know")?;
+        log.extend_from_slice(settled.messages());
+        // The one that died may be anywhere on its way.
+        let mut ways = ways(before.cells(), chain.cells());
+        ways[self.robot][1] = before.cells()[self.robot].after(plan.steps()[self.robot]);
+        require(hold(&ways), "the team stops in contact, wherever the robot has died")?;
+        if robots == 2 {
+            return Err(Stop::Assumed);
+        }
+        let mut reforming =
+            chain.reform(self.robot + 1, &log).map_err(|_| Stop::Violated("the others can re-form"))?;
+        let mut taken_back = 0;
+        while !reforming.is_formed() {
+            require(self.takes_back(&mut reforming, &log)?, "the two parts come into contact")?;
+            taken_back += 1;
+        }
+        require(
+            taken_back <= 2 * (self.moment + 1),
+            "they are in contact after at most twice the team moves that were made",
+        )?;
+        let (mut chain, parts) = reforming.formed().map_err(|_| Stop::Violated("the chain goes on"))?;
+        let mut fresh = Vec::new();
+        let mut comes_home = false;
+        for _ in 0..MANY {
+            if goes_on(&mut chain, &mut fresh, &mut is_open)? {
+                continue;
+            }
+            let may_leave = self.dying.then != Then::StayOut && chain.has_more_within_reach();
+            let Some(mut reforming) = chain.come_home(parts).filter(|_| may_leave) else {
+                require(
+                    !chain.has_more_within_reach(),
+                    "in the end all is explored within reach of those left",
+                )?;
+                return Ok(match (comes_home, taken_back) {
+                    (true, _) => "the chain comes home before it goes on",
+                    (false, 0) => "the chain goes on at once",
+                    (false, _) => "the chain goes on after some moves taken back",
+                });
+            };
+            while self.takes_back(&mut reforming, &log)? {}
+            (chain, _) = reforming.formed().map_err(|_| Stop::Violated("all are in contact in the base"))?;
+            require(chain.is_home(), "all moves taken back, the robots are in the base")?;
+            (fresh, comes_home) = (Vec::new(), true);
+        }
+        Err(Stop::Violated("the chain of one robot fewer ends its run"))
+    }
+
+    /// A team move taken back, and whether there was one. Neighbours of the same part must be in contact, whoever of them has
+    /// gone.
+    fn takes_back(&self, reforming: &mut Reforming<SmallGrid, 8>, log: &[u8]) -> Result<bool, Stop> {
+        let before = reforming.cells().to_vec();
+        let mut take_back =
+            || reforming.take_back(log).map_err(|_| Stop::Violated("the log leads over crossed sides only"));
+        let is_left = match self.dying.then {
+            Then::Reform | Then::StayOut => take_back()?,
+            Then::Wait => false,
+            Then::Skip => take_back()? | take_back()?,
+        };
+        let ways = ways(&before, reforming.cells());
+        let (behind, ahead) = ways.split_at(reforming.behind());
+        require(hold(behind) && hold(ahead), "within each part neighbours keep contact")?;
+        Ok(is_left)
+    }
+}
+
+const NO_MESSAGE: Stop = Stop::Violated("the log holds messages only");
+
+/// Makes a team move, in which the team must keep contact whoever goes first, and apart; false if the run is over.
+fn goes_on<G: Grid>(
+    chain: &mut Chain<G, 8>,
+    log: &mut Vec<u8>,
+    is_open: &mut dyn FnMut(Edge) -> bool,
+) -> Result<bool, Stop> {
+    let Intent::Go(plan) = chain.plan(log).map_err(|_| NO_MESSAGE)? else { return Ok(false) };
+    require(!chain.is_refused(), "no plan is refused")?;
+    let before = chain.cells().to_vec();
+    log.extend_from_slice(chain.settle(&plan, is_open).messages());
+    require(hold(&ways(&before, chain.cells())), "neighbours keep contact")?;
+    require(!Breach::Crowding.is_in(&before, chain.cells()), "no three robots are in one cell")?;
+    Ok(true)
+}
+
+/// Where robots were, and where they are.
+fn ways(before: &[Cell], after: &[Cell]) -> Vec<[Cell; 2]> {
+    before.iter().zip(after).map(|(&from, &to)| [from, to]).collect()
+}
+
+/// Whether neighbours are in contact, whoever of them has gone its way.
+fn hold(ways: &[[Cell; 2]]) -> bool {
+    let in_contact = |one: [Cell; 2], other: [Cell; 2]| {
+        one.iter().all(|&one| other.iter().all(|&other| in_covered(one, other)))
+    };
+    ways.windows(2).all(|pair| in_contact(pair[0], pair[1]))
+}

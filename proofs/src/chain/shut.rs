@@ -1,0 +1,131 @@
+//! Walls that appear where a robot has crossed (CHAIN-22). Each unknown side is decided by the oracle when a robot first tries
+//! it, and each open one again whenever a robot is to cross it.
+
+use std::collections::BTreeMap;
+
+use tautline_kernel::chain::{Chain, Intent, World};
+use tautline_kernel::choice::{Oracle, one_of};
+use tautline_kernel::ground::{Edge, SmallGrid, Step};
+
+use super::breach::Breach;
+use super::environment::in_covered;
+use super::observed::Observed;
+use super::whole::{listed, start};
+use crate::engine::{Outcome, Stop, require};
+
+/// Robots, most walls, and most walls that appear, of [`in_few_walls`].
+const FEW_WALLS: [(usize, u32, u32); 3] = [(3, 2, 2), (4, 1, 1), (5, 0, 2)];
+
+/// Robots, walls in percent, and how many tries of an open side meet no new wall on average, of [`at_random`].
+const RANDOM: (usize, [u32; 5], [u32; 3]) = (8, [1, 5, 10, 15, 20], [30, 100, 300]);
+
+/// More team moves than any run has.
+const MANY: u32 = 20_000;
+
+/// What [`in_few_walls`] looks at.
+pub(super) fn few_walls() -> String {
+    let robots = listed(FEW_WALLS.map(|(robots, ..)| robots));
+    let (walls, appear) =
+        (listed(FEW_WALLS.map(|(_, walls, _)| walls)), listed(FEW_WALLS.map(|(.., appear)| appear)));
+    format!("all layouts, N = {robots}, at most {walls} walls, and {appear} that appear")
+}
+
+/// What [`at_random`] draws.
+pub(super) fn random_layouts() -> String {
+    let (robots, walls, tries) = RANDOM;
+    let (walls, tries) = (listed(walls), listed(tries));
+    format!(
+        "random layouts, N = {robots}, walls of {walls} %, a new one in every {tries} tries of an open side"
+    )
+}
+
+/// A chain in a world in which walls appear, and what it takes the world for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Shut {
+    pub(super) observed: Observed,
+    pub(super) world: World,
+}
+
+/// CHAIN-22 over all layouts with few walls.
+///
+/// # Errors
+/// [`Stop`] if it is no case, or breaks the clause.
+pub(super) fn in_few_walls(shut: &Shut, oracle: &mut dyn Oracle) -> Outcome {
+    let (robots, mut walls, mut appear) = one_of(oracle, &FEW_WALLS);
+    runs(shut, robots, &mut |known| {
+        let left = match known {
+            Known::No => &mut walls,
+            Known::Open => &mut appear,
+        };
+        let is_wall = *left > 0 && oracle.flip();
+        *left -= u32::from(is_wall);
+        is_wall
+    })
+}
+
+/// CHAIN-22 in a random layout.
+///
+/// # Errors
+/// As of [`in_few_walls`].
+pub(super) fn at_random(shut: &Shut, oracle: &mut dyn Oracle) -> Outcome {
+    let (robots, walls, tries) = RANDOM;
+    let (percent, tries) = (one_of(oracle, &walls), one_of(oracle, &tries));
+    runs(shut, robots, &mut |known| match known {
+        Known::No => oracle.pick(100) < percent,
+        Known::Open => oracle.pick(tries) == 0,
+    })
+}
+
+/// What the team knows of a side.
+enum Known {
+    No,
+    Open,
+}
+
+fn runs(shut: &Shut, robots: usize, is_wall: &mut dyn FnMut(Known) -> bool) -> Outcome {
+    let mut chain: Chain<SmallGrid, 8> = start(&shut.observed, robots, SmallGrid::new)?.in_world(shut.world);
+    let (mut log, mut walls) = (Vec::new(), BTreeMap::new());
+    let mut situation = "no wall appears";
+    for _ in 0..MANY {
+        let intent = chain.plan(&log).map_err(|_| Stop::Violated("the log holds messages only"))?;
+        let Intent::Go(plan) = intent else { return Ok(situation) };
+        require(!chain.is_refused(), "no plan is refused")?;
+        let before = chain.cells().to_vec();
+        for (&cell, &step) in before.iter().zip(plan.steps()) {
+            if let Step::Cross(side) = step {
+                let key = key(Edge::new(cell, side));
+                let is_new = match walls.get(&key) {
+                    None => is_wall(Known::No),
+                    Some(false) => is_wall(Known::Open),
+                    Some(true) => true,
+                };
+                if is_new && walls.insert(key, true) == Some(false) {
+                    situation = "a wall appears";
+                }
+                walls.entry(key).or_insert(false);
+            }
+        }
+        let mut heard = chain;
+        let settled = chain.settle(&plan, |edge| walls.get(&key(edge)) == Some(&false));
+        heard
+            .hear(&plan, settled.messages())
+            .map_err(|_| Stop::Violated("who hears a team move believes it"))?;
+        require(heard == chain, "who hears a team move knows what the team knows")?;
+        log.extend_from_slice(settled.messages());
+        let crosses = |(&from, &step)| matches!(step, Step::Cross(side) if walls.get(&key(Edge::new(from, side))) == Some(&true));
+        let is_through = before
+            .iter()
+            .zip(plan.steps())
+            .zip(chain.cells())
+            .any(|((from, step), to)| crosses((from, step)) && from != to);
+        require(!is_through, "no robot is taken to be through a wall")?;
+        let is_in_contact = chain.cells().windows(2).all(|pair| in_covered(pair[0], pair[1]));
+        require(is_in_contact, "neighbours are in contact when walls have appeared")?;
+        require(!Breach::Crowding.is_in(&before, chain.cells()), "no three robots are in one cell")?;
+    }
+    Err(Stop::Violated("every run ends"))
+}
+
+fn key(edge: Edge) -> (i16, i16, u8) {
+    (edge.cell().x, edge.cell().y, edge.side() as u8)
+}

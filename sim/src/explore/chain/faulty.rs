@@ -1,0 +1,398 @@
+//! A chain in which something fails: bytes are lost at the barrier (CHAIN-20), a robot dies (CHAIN-21), robots go one after
+//! the other (CHAIN-19). The run is that of the kernel's chain; where nothing fails it is the run of a chain without faults.
+
+use std::mem::take;
+
+use rand_chacha::ChaCha8Rng;
+use tautline_kernel::chain::{self, Barrier, Chain, Heard, Intent, Kind, Parts, Plan, Reforming};
+use tautline_kernel::ground::{Area, Cell, Edge, Grid, Step};
+use tautline_proofs::chain::breach::{Breach, CHEAP_LOOKS, frame};
+use tautline_proofs::chain::links::within_reach;
+use tautline_proofs::run::Frame;
+
+use super::shown;
+use crate::explore::{Change, ClauseId, End, Hearers, Layer, Scene, Setup, Survey, Team};
+use crate::faults::{Failure, Faults, Going};
+use crate::layout::Layout;
+use crate::layout::generate::{Probability, below, source};
+
+/// Neighbours are out of contact while they go.
+pub const ANY_ORDER: ClauseId = ClauseId::new("CHAIN-19");
+
+/// Robots lose contact within a part, or leave something out, after one of them has died.
+pub const DEATH: ClauseId = ClauseId::new("CHAIN-21");
+
+/// How often robots say their bytes of one team move before whoever watches them ends the run.
+const PATIENCE: u32 = 1000;
+
+/// What the robots that are left are.
+enum Whole<G, const ROBOTS: usize> {
+    /// A chain.
+    Chain(Chain<G, ROBOTS>),
+    /// Two parts that take their moves back, as far as until they are in contact, or home.
+    Parts(Reforming<G, ROBOTS>, Until),
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Until {
+    Contact,
+    Home,
+}
+
+/// The chain in which something fails.
+pub(super) struct Faulty<G, const ROBOTS: usize> {
+    /// There is always one between two team moves.
+    whole: Option<Whole<G, ROBOTS>>,
+    seed: u64,
+    log: Vec<u8>,
+    /// What was before the death: how far it was taken back, and its log.
+    before: Option<(Option<Parts>, Vec<u8>)>,
+    /// Where all robots are, the dead one included.
+    cells: Vec<Cell>,
+    /// The places in `cells` of those that are left.
+    left: Vec<usize>,
+    failure: Option<Failure>,
+    loss: Probability,
+    going: Going,
+    chance: ChaCha8Rng,
+    barriers: Vec<Barrier<ROBOTS>>,
+    faults: Faults,
+    moves: u32,
+    /// Epochs before the last team move.
+    epochs: u32,
+    /// Whether a byte of the last team move never came.
+    is_silent: bool,
+    /// By robot that spoke in the last team move: who did not hear it.
+    unheard: Vec<(usize, Vec<usize>)>,
+}
+
+impl<G: Grid, const ROBOTS: usize> Faulty<G, ROBOTS> {
+    pub(super) fn new(setup: &Setup, chain: Chain<G, ROBOTS>) -> Self {
+        let cells = chain.cells().to_vec();
+        let left: Vec<usize> = (0..cells.len()).collect();
+        let mut faulty = Self {
+            whole: Some(Whole::Chain(chain)),
+            seed: setup.seed,
+            log: Vec::new(),
+            before: None,
+            cells,
+            left,
+            failure: setup.options.fail,
+            loss: setup.options.loss,
+            going: setup.options.going,
+            chance: source(setup.seed, *b"faults  "),
+            barriers: Vec::new(),
+            faults: Faults::default(),
+            moves: 0,
+            epochs: 0,
+            is_silent: false,
+            unheard: Vec::new(),
+        };
+        faulty.meet();
+        faulty
+    }
+
+    /// The robots that are left meet at a new barrier; the base, which says nothing, has none.
+    fn meet(&mut self) {
+        let robots = self.left.len();
+        self.barriers = (1..robots).map(|own| Barrier::new(robots, own)).collect();
+    }
+
+    /// A team move of the chain.
+    fn go(
+        &mut self,
+        mut chain: Chain<G, ROBOTS>,
+        plan: &Plan<ROBOTS>,
+        is_open: &mut dyn FnMut(Edge) -> bool,
+    ) -> Frame {
+        let due = self.failure.take_if(|failure| failure.step.get() <= self.moves);
+        let mute = due.map(|failure| usize::from(failure.robot));
+        let settled = match mute {
+            None => chain.settle(plan, is_open),
+            Some(mute) => chain.settle_without(plan, mute, is_open),
+        };
+        self.log.extend_from_slice(settled.messages());
+        let made = frame(plan.kind, settled.messages(), chain.cells());
+        let made = self.widened(&made);
+        match mute {
+            None => {
+                self.exchange(settled.messages());
+                self.whole = Some(Whole::Chain(chain));
+            }
+            Some(mute) => self.dies(chain, mute),
+        }
+        made
+    }
+
+    /// A robot, numbered from 1 as before, has died in the last team move.
+    fn dies(&mut self, chain: Chain<G, ROBOTS>, mute: usize) {
+        self.faults.died = Some(self.moves);
+        self.left.remove(mute - 1);
+        self.meet();
+        let is_alone = self.left.len() < 2;
+        self.is_silent = is_alone;
+        let log = take(&mut self.log);
+        self.whole = if is_alone {
+            Some(Whole::Chain(chain))
+        } else {
+            chain.reform(mute, &log).ok().map(|reforming| Whole::Parts(reforming, Until::Contact))
+        };
+        self.before = Some((None, log));
+    }
+
+    /// A team move of those that are left, as one of all robots.
+    fn widened(&mut self, made: &Frame) -> Frame {
+        let robots = self.cells.len();
+        let (mut steps, mut blocked) = (vec![Step::Stay; robots], vec![false; robots]);
+        for (place, &robot) in self.left.iter().enumerate() {
+            steps[robot] = made.steps[place];
+            blocked[robot] = made.blocked[place];
+            self.cells[robot] = made.cells[place];
+        }
+        Frame { kind: made.kind, steps, blocked, cells: self.cells.clone() }
+    }
+
+    /// Takes a team move from before the death back; `None` if there is none.
+    fn take_back(&mut self, reforming: &mut Reforming<G, ROBOTS>) -> Option<Frame> {
+        let before = reforming.cells().to_vec();
+        let (_, log) = self.before.as_ref()?;
+        if reforming.take_back(log) != Ok(true) {
+            return None;
+        }
+        let step = |(from, to): (&Cell, &Cell)| Step::ALL.into_iter().find(|&step| from.after(step) == *to);
+        let steps = before.iter().zip(reforming.cells()).map(step).collect::<Option<Vec<Step>>>()?;
+        let blocked = vec![false; steps.len()];
+        let made = Frame { kind: Kind::Backtrack, steps, blocked, cells: reforming.cells().to_vec() };
+        Some(self.widened(&made))
+    }
+
+    /// The robots say their bytes at the barrier until all have heard all.
+    fn exchange(&mut self, messages: &[u8]) {
+        if self.loss.is_never() {
+            return;
+        }
+        let turn = self.barriers.first().map_or(0, Barrier::turn);
+        for (barrier, &message) in self.barriers.iter_mut().zip(messages) {
+            barrier.say(message);
+        }
+        let mut unheard: Vec<Vec<usize>> = vec![Vec::new(); self.barriers.len()];
+        for _ in 0..PATIENCE {
+            if self.barriers.iter().all(|barrier| barrier.turn() > turn) {
+                self.unheard = self.told(unheard);
+                return;
+            }
+            self.faults.rounds += 1;
+            let is_waiting = |barrier: &Barrier<ROBOTS>| barrier.turn() == turn;
+            let said: Vec<Option<u8>> =
+                self.barriers.iter().map(|barrier| barrier.again().filter(|_| is_waiting(barrier))).collect();
+            for (from, byte) in said.iter().enumerate() {
+                let Some(byte) = *byte else { continue };
+                let mut answers = Vec::new();
+                for to in (0..self.barriers.len()).filter(|&to| to != from) {
+                    match self.carry(from, to, byte, &mut unheard[from]) {
+                        Some(Heard::Late(answer)) => answers.push((to, answer)),
+                        Some(Heard::New | Heard::Again | Heard::Early | Heard::Foreign) | None => {}
+                    }
+                }
+                for (other, answer) in answers {
+                    self.carry(other, from, answer, &mut unheard[other]);
+                }
+            }
+            for barrier in &mut self.barriers {
+                if is_waiting(barrier) {
+                    let passed = barrier.pass();
+                    debug_assert!(
+                        passed.is_none_or(|passed| passed.starts_with(messages)),
+                        "the same of all"
+                    );
+                }
+            }
+        }
+        self.is_silent = true;
+        self.unheard = self.told(unheard);
+    }
+
+    /// A byte from one robot to another, both counted from R_2, unless it is lost.
+    fn carry(&mut self, from: usize, to: usize, byte: u8, unheard: &mut Vec<usize>) -> Option<Heard> {
+        if self.loss.happens(&mut self.chance) {
+            self.faults.lost_bytes += 1;
+            if !unheard.contains(&to) {
+                unheard.push(to);
+            }
+            return None;
+        }
+        // Every byte here is one that a barrier has made.
+        self.barriers[to].hear(from + 1, byte).ok()
+    }
+
+    /// The same in numbers of all robots, the base being 0.
+    fn told(&self, unheard: Vec<Vec<usize>>) -> Vec<(usize, Vec<usize>)> {
+        let robot = |mover: usize| self.left[mover + 1];
+        let spoken = unheard.into_iter().enumerate().filter(|(_, to)| !to.is_empty());
+        spoken.map(|(from, to)| (robot(from), to.into_iter().map(robot).collect())).collect()
+    }
+
+    /// The robots between which contact is promised: all that are left, or each part of them.
+    fn parts(&self) -> [&[usize]; 2] {
+        match &self.whole {
+            None | Some(Whole::Chain(_)) => [&self.left, &[]],
+            Some(Whole::Parts(reforming, _)) => {
+                let (behind, ahead) = self.left.split_at(reforming.behind());
+                [behind, ahead]
+            }
+        }
+    }
+
+    /// Whether neighbours are in contact all the time while robots go from `before` to `after` one after the other, in a random
+    /// order.
+    fn holds_one_by_one(&self, before: &[Cell], after: &[Cell]) -> bool {
+        // The order is drawn anew from the number of the team move, so that a look does not change the run.
+        let mut chance = source(self.seed ^ u64::from(self.moves) << 32, *b"going   ");
+        let mut waiting = self.left.clone();
+        let mut cells = before.to_vec();
+        while !waiting.is_empty() {
+            let next = waiting.swap_remove(below(waiting.len() as u32, &mut chance) as usize);
+            cells[next] = after[next];
+            if self.parts().iter().any(|part| is_apart(part, &cells)) {
+                return false;
+            }
+        }
+        true
+    }
+}
+
+/// Whether neighbours in a part are out of contact.
+fn is_apart(part: &[usize], cells: &[Cell]) -> bool {
+    let here: Vec<Cell> = part.iter().map(|&robot| cells[robot]).collect();
+    Breach::Contact.is_in(&here, &here)
+}
+
+impl<G: Grid, const ROBOTS: usize> Team for Faulty<G, ROBOTS> {
+    fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+        self.unheard.clear();
+        if self.is_silent {
+            return Err(End::Silent);
+        }
+        self.moves += 1;
+        while let Some(whole) = self.whole.take() {
+            match whole {
+                Whole::Parts(reforming, Until::Contact) if reforming.is_formed() => {
+                    self.faults.taken_back = self.faults.died.map(|died| self.moves - 1 - died);
+                    self.form(reforming);
+                }
+                Whole::Parts(mut reforming, until) => match self.take_back(&mut reforming) {
+                    Some(made) => {
+                        self.faults.home += u32::from(until == Until::Home);
+                        self.whole = Some(Whole::Parts(reforming, until));
+                        return Ok(made);
+                    }
+                    None => self.form(reforming),
+                },
+                Whole::Chain(mut chain) => {
+                    self.epochs = chain.epochs();
+                    let end = match chain.plan(&self.log) {
+                        Ok(Intent::Go(plan)) => return Ok(self.go(chain, &plan, is_open)),
+                        Ok(Intent::Done(chain::End::Explored)) => End::Explored,
+                        Ok(Intent::Done(chain::End::Exhausted)) => End::Exhausted,
+                        Err(damaged) => unreachable!("the log holds what the chain has sent, but {damaged}"),
+                    };
+                    let has_more = chain.has_more_within_reach();
+                    let parts = self.before.as_ref().and_then(|(parts, _)| *parts).filter(|_| has_more);
+                    let Some(parts) = parts.filter(|_| chain.can_come_home()) else {
+                        self.whole = Some(Whole::Chain(chain));
+                        return Err(end);
+                    };
+                    let reforming = chain.come_home(parts);
+                    self.whole = reforming.map(|reforming| Whole::Parts(reforming, Until::Home));
+                }
+            }
+        }
+        unreachable!("a log that the chain has sent leads it home, and there it is in contact")
+    }
+
+    fn area(&self, _: &Layout) -> Area {
+        self.grid().map_or(Area::of(self.cells[0]), Grid::area)
+    }
+
+    fn missed(&self, layout: &Layout, chart: &Survey) -> Vec<Cell> {
+        let due = within_reach(chart.area(), self.cells[0], self.left.len(), |edge| layout.is_open(edge));
+        due.into_iter().filter(|&cell| chart.step(cell).is_none()).collect()
+    }
+
+    fn broken_in_move(&self, before: &[Cell], frame: &Frame) -> Vec<ClauseId> {
+        let mut broken = Vec::new();
+        if self.faults.died.is_none() {
+            let seen = Breach::CHAIN.into_iter().filter(|breach| breach.is_in(before, &frame.cells));
+            broken.extend(seen.map(ClauseId::from));
+        } else if self.parts().iter().any(|part| is_apart(part, &frame.cells)) {
+            broken.push(DEATH);
+        }
+        if let Some(Whole::Chain(chain)) = &self.whole
+            && chain.looked_at() > CHEAP_LOOKS * chain.cells().len() as u32
+        {
+            broken.push(Breach::Costly.into());
+        }
+        if self.going == Going::OneByOne && !self.holds_one_by_one(before, &frame.cells) {
+            broken.push(ANY_ORDER);
+        }
+        broken
+    }
+
+    fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
+        match end {
+            End::Silent => Vec::new(),
+            End::Explored | End::Exhausted | End::Endless if self.missed(layout, chart).is_empty() => {
+                Vec::new()
+            }
+            End::Explored | End::Exhausted | End::Endless if self.faults.died.is_some() => vec![DEATH],
+            End::Explored | End::Exhausted | End::Endless => vec![Breach::Completeness.into()],
+        }
+    }
+
+    fn faults(&self) -> Option<Faults> {
+        Some(self.faults)
+    }
+
+    fn layers(&self) -> Vec<Layer> {
+        shown::layers_with_loss()
+    }
+
+    fn show(&self, before: &[Cell], scene: &mut Scene) {
+        if self.faults.died == Some(self.moves)
+            && let Some(robot) = (0..self.cells.len()).find(|robot| !self.left.contains(robot))
+        {
+            scene.note(Change::Fail { robot });
+        }
+        for (from, to) in &self.unheard {
+            scene.say(shown::LOST, 0, *from, Hearers::These(to.clone()));
+        }
+        if let Some(Whole::Chain(chain)) = &self.whole {
+            let before: Vec<Cell> = self.left.iter().map(|&robot| before[robot]).collect();
+            shown::show(chain.grid(), &before, self.epochs < chain.epochs(), scene);
+        }
+    }
+}
+
+impl<G: Grid, const ROBOTS: usize> Faulty<G, ROBOTS> {
+    /// The two parts are a chain again, with a log that begins anew.
+    fn form(&mut self, reforming: Reforming<G, ROBOTS>) {
+        if let Ok((chain, parts)) = reforming.formed() {
+            if let Some((told, _)) = &mut self.before {
+                *told = Some(parts);
+            }
+            self.log.clear();
+            self.whole = Some(Whole::Chain(chain));
+        }
+    }
+
+    fn grid(&self) -> Option<&G> {
+        match self.whole.as_ref()? {
+            Whole::Chain(chain) => Some(chain.grid()),
+            Whole::Parts(reforming, _) => Some(reforming.grid()),
+        }
+    }
+}

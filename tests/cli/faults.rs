@@ -1,0 +1,60 @@
+//! What fails while a chain explores: the run, its trace, its page, its JSON, and what is refused.
+
+use super::*;
+
+#[test]
+fn a_chain_in_which_something_fails_is_told_of_in_text_json_trace_and_page() {
+    let folder = folder();
+    let folder = folder.path();
+    let faults = ["--rule", "reel", "--robots", "5", "--fail", "3@12", "--loss", "0.2", "--speeds"];
+    let explore = [&["explore", "walls:9x9:0.1", "--seed", "7"], &faults[..]].concat();
+    let files = ["--trace", "run.jsonl", "--replay", "run.html"];
+    let text = printed(folder, &[&explore[..], &files].concat(), 0);
+    assert!(text.contains("a robot died in team move 12; the others formed a chain after"), "{text}");
+    assert!(
+        text.contains("lost; the robots said theirs in") && text.contains("no clause is broken"),
+        "{text}"
+    );
+    let told = json(folder, &explore, 0);
+    assert_eq!((&told["faults"]["died"], &told["violations"]), (&12.into(), &Value::Array(vec![])));
+    assert!(told["faults"]["lost_bytes"].as_u64() > Some(10), "{told}");
+    printed(folder, &["replay", "run.jsonl"], 0);
+    let trace = fs::read_to_string(folder.join("run.jsonl")).expect("text");
+    assert!(trace.contains(r#""fail":{"robot":3,"move":12},"going":"one-by-one""#), "{trace}");
+    let page = fs::read_to_string(folder.join("run.html")).expect("text");
+    assert!(page.contains(" f:2") && page.contains("lost byte") && page.contains("--fail 3@12 --speeds"));
+}
+
+#[test]
+fn a_chain_that_waits_for_ever_says_so() {
+    let folder = folder();
+    let explore = ["explore", "open:5x5", "--rule", "reel", "--robots", "3"];
+    let lost = json(folder.path(), &[&explore[..], &["--lose", "1"]].concat(), 0);
+    assert_eq!((&lost["stopped"], &lost["steps"]), (&"silent".into(), &1.into()));
+    let alone = ["explore", "open:3x3", "--rule", "reel", "--robots", "2", "--fail", "2@3"];
+    let alone = json(folder.path(), &alone, 0);
+    assert_eq!((&alone["stopped"], &alone["steps"]), (&"silent".into(), &3.into()));
+}
+
+#[test]
+fn a_failure_that_cannot_be_is_refused() {
+    let folder = folder();
+    let wrong: [(&[&str], &str); 12] = [
+        (&["--fail", "9@5"], "name a robot from 2 to 8"),
+        (&["--fail", "1@5"], "the base cannot fail"),
+        (&["--fail", "0@5"], "no robot 0"),
+        (&["--fail", "3@0"], "whole numbers from 1 on"),
+        (&["--fail", "3"], "whole numbers from 1 on"),
+        (&["--fail", "3@NaN"], "whole numbers from 1 on"),
+        (&["--loss", "1.5"], "1.5"),
+        (&["--loss", "-0.1"], "-0.1"),
+        (&["--lose", "NaN"], "NaN"),
+        (&["--scheme", "bricks", "--fail", "2@5"], "take the scheme chain"),
+        (&["--scheme", "full-search", "--loss", "0.1"], "chain"),
+        (&["--scheme", "kit", "--speeds"], "take the scheme chain"),
+    ];
+    for (arguments, why) in wrong {
+        let said = refused(folder.path(), &[&["explore", "open:15x15"], arguments].concat());
+        assert!(said.contains(why), "{arguments:?}: {said}");
+    }
+}
