@@ -264,6 +264,64 @@ fn sizes_are_those_of_the_docs() {
     assert!(size_of::<Fix>() <= 200, "{}", size_of::<Fix>());
 }
 
+/// A motion of the plane: a turn, a mirror image or none before it, and a shift.
+#[derive(Clone, Copy, Debug)]
+struct Motion {
+    degrees: f64,
+    is_mirrored: bool,
+    to: Point,
+}
+
+impl Motion {
+    fn of(self, place: Point) -> Point {
+        let (sine, cosine) = self.degrees.to_radians().sin_cos();
+        let y_m = if self.is_mirrored { -place.y_m } else { place.y_m };
+        let (x_m, y_m) = (cosine * place.x_m - sine * y_m, sine * place.x_m + cosine * y_m);
+        Point::new(x_m + self.to.x_m, y_m + self.to.y_m)
+    }
+}
+
+fn motions() -> impl Strategy<Value = Motion> {
+    let parts = (0.0..360.0_f64, any::<bool>(), -50.0..50.0_f64, -50.0..50.0_f64);
+    parts.prop_map(|(degrees, is_mirrored, x, y)| Motion { degrees, is_mirrored, to: Point::new(x, y) })
+}
+
+/// A way from distances to a position.
+type Way = fn(&[Range]) -> Point;
+
+fn by_metres(ranges: &[Range]) -> Point {
+    locate(ranges, Residual::Metres, &signal(1.0), None).expect("a fix").best().at
+}
+
+fn by_decibels(ranges: &[Range]) -> Point {
+    locate(ranges, Residual::Decibels, &signal(1.0), None).expect("a fix").best().at
+}
+
+fn by_equations(ranges: &[Range]) -> Point {
+    linear(ranges).expect("a triangle")
+}
+
+/// Whether the position that `way` finds goes with the anchors.
+fn goes_with(way: Way, ranges: &[Range], motion: Motion) -> bool {
+    let moved: Vec<Range> =
+        ranges.iter().map(|range| Range::new(motion.of(range.anchor), range.distance_m)).collect();
+    way(&moved).distance_m(motion.of(way(ranges))) < 1e-5
+}
+
+#[test]
+fn a_way_that_prefers_a_direction_does_not_go_with_its_anchors() {
+    let drawn = wrong(&mut Drawn(1));
+    let east: Way = |ranges| Point::new(by_metres(ranges).x_m + 1.0, by_metres(ranges).y_m);
+    let north: Way = |ranges| Point::new(by_metres(ranges).x_m, by_metres(ranges).y_m.abs());
+    let still = Motion { degrees: 0.0, is_mirrored: false, to: Point::default() };
+    let (turn, mirror) = (Motion { degrees: 30.0, ..still }, Motion { is_mirrored: true, ..still });
+    for way in [by_metres, by_decibels, by_equations, east, north] {
+        assert!(goes_with(way, &drawn, still));
+    }
+    assert!(!goes_with(east, &drawn, turn) && goes_with(east, &drawn, mirror));
+    assert!(!goes_with(north, &drawn, mirror));
+}
+
 /// Numbers of every kind, among them those that are none.
 fn any_number() -> impl Strategy<Value = f64> {
     prop_oneof![
@@ -304,6 +362,14 @@ proptest! {
         let mut particles = [Particle::UNUSED; 4];
         if let Ok(swarm) = Swarm::start(&ranges, Point::default(), Parameters::FALLING, &mut particles, &mut Drawn(2)) {
             prop_assert!(swarm.run(&mut Drawn(3)).is_finite());
+        }
+    }
+
+    #[test]
+    fn positions_are_moved_turned_and_mirrored_with_their_anchors(seed in any::<u64>(), motion in motions()) {
+        let ranges = wrong(&mut Drawn(seed));
+        for way in [by_metres, by_decibels, by_equations] {
+            prop_assert!(goes_with(way, &ranges, motion), "{:?}", ranges);
         }
     }
 

@@ -3,12 +3,15 @@
 mod common;
 
 use crate::common::Unwatched;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::frontier::Rule;
 use tautline_kernel::ground::Cell;
+use tautline_proofs::engine::Seeded;
 use tautline_sim::explore::frontier::FRONTIER;
 use tautline_sim::explore::hunt::{Asked, Hunted, Shown};
 use tautline_sim::explore::{Misfit, RuleId, Setup, Stopped, explore};
-use tautline_sim::frontier::Options;
-use tautline_sim::layout::{Layout, Size};
+use tautline_sim::frontier::{Assigned, Assignment, Ended, Explorers, Options};
+use tautline_sim::layout::{Generator, Layout, Size};
 
 fn hunted(rule: &'static str, robots: u64, (width, height): (u64, u64), max_losses: u8) -> Hunted {
     let asked = Asked {
@@ -95,4 +98,71 @@ fn what_does_not_fit_is_refused() {
     let cell = Cell::new(0, 0);
     let together = Setup { starts: Some(vec![cell, cell]), ..setup(2, (3, 3)) };
     assert_eq!(together.check().err(), Some(Misfit::Together(cell)));
+}
+
+/// So many free cells, any of them.
+fn any_starts(layout: &Layout, robots: usize, oracle: &mut Seeded) -> Vec<Cell> {
+    let mut free: Vec<Cell> = layout.cells().filter(|&cell| layout.is_free(cell)).collect();
+    let any = |_| {
+        let number = oracle.pick(free.len() as u32) as usize;
+        free.swap_remove(number)
+    };
+    (0..robots).map(any).collect()
+}
+
+/// Runs of Hungarian assignment that is computed anew at every move, in so many random layouts for each size, share of blocked
+/// cells and number of robots. All starts are anywhere and in any order, so that ties are broken in any way.
+fn end_of_runs_with_assignments_anew(layouts: u64) -> usize {
+    let mut runs = 0;
+    for size in ["6x7", "8x8", "10x6", "12x14"] {
+        for share in ["0.05", "0.1", "0.2", "0.3"] {
+            let generator: Generator = format!("cells:{size}:{share}").parse().expect("a generator");
+            for seed in 0..layouts {
+                let layout = generator.generate(seed).expect("a layout");
+                for robots in 2..=8 {
+                    let starts = any_starts(&layout, robots, &mut Seeded::new(seed, robots as u64));
+                    let mut team = Assigned::new(Assignment::HungarianAnew, &layout, &starts);
+                    let ended = loop {
+                        if let Err(ended) = team.advance() {
+                            break ended;
+                        }
+                    };
+                    assert_eq!(ended, Ended::Known, "{size}, {share}, seed {seed}, {robots} robots");
+                    runs += 1;
+                }
+            }
+        }
+    }
+    runs
+}
+
+#[test]
+fn hungarian_assignment_anew_at_every_move_ends() {
+    assert_eq!(end_of_runs_with_assignments_anew(2), 224);
+}
+
+#[test]
+#[ignore = "98 s of a core: cargo test --workspace --test frontier larger_layouts -- --ignored"]
+fn hungarian_assignment_anew_at_every_move_ends_in_larger_layouts() {
+    assert_eq!(end_of_runs_with_assignments_anew(500), 56_000);
+}
+
+#[test]
+#[ignore = "46 s of a core, and published maps: cargo test --workspace --release --test frontier published_maps -- --ignored --nocapture"]
+fn eight_robots_explore_published_maps() {
+    let folder = std::env::var_os("TAUTLINE_MAPS").expect("TAUTLINE_MAPS names the folder of published maps");
+    for (map, expected) in [("random512-10-0", 36_795), ("Boston_0_512", 29_356)] {
+        let file = std::path::Path::new(&folder).join(format!("{map}.map"));
+        let mut layout = tautline_sim::layout::load(file.to_str().expect("a name"), 0, None).expect("a map");
+        let base = layout.default_base().expect("a base");
+        layout.place_base(base).expect("a base");
+        let starts = FRONTIER.default_starts(RuleId::REPAIRED, &layout, base, 8).expect("starts");
+        let (begin, mut moves) = (std::time::Instant::now(), 0);
+        let mut team = Explorers::new(Rule::REPAIRED, &layout, &starts, Options::default(), 0);
+        while team.advance().is_ok() {
+            moves += 1;
+        }
+        println!("{map}: {moves} team moves in {:.1} s", begin.elapsed().as_secs_f64());
+        assert_eq!(moves, expected, "{map}");
+    }
 }

@@ -191,7 +191,8 @@ fn what_tells_no_position_is_refused_with_what_would_be_right() {
     });
     assert_snapshot!("wrong_levels", said.join("\n"));
     fs::write(folder.join("m.csv"), format!("{head}1,0,0,-50\n")).expect("a file");
-    assert!(refused(folder, &["locate", "m.csv"]).contains("power-dbm"));
+    let remedy = "give --power-dbm, the level at one metre, and --exponent, how fast levels fall";
+    assert!(refused(folder, &["locate", "m.csv"]).contains(remedy));
     fs::write(folder.join("m.csv"), MEASUREMENTS).expect("a file");
     // The closed form knows no mirror images.
     assert!(refused(folder, &["locate", "m.csv", "--solver", "pso"]).contains("on one line"));
