@@ -21,6 +21,7 @@ mod rescue;
 mod shards;
 mod show;
 mod threads;
+mod viewers;
 
 use std::io::{self, IsTerminal, Write};
 use std::num::NonZeroU32;
