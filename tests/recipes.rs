@@ -1,6 +1,8 @@
 //! The scripts that people copy: those of docs/recipes, and the steps of the action.
 #![cfg(unix)]
 
+mod commands;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -99,10 +101,50 @@ fn the_recipes_that_are_not_run_can_be_read() {
         ("docs/recipes/workflow.yml", "jobs"),
         ("action.yml", "runs"),
         (".github/workflows/ci.yml", "jobs"),
+        (".github/workflows/fuzz.yml", "jobs"),
+        (".github/workflows/kani.yml", "jobs"),
+        (".github/workflows/release.yml", "jobs"),
     ] {
         let text = fs::read_to_string(recipe(file)).expect("text");
         let read: serde_json::Value =
             serde_saphyr::from_str(&text).unwrap_or_else(|error| panic!("{file}: {error}"));
         assert!(read[key].is_object(), "{file}");
     }
+}
+
+#[test]
+fn the_notes_of_a_release_are_a_section_of_the_changelog() {
+    let notes = |version: &str| ran(&recipe("."), recipe(".ci/notes"), &[version]);
+    let unreleased = notes("Unreleased");
+    assert_eq!(unreleased.status.code(), Some(0));
+    let text = String::from_utf8(unreleased.stdout).expect("text");
+    assert!(text.starts_with("### ") && !text.contains("\n## "), "{text}");
+    assert_eq!(notes("9.9.9").status.code(), Some(1));
+}
+
+/// What mdBook is given: the table of contents has every page once, and every link of a page leads to something in the book.
+#[test]
+fn no_page_is_left_out_of_the_book() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().to_str().expect("text");
+    let made = ran(folder.path(), recipe(".ci/book"), &[out]);
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    let source = folder.path().join("src");
+    let contents = fs::read_to_string(source.join("SUMMARY.md")).expect("a table of contents");
+    let links = |text: &str| -> Vec<String> {
+        let targets = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+        targets.map(|target| target.split('#').next().unwrap_or_default().to_owned()).collect()
+    };
+    let chapters = links(&contents);
+    for page in commands::documents() {
+        let name = page.strip_prefix(recipe("")).expect("a page of ours").display().to_string();
+        assert_eq!(chapters.iter().filter(|chapter| **chapter == name).count(), 1, "{name}");
+        let text = fs::read_to_string(source.join(&name)).expect("a page");
+        let near = |target: &&String| !target.is_empty() && !target.starts_with("https://");
+        for target in links(&text).iter().filter(near) {
+            let place = source.join(&name).with_file_name(target);
+            assert!(place.exists(), "{name}: {target} leads nowhere in the book");
+        }
+    }
+    assert_eq!(chapters.len(), commands::documents().len());
 }

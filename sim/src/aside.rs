@@ -14,14 +14,15 @@ use tempfile::NamedTempFile;
 use crate::fault::{Fault, Halt};
 
 /// How the files begin that this program writes: stored runs and kept hunts, pictures, pages, manual pages, ITF traces,
-/// recordings.
-const OURS: [&[u8]; 6] = [
+/// recordings, tables.
+const OURS: [&[u8]; 7] = [
     b"{\"format\":\"tautline ",
     SVG_HEAD.as_bytes(),
     HTML_HEAD.as_bytes(),
     MAN_HEAD.as_bytes(),
     ITF_HEAD.as_bytes(),
     MCAP_HEAD,
+    CSV_HEAD.as_bytes(),
 ];
 
 /// The beginning of a picture.
@@ -46,6 +47,9 @@ pub(crate) const MCAP_LIBRARY: &str = "tautline";
 
 /// The beginning of a recording: what all begin with, a header record of 20 bytes, its profile and its library.
 const MCAP_HEAD: &[u8] = b"\x89MCAP0\r\n\x01\x14\0\0\0\0\0\0\0\x04\0\0\0ros2\x08\0\0\0tautline";
+
+/// The beginning of a table as comma-separated values: its first columns.
+pub(crate) const CSV_HEAD: &str = "schema_version,id,list,";
 
 /// The beginning of a manual page: a comment.
 pub const MAN_HEAD: &str = ".\\\" Written by tautline.\n";
