@@ -8,11 +8,14 @@ use super::{Cli, program, with_negative_numbers};
 #[path = "../tests/commands/mod.rs"]
 mod commands;
 
-/// Why the program would not take these arguments.
+/// Why the program would not take these arguments. A map that is not in this repository is nothing against them.
 fn refusal(arguments: &[String]) -> Option<clap::Error> {
     let all = ["tautline"].into_iter().chain(arguments.iter().map(String::as_str));
     let taken = with_negative_numbers(program()).try_get_matches_from(all);
-    taken.and_then(|matches| Cli::from_arg_matches(&matches)).err()
+    let error = taken.and_then(|matches| Cli::from_arg_matches(&matches)).err()?;
+    let is_map_elsewhere = error.kind() == ErrorKind::ValueValidation
+        && error.to_string().contains(".map: there is no such file");
+    (error.kind() != ErrorKind::DisplayHelp && !is_map_elsewhere).then_some(error)
 }
 
 #[test]
@@ -37,15 +40,13 @@ fn every_command_of_the_documents_is_one_that_the_program_takes() {
 fn a_command_within_a_sentence_has_no_option_that_there_is_not() {
     let spans = commands::spans();
     assert!(spans.len() > 100, "{}", spans.len());
-    for (place, arguments) in spans {
+    // That is the first line of a layout.
+    for (place, arguments) in spans.into_iter().filter(|(_, arguments)| *arguments != ["layout", "1"]) {
         if let Some(error) = refusal(&arguments) {
             // A sentence may name a command without all that it needs.
             let is_part = matches!(
                 error.kind(),
-                ErrorKind::MissingRequiredArgument
-                    | ErrorKind::MissingSubcommand
-                    | ErrorKind::DisplayHelp
-                    | ErrorKind::DisplayVersion
+                ErrorKind::MissingRequiredArgument | ErrorKind::MissingSubcommand | ErrorKind::DisplayVersion
             );
             assert!(is_part, "{place}: tautline {arguments:?}\n{error}");
         }

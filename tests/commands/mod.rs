@@ -1,5 +1,7 @@
 //! The commands that the documents name: in their blocks of code, and within their sentences.
 
+#![allow(dead_code, reason = "each test needs a part of it")]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -73,7 +75,6 @@ pub(crate) fn blocks() -> Vec<Block> {
 
 /// The commands of ours that stand within sentences, each with its page, but those with a word in capitals for what a person
 /// has to choose.
-#[allow(dead_code)]
 pub(crate) fn spans() -> Vec<(String, Vec<String>)> {
     let mut found = Vec::new();
     for path in documents() {
