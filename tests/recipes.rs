@@ -112,6 +112,35 @@ fn the_recipes_that_are_not_run_can_be_read() {
     }
 }
 
+/// What the XML library of Python makes of a JUnit file: the counts of its suite, then each case with what came of it.
+const READER: &str = "\
+import sys
+import xml.etree.ElementTree as tree
+[suite] = tree.parse(sys.argv[1]).getroot()
+print(*(suite.get(name) for name in ('tests', 'failures', 'errors', 'skipped')))
+for case in suite:
+    print(case.get('classname'), case.get('name'), *(child.tag for child in case), sep='|')
+";
+
+#[test]
+fn a_junit_file_is_read_by_another_reader() {
+    if !has("python3", "--version") {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let read = |arguments: &[&str]| {
+        let told = ran(folder.path(), TAUTLINE, &[arguments, &["--format", "junit"]].concat());
+        fs::write(folder.path().join("told.xml"), told.stdout).expect("a file");
+        let read = ran(folder.path(), "python3", &["-c", READER, "told.xml"]);
+        String::from_utf8(read.stdout).expect("text")
+    };
+    assert_eq!(read(&HUNT), "1 1 0 0\nchain|CHAIN-13 by chain (published)|failure\n");
+    let proved = read(&["prove", "LATTICE-1"]);
+    assert_eq!(proved, "1 0 0 0\nLATTICE|LATTICE-1 as published, exhaustive: 81 offsets\n");
+    let ended = read(&["hunt", "--robots", "3", "--max-walls", "2", "--budget", "1"]);
+    assert!(ended.starts_with("1 0 0 1\n") && ended.ends_with("|skipped\n"), "{ended}");
+}
+
 #[test]
 fn the_notes_of_a_release_are_a_section_of_the_changelog() {
     let notes = |version: &str| ran(&recipe("."), recipe(".ci/notes"), &[version]);

@@ -43,7 +43,7 @@ def grid(message):
     return np.array(message.data, np.int8).reshape(message.info.height, message.info.width)
 
 
-@pytest.mark.parametrize("file", ["chain-2-published-n4.jsonl", "open-7x7.jsonl", "kit-7-published.jsonl"])
+@pytest.mark.parametrize("file", ["chain-2-published-n4.jsonl", "open-7x7.jsonl", "bricks-4-repaired-n1.jsonl"])
 def test_a_recording_reads_back_as_the_run(file):
     run = tautline.replay(DOCS / file)
     topics = recorded(run)
@@ -71,15 +71,15 @@ def test_a_recording_reads_back_as_the_run(file):
         for pose, letter in zip(poses.poses, move["tried"], strict=True):
             turn = {"N": 0.5**0.5, "S": -(0.5**0.5), "W": 1.0}.get(letter, 0.0)
             assert pose.orientation.z == turn
-    assert all(len(links.points) == len(links.colors) for _, links in topics["/links"])
+    assert all(len(links.points) == len(links.colors) for _, links in topics.get("/links", []))
     assert run.mcap() == tautline.replay(DOCS / file).mcap()
 
 
 def test_the_updates_of_a_large_map_lead_to_what_is_explored():
-    run = tautline.explore("walls:48x48:0.1", seed=2, robots=6)
+    run = tautline.explore("cells:48x48:0.1", "bricks", seed=2, robots=4, max_moves=400)
     topics = recorded(run)
     known = grid(topics["/map"][0][1]).copy()
-    assert len(topics["/map_updates"]) > run.steps // 2
+    assert len(topics["/map_updates"]) > 500
     for _, update in topics["/map_updates"]:
         values = np.array(update.data, np.int8).reshape(update.height, update.width)
         known[update.y : update.y + update.height, update.x : update.x + update.width] = values
