@@ -154,7 +154,7 @@ impl<'f> Recording<'f> {
             cdr.i32(cell.y.into());
         });
         message.list(made.broken, |cdr, clause| cdr.string(clause.as_str()));
-        self.send("/team_move", "tautline_msgs/TeamMove", made.step, &message.into_bytes())?;
+        self.send("/team_move", "tautline/TeamMove", made.step, &message.into_bytes())?;
         let face = |(&cell, &step): (&Cell, &Step)| match step {
             Step::Cross(side) => (cell, Some(side)),
             Step::Stay => (cell, None),
@@ -264,7 +264,7 @@ impl<'f> Recording<'f> {
             cdr.string(violation.clause.as_str());
             cdr.u32(violation.step);
         });
-        self.send("/end", "tautline_msgs/End", report.steps, &message.into_bytes())?;
+        self.send("/end", "tautline/End", report.steps, &message.into_bytes())?;
         self.writer.finish().map(|_| ()).map_err(unwritten)
     }
 }

@@ -29,17 +29,17 @@ const TYPES: &[Type] = &[
     ("std_msgs/ColorRGBA", "float32 r\nfloat32 g\nfloat32 b\nfloat32 a\n"),
     ("std_msgs/Header", "builtin_interfaces/Time stamp\nstring frame_id\n"),
     (
-        "tautline_msgs/End",
+        "tautline/End",
         "std_msgs/Header header\nstring stopped\nuint32 steps\nuint32 explored\nuint32 cells\n\
-         tautline_msgs/Violation[] violations\n",
+         tautline/Violation[] violations\n",
     ),
     (
-        "tautline_msgs/TeamMove",
+        "tautline/TeamMove",
         "std_msgs/Header header\nuint32 step\nstring kind\nstring tried\nbool[] blocked\n\
-         tautline_msgs/Cell[] cells\nstring[] broken\n",
+         tautline/Cell[] cells\nstring[] broken\n",
     ),
-    ("tautline_msgs/Cell", "int32 column\nint32 row\n"),
-    ("tautline_msgs/Violation", "string clause\nuint32 step\n"),
+    ("tautline/Cell", "int32 column\nint32 row\n"),
+    ("tautline/Violation", "string clause\nuint32 step\n"),
     (
         "visualization_msgs/Marker",
         "std_msgs/Header header\nstring ns\nint32 id\nint32 type\nint32 action\ngeometry_msgs/Pose pose\n\
