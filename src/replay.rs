@@ -145,8 +145,17 @@ impl Replay {
         let [page, picture, itf, mcap] = self.force.files(files, [self.file.clone()])?;
         let viewers = [itf, mcap];
         match lines::format(&self.file).as_deref() {
-            Some(rescue::trace::FORMAT) => self.run_rescue(Files { trace: None, page, map: picture }, out),
-            Some(refutation::FORMAT) => self.run_refutation(out),
+            Some(rescue::trace::FORMAT) => {
+                let [itf, recording] = viewers;
+                viewers::refuse(itf.as_ref(), ("--itf", "a rescue"), &self.file)?;
+                self.run_rescue(Files { trace: None, page, map: picture, recording }, out)
+            }
+            Some(refutation::FORMAT) => {
+                for (file, option) in viewers.iter().zip(["--itf", "--mcap"]) {
+                    viewers::refuse(file.as_ref(), (option, "a refutation"), &self.file)?;
+                }
+                self.run_refutation(out)
+            }
             Some(trace::FORMAT) => {
                 self.run_stored(trace::open(&self.file)?, Stores { page, picture, viewers }, out)
             }
@@ -287,7 +296,6 @@ impl Replay {
     }
 
     fn run_rescue(&self, files: Files, out: &mut Output) -> Result<Exit, Halt> {
-        self.viewers.refuse(&self.file, "a rescue")?;
         if self.moves.is_some() {
             let what = "a rescue has no team moves";
             return Err(Fault::usage(what, "leave out --moves, or name a run of a team").into());
@@ -297,7 +305,6 @@ impl Replay {
     }
 
     fn run_refutation(&self, out: &mut Output) -> Result<Exit, Halt> {
-        self.viewers.refuse(&self.file, "a refutation")?;
         if self.moves.is_some() || self.html.is_some() || self.svg.is_some() {
             let what = "a refutation has no team moves to choose from, no page and no picture";
             let remedy = "leave out --moves, --html and --svg, or name a run of a team";

@@ -29,18 +29,18 @@ impl ViewerArgs {
     pub(super) const fn paths(&self) -> [&Option<PathBuf>; 2] {
         [&self.itf, &self.mcap]
     }
+}
 
-    /// Refuses them where there is no run of a team: in `file` there is `what` instead.
-    ///
-    /// # Errors
-    /// A [`Fault`] if one is asked for.
-    pub(super) fn refuse(&self, file: &Path, what: &str) -> Result<(), Fault> {
-        if self.paths().into_iter().all(Option::is_none) {
-            return Ok(());
-        }
-        let what = format!("{what} has no team moves for --itf and --mcap");
-        Err(Fault::in_file(file, what, "leave them out, or name a run of a team"))
+/// Refuses a file in the format `option` where there is no run of a team: in the file at `path` there is `what` instead.
+///
+/// # Errors
+/// A [`Fault`] if it is asked for.
+pub(super) fn refuse(asked: Option<&Aside>, (option, what): (&str, &str), path: &Path) -> Result<(), Fault> {
+    if asked.is_none() {
+        return Ok(());
     }
+    let what = format!("{what} has no team moves for {option}");
+    Err(Fault::in_file(path, what, format_args!("leave {option} out, or name a run of a team")))
 }
 
 /// Writes `run` to these files.

@@ -1,6 +1,6 @@
 //! Recordings, read back by the reader of the format's own crate, are equal to the trace of the same run.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
@@ -211,17 +211,20 @@ fn a_recording_reads_back_equal_to_the_trace_and_is_the_same_bytes_each_time() {
         assert_eq!(read.moves, moves, "{run}");
         assert_eq!(read.end, end, "{run}");
         // Robots stand in the middle of their cells.
-        let rows = header["layout"]
-            .as_str()
-            .expect("a drawing")
-            .lines()
-            .filter(|line| line.starts_with('|'))
-            .count();
+        let rows = u32::try_from(
+            header["layout"]
+                .as_str()
+                .expect("a drawing")
+                .lines()
+                .filter(|line| line.starts_with('|'))
+                .count(),
+        )
+        .expect("few rows");
         for (robots, made) in read.robots[1..].iter().zip(&moves) {
             let cells = made["move"]["cells"].as_array().expect("cells");
             let middle = |cell: &Value| {
                 let [x, y] = [&cell[0], &cell[1]].map(|number| number.as_f64().expect("a number"));
-                [x + 0.5, rows as f64 - y - 0.5]
+                [x + 0.5, f64::from(rows) - y - 0.5]
             };
             assert_eq!(*robots, cells.iter().map(middle).collect::<Vec<_>>(), "{run}");
         }
@@ -258,13 +261,71 @@ fn the_links_of_a_recording_are_those_of_the_scheme() {
 }
 
 #[test]
-fn what_is_no_run_of_a_team_has_no_recording() {
+fn the_recording_of_a_rescue_has_the_lines_of_its_trace_and_the_places_of_its_robots() {
     let folder = tempfile::tempdir().expect("a folder");
     let folder = folder.path();
+    let rescue = "rescue --nodes 300 --wfr 2 --robots 2 --obstacle 100,100,150,150 --seeds 8";
+    ran(folder, &format!("{rescue} --trace rescue.jsonl --mcap rescue.mcap"));
+    let bytes = fs::read(folder.join("rescue.mcap")).expect("a recording");
+    let trace = fs::read_to_string(folder.join("rescue.jsonl")).expect("a trace");
+    let (mut lines, mut robots, mut topics) = (Vec::new(), BTreeMap::new(), BTreeSet::new());
+    for message in MessageStream::new(&bytes).expect("a recording") {
+        let message = message.expect("a message");
+        let mut cdr = Cdr::of(&message.data);
+        let stamp = u64::from(cdr.u32()) * 1_000_000_000 + u64::from(cdr.u32());
+        assert_eq!((stamp, cdr.text().as_str()), (message.log_time, "map"));
+        match message.channel.topic.as_str() {
+            "/event" | "/end" => lines.push(cdr.text()),
+            "/robots" => {
+                let places = cdr.list(|cdr| {
+                    let [x, y, _, _, _, z, w]: [f64; 7] = std::array::from_fn(|_| cdr.f64());
+                    assert!((z * z + w * w - 1.0).abs() < 1e-9, "a direction");
+                    [x, y]
+                });
+                assert_eq!(places.len(), 2);
+                robots.insert(stamp, places);
+            }
+            topic => assert!(topics.insert(topic.to_owned()), "{topic} stands still"),
+        }
+    }
+    assert_eq!(lines, trace.lines().skip(1).collect::<Vec<_>>());
+    assert_eq!(topics.into_iter().collect::<Vec<_>>(), ["/nodes", "/obstacles", "/wfrs"]);
+    // Where a robot sets out and arrives, it is at that time. What it passes is told up to a step ahead.
+    let mut compared = 0;
+    for line in trace.lines() {
+        let line: Value = serde_json::from_str(line).expect("JSON");
+        let Some(at_ns) = line["at_ns"].as_u64() else { continue };
+        for name in ["sets-out", "arrives"] {
+            let of = &line[name];
+            let (Some(robot), Some(at)) = (of["robot"].as_u64(), of["at"].as_array()) else { continue };
+            let [x, y] = robots[&at_ns][robot as usize - 1];
+            let [east, south] = [&at[0], &at[1]].map(|side| side.as_f64().expect("a number") / 1000.0);
+            assert!((x - east).abs() < 0.001 && (300.0 - y - south).abs() < 0.001, "{line}: {x}, {y}");
+            compared += 1;
+        }
+    }
+    assert!(compared >= 4, "{compared}");
+    ran(folder, "replay rescue.jsonl --mcap again.mcap");
+    assert!(fs::read(folder.join("again.mcap")).expect("a recording") == bytes);
+}
+
+#[test]
+fn what_has_no_team_moves_has_no_trace_of_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let refused = |arguments: &str, what: &str| {
+        let refused = ran(folder, arguments);
+        let said = String::from_utf8_lossy(&refused.stderr);
+        assert_eq!(refused.status.code(), Some(2), "{said}");
+        assert!(said.contains(what), "{said}");
+        assert!(!folder.join("run.out").exists());
+    };
     assert_eq!(ran(folder, "rescue --nodes 300 --seeds 8 --trace rescue.jsonl").status.code(), Some(0));
-    let refused = ran(folder, "replay rescue.jsonl --mcap run.mcap");
-    let said = String::from_utf8_lossy(&refused.stderr);
-    assert_eq!(refused.status.code(), Some(2), "{said}");
-    assert!(said.contains("a rescue has no team moves for --itf and --mcap"), "{said}");
-    assert!(!folder.join("run.mcap").exists());
+    refused("replay rescue.jsonl --itf run.out", "a rescue has no team moves for --itf");
+    refused("rescue --nodes 300 --seeds 8..9 --mcap run.out", "several rescues do not fit into one file");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).display().to_string();
+    refused(
+        &format!("replay {root}/docs/kit-7-published.jsonl --mcap run.out"),
+        "a refutation has no team moves for --mcap",
+    );
 }

@@ -3,56 +3,34 @@
 
 mod cdr;
 mod definition;
+pub(crate) mod file;
 mod points;
 
-use std::collections::{BTreeMap, VecDeque};
-use std::io::{self, Write};
+use std::collections::VecDeque;
 
-use ::mcap::records::{MessageHeader, Metadata};
-use ::mcap::write::NoSeek;
-use ::mcap::{McapError, WriteOptions, Writer};
 use tautline_kernel::ground::{Cell, Side, Step};
 
-use self::cdr::Cdr;
-use self::definition::definition;
+use self::file::{BLUE, Drawing, File, Ink, ORANGE, PURPLE, headed, stamp};
 use self::points::{Points, Rectangle};
 use super::StoredMove;
-use crate::aside::{Aside, MCAP_LIBRARY, MCAP_PROFILE};
+use crate::aside::Aside;
 use crate::explore::{Joins, Layer, Play, Report, Scene, Shape, Stage, TeamMove, Zone};
 use crate::fault::{Fault, Halt};
 
-/// The frame of all places: x goes east, y goes north, and a cell is a metre wide.
-const FRAME: &str = "map";
-
-/// The points of a map are so many metres wide. The first is a post, whose middle is at 0, 0.
+/// The points of a map are so many metres wide, of cells of one metre. The first is a post, whose middle is at 0, 0.
 const POINT_M: f64 = 0.5;
 
 /// A map of at most so many points is sent whole each time that it changes. Of a larger one what changes is sent, and the whole
 /// again when that has taken as many bytes.
 const MOST_WHOLE: usize = 64 * 64;
 
-/// How wide a link is drawn, in metres.
-const LINK_M: f64 = 0.08;
+/// Links by their zones; those in none are lost.
+const ZONE_INKS: [Ink; 2] = [BLUE, ORANGE];
+const LOST_INK: Ink = PURPLE;
 
-/// The colours of links by their zones, and of those in none: red, green, blue. Blue, orange and red-purple are told apart by the
-/// colour-blind, too.
-const ZONE_INKS: [[f32; 3]; 2] = [[0.0, 0.45, 0.7], [0.9, 0.6, 0.0]];
-const LOST_INK: [f32; 3] = [0.8, 0.4, 0.7];
-
-/// The action and the kind of a `visualization_msgs/Marker`.
-const ADD: i32 = 0;
-const DELETE: i32 = 2;
-const LINE_LIST: i32 = 5;
-
-impl Write for Aside {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.append(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
+/// The time of a team move.
+const fn at_ns(step: u32) -> u64 {
+    step as u64 * 1_000_000_000
 }
 
 /// Writes `run` to `file`.
@@ -66,15 +44,9 @@ pub fn write(file: &mut Aside, run: &dyn Play) -> Result<(), Halt> {
     Ok(recording.end(&report)?)
 }
 
-fn unwritten(error: McapError) -> Fault {
-    Fault::usage(format_args!("the MCAP file cannot be written: {error}"), "store a shorter run")
-}
-
 /// A file in the making.
 struct Recording<'f> {
-    writer: Writer<NoSeek<&'f mut Aside>>,
-    /// By topic: its channel, and how many messages it has.
-    channels: BTreeMap<&'static str, (u16, u32)>,
+    file: File<'f>,
     rows: i16,
     known: Points,
     /// Bytes of what has changed in a large map since the whole was sent.
@@ -85,12 +57,6 @@ struct Recording<'f> {
 impl<'f> Recording<'f> {
     /// What stands still, and the start.
     fn begin(file: &'f mut Aside, stage: &Stage<'_>) -> Result<Self, Fault> {
-        let options = WriteOptions::new()
-            .profile(MCAP_PROFILE)
-            .library(MCAP_LIBRARY)
-            .compression(None)
-            .disable_seeking(true);
-        let mut writer = options.create(NoSeek::new(file)).map_err(unwritten)?;
         let facts = [
             ("scheme", stage.scheme.to_owned()),
             ("rule", stage.rule.to_owned()),
@@ -98,18 +64,10 @@ impl<'f> Recording<'f> {
             ("seed", stage.seed.to_string()),
             ("layout", stage.layout.to_string()),
         ];
-        let metadata = facts.into_iter().map(|(name, fact)| (name.to_owned(), fact)).collect();
-        writer.write_metadata(&Metadata { name: "tautline".to_owned(), metadata }).map_err(unwritten)?;
-        let starts = stage.starts();
+        let (file, starts) = (File::begin(file, &facts)?, stage.starts());
         let known = Points::at_start(stage.layout, &starts);
-        let (channels, rows) = (BTreeMap::new(), stage.layout.height());
-        let mut recording = Self { writer, channels, rows, known, sent: 0, links: None };
-        recording.send(
-            "/layout",
-            "nav_msgs/OccupancyGrid",
-            0,
-            &grid(&Points::whole(stage.layout), 0).into_bytes(),
-        )?;
+        let mut recording = Self { file, rows: stage.layout.height(), known, sent: 0, links: None };
+        recording.send("/layout", "nav_msgs/OccupancyGrid", 0, &grid(&Points::whole(stage.layout), 0))?;
         recording.known.changed();
         recording.map(0)?;
         let faces: Vec<(Cell, Option<Side>)> = starts.into_iter().map(|cell| (cell, None)).collect();
@@ -118,21 +76,7 @@ impl<'f> Recording<'f> {
     }
 
     fn send(&mut self, topic: &'static str, kind: &str, step: u32, message: &[u8]) -> Result<(), Fault> {
-        let (channel_id, count) = match self.channels.get(topic) {
-            Some(&known) => known,
-            None => (self.open(topic, kind).map_err(unwritten)?, 0),
-        };
-        self.channels.insert(topic, (channel_id, count + 1));
-        let time = u64::from(step) * 1_000_000_000;
-        let header = MessageHeader { channel_id, sequence: count, log_time: time, publish_time: time };
-        self.writer.write_to_known_channel(&header, message).map_err(unwritten)
-    }
-
-    /// The channel of a new topic with messages of this type.
-    fn open(&mut self, topic: &str, kind: &str) -> Result<u16, McapError> {
-        let name = kind.replace('/', "/msg/");
-        let schema = self.writer.add_schema(&name, "ros2msg", definition(kind).as_bytes())?;
-        self.writer.add_channel(schema, topic, "cdr", &BTreeMap::new())
+        self.file.send(topic, kind, at_ns(step), message)
     }
 
     /// A team move, and what the team knows after it.
@@ -144,7 +88,7 @@ impl<'f> Recording<'f> {
             self.links(0, made.before)?;
         }
         let stored = StoredMove::new(made.step, made.frame);
-        let mut message = headed(made.step);
+        let mut message = headed(at_ns(made.step));
         message.u32(made.step);
         message.string(stored.kind());
         message.string(stored.tried());
@@ -180,12 +124,12 @@ impl<'f> Recording<'f> {
     fn map(&mut self, step: u32) -> Result<(), Fault> {
         self.sent = 0;
         let message = grid(&self.known, step);
-        self.send("/map", "nav_msgs/OccupancyGrid", step, &message.into_bytes())
+        self.send("/map", "nav_msgs/OccupancyGrid", step, &message)
     }
 
     /// What has changed in it.
     fn update(&mut self, step: u32, part: Rectangle) -> Result<(), Fault> {
-        let mut message = headed(step);
+        let mut message = headed(at_ns(step));
         message.i32(part.x as i32);
         message.i32(part.y as i32);
         message.u32(part.width as u32);
@@ -198,62 +142,34 @@ impl<'f> Recording<'f> {
 
     /// Where the robots are, turned to where they tried to go; one that stays looks east.
     fn poses(&mut self, step: u32, faces: &[(Cell, Option<Side>)]) -> Result<(), Fault> {
-        let mut message = headed(step);
-        message.list(faces, |cdr, &(cell, side)| {
-            let [x, y] = place(self.rows, cell);
-            cdr.f64s([x, y, 0.0]);
-            cdr.f64s(match side {
-                None | Some(Side::East) => [0.0, 0.0, 0.0, 1.0],
-                Some(Side::North) => [0.0, 0.0, 0.5_f64.sqrt(), 0.5_f64.sqrt()],
-                Some(Side::West) => [0.0, 0.0, 1.0, 0.0],
-                Some(Side::South) => [0.0, 0.0, -(0.5_f64.sqrt()), 0.5_f64.sqrt()],
-            });
+        let poses = faces.iter().map(|&(cell, side)| {
+            let way = match side {
+                None | Some(Side::East) => [1.0, 0.0],
+                Some(Side::North) => [0.0, 1.0],
+                Some(Side::West) => [-1.0, 0.0],
+                Some(Side::South) => [0.0, -1.0],
+            };
+            (place(self.rows, cell), way)
         });
-        self.send("/robots", "geometry_msgs/PoseArray", step, &message.into_bytes())
+        let poses: Vec<_> = poses.collect();
+        self.file.poses("/robots", at_ns(step), &poses)
     }
 
     /// The links of robots in these cells, where the scheme has links.
     fn links(&mut self, step: u32, cells: &[Cell]) -> Result<(), Fault> {
         let Some((joins, zones)) = self.links else { return Ok(()) };
-        let joined = joined(joins, zones, cells);
-        let mut message = headed(step);
-        message.string("links");
-        for number in [0, LINE_LIST, if joined.is_empty() { DELETE } else { ADD }] {
-            message.i32(number);
-        }
-        message.f64s([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
-        message.f64s([LINK_M, 0.0, 0.0]);
-        colour(&mut message, LOST_INK);
-        // For ever, and not locked to the frame.
-        message.i32(0);
-        message.u32(0);
-        message.bool(false);
-        let ends = || joined.iter().flat_map(|&(one, other, zone)| [(one, zone), (other, zone)]);
-        message.list(&ends().collect::<Vec<_>>(), |cdr, &(robot, _)| {
-            let [x, y] = place(self.rows, cells[robot]);
-            cdr.f64s([x, y, 0.0]);
+        let ends = joined(joins, zones, cells).into_iter().flat_map(|(one, other, zone)| {
+            let ink = zone.map_or(LOST_INK, |zone| ZONE_INKS[zone % ZONE_INKS.len()]);
+            [one, other].map(|robot| (place(self.rows, cells[robot]), ink))
         });
-        message.list(&ends().collect::<Vec<_>>(), |cdr, &(_, zone)| {
-            colour(cdr, zone.map_or(LOST_INK, |zone| ZONE_INKS[zone % ZONE_INKS.len()]));
-        });
-        // No texture: its name, its image of no format, and no place in it; no text, and no mesh.
-        message.string("");
-        stamp(&mut message, 0);
-        message.string("");
-        message.string("");
-        message.length(0);
-        message.length(0);
-        message.string("");
-        message.string("");
-        message.string("");
-        message.length(0);
-        message.bool(false);
-        self.send("/links", "visualization_msgs/Marker", step, &message.into_bytes())
+        let ends: Vec<_> = ends.collect();
+        let drawing = Drawing { name: "links", shape: file::Shape::Lines, width_m: 0.08 };
+        self.file.marker("/links", at_ns(step), &drawing, &ends)
     }
 
     /// What came of the run.
     fn end(mut self, report: &Report) -> Result<(), Fault> {
-        let mut message = headed(report.steps);
+        let mut message = headed(at_ns(report.steps));
         // The word that the trace has for it.
         let stopped = serde_json::to_value(report.stopped).unwrap_or_default();
         message.string(stopped.as_str().unwrap_or_default());
@@ -265,22 +181,8 @@ impl<'f> Recording<'f> {
             cdr.u32(violation.step);
         });
         self.send("/end", "tautline/End", report.steps, &message.into_bytes())?;
-        self.writer.finish().map(|_| ()).map_err(unwritten)
+        self.file.end()
     }
-}
-
-/// The time of a team move.
-fn stamp(message: &mut Cdr, step: u32) {
-    message.i32(step as i32);
-    message.u32(0);
-}
-
-/// A message that begins with a header.
-fn headed(step: u32) -> Cdr {
-    let mut message = Cdr::new();
-    stamp(&mut message, step);
-    message.string(FRAME);
-    message
 }
 
 /// The middle of a cell, in metres, in a layout of so many rows.
@@ -288,21 +190,16 @@ fn place(rows: i16, cell: Cell) -> [f64; 2] {
     [f64::from(cell.x) + 0.5, f64::from(rows - cell.y) - 0.5]
 }
 
-fn colour(message: &mut Cdr, [red, green, blue]: [f32; 3]) {
-    for part in [red, green, blue, 1.0] {
-        message.f32(part);
-    }
-}
-
-fn grid(points: &Points, step: u32) -> Cdr {
-    let mut message = headed(step);
+/// A map, whole.
+fn grid(points: &Points, step: u32) -> Vec<u8> {
+    let mut message = headed(at_ns(step));
     stamp(&mut message, 0);
     message.f32(POINT_M as f32);
     message.u32(points.width as u32);
     message.u32(points.height as u32);
     message.f64s([-POINT_M / 2.0, -POINT_M / 2.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
     message.bytes(points.values().iter().copied());
-    message
+    message.into_bytes()
 }
 
 /// The links that a team shows, if it does.

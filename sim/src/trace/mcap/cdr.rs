@@ -6,16 +6,16 @@ const HEAD: [u8; 4] = [0, 1, 0, 0];
 
 /// A message in the making.
 #[derive(Clone, Debug)]
-pub(super) struct Cdr(Vec<u8>);
+pub(crate) struct Cdr(Vec<u8>);
 
 impl Cdr {
     /// No value yet.
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self(HEAD.to_vec())
     }
 
     /// The whole message.
-    pub(super) fn into_bytes(self) -> Vec<u8> {
+    pub(crate) fn into_bytes(self) -> Vec<u8> {
         self.0
     }
 
@@ -28,52 +28,52 @@ impl Cdr {
     }
 
     /// One or zero, in a byte.
-    pub(super) fn bool(&mut self, value: bool) {
+    pub(crate) fn bool(&mut self, value: bool) {
         self.0.push(value.into());
     }
 
     /// A whole number of 32 bits that may be negative.
-    pub(super) fn i32(&mut self, value: i32) {
+    pub(crate) fn i32(&mut self, value: i32) {
         self.aligned(&value.to_le_bytes());
     }
 
     /// A whole number of 32 bits.
-    pub(super) fn u32(&mut self, value: u32) {
+    pub(crate) fn u32(&mut self, value: u32) {
         self.aligned(&value.to_le_bytes());
     }
 
     /// A number of single precision.
-    pub(super) fn f32(&mut self, value: f32) {
+    pub(crate) fn f32(&mut self, value: f32) {
         self.aligned(&value.to_le_bytes());
     }
 
     /// Numbers of double precision.
-    pub(super) fn f64s<const N: usize>(&mut self, values: [f64; N]) {
+    pub(crate) fn f64s<const N: usize>(&mut self, values: [f64; N]) {
         for value in values {
             self.aligned(&value.to_le_bytes());
         }
     }
 
     /// How many elements follow.
-    pub(super) fn length(&mut self, count: usize) {
+    pub(crate) fn length(&mut self, count: usize) {
         self.u32(count as u32);
     }
 
     /// A text: its length with the zero at its end, and both.
-    pub(super) fn string(&mut self, text: &str) {
+    pub(crate) fn string(&mut self, text: &str) {
         self.length(text.len() + 1);
         self.0.extend_from_slice(text.as_bytes());
         self.0.push(0);
     }
 
     /// A list of bytes.
-    pub(super) fn bytes(&mut self, bytes: impl ExactSizeIterator<Item = i8>) {
+    pub(crate) fn bytes(&mut self, bytes: impl ExactSizeIterator<Item = i8>) {
         self.length(bytes.len());
         self.0.extend(bytes.map(i8::cast_unsigned));
     }
 
     /// A list, each element written by `write`.
-    pub(super) fn list<T>(&mut self, items: &[T], mut write: impl FnMut(&mut Self, &T)) {
+    pub(crate) fn list<T>(&mut self, items: &[T], mut write: impl FnMut(&mut Self, &T)) {
         self.length(items.len());
         for item in items {
             write(self, item);

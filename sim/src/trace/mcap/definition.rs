@@ -1,4 +1,4 @@
-//! The types of the messages, as ROS 2 defines them, and two of our own. A definition names the types of its fields; a file has
+//! The types of the messages, as ROS 2 defines them, and some of our own. A definition names the types of its fields; a file has
 //! each type with all that it is made of, so that a reader needs no installed ROS.
 
 use std::collections::BTreeSet;
@@ -39,6 +39,7 @@ const TYPES: &[Type] = &[
          tautline/Cell[] cells\nstring[] broken\n",
     ),
     ("tautline/Cell", "int32 column\nint32 row\n"),
+    ("tautline/Line", "std_msgs/Header header\nstring json\n"),
     ("tautline/Violation", "string clause\nuint32 step\n"),
     (
         "visualization_msgs/Marker",
