@@ -91,10 +91,10 @@ fn has_all_values(id: &str, text: &str, json: &Value) {
                 path = if path.is_empty() { part.to_owned() } else { format!("{path}.{part}") };
                 let is_plain = part.parse::<usize>().is_ok();
                 if is_plain {
-                    pointer += &format!("/{}", part.parse::<usize>().expect("a number") - 1);
+                    pointer = format!("{pointer}/{}", part.parse::<usize>().expect("a number") - 1);
                 } else {
                     if part != "each" {
-                        pointer += &format!("/{part}");
+                        pointer = format!("{pointer}/{part}");
                     }
                     let is_list = json.pointer(&pointer).is_some_and(|value| {
                         value
@@ -102,7 +102,8 @@ fn has_all_values(id: &str, text: &str, json: &Value) {
                             .is_some_and(|items| items.iter().any(|item| item.is_object() || item.is_array()))
                     });
                     if is_list {
-                        pointer += &format!("/{}", cells[&*path].parse::<usize>().expect("a number") - 1);
+                        pointer =
+                            format!("{pointer}/{}", cells[&*path].parse::<usize>().expect("a number") - 1);
                     }
                 }
             }
