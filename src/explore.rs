@@ -11,6 +11,7 @@ use tautline_kernel::ground::Cell;
 use tautline_proofs::words::counted;
 
 use super::output::Output;
+use super::viewers::{self, ViewerArgs};
 use super::{
     CellArg, Chance, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless, positive, probability,
     progress, whole,
@@ -97,9 +98,8 @@ pub(super) struct Explore {
     /// Store the run as JSON lines.
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
-    /// Store the run in the Informal Trace Format, for the viewers of model checkers.
-    #[arg(long, value_name = "FILE")]
-    itf: Option<PathBuf>,
+    #[command(flatten)]
+    viewers: ViewerArgs,
     /// Store the run as a page that plays it.
     #[arg(long, value_name = "FILE")]
     replay: Option<PathBuf>,
@@ -130,8 +130,9 @@ const SMALL_COLUMNS: usize = 33;
 impl Explore {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let setup = self.setup()?;
-        let files = [&self.trace, &self.replay, &self.svg, &self.itf];
-        let [trace, page, picture, itf] = self.force.files(files, self.layout.inputs())?;
+        let [itf, mcap] = self.viewers.paths();
+        let files = [&self.trace, &self.replay, &self.svg, itf, mcap];
+        let [trace, page, picture, itf, mcap] = self.force.files(files, self.layout.inputs())?;
         if page.is_some() || picture.is_some() {
             svg::check_size(team(&setup)?.area(&setup.layout))?;
         }
@@ -153,10 +154,7 @@ impl Explore {
         if let Some(page) = page {
             play(page, &setup, &report, &(1..=report.steps), out)?;
         }
-        if let Some(mut itf) = itf {
-            trace::itf::write(&mut itf, &setup)?;
-            out.keep(itf);
-        }
+        viewers::store([itf, mcap], &setup, out)?;
         if let Some(mut picture) = picture {
             match self.draw {
                 Some(Draw::Moves) => picture.draw(panels(&setup, &report, &(1..=report.steps)))?,

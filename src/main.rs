@@ -3,6 +3,8 @@
 //! with 70. A file that cannot be stored is left out: the rest is given all the same, and the code is 2.
 
 mod chosen;
+#[cfg(test)]
+mod documented;
 mod evidence;
 mod explore;
 mod findings;
@@ -21,6 +23,7 @@ mod rescue;
 mod shards;
 mod show;
 mod threads;
+mod viewers;
 
 use std::io::{self, IsTerminal, Write};
 use std::num::NonZeroU32;

@@ -19,6 +19,7 @@ use super::evidence::{Shown, setup, shown, story};
 use super::explore::{among, check_panels, draw_moves, panels, play, summary};
 use super::output::Output;
 use super::rescue::{Files, tell};
+use super::viewers::{self, ViewerArgs, ViewerFiles};
 use super::{Exit, ForceArgs, Format, FormatArgs};
 use tautline_sim::aside::Aside;
 use tautline_sim::counterexample::exhibit::{exhibit, of_agent, of_course, written_down};
@@ -51,13 +52,19 @@ pub(super) struct Replay {
     /// Store the team moves as a picture, by default the last one; of a rescue the map.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// Store the run in the Informal Trace Format, for the viewers of model checkers.
-    #[arg(long, value_name = "FILE")]
-    itf: Option<PathBuf>,
+    #[command(flatten)]
+    viewers: ViewerArgs,
     #[command(flatten)]
     force: ForceArgs,
     #[command(flatten)]
     format: FormatArgs,
+}
+
+/// What is stored of a run.
+struct Stores {
+    page: Option<Aside>,
+    picture: Option<Aside>,
+    viewers: ViewerFiles,
 }
 
 /// Team moves from the first to the last.
@@ -133,27 +140,44 @@ struct Refuted {
 
 impl Replay {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        let files = [&self.html, &self.svg, &self.itf];
-        let [page, picture, itf] = self.force.files(files, [self.file.clone()])?;
+        let [itf, mcap] = self.viewers.paths();
+        let files = [&self.html, &self.svg, itf, mcap];
+        let [page, picture, itf, mcap] = self.force.files(files, [self.file.clone()])?;
+        let viewers = [itf, mcap];
         match lines::format(&self.file).as_deref() {
-            Some(rescue::trace::FORMAT) => self.run_rescue(Files { trace: None, page, map: picture }, out),
-            Some(refutation::FORMAT) => self.run_refutation(out),
-            Some(trace::FORMAT) => self.run_stored(trace::open(&self.file)?, [page, picture, itf], out),
+            Some(rescue::trace::FORMAT) => {
+                let [itf, recording] = viewers;
+                viewers::refuse(itf.as_ref(), ("--itf", "a rescue"), &self.file)?;
+                self.run_rescue(Files { trace: None, page, map: picture, recording }, out)
+            }
+            Some(refutation::FORMAT) => {
+                for (file, option) in viewers.iter().zip(["--itf", "--mcap"]) {
+                    viewers::refuse(file.as_ref(), (option, "a refutation"), &self.file)?;
+                }
+                self.run_refutation(out)
+            }
+            Some(trace::FORMAT) => {
+                self.run_stored(trace::open(&self.file)?, Stores { page, picture, viewers }, out)
+            }
             Some(_) | None => {
                 let foreign = |fault: Fault| fault.with_remedy(REPLAYABLE);
-                self.run_stored(trace::open(&self.file).map_err(foreign)?, [page, picture, itf], out)
+                self.run_stored(
+                    trace::open(&self.file).map_err(foreign)?,
+                    Stores { page, picture, viewers },
+                    out,
+                )
             }
         }
     }
 
-    fn run_stored(&self, stored: Stored, files: [Option<Aside>; 3], out: &mut Output) -> Result<Exit, Halt> {
+    fn run_stored(&self, stored: Stored, files: Stores, out: &mut Output) -> Result<Exit, Halt> {
         match stored {
             Stored::Known(trace) => self.run_team(trace, files, out),
             Stored::Foreign(run) => self.run_recorded(&run, files, out),
         }
     }
 
-    fn run_team(&self, trace: Trace, files: [Option<Aside>; 3], out: &mut Output) -> Result<Exit, Halt> {
+    fn run_team(&self, trace: Trace, files: Stores, out: &mut Output) -> Result<Exit, Halt> {
         let (setup, clause) = (trace.setup.clone(), trace.clause);
         self.check_drawing(team(&setup)?.area(&setup.layout), &files)?;
         let judge = clause.and_then(|clause| setup.scheme.clause(clause)?.judge);
@@ -191,12 +215,7 @@ impl Replay {
     }
 
     /// A run of a scheme that this program does not know, as it was written.
-    fn run_recorded(
-        &self,
-        run: &Recorded,
-        files: [Option<Aside>; 3],
-        out: &mut Output,
-    ) -> Result<Exit, Halt> {
+    fn run_recorded(&self, run: &Recorded, files: Stores, out: &mut Output) -> Result<Exit, Halt> {
         let Stage { scheme, rule, layout, .. } = run.stage();
         self.check_drawing(layout.size().area(), &files)?;
         let report = run.play(&mut |_| Ok(()))?;
@@ -218,8 +237,8 @@ impl Replay {
     }
 
     /// Checks that a page and a picture can hold what they are to show of `area`.
-    fn check_drawing(&self, area: Area, files: &[Option<Aside>; 3]) -> Result<(), Fault> {
-        let [page, picture, _] = files;
+    fn check_drawing(&self, area: Area, files: &Stores) -> Result<(), Fault> {
+        let Stores { page, picture, .. } = files;
         if page.is_some() || picture.is_some() {
             svg::check_size(area)?;
         }
@@ -236,7 +255,7 @@ impl Replay {
         report: &Report,
         clause: Option<ClauseId>,
         told: Told,
-        [page, picture, itf]: [Option<Aside>; 3],
+        Stores { page, picture, viewers }: Stores,
         out: &mut Output,
     ) -> Result<Exit, Halt> {
         let is_drawn = page.is_none() && picture.is_none();
@@ -250,10 +269,7 @@ impl Replay {
             picture.draw(panels(run, report, &moves))?;
             out.keep(picture);
         }
-        if let Some(mut itf) = itf {
-            trace::itf::write(&mut itf, run)?;
-            out.keep(itf);
-        }
+        viewers::store(viewers, run, out)?;
         let name = self.file.display().to_string();
         match self.format.format {
             Format::Json => {
@@ -280,10 +296,6 @@ impl Replay {
     }
 
     fn run_rescue(&self, files: Files, out: &mut Output) -> Result<Exit, Halt> {
-        if self.itf.is_some() {
-            let what = "a rescue has no trace of team moves";
-            return Err(Fault::usage(what, "leave out --itf, or name a run of a team").into());
-        }
         if self.moves.is_some() {
             let what = "a rescue has no team moves";
             return Err(Fault::usage(what, "leave out --moves, or name a run of a team").into());
@@ -293,9 +305,9 @@ impl Replay {
     }
 
     fn run_refutation(&self, out: &mut Output) -> Result<Exit, Halt> {
-        if self.moves.is_some() || [&self.html, &self.svg, &self.itf].into_iter().any(Option::is_some) {
+        if self.moves.is_some() || self.html.is_some() || self.svg.is_some() {
             let what = "a refutation has no team moves to choose from, no page and no picture";
-            let remedy = "leave out --moves, --html, --svg and --itf, or name a run of a team";
+            let remedy = "leave out --moves, --html and --svg, or name a run of a team";
             return Err(Fault::usage(what, remedy).into());
         }
         let Refutation { clause, check, evidence } = refutation::replay(&self.file)?;

@@ -53,6 +53,8 @@ struct Wanted {
     given: Vec<(String, Vec<String>)>,
     /// The names of its pictures, and where each is to be stored.
     pictures: (Vec<&'static str>, Vec<Option<PathBuf>>),
+    /// Where its values are to be stored.
+    csv: Option<PathBuf>,
     /// The plan to be made instead, and its shards.
     dealt: Option<(PathBuf, u32)>,
     force: ForceArgs,
@@ -103,24 +105,21 @@ impl Reproduce {
 
 impl Wanted {
     fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
-        let (names, paths) = &self.pictures;
-        let files = match &self.dealt {
-            Some(_) => Vec::new(),
-            None => self.force.each(paths)?,
-        };
         let asked = self.table.asked(&self.given)?;
         if let Some((path, shards)) = &self.dealt {
             return self.deal(&*asked, path, *shards, out);
         }
+        let (names, paths) = &self.pictures;
+        let files = Files::of(names, paths, self.csv.as_deref(), &self.force)?;
         let made = Show::over(self.table.about().doing, |show| asked.run(show))?;
-        tell(&*made, names.iter().copied().zip(files), self.format.format, out)
+        tell(&*made, files, self.format.format, out)
     }
 
     /// Deals the jobs of the table out among shards.
     fn deal(&self, asked: &dyn Asked, path: &Path, shards: u32, out: &mut Output) -> Result<Exit, Halt> {
-        if self.pictures.1.iter().any(Option::is_some) {
-            let remedy = "leave it out, and give tautline merge a --picture";
-            return Err(Fault::usage("a plan has no pictures", remedy).into());
+        if self.csv.is_some() || self.pictures.1.iter().any(Option::is_some) {
+            let remedy = "leave them out, and give tautline merge a --picture and --csv";
+            return Err(Fault::usage("a plan has no pictures and no values", remedy).into());
         }
         Plan::check(shards)?;
         let (of, deal, jobs) = deal_table(self.table.about().id, asked)?;
@@ -136,18 +135,41 @@ struct Planned {
     jobs: usize,
 }
 
-/// Stores the pictures of a table, and tells of it.
-pub(super) fn tell<'a>(
-    made: &dyn Made,
-    pictures: impl Iterator<Item = (&'a str, Option<Aside>)>,
-    format: Format,
-    out: &mut Output,
-) -> Result<Exit, Halt> {
-    for (name, file) in pictures {
-        if let Some(mut file) = file {
-            file.draw(made.picture(name))?;
-            out.keep(file);
-        }
+/// The files that a table is stored in, begun.
+pub(super) struct Files {
+    /// By the name of a picture.
+    pictures: Vec<(String, Aside)>,
+    csv: Option<Aside>,
+}
+
+impl Files {
+    /// The pictures of these names, where they have a place, and the values.
+    ///
+    /// # Errors
+    /// A [`Fault`] if one of them has none, or there is nothing to force.
+    pub(super) fn of(
+        names: &[impl ToString],
+        paths: &[Option<PathBuf>],
+        csv: Option<&Path>,
+        force: &ForceArgs,
+    ) -> Result<Self, Fault> {
+        let paths: Vec<_> = paths.iter().cloned().chain([csv.map(Path::to_owned)]).collect();
+        let mut files = force.each(&paths)?;
+        let csv = files.pop().flatten();
+        let pictures = names.iter().map(ToString::to_string).zip(files);
+        Ok(Self { pictures: pictures.filter_map(|(name, file)| Some((name, file?))).collect(), csv })
+    }
+}
+
+/// Stores a table in its files, and tells of it.
+pub(super) fn tell(made: &dyn Made, files: Files, format: Format, out: &mut Output) -> Result<Exit, Halt> {
+    for (name, mut file) in files.pictures {
+        file.draw(made.picture(&name))?;
+        out.keep(file);
+    }
+    if let Some(mut file) = files.csv {
+        file.append(made.csv(SCHEMA_VERSION)?);
+        out.keep(file);
     }
     match format {
         Format::Json => out.text(made.json(SCHEMA_VERSION)? + "\n")?,
@@ -190,6 +212,7 @@ impl FromArgMatches for Wanted {
             table,
             given: table.options().into_iter().filter_map(|(option, _)| given(option)).collect(),
             pictures,
+            csv: matches.get_one::<PathBuf>("csv").cloned(),
             dealt,
             force: ForceArgs::from_arg_matches(matches)?,
             format: FormatArgs::from_arg_matches(matches)?,
@@ -211,11 +234,13 @@ fn subcommand(table: &'static dyn Entry) -> Command {
         let path = clap::value_parser!(PathBuf);
         Arg::new(name).long(name).value_name("FILE").help(about).value_parser(path)
     };
+    let csv = Arg::new("csv").long("csv").value_name("FILE").value_parser(clap::value_parser!(PathBuf));
     let plan = Arg::new("plan").long("plan").value_name("FILE").requires("shards");
     let plan = plan.value_parser(clap::value_parser!(PathBuf));
     let shards =
         Arg::new("shards").long("shards").value_name("N").requires("plan").value_parser(whole::<u32>);
     command = command.args(pictures.into_iter().map(picture)).args([
+        csv.help("Store the values of the table as comma-separated values"),
         plan.help("Measure nothing yet, but store a plan in FILE"),
         shards.help("Deal the jobs out among N shards, each to be run on any machine"),
     ]);

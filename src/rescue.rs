@@ -24,7 +24,7 @@ use tautline_sim::radio::{ChannelName, FREE_SPACE};
 use tautline_sim::reading::Metres;
 use tautline_sim::rescue::{
     Assignments, CallTimes, Event, Logged, Ordinal, Report, RobotsFailed, SchemeName, Setting, Summary,
-    rescue, seconds, trace,
+    recording, rescue, seconds, trace,
 };
 use tautline_sim::stats::Estimate;
 use tautline_sim::words::Worded;
@@ -131,6 +131,9 @@ pub(super) struct Rescue {
     /// Store a map of the field with the ways of the robots as a picture; one seed only.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// Store the rescue as a recording of ROS 2, for its viewers; one seed only.
+    #[arg(long, value_name = "FILE")]
+    mcap: Option<PathBuf>,
     #[command(flatten)]
     force: ForceArgs,
     #[command(flatten)]
@@ -214,13 +217,14 @@ impl Rescue {
         let setting = self.setting();
         let seeds = &self.seeds.0;
         if let Some(seed) = self.seeds.one() {
-            let [trace, page, map] = self.force.files([&self.trace, &self.replay, &self.svg], [])?;
+            let files = [&self.trace, &self.replay, &self.svg, &self.mcap];
+            let [trace, page, map, recording] = self.force.files(files, [])?;
             let report = rescue(&setting, seed).map_err(Fault::from)?;
             tracing::info!("the rescue with seed {seed} has {}", counted(report.log.len(), "event"));
-            let files = Files { trace, page, map };
+            let files = Files { trace, page, map, recording };
             return tell(out, self.format.format, (&setting, seed, &report), files);
         }
-        if self.trace.is_some() || self.replay.is_some() || self.svg.is_some() {
+        if [&self.trace, &self.replay, &self.svg, &self.mcap].into_iter().any(Option::is_some) {
             let first = seeds.start();
             let remedy = format!("give one seed, for example --seeds {first}");
             return Err(Fault::usage("several rescues do not fit into one file", remedy).into());
@@ -264,6 +268,8 @@ pub(super) struct Files {
     pub(super) page: Option<Aside>,
     /// The map.
     pub(super) map: Option<Aside>,
+    /// The recording.
+    pub(super) recording: Option<Aside>,
 }
 
 /// Prints what came of one rescue, and stores it and the drawings of it.
@@ -292,6 +298,10 @@ pub(super) fn tell(
     if let Some(mut map) = files.map {
         map.append(picture(&title, &[draw::rescue::map(String::new(), report)]));
         out.keep(map);
+    }
+    if let Some(mut file) = files.recording {
+        recording::write(&mut file, setting, seed, report)?;
+        out.keep(file);
     }
     print(out, format, setting, &(seed..=seed), (&summary, Some(report)))
 }

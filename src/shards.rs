@@ -15,7 +15,7 @@ use tautline_sim::shards::{Gap, Keeper, Of, Plan, merge_hunt, merge_table, resto
 use super::findings::FormatArgs;
 use super::hunt::{Found, check_folder, shown};
 use super::output::Output;
-use super::reproduce::tell;
+use super::reproduce::{Files, tell};
 use super::{Exit, ForceArgs, Format, complain, interrupt, progress, whole};
 
 /// The most gaps that are named.
@@ -186,6 +186,9 @@ pub(super) struct Merge {
     /// Store a picture of a table: its name, as `reproduce ID --help` tells it, and a file.
     #[arg(long = "picture", value_names = ["NAME", "FILE"], num_args = 2, value_parser = value_parser!(PathBuf))]
     pictures: Vec<PathBuf>,
+    /// Store the values of a table as comma-separated values.
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
     #[command(flatten)]
     force: ForceArgs,
     #[command(flatten)]
@@ -224,8 +227,8 @@ impl Merge {
         let inputs = files.into_iter().chain([self.plan.clone()]);
         match plan.of {
             Of::Hunt { scheme, rule } => {
-                if !self.pictures.is_empty() {
-                    return Err(Fault::usage("a hunt has no --picture", "leave --picture out").into());
+                if self.csv.is_some() || !self.pictures.is_empty() {
+                    return Err(Fault::usage("a hunt has no --picture and no --csv", "leave them out").into());
                 }
                 check_folder(&self.out)?;
                 let asked = Asked::new(scheme, rule);
@@ -244,9 +247,8 @@ impl Merge {
                     .chunks(2)
                     .map(|pair| (pair[0].to_string_lossy().into_owned(), Some(pair[1].clone())))
                     .unzip();
-                let files = self.force.each(&paths)?;
-                let format = self.format.format.plain()?;
-                tell(&*made, names.iter().map(String::as_str).zip(files), format, out)
+                let files = Files::of(&names, &paths, self.csv.as_deref(), &self.force)?;
+                tell(&*made, files, self.format.format.plain()?, out)
             }
         }
     }

@@ -1,12 +1,17 @@
 //! SPEC.md, the README and the pages of docs/ say what the code says: the clauses' sentences, the ledger, the tables and
-//! the pictures. Their links lead somewhere.
+//! the pictures. Their links lead somewhere, and their commands answer.
+
+mod commands;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::iter;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
 
+use commands::documents;
 use insta::assert_snapshot;
 use tautline_proofs::ledger;
 
@@ -269,18 +274,6 @@ fn the_readme_is_one_page_and_its_commands_answer() {
     }
 }
 
-/// The documents that people read: those of the project's folder and of docs/.
-fn documents() -> Vec<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let entries = [root.to_owned(), root.join("docs")].into_iter().flat_map(|folder| {
-        fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path())
-    });
-    let mut found: Vec<PathBuf> =
-        entries.filter(|path| path.extension().is_some_and(|extension| extension == "md")).collect();
-    found.sort();
-    found
-}
-
 /// What GitHub makes of a heading, to link to it.
 fn anchor(heading: &str) -> String {
     let kept = heading.trim().chars().filter(|&c| c.is_alphanumeric() || " -_".contains(c));
@@ -339,4 +332,57 @@ fn the_code_of_the_tutorial_is_that_of_the_example() {
 fn example_files(text: &str) -> BTreeSet<String> {
     let links = text.split("](../examples/").skip(1);
     links.filter_map(|rest| Some(format!("examples/{}", rest.split(')').next()?))).collect()
+}
+
+/// So long a command of a page is awaited. One that takes longer is only read, by a test of `src/documented.rs`.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// The exit code of a command, if it ends in time.
+fn ended(folder: &Path, arguments: &[String]) -> Option<i32> {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_tautline"));
+    let program = program.current_dir(folder).args(arguments).stdout(Stdio::null()).stderr(Stdio::null());
+    let mut running = program.spawn().expect("the program runs");
+    let start = Instant::now();
+    while start.elapsed() < PATIENCE {
+        if let Some(status) = running.try_wait().expect("a process") {
+            return status.code();
+        }
+        thread::sleep(Duration::from_millis(10));
+    }
+    running.kill().expect("a process that goes on");
+    running.wait().expect("its end");
+    None
+}
+
+#[test]
+fn the_commands_of_the_pages_answer() {
+    let (mut seen, mut answered) = (BTreeSet::new(), 0);
+    for block in commands::blocks().into_iter().filter(|block| block.is_shell) {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::create_dir(folder.path().join("docs")).expect("a folder");
+        for entry in fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs")).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.extension().is_some_and(|extension| extension == "jsonl") {
+                let name = path.file_name().expect("a name");
+                fs::copy(&path, folder.path().join("docs").join(name)).expect("a copy");
+                // What the line before has stored, by another program.
+                fs::copy(&path, folder.path().join("found.jsonl")).expect("a copy");
+            }
+        }
+        for arguments in block.commands.iter().filter(|arguments| seen.insert((*arguments).clone())) {
+            match ended(folder.path(), arguments) {
+                Some(code) => {
+                    assert!(
+                        [0, 1].contains(&code),
+                        "{}: tautline {arguments:?} ends with {code}",
+                        block.place
+                    );
+                    answered += 1;
+                }
+                // What follows needs what this one would have stored.
+                None => break,
+            }
+        }
+    }
+    assert!(answered >= 10, "{answered}");
 }

@@ -1,6 +1,8 @@
 //! The scripts that people copy: those of docs/recipes, and the steps of the action.
 #![cfg(unix)]
 
+mod commands;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -109,4 +111,70 @@ fn the_recipes_that_are_not_run_can_be_read() {
             serde_saphyr::from_str(&text).unwrap_or_else(|error| panic!("{file}: {error}"));
         assert!(read[key].is_object(), "{file}");
     }
+}
+
+/// What the XML library of Python makes of a JUnit file: the counts of its suite, then each case with what came of it.
+const READER: &str = "\
+import sys
+import xml.etree.ElementTree as tree
+[suite] = tree.parse(sys.argv[1]).getroot()
+print(*(suite.get(name) for name in ('tests', 'failures', 'errors', 'skipped')))
+for case in suite:
+    print(case.get('classname'), case.get('name'), *(child.tag for child in case), sep='|')
+";
+
+#[test]
+fn a_junit_file_is_read_by_another_reader() {
+    if !has("python3", "--version") {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let read = |arguments: &[&str]| {
+        let told = ran(folder.path(), TAUTLINE, &[arguments, &["--format", "junit"]].concat());
+        fs::write(folder.path().join("told.xml"), told.stdout).expect("a file");
+        let read = ran(folder.path(), "python3", &["-c", READER, "told.xml"]);
+        String::from_utf8(read.stdout).expect("text")
+    };
+    assert_eq!(read(&HUNT), "1 1 0 0\nchain|CHAIN-13 by chain (published)|failure\n");
+    let proved = read(&["prove", "LATTICE-1"]);
+    assert_eq!(proved, "1 0 0 0\nLATTICE|LATTICE-1 as published, exhaustive: 81 offsets\n");
+    let ended = read(&["hunt", "--robots", "3", "--max-walls", "2", "--budget", "1"]);
+    assert!(ended.starts_with("1 0 0 1\n") && ended.ends_with("|skipped\n"), "{ended}");
+}
+
+#[test]
+fn the_notes_of_a_release_are_a_section_of_the_changelog() {
+    let notes = |version: &str| ran(&recipe("."), recipe(".ci/notes"), &[version]);
+    let unreleased = notes("Unreleased");
+    assert_eq!(unreleased.status.code(), Some(0));
+    let text = String::from_utf8(unreleased.stdout).expect("text");
+    assert!(text.starts_with("### ") && !text.contains("\n## "), "{text}");
+    assert_eq!(notes("9.9.9").status.code(), Some(1));
+}
+
+/// What mdBook is given: the table of contents has every page once, and every link of a page leads to something in the book.
+#[test]
+fn no_page_is_left_out_of_the_book() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().to_str().expect("text");
+    let made = ran(folder.path(), recipe(".ci/book"), &[out]);
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    let source = folder.path().join("src");
+    let contents = fs::read_to_string(source.join("SUMMARY.md")).expect("a table of contents");
+    let links = |text: &str| -> Vec<String> {
+        let targets = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+        targets.map(|target| target.split('#').next().unwrap_or_default().to_owned()).collect()
+    };
+    let chapters = links(&contents);
+    for page in commands::documents() {
+        let name = page.strip_prefix(recipe("")).expect("a page of ours").display().to_string();
+        assert_eq!(chapters.iter().filter(|chapter| **chapter == name).count(), 1, "{name}");
+        let text = fs::read_to_string(source.join(&name)).expect("a page");
+        let near = |target: &&String| !target.is_empty() && !target.starts_with("https://");
+        for target in links(&text).iter().filter(near) {
+            let place = source.join(&name).with_file_name(target);
+            assert!(place.exists(), "{name}: {target} leads nowhere in the book");
+        }
+    }
+    assert_eq!(chapters.len(), commands::documents().len());
 }

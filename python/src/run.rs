@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 use serde::Serialize;
 use tautline_kernel::ground::Cell;
 use tautline_sim::aside::{Aside, Foreign, Replaceable};
@@ -162,16 +163,25 @@ impl Run {
         Ok(aside)
     }
 
+    /// What is written to a file.
+    fn bytes(
+        &self,
+        py: Python<'_>,
+        put: impl FnOnce(&Self, Aside) -> Result<Aside, Halt> + Send,
+    ) -> PyResult<Vec<u8>> {
+        let folder = tempfile::tempdir()?;
+        let path = folder.path().join("bytes");
+        Self::file(py, &path, &Replaceable::default(), |aside| put(self, aside))?;
+        Ok(fs::read(&path)?)
+    }
+
     /// What is written to a file, as text.
     fn text(
         &self,
         py: Python<'_>,
         put: impl FnOnce(&Self, Aside) -> Result<Aside, Halt> + Send,
     ) -> PyResult<String> {
-        let folder = tempfile::tempdir()?;
-        let path = folder.path().join("text");
-        Self::file(py, &path, &Replaceable::default(), |aside| put(self, aside))?;
-        Ok(fs::read_to_string(&path)?)
+        Ok(String::from_utf8(self.bytes(py, put)?)?)
     }
 
     fn panels(&self, py: Python<'_>, moves: &RangeInclusive<u32>) -> PyResult<String> {
@@ -328,6 +338,15 @@ impl Run {
             trace::itf::write(&mut aside, run.play())?;
             Ok(aside)
         })
+    }
+
+    /// The run as a recording of ROS 2, as `--mcap` stores it.
+    fn mcap<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let bytes = self.bytes(py, |run, mut aside| {
+            trace::mcap::write(&mut aside, run.play())?;
+            Ok(aside)
+        })?;
+        Ok(PyBytes::new(py, &bytes))
     }
 
     /// How the last team move breaks its clause, in words and drawn.

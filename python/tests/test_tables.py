@@ -1,3 +1,4 @@
+import duckdb
 import pandas as pd
 import polars as pl
 import pyarrow as pa
@@ -22,6 +23,11 @@ def test_a_sweep_is_read_by_arrow_polars_and_pandas(table):
     assert pl.DataFrame(table).to_dict(as_series=False) == columns
     frame = pd.DataFrame.from_arrow(table) if hasattr(pd.DataFrame, "from_arrow") else arrow.to_pandas()
     assert frame["steps"].tolist() == columns["steps"]
+    # DuckDB finds the name in Python.
+    arrow_table = pa.RecordBatchReader.from_stream(table)
+    counted = duckdb.sql("select rule, robots, count(*), sum(steps)::bigint from arrow_table group by all order by all")
+    frame = frame.groupby(["rule", "robots"])["steps"].agg(["count", "sum"])
+    assert counted.fetchall() == [(*key, *row) for key, row in zip(frame.index, frame.values.tolist(), strict=True)]
     # A table is a stream as often as it is asked for.
     assert pa.table(table) == arrow
 

@@ -13,8 +13,17 @@ use tempfile::NamedTempFile;
 
 use crate::fault::{Fault, Halt};
 
-/// How the files begin that this program writes: stored runs and kept hunts, pictures, pages, manual pages, ITF traces.
-const OURS: [&str; 5] = ["{\"format\":\"tautline ", SVG_HEAD, HTML_HEAD, MAN_HEAD, ITF_HEAD];
+/// How the files begin that this program writes: stored runs and kept hunts, pictures, pages, manual pages, ITF traces,
+/// recordings, tables.
+const OURS: [&[u8]; 7] = [
+    b"{\"format\":\"tautline ",
+    SVG_HEAD.as_bytes(),
+    HTML_HEAD.as_bytes(),
+    MAN_HEAD.as_bytes(),
+    ITF_HEAD.as_bytes(),
+    MCAP_HEAD,
+    CSV_HEAD.as_bytes(),
+];
 
 /// The beginning of a picture.
 pub(crate) const SVG_HEAD: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" data-generator=\"tautline\" ";
@@ -30,8 +39,19 @@ pub(crate) const HTML_HEAD: &str = "<!doctype html>
 /// The beginning of a trace for the viewers of model checkers.
 pub(crate) const ITF_HEAD: &str = "{\"#meta\":{\"source\":\"tautline\",";
 
+/// The profile and the library in the first record of a recording.
+#[cfg(feature = "mcap")]
+pub(crate) const MCAP_PROFILE: &str = "ros2";
+#[cfg(feature = "mcap")]
+pub(crate) const MCAP_LIBRARY: &str = "tautline";
+
+/// The beginning of a recording: what all begin with, a header record of 20 bytes, its profile and its library.
+const MCAP_HEAD: &[u8] = b"\x89MCAP0\r\n\x01\x14\0\0\0\0\0\0\0\x04\0\0\0ros2\x08\0\0\0tautline";
+
+/// The beginning of a table as comma-separated values: its first columns.
+pub(crate) const CSV_HEAD: &str = "schema_version,id,list,";
+
 /// The beginning of a manual page: a comment.
-/// How a manual page begins.
 pub const MAN_HEAD: &str = ".\\\" Written by tautline.\n";
 
 /// Which files a command may replace: empty ones and those that this program wrote, but none that the command reads.
@@ -85,7 +105,7 @@ fn is_ours(file: &Path) -> bool {
     let longest = OURS.iter().map(|head| head.len()).max().unwrap_or(0);
     let mut bytes = Vec::new();
     let read = File::open(file).and_then(|file| file.take(longest as u64).read_to_end(&mut bytes));
-    read.is_ok() && (bytes.is_empty() || OURS.iter().any(|head| bytes.starts_with(head.as_bytes())))
+    read.is_ok() && (bytes.is_empty() || OURS.iter().any(|head| bytes.starts_with(head)))
 }
 
 /// Whether two paths lead to the same file, by whatever names.

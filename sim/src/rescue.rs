@@ -12,6 +12,8 @@ mod judge;
 mod letters;
 mod pace;
 mod problem;
+#[cfg(feature = "mcap")]
+pub mod recording;
 mod report;
 mod rover;
 mod scenario;

@@ -7,6 +7,7 @@ pub mod antenna_fig4;
 pub mod atlas;
 pub mod chain_fig4;
 pub mod chain_radio;
+mod csv;
 mod entry;
 pub mod floors;
 pub mod floors_missed;

@@ -12,6 +12,8 @@
 mod format;
 pub mod itf;
 pub mod lines;
+#[cfg(feature = "mcap")]
+pub mod mcap;
 mod recorded;
 mod summary;
 

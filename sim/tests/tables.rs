@@ -3,8 +3,9 @@
 #[path = "../../tests/schema/mod.rs"]
 mod schema;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
+use serde_json::Value;
 use tautline_sim::tables::parameter::Values;
 use tautline_sim::tables::{Asked, Entry, Made, TABLES, find};
 
@@ -37,7 +38,12 @@ fn told(table: &dyn Entry, made: &dyn Made) -> Vec<String> {
         Ok(picture) => picture,
         Err(halt) => format!("{halt:?}"),
     });
-    let texts = [made.text().expect("a text"), made.json(1).expect("JSON"), made.is_broken().to_string()];
+    let texts = [
+        made.text().expect("a text"),
+        made.json(1).expect("JSON"),
+        made.csv(1).expect("values"),
+        made.is_broken().to_string(),
+    ];
     texts.into_iter().chain(pictures).collect()
 }
 
@@ -57,6 +63,65 @@ fn merged_from_shards(table: &dyn Entry, shards: usize) -> Vec<String> {
     told(table, &*asked.merge(&results).expect("all results"))
 }
 
+/// How many plain values there are at any depth.
+fn plain_values(value: &Value) -> usize {
+    match value {
+        Value::Null => 0,
+        Value::Bool(_) | Value::Number(_) | Value::String(_) => 1,
+        Value::Array(items) => items.iter().map(plain_values).sum(),
+        Value::Object(members) => members.values().map(plain_values).sum(),
+    }
+}
+
+/// The values of a table, as a reader of others takes them, are those of its JSON: each at the place that its column and the
+/// numbers of its row say, and none is left out.
+fn has_all_values(id: &str, text: &str, json: &Value) {
+    assert!(text.ends_with("\r\n") && !text.replace("\r\n", "").contains('\r'), "{id}");
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let columns: Vec<String> = reader.headers().expect("columns").iter().map(str::to_owned).collect();
+    let mut seen = BTreeSet::new();
+    for row in reader.records() {
+        let row = row.unwrap_or_else(|error| panic!("{id}: {error}"));
+        let cells: BTreeMap<&str, &str> = columns.iter().map(String::as_str).zip(row.iter()).collect();
+        assert_eq!(cells["id"], id);
+        for (&column, &cell) in cells.iter().filter(|(column, cell)| **column != "list" && !cell.is_empty()) {
+            // Each part of the column's name that is a list has the number of its element in a column of its own.
+            let (mut pointer, mut path) = (String::new(), String::new());
+            for part in column.split('.') {
+                path = if path.is_empty() { part.to_owned() } else { format!("{path}.{part}") };
+                let is_plain = part.parse::<usize>().is_ok();
+                if is_plain {
+                    pointer = format!("{pointer}/{}", part.parse::<usize>().expect("a number") - 1);
+                } else {
+                    if part != "each" {
+                        pointer = format!("{pointer}/{part}");
+                    }
+                    let is_list = json.pointer(&pointer).is_some_and(|value| {
+                        value
+                            .as_array()
+                            .is_some_and(|items| items.iter().any(|item| item.is_object() || item.is_array()))
+                    });
+                    if is_list {
+                        pointer =
+                            format!("{pointer}/{}", cells[&*path].parse::<usize>().expect("a number") - 1);
+                    }
+                }
+            }
+            let value =
+                json.pointer(&pointer).unwrap_or_else(|| panic!("{id}: {column} is not at {pointer}"));
+            match value {
+                Value::String(text) => assert_eq!(cell, text),
+                Value::Bool(_) | Value::Number(_) => assert_eq!(cell, value.to_string()),
+                // This is the number of an element.
+                Value::Object(_) | Value::Array(_) => continue,
+                Value::Null => panic!("{id}: nothing is at {pointer}, but the cell says {cell}"),
+            }
+            seen.insert(pointer);
+        }
+    }
+    assert_eq!(seen.len(), plain_values(json), "{id}");
+}
+
 #[test]
 fn jobs_give_the_same_table_in_any_order_and_in_shards_and_its_json_is_as_its_schema_says() {
     // The atlas has no small settings.
@@ -65,6 +130,7 @@ fn jobs_give_the_same_table_in_any_order_and_in_shards_and_its_json_is_as_its_sc
         let at_once = told(table, &*asked.run(&()).expect("a table"));
         assert_eq!(merged_from_shards(table, 3), at_once, "{id}");
         let json = serde_json::from_str(&at_once[1]).expect("JSON");
+        has_all_values(id, &at_once[2], &json);
         let title = format!("tautline reproduce {id}");
         schema::is_up_to_date(&format!("reproduce-{id}"), &title, &[json]);
     }

@@ -37,7 +37,7 @@ struct Header {
 /// The last line.
 #[derive(PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Last {
+pub(super) struct Last {
     end: End,
 }
 
@@ -51,7 +51,7 @@ struct End {
 }
 
 impl Last {
-    fn of(report: &Report) -> Self {
+    pub(super) fn of(report: &Report) -> Self {
         let visits = |fate: &Fate| match *fate {
             Fate::Served { visits, .. } => visits,
             Fate::CutOff | Fate::Unheard | Fate::Abandoned | Fate::StillToCome => 0,

@@ -6,6 +6,7 @@ use std::fmt;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use super::csv::csv;
 use super::parameter::Given;
 use super::{About, Observer, Table, measure};
 use crate::fault::{Fault, Halt};
@@ -86,6 +87,14 @@ pub trait Made {
     /// # Errors
     /// A [`Fault`] if it cannot be written.
     fn json(&self, schema_version: u32) -> Result<String, Fault>;
+
+    /// For spreadsheets and data frames: comma-separated values, a row for each element of each of its lists.
+    ///
+    /// # Errors
+    /// A [`Fault`] as of [`Made::json`].
+    fn csv(&self, schema_version: u32) -> Result<String, Fault> {
+        csv(&self.json(schema_version)?)
+    }
 
     /// The picture of this name, as SVG.
     ///
