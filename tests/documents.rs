@@ -372,8 +372,9 @@ fn the_commands_of_the_pages_answer() {
         for arguments in block.commands.iter().filter(|arguments| seen.insert((*arguments).clone())) {
             match ended(folder.path(), arguments) {
                 Some(code) => {
+                    // 4: of the shards that a page names only the first was run.
                     assert!(
-                        [0, 1].contains(&code),
+                        [0, 1, 4].contains(&code),
                         "{}: tautline {arguments:?} ends with {code}",
                         block.place
                     );

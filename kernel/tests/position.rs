@@ -374,6 +374,21 @@ proptest! {
     }
 
     #[test]
+    fn distances_without_noise_give_the_position_by_anchors_anywhere(
+        anchors in prop::collection::vec((-50.0..50.0_f64, -50.0..50.0_f64), 3),
+        (x, y) in (-50.0..50.0_f64, -50.0..50.0_f64),
+    ) {
+        let anchors: Vec<Point> = anchors.into_iter().map(|(x, y)| Point::new(x, y)).collect();
+        let (ranges, at) = (ranges(&anchors, Point::new(x, y)), Point::new(x, y));
+        // Equation (8) divides by what is between these two; nearly collinear anchors tell little.
+        prop_assume!((anchors[2].x_m - anchors[1].x_m).abs() > 1.0 && Layout::of(&ranges).spread_m[1] > 3.0);
+        for found in [closed_form(&ranges), linear(&ranges)] {
+            let found = found.expect("a triangle");
+            prop_assert!(found.distance_m(at) < 1e-6, "{found:?}, not {at:?}");
+        }
+    }
+
+    #[test]
     fn the_best_of_a_swarm_never_worsens(seed in any::<u64>(), is_published in any::<bool>()) {
         let mut drawn = Drawn(seed);
         let order = if is_published { Order::Published } else { Order::Corrected };
