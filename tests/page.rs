@@ -206,6 +206,19 @@ fn shows_a_rescue(browser: &mut Browser, folder: &Path) {
     assert_eq!(arrivals, 2);
 }
 
+/// Loads a page on which a robot dies: the list of events tells it, and jumps there.
+fn shows_a_death(browser: &mut Browser, folder: &Path) {
+    let faults = ["--rule", "reel", "--fail", "4@10", "--loss", "0.2", "--speeds"];
+    let run_of_five = ["explore", "walls:9x9:0.1", "--robots", "5", "--replay", "death.html"];
+    run(folder, &[&run_of_five[..], &faults].concat());
+    browser.load(&folder.join("death.html"), "#1");
+    browser.value(
+        "Array.from(document.querySelectorAll('#events button')).find(button => \
+         button.textContent.endsWith('R4 dies')).click()",
+    );
+    assert!(browser.text(SAID).starts_with("Team move 10 of "), "{}", browser.text(SAID));
+}
+
 #[test]
 fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -259,6 +272,7 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
     }
     shows_how_a_clause_is_broken(&mut browser, folder);
     browser.value(USED);
+    shows_a_death(&mut browser, folder);
     shows_a_rescue(&mut browser, folder);
     browser.value("document.getElementById('axis').value = 'time', document.getElementById('axis').onchange(), \
                    document.getElementById('at').value = 1000, document.getElementById('at').oninput({ target: document.getElementById('at') })");

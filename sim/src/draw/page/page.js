@@ -1036,6 +1036,7 @@ const MOST_EVENTS = 3000;
 function listEvents() {
   for (const [number, text] of film.notes) if (number >= film.first && number <= film.first + last) events.push({ i: number - film.first, text });
   for (const { i, clause, atEnd } of broken) events.push({ i, text: atEnd ? `The end breaks ${clause}` : `Breaks ${clause}`, isBad: true });
+  if (inCells) for (const { i, of } of failures) events.push({ i, text: `${capital(robotName(of))} dies`, isBad: true });
   const some = bumpLines.length + events.length <= MOST_EVENTS ? bumpLines : [];
   for (const i of some) {
     const names = [];
