@@ -7,17 +7,6 @@ use tautline_sim::frontier::Options;
 use tautline_sim::layout::Generator;
 use tautline_sim::layout::generate::Probability;
 
-const USUAL: Options = Options {
-    range_cells: None,
-    loss: Probability::NEVER,
-    noise_db: 0.0,
-    threshold: 0.5,
-    speed_mps: None,
-    spread: None,
-    fail: None,
-    going: Going::AtOnce,
-};
-
 fn ran(rule: RuleId, robots: u16, density: f64, seed: u64, options: Options) -> Report {
     let ground = format!("walls:15x15:{density}").parse::<Generator>().expect("a generator");
     let mut layout = ground.generate(seed).expect("a layout");
@@ -32,9 +21,9 @@ fn failure(robot: u16, step: u32) -> Failure {
 
 #[test]
 fn lost_bytes_delay_a_run_and_change_nothing_of_it() {
-    let lossy = Options { loss: Probability::new(0.3).expect("a probability"), ..USUAL };
+    let lossy = Options { loss: Probability::new(0.3).expect("a probability"), ..Options::USUAL };
     for seed in 0..6 {
-        let (whole, lost) = (ran(REEL, 6, 0.1, seed, USUAL), ran(REEL, 6, 0.1, seed, lossy));
+        let (whole, lost) = (ran(REEL, 6, 0.1, seed, Options::USUAL), ran(REEL, 6, 0.1, seed, lossy));
         let faults = lost.faults.expect("something was to fail");
         assert!(faults.lost_bytes > 0 && faults.rounds > u64::from(lost.steps), "{faults:?}");
         let same = |report: &Report| (report.steps, report.milestones, report.team.clone(), report.stopped);
@@ -46,7 +35,7 @@ fn lost_bytes_delay_a_run_and_change_nothing_of_it() {
 /// Runs of 8 robots at each density in which the order of going breaks contact: of the reel, of the reel without *Hold*, and of
 /// the repaired rule.
 fn broken_by_orders(runs: u64) -> [[usize; 5]; 3] {
-    let speeds = Options { going: Going::OneByOne, ..USUAL };
+    let speeds = Options { going: Going::OneByOne, ..Options::USUAL };
     [REEL, UNHELD, RuleId::REPAIRED].map(|rule| {
         [0.01, 0.05, 0.1, 0.15, 0.2].map(|density| {
             let is_broken = |seed| {
@@ -81,7 +70,8 @@ fn deaths(density: f64, runs: u64) -> (Vec<u32>, usize) {
     let (mut taken_back, mut home) = (Vec::new(), 0);
     for seed in 0..runs {
         let (robot, step) = (2 + (seed % 7) as u16, 1 + (seed * 37 % 200) as u32);
-        let report = ran(REEL, 8, density, seed, Options { fail: Some(failure(robot, step)), ..USUAL });
+        let report =
+            ran(REEL, 8, density, seed, Options { fail: Some(failure(robot, step)), ..Options::USUAL });
         assert_eq!(report.violations, [], "{density} {seed}");
         let faults = report.faults.expect("something was to fail");
         if faults.died.is_some() {
@@ -122,8 +112,8 @@ fn deaths_in_1000_runs_a_density() {
 
 #[test]
 fn a_failure_after_the_end_of_a_run_changes_nothing() {
-    let late = ran(REEL, 8, 0.1, 3, Options { fail: Some(failure(4, 100_000)), ..USUAL });
-    let never = ran(REEL, 8, 0.1, 3, USUAL);
+    let late = ran(REEL, 8, 0.1, 3, Options { fail: Some(failure(4, 100_000)), ..Options::USUAL });
+    let never = ran(REEL, 8, 0.1, 3, Options::USUAL);
     assert_eq!((late.steps, late.stopped), (never.steps, never.stopped));
     assert_ne!(late.stopped, Stopped::Silent);
     assert_eq!(late.faults.and_then(|faults| faults.died), None);

@@ -39,18 +39,23 @@ pub struct Options {
     pub going: Going,
 }
 
+impl Options {
+    /// What it is without a word.
+    pub const USUAL: Self = Self {
+        range_cells: None,
+        loss: Probability::NEVER,
+        noise_db: 0.0,
+        threshold: 0.5,
+        speed_mps: None,
+        spread: None,
+        fail: None,
+        going: Going::AtOnce,
+    };
+}
+
 impl Default for Options {
     fn default() -> Self {
-        Self {
-            range_cells: None,
-            loss: Probability::NEVER,
-            noise_db: 0.0,
-            threshold: 0.5,
-            speed_mps: None,
-            spread: None,
-            fail: None,
-            going: Going::AtOnce,
-        }
+        Self::USUAL
     }
 }
 
