@@ -10,7 +10,7 @@ use tautline_kernel::ground::{Cell, Edge, Grid, SmallGrid};
 use super::breach::Breach;
 use super::environment::in_covered;
 use super::observed::Observed;
-use super::whole::{listed, start};
+use super::whole::{MANY, NO_MESSAGE, key, listed, start};
 use crate::engine::{Outcome, Stop, require};
 
 /// Robots, and most walls, of [`in_few_walls`].
@@ -22,9 +22,6 @@ const MOMENTS: u32 = 60;
 /// Robots, and walls in percent, of [`at_random`]; team moves before the death: fewer than this.
 const RANDOM: (usize, [u32; 5]) = (8, [1, 5, 10, 15, 20]);
 const LATE_MOMENTS: u32 = 300;
-
-/// More team moves than any run has.
-const MANY: u32 = 20_000;
 
 /// What [`in_few_walls`] looks at.
 pub(super) fn few_walls() -> String {
@@ -100,10 +97,7 @@ impl Death<'_> {
     fn happens(&self, robots: usize, decides: &mut dyn FnMut() -> bool) -> Outcome {
         // What a side is stays what it is; the oracle is asked once for each.
         let mut world = BTreeMap::new();
-        let mut is_open = |edge: Edge| {
-            let key = (edge.cell().x, edge.cell().y, edge.side() as u8);
-            *world.entry(key).or_insert_with(&mut *decides)
-        };
+        let mut is_open = |edge: Edge| *world.entry(key(edge)).or_insert_with(&mut *decides);
         let mut chain: Small = start(&self.dying.observed, robots, SmallGrid::new)?;
         let mut log = Vec::new();
         for _ in 0..self.moment {
@@ -179,8 +173,6 @@ impl Death<'_> {
         Ok(is_left)
     }
 }
-
-const NO_MESSAGE: Stop = Stop::Violated("the log holds messages only");
 
 /// Makes a team move, in which the team must keep contact whoever goes first, and apart; false if the run is over.
 fn goes_on<G: Grid>(

@@ -1,4 +1,4 @@
-//! The clauses of what is ours in the chain: certified plans, the reel, and contact in any order, and faults. They
+//! The clauses of what is ours in the chain: certified plans, the reel, contact in any order, and faults. They
 //! follow those of [`super::clauses`] in the order of `SPEC.md`.
 
 use tautline_kernel::chain::Condition::{CoveredBehind, SafeAhead};

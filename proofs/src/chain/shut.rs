@@ -10,7 +10,7 @@ use tautline_kernel::ground::{Edge, SmallGrid, Step};
 use super::breach::Breach;
 use super::environment::in_covered;
 use super::observed::Observed;
-use super::whole::{listed, start};
+use super::whole::{MANY, NO_MESSAGE, key, listed, start};
 use crate::engine::{Outcome, Stop, require};
 
 /// Robots, most walls, and most walls that appear, of [`in_few_walls`].
@@ -18,9 +18,6 @@ const FEW_WALLS: [(usize, u32, u32); 3] = [(3, 2, 2), (4, 1, 1), (5, 0, 2)];
 
 /// Robots, walls in percent, and how many tries of an open side meet no new wall on average, of [`at_random`].
 const RANDOM: (usize, [u32; 5], [u32; 3]) = (8, [1, 5, 10, 15, 20], [30, 100, 300]);
-
-/// More team moves than any run has.
-const MANY: u32 = 20_000;
 
 /// What [`in_few_walls`] looks at.
 pub(super) fn few_walls() -> String {
@@ -87,7 +84,7 @@ fn runs(shut: &Shut, robots: usize, is_wall: &mut dyn FnMut(Known) -> bool) -> O
     let (mut log, mut walls) = (Vec::new(), BTreeMap::new());
     let mut situation = "no wall appears";
     for _ in 0..MANY {
-        let intent = chain.plan(&log).map_err(|_| Stop::Violated("the log holds messages only"))?;
+        let intent = chain.plan(&log).map_err(|_| NO_MESSAGE)?;
         let Intent::Go(plan) = intent else { return Ok(situation) };
         require(!chain.is_refused(), "no plan is refused")?;
         let before = chain.cells().to_vec();
@@ -124,8 +121,4 @@ fn runs(shut: &Shut, robots: usize, is_wall: &mut dyn FnMut(Known) -> bool) -> O
         require(!Breach::Crowding.is_in(&before, chain.cells()), "no three robots are in one cell")?;
     }
     Err(Stop::Violated("every run ends"))
-}
-
-fn key(edge: Edge) -> (i16, i16, u8) {
-    (edge.cell().x, edge.cell().y, edge.side() as u8)
 }

@@ -43,7 +43,15 @@ pub(super) fn listed<N: ToString>(numbers: impl IntoIterator<Item = N>) -> Strin
     numbers.into_iter().map(|number| number.to_string()).collect::<Vec<_>>().join(", ")
 }
 
-const NO_MESSAGE: Stop = Stop::Violated("the log holds messages only");
+pub(super) const NO_MESSAGE: Stop = Stop::Violated("the log holds messages only");
+
+/// More team moves than any run has in which something fails.
+pub(super) const MANY: u32 = 20_000;
+
+/// What an edge is looked up by.
+pub(super) fn key(edge: Edge) -> (i16, i16, u8) {
+    (edge.cell().x, edge.cell().y, edge.side() as u8)
+}
 
 /// The chains of [`spiral`].
 const SPIRALS: RangeInclusive<u32> = 2..=32;

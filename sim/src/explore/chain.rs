@@ -6,7 +6,7 @@ pub mod hunt;
 mod saved;
 mod shown;
 
-use tautline_kernel::chain::{self, Chain, Intent, MAX_ROBOTS, Refused};
+use tautline_kernel::chain::{self, Chain, Intent, MAX_ROBOTS, Plan, Refused};
 use tautline_kernel::ground::{Area, Cell, Edge, Grid, MediumGrid, SmallGrid};
 use tautline_proofs::chain::Observed;
 use tautline_proofs::chain::breach::{Breach, CHEAP_LOOKS, frame};
@@ -137,6 +137,30 @@ fn fault(refused: Refused) -> Fault {
     }
 }
 
+/// The next team move of a chain that reads its own log; its end if there is none.
+fn planned<G: Grid, const ROBOTS: usize>(
+    chain: &mut Chain<G, ROBOTS>,
+    log: &[u8],
+) -> Result<Plan<ROBOTS>, End> {
+    match chain.plan(log) {
+        Ok(Intent::Go(plan)) => Ok(plan),
+        Ok(Intent::Done(chain::End::Explored)) => Err(End::Explored),
+        Ok(Intent::Done(chain::End::Exhausted)) => Err(End::Exhausted),
+        Err(damaged) => unreachable!("the log holds what the chain has sent, but {damaged}"),
+    }
+}
+
+/// Whether the last plan of a chain looked at more candidates than its budget.
+fn is_costly<G: Grid, const ROBOTS: usize>(chain: &Chain<G, ROBOTS>) -> bool {
+    chain.looked_at() > CHEAP_LOOKS * chain.cells().len() as u32
+}
+
+/// The cells within reach of so many robots from `base` that are unexplored.
+fn left_out(layout: &Layout, chart: &Survey, base: Cell, robots: usize) -> Vec<Cell> {
+    let due = within_reach(chart.area(), base, robots, |edge| layout.is_open(edge));
+    due.into_iter().filter(|&cell| chart.step(cell).is_none()).collect()
+}
+
 impl<G: Grid, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
     fn cells(&self) -> &[Cell] {
         self.chain.cells()
@@ -144,16 +168,10 @@ impl<G: Grid, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
 
     fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
         self.epochs = self.chain.epochs();
-        match self.chain.plan(&self.log) {
-            Ok(Intent::Go(plan)) => {
-                let settled = self.chain.settle(&plan, is_open);
-                self.log.extend_from_slice(settled.messages());
-                Ok(frame(plan.kind, settled.messages(), self.chain.cells()))
-            }
-            Ok(Intent::Done(chain::End::Explored)) => Err(End::Explored),
-            Ok(Intent::Done(chain::End::Exhausted)) => Err(End::Exhausted),
-            Err(damaged) => unreachable!("the log holds what the chain has sent, but {damaged}"),
-        }
+        let plan = planned(&mut self.chain, &self.log)?;
+        let settled = self.chain.settle(&plan, is_open);
+        self.log.extend_from_slice(settled.messages());
+        Ok(frame(plan.kind, settled.messages(), self.chain.cells()))
     }
 
     fn area(&self, _: &Layout) -> Area {
@@ -161,15 +179,12 @@ impl<G: Grid, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
     }
 
     fn missed(&self, layout: &Layout, chart: &Survey) -> Vec<Cell> {
-        let (base, robots) = (self.cells()[0], self.cells().len());
-        let due = within_reach(chart.area(), base, robots, |edge| layout.is_open(edge));
-        due.into_iter().filter(|&cell| chart.step(cell).is_none()).collect()
+        left_out(layout, chart, self.cells()[0], self.cells().len())
     }
 
     fn broken_in_move(&self, before: &[Cell], frame: &Frame) -> Vec<ClauseId> {
-        let is_costly = self.chain.looked_at() > CHEAP_LOOKS * before.len() as u32;
         let seen = Breach::CHAIN.into_iter().filter(|breach| breach.is_in(before, &frame.cells));
-        seen.chain(is_costly.then_some(Breach::Costly)).map(ClauseId::from).collect()
+        seen.chain(is_costly(&self.chain).then_some(Breach::Costly)).map(ClauseId::from).collect()
     }
 
     fn broken_at_end(&self, layout: &Layout, chart: &Survey, _: End) -> Vec<ClauseId> {

@@ -4,13 +4,12 @@
 use std::mem::take;
 
 use rand_chacha::ChaCha8Rng;
-use tautline_kernel::chain::{self, Barrier, Chain, Heard, Intent, Kind, Parts, Plan, Reforming};
+use tautline_kernel::chain::{Barrier, Chain, Heard, Kind, Parts, Plan, Reforming};
 use tautline_kernel::ground::{Area, Cell, Edge, Grid, Step};
-use tautline_proofs::chain::breach::{Breach, CHEAP_LOOKS, frame};
-use tautline_proofs::chain::links::within_reach;
+use tautline_proofs::chain::breach::{Breach, frame};
 use tautline_proofs::run::Frame;
 
-use super::shown;
+use super::{is_costly, left_out, planned, shown};
 use crate::explore::{Change, ClauseId, End, Hearers, Layer, Scene, Setup, Survey, Team};
 use crate::faults::{Failure, Faults, Going};
 use crate::layout::Layout;
@@ -294,11 +293,9 @@ impl<G: Grid, const ROBOTS: usize> Team for Faulty<G, ROBOTS> {
                 },
                 Whole::Chain(mut chain) => {
                     self.epochs = chain.epochs();
-                    let end = match chain.plan(&self.log) {
-                        Ok(Intent::Go(plan)) => return Ok(self.go(chain, &plan, is_open)),
-                        Ok(Intent::Done(chain::End::Explored)) => End::Explored,
-                        Ok(Intent::Done(chain::End::Exhausted)) => End::Exhausted,
-                        Err(damaged) => unreachable!("the log holds what the chain has sent, but {damaged}"),
+                    let end = match planned(&mut chain, &self.log) {
+                        Ok(plan) => return Ok(self.go(chain, &plan, is_open)),
+                        Err(end) => end,
                     };
                     let has_more = chain.has_more_within_reach();
                     let parts = self.before.as_ref().and_then(|(parts, _)| *parts).filter(|_| has_more);
@@ -319,8 +316,7 @@ impl<G: Grid, const ROBOTS: usize> Team for Faulty<G, ROBOTS> {
     }
 
     fn missed(&self, layout: &Layout, chart: &Survey) -> Vec<Cell> {
-        let due = within_reach(chart.area(), self.cells[0], self.left.len(), |edge| layout.is_open(edge));
-        due.into_iter().filter(|&cell| chart.step(cell).is_none()).collect()
+        left_out(layout, chart, self.cells[0], self.left.len())
     }
 
     fn broken_in_move(&self, before: &[Cell], frame: &Frame) -> Vec<ClauseId> {
@@ -332,7 +328,7 @@ impl<G: Grid, const ROBOTS: usize> Team for Faulty<G, ROBOTS> {
             broken.push(DEATH);
         }
         if let Some(Whole::Chain(chain)) = &self.whole
-            && chain.looked_at() > CHEAP_LOOKS * chain.cells().len() as u32
+            && is_costly(chain)
         {
             broken.push(Breach::Costly.into());
         }
