@@ -159,6 +159,14 @@ macro_rules! words {
 }
 words!(u16, u32, u64, u128);
 
+/// Adds to each row those cells of another that have an open side in between.
+#[inline]
+fn add_open<W: Word>(rows: &mut [W], others: &[W], open: &[W]) {
+    for ((row, &other), &open) in rows.iter_mut().zip(others).zip(open) {
+        *row = *row | other & open;
+    }
+}
+
 impl<W: Word, const HEIGHT: usize> Plane for [W; HEIGHT] {
     const COLUMNS: usize = W::BITS;
     const ROWS: usize = HEIGHT;
@@ -220,21 +228,19 @@ impl<W: Word, const HEIGHT: usize> Plane for [W; HEIGHT] {
 
     #[inline]
     fn spread(&mut self, east: &Self, south: &Self, (first, last): (usize, usize)) -> Option<(usize, usize)> {
-        // What came in from the north, as it was before.
-        let mut from_north = if first == 0 { W::NONE } else { self[first - 1] & south[first - 1] };
-        let mut wider_rows = None;
-        for row in first..=last.min(HEIGHT - 1) {
-            let old = self[row];
-            let from_south = if row + 1 < HEIGHT { self[row + 1] & south[row] } else { W::NONE };
-            let along_row = (old & east[row]) << 1 | old >> 1 & east[row];
-            let wider = old | along_row | from_north | from_south;
-            if wider != old {
-                wider_rows = Some((wider_rows.map_or(row, |(first, _)| first), row));
-            }
-            from_north = old & south[row];
-            self[row] = wider;
+        let (last, old) = (last.min(HEIGHT - 1), *self);
+        let rows = || first..=last;
+        // No row waits for what comes of another: as many are done at once as the machine can.
+        for ((wider, &old), &open) in self[rows()].iter_mut().zip(&old[rows()]).zip(&east[rows()]) {
+            *wider = old | (old & open) << 1 | old >> 1 & open;
         }
-        wider_rows
+        let below = first.max(1);
+        add_open(&mut self[below..=last], &old[below - 1..last], &south[below - 1..last]);
+        let above = first..(last + 1).min(HEIGHT - 1);
+        add_open(&mut self[above.clone()], &old[above.start + 1..], &south[above]);
+        let mut changed = rows().filter(|&row| self[row] != old[row]);
+        let first = changed.next()?;
+        Some((first, changed.next_back().unwrap_or(first)))
     }
 
     #[inline]

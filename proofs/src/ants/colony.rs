@@ -93,7 +93,7 @@ impl System for Colony {
     }
 
     fn steps(&self, state: &State) -> impl Iterator<Item = Step<State, &'static str>> {
-        outcomes(|world| self.step(state, world)).flatten()
+        outcomes(|world| self.step(state, world))
     }
 
     fn broken_by_endless_runs(&self) -> Option<&'static str> {

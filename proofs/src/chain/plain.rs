@@ -6,6 +6,7 @@
 
 use std::collections::VecDeque;
 
+use rustc_hash::FxHashSet;
 use tautline_kernel::chain::{Condition, High, Rule};
 use tautline_kernel::ground::{Area, Avoid, Cell, Edge, Side, Step};
 
@@ -339,16 +340,14 @@ pub(crate) fn walk(
     let way = |from: Cell, (dx, dy): (i16, i16)| -> Option<Vec<Cell>> {
         let horizontal = if dx > 0 { Side::East } else { Side::West };
         let vertical = if dy > 0 { Side::South } else { Side::North };
-        let mut ways = match (dx, dy) {
-            (_, 0) => vec![vec![horizontal]],
-            (0, _) => vec![vec![vertical]],
-            (_, _) => vec![vec![horizontal, vertical], vec![vertical, horizontal]],
-        };
+        let straight = [if dy == 0 { horizontal } else { vertical }];
+        let bent = [[horizontal, vertical], [vertical, horizontal]];
+        let mut ways: [&[Side]; 2] = if dx == 0 || dy == 0 { [&straight; 2] } else { [&bent[0], &bent[1]] };
         ways.sort();
         ways.into_iter().find_map(|sides| {
             let mut cell = from;
             let mut cells = Vec::new();
-            for side in sides {
+            for &side in sides {
                 if !is_open(Edge::new(cell, side)) {
                     return None;
                 }
@@ -359,23 +358,27 @@ pub(crate) fn walk(
         })
     };
     let mut layers = vec![vec![base]];
+    let mut met = FxHashSet::from_iter([base]);
     let target = loop {
         let nearest = layers.last()?;
-        let target = area.cells().find(|cell| nearest.contains(cell) && !is_explored(*cell));
-        if let Some(target) = target {
+        if let Some(&target) = nearest.iter().find(|&&cell| !is_explored(cell)) {
             break target;
         }
         if layers.len() > most || nearest.is_empty() {
             return None;
         }
-        let next = area.cells().filter(|&cell| {
-            let is_new = layers.iter().all(|layer| !layer.contains(&cell));
-            let is_near = |&(dx, dy): &(i16, i16)| {
-                nearest.contains(&Cell::new(cell.x + dx, cell.y + dy)) && way(cell, (dx, dy)).is_some()
-            };
-            is_new && around.iter().any(is_near)
-        });
-        layers.push(next.collect());
+        let mut next = Vec::new();
+        for &from in nearest {
+            for (dx, dy) in around {
+                let cell = Cell::new(from.x - dx, from.y - dy);
+                if area.contains(cell) && !met.contains(&cell) && way(cell, (dx, dy)).is_some() {
+                    met.insert(cell);
+                    next.push(cell);
+                }
+            }
+        }
+        next.sort_by_key(|cell| (cell.y, cell.x));
+        layers.push(next);
     };
     let mut stops = vec![target];
     for nearer in layers.iter().rev().skip(1) {

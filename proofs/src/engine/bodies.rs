@@ -114,16 +114,20 @@ pub fn sample(runs: u64, seed: u64, body: impl Fn(&mut dyn Oracle) -> Outcome + 
     tally
 }
 
-/// What `body` comes to under every combination of answers, in the order of [`exhaust`].
-pub fn outcomes<T>(mut body: impl FnMut(&mut dyn Oracle) -> T) -> impl Iterator<Item = T> {
+/// What `body` comes to under every combination of answers, in the order of [`exhaust`]; nothing where it comes to `None`.
+pub fn outcomes<T>(mut body: impl FnMut(&mut dyn Oracle) -> Option<T>) -> impl Iterator<Item = T> {
     let mut odometer = Some(Odometer::default());
     iter::from_fn(move || {
-        let world = odometer.as_mut()?;
-        let outcome = body(world);
-        if !world.advance() {
-            odometer = None;
+        loop {
+            let world = odometer.as_mut()?;
+            let outcome = body(world);
+            if !world.advance() {
+                odometer = None;
+            }
+            if outcome.is_some() {
+                return outcome;
+            }
         }
-        Some(outcome)
     })
 }
 

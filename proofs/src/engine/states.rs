@@ -92,7 +92,7 @@ pub struct Step<S, D> {
     pub state: S,
     /// Which of the situations that are to be covered it is.
     pub situation: &'static str,
-    /// Who acts in it.
+    /// Who acts in it; of no use in a step that is not bound to be made.
     pub acting: Bits,
     /// Whether it is bound to be made if no other one is.
     pub is_bound: bool,

@@ -292,7 +292,6 @@ impl<A: Agents> Floors<A> {
             self.forget(&mut next);
             Some(Moved { state: next, is_early, asked, missed })
         })
-        .flatten()
     }
 
     /// The trap that `run` is, from one of `starts`.

@@ -64,7 +64,7 @@ impl Drift {
                 let robot = Robot::new(map, cell, &[cell]);
                 starts.extend(outcomes(|oracle| {
                     let fix = clamped(cell, self.fix(place, oracle));
-                    State { robot, place, fix, truth }
+                    Some(State { robot, place, fix, truth })
                 }));
             }
         }
@@ -161,7 +161,7 @@ impl System for Drift {
     }
 
     fn steps(&self, state: &State) -> impl Iterator<Item = Step<State, &'static str>> {
-        outcomes(|oracle| self.go(state, oracle)).flatten().map(|(state, situation)| {
+        outcomes(|oracle| self.go(state, oracle)).map(|(state, situation)| {
             let is_right = state.robot.map().is_within(&state.truth);
             let breaks = if is_right { Vec::new() } else { vec![Demand::Marks.words()] };
             let acting: Bits = 1;

@@ -254,14 +254,14 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         for robot in 0..ROBOTS {
             match world.robots[robot].stance() {
                 Stance::Stands if self.may_decide(world, robot) => {
-                    turns.extend(outcomes(|oracle| self.decide(world, robot, oracle)).flatten());
+                    turns.extend(outcomes(|oracle| self.decide(world, robot, oracle)));
                 }
                 Stance::Stands => {}
                 Stance::Tries(side) => {
-                    turns.extend(outcomes(|oracle| self.look(world, (robot, side), oracle)));
+                    turns.extend(outcomes(|oracle| Some(self.look(world, (robot, side), oracle))));
                 }
                 Stance::Enters(side) => {
-                    turns.extend(outcomes(|oracle| self.arrive(world, (robot, side), oracle)));
+                    turns.extend(outcomes(|oracle| Some(self.arrive(world, (robot, side), oracle))));
                 }
             }
         }

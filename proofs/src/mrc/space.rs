@@ -216,10 +216,13 @@ impl System for Space {
     fn steps(&self, state: &State) -> impl Iterator<Item = Step<State, Demand>> {
         let step = |action| {
             let after = state.after(&self.setting, action);
+            let is_bound = state.is_bound_to_happen(&self.setting, action);
+            let acting =
+                || actors(|actor| has_turned(state, action, &after, actor)) | arriving(state, action);
             Step {
                 situation: "an action",
-                acting: actors(|actor| has_turned(state, action, &after, actor)) | arriving(state, action),
-                is_bound: state.is_bound_to_happen(&self.setting, action),
+                acting: if is_bound { acting() } else { 0 },
+                is_bound,
                 breaks: Demand::ALL.into_iter().filter(|&demand| after.breaks(demand)).collect(),
                 state: after,
             }

@@ -105,7 +105,7 @@ impl Team {
 impl Team {
     /// Every turn from `state`; none once the run is over.
     fn turns(&self, state: &State) -> impl Iterator<Item = Turned> {
-        outcomes(|world| self.turn(state, world)).flatten()
+        outcomes(|world| self.turn(state, world))
     }
 
     fn turn(&self, state: &State, world: &mut dyn Oracle) -> Option<Turned> {

@@ -3,6 +3,7 @@
 use std::hash::{BuildHasher, Hash};
 
 use hashbrown::HashTable;
+use hashbrown::hash_table::Entry;
 use rustc_hash::FxBuildHasher;
 
 use super::{Places, System};
@@ -155,27 +156,23 @@ impl<P: Clone + Eq + Hash> Known<P> {
         differing: Places,
     ) -> (u32, bool) {
         let hash = self.take_apart(system, state, differing);
-        if let Some(node) = self.node(hash) {
-            return (node, false);
+        let Self { nodes, codes, code, .. } = self;
+        match nodes.entry(spread(hash), is_same(hash, code, codes), |&(_, hash)| spread(hash)) {
+            Entry::Occupied(known) => (known.get().0, false),
+            Entry::Vacant(vacant) => {
+                let node = codes.len() as u32;
+                vacant.insert((node, hash));
+                codes.push(code.iter().copied());
+                (node, true)
+            }
         }
-        let node = self.codes.len() as u32;
-        self.codes.push(self.code.iter().copied());
-        self.nodes.insert_unique(spread(hash), (node, hash), |&(_, hash)| spread(hash));
-        (node, true)
     }
 
     /// The number of `state`, if it is known.
     pub(super) fn find<S: System<Part = P>>(&mut self, system: &S, state: &S::State) -> Option<u32> {
         let hash = self.take_apart(system, state, Places::MAX);
-        self.node(hash)
-    }
-
-    /// The number of the state in the making, which has this hash, if it is known.
-    fn node(&self, hash: HashOfState) -> Option<u32> {
-        let is_it = |&(node, other): &(u32, HashOfState)| {
-            other == hash && self.codes.entry(node as usize) == self.code
-        };
-        self.nodes.find(spread(hash), is_it).map(|&(node, _)| node)
+        let same = is_same(hash, &self.code, &self.codes);
+        self.nodes.find(spread(hash), same).map(|&(node, _)| node)
     }
 
     /// Makes `state` the one in the making; its hash.
@@ -270,6 +267,11 @@ const fn hash_at(place: usize, number: u32) -> HashOfState {
     let mixed = (mixed ^ mixed >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
     (mixed >> u32::BITS) as HashOfState
+}
+
+/// Whether a state in the table has this hash and this code.
+fn is_same(hash: HashOfState, code: &[u8], codes: &Pile<u8>) -> impl Fn(&(u32, HashOfState)) -> bool {
+    move |&(node, other)| other == hash && codes.entry(node as usize) == code
 }
 
 /// The bits that a table asks for: it looks at the highest and at the lowest.

@@ -19,7 +19,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
                 continue;
             }
             if !is_driving {
-                turns.extend(outcomes(|oracle| self.decide(world, robot, oracle)).flatten());
+                turns.extend(outcomes(|oracle| self.decide(world, robot, oracle)));
                 continue;
             }
             let all_drive = world.team.stances().all(|stance| !stance.stands());
@@ -36,7 +36,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             let node = Self::ends(&after)[robot];
             let arrival = Event::Arrives(robot, node);
             if self.answers == Answers::AtOnce && after.team.may_decide(robot) {
-                let decided = outcomes(|oracle| self.decide(&after, robot, oracle)).flatten();
+                let decided = outcomes(|oracle| self.decide(&after, robot, oracle));
                 turns.extend(decided.map(|mut turned| {
                     turned.events.insert(0, arrival.clone());
                     turned
