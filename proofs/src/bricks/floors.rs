@@ -3,7 +3,7 @@
 
 use tautline_kernel::bricks::Rule;
 
-use super::team::{Demand, State, Team, Turns};
+use super::team::{Demand, Team, Turns};
 use super::{Deception, Observed};
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
 use crate::engine::states::Limits;
@@ -187,7 +187,7 @@ impl Method<Observed> for Floors {
         let series = self.series[script.choose(self.series.len())?];
         let teams = series.teams(observed, self.demand);
         let team = &teams[script.choose(teams.len())?];
-        let mut starts: Vec<State> = team.starts(series.agents).collect();
+        let mut starts: Vec<_> = team.starts(series.agents).collect();
         let number = script.choose(starts.len())?;
         let start = starts.swap_remove(number);
         let (of, run) = script.play(team, (number, start.clone()), |_| true)?;

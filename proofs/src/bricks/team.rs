@@ -77,8 +77,8 @@ impl Team {
     }
 
     /// The starts of `agents`, each in any free cell.
-    pub(crate) fn starts(&self, agents: u32) -> impl Iterator<Item = State> {
-        self.plan.starts(agents).map(|cells| self.start(&cells))
+    pub(crate) fn starts(&self, agents: u32) -> impl Iterator<Item = Box<State>> {
+        self.plan.starts(agents).map(|cells| Box::new(self.start(&cells)))
     }
 
     /// What no agent ever reads is left out of the state: crossings if it goes round at once and is never lost,
@@ -147,7 +147,7 @@ impl Team {
     }
 
     fn turn(&self, state: &State, world: &mut dyn Oracle) -> Option<Turned> {
-        let awake = self.awake(state);
+        let awake = awake(state);
         let is_over = match self.demand {
             Demand::Connected | Demand::Knowing | Demand::Ends | Demand::All => false,
             Demand::Explores => self.is_explored(state),
@@ -175,7 +175,7 @@ impl Team {
         let pick = if of > 1 || may_fail { world.pick(of << u32::from(may_fail)) } else { 0 };
         let agent = ready.nth(if of > 1 { (pick % of) as usize } else { 0 })?;
         let before = state;
-        let mut state = before.clone();
+        let mut state = Box::new(before.clone());
         if let Some(most) = self.max_streak {
             let again = if state.streak.0 == agent as u8 { state.streak.1 } else { 0 };
             state.streak = (agent as u8, most.min(again + 1));
@@ -224,7 +224,7 @@ impl Team {
     }
 
     /// What happens in `run`, which begins in `start`.
-    pub(super) fn course(&self, start: State, run: &Run<&str>) -> Course {
+    pub(super) fn course(&self, start: Box<State>, run: &Run<&str>) -> Course {
         let mut state = start;
         let round = run.round();
         let mut turns = Vec::new();
@@ -239,9 +239,14 @@ impl Team {
     }
 }
 
+/// Who has something left to do.
+fn awake(state: &State) -> Bits {
+    (0..).zip(&state.bodies).filter(|(_, body)| !body.is_done).fold(0, |set, (agent, _)| set | 1 << agent)
+}
+
 /// What a turn leads to.
 struct Turned {
-    state: State,
+    state: Box<State>,
     /// Whose turn it is, and where it goes.
     agent: usize,
     step: Step,
@@ -250,28 +255,29 @@ struct Turned {
     breaks: Option<&'static str>,
 }
 
+/// States are boxed: each is handed on many times before it is looked at.
 impl System for Team {
-    type State = State;
+    type State = Box<State>;
     type Part = Part<Body>;
     type Demand = &'static str;
 
-    fn places(&self, state: &State) -> usize {
+    fn places(&self, state: &Box<State>) -> usize {
         state.places()
     }
 
-    fn part(&self, state: &State, place: usize) -> Part<Body> {
+    fn part(&self, state: &Box<State>, place: usize) -> Part<Body> {
         state.part(place)
     }
 
-    fn differing(&self, one: &State, other: &State) -> Places {
+    fn differing(&self, one: &Box<State>, other: &Box<State>) -> Places {
         one.differing(other)
     }
 
-    fn put(&self, state: &mut State, place: usize, part: &Part<Body>) {
+    fn put(&self, state: &mut Box<State>, place: usize, part: &Part<Body>) {
         state.put(place, part);
     }
 
-    fn steps(&self, state: &State) -> impl Iterator<Item = states::Step<State, &'static str>> {
+    fn steps(&self, state: &Box<State>) -> impl Iterator<Item = states::Step<Box<State>, &'static str>> {
         self.turns(state).map(|Turned { state, agent, breaks, .. }| states::Step {
             state,
             situation: "a step",
@@ -281,7 +287,7 @@ impl System for Team {
         })
     }
 
-    fn broken_at_end(&self, state: &State) -> Option<&'static str> {
+    fn broken_at_end(&self, state: &Box<State>) -> Option<&'static str> {
         match self.demand {
             Demand::Connected | Demand::Knowing => None,
             Demand::Explores => (!self.is_explored(state)).then_some("every cell is explored"),
@@ -303,7 +309,7 @@ impl System for Team {
         }
     }
 
-    fn awake(&self, state: &State) -> Bits {
-        (0..).zip(&state.bodies).filter(|(_, body)| !body.is_done).fold(0, |set, (agent, _)| set | 1 << agent)
+    fn awake(&self, state: &Box<State>) -> Bits {
+        awake(state)
     }
 }

@@ -64,8 +64,8 @@ impl Team {
     }
 
     /// The starts of `agents`, each in any free cell.
-    pub(super) fn starts(&self, agents: u32) -> impl Iterator<Item = State> {
-        self.plan.starts(agents).map(|cells| self.start(&cells))
+    pub(super) fn starts(&self, agents: u32) -> impl Iterator<Item = Box<State>> {
+        self.plan.starts(agents).map(|cells| Box::new(self.start(&cells)))
     }
 
     /// What is broken in `state`, in which `agent` has just acted.
@@ -109,7 +109,7 @@ impl Team {
     }
 
     fn turn(&self, state: &State, world: &mut dyn Oracle) -> Option<Turned> {
-        let awake = self.awake(state);
+        let awake = awake(state);
         let is_over = match self.demand {
             Demand::Explores => state.is_explored(&self.plan),
             Demand::Bounded => founded(state) > 1,
@@ -138,7 +138,7 @@ impl Team {
         let may_fail = self.may_fail && awake.count_ones() > 1;
         let pick = if of > 1 || may_fail { world.pick(of << u32::from(may_fail)) } else { 0 };
         let agent = ready.nth((pick % of) as usize)?;
-        let mut state = state.clone();
+        let mut state = Box::new(state.clone());
         let body = &mut state.bodies[agent];
         if pick >= of {
             body.has_failed = true;
@@ -191,7 +191,7 @@ impl Team {
     }
 
     /// What happens in `run`, which begins in `start`.
-    pub(super) fn course(&self, start: State, run: &Run<&str>) -> Course {
+    pub(super) fn course(&self, start: Box<State>, run: &Run<&str>) -> Course {
         let mut state = start;
         let round = run.round();
         let mut turns = Vec::new();
@@ -211,9 +211,14 @@ fn founded(state: &State) -> u32 {
     state.bodies.iter().map(|body| body.memory.founded()).sum()
 }
 
+/// Who has something left to do.
+fn awake(state: &State) -> Bits {
+    (0..).zip(&state.bodies).filter(|(_, body)| body.is_awake()).fold(0, |set, (agent, _)| set | 1 << agent)
+}
+
 /// What a turn leads to.
 struct Turned {
-    state: State,
+    state: Box<State>,
     /// Whose turn it is, and where it goes.
     agent: usize,
     step: Step,
@@ -224,28 +229,29 @@ struct Turned {
     breaks: Option<&'static str>,
 }
 
+/// States are boxed: each is handed on many times before it is looked at.
 impl System for Team {
-    type State = State;
+    type State = Box<State>;
     type Part = Part;
     type Demand = &'static str;
 
-    fn places(&self, state: &State) -> usize {
+    fn places(&self, state: &Box<State>) -> usize {
         state.places()
     }
 
-    fn part(&self, state: &State, place: usize) -> Part {
+    fn part(&self, state: &Box<State>, place: usize) -> Part {
         state.part(place)
     }
 
-    fn differing(&self, one: &State, other: &State) -> Places {
+    fn differing(&self, one: &Box<State>, other: &Box<State>) -> Places {
         one.differing(other)
     }
 
-    fn put(&self, state: &mut State, place: usize, part: &Part) {
+    fn put(&self, state: &mut Box<State>, place: usize, part: &Part) {
         state.put(place, part);
     }
 
-    fn steps(&self, state: &State) -> impl Iterator<Item = states::Step<State, &'static str>> {
+    fn steps(&self, state: &Box<State>) -> impl Iterator<Item = states::Step<Box<State>, &'static str>> {
         self.turns(state).map(|Turned { state, agent, fails, breaks, .. }| states::Step {
             state,
             situation: if fails { "a failure" } else { "a step" },
@@ -255,7 +261,7 @@ impl System for Team {
         })
     }
 
-    fn broken_at_end(&self, state: &State) -> Option<&'static str> {
+    fn broken_at_end(&self, state: &Box<State>) -> Option<&'static str> {
         match self.demand {
             Demand::Connected
             | Demand::Knowing
@@ -285,10 +291,7 @@ impl System for Team {
         }
     }
 
-    fn awake(&self, state: &State) -> Bits {
-        (0..)
-            .zip(&state.bodies)
-            .filter(|(_, body)| body.is_awake())
-            .fold(0, |set, (agent, _)| set | 1 << agent)
+    fn awake(&self, state: &Box<State>) -> Bits {
+        awake(state)
     }
 }

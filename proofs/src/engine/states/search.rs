@@ -65,7 +65,7 @@ struct Search<'a, S: System> {
     looked_at: usize,
     steps: u64,
     /// The state that is shown: of the next one only what differs is put.
-    shown: Option<S::State>,
+    shown: Option<Box<S::State>>,
     taken: Taken<'a>,
     covered: Vec<&'static str>,
     broken: Vec<Broken<S::Demand>>,
@@ -95,11 +95,11 @@ impl<'a, S: System> Search<'a, S> {
             self.graph.add_start(start);
         }
         self.known.show_last();
-        self.shown = Some(state);
+        self.shown = Some(Box::new(state));
     }
 
     /// The state of a node. It is to be given back as what is shown.
-    fn state(&mut self, node: usize) -> Option<S::State> {
+    fn state(&mut self, node: usize) -> Option<Box<S::State>> {
         let mut state = self.shown.take()?;
         self.known.show(node, |place, part| self.system.put(&mut state, place, part));
         Some(state)
