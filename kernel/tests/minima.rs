@@ -4,8 +4,8 @@
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{
-    Area, Estimate, Fix, Parameters, Particle, Point, Range, Refusal, Residual, Signal, Swarm, check_meeting,
-    closed_form, linear, locate,
+    Area, Estimate, Fix, Parameters, Particle, Point, Range, Refusal, Residual, Signal, Swarm, bound, check,
+    check_meeting, closed_form, linear, locate,
 };
 
 #[path = "support/numbers.rs"]
@@ -212,6 +212,22 @@ fn anchors_on_a_line_are_on_one_wherever_it_is() {
             assert_eq!(closed_form(&ranges), Err(Refusal::Collinear), "{ranges:?}");
         }
     }
+}
+
+#[test]
+fn anchors_a_millimetre_apart_are_at_two_places() {
+    let [near, far] = [Point::new(1.0, 2.0), Point::new(20.0, 2.0)];
+    for (apart_m, is_one) in [(1e-3, false), (1e-5, false), (2e-6, false), (9e-7, true), (0.0, true)] {
+        let ranges = exact(&[near, Point::new(1.0, 2.0 + apart_m), far], Point::new(5.0, 9.0));
+        let refusal = Refusal::Coincident { first: 0, second: 1 };
+        assert_eq!(check(&ranges), if is_one { Err(refusal) } else { Ok(()) }, "{apart_m}");
+    }
+    // The direction of an anchor does not depend on how near it is.
+    let dilution = |apart_m: f64| {
+        let at = Point::new(near.x_m + 0.6 * apart_m, near.y_m + 0.8 * apart_m);
+        bound([near, far, Point::new(9.0, 30.0)].into_iter(), at, &signal(1.0)).expect("a bound").dilution
+    };
+    assert!((dilution(1e-3) - dilution(1e-4)).abs() < 1e-3, "{} {}", dilution(1e-3), dilution(1e-4));
 }
 
 #[test]

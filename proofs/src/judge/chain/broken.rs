@@ -121,8 +121,9 @@ mod tests {
         for (x, y) in (-4..=4).flat_map(|x| (-4..=4).map(move |y| (x, y))) {
             let is_far = f64::from(x).hypot(f64::from(y)) > 26_f64.sqrt() / 2.0;
             let off = add(base, (x, y));
-            let pairs = [([base, off], [base; 2]), ([base; 2], [base, off]), ([off, base], [base; 2])];
-            for (before, after) in pairs {
+            let still = [base; 2];
+            let pairs = [[base, off], [off, base]].map(|gone| [(gone, still), (still, gone)]);
+            for (before, after) in pairs.into_iter().flatten() {
                 assert_eq!(range_is_left(&before, &after), is_far, "{before:?} {after:?}");
                 // A third robot beside either of them, and a fourth that stays with it.
                 let beside = |team: [Place; 2]| [team[0], team[0], team[1], team[1]];
