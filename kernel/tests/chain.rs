@@ -1,6 +1,6 @@
-//! What a chain says of itself between two moves, and for whom a full cell is shut.
+//! What a chain says of itself between two moves, for whom a full cell is shut, and what a barrier hears.
 
-use tautline_kernel::chain::{Chain, Condition, Intent, Rule};
+use tautline_kernel::chain::{Barrier, Chain, Condition, Damaged, Heard, Intent, Message, Rule};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Circle, Edge, EdgeMark, Grid, Side, SmallGrid, Step};
 
@@ -169,4 +169,58 @@ fn a_chain_is_where_another_one_is_if_it_stands_and_knows_alike() {
     grid.put_edge(EdgeMark::Wall, learnt);
     let other = Chain::<_, 5>::new(Rule::REPAIRED, 3, Cell::new(2, 2), grid).expect("it fits");
     assert!(known.is_where(&unknown) && !known.is_where(&other));
+}
+
+#[test]
+fn a_barrier_tells_of_every_byte_which_team_move_it_is_about() {
+    const ROBOTS: usize = 4;
+    let is_message = |byte| Message::decode(byte).is_ok();
+    let own = |turn: u32| (turn % 5) as u8;
+    for robot in 1..ROBOTS {
+        let mut barrier = Barrier::<ROBOTS>::new(ROBOTS, robot);
+        for turn in 0..6 {
+            assert_eq!((barrier.turn(), barrier.again()), (turn, None));
+            for (from, byte) in (0..=ROBOTS).flat_map(|from| (0..=u8::MAX).map(move |byte| (from, byte))) {
+                // The lowest five bits are the message, two count team moves, and the highest says that it was asked for.
+                let (message, about, is_answer) =
+                    (byte & 0b1_1111, u32::from(byte >> 5 & 0b11), byte >> 7 == 1);
+                let expected = if !is_message(message) {
+                    Err(Damaged::Byte(message))
+                } else if from == robot || !(1..ROBOTS).contains(&from) {
+                    Ok(Heard::Foreign)
+                } else if about == turn % 4 {
+                    Ok(Heard::New)
+                } else if about == (turn + 1) % 4 {
+                    Ok(Heard::Early)
+                } else if about == (turn + 3) % 4 && turn > 0 && !is_answer {
+                    Ok(Heard::Late(own(turn - 1) | (about as u8) << 5 | 1 << 7))
+                } else {
+                    Ok(Heard::Foreign)
+                };
+                let mut heard = barrier;
+                assert_eq!(
+                    heard.hear(from, byte),
+                    expected,
+                    "{robot} hears {byte:08b} from {from} in {turn}"
+                );
+                if expected == Ok(Heard::New) {
+                    assert_eq!(heard.hear(from, byte), Ok(Heard::Again));
+                    let other = byte ^ 1;
+                    if is_message(other & 0b1_1111) {
+                        assert_eq!(heard.hear(from, other), Err(Damaged::OtherStep { robot: from + 1 }));
+                        assert_eq!(heard.hear(from, byte), Ok(Heard::Again));
+                    }
+                }
+            }
+            let said = barrier.say(own(turn));
+            assert_eq!((said, barrier.again()), (own(turn) | ((turn % 4) as u8) << 5, Some(said)));
+            for from in (1..ROBOTS).filter(|&from| from != robot) {
+                assert_eq!(barrier.pass(), None);
+                assert_eq!(barrier.hear(from, from as u8 | ((turn % 4) as u8) << 5), Ok(Heard::New));
+            }
+            let mut messages = [1, 2, 3, 0];
+            messages[robot - 1] = own(turn);
+            assert_eq!(barrier.pass(), Some(messages));
+        }
+    }
 }
