@@ -150,9 +150,9 @@ fn two_maps_joined_know_what_either_knows_and_no_explored_cell_is_an_obstacle() 
             let (which, cell) = (drawn.pick(2) as usize, cells[drawn.pick(cells.len() as u32) as usize]);
             let is_explored = drawn.pick(2) == 0;
             if is_explored {
-                maps[which].explore(cell)
+                maps[which].explore(cell);
             } else {
-                maps[which].block(cell)
+                maps[which].block(cell);
             }
             let known = told[which].entry(cell).or_insert(Status::Obstacle);
             if is_explored {

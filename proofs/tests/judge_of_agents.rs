@@ -127,6 +127,12 @@ fn in_the_middle(clause: &str, agents: usize, turns: &[(usize, Place, bool)], ro
     }
 }
 
+const MIDDLE: Place = (1, 1);
+const EAST: Place = (2, 1);
+const CORNER: Place = (2, 2);
+/// A step and back.
+const GO_BACK: [(usize, Place, bool); 2] = [(0, EAST, false), (0, MIDDLE, false)];
+
 #[test]
 fn a_cell_is_due_if_it_is_connected_with_a_start() {
     let cells: BTreeSet<Place> = (0..3).flat_map(|x| (0..3).map(move |y| (x, y))).collect();
@@ -153,59 +159,60 @@ fn a_cell_is_due_if_it_is_connected_with_a_start() {
     }
 }
 
+/// A clause, how many agents, their turns, how long the round is, and what the judge says.
+type Said = (&'static str, usize, &'static [(usize, Place, bool)], usize, &'static str);
+
 #[test]
 fn the_judge_of_agents_says_what_is_wrong_and_in_which_turn() {
-    let (middle, east, corner) = ((1, 1), (2, 1), (2, 2));
     let says = |exhibit: &Exhibit| match judge(exhibit) {
         Ok(judgement) => format!("{judgement:?}"),
         Err(objection) => objection.to_string(),
     };
-    let go_back = [(0, east, false), (0, middle, false)];
     let no_clause_needs_it = "a counterexample needs an agent and its turns";
     let not_round = "the last turns do not come back to where they began, or leave an agent out";
-    let cases: [(&str, usize, &[(usize, Place, bool)], usize, &str); 16] = [
+    let cases: [Said; 16] = [
         ("BRICKS-5", 1, &[], 0, no_clause_needs_it),
-        ("BRICKS-5", 0, &[(0, middle, false)], 0, no_clause_needs_it),
-        ("BRICKS-5", 1, &[(0, middle, false)], 2, no_clause_needs_it),
+        ("BRICKS-5", 0, &[(0, MIDDLE, false)], 0, no_clause_needs_it),
+        ("BRICKS-5", 1, &[(0, MIDDLE, false)], 2, no_clause_needs_it),
         (
             "BRICKS-5",
             1,
-            &[(0, east, false), (0, (0, 1), false)],
+            &[(0, EAST, false), (0, (0, 1), false)],
             0,
             "turn 2: an agent goes where it cannot go",
         ),
-        ("BRICKS-5", 1, &[(0, east, false), (0, corner, true)], 0, "turn 2: an agent that goes is not done"),
-        ("BRICKS-5", 1, &[(0, middle, true), (0, middle, true)], 0, "turn 2: an agent acts that is done"),
-        ("BRICKS-5", 1, &go_back, 0, "the run is not over, or every cell is explored"),
-        ("BRICKS-6", 1, &go_back, 0, "the run is not over"),
-        ("BRICKS-6", 1, &[(0, middle, true)], 0, "Broken"),
+        ("BRICKS-5", 1, &[(0, EAST, false), (0, CORNER, true)], 0, "turn 2: an agent that goes is not done"),
+        ("BRICKS-5", 1, &[(0, MIDDLE, true), (0, MIDDLE, true)], 0, "turn 2: an agent acts that is done"),
+        ("BRICKS-5", 1, &GO_BACK, 0, "the run is not over, or every cell is explored"),
+        ("BRICKS-6", 1, &GO_BACK, 0, "the run is not over"),
+        ("BRICKS-6", 1, &[(0, MIDDLE, true)], 0, "Broken"),
         (
             "BRICKS-4",
             2,
-            &[(0, middle, true), (1, east, false)],
+            &[(0, MIDDLE, true), (1, EAST, false)],
             0,
             "turn 1: the clause is broken before the last turn",
         ),
-        ("BRICKS-4", 2, &[(1, east, false), (0, middle, true)], 0, "Broken"),
+        ("BRICKS-4", 2, &[(1, EAST, false), (0, MIDDLE, true)], 0, "Broken"),
         // A run that is one round, a round after a way that leads into it, and rounds that are none.
-        ("BRICKS-5", 1, &[(0, middle, false)], 1, "Broken"),
+        ("BRICKS-5", 1, &[(0, MIDDLE, false)], 1, "Broken"),
         (
             "BRICKS-6",
             1,
-            &[(0, east, false), (0, middle, false), (0, east, false), (0, middle, false)],
+            &[(0, EAST, false), (0, MIDDLE, false), (0, EAST, false), (0, MIDDLE, false)],
             2,
             "Broken",
         ),
-        ("BRICKS-6", 1, &go_back, 2, not_round),
-        ("BRICKS-6", 2, &[(1, middle, false), (0, middle, false)], 1, not_round),
-        ("BRICKS-6", 2, &[(1, middle, true), (0, middle, false)], 1, "Broken"),
+        ("BRICKS-6", 1, &GO_BACK, 2, not_round),
+        ("BRICKS-6", 2, &[(1, MIDDLE, false), (0, MIDDLE, false)], 1, not_round),
+        ("BRICKS-6", 2, &[(1, MIDDLE, true), (0, MIDDLE, false)], 1, "Broken"),
     ];
     for (clause, agents, turns, round, words) in cases {
         assert_eq!(says(&in_the_middle(clause, agents, turns, round)), words, "{clause} {turns:?} {round}");
     }
     // With no other cell the run is over and nothing is left: that is a matter of marks, or no counterexample.
     let all_explored = |clause: &str, round: usize, is_done: bool| {
-        let exhibit = in_the_middle(clause, 1, &[(0, middle, is_done)], round);
+        let exhibit = in_the_middle(clause, 1, &[(0, MIDDLE, is_done)], round);
         says(&Exhibit { width: 2, height: 2, blocked: BTreeSet::from([(0, 1), (1, 0)]), ..exhibit })
     };
     assert_eq!(all_explored("BRICKS-6", 0, true), "Unseen");
