@@ -5,6 +5,7 @@ use std::error::Error;
 use tautline_kernel::perception::blink::Unidentified;
 use tautline_kernel::perception::blob::{NoSample, TooManySets};
 use tautline_kernel::perception::polar::Unplaced;
+use tautline_kernel::position::Refusal;
 use tautline_kernel::{chain, kit};
 
 #[test]
@@ -40,5 +41,21 @@ fn errors_say_what_would_be_right() {
     ];
     for (error, words) in said {
         assert_eq!(error.to_string(), words);
+    }
+}
+
+#[test]
+fn a_refused_position_has_a_remedy() {
+    let remedies = [
+        (Refusal::Anchors { count: 2 }, "give at least three anchors, and exactly three for the closed form"),
+        (Refusal::NotFinite { anchor: 0 }, "give metres, at most 10⁹ of them"),
+        (Refusal::Negative { anchor: 0 }, "give distances from 0"),
+        (Refusal::Coincident { first: 0, second: 1 }, "give three anchors at different places"),
+        (Refusal::Collinear, "move an anchor off the line of the others"),
+        (Refusal::Division, "name the anchors in another order, or solve by linear least squares"),
+        (Refusal::NoParticle, "give at least one particle"),
+    ];
+    for (refusal, remedy) in remedies {
+        assert_eq!(refusal.remedy(), remedy);
     }
 }

@@ -412,7 +412,7 @@ proptest! {
         let centimetres = row * row / 420.0 - 0.931 * row + 65.0;
         match (distance(y), distance(y + 1)) {
             (Ok(here), below) => {
-                prop_assert!((f64::from(here) / 10_000.0 - centimetres).abs() < 0.000_101);
+                prop_assert!(here > 0 && (f64::from(here) / 10_000.0 - centimetres).abs() < 0.000_101);
                 prop_assert!(below.is_err() || below.is_ok_and(|below| below < here));
             }
             (Err(none), below) => {
@@ -431,7 +431,8 @@ fn four_steps_of_a_round_are_quarters() {
     // 80 of 161 columns of 60 degrees: 29.814.
     assert_eq!((angle(0, 0), angle(0, 160)), (Ok(330_186), Ok(29_814)));
     assert_eq!(angle(0, 161), Err(Unplaced::Column));
-    assert_eq!(Angle::of_millidegrees(360_000).parts(), 0);
+    assert_eq!(angle(u32::MAX, 80), Ok(270_000));
+    assert_eq!([0, 90_000, 360_000].map(|angle| Angle::of_millidegrees(angle).parts()), [0, 1 << 30, 0]);
 }
 
 #[test]

@@ -10,6 +10,11 @@ use tautline_kernel::position::{
     bound, check, check_meeting, closed_form, linear, locate,
 };
 
+#[path = "support/numbers.rs"]
+mod numbers;
+
+use numbers::Drawn;
+
 const SQUARE: [Point; 3] = [Point::new(0.0, 0.0), Point::new(20.0, 0.0), Point::new(0.0, 20.0)];
 
 fn signal(noise_db: f64) -> Signal {
@@ -18,16 +23,6 @@ fn signal(noise_db: f64) -> Signal {
 
 fn ranges(anchors: &[Point], at: Point) -> Vec<Range> {
     anchors.iter().map(|&anchor| Range::new(anchor, anchor.distance_m(at))).collect()
-}
-
-/// Answers that a linear congruence makes of the ones before.
-struct Drawn(u64);
-
-impl Oracle for Drawn {
-    fn pick(&mut self, below: u32) -> u32 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (((self.0 >> 32) * u64::from(below)) >> 32) as u32
-    }
 }
 
 /// Ranges from a place in the square, each wrong by at most a third.

@@ -6,7 +6,7 @@ use tautline_kernel::ground::Cell;
 use tautline_proofs::course::Course;
 use tautline_proofs::decide::{Memory, Seen, Verdict};
 use tautline_proofs::engine::tree::unwatched;
-use tautline_proofs::judge::floor::{Exhibit, Judgement, Place, Turn, judge};
+use tautline_proofs::judge::floor::{Exhibit, Judgement, Objection, Place, Turn, judge};
 use tautline_proofs::ledger;
 
 fn place(cell: Cell) -> Place {
@@ -111,4 +111,116 @@ fn an_agent_that_is_done_while_a_cell_is_unexplored_breaks_bricks_4() {
     assert_eq!(judge(&cut_off), Ok(Judgement::Unseen), "the third cell is not connected");
     let through = [turn((2, 0), false), turn((2, 0), true)];
     assert!(judge(&exhibit(&through)).is_err(), "two cells in one turn");
+}
+
+/// Agents on 3×3 cells, of which the middle one is where all start.
+fn in_the_middle(clause: &str, agents: usize, turns: &[(usize, Place, bool)], round: usize) -> Exhibit {
+    Exhibit {
+        clause: clause.to_owned(),
+        width: 3,
+        height: 3,
+        walls: BTreeSet::new(),
+        blocked: BTreeSet::new(),
+        starts: vec![(1, 1); agents],
+        turns: turns.iter().map(|&(agent, to, is_done)| Turn { agent, to, is_done }).collect(),
+        round,
+    }
+}
+
+const MIDDLE: Place = (1, 1);
+const EAST: Place = (2, 1);
+const CORNER: Place = (2, 2);
+/// A step and back.
+const GO_BACK: [(usize, Place, bool); 2] = [(0, EAST, false), (0, MIDDLE, false)];
+
+#[test]
+fn a_cell_is_due_if_it_is_connected_with_a_start() {
+    let cells: BTreeSet<Place> = (0..3).flat_map(|x| (0..3).map(move |y| (x, y))).collect();
+    for (x, y) in [(1, 0), (2, 1), (1, 2), (0, 1)] {
+        let done = in_the_middle("BRICKS-4", 1, &[(0, (1, 1), true)], 0);
+        let blocked: BTreeSet<Place> = cells.iter().copied().filter(|&cell| cell != (1, 1)).collect();
+        let alone = Exhibit { blocked: blocked.clone(), ..done.clone() };
+        assert_eq!(judge(&alone), Ok(Judgement::Unseen), "no other cell is free");
+        let mut one_more = alone.clone();
+        one_more.blocked.remove(&(x, y));
+        assert_eq!(judge(&one_more), Ok(Judgement::Broken), "{:?} is unexplored", (x, y));
+        one_more.walls.insert(((1, 1).min((x, y)), (1, 1).max((x, y))));
+        assert_eq!(judge(&one_more), Ok(Judgement::Unseen), "{:?} is not connected", (x, y));
+        // The corner after it is connected through it alone.
+        let corner = (1 + (x - 1) - (y - 1), 1 + (y - 1) + (x - 1));
+        let mut by_a_corner = alone.clone();
+        by_a_corner.blocked.remove(&corner);
+        assert_eq!(judge(&by_a_corner), Ok(Judgement::Unseen), "{corner:?} is not connected");
+        by_a_corner.blocked.remove(&(x, y));
+        by_a_corner.turns = [((x, y), false), ((1, 1), false), ((1, 1), true)]
+            .map(|(to, is_done)| Turn { agent: 0, to, is_done })
+            .to_vec();
+        assert_eq!(judge(&by_a_corner), Ok(Judgement::Broken), "{corner:?} is unexplored");
+    }
+}
+
+/// A clause, how many agents, their turns, how long the round is, and what the judge says.
+type Said = (&'static str, usize, &'static [(usize, Place, bool)], usize, &'static str);
+
+#[test]
+fn the_judge_of_agents_says_what_is_wrong_and_in_which_turn() {
+    let says = |exhibit: &Exhibit| match judge(exhibit) {
+        Ok(judgement) => format!("{judgement:?}"),
+        Err(objection) => objection.to_string(),
+    };
+    let no_clause_needs_it = "a counterexample needs an agent and its turns";
+    let not_round = "the last turns do not come back to where they began, or leave an agent out";
+    let cases: [Said; 16] = [
+        ("BRICKS-5", 1, &[], 0, no_clause_needs_it),
+        ("BRICKS-5", 0, &[(0, MIDDLE, false)], 0, no_clause_needs_it),
+        ("BRICKS-5", 1, &[(0, MIDDLE, false)], 2, no_clause_needs_it),
+        (
+            "BRICKS-5",
+            1,
+            &[(0, EAST, false), (0, (0, 1), false)],
+            0,
+            "turn 2: an agent goes where it cannot go",
+        ),
+        ("BRICKS-5", 1, &[(0, EAST, false), (0, CORNER, true)], 0, "turn 2: an agent that goes is not done"),
+        ("BRICKS-5", 1, &[(0, MIDDLE, true), (0, MIDDLE, true)], 0, "turn 2: an agent acts that is done"),
+        ("BRICKS-5", 1, &GO_BACK, 0, "the run is not over, or every cell is explored"),
+        ("BRICKS-6", 1, &GO_BACK, 0, "the run is not over"),
+        ("BRICKS-6", 1, &[(0, MIDDLE, true)], 0, "Broken"),
+        (
+            "BRICKS-4",
+            2,
+            &[(0, MIDDLE, true), (1, EAST, false)],
+            0,
+            "turn 1: the clause is broken before the last turn",
+        ),
+        ("BRICKS-4", 2, &[(1, EAST, false), (0, MIDDLE, true)], 0, "Broken"),
+        // A run that is one round, a round after a way that leads into it, and rounds that are none.
+        ("BRICKS-5", 1, &[(0, MIDDLE, false)], 1, "Broken"),
+        (
+            "BRICKS-6",
+            1,
+            &[(0, EAST, false), (0, MIDDLE, false), (0, EAST, false), (0, MIDDLE, false)],
+            2,
+            "Broken",
+        ),
+        ("BRICKS-6", 1, &GO_BACK, 2, not_round),
+        ("BRICKS-6", 2, &[(1, MIDDLE, false), (0, MIDDLE, false)], 1, not_round),
+        ("BRICKS-6", 2, &[(1, MIDDLE, true), (0, MIDDLE, false)], 1, "Broken"),
+    ];
+    for (clause, agents, turns, round, words) in cases {
+        assert_eq!(says(&in_the_middle(clause, agents, turns, round)), words, "{clause} {turns:?} {round}");
+    }
+    // With no other cell the run is over and nothing is left: that is a matter of marks, or no counterexample.
+    let all_explored = |clause: &str, round: usize, is_done: bool| {
+        let exhibit = in_the_middle(clause, 1, &[(0, MIDDLE, is_done)], round);
+        says(&Exhibit { width: 2, height: 2, blocked: BTreeSet::from([(0, 1), (1, 0)]), ..exhibit })
+    };
+    assert_eq!(all_explored("BRICKS-6", 0, true), "Unseen");
+    assert_eq!(all_explored("BRICKS-5", 0, true), "the run is not over, or every cell is explored");
+    assert_eq!(all_explored("BRICKS-5", 1, false), "every cell is explored");
+    assert_eq!(all_explored("BRICKS-6", 1, false), "Broken");
+    assert_eq!(
+        judge(&in_the_middle("BRICKS-5", 1, &[], 0)),
+        Err(Objection { at: 0, what: no_clause_needs_it })
+    );
 }

@@ -110,8 +110,9 @@ impl Round {
         if twice_from_middle > rightmost {
             return Err(Unplaced::Column);
         }
-        let steps = u32::from(self.steps.get());
-        let turned = u64::from(step % steps) * Angle::PARTS_PER_TURN / u64::from(steps);
+        let steps = u64::from(self.steps.get());
+        // Whole turns are above the lowest 32 bits.
+        let turned = u64::from(step) * Angle::PARTS_PER_TURN / steps;
         let aside = (twice_from_middle * i64::from(self.view.parts)).div_euclid(2 * width);
         Ok(Angle { parts: (turned as u32).wrapping_add(aside as u32) })
     }
@@ -133,8 +134,6 @@ pub fn distance_micrometres(point: Point) -> Result<u32, Unplaced> {
     }
     let y = i64::from(point.y);
     let numerator = 10_000 * y * y - 9_310 * 420 * UNITS * y + 650_000 * DENOMINATOR;
-    match u32::try_from(numerator.div_euclid(DENOMINATOR)) {
-        Ok(distance) if distance > 0 => Ok(distance),
-        Ok(_) | Err(_) => Err(Unplaced::Row),
-    }
+    // No row is at 0 itself.
+    u32::try_from(numerator.div_euclid(DENOMINATOR)).map_err(|_| Unplaced::Row)
 }

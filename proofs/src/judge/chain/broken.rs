@@ -1,6 +1,6 @@
 //! What breaks each clause: a move, or the end of a run.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::HashSet;
 
 use super::court::Court;
 use super::exhibit::Move;
@@ -61,7 +61,7 @@ fn misses_within_reach(court: &Court<'_>) -> bool {
 fn misses_reachable(court: &Court<'_>) -> Result<bool, &'static str> {
     let start = vec![court.exhibit.base; court.exhibit.robots];
     // One who knows all sides: nobody is unsure, and no wall is planned to be crossed.
-    let mut informed = Court { open: BTreeSet::new(), walls: BTreeSet::new(), ..court.clone() };
+    let mut informed = court.clone();
     for place in court.exhibit.inside() {
         for step in [(1, 0), (0, 1)] {
             let side = side_between(place, add(place, step));
@@ -107,6 +107,36 @@ impl Court<'_> {
                 self.configurations(tried, sink);
                 tried.pop();
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn centres_of_neighbours_more_than_half_the_root_of_26_apart_at_any_two_ends_break_chain_3() {
+        let base = (1, -1);
+        for (x, y) in (-4..=4).flat_map(|x| (-4..=4).map(move |y| (x, y))) {
+            let is_far = f64::from(x).hypot(f64::from(y)) > 26_f64.sqrt() / 2.0;
+            let off = add(base, (x, y));
+            let still = [base; 2];
+            let pairs = [[base, off], [off, base]].map(|gone| [(gone, still), (still, gone)]);
+            for (before, after) in pairs.into_iter().flatten() {
+                assert_eq!(range_is_left(&before, &after), is_far, "{before:?} {after:?}");
+                // A third robot beside either of them, and a fourth that stays with it.
+                let beside = |team: [Place; 2]| [team[0], team[0], team[1], team[1]];
+                assert_eq!(range_is_left(&beside(before), &beside(after)), is_far, "{before:?} {after:?}");
+            }
+            // One end before the move, the other after it: each robot goes half of the way.
+            let half = add(base, (x / 2, y / 2));
+            let crossing = range_is_left(&[base, half], &[half, off]);
+            let are_near = [(base, half), (half, off), (base, off), (half, half)];
+            let any_far = are_near.iter().any(|(one, other)| {
+                f64::from(one.0 - other.0).hypot(f64::from(one.1 - other.1)) > 26_f64.sqrt() / 2.0
+            });
+            assert_eq!(crossing, any_far, "{half:?} {off:?}");
         }
     }
 }
