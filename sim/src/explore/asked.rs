@@ -34,6 +34,8 @@ pub struct Asked {
     pub miss: Option<Probability>,
     /// How many cells a message is heard; else all hear it.
     pub range_cells: Option<u16>,
+    /// How many cells robots see.
+    pub sight_cells: Option<u16>,
     /// How likely it is that such a message is lost.
     pub loss: Option<Probability>,
     /// The noise of positions, in dB.
@@ -64,6 +66,7 @@ impl Asked {
             starts: Vec::new(),
             miss: None,
             range_cells: None,
+            sight_cells: None,
             loss: None,
             noise_db: None,
             threshold: None,
@@ -107,6 +110,7 @@ impl Asked {
         let usual = Options::default();
         let options = Options {
             range_cells: self.range_cells,
+            sight_cells: self.sight_cells,
             loss: self.loss.unwrap_or(usual.loss),
             noise_db: self.noise_db.unwrap_or(usual.noise_db),
             threshold: self.threshold.unwrap_or(usual.threshold),

@@ -279,10 +279,11 @@ impl Setup {
 
     /// Refuses what the scheme cannot be told, and what is out of bounds.
     fn check_extras(&self) -> Result<(), Misfit> {
-        let Options { range_cells, loss, noise_db, threshold, speed_mps, spread, fail, going } = self.options;
+        let Options { range_cells, sight_cells, loss, noise_db, threshold, speed_mps, spread, fail, going } = self.options;
         let usual = Options::default();
         let told = [
             (Extra::Range, range_cells.is_some()),
+            (Extra::Sight, sight_cells.is_some()),
             (Extra::Loss, !loss.is_never()),
             (Extra::Noise, noise_db.to_bits() != usual.noise_db.to_bits()),
             (Extra::Threshold, threshold.to_bits() != usual.threshold.to_bits()),

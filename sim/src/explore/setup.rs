@@ -92,6 +92,8 @@ pub enum Starts {
 pub enum Extra {
     /// How far messages are heard.
     Range,
+    /// How far robots see.
+    Sight,
     /// How likely messages are lost.
     Loss,
     /// The noise of positions.
@@ -113,6 +115,7 @@ impl Extra {
     pub const fn field(self) -> &'static str {
         match self {
             Self::Range => "range",
+            Self::Sight => "sight",
             Self::Loss => "loss",
             Self::Noise => "noise-db",
             Self::Threshold => "threshold",

@@ -17,8 +17,11 @@ use crate::radio::deviation_db;
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Options {
-    /// Farther than so many cells no message is heard. Without it all are; robots that keep in touch hear 10 m.
+    /// Farther than so many cells no message is heard. Without it all are; robots that keep in touch hear 10 m, those of a pack 60 cells.
     pub range_cells: Option<u16>,
+    /// How many cells robots see; without it 20.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sight_cells: Option<u16>,
     /// How likely it is that a message is lost, for each robot that could hear it.
     pub loss: Probability,
     /// The standard deviation of the noise with which a robot hears each anchor, in dB.
@@ -43,6 +46,7 @@ impl Options {
     /// What it is without a word.
     pub const USUAL: Self = Self {
         range_cells: None,
+        sight_cells: None,
         loss: Probability::NEVER,
         noise_db: 0.0,
         threshold: 0.5,
