@@ -10,6 +10,9 @@ pub struct Scratch<'a> {
     pub reached: &'a mut [u32],
     /// One for each cell.
     pub queue: &'a mut [Cell],
+    /// One for each cell: zeros at first. The visibility gain that a robot would have had there when it was last looked at, and one
+    /// more. Gains never grow, since unknown cells only become known, and let rays pass before that: so it is a bound.
+    pub gains: &'a mut [u16],
     /// Floods so far: it goes on from the last one with the same memory.
     pub rounds: &'a mut u32,
 }
@@ -84,6 +87,20 @@ impl<'f, 'm, W: AsRef<[[u64; 2]]>> Flood<'f, 'm, W> {
             }
         }
         Some((cell, self.level, is_frontier))
+    }
+
+    /// No less than the visibility gain of `cell`, by what was noted of it; `None` if nothing was.
+    pub(super) fn bound(&self, cell: Cell) -> Option<u32> {
+        let noted = *self.memory.gains.get(Self::place(self.chart.area(), cell)?)?;
+        noted.checked_sub(1).map(u32::from)
+    }
+
+    /// Notes the visibility gain of `cell`.
+    pub(super) fn note(&mut self, cell: Cell, gain: u32) {
+        let place = Self::place(self.chart.area(), cell);
+        if let Some(noted) = place.and_then(|place| self.memory.gains.get_mut(place)) {
+            *noted = u16::try_from(gain + 1).unwrap_or(u16::MAX);
+        }
     }
 
     /// The side of the cell before `cell` through which the flood came to it; `None` at the start, and where it did not come.

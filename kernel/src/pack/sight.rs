@@ -70,13 +70,15 @@ pub struct Window {
     radius: i32,
     unknown: [u64; ROWS],
     obstacles: [u64; ROWS],
+    /// Cells that others are going to see.
+    taken: [u64; ROWS],
 }
 
 impl Window {
     /// The disc round `from`.
     pub fn new<W: AsRef<[[u64; 2]]>>(chart: &Chart<W>, sight: &Sight, from: Cell) -> Self {
         let radius = i32::from(sight.radius_cells);
-        let mut window = Self { from, radius, unknown: [0; ROWS], obstacles: [0; ROWS] };
+        let mut window = Self { from, radius, unknown: [0; ROWS], obstacles: [0; ROWS], taken: [0; ROWS] };
         let (west, north) = (i32::from(from.x) - radius, i32::from(from.y) - radius);
         let rows = window.unknown.iter_mut().zip(&mut window.obstacles);
         for ((unknown, obstacles), row) in rows.zip(-radius..=radius) {
@@ -89,35 +91,39 @@ impl Window {
         window
     }
 
-    /// Leaves the unknown cells in the disc round `aim` out of account: another robot is on its way there.
-    pub fn leave_out(&mut self, sight: &Sight, aim: Cell) {
+    /// Notes that another robot is on its way to `aim`: the cells in the disc round it are taken.
+    pub fn take(&mut self, sight: &Sight, aim: Cell) {
         let (columns, rows) = (i32::from(aim.x) - i32::from(self.from.x), i32::from(aim.y) - i32::from(self.from.y));
         if columns.abs() > 2 * self.radius || rows.abs() > 2 * self.radius {
             return;
         }
-        for (unknown, row) in self.unknown.iter_mut().zip(-self.radius..=self.radius) {
+        for (taken, row) in self.taken.iter_mut().zip(-self.radius..=self.radius) {
             let Some(half) = sight.half((row - rows).unsigned_abs()) else { continue };
             let first = (columns + self.radius - half as i32).max(0);
             let last = (columns + self.radius + half as i32).min(u64::BITS as i32 - 1);
             if first <= last {
-                *unknown &= !(u64::MAX >> (u64::BITS as i32 - 1 - (last - first)) << first);
+                *taken |= u64::MAX >> (u64::BITS as i32 - 1 - (last - first)) << first;
             }
         }
     }
 
-    /// How many cells are unknown, whether in sight or not: no gain is greater.
+    /// How many cells are unknown and not taken, whether in sight or not: no gain is greater.
     pub fn most(&self) -> u32 {
-        self.unknown.iter().map(|row| row.count_ones()).sum()
+        self.unknown.iter().zip(&self.taken).map(|(unknown, taken)| (unknown & !taken).count_ones()).sum()
     }
 
-    /// The visibility gain V: how many unknown cells would be seen, as far as obstacles are known.
-    pub fn gain(&self) -> u32 {
-        if self.obstacles.iter().all(|&row| row == 0) {
-            return self.most();
-        }
-        let mut gain = 0;
-        self.each_unknown(|columns, rows, _| gain += u32::from(self.is_clear(columns, rows)));
-        gain
+    /// The visibility gain V: how many unknown cells would be seen, as far as obstacles are known; and how many of them are not
+    /// taken.
+    pub fn gain(&self) -> (u32, u32) {
+        let (mut all, mut own) = (0, 0);
+        self.each_unknown(|columns, rows, _| {
+            if self.is_clear(columns, rows) {
+                all += 1;
+                let taken = self.taken.get((rows + self.radius) as usize);
+                own += u32::from(taken.is_some_and(|row| row >> ((columns + self.radius) & 63) & 1 == 0));
+            }
+        });
+        (all, own)
     }
 
     /// Tells of each unknown cell that is seen, and whether it is an obstacle, if `is_obstacle` says so of unknown cells.

@@ -100,6 +100,7 @@ struct PackTeam {
     past: Moves,
     reached: Vec<u32>,
     queue: Vec<Cell>,
+    gains: Vec<u16>,
     rounds: u32,
     /// The free cells, and the obstacles, that were seen in the last team move; before the first one those at the start.
     free: Vec<Cell>,
@@ -132,6 +133,7 @@ fn start(setup: &Setup, rule: Pack) -> Result<Box<dyn Team>, Fault> {
         past: Moves::default(),
         reached: vec![0; cells],
         queue: vec![Cell::default(); cells],
+        gains: vec![0; cells],
         rounds: 0,
         free: Vec::new(),
         obstacles: Vec::new(),
@@ -195,9 +197,9 @@ impl Team for PackTeam {
         if self.idle > PATIENCE * self.reached.len() {
             return Err(End::Endless);
         }
-        let Self { robots, chart, past, reached, queue, rounds, .. } = self;
+        let Self { robots, chart, past, reached, queue, gains, rounds, .. } = self;
         let mut steps = [Step::Stay; MAX_ROBOTS];
-        let mut memory = Scratch { reached, queue, rounds };
+        let mut memory = Scratch { reached, queue, gains, rounds };
         let made = robots.advance(chart, past, &mut memory, &mut steps).map_err(|over| match over {
             Over::Explored => End::Explored,
             Over::Stuck => End::Exhausted,
