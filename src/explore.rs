@@ -26,7 +26,7 @@ use tautline_sim::explore::{
     Violation, Watcher, explore, team,
 };
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::faults::{Failure, Faults, Going};
+use tautline_sim::faults::{Appearing, Failure, Faults, Going};
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::reading::real;
 use tautline_sim::trace::Summary;
@@ -88,7 +88,10 @@ pub(super) struct Explore {
     spread: Option<f64>,
     /// Which robot of a chain dies, and in which team move: the others go on as a chain of one fewer.
     #[arg(long, value_name = "ROBOT@MOVE", value_parser = str::parse::<Failure>)]
-    fail: Option<Failure>,
+    fail: Vec<Failure>,
+    /// On which side of a cell a wall appears while a chain explores, and from which team move on: E, S, W or N.
+    #[arg(long, value_name = "X,Y,SIDE@MOVE", value_parser = str::parse::<Appearing>)]
+    wall: Option<Appearing>,
     /// The robots of a chain go one after the other, in a new random order in each team move.
     #[arg(long)]
     speeds: bool,
@@ -181,6 +184,10 @@ impl Explore {
     fn setup(&self) -> Result<Setup, Fault> {
         let asked = self.asked();
         asked.check()?;
+        if let [one, other, ..] = self.fail[..] {
+            let what = format!("two robots die in one run, {one} and {other}: a chain re-forms behind one");
+            return Err(Fault::usage(what, "give `--fail` once"));
+        }
         if self.draw.is_some() && self.format.format == Format::Json && self.svg.is_none() {
             return Err(needless("--draw", "JSON has no drawing, and no picture is stored"));
         }
@@ -205,7 +212,8 @@ impl Explore {
             threshold: self.threshold,
             speed_mps: self.speed,
             spread: self.spread,
-            fail: self.fail,
+            fail: self.fail.first().copied(),
+            wall: self.wall,
             going: if self.speeds { Going::OneByOne } else { Going::AtOnce },
             limits: Limits { until: self.until, max_moves: self.max_moves, violation: OnViolation::GoOn },
         }

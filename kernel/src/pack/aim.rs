@@ -36,6 +36,11 @@ impl Aim {
 
     /// The same after the next step.
     pub(super) const fn after_step(self) -> Self {
-        Self { far: self.far.saturating_sub(1), steps: self.steps >> 2, known: self.known.saturating_sub(1), ..self }
+        Self {
+            far: self.far.saturating_sub(1),
+            steps: self.steps >> 2,
+            known: self.known.saturating_sub(1),
+            ..self
+        }
     }
 }

@@ -46,7 +46,8 @@ pub(super) fn choose<W: AsRef<[[u64; 2]]>>(
     let mut flood = Flood::new(chart, memory, from);
     while let Some((cell, far, is_frontier)) = flood.next() {
         let is_over = |gain: Gain| best.is_none_or(|(best, _)| gain.is_over(best));
-        let is_beyond = nearest.is_some_and(|(near, _)| far > near + HORIZONS * u32::from(rule.range_cells()));
+        let is_beyond =
+            nearest.is_some_and(|(near, _)| far > near + HORIZONS * u32::from(rule.range_cells()));
         if is_beyond || !is_over(Gain { cells: sight.cells(), far }) {
             break;
         }
@@ -77,7 +78,12 @@ pub(super) fn choose<W: AsRef<[[u64; 2]]>>(
 }
 
 /// The shortest way from a cell to another one; `None` if there is none.
-pub(super) fn way<W: AsRef<[[u64; 2]]>>(chart: &Chart<W>, from: Cell, to: Cell, memory: &mut Scratch<'_>) -> Option<Aim> {
+pub(super) fn way<W: AsRef<[[u64; 2]]>>(
+    chart: &Chart<W>,
+    from: Cell,
+    to: Cell,
+    memory: &mut Scratch<'_>,
+) -> Option<Aim> {
     let mut flood = Flood::new(chart, memory, from);
     while let Some((cell, far, _)) = flood.next() {
         if cell == to {

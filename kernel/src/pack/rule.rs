@@ -18,10 +18,10 @@ pub enum Condition {
     Single,
     /// A team of which no robot can take its step follows one robot, the leader, to a frontier cell.
     Lead,
-    /// A leader that the others cannot follow takes the team back over the last team moves.
+    /// If nobody can follow the leader, the team takes its last team moves back; at last, side by side, it goes on as a caterpillar.
     Back,
-    /// A team whose robots are side by side goes to the leader's frontier cell like a caterpillar.
-    March,
+    /// Each time for the same frontier cell it takes twice as many back.
+    Double,
 }
 
 crate::conditions!(Condition);
@@ -49,7 +49,9 @@ impl fmt::Display for Unfit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Sight => write!(f, "a robot of a pack sees from 1 to {} cells far", Sight::MOST_CELLS),
-            Self::Range => write!(f, "robots of a pack hear each other {} cells far or more", Rule::LEAST_RANGE_CELLS),
+            Self::Range => {
+                write!(f, "robots of a pack hear each other {} cells far or more", Rule::LEAST_RANGE_CELLS)
+            }
         }
     }
 }
@@ -80,7 +82,7 @@ impl Rule {
             Condition::Single,
             Condition::Lead,
             Condition::Back,
-            Condition::March,
+            Condition::Double,
         ]),
         ..Self::PUBLISHED
     };

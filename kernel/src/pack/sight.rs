@@ -25,7 +25,11 @@ impl Sight {
 
     /// A robot that sees so far; `None` if that is not from 1 to [`Sight::MOST_CELLS`].
     pub const fn new(radius_cells: u16) -> Option<Self> {
-        if radius_cells == 0 || radius_cells > Self::MOST_CELLS { None } else { Some(Self::of(radius_cells as u8)) }
+        if radius_cells == 0 || radius_cells > Self::MOST_CELLS {
+            None
+        } else {
+            Some(Self::of(radius_cells as u8))
+        }
     }
 
     const fn of(radius_cells: u8) -> Self {
@@ -93,7 +97,8 @@ impl Window {
 
     /// Notes that another robot is on its way to `aim`: the cells in the disc round it are taken.
     pub fn take(&mut self, sight: &Sight, aim: Cell) {
-        let (columns, rows) = (i32::from(aim.x) - i32::from(self.from.x), i32::from(aim.y) - i32::from(self.from.y));
+        let (columns, rows) =
+            (i32::from(aim.x) - i32::from(self.from.x), i32::from(aim.y) - i32::from(self.from.y));
         if columns.abs() > 2 * self.radius || rows.abs() > 2 * self.radius {
             return;
         }
@@ -151,7 +156,14 @@ impl Window {
             while left != 0 {
                 let column = left.trailing_zeros() as i32 - self.radius;
                 left &= left - 1;
-                tell(column, row, Cell::new(self.from.x.saturating_add(column as i16), self.from.y.saturating_add(row as i16)));
+                tell(
+                    column,
+                    row,
+                    Cell::new(
+                        self.from.x.saturating_add(column as i16),
+                        self.from.y.saturating_add(row as i16),
+                    ),
+                );
             }
         }
     }
@@ -171,7 +183,8 @@ impl Window {
             // The ray leaves the cell x,y through its far side in x sooner than through that in y if this is negative.
             let later = (2 * x + 1) * down - (2 * y + 1) * across;
             if later == 0 {
-                let is_between = self.has_obstacle(east * (x + 1), south * y) && self.has_obstacle(east * x, south * (y + 1));
+                let is_between = self.has_obstacle(east * (x + 1), south * y)
+                    && self.has_obstacle(east * x, south * (y + 1));
                 if is_between {
                     return false;
                 }

@@ -4,18 +4,18 @@
 //! steps in the order of their numbers, each step admitted by where the others are at that moment. Two robots that are in each other's
 //! way change aims. If no robot can take its step, the paper's definitions say no more, and [`Rule::PUBLISHED`] ends. Else the robot
 //! with the shortest way leads: it goes on, and the others go to it, nearest first. If that does not work either, the team
-//! takes 1, 2, 4, 8 … team moves back and tries again, at last from where all robots were side by side: from there it goes as a
+//! takes 1, 2, 4, 8 … team moves back and tries again. Where all robots were side by side nothing is left to take back, and it goes as a
 //! caterpillar. So the distance to one frontier cell falls until that is reached, and then something new is seen.
 
 use core::fmt;
 
+use super::MAX_ROBOTS;
 use super::aim::Aim;
 use super::chart::Chart;
 use super::choice::{choose, way};
 use super::flood::{Flood, Scratch};
 use super::march::{caterpillar, is_side_by_side, joined};
 use super::rule::{Condition, Rule};
-use super::MAX_ROBOTS;
 use crate::ground::{Cell, Side, Step};
 
 /// The history of a pack: its team moves, the last one first. One that forgets the oldest moves, since it is full, brings a team
@@ -47,7 +47,9 @@ impl fmt::Display for Refused {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Robots(0) => f.write_str("no robots are no pack"),
-            Self::Robots(robots) => write!(f, "{robots} robots are too many for a pack: it has at most {MAX_ROBOTS}"),
+            Self::Robots(robots) => {
+                write!(f, "{robots} robots are too many for a pack: it has at most {MAX_ROBOTS}")
+            }
             Self::Together(cell) => write!(f, "two robots of a pack are in the cell {cell}"),
             Self::Apart(joined, robots) => {
                 write!(f, "the pack is not connected: links join {joined} of its {robots} robots")
@@ -122,7 +124,8 @@ impl Team {
         if !(1..=MAX_ROBOTS).contains(&robots) {
             return Err(Refused::Robots(robots));
         }
-        let together = (1..).zip(starts).find(|&(after, start)| starts.iter().skip(after).any(|other| other == start));
+        let together =
+            (1..).zip(starts).find(|&(after, start)| starts.iter().skip(after).any(|other| other == start));
         if let Some((_, &cell)) = together {
             return Err(Refused::Together(cell));
         }
@@ -222,7 +225,9 @@ impl Team {
         if steps.iter().any(|&step| step != Step::Stay) {
             return Ok(Some(Made::Spread));
         }
-        let nearest = (0..self.robots).filter_map(|robot| Some((self.aim(robot)?, robot))).min_by_key(|(aim, _)| aim.far);
+        let nearest = (0..self.robots)
+            .filter_map(|robot| Some((self.aim(robot)?, robot)))
+            .min_by_key(|(aim, _)| aim.far);
         let (aim, leader) = nearest.ok_or(End::Explored)?;
         if !self.rule.has(Condition::Lead) {
             return Err(End::Stuck);
@@ -305,7 +310,9 @@ impl Team {
         while let Some((cell, ..)) = flood.next() {
             // Robots that have taken their steps are not asked again.
             let is_here = |&robot: &usize| {
-                robot != leader && self.cells().get(robot) == Some(&cell) && steps.get(robot) == Some(&Step::Stay)
+                robot != leader
+                    && self.cells().get(robot) == Some(&cell)
+                    && steps.get(robot) == Some(&Step::Stay)
             };
             let here = (0..self.robots).find(is_here);
             left = left.saturating_sub(usize::from(self.cells().contains(&cell)));
@@ -320,13 +327,20 @@ impl Team {
             return Some(Made::Led(leader));
         }
         let moves = self.back;
-        self.back = self.back.saturating_mul(2);
+        if self.rule.has(Condition::Double) {
+            self.back = self.back.saturating_mul(2);
+        }
         self.stage = Stage::Back { goal, moves };
         None
     }
 
     /// The robot that leads now, with its way to the goal.
-    fn hand_over<W: AsRef<[[u64; 2]]>>(&mut self, goal: Cell, chart: &Chart<W>, memory: &mut Scratch<'_>) -> usize {
+    fn hand_over<W: AsRef<[[u64; 2]]>>(
+        &mut self,
+        goal: Cell,
+        chart: &Chart<W>,
+        memory: &mut Scratch<'_>,
+    ) -> usize {
         let mut leader = match self.stage {
             Stage::Lead { leader, .. } => leader,
             Stage::Spread | Stage::Back { .. } | Stage::March { .. } => 0,
@@ -372,7 +386,7 @@ impl Team {
             return Ok(Some(Made::TakenBack));
         }
         let is_home = moves > 0;
-        if is_home && self.rule.has(Condition::March) && is_side_by_side(self.cells()) {
+        if is_home && is_side_by_side(self.cells()) {
             self.stage = Stage::March { goal };
             return Ok(None);
         }
@@ -386,7 +400,12 @@ impl Team {
     }
 
     /// The robot nearest to a cell, and the side through which it goes there; `None` if no robot can.
-    fn nearest<W: AsRef<[[u64; 2]]>>(&self, to: Cell, chart: &Chart<W>, memory: &mut Scratch<'_>) -> Option<(usize, Side)> {
+    fn nearest<W: AsRef<[[u64; 2]]>>(
+        &self,
+        to: Cell,
+        chart: &Chart<W>,
+        memory: &mut Scratch<'_>,
+    ) -> Option<(usize, Side)> {
         let mut flood = Flood::new(chart, memory, to);
         while let Some((cell, ..)) = flood.next() {
             if let Some(robot) = self.who_is_in(cell) {

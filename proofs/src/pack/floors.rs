@@ -72,8 +72,11 @@ impl Bounds {
 
     /// The starts among the free cells.
     fn starts(&self, area: Area, obstacles: u64) -> Vec<Vec<Cell>> {
-        let free: Vec<Cell> =
-            (0..).zip(area.cells()).filter(|(place, _)| obstacles >> place & 1 == 0).map(|(_, cell)| cell).collect();
+        let free: Vec<Cell> = (0..)
+            .zip(area.cells())
+            .filter(|(place, _)| obstacles >> place & 1 == 0)
+            .map(|(_, cell)| cell)
+            .collect();
         let mut starts: Vec<Vec<Cell>> = vec![Vec::new()];
         for _ in 0..self.robots {
             let longer = starts.iter().flat_map(|before| {
@@ -92,7 +95,9 @@ impl Bounds {
         let mut found = Found { runs: 0, covered: Vec::new(), broken: [None; Demand::ALL.len()] };
         for (number, &(size, most)) in self.sizes.iter().enumerate() {
             let area = Self::area(size)?;
-            for (set, obstacles) in Self::obstacles(area.width() * area.height(), most).into_iter().enumerate() {
+            for (set, obstacles) in
+                Self::obstacles(area.width() * area.height(), most).into_iter().enumerate()
+            {
                 for (start, starts) in self.starts(area, obstacles).into_iter().enumerate() {
                     let Some(played) = play(&rule, &Floor { area, obstacles, starts }) else { continue };
                     found.runs += 1;
@@ -135,7 +140,10 @@ impl Floors {
         let run = floor.and_then(|floor| Some((play(&rule, &floor)?, floor)));
         let run = run.filter(|(played, _)| played.broken.contains(&self.demand));
         Ok(run.map(|(played, floor)| Evidence {
-            choices: Choices { once: [number, set, start].map(|place| place as u32).to_vec(), again: Vec::new() },
+            choices: Choices {
+                once: [number, set, start].map(|place| place as u32).to_vec(),
+                again: Vec::new(),
+            },
             demand: self.demand.words(),
             seen: Seen::Story(story(&rule, &floor, &played)),
         }))
@@ -162,7 +170,10 @@ impl Method<Rule> for Floors {
             Starts::Linked => "that have links",
         };
         let robots = counted(robots as u64, "robot");
-        format!("all obstacles in {} cells, all starts of {robots} {starts}, R_s {sight_cells}, R_c {range_cells}", sizes.join(", "))
+        format!(
+            "all obstacles in {} cells, all starts of {robots} {starts}, R_s {sight_cells}, R_c {range_cells}",
+            sizes.join(", ")
+        )
     }
 
     fn family(&self, rule: &Rule) -> Option<String> {
@@ -173,13 +184,16 @@ impl Method<Rule> for Floors {
     fn decide(&self, rule: &Rule, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
         let once;
         let found = match until {
-            Until::Exhausted => desk.memory.recall((self.bounds, *rule), |_| self.bounds.search(rule, None))?,
+            Until::Exhausted => {
+                desk.memory.recall((self.bounds, *rule), |_| self.bounds.search(rule, None))?
+            }
             Until::Violation => {
                 once = self.bounds.search(rule, Some(self.demand))?;
                 &once
             }
         };
-        let (runs, is_covered) = (found.runs, self.covers.iter().all(|situation| found.covered.contains(situation)));
+        let (runs, is_covered) =
+            (found.runs, self.covers.iter().all(|situation| found.covered.contains(situation)));
         let place = found.broken[self.demand as usize];
         let evidence = place.map(|place| self.evidence(rule, place)).transpose()?.flatten();
         Ok(Answer::new(evidence, is_covered, Verdict::Holds, runs))

@@ -47,7 +47,9 @@ pub(super) struct Floor {
 
 impl Floor {
     fn is_free(&self, cell: Cell) -> bool {
-        self.area.locate(cell).is_some_and(|(column, row)| self.obstacles >> (row * self.area.width() + column) & 1 == 0)
+        self.area
+            .locate(cell)
+            .is_some_and(|(column, row)| self.obstacles >> (row * self.area.width() + column) & 1 == 0)
     }
 
     /// The free cells that a robot could walk to from a start.
@@ -72,8 +74,12 @@ impl Floor {
             None if self.is_free(cell) => '.',
             None => '#',
         };
-        let rows = (self.area.first().y..=self.area.last().y)
-            .map(|y| (self.area.first().x..=self.area.last().x).map(|x| sign(Cell::new(x, y))).chain(['\n']).collect::<String>());
+        let rows = (self.area.first().y..=self.area.last().y).map(|y| {
+            (self.area.first().x..=self.area.last().x)
+                .map(|x| sign(Cell::new(x, y)))
+                .chain(['\n'])
+                .collect::<String>()
+        });
         rows.collect()
     }
 }
@@ -120,7 +126,8 @@ fn is_joined(cells: &[Cell], range_cells: u16) -> bool {
     joined[0] = true;
     for _ in cells {
         for robot in 0..cells.len() {
-            joined[robot] |= (0..cells.len()).any(|other| joined[other] && circle.covers(cells[other], cells[robot]));
+            joined[robot] |=
+                (0..cells.len()).any(|other| joined[other] && circle.covers(cells[other], cells[robot]));
         }
     }
     joined.into_iter().all(|is_joined| is_joined)
@@ -144,11 +151,16 @@ pub(super) fn play(rule: &Rule, floor: &Floor) -> Option<Played> {
     };
     loop {
         for &cell in team.cells() {
-            chart.look(rule.sight(), cell, |cell| !floor.is_free(cell), |cell, is_obstacle| {
-                if !is_obstacle {
-                    seen.push(cell);
-                }
-            });
+            chart.look(
+                rule.sight(),
+                cell,
+                |cell| !floor.is_free(cell),
+                |cell, is_obstacle| {
+                    if !is_obstacle {
+                        seen.push(cell);
+                    }
+                },
+            );
         }
         let mut memory =
             Scratch { reached: &mut reached, queue: &mut queue, gains: &mut gains, rounds: &mut rounds };

@@ -7,7 +7,7 @@ use super::rule::RuleId;
 use super::run::Limits;
 use super::setup::{Profile, Senses, Setup, Starts};
 use crate::fault::Fault;
-use crate::faults::{Failure, Going};
+use crate::faults::{Appearing, Failure, Going};
 use crate::frontier::Options;
 use crate::layout::Layout;
 use crate::layout::generate::Probability;
@@ -48,6 +48,8 @@ pub struct Asked {
     pub spread: Option<f64>,
     /// Which robot dies, and when.
     pub fail: Option<Failure>,
+    /// Which wall appears, and when.
+    pub wall: Option<Appearing>,
     /// In what order robots go.
     pub going: Going,
     /// When the run is stopped.
@@ -73,6 +75,7 @@ impl Asked {
             speed_mps: None,
             spread: None,
             fail: None,
+            wall: None,
             going: Going::AtOnce,
             limits: Limits::default(),
         }
@@ -117,6 +120,7 @@ impl Asked {
             speed_mps: self.speed_mps,
             spread: self.spread,
             fail: self.fail,
+            wall: self.wall,
             going: self.going,
         };
         let miss = self.miss.unwrap_or(Probability::NEVER);

@@ -18,8 +18,19 @@ use super::rule::RuleId;
 use super::setup::{Profile, Rule, Senses};
 
 /// Every scheme that this program knows.
-pub const SCHEMES: &[&Profile] =
-    &[&CHAIN, &FULL_SEARCH, &ROOKER_BIRK, &ANTS, &BRICKS, &BRICKS_ANTS, &MDFS, &HELPERS, &KIT, &FRONTIER, &PACK];
+pub const SCHEMES: &[&Profile] = &[
+    &CHAIN,
+    &FULL_SEARCH,
+    &ROOKER_BIRK,
+    &ANTS,
+    &BRICKS,
+    &BRICKS_ANTS,
+    &MDFS,
+    &HELPERS,
+    &KIT,
+    &FRONTIER,
+    &PACK,
+];
 
 /// The scheme with this name.
 pub fn scheme(name: &str) -> Option<&'static Profile> {

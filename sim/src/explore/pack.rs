@@ -116,7 +116,11 @@ fn start(setup: &Setup, rule: Pack) -> Result<Box<dyn Team>, Fault> {
     let layout = &setup.layout;
     if layout.walls().next().is_some() {
         let what = "this layout has walls between cells: for a pack an obstacle fills a cell";
-        return Err(Fault::of_field("layout", what, "take a layout with blocked cells, such as cells:64x64:0.1"));
+        return Err(Fault::of_field(
+            "layout",
+            what,
+            "take a layout with blocked cells, such as cells:64x64:0.1",
+        ));
     }
     let sight_cells = setup.options.sight_cells.unwrap_or(Pack::SIGHT_CELLS.into());
     let range_cells = setup.options.range_cells.unwrap_or(Pack::RANGE_CELLS);
@@ -124,7 +128,8 @@ fn start(setup: &Setup, rule: Pack) -> Result<Box<dyn Team>, Fault> {
     let robots = Robots::new(rule, &setup.starts()).map_err(refused)?;
     let area = layout.size().area();
     let words = vec![[0; 2]; Chart::<Vec<[u64; 2]>>::words(area)];
-    let chart = Chart::new(area, words).unwrap_or_else(|| unreachable!("the words are as many as the map takes"));
+    let chart =
+        Chart::new(area, words).unwrap_or_else(|| unreachable!("the words are as many as the map takes"));
     let cells = area.width() * area.height();
     let mut team = PackTeam {
         robots,
@@ -244,7 +249,9 @@ impl Team for PackTeam {
     fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
         match end {
             End::Endless => vec![ENDS],
-            End::Explored | End::Exhausted | End::Silent if self.missed(layout, chart).is_empty() => Vec::new(),
+            End::Explored | End::Exhausted | End::Silent if self.missed(layout, chart).is_empty() => {
+                Vec::new()
+            }
             End::Explored | End::Exhausted | End::Silent => vec![COVERS],
         }
     }

@@ -106,6 +106,8 @@ pub enum Extra {
     Spread,
     /// Which robot dies, and when.
     Fail,
+    /// Which wall appears, and when.
+    Wall,
     /// In what order robots go.
     Speeds,
 }
@@ -122,6 +124,7 @@ impl Extra {
             Self::Speed => "speed",
             Self::Spread => "spread",
             Self::Fail => "fail",
+            Self::Wall => "wall",
             Self::Speeds => "speeds",
         }
     }

@@ -9,7 +9,7 @@ use tautline_kernel::ground::{Area, Cell};
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{self, Point, Range, Residual, Signal, locate};
 
-use crate::faults::{Failure, Going};
+use crate::faults::{Appearing, Failure, Going};
 use crate::layout::generate::{self, Probability};
 use crate::radio::deviation_db;
 
@@ -37,6 +37,9 @@ pub struct Options {
     /// Which robot dies, and when.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fail: Option<Failure>,
+    /// Which wall appears, and when.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wall: Option<Appearing>,
     /// In what order robots go.
     #[serde(default, skip_serializing_if = "Going::is_usual")]
     pub going: Going,
@@ -53,6 +56,7 @@ impl Options {
         speed_mps: None,
         spread: None,
         fail: None,
+        wall: None,
         going: Going::AtOnce,
     };
 }

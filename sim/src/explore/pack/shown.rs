@@ -13,7 +13,11 @@ const OBSTACLE: &[Value] = &[Value { name: "seen obstacle", ink: Ink::Wall }];
 const AIM: &[Value] = &[Value { name: "aim", ink: Ink::Aim }];
 
 pub(super) fn layers(rule: &Rule) -> Vec<Layer> {
-    let circle = |name, about: String, cells: u16| Layer { name, about, shape: Shape::Circle(u32::from(cells) * 1000) };
+    let circle = |name, about: String, cells: u16| Layer {
+        name,
+        about,
+        shape: Shape::Circle(u32::from(cells) * 1000),
+    };
     let (sight_cells, range_cells) = (rule.sight().radius_cells(), rule.range_cells());
     vec![
         Layer {
