@@ -36,7 +36,7 @@ pub(super) fn choose<W: AsRef<[[u64; 2]]>>(
     rule: &Rule,
     chart: &Chart<W>,
     from: Cell,
-    others: impl Iterator<Item = Cell> + Clone,
+    others: &(impl Iterator<Item = Cell> + Clone),
     memory: &mut Scratch<'_>,
 ) -> Option<Aim> {
     let sight = rule.sight();

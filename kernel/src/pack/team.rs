@@ -216,7 +216,7 @@ impl Team {
                 continue;
             }
             let Some(&from) = self.cells().get(robot) else { break };
-            let aim = choose(&self.rule, chart, from, self.aims().flatten(), memory);
+            let aim = choose(&self.rule, chart, from, &self.aims().flatten(), memory);
             self.set_aim(robot, aim);
         }
         for robot in 0..self.robots {

@@ -38,7 +38,7 @@ const TWO: [(Size, u32); 16] = [
     ((10, 1), ALL),
     ((4, 3), ALL),
     ((5, 3), 4),
-    ((5, 4), 3),
+    ((5, 4), 2),
 ];
 
 /// The floors on which the published rule, and robots that start anywhere, are looked at.
@@ -113,7 +113,7 @@ pub static CLAUSES: [Clause; 5] = [
         checks: &[
             &Check::new(PUBLISHED, &demand(OF_FEW, Demand::Covers), Verdict::Refuted, &[]),
             &Check::new(REPAIRED, &demand(SMALLEST, Demand::Covers), Verdict::Holds, &[NO_LEAD, NO_BACK]),
-            &Check::new(REPAIRED, &demand(OF_THREE, Demand::Covers), Verdict::Holds, &[NO_LEAD]),
+            &Check::new(REPAIRED, &demand(OF_THREE, Demand::Covers), Verdict::Holds, &[]),
         ],
     },
     Clause {
