@@ -6,7 +6,7 @@
 //! [`Chart::look`] takes what it sees into the map that all robots share. A robot sees all four cells beside its own, so no step is
 //! ever blocked by an obstacle.
 //!
-//! A team takes about 1.5 KB. A search takes 10 bytes a cell of lent memory ([`Scratch`]), and the history one step a robot and team
+//! A team takes about 1.8 KB. A search takes 10 bytes a cell of lent memory ([`Scratch`]), and the history one step a robot and team
 //! move, which the caller stores ([`Past`]).
 
 mod aim;
