@@ -26,7 +26,7 @@ use tautline_sim::explore::{
     Violation, Watcher, explore, team,
 };
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::faults::{Failure, Faults, Going};
+use tautline_sim::faults::{Appearing, Failure, Faults, Going};
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::reading::real;
 use tautline_sim::trace::Summary;
@@ -65,9 +65,12 @@ pub(super) struct Explore {
     #[arg(long, value_name = "PROBABILITY", value_parser = probability, allow_hyphen_values = true)]
     miss: Option<Probability>,
     /// How many cells a message of robots that explore cells is heard; without it all hear it. Robots that keep in touch
-    /// hear 2 or 3 cells; without it 10 m, and a cell is 3 m wide.
+    /// hear 2 or 3 cells; without it 10 m, and a cell is 3 m wide. Robots of a pack hear 3 cells or more; without it 60.
     #[arg(long, value_name = "CELLS", value_parser = whole::<u16>)]
     range: Option<u16>,
+    /// How many cells robots of a pack see, from 1 to 31. Without it 20.
+    #[arg(long, value_name = "CELLS", value_parser = whole::<u16>)]
+    sight: Option<u16>,
     /// How likely it is that such a message, or a byte of a chain, is lost, from 0 to 1. Without it 0.
     #[arg(long, alias = "lose", value_name = "PROBABILITY", value_parser = probability, allow_hyphen_values = true)]
     loss: Option<Probability>,
@@ -85,7 +88,10 @@ pub(super) struct Explore {
     spread: Option<f64>,
     /// Which robot of a chain dies, and in which team move: the others go on as a chain of one fewer.
     #[arg(long, value_name = "ROBOT@MOVE", value_parser = str::parse::<Failure>)]
-    fail: Option<Failure>,
+    fail: Vec<Failure>,
+    /// On which side of a cell a wall appears while a chain explores, and from which team move on: E, S, W or N.
+    #[arg(long, value_name = "X,Y,SIDE@MOVE", value_parser = str::parse::<Appearing>)]
+    wall: Option<Appearing>,
     /// The robots of a chain go one after the other, in a new random order in each team move.
     #[arg(long)]
     speeds: bool,
@@ -178,6 +184,10 @@ impl Explore {
     fn setup(&self) -> Result<Setup, Fault> {
         let asked = self.asked();
         asked.check()?;
+        if let [one, other, ..] = self.fail[..] {
+            let what = format!("two robots die in one run, {one} and {other}: a chain re-forms behind one");
+            return Err(Fault::usage(what, "give `--fail` once"));
+        }
         if self.draw.is_some() && self.format.format == Format::Json && self.svg.is_none() {
             return Err(needless("--draw", "JSON has no drawing, and no picture is stored"));
         }
@@ -196,12 +206,14 @@ impl Explore {
             starts: self.start.iter().map(|&CellArg(cell)| cell).collect(),
             miss: self.miss,
             range_cells: self.range,
+            sight_cells: self.sight,
             loss: self.loss,
             noise_db: self.noise_db,
             threshold: self.threshold,
             speed_mps: self.speed,
             spread: self.spread,
-            fail: self.fail,
+            fail: self.fail.first().copied(),
+            wall: self.wall,
             going: if self.speeds { Going::OneByOne } else { Going::AtOnce },
             limits: Limits { until: self.until, max_moves: self.max_moves, violation: OnViolation::GoOn },
         }

@@ -17,12 +17,12 @@ const BELOW: &str = "
 const KNOWN_TO: &str = "
     kernel choice conditions floor ground net: *
     kernel ants: bricks
-    kernel bricks chain frontier kit mrc notice perception position tan:
+    kernel bricks chain frontier kit mrc notice pack perception position tan:
     proofs clause course decide engine run step_check team words: *
     proofs judge ledger:
     proofs floor: ants bricks
     proofs ground: ledger chain
-    proofs ants bricks chain frontier kit mrc notice position tan: ledger
+    proofs ants bricks chain frontier kit mrc notice pack position tan: ledger
     sim tables: shards
     sim shards:";
 

@@ -19,6 +19,7 @@ pub mod kit;
 pub mod mrc;
 pub mod net;
 pub mod notice;
+pub mod pack;
 pub mod perception;
 pub mod position;
 pub mod tan;

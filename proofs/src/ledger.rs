@@ -7,7 +7,7 @@ use std::fmt::{self, Write};
 
 use crate::clause::{AnyCheck, Clause, Decision};
 use crate::decide::Verdict;
-use crate::{ants, bricks, chain, frontier, ground, kit, mrc, notice, position, tan};
+use crate::{ants, bricks, chain, frontier, ground, kit, mrc, notice, pack, position, tan};
 
 pub use composition::{Theorem, theorems};
 pub use jobs::{Hear, Heard, decide, decide_all};
@@ -25,6 +25,7 @@ pub static ROOMS: &[&[Clause]] = &[
     &kit::clauses::CLAUSES,
     &position::clauses::CLAUSES,
     &frontier::clauses::CLAUSES,
+    &pack::clauses::CLAUSES,
 ];
 
 /// Every clause of our own.

@@ -16,6 +16,7 @@ pub mod kit;
 pub mod ledger;
 pub mod mrc;
 pub mod notice;
+pub mod pack;
 pub mod position;
 pub mod run;
 mod step_check;

@@ -16,6 +16,7 @@ pub mod hunt;
 pub mod kit;
 mod misfit;
 mod own;
+pub mod pack;
 pub mod rivals;
 mod rule;
 mod run;

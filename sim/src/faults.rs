@@ -1,10 +1,12 @@
-//! What can fail while a chain explores: a robot that dies, bytes that are lost, and robots that go at speeds of their own.
+//! What can fail while a chain explores: a robot that dies, a wall that appears, bytes that are lost, and robots that go at speeds of
+//! their own.
 
 use std::fmt;
 use std::num::NonZeroU32;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
+use tautline_kernel::ground::{Cell, Edge, Side};
 
 /// A robot dies on its way: it does not go in this team move, and says nothing from then on.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
@@ -42,6 +44,94 @@ impl FromStr for Failure {
         let parts =
             text.split_once('@').and_then(|(robot, step)| Some((robot.parse().ok()?, step.parse().ok()?)));
         parts.map(|(robot, step)| Self { robot, step }).ok_or_else(|| NoFailure(text.to_owned()))
+    }
+}
+
+/// A wall appears on a side of a cell: from this team move on no robot crosses it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Appearing {
+    /// The cell.
+    pub cell: Cell,
+    /// Which side of it.
+    pub side: Compass,
+    /// The team move, counted from 1.
+    #[serde(rename = "move")]
+    pub step: NonZeroU32,
+}
+
+/// A side of a cell by its letter.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub enum Compass {
+    /// East.
+    E,
+    /// South.
+    S,
+    /// West.
+    W,
+    /// North.
+    N,
+}
+
+impl Compass {
+    const fn side(self) -> Side {
+        match self {
+            Self::E => Side::East,
+            Self::S => Side::South,
+            Self::W => Side::West,
+            Self::N => Side::North,
+        }
+    }
+}
+
+impl Appearing {
+    /// Where the wall stands.
+    pub const fn edge(&self) -> Edge {
+        Edge::new(self.cell, self.side.side())
+    }
+}
+
+impl fmt::Display for Appearing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{},{:?}@{}", self.cell, self.side, self.step)
+    }
+}
+
+/// Words that name no wall.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct NoWall(String);
+
+impl fmt::Display for NoWall {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{:?} is no side of a cell and team move: write column, row, one of E, S, W and N, and a whole number from 1 on, as in 7,6,E@20",
+            self.0
+        )
+    }
+}
+
+impl std::error::Error for NoWall {}
+
+impl FromStr for Appearing {
+    type Err = NoWall;
+
+    fn from_str(text: &str) -> Result<Self, NoWall> {
+        let read = || {
+            let (place, step) = text.split_once('@')?;
+            let mut parts = place.split(',');
+            let cell = Cell::new(parts.next()?.parse().ok()?, parts.next()?.parse().ok()?);
+            let side = match parts.next()? {
+                "E" => Compass::E,
+                "S" => Compass::S,
+                "W" => Compass::W,
+                "N" => Compass::N,
+                _ => return None,
+            };
+            let is_over = parts.next().is_none();
+            is_over.then_some(Self { cell, side, step: step.parse().ok()? })
+        };
+        read().ok_or_else(|| NoWall(text.to_owned()))
     }
 }
 

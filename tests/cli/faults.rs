@@ -37,15 +37,40 @@ fn a_chain_that_waits_for_ever_says_so() {
 }
 
 #[test]
+fn a_wall_that_appears_is_met_and_nothing_is_broken() {
+    let folder = folder();
+    let explore = ["explore", "open:9x9", "--rule", "reel", "--robots", "5"];
+    let open = json(folder.path(), &explore, 0);
+    // The first robots cross this side at once; from team move 6 on nobody does.
+    let shut =
+        json(folder.path(), &[&explore[..], &["--wall", "4,4,E@6", "--trace", "run.jsonl"]].concat(), 0);
+    assert_ne!(open["steps"], shut["steps"]);
+    assert_eq!((&shut["violations"], &shut["explored"]), (&serde_json::json!([]), &81.into()));
+    json(folder.path(), &["replay", "run.jsonl"], 0);
+    let late = json(folder.path(), &[&explore[..], &["--wall", "4,4,E@100000"]].concat(), 0);
+    assert_eq!((&open["steps"], &open["milestones"]), (&late["steps"], &late["milestones"]));
+}
+
+#[test]
 fn a_failure_that_cannot_be_is_refused() {
     let folder = folder();
-    let wrong: [(&[&str], &str); 12] = [
+    let wrong: [(&[&str], &str); 22] = [
         (&["--fail", "9@5"], "name a robot from 2 to 8"),
         (&["--fail", "1@5"], "the base cannot fail"),
         (&["--fail", "0@5"], "no robot 0"),
         (&["--fail", "3@0"], "whole numbers from 1 on"),
         (&["--fail", "3"], "whole numbers from 1 on"),
         (&["--fail", "3@NaN"], "whole numbers from 1 on"),
+        (&["--fail", "3@5", "--fail", "4@9"], "a chain re-forms behind one"),
+        (&["--wall", "7,7,E"], "as in 7,6,E@20"),
+        (&["--wall", "7,7,X@5"], "one of E, S, W and N"),
+        (&["--wall", "7,7@5"], "column, row"),
+        (&["--wall", "7,7,E@0"], "whole number from 1 on"),
+        (&["--wall", "7,7,E,1@5"], "as in 7,6,E@20"),
+        (&["--wall", "14,7,E@5"], "it is not between two cells"),
+        (&["--wall", "40,7,E@5"], "it is not between two cells"),
+        (&["--wall", "7,7,E@5", "--fail", "3@5"], "give `wall` and `fail` to two runs"),
+        (&["--scheme", "kit", "--wall", "7,7,E@5"], "take the scheme chain"),
         (&["--loss", "1.5"], "1.5"),
         (&["--loss", "-0.1"], "-0.1"),
         (&["--lose", "NaN"], "NaN"),

@@ -253,6 +253,9 @@ fn again(stage: &Stage<'_>) -> Again {
     if let Some(range) = options.range_cells {
         let _ = write!(command, " --range {range}");
     }
+    if let Some(sight) = options.sight_cells {
+        let _ = write!(command, " --sight {sight}");
+    }
     if options.loss != usual.loss {
         let _ = write!(command, " --loss {}", options.loss);
     }
@@ -268,6 +271,9 @@ fn again(stage: &Stage<'_>) -> Again {
     }
     if let Some(failure) = options.fail {
         let _ = write!(command, " --fail {failure}");
+    }
+    if let Some(wall) = options.wall {
+        let _ = write!(command, " --wall {wall}");
     }
     if !options.going.is_usual() {
         command += " --speeds";

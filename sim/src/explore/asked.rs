@@ -7,7 +7,7 @@ use super::rule::RuleId;
 use super::run::Limits;
 use super::setup::{Profile, Senses, Setup, Starts};
 use crate::fault::Fault;
-use crate::faults::{Failure, Going};
+use crate::faults::{Appearing, Failure, Going};
 use crate::frontier::Options;
 use crate::layout::Layout;
 use crate::layout::generate::Probability;
@@ -34,6 +34,8 @@ pub struct Asked {
     pub miss: Option<Probability>,
     /// How many cells a message is heard; else all hear it.
     pub range_cells: Option<u16>,
+    /// How many cells robots see.
+    pub sight_cells: Option<u16>,
     /// How likely it is that such a message is lost.
     pub loss: Option<Probability>,
     /// The noise of positions, in dB.
@@ -46,6 +48,8 @@ pub struct Asked {
     pub spread: Option<f64>,
     /// Which robot dies, and when.
     pub fail: Option<Failure>,
+    /// Which wall appears, and when.
+    pub wall: Option<Appearing>,
     /// In what order robots go.
     pub going: Going,
     /// When the run is stopped.
@@ -64,12 +68,14 @@ impl Asked {
             starts: Vec::new(),
             miss: None,
             range_cells: None,
+            sight_cells: None,
             loss: None,
             noise_db: None,
             threshold: None,
             speed_mps: None,
             spread: None,
             fail: None,
+            wall: None,
             going: Going::AtOnce,
             limits: Limits::default(),
         }
@@ -107,12 +113,14 @@ impl Asked {
         let usual = Options::default();
         let options = Options {
             range_cells: self.range_cells,
+            sight_cells: self.sight_cells,
             loss: self.loss.unwrap_or(usual.loss),
             noise_db: self.noise_db.unwrap_or(usual.noise_db),
             threshold: self.threshold.unwrap_or(usual.threshold),
             speed_mps: self.speed_mps,
             spread: self.spread,
             fail: self.fail,
+            wall: self.wall,
             going: self.going,
         };
         let miss = self.miss.unwrap_or(Probability::NEVER);

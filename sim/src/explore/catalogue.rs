@@ -12,13 +12,25 @@ use super::clause::ClauseId;
 use super::depth_first::{HELPERS, MDFS};
 use super::frontier::FRONTIER;
 use super::kit::KIT;
+use super::pack::PACK;
 use super::rivals::{FULL_SEARCH, ROOKER_BIRK};
 use super::rule::RuleId;
 use super::setup::{Profile, Rule, Senses};
 
 /// Every scheme that this program knows.
-pub const SCHEMES: &[&Profile] =
-    &[&CHAIN, &FULL_SEARCH, &ROOKER_BIRK, &ANTS, &BRICKS, &BRICKS_ANTS, &MDFS, &HELPERS, &KIT, &FRONTIER];
+pub const SCHEMES: &[&Profile] = &[
+    &CHAIN,
+    &FULL_SEARCH,
+    &ROOKER_BIRK,
+    &ANTS,
+    &BRICKS,
+    &BRICKS_ANTS,
+    &MDFS,
+    &HELPERS,
+    &KIT,
+    &FRONTIER,
+    &PACK,
+];
 
 /// The scheme with this name.
 pub fn scheme(name: &str) -> Option<&'static Profile> {

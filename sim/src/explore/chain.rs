@@ -59,7 +59,7 @@ pub static CHAIN: Profile = Profile {
     robots: 2..=MAX_ROBOTS,
     starts: Starts::Base,
     senses: Senses::Bumps,
-    extras: &[Extra::Loss, Extra::Fail, Extra::Speeds],
+    extras: &[Extra::Loss, Extra::Fail, Extra::Wall, Extra::Speeds],
     look: Look::Linked {
         is_lost: |from, to| Breach::Contact.is_in(from, to) || Breach::Coverage.is_in(from, to),
     },
@@ -117,8 +117,8 @@ fn begin<G: Grid + 'static, const ROBOTS: usize>(
     let area = chain::area(setup.layout.size().area(), base, robots).ok_or(Refused::BaseOutside { base })?;
     let grid = grid(area).ok_or(Refused::TooManyRobots { robots, most: ROBOTS })?;
     let chain = Chain::<G, ROBOTS>::new(rule, robots, base, grid)?;
-    let Options { loss, fail, going, .. } = setup.options;
-    if loss.is_never() && fail.is_none() && going.is_usual() {
+    let Options { loss, fail, wall, going, .. } = setup.options;
+    if loss.is_never() && fail.is_none() && wall.is_none() && going.is_usual() {
         return Ok(Box::new(ChainTeam { chain, log: Vec::new(), epochs: 0 }));
     }
     Ok(Box::new(Faulty::new(setup, chain)))

@@ -81,6 +81,10 @@ pub enum Misfit {
     Speed,
     /// No spread of speeds.
     Spread,
+    /// No wall can appear there.
+    Wall(Cell),
+    /// A wall that appears may shut the way over which the others re-form behind a robot that dies.
+    WallAndFail,
     /// No such robot can die.
     Fail {
         /// The robot, numbered from 1, the base.
@@ -104,6 +108,7 @@ impl Misfit {
             Self::Noise => Extra::Noise.field(),
             Self::Speed => Extra::Speed.field(),
             Self::Spread => Extra::Spread.field(),
+            Self::Wall(_) | Self::WallAndFail => Extra::Wall.field(),
             Self::Fail { .. } => Extra::Fail.field(),
         }
     }
@@ -146,6 +151,8 @@ impl Misfit {
             Self::Noise => "give `noise-db` a number of decibels from 0 to 100".to_owned(),
             Self::Speed => "give `speed` a number of metres a second from 0.001 to 1000".to_owned(),
             Self::Spread => "give `spread` a share from 0 to 0.999".to_owned(),
+            Self::Wall(_) => "name a side between two cells of the layout, as in 7,6,E@20".to_owned(),
+            Self::WallAndFail => "give `wall` and `fail` to two runs".to_owned(),
             Self::Fail { robots, .. } => format!("name a robot from 2 to {robots}, as in {robots}@20"),
         }
     }
@@ -193,6 +200,12 @@ impl fmt::Display for Misfit {
             Self::Noise => f.write_str("a standard deviation of noise is from 0 to 100 dB"),
             Self::Speed => f.write_str("a robot drives from 0.001 to 1000 m/s"),
             Self::Spread => f.write_str("drives are faster or slower by less than the whole speed"),
+            Self::Wall(cell) => {
+                write!(f, "no wall can appear on that side of the cell {cell}: it is not between two cells")
+            }
+            Self::WallAndFail => f.write_str(
+                "a wall that appears may shut the way over which the others re-form behind a robot that dies",
+            ),
             Self::Fail { robot: 1, .. } => f.write_str("the base cannot fail: there is no chain without it"),
             Self::Fail { robot, robots } => {
                 write!(f, "there is no robot {robot} that could fail among {robots}")
@@ -279,16 +292,29 @@ impl Setup {
 
     /// Refuses what the scheme cannot be told, and what is out of bounds.
     fn check_extras(&self) -> Result<(), Misfit> {
-        let Options { range_cells, loss, noise_db, threshold, speed_mps, spread, fail, going } = self.options;
+        let Options {
+            range_cells,
+            sight_cells,
+            loss,
+            noise_db,
+            threshold,
+            speed_mps,
+            spread,
+            fail,
+            wall,
+            going,
+        } = self.options;
         let usual = Options::default();
         let told = [
             (Extra::Range, range_cells.is_some()),
+            (Extra::Sight, sight_cells.is_some()),
             (Extra::Loss, !loss.is_never()),
             (Extra::Noise, noise_db.to_bits() != usual.noise_db.to_bits()),
             (Extra::Threshold, threshold.to_bits() != usual.threshold.to_bits()),
             (Extra::Speed, speed_mps.is_some()),
             (Extra::Spread, spread.is_some()),
             (Extra::Fail, fail.is_some()),
+            (Extra::Wall, wall.is_some()),
             (Extra::Speeds, !going.is_usual()),
         ];
         let refused =
@@ -298,6 +324,17 @@ impl Setup {
         }
         if let Some(Failure { robot, .. }) = fail.filter(|fail| !(2..=self.robots).contains(&fail.robot)) {
             return Err(Misfit::Fail { robot, robots: self.robots });
+        }
+        if let Some(wall) = wall {
+            let edge = wall.edge();
+            let is_between =
+                [edge.cell(), edge.cell().beyond(edge.side())].iter().all(|&cell| self.layout.contains(cell));
+            if !is_between || !self.layout.contains(wall.cell) {
+                return Err(Misfit::Wall(wall.cell));
+            }
+            if fail.is_some() {
+                return Err(Misfit::WallAndFail);
+            }
         }
         if Threshold::new(threshold).is_none() {
             return Err(Misfit::Threshold);

@@ -73,6 +73,12 @@ pub trait Team {
         &[]
     }
 
+    /// The cells besides those where its robots are that the last team move has explored, or before the first one the start: none
+    /// for teams that explore a cell by being in it.
+    fn seen(&self) -> &[Cell] {
+        &[]
+    }
+
     /// How long the run has taken the slowest robot, where that is known.
     fn milliseconds(&self) -> Option<u64> {
         None
@@ -310,13 +316,13 @@ impl Report {
             milliseconds: None,
             faults: None,
         };
-        report.note(team.cells(), &[]);
+        report.note(team.cells(), team.seen(), &[]);
         report
     }
 
-    /// Notes where the robots are and what they have marked.
-    fn note(&mut self, cells: &[Cell], marked: &[(Cell, Mark)]) {
-        for &cell in cells {
+    /// Notes where the robots are, what they have seen, and what they have marked.
+    fn note(&mut self, cells: &[Cell], seen: &[Cell], marked: &[(Cell, Mark)]) {
+        for &cell in cells.iter().chain(seen) {
             self.explored += u32::from(self.chart.enter(cell, self.steps));
         }
         for &(cell, mark) in marked {
@@ -370,7 +376,7 @@ pub fn run(
             }
         };
         report.steps += 1;
-        report.note(&frame.cells, team.marked());
+        report.note(&frame.cells, team.seen(), team.marked());
         for (count, (from, to)) in entered.iter_mut().zip(before.iter().zip(&frame.cells)) {
             *count += u32::from(from != to);
         }

@@ -92,6 +92,8 @@ pub enum Starts {
 pub enum Extra {
     /// How far messages are heard.
     Range,
+    /// How far robots see.
+    Sight,
     /// How likely messages are lost.
     Loss,
     /// The noise of positions.
@@ -104,6 +106,8 @@ pub enum Extra {
     Spread,
     /// Which robot dies, and when.
     Fail,
+    /// Which wall appears, and when.
+    Wall,
     /// In what order robots go.
     Speeds,
 }
@@ -113,12 +117,14 @@ impl Extra {
     pub const fn field(self) -> &'static str {
         match self {
             Self::Range => "range",
+            Self::Sight => "sight",
             Self::Loss => "loss",
             Self::Noise => "noise-db",
             Self::Threshold => "threshold",
             Self::Speed => "speed",
             Self::Spread => "spread",
             Self::Fail => "fail",
+            Self::Wall => "wall",
             Self::Speeds => "speeds",
         }
     }

@@ -9,7 +9,7 @@ use tautline_kernel::ground::{Area, Cell};
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{self, Point, Range, Residual, Signal, locate};
 
-use crate::faults::{Failure, Going};
+use crate::faults::{Appearing, Failure, Going};
 use crate::layout::generate::{self, Probability};
 use crate::radio::deviation_db;
 
@@ -17,8 +17,11 @@ use crate::radio::deviation_db;
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Options {
-    /// Farther than so many cells no message is heard. Without it all are; robots that keep in touch hear 10 m.
+    /// Farther than so many cells no message is heard. Without it all are; robots that keep in touch hear 10 m, those of a pack 60 cells.
     pub range_cells: Option<u16>,
+    /// How many cells robots see; without it 20.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sight_cells: Option<u16>,
     /// How likely it is that a message is lost, for each robot that could hear it.
     pub loss: Probability,
     /// The standard deviation of the noise with which a robot hears each anchor, in dB.
@@ -34,6 +37,9 @@ pub struct Options {
     /// Which robot dies, and when.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fail: Option<Failure>,
+    /// Which wall appears, and when.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wall: Option<Appearing>,
     /// In what order robots go.
     #[serde(default, skip_serializing_if = "Going::is_usual")]
     pub going: Going,
@@ -43,12 +49,14 @@ impl Options {
     /// What it is without a word.
     pub const USUAL: Self = Self {
         range_cells: None,
+        sight_cells: None,
         loss: Probability::NEVER,
         noise_db: 0.0,
         threshold: 0.5,
         speed_mps: None,
         spread: None,
         fail: None,
+        wall: None,
         going: Going::AtOnce,
     };
 }

@@ -77,6 +77,10 @@ impl Line {
         let mut unseen: Vec<u32> = made.unseen.iter().filter_map(|&cell| place_of(self.area, cell)).collect();
         unseen.sort_unstable();
         text += &listed("u", &unseen);
+        let mut seen: Vec<u32> =
+            made.team.seen().iter().filter_map(|&cell| place_of(self.area, cell)).collect();
+        seen.sort_unstable();
+        text += &listed("x", &seen);
         if let Look::Linked { is_lost } = look {
             let pairs = made.before.windows(2).zip(made.frame.cells.windows(2)).enumerate();
             let lost = pairs.filter(|(_, (from, to))| is_lost(from, to)).map(|(robot, _)| robot as u32);

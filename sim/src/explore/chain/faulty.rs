@@ -1,17 +1,17 @@
 //! A chain in which something fails: bytes are lost at the barrier (CHAIN-20), a robot dies (CHAIN-21), robots go one after
-//! the other (CHAIN-19). The run is that of the kernel's chain; where nothing fails it is the run of a chain without faults.
+//! the other (CHAIN-19), a wall appears (CHAIN-22). The run is that of the kernel's chain; where nothing fails it is the run of a chain without faults.
 
 use std::mem::take;
 
 use rand_chacha::ChaCha8Rng;
-use tautline_kernel::chain::{Barrier, Chain, Heard, Kind, Parts, Plan, Reforming};
+use tautline_kernel::chain::{Barrier, Chain, Heard, Kind, Parts, Plan, Reforming, World};
 use tautline_kernel::ground::{Area, Cell, Edge, Grid, Step};
 use tautline_proofs::chain::breach::{Breach, frame};
 use tautline_proofs::run::Frame;
 
 use super::{is_costly, left_out, planned, shown};
 use crate::explore::{Change, ClauseId, End, Hearers, Layer, Scene, Setup, Survey, Team};
-use crate::faults::{Failure, Faults, Going};
+use crate::faults::{Appearing, Failure, Faults, Going};
 use crate::layout::Layout;
 use crate::layout::generate::{Probability, below, source};
 
@@ -51,6 +51,7 @@ pub(super) struct Faulty<G, const ROBOTS: usize> {
     /// The places in `cells` of those that are left.
     left: Vec<usize>,
     failure: Option<Failure>,
+    wall: Option<Appearing>,
     loss: Probability,
     going: Going,
     chance: ChaCha8Rng,
@@ -68,6 +69,9 @@ pub(super) struct Faulty<G, const ROBOTS: usize> {
 impl<G: Grid, const ROBOTS: usize> Faulty<G, ROBOTS> {
     pub(super) fn new(setup: &Setup, chain: Chain<G, ROBOTS>) -> Self {
         let cells = chain.cells().to_vec();
+        let wall = setup.options.wall;
+        // Where no wall appears, known sides need not be tried again.
+        let chain = if wall.is_some() { chain.in_world(World::Changing) } else { chain };
         let left: Vec<usize> = (0..cells.len()).collect();
         let mut faulty = Self {
             whole: Some(Whole::Chain(chain)),
@@ -77,6 +81,7 @@ impl<G: Grid, const ROBOTS: usize> Faulty<G, ROBOTS> {
             cells,
             left,
             failure: setup.options.fail,
+            wall,
             loss: setup.options.loss,
             going: setup.options.going,
             chance: source(setup.seed, *b"faults  "),
@@ -106,6 +111,8 @@ impl<G: Grid, const ROBOTS: usize> Faulty<G, ROBOTS> {
     ) -> Frame {
         let due = self.failure.take_if(|failure| failure.step.get() <= self.moves);
         let mute = due.map(|failure| usize::from(failure.robot));
+        let wall = self.wall.filter(|wall| wall.step.get() <= self.moves).map(|wall| wall.edge());
+        let is_open = |edge: Edge| wall != Some(edge) && is_open(edge);
         let settled = match mute {
             None => chain.settle(plan, is_open),
             Some(mute) => chain.settle_without(plan, mute, is_open),
@@ -341,6 +348,8 @@ impl<G: Grid, const ROBOTS: usize> Team for Faulty<G, ROBOTS> {
     fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
         match end {
             End::Silent => Vec::new(),
+            // A wall that appears may cut robots off: CHAIN-13 is not promised.
+            End::Explored | End::Exhausted | End::Endless if self.wall.is_some() => Vec::new(),
             End::Explored | End::Exhausted | End::Endless if self.missed(layout, chart).is_empty() => {
                 Vec::new()
             }

@@ -1,0 +1,438 @@
+//! A pack: its robots, and how it makes a team move.
+//!
+//! Each robot has an aim, a frontier cell, and keeps it until it is a frontier cell no longer. In a team move the robots take their
+//! steps in the order of their numbers, each step admitted by where the others are at that moment. Two robots that are in each other's
+//! way change aims. If no robot can take its step, the paper's definitions say no more, and [`Rule::PUBLISHED`] ends. Else the robot
+//! with the shortest way leads: it goes on, and the others go to it, nearest first. If that does not work either, the team
+//! takes 1, 2, 4, 8 … team moves back and tries again. Where all robots were side by side nothing is left to take back, and it goes as a
+//! caterpillar. So the distance to one frontier cell falls until that is reached, and then something new is seen.
+
+use core::fmt;
+
+use super::MAX_ROBOTS;
+use super::aim::Aim;
+use super::chart::Chart;
+use super::choice::{choose, way};
+use super::flood::{Flood, Scratch};
+use super::march::{caterpillar, is_side_by_side, joined};
+use super::rule::{Condition, Rule};
+use crate::ground::{Cell, Side, Step};
+
+/// The history of a pack: its team moves, the last one first. One that forgets the oldest moves, since it is full, brings a team
+/// back less far: PACK-3 is not promised then.
+pub trait Past {
+    /// Notes the step of each robot.
+    fn push(&mut self, steps: &[Step]);
+
+    /// Takes the last team move out; no if there is none.
+    fn pop(&mut self, steps: &mut [Step]) -> bool;
+
+    /// Forgets all of it.
+    fn clear(&mut self);
+}
+
+/// Why robots are no pack.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Refused {
+    /// There are no robots, or more than [`MAX_ROBOTS`].
+    Robots(usize),
+    /// Two robots are in this cell.
+    Together(Cell),
+    /// The robots are not connected: so many are, of so many.
+    Apart(usize, usize),
+}
+
+impl fmt::Display for Refused {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Robots(0) => f.write_str("no robots are no pack"),
+            Self::Robots(robots) => {
+                write!(f, "{robots} robots are too many for a pack: it has at most {MAX_ROBOTS}")
+            }
+            Self::Together(cell) => write!(f, "two robots of a pack are in the cell {cell}"),
+            Self::Apart(joined, robots) => {
+                write!(f, "the pack is not connected: links join {joined} of its {robots} robots")
+            }
+        }
+    }
+}
+
+impl core::error::Error for Refused {}
+
+/// Why there is no team move.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum End {
+    /// No robot reaches a frontier cell: all that can be reached is explored.
+    Explored,
+    /// There are frontier cells, but the team cannot go to them.
+    Stuck,
+}
+
+/// What a team move is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Made {
+    /// Each robot goes its own way.
+    Spread,
+    /// This robot, counted from 0, leads, and the others go to it.
+    Led(usize),
+    /// A team move is taken back.
+    TakenBack,
+    /// The robots go as a caterpillar.
+    Marched,
+}
+
+/// What the team is doing.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+enum Stage {
+    Spread,
+    Lead { leader: usize, goal: Cell },
+    Back { goal: Cell, moves: u32 },
+    March { goal: Cell },
+}
+
+/// A pack.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Team {
+    rule: Rule,
+    cells: [Cell; MAX_ROBOTS],
+    aims: [Option<Aim>; MAX_ROBOTS],
+    robots: usize,
+    stage: Stage,
+    /// How many team moves are to be taken back when the next leader is stuck.
+    back: u32,
+    /// Whether the whole history was taken back for the present goal.
+    was_home: bool,
+}
+
+/// Whether links of `rule` join all robots in these cells.
+pub fn is_connected(rule: &Rule, cells: &[Cell]) -> bool {
+    joined(cells, |one, other| rule.links(one, other)) == cells.len()
+}
+
+impl Team {
+    /// Robots that start in these cells.
+    ///
+    /// # Errors
+    /// [`Refused`] if they are no pack.
+    pub fn new(rule: Rule, starts: &[Cell]) -> Result<Self, Refused> {
+        let robots = starts.len();
+        if !(1..=MAX_ROBOTS).contains(&robots) {
+            return Err(Refused::Robots(robots));
+        }
+        let together =
+            (1..).zip(starts).find(|&(after, start)| starts.iter().skip(after).any(|other| other == start));
+        if let Some((_, &cell)) = together {
+            return Err(Refused::Together(cell));
+        }
+        let joined = joined(starts, |one, other| rule.links(one, other));
+        if joined < robots && rule.has(Condition::Connect) {
+            return Err(Refused::Apart(joined, robots));
+        }
+        let mut cells = [Cell::default(); MAX_ROBOTS];
+        cells.iter_mut().zip(starts).for_each(|(cell, &start)| *cell = start);
+        let aims = [None; MAX_ROBOTS];
+        Ok(Self { rule, cells, aims, robots, stage: Stage::Spread, back: 1, was_home: false })
+    }
+
+    /// Its rule.
+    pub const fn rule(&self) -> &Rule {
+        &self.rule
+    }
+
+    /// Where its robots are.
+    pub fn cells(&self) -> &[Cell] {
+        self.cells.get(..self.robots).unwrap_or_default()
+    }
+
+    /// Where its robots are going, as far as they have decided.
+    pub fn aims(&self) -> impl Iterator<Item = Option<Cell>> + Clone {
+        self.aims.iter().take(self.robots).map(|aim| aim.map(|aim| aim.cell))
+    }
+
+    fn aim(&self, robot: usize) -> Option<Aim> {
+        self.aims.get(robot).copied().flatten()
+    }
+
+    fn set_aim(&mut self, robot: usize, aim: Option<Aim>) {
+        if let Some(own) = self.aims.get_mut(robot) {
+            *own = aim;
+        }
+    }
+
+    /// Makes a team move by what is on the `chart`, and returns what it is, with the step of each robot in `steps`. Each robot must have
+    /// looked round before.
+    ///
+    /// # Errors
+    /// [`End`] if there is none.
+    pub fn advance<W: AsRef<[[u64; 2]]>>(
+        &mut self,
+        chart: &Chart<W>,
+        past: &mut impl Past,
+        memory: &mut Scratch<'_>,
+        steps: &mut [Step; MAX_ROBOTS],
+    ) -> Result<Made, End> {
+        if self.rule.has(Condition::Lead) && is_side_by_side(self.cells()) {
+            past.clear();
+        }
+        loop {
+            *steps = [Step::Stay; MAX_ROBOTS];
+            if let Stage::Lead { goal, .. } | Stage::Back { goal, .. } | Stage::March { goal } = self.stage
+                && !chart.is_frontier(goal)
+            {
+                self.aims = [None; MAX_ROBOTS];
+                (self.stage, self.back, self.was_home) = (Stage::Spread, 1, false);
+            }
+            let made = match self.stage {
+                Stage::Spread => self.spread(chart, memory, steps)?,
+                Stage::Lead { goal, .. } => self.lead(goal, chart, memory, steps),
+                Stage::Back { goal, moves } => self.take_back(goal, moves, chart, past, memory, steps)?,
+                Stage::March { goal } => Some(self.march(goal, chart, memory, steps).ok_or(End::Stuck)?),
+            };
+            let Some(made) = made else { continue };
+            if made != Made::TakenBack {
+                past.push(steps.get(..self.robots).unwrap_or_default());
+            }
+            return Ok(made);
+        }
+    }
+
+    /// A team move in which each robot goes its own way; `None` if the team goes on otherwise.
+    fn spread<W: AsRef<[[u64; 2]]>>(
+        &mut self,
+        chart: &Chart<W>,
+        memory: &mut Scratch<'_>,
+        steps: &mut [Step; MAX_ROBOTS],
+    ) -> Result<Option<Made>, End> {
+        for aim in &mut self.aims {
+            *aim = aim.filter(|aim| chart.is_frontier(aim.cell));
+        }
+        for robot in 0..self.robots {
+            if self.aim(robot).is_some() {
+                continue;
+            }
+            let Some(&from) = self.cells().get(robot) else { break };
+            let aim = choose(&self.rule, chart, from, &self.aims().flatten(), memory);
+            self.set_aim(robot, aim);
+        }
+        for robot in 0..self.robots {
+            self.take_own_step(robot, chart, memory, steps);
+        }
+        if steps.iter().any(|&step| step != Step::Stay) {
+            return Ok(Some(Made::Spread));
+        }
+        let nearest = (0..self.robots)
+            .filter_map(|robot| Some((self.aim(robot)?, robot)))
+            .min_by_key(|(aim, _)| aim.far);
+        let (aim, leader) = nearest.ok_or(End::Explored)?;
+        if !self.rule.has(Condition::Lead) {
+            return Err(End::Stuck);
+        }
+        self.stage = Stage::Lead { leader, goal: aim.cell };
+        Ok(None)
+    }
+
+    /// The robot takes the next step on its own way, if it is admitted.
+    fn take_own_step<W: AsRef<[[u64; 2]]>>(
+        &mut self,
+        robot: usize,
+        chart: &Chart<W>,
+        memory: &mut Scratch<'_>,
+        steps: &mut [Step; MAX_ROBOTS],
+    ) {
+        let (Some(aim), Some(&from)) = (self.aim(robot), self.cells().get(robot)) else { return };
+        let aim = match aim.side() {
+            Some(_) => Some(aim),
+            None => way(chart, from, aim.cell, memory),
+        };
+        self.set_aim(robot, aim);
+        let Some((aim, side)) = aim.and_then(|aim| Some((aim, aim.side()?))) else { return };
+        if let Some(other) = self.who_is_in(from.beyond(side)).filter(|_| self.rule.has(Condition::Single)) {
+            // Two robots that want into each other's cells go on as each other would.
+            let is_back = |aim: &Aim| aim.side() == Some(side.opposite());
+            if let Some(back) = self.aim(other).filter(is_back) {
+                self.set_aim(robot, Some(back.after_step()));
+                self.set_aim(other, Some(aim.after_step()));
+            }
+            return;
+        }
+        if self.go(robot, side, steps) {
+            self.set_aim(robot, Some(aim.after_step()));
+        }
+    }
+
+    fn who_is_in(&self, cell: Cell) -> Option<usize> {
+        self.cells().iter().position(|&other| other == cell)
+    }
+
+    /// The robot goes through a side, if that is admitted; whether it is.
+    fn go(&mut self, robot: usize, side: Side, steps: &mut [Step; MAX_ROBOTS]) -> bool {
+        let Some(from) = self.cells().get(robot).copied() else { return false };
+        let to = from.beyond(side);
+        if self.rule.has(Condition::Single) && self.who_is_in(to).is_some() {
+            return false;
+        }
+        self.put(robot, to);
+        if self.rule.has(Condition::Connect) && !is_connected(&self.rule, self.cells()) {
+            self.put(robot, from);
+            return false;
+        }
+        if let Some(step) = steps.get_mut(robot) {
+            *step = Step::Cross(side);
+        }
+        true
+    }
+
+    fn put(&mut self, robot: usize, to: Cell) {
+        if let Some(cell) = self.cells.get_mut(robot) {
+            *cell = to;
+        }
+    }
+
+    /// A team move in which the leader goes on and the others go to it; `None` if nobody can go.
+    fn lead<W: AsRef<[[u64; 2]]>>(
+        &mut self,
+        goal: Cell,
+        chart: &Chart<W>,
+        memory: &mut Scratch<'_>,
+        steps: &mut [Step; MAX_ROBOTS],
+    ) -> Option<Made> {
+        // A robot that is in the leader's way leads from there: it is nearer.
+        let leader = self.hand_over(goal, chart, memory);
+        self.take_own_step(leader, chart, memory, steps);
+        let to = *self.cells().get(leader)?;
+        let mut flood = Flood::new(chart, memory, to);
+        let mut left = self.robots;
+        while let Some((cell, ..)) = flood.next() {
+            // Robots that have taken their steps are not asked again.
+            let is_here = |&robot: &usize| {
+                robot != leader
+                    && self.cells().get(robot) == Some(&cell)
+                    && steps.get(robot) == Some(&Step::Stay)
+            };
+            let here = (0..self.robots).find(is_here);
+            left = left.saturating_sub(usize::from(self.cells().contains(&cell)));
+            if let Some((robot, side)) = here.and_then(|robot| Some((robot, flood.side_before(cell)?))) {
+                self.go(robot, side.opposite(), steps);
+            }
+            if left == 0 {
+                break;
+            }
+        }
+        if steps.iter().any(|&step| step != Step::Stay) {
+            return Some(Made::Led(leader));
+        }
+        let moves = self.back;
+        if self.rule.has(Condition::Double) {
+            self.back = self.back.saturating_mul(2);
+        }
+        self.stage = Stage::Back { goal, moves };
+        None
+    }
+
+    /// The robot that leads now, with its way to the goal.
+    fn hand_over<W: AsRef<[[u64; 2]]>>(
+        &mut self,
+        goal: Cell,
+        chart: &Chart<W>,
+        memory: &mut Scratch<'_>,
+    ) -> usize {
+        let mut leader = match self.stage {
+            Stage::Lead { leader, .. } => leader,
+            Stage::Spread | Stage::Back { .. } | Stage::March { .. } => 0,
+        };
+        for _ in 0..self.robots {
+            let Some(&from) = self.cells().get(leader) else { break };
+            let known = self.aim(leader).filter(|aim| aim.cell == goal && aim.side().is_some());
+            let Some(aim) = known.or_else(|| way(chart, from, goal, memory)) else { break };
+            self.set_aim(leader, Some(aim));
+            let Some(other) = aim.side().and_then(|side| self.who_is_in(from.beyond(side))) else { break };
+            self.set_aim(leader, None);
+            self.set_aim(other, Some(aim.after_step()));
+            leader = other;
+        }
+        self.stage = Stage::Lead { leader, goal };
+        leader
+    }
+
+    /// A team move that takes the last one back; `None` if the team goes on otherwise.
+    fn take_back<W: AsRef<[[u64; 2]]>>(
+        &mut self,
+        goal: Cell,
+        moves: u32,
+        chart: &Chart<W>,
+        past: &mut impl Past,
+        memory: &mut Scratch<'_>,
+        steps: &mut [Step; MAX_ROBOTS],
+    ) -> Result<Option<Made>, End> {
+        if !self.rule.has(Condition::Back) {
+            return Err(End::Stuck);
+        }
+        let mut taken = [Step::Stay; MAX_ROBOTS];
+        let is_back = moves > 0 && taken.get_mut(..self.robots).is_some_and(|taken| past.pop(taken));
+        if is_back {
+            for (robot, (step, taken)) in steps.iter_mut().zip(taken).enumerate().take(self.robots) {
+                if let (Step::Cross(side), Some(&from)) = (taken, self.cells().get(robot)) {
+                    *step = Step::Cross(side.opposite());
+                    self.put(robot, from.beyond(side.opposite()));
+                }
+            }
+            self.aims = [None; MAX_ROBOTS];
+            self.stage = Stage::Back { goal, moves: moves - 1 };
+            return Ok(Some(Made::TakenBack));
+        }
+        let is_home = moves > 0;
+        if is_home && is_side_by_side(self.cells()) {
+            self.stage = Stage::March { goal };
+            return Ok(None);
+        }
+        if is_home && self.was_home {
+            return Err(End::Stuck);
+        }
+        self.was_home |= is_home;
+        let leader = self.nearest(goal, chart, memory).map_or(0, |(robot, _)| robot);
+        self.stage = Stage::Lead { leader, goal };
+        Ok(None)
+    }
+
+    /// The robot nearest to a cell, and the side through which it goes there; `None` if no robot can.
+    fn nearest<W: AsRef<[[u64; 2]]>>(
+        &self,
+        to: Cell,
+        chart: &Chart<W>,
+        memory: &mut Scratch<'_>,
+    ) -> Option<(usize, Side)> {
+        let mut flood = Flood::new(chart, memory, to);
+        while let Some((cell, ..)) = flood.next() {
+            if let Some(robot) = self.who_is_in(cell) {
+                return flood.side_before(cell).map(|side| (robot, side.opposite()));
+            }
+        }
+        None
+    }
+
+    /// A team move as a caterpillar.
+    fn march<W: AsRef<[[u64; 2]]>>(
+        &mut self,
+        goal: Cell,
+        chart: &Chart<W>,
+        memory: &mut Scratch<'_>,
+        steps: &mut [Step; MAX_ROBOTS],
+    ) -> Option<Made> {
+        let (head, side) = self.nearest(goal, chart, memory)?;
+        let (length, path) = caterpillar(self.cells(), head);
+        let mut left = *self.cells().get(head)?;
+        self.go(head, side, steps).then_some(())?;
+        for &robot in path.get(1..length).unwrap_or_default() {
+            let from = *self.cells().get(robot)?;
+            let side = Side::ALL.into_iter().find(|&side| from.beyond(side) == left)?;
+            self.go(robot, side, steps).then_some(())?;
+            left = from;
+        }
+        Some(Made::Marched)
+    }
+}

@@ -1,0 +1,215 @@
+//! All small floors: every set of obstacles and all starts (PACK-1 to PACK-5). A rule of a pack leaves nothing to chance, so there is one
+//! run for each. A counterexample has the fewest cells, and of these the fewest obstacles.
+
+use tautline_kernel::ground::{Area, Cell, neighbours};
+use tautline_kernel::pack::Rule;
+
+use super::played::{Demand, Floor, play, story};
+use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen, Verdict};
+use crate::engine::{Choices, Script, Unfit, Until, cover};
+use crate::words::counted;
+
+/// Columns and rows.
+pub(super) type Size = (i16, i16);
+
+/// Where robots start.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Starts {
+    /// Side by side: their cells share sides and are one set.
+    Beside,
+    /// Anywhere, as long as links join them.
+    Linked,
+}
+
+/// Floors to look at.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Bounds {
+    /// Fewest cells first, each with the most obstacles.
+    pub(super) sizes: &'static [(Size, u32)],
+    pub(super) robots: usize,
+    pub(super) sight_cells: u16,
+    pub(super) range_cells: u16,
+    pub(super) starts: Starts,
+}
+
+/// Floors, and what is demanded of a pack there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Floors {
+    pub(super) bounds: Bounds,
+    pub(super) demand: Demand,
+    /// The situations that must occur.
+    pub(super) covers: &'static [&'static str],
+}
+
+/// The number of a size, of its set of obstacles, and of the starts there.
+type Place = [usize; 3];
+
+/// What was found on all floors.
+struct Found {
+    runs: u64,
+    covered: Vec<&'static str>,
+    /// By demand: the first floor where it is broken.
+    broken: [Option<Place>; Demand::ALL.len()],
+}
+
+impl Bounds {
+    fn rule(&self, rule: &Rule) -> Result<Rule, Refused> {
+        rule.within(self.sight_cells, self.range_cells).map_err(Refused::new)
+    }
+
+    fn area(size: Size) -> Result<Area, Refused> {
+        let area = Area::new(Cell::new(0, 0), Cell::new(size.0 - 1, size.1 - 1));
+        area.filter(|area| area.width() * area.height() < u64::BITS as usize)
+            .ok_or_else(|| Refused::new("a floor has from 1 to 63 cells"))
+    }
+
+    /// The sets of obstacles on a floor of so many cells, the fewest first.
+    fn obstacles(cells: usize, most: u32) -> Vec<u64> {
+        let mut sets: Vec<u64> = (0..1_u64 << cells).filter(|set| set.count_ones() <= most).collect();
+        sets.sort_by_key(|set| (set.count_ones(), *set));
+        sets
+    }
+
+    /// The starts among the free cells.
+    fn starts(&self, area: Area, obstacles: u64) -> Vec<Vec<Cell>> {
+        let free: Vec<Cell> = (0..)
+            .zip(area.cells())
+            .filter(|(place, _)| obstacles >> place & 1 == 0)
+            .map(|(_, cell)| cell)
+            .collect();
+        let mut starts: Vec<Vec<Cell>> = vec![Vec::new()];
+        for _ in 0..self.robots {
+            let longer = starts.iter().flat_map(|before| {
+                let others = free.iter().filter(|cell| !before.contains(cell));
+                others.map(|&cell| before.iter().copied().chain([cell]).collect())
+            });
+            starts = longer.collect();
+        }
+        starts.retain(|starts| self.starts == Starts::Linked || is_one(starts));
+        starts
+    }
+
+    /// Runs a pack on every floor; ends with the first one that breaks `until`.
+    fn search(&self, rule: &Rule, until: Option<Demand>) -> Result<Found, Refused> {
+        let rule = self.rule(rule)?;
+        let mut found = Found { runs: 0, covered: Vec::new(), broken: [None; Demand::ALL.len()] };
+        for (number, &(size, most)) in self.sizes.iter().enumerate() {
+            let area = Self::area(size)?;
+            for (set, obstacles) in
+                Self::obstacles(area.width() * area.height(), most).into_iter().enumerate()
+            {
+                for (start, starts) in self.starts(area, obstacles).into_iter().enumerate() {
+                    let Some(played) = play(&rule, &Floor { area, obstacles, starts }) else { continue };
+                    found.runs += 1;
+                    for situation in played.covered {
+                        cover(&mut found.covered, situation);
+                    }
+                    for &demand in &played.broken {
+                        found.broken[demand as usize].get_or_insert([number, set, start]);
+                    }
+                    if until.is_some_and(|until| played.broken.contains(&until)) {
+                        return Ok(found);
+                    }
+                }
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// Whether the cells share sides and are one set.
+fn is_one(cells: &[Cell]) -> bool {
+    let mut left = cells.to_vec();
+    let mut joined: Vec<Cell> = left.pop().into_iter().collect();
+    while let Some(cell) = joined.pop() {
+        joined.extend(left.extract_if(.., |other| neighbours(cell, *other)));
+    }
+    left.is_empty()
+}
+
+impl Floors {
+    /// The refutation by the run on one floor; `None` if it breaks something else, or nothing.
+    fn evidence(&self, rule: &Rule, [number, set, start]: Place) -> Result<Option<Evidence>, Refused> {
+        let rule = self.bounds.rule(rule)?;
+        let Some(&(size, most)) = self.bounds.sizes.get(number) else { return Ok(None) };
+        let area = Bounds::area(size)?;
+        let obstacles = Bounds::obstacles(area.width() * area.height(), most).into_iter().nth(set);
+        let Some(obstacles) = obstacles else { return Ok(None) };
+        let starts = self.bounds.starts(area, obstacles).into_iter().nth(start);
+        let floor = starts.map(|starts| Floor { area, obstacles, starts });
+        let run = floor.and_then(|floor| Some((play(&rule, &floor)?, floor)));
+        let run = run.filter(|(played, _)| played.broken.contains(&self.demand));
+        Ok(run.map(|(played, floor)| Evidence {
+            choices: Choices {
+                once: [number, set, start].map(|place| place as u32).to_vec(),
+                again: Vec::new(),
+            },
+            demand: self.demand.words(),
+            seen: Seen::Story(story(&rule, &floor, &played)),
+        }))
+    }
+}
+
+impl Method<Rule> for Floors {
+    fn engine(&self) -> &'static str {
+        "exhaustive"
+    }
+
+    fn bound(&self) -> String {
+        let Bounds { sizes, robots, sight_cells, range_cells, starts } = self.bounds;
+        let size = |&((width, height), most): &(Size, u32)| {
+            if most >= (width * height) as u32 {
+                format!("{width}×{height}")
+            } else {
+                format!("{width}×{height} with at most {}", counted(most, "obstacle"))
+            }
+        };
+        let sizes: Vec<String> = sizes.iter().map(size).collect();
+        let starts = match starts {
+            Starts::Beside => "side by side",
+            Starts::Linked => "that have links",
+        };
+        let robots = counted(robots as u64, "robot");
+        format!(
+            "all obstacles in {} cells, all starts of {robots} {starts}, R_s {sight_cells}, R_c {range_cells}",
+            sizes.join(", ")
+        )
+    }
+
+    fn family(&self, rule: &Rule) -> Option<String> {
+        Some(format!("{:?} {rule:?}", self.bounds))
+    }
+
+    /// The choices are the numbers of the size, of the set of obstacles, and of the starts.
+    fn decide(&self, rule: &Rule, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+        let once;
+        let found = match until {
+            Until::Exhausted => {
+                desk.memory.recall((self.bounds, *rule), |_| self.bounds.search(rule, None))?
+            }
+            Until::Violation => {
+                once = self.bounds.search(rule, Some(self.demand))?;
+                &once
+            }
+        };
+        let (runs, is_covered) =
+            (found.runs, self.covers.iter().all(|situation| found.covered.contains(situation)));
+        let place = found.broken[self.demand as usize];
+        let evidence = place.map(|place| self.evidence(rule, place)).transpose()?.flatten();
+        Ok(Answer::new(evidence, is_covered, Verdict::Holds, runs))
+    }
+
+    fn replay(&self, rule: &Rule, choices: &Choices) -> Result<Played, Unfit> {
+        let mut script = Script::new(choices);
+        let number = script.choose(self.bounds.sizes.len())?;
+        let (size, most) = self.bounds.sizes[number];
+        let area = Bounds::area(size).map_err(|_| Unfit::Unbroken)?;
+        let sets = Bounds::obstacles(area.width() * area.height(), most);
+        let set = script.choose(sets.len())?;
+        let starts = self.bounds.starts(area, sets[set]).len();
+        let start = script.choose(starts)?;
+        let evidence = self.evidence(rule, [number, set, start]).ok().flatten().ok_or(Unfit::Unbroken)?;
+        let of = [self.bounds.sizes.len(), sets.len(), starts].map(|of| of as u32).to_vec();
+        Ok(Played { of, evidence })
+    }
+}

@@ -1,0 +1,220 @@
+//! One run of a pack on one small floor, and what it breaks.
+
+use std::fmt::Write;
+
+use tautline_kernel::ground::{Area, Cell, Circle, Side, Step};
+use tautline_kernel::pack::{Chart, MAX_ROBOTS, Made, Past, Rule, Scratch, Team};
+
+use crate::words::counted;
+
+/// Team moves at which a run on a small floor counts as endless.
+pub(super) const MOST_MOVES: usize = 1000;
+
+/// What is demanded of a pack.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Demand {
+    /// Links by four corners join all robots after every team move.
+    Connected,
+    /// No two robots are in one cell.
+    Single,
+    /// What can be reached is explored in the end.
+    Covers,
+    /// The run ends.
+    Ends,
+}
+
+impl Demand {
+    pub(super) const ALL: [Self; 4] = [Self::Connected, Self::Single, Self::Covers, Self::Ends];
+
+    pub(super) const fn words(self) -> &'static str {
+        match self {
+            Self::Connected => "the pack is not connected",
+            Self::Single => "two robots are in one cell",
+            Self::Covers => "a cell within reach is unexplored",
+            Self::Ends => "the run goes on",
+        }
+    }
+}
+
+/// A floor of at most 64 cells, and where robots start on it.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct Floor {
+    pub(super) area: Area,
+    /// A bit for each cell, row by row.
+    pub(super) obstacles: u64,
+    pub(super) starts: Vec<Cell>,
+}
+
+impl Floor {
+    fn is_free(&self, cell: Cell) -> bool {
+        self.area
+            .locate(cell)
+            .is_some_and(|(column, row)| self.obstacles >> (row * self.area.width() + column) & 1 == 0)
+    }
+
+    /// The free cells that a robot could walk to from a start.
+    fn reachable(&self) -> Vec<Cell> {
+        let mut reached = self.starts.clone();
+        let mut next = 0;
+        while let Some(&cell) = reached.get(next) {
+            next += 1;
+            for beyond in Side::ALL.map(|side| cell.beyond(side)) {
+                if self.is_free(beyond) && !reached.contains(&beyond) {
+                    reached.push(beyond);
+                }
+            }
+        }
+        reached
+    }
+
+    /// The floor with its starts, a line for each row.
+    fn drawing(&self) -> String {
+        let sign = |cell: Cell| match self.starts.iter().position(|&start| start == cell) {
+            Some(robot) => char::from_digit(robot as u32 + 1, 36).unwrap_or('?'),
+            None if self.is_free(cell) => '.',
+            None => '#',
+        };
+        let rows = (self.area.first().y..=self.area.last().y).map(|y| {
+            (self.area.first().x..=self.area.last().x)
+                .map(|x| sign(Cell::new(x, y)))
+                .chain(['\n'])
+                .collect::<String>()
+        });
+        rows.collect()
+    }
+}
+
+/// The history of a pack.
+#[derive(Default)]
+struct Moves(Vec<Vec<Step>>);
+
+impl Past for Moves {
+    fn push(&mut self, steps: &[Step]) {
+        self.0.push(steps.to_vec());
+    }
+
+    fn pop(&mut self, steps: &mut [Step]) -> bool {
+        let last = self.0.pop();
+        if let Some(last) = &last {
+            steps.copy_from_slice(last);
+        }
+        last.is_some()
+    }
+
+    fn clear(&mut self) {
+        self.0.clear();
+    }
+}
+
+/// What came of a run.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct Played {
+    /// What it breaks, each once.
+    pub(super) broken: Vec<Demand>,
+    /// The situations that occurred.
+    pub(super) covered: Vec<&'static str>,
+    /// Where the robots were after each team move, and what it was.
+    moves: Vec<(Made, Vec<Cell>)>,
+    /// The cells within reach that were not explored when it ended.
+    left: Vec<Cell>,
+}
+
+/// Whether links of R_c by four corners join all robots.
+fn is_joined(cells: &[Cell], range_cells: u16) -> bool {
+    let circle = Circle::new(4 * u64::from(range_cells).pow(2));
+    let mut joined = vec![false; cells.len()];
+    joined[0] = true;
+    for _ in cells {
+        for robot in 0..cells.len() {
+            joined[robot] |=
+                (0..cells.len()).any(|other| joined[other] && circle.covers(cells[other], cells[robot]));
+        }
+    }
+    joined.into_iter().all(|is_joined| is_joined)
+}
+
+/// Runs a pack of `rule` on `floor`; `None` if the robots are no pack there.
+pub(super) fn play(rule: &Rule, floor: &Floor) -> Option<Played> {
+    let area = floor.area;
+    let cells = area.width() * area.height();
+    let mut team = Team::new(*rule, &floor.starts).ok()?;
+    let mut chart = Chart::new(area, vec![[0; 2]; Chart::<Vec<[u64; 2]>>::words(area)])?;
+    let (mut reached, mut queue) = (vec![0; cells], vec![Cell::default(); cells]);
+    let (mut gains, mut rounds) = (vec![0; cells], 0);
+    let (mut past, mut steps) = (Moves::default(), [Step::Stay; MAX_ROBOTS]);
+    let mut played = Played { broken: Vec::new(), covered: Vec::new(), moves: Vec::new(), left: Vec::new() };
+    let mut seen = floor.starts.clone();
+    let breaks = |broken: &mut Vec<Demand>, demand: Demand, is_broken: bool| {
+        if is_broken && !broken.contains(&demand) {
+            broken.push(demand);
+        }
+    };
+    loop {
+        for &cell in team.cells() {
+            chart.look(
+                rule.sight(),
+                cell,
+                |cell| !floor.is_free(cell),
+                |cell, is_obstacle| {
+                    if !is_obstacle {
+                        seen.push(cell);
+                    }
+                },
+            );
+        }
+        let mut memory =
+            Scratch { reached: &mut reached, queue: &mut queue, gains: &mut gains, rounds: &mut rounds };
+        let Ok(made) = team.advance(&chart, &mut past, &mut memory, &mut steps) else { break };
+        let now = team.cells().to_vec();
+        let is_double = now.iter().enumerate().any(|(robot, cell)| now[..robot].contains(cell));
+        breaks(&mut played.broken, Demand::Connected, !is_joined(&now, rule.range_cells()));
+        breaks(&mut played.broken, Demand::Single, is_double);
+        let situation = match made {
+            Made::Spread => "each goes its way",
+            Made::Led(_) => "one leads",
+            Made::TakenBack => "a move is taken back",
+            Made::Marched => "a caterpillar",
+        };
+        if !played.covered.contains(&situation) {
+            played.covered.push(situation);
+        }
+        played.moves.push((made, now));
+        if played.moves.len() == MOST_MOVES {
+            breaks(&mut played.broken, Demand::Ends, true);
+            return Some(played);
+        }
+    }
+    played.left = floor.reachable().into_iter().filter(|cell| !seen.contains(cell)).collect();
+    let is_left = !played.left.is_empty();
+    breaks(&mut played.broken, Demand::Covers, is_left);
+    Some(played)
+}
+
+/// Most team moves that are told.
+const MOST_TOLD: usize = 40;
+
+/// The run in lines.
+pub(super) fn story(rule: &Rule, floor: &Floor, played: &Played) -> String {
+    let (width, height) = (floor.area.width(), floor.area.height());
+    let (sight, range) = (rule.sight().radius_cells(), rule.range_cells());
+    let mut lines = format!("{width}×{height} cells, R_s {sight}, R_c {range}\n{}", floor.drawing());
+    for (made, cells) in played.moves.iter().take(MOST_TOLD) {
+        let what = match made {
+            Made::Spread => "each goes its way".to_owned(),
+            Made::Led(robot) => format!("R{} leads", robot + 1),
+            Made::TakenBack => "a move is taken back".to_owned(),
+            Made::Marched => "a caterpillar".to_owned(),
+        };
+        let cells: Vec<String> = (1..).zip(cells).map(|(robot, cell)| format!("R{robot} {cell}")).collect();
+        // Writing to a string cannot fail.
+        let _ = writeln!(lines, "{what}: {}", cells.join(", "));
+    }
+    if let Some(more) = played.moves.len().checked_sub(MOST_TOLD).filter(|&more| more > 0) {
+        let _ = writeln!(lines, "and {} more", counted(more as u64, "team move"));
+    }
+    if !played.left.is_empty() {
+        let left: Vec<String> = played.left.iter().map(Cell::to_string).collect();
+        let _ = writeln!(lines, "the run ends, and nobody has seen {}", left.join(" "));
+    }
+    lines
+}

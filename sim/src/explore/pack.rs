@@ -1,0 +1,266 @@
+//! Pack exploration (Jasmine Xavier and Shantha Selva Kumari 2013, II): its row, and its team: the kernel's pack, a layout that
+//! answers for what robots see, and the history on the heap.
+//!
+//! A cell is explored once a robot has seen it (II.A), and not only where a robot was.
+
+mod shown;
+
+use std::collections::HashSet;
+
+use tautline_kernel::chain::Kind;
+use tautline_kernel::ground::{Cell, Circle, Edge, Step};
+use tautline_kernel::pack::{
+    Chart, End as Over, MAX_ROBOTS, Made, Past, Refused, Rule as Pack, Scratch, Team as Robots, Unfit,
+};
+use tautline_proofs::run::Frame;
+
+use super::clause::ClauseId;
+use super::frontier::reachable;
+use super::run::{End, Team};
+use super::scene::{Layer, Scene};
+use super::setup::{Clause, Extra, Profile, Rule, Senses, Setup, Starts};
+use super::stage::Look;
+use super::survey::Survey;
+use crate::fault::Fault;
+use crate::layout::Layout;
+
+/// The team is not connected after a team move.
+pub const CONNECTED: ClauseId = ClauseId::new("PACK-1");
+
+/// Two robots are in one cell.
+pub const SINGLE: ClauseId = ClauseId::new("PACK-2");
+
+/// The run ends, and a cell in reach is unexplored.
+pub const COVERS: ClauseId = ClauseId::new("PACK-3");
+
+/// The run goes on for ever.
+pub const ENDS: ClauseId = ClauseId::new("PACK-4");
+
+/// Team moves for each cell without anything new, after which a pack is taken to go on for ever.
+const PATIENCE: usize = 100;
+
+/// Robots that see, and stay connected.
+pub static PACK: Profile = Profile {
+    name: "pack",
+    about: "Robots that see, go where most is to be seen for the way, and stay connected without a base",
+    rules: &[
+        Rule {
+            name: super::RuleId::PUBLISHED,
+            about: "As the paper publishes it",
+            start: |setup| start(setup, Pack::PUBLISHED),
+            hunt: None,
+        },
+        Rule {
+            name: super::RuleId::REPAIRED,
+            about: "With the repairs of its refuted claims",
+            start: |setup| start(setup, Pack::REPAIRED),
+            hunt: None,
+        },
+    ],
+    team: "pack",
+    robots: 1..=MAX_ROBOTS,
+    starts: Starts::Alone,
+    senses: Senses::Bumps,
+    extras: &[Extra::Range, Extra::Sight],
+    look: Look::Robots,
+    knowledge: None,
+    clauses: &[
+        Clause::new(CONNECTED.as_str()),
+        Clause::new(SINGLE.as_str()),
+        Clause { missed: Some("Within reach and unexplored"), ..Clause::new(COVERS.as_str()) },
+        Clause::new(ENDS.as_str()),
+    ],
+};
+
+/// The history of a pack, a step for each robot and team move.
+#[derive(Debug, Default)]
+struct Moves(Vec<Step>);
+
+impl Past for Moves {
+    fn push(&mut self, steps: &[Step]) {
+        self.0.extend_from_slice(steps);
+    }
+
+    fn pop(&mut self, steps: &mut [Step]) -> bool {
+        let Some(kept) = self.0.len().checked_sub(steps.len()) else { return false };
+        steps.copy_from_slice(&self.0[kept..]);
+        self.0.truncate(kept);
+        true
+    }
+
+    fn clear(&mut self) {
+        self.0.clear();
+    }
+}
+
+struct PackTeam {
+    robots: Robots,
+    layout: Layout,
+    chart: Chart<Vec<[u64; 2]>>,
+    past: Moves,
+    reached: Vec<u32>,
+    queue: Vec<Cell>,
+    gains: Vec<u16>,
+    rounds: u32,
+    /// The free cells, and the obstacles, that were seen in the last team move; before the first one those at the start.
+    free: Vec<Cell>,
+    obstacles: Vec<Cell>,
+    /// What the last team move was.
+    made: Option<Made>,
+    /// Team moves since something new was seen.
+    idle: usize,
+}
+
+/// The pack of `setup`, each robot at its start.
+fn start(setup: &Setup, rule: Pack) -> Result<Box<dyn Team>, Fault> {
+    let layout = &setup.layout;
+    if layout.walls().next().is_some() {
+        let what = "this layout has walls between cells: for a pack an obstacle fills a cell";
+        return Err(Fault::of_field(
+            "layout",
+            what,
+            "take a layout with blocked cells, such as cells:64x64:0.1",
+        ));
+    }
+    let sight_cells = setup.options.sight_cells.unwrap_or(Pack::SIGHT_CELLS.into());
+    let range_cells = setup.options.range_cells.unwrap_or(Pack::RANGE_CELLS);
+    let rule = rule.within(sight_cells, range_cells).map_err(unfit)?;
+    let robots = Robots::new(rule, &setup.starts()).map_err(refused)?;
+    let area = layout.size().area();
+    let words = vec![[0; 2]; Chart::<Vec<[u64; 2]>>::words(area)];
+    let chart =
+        Chart::new(area, words).unwrap_or_else(|| unreachable!("the words are as many as the map takes"));
+    let cells = area.width() * area.height();
+    let mut team = PackTeam {
+        robots,
+        layout: layout.clone(),
+        chart,
+        past: Moves::default(),
+        reached: vec![0; cells],
+        queue: vec![Cell::default(); cells],
+        gains: vec![0; cells],
+        rounds: 0,
+        free: Vec::new(),
+        obstacles: Vec::new(),
+        made: None,
+        idle: 0,
+    };
+    team.look();
+    Ok(Box::new(team))
+}
+
+fn unfit(unfit: Unfit) -> Fault {
+    match unfit {
+        Unfit::Sight => Fault::of_field("sight", unfit, "give `sight` a number of cells from 1 to 31"),
+        Unfit::Range => Fault::of_field("range", unfit, "give `range` a number of cells from 3 on"),
+    }
+}
+
+fn refused(refused: Refused) -> Fault {
+    let (field, remedy) = match refused {
+        Refused::Robots(_) => ("robots", format!("give `robots` a number from 1 to {MAX_ROBOTS}")),
+        Refused::Together(_) => ("starts", "give each robot a start of its own".to_owned()),
+        Refused::Apart(..) => {
+            ("starts", "start the robots nearer to each other, or give a greater `range`".to_owned())
+        }
+    };
+    Fault::of_field(field, refused, remedy)
+}
+
+impl PackTeam {
+    /// All robots look round.
+    fn look(&mut self) {
+        let Self { robots, layout, chart, free, obstacles, .. } = self;
+        for &cell in robots.cells() {
+            let is_obstacle = |cell: Cell| !layout.is_free(cell);
+            chart.look(robots.rule().sight(), cell, is_obstacle, |cell, is_obstacle| {
+                if is_obstacle { &mut *obstacles } else { &mut *free }.push(cell);
+            });
+        }
+    }
+
+    /// Whether links by four corners join all robots: there is a spanning tree.
+    fn is_connected(&self, cells: &[Cell]) -> bool {
+        let range = u64::from(self.robots.rule().range_cells());
+        let circle = Circle::new(4 * range * range);
+        let mut left: Vec<Cell> = cells.to_vec();
+        let mut joined: Vec<Cell> = left.pop().into_iter().collect();
+        while let Some(cell) = joined.pop() {
+            let linked = left.extract_if(.., |other| circle.covers(cell, *other));
+            joined.extend(linked);
+        }
+        left.is_empty()
+    }
+}
+
+impl Team for PackTeam {
+    fn cells(&self) -> &[Cell] {
+        self.robots.cells()
+    }
+
+    fn advance(&mut self, _: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
+        if self.idle > PATIENCE * self.reached.len() {
+            return Err(End::Endless);
+        }
+        let Self { robots, chart, past, reached, queue, gains, rounds, .. } = self;
+        let mut steps = [Step::Stay; MAX_ROBOTS];
+        let mut memory = Scratch { reached, queue, gains, rounds };
+        let made = robots.advance(chart, past, &mut memory, &mut steps).map_err(|over| match over {
+            Over::Explored => End::Explored,
+            Over::Stuck => End::Exhausted,
+        })?;
+        // What was seen at the start is shown with the first team move.
+        if self.made.replace(made).is_some() {
+            self.free.clear();
+            self.obstacles.clear();
+        }
+        let known = self.free.len() + self.obstacles.len();
+        self.look();
+        let is_news = self.free.len() + self.obstacles.len() > known;
+        self.idle = if is_news { 0 } else { self.idle + 1 };
+        let kind = match made {
+            Made::TakenBack => Kind::Backtrack,
+            Made::Spread | Made::Led(_) | Made::Marched => Kind::Advance,
+        };
+        let cells = self.robots.cells().to_vec();
+        Ok(Frame { kind, steps: steps[..cells.len()].to_vec(), blocked: vec![false; cells.len()], cells })
+    }
+
+    fn due(&self, layout: &Layout) -> u32 {
+        reachable(layout, self.cells()).len() as u32
+    }
+
+    fn missed(&self, layout: &Layout, chart: &Survey) -> Vec<Cell> {
+        let due = reachable(layout, self.cells());
+        due.into_iter().filter(|&cell| chart.step(cell).is_none()).collect()
+    }
+
+    fn seen(&self) -> &[Cell] {
+        &self.free
+    }
+
+    fn broken_in_move(&self, _: &[Cell], frame: &Frame) -> Vec<ClauseId> {
+        let each: HashSet<Cell> = frame.cells.iter().copied().collect();
+        let is_double = each.len() < frame.cells.len();
+        let is_apart = !self.is_connected(&frame.cells);
+        [is_apart.then_some(CONNECTED), is_double.then_some(SINGLE)].into_iter().flatten().collect()
+    }
+
+    fn broken_at_end(&self, layout: &Layout, chart: &Survey, end: End) -> Vec<ClauseId> {
+        match end {
+            End::Endless => vec![ENDS],
+            End::Explored | End::Exhausted | End::Silent if self.missed(layout, chart).is_empty() => {
+                Vec::new()
+            }
+            End::Explored | End::Exhausted | End::Silent => vec![COVERS],
+        }
+    }
+
+    fn layers(&self) -> Vec<Layer> {
+        shown::layers(self.robots.rule())
+    }
+
+    fn show(&self, _: &[Cell], scene: &mut Scene) {
+        shown::show(&self.obstacles, self.robots.aims().flatten(), scene);
+    }
+}
