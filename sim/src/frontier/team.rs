@@ -348,7 +348,7 @@ mod tests {
     #[test]
     fn a_robot_goes_where_the_rule_of_one_robot_sends_it() {
         let mut decisions = 0;
-        for seed in 0..240 {
+        for seed in 0..100 {
             let kinds = ["cells:4x3:0.1", "cells:9x7:0.2", "cells:6x12:0.35", "cells:16x16:0.3", "open:8x8"];
             let layout = generated(kinds[seed as usize % kinds.len()], seed);
             for options in radios() {
@@ -359,7 +359,7 @@ mod tests {
                 decisions += compared(rule, &layout, 1 + seed as usize % 5, Options::USUAL, seed);
             }
         }
-        assert!(decisions > 100_000, "{decisions} decisions");
+        assert!(decisions > 40_000, "{decisions} decisions");
     }
 
     #[test]

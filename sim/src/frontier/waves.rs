@@ -24,8 +24,8 @@ pub(super) enum Knowledge {
     Own,
 }
 
-/// So many moves a wave may first go round.
-const FIRST_SLACK: u32 = 8;
+/// So many moves a wave may go round at least.
+const LEAST_SLACK: u32 = 2;
 
 /// What a wave has started from.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -44,7 +44,7 @@ struct Wave {
     /// A bit for each place that was reached.
     reached: Vec<u64>,
     /// The explored places that were reached, with the first sides of the ways.
-    queue: Vec<(usize, Option<Side>)>,
+    queue: Vec<(u32, Option<Side>)>,
     /// So many of them have told their neighbours.
     told: usize,
     /// Cells that are so far were found.
@@ -64,8 +64,10 @@ impl Wave {
     /// Starts in `origin`, unless it has started there.
     fn start(&mut self, origin: Origin, chart: &Chart, field: &Field) {
         if self.origin != Some(origin) {
+            // A robot on its way goes round about as far as at its last move.
+            let went_round = self.level.saturating_sub(self.bound.saturating_sub(self.slack));
+            self.slack = went_round.max(LEAST_SLACK);
             self.origin = Some(origin);
-            self.slack = FIRST_SLACK;
             self.begin(chart, field);
         }
     }
@@ -73,7 +75,7 @@ impl Wave {
     /// Begins again.
     fn begin(&mut self, chart: &Chart, field: &Field) {
         let found = self.found.drain(..).filter_map(|found| chart.place(found.cell));
-        for place in self.queue.drain(..).map(|(place, _)| place).chain(found) {
+        for place in self.queue.drain(..).map(|(place, _)| place as usize).chain(found) {
             self.reached[place / 64] = 0;
         }
         self.reached.resize(chart.statuses().len().div_ceil(64), 0);
@@ -81,7 +83,7 @@ impl Wave {
         if let Some(place) = self.origin.and_then(|origin| chart.place(origin.cell)) {
             self.bound = field.least(place).saturating_add(self.slack);
             self.reach(place);
-            self.queue.push((place, None));
+            self.queue.push((place as u32, None));
         }
     }
 
@@ -112,7 +114,7 @@ impl Wave {
             let (place, first) = self.queue[self.told];
             self.told += 1;
             for (step, side) in steps {
-                let beside = place.wrapping_add_signed(step);
+                let beside = (place as usize).wrapping_add_signed(step);
                 let status = statuses[beside];
                 if status == Status::Obstacle || self.reached[beside / 64] & (1 << (beside % 64)) != 0 {
                     continue;
@@ -127,7 +129,7 @@ impl Wave {
                     self.is_cut = true;
                     continue;
                 } else {
-                    self.queue.push((beside, Some(first)));
+                    self.queue.push((beside as u32, Some(first)));
                 }
                 self.reach(beside);
             }
