@@ -87,12 +87,13 @@ impl Wave {
         }
     }
 
-    /// Notes that a place is reached; whether it was not before.
-    fn reach(&mut self, place: usize) -> bool {
-        let (word, bit) = (&mut self.reached[place / 64], 1 << (place % 64));
-        let is_new = *word & bit == 0;
-        *word |= bit;
-        is_new
+    /// Notes that a place is reached.
+    fn reach(&mut self, place: usize) {
+        self.reached[place / 64] |= 1 << (place % 64);
+    }
+
+    fn has_reached(&self, place: usize) -> bool {
+        self.reached[place / 64] & (1 << (place % 64)) != 0
     }
 
     /// Whether there are no more cells to be found.
@@ -116,12 +117,13 @@ impl Wave {
             for (step, side) in steps {
                 let beside = (place as usize).wrapping_add_signed(step);
                 let status = statuses[beside];
-                if status == Status::Obstacle || self.reached[beside / 64] & (1 << (beside % 64)) != 0 {
+                if status == Status::Obstacle || self.has_reached(beside) {
                     continue;
                 }
                 let first = first.unwrap_or(side);
                 if status == Status::Unexplored {
-                    self.left -= 1;
+                    // A robot in a cell that is not explored here has neighbours that count in no frontier.
+                    self.left = self.left.saturating_sub(1);
                     self.found.push(Found { cell: chart.cell(beside), distance: self.level, first });
                 } else if field.is_closed(beside) {
                     continue;
