@@ -112,9 +112,18 @@ fn a_hunt_for_more_robots_than_its_search_holds_says_how_many_that_are() {
         let hunt = FRONTIER.rule(rule).and_then(|rule| rule.hunt).expect("it is hunted");
         hunt.hunt(&asked, &mut Unwatched).expect_err("no hunt").to_string()
     };
-    assert_eq!(refused("repaired", 5), "this search holds 3 robots, and not 5");
-    assert_eq!(refused("repaired", 0), "a hunt without a robot finds nothing");
-    assert_eq!(refused("greedy", 10), "10 robots do not find room in 3x3 cells");
+    assert_eq!(
+        refused("repaired", 5),
+        "this search holds 3 robots, and not 5; give `robots` a number from 1 to 3"
+    );
+    assert_eq!(
+        refused("repaired", 0),
+        "a hunt without a robot finds nothing; give `robots` a number from 1 to 3"
+    );
+    assert_eq!(
+        refused("greedy", 10),
+        "10 robots do not find room in 3x3 cells; give `robots` a number up to 9, or a larger `size`"
+    );
 }
 
 /// So many free cells, any of them.
