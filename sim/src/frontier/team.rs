@@ -324,7 +324,9 @@ mod tests {
             let row = (hall * (high + 1) - 1) as i16;
             let door = if hall % 2 == 0 { 0 } else { layout.width() as i16 - 1 };
             let wall = layout.cells().filter(|cell| cell.y == row && cell.x != door);
-            wall.collect::<Vec<_>>().into_iter().for_each(|cell| layout.block(cell));
+            for cell in wall.collect::<Vec<_>>() {
+                layout.block(cell);
+            }
         }
         layout
     }
