@@ -322,7 +322,7 @@ mod tests {
         let mut layout = Layout::open(width, rows as u64).expect("a layout");
         for hall in 1..count {
             let row = (hall * (high + 1) - 1) as i16;
-            let door = if hall % 2 == 0 { 0 } else { layout.width() as i16 - 1 };
+            let door = if hall % 2 == 0 { 0 } else { layout.width() - 1 };
             let wall = layout.cells().filter(|cell| cell.y == row && cell.x != door);
             for cell in wall.collect::<Vec<_>>() {
                 layout.block(cell);

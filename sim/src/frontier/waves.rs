@@ -149,14 +149,14 @@ impl Wave {
 #[derive(Clone, Debug)]
 pub(super) struct Waves {
     knowledge: Knowledge,
-    waves: Vec<Wave>,
+    by_robot: Vec<Wave>,
     field: Field,
 }
 
 impl Waves {
     /// For so many robots.
     pub(super) fn new(knowledge: Knowledge, robots: usize) -> Self {
-        Self { knowledge, waves: vec![Wave::default(); robots], field: Field::default() }
+        Self { knowledge, by_robot: vec![Wave::default(); robots], field: Field::default() }
     }
 
     /// The way of the robot `own` to the cell of its pair, or to the one that comes first for it if all cells are the others'; `None`
@@ -173,25 +173,27 @@ impl Waves {
         loop {
             let next =
                 |waves: &[Wave], robot: usize| waves[robot].beyond(level).first().map(|next| next.distance);
-            if self.waves[own].is_over() && next(&self.waves, own).is_none() {
+            if self.by_robot[own].is_over() && next(&self.by_robot, own).is_none() {
                 return first;
             }
-            let near = free.iter().filter_map(|&robot| next(&self.waves, robot)).min();
+            let near = free.iter().filter_map(|&robot| next(&self.by_robot, robot)).min();
             // A level is settled when every wave has told what is there.
             let is_behind = |robot: usize| {
-                let wave = &self.waves[robot];
+                let wave = &self.by_robot[robot];
                 !wave.is_over() && wave.beyond(level).is_empty() && near.is_none_or(|near| wave.level < near)
             };
             let behind = free.iter().copied().filter(|&robot| is_behind(robot));
-            if let Some(robot) = behind.min_by_key(|&robot| self.waves[robot].level) {
-                let looked_at = self.waves[robot].extend(chart, &self.field);
+            if let Some(robot) = behind.min_by_key(|&robot| self.by_robot[robot].level) {
+                let looked_at = self.by_robot[robot].extend(chart, &self.field);
                 self.field.spend(looked_at);
                 continue;
             }
             let mut pairs: Vec<(Pair, usize)> = Vec::new();
             for &robot in &free {
-                let there =
-                    self.waves[robot].beyond(level).iter().take_while(|found| Some(found.distance) == near);
+                let there = self.by_robot[robot]
+                    .beyond(level)
+                    .iter()
+                    .take_while(|found| Some(found.distance) == near);
                 let open = there.filter(|found| chart.status(found.cell) == Status::Unexplored);
                 pairs.extend(open.map(|&found| (Pair::new(chart, rule, seekers[robot], found), robot)));
             }
@@ -227,7 +229,7 @@ impl Waves {
         for robot in [own].into_iter().chain(others) {
             let cell = seekers[robot].cell;
             if robots.iter().all(|&other| seekers[other].cell != cell) {
-                self.waves[robot].start(Origin { cell, whose, known }, chart, &self.field);
+                self.by_robot[robot].start(Origin { cell, whose, known }, chart, &self.field);
                 robots.push(robot);
             }
         }
