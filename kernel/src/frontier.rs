@@ -18,8 +18,8 @@ mod rule;
 mod search;
 
 pub use map::{Map, Status, TinyMap};
-pub use pairs::{Pair, Scratch};
+pub use pairs::{Pair, Scratch, Seeker};
 pub use place::{HALF, Occupancy, Place, SIDE, Threshold, clamped, taken_for};
 pub use robot::{Next, Other, Robot, Sight, Slot, Stance, View};
 pub use rule::{Condition, Conditions, Otherwise, Rule, Ties};
-pub use search::Reached;
+pub use search::{Found, Reached};

@@ -236,6 +236,68 @@ fn an_estimate_outside_the_rectangle_is_on_its_rim_and_says_so() {
     assert_eq!(Area::new(SQUARE[0], Point::new(f64::INFINITY, 1.0)), None);
 }
 
+/// The estimate from distances to these anchors without an error, but for the one of `wrong` that is longer by the share `by`.
+fn estimate_with(anchors: &[Point], at: Point, residual: Residual, wrong: usize, by: f64) -> Estimate {
+    let mut ranges = ranges(anchors, at);
+    ranges[wrong].distance_m *= 1.0 + by;
+    *locate(&ranges, residual, &signal(1.0), None).expect("a fix").best()
+}
+
+/// Small errors in proportion to the distances, one by one, moved to both sides.
+#[test]
+fn a_covariance_and_a_dilution_are_what_small_errors_of_the_distances_do_to_the_position() {
+    const BY: f64 = 1e-4;
+    let anchors =
+        [(0.0, 0.0), (20.0, 1.0), (3.0, 17.0), (25.0, 22.0), (-4.0, 9.0)].map(|(x, y)| Point::new(x, y));
+    for (count, residual) in
+        [(3, Residual::Metres), (5, Residual::Metres), (3, Residual::Decibels), (5, Residual::Decibels)]
+    {
+        let anchors = &anchors[..count];
+        for at in [Point::new(6.0, 7.0), Point::new(15.0, 3.0), Point::new(9.0, -5.0)] {
+            let error = signal(1.0).relative_error();
+            let (mut covariance, mut squared_dilution) = ([0.0; 3], 0.0);
+            for (anchor, range) in ranges(anchors, at).into_iter().enumerate() {
+                let moved = |residual| {
+                    let [to, from] = [BY, -BY].map(|by| estimate_with(anchors, at, residual, anchor, by).at);
+                    ((to.x_m - from.x_m) / (2.0 * BY), (to.y_m - from.y_m) / (2.0 * BY))
+                };
+                let (x, y) = moved(residual);
+                let [xx, xy, yy] = covariance;
+                covariance = [xx + x * x, xy + x * y, yy + y * y];
+                let (x, y) = moved(Residual::Metres);
+                squared_dilution += (x * x + y * y) / (range.distance_m * range.distance_m);
+            }
+            let precision = estimate_with(anchors, at, residual, 0, 0.0).precision.expect("a precision");
+            let told = precision.covariance;
+            let near =
+                |told: f64, measured: f64| (told - measured).abs() < 1e-4 * precision.covariance.trace();
+            let [xx, xy, yy] = covariance.map(|sum| sum * error * error);
+            assert!(
+                near(told.xx, xx) && near(told.xy, xy) && near(told.yy, yy),
+                "{told:?}, not {xx} {xy} {yy}"
+            );
+            let measured = squared_dilution.sqrt();
+            assert!((precision.dilution - measured).abs() < 1e-4, "{} and {measured}", precision.dilution);
+            assert!((precision.rms_m() - (told.xx + told.yy).sqrt()).abs() < 1e-12);
+        }
+    }
+}
+
+/// In decibels the estimate is the most likely position, whose covariance is the bound.
+#[test]
+fn the_covariance_in_decibels_is_the_bound_and_in_metres_never_below_it() {
+    for at in [Point::new(6.0, 7.0), Point::new(15.0, 3.0), Point::new(9.0, -5.0)] {
+        let told = |residual| estimate_with(&SQUARE, at, residual, 0, 0.0);
+        let (decibels, metres) = (told(Residual::Decibels), told(Residual::Metres));
+        let least = bound(SQUARE.into_iter(), decibels.at, &signal(1.0));
+        assert_eq!(decibels.precision, least);
+        let rms_m = |estimate: &Estimate| estimate.precision.expect("a precision").rms_m();
+        assert!(rms_m(&metres) > rms_m(&decibels), "at {at:?}");
+        let twice = bound(SQUARE.into_iter(), decibels.at, &signal(2.0)).expect("a bound");
+        assert!((twice.rms_m() - 2.0 * rms_m(&decibels)).abs() < 1e-12, "at {at:?}");
+    }
+}
+
 #[test]
 fn the_corrected_order_comes_nearer_to_the_optimum_than_the_printed_one() {
     let mean_m = |order: Order| {

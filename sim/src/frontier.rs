@@ -7,8 +7,10 @@
 
 mod assigned;
 mod chart;
+mod field;
 mod radio;
 mod team;
+mod waves;
 
 pub use assigned::{Assigned, Assignment};
 pub use chart::Chart;

@@ -13,8 +13,8 @@ use tautline_sim::explore::{Misfit, RuleId, Setup, Stopped, explore};
 use tautline_sim::frontier::{Assigned, Assignment, Ended, Explorers, Options};
 use tautline_sim::layout::{Generator, Layout, Size};
 
-fn hunted(rule: &'static str, robots: u64, (width, height): (u64, u64), max_losses: u8) -> Hunted {
-    let asked = Asked {
+fn asked(rule: &'static str, robots: u64, (width, height): (u64, u64), max_losses: u8) -> Asked<'static> {
+    Asked {
         scheme: &FRONTIER,
         rule: RuleId::new(rule),
         robots: Some(robots),
@@ -25,7 +25,11 @@ fn hunted(rule: &'static str, robots: u64, (width, height): (u64, u64), max_loss
         max_losses: Some(max_losses).filter(|&losses| losses > 0),
         error_cells: None,
         resume: None,
-    };
+    }
+}
+
+fn hunted(rule: &'static str, robots: u64, size: (u64, u64), max_losses: u8) -> Hunted {
+    let asked = asked(rule, robots, size, max_losses);
     let hunt = FRONTIER.rule(asked.rule).and_then(|rule| rule.hunt).expect("it is hunted");
     asked.check(hunt).expect("it takes that");
     hunt.hunt(&asked, &mut Unwatched).expect("a hunt")
@@ -98,6 +102,28 @@ fn what_does_not_fit_is_refused() {
     let cell = Cell::new(0, 0);
     let together = Setup { starts: Some(vec![cell, cell]), ..setup(2, (3, 3)) };
     assert_eq!(together.check().err(), Some(Misfit::Together(cell)));
+}
+
+#[test]
+fn a_hunt_for_more_robots_than_its_search_holds_says_how_many_that_are() {
+    let refused = |rule: &'static str, robots: u64| {
+        let rule = RuleId::new(rule);
+        let asked = Asked { rule, robots: Some(robots), ..asked("repaired", 1, (3, 3), 0) };
+        let hunt = FRONTIER.rule(rule).and_then(|rule| rule.hunt).expect("it is hunted");
+        hunt.hunt(&asked, &mut Unwatched).expect_err("no hunt").to_string()
+    };
+    assert_eq!(
+        refused("repaired", 5),
+        "this search holds 3 robots, and not 5; give `robots` a number from 1 to 3"
+    );
+    assert_eq!(
+        refused("repaired", 0),
+        "a hunt without a robot finds nothing; give `robots` a number from 1 to 3"
+    );
+    assert_eq!(
+        refused("greedy", 10),
+        "10 robots do not find room in 3x3 cells; give `robots` a number up to 9, or a larger `size`"
+    );
 }
 
 /// So many free cells, any of them.

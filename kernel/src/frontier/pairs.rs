@@ -10,8 +10,8 @@ use super::rule::{Condition, Rule};
 use super::search::{Found, Reached, Search, search};
 use crate::ground::{Area, Cell, Side};
 
-/// A robot and an unexplored cell that it could go to.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+/// A robot and an unexplored cell that it could go to. What is less goes first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Pair {
     rank: Rank,
@@ -55,16 +55,22 @@ impl Scratch<'_> {
     }
 }
 
-/// A robot that is to be paired.
+/// A robot that is to be paired. Robots in one cell count as one, of which the first has a say.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct Seeker {
-    pub(super) cell: Cell,
+pub struct Seeker {
+    /// The cell that it is in.
+    pub cell: Cell,
     /// The cell that it has claimed.
-    pub(super) aim: Option<Cell>,
+    pub aim: Option<Cell>,
 }
 
 impl Pair {
+    /// The pair of `seeker` and the cell that it has found in `map`.
+    pub fn new<M: Map>(map: &M, rule: &Rule, seeker: Seeker, found: Found) -> Self {
+        Self { rank: rank(map, rule, seeker, &found), first: found.first }
+    }
+
     const fn cell(&self) -> Cell {
         Cell::new(self.rank.cell.1, self.rank.cell.0)
     }
@@ -75,7 +81,8 @@ impl Pair {
         u32::from(columns) + u32::from(rows) <= self.rank.distance
     }
 
-    fn found(&self) -> Found {
+    /// The way to its cell.
+    pub fn found(&self) -> Found {
         Found { cell: self.cell(), distance: self.rank.distance, first: self.first }
     }
 }
@@ -144,7 +151,7 @@ fn fill<M: Map>(
         if found.distance >= least {
             level = Some(found.distance);
         }
-        insert(list, Pair { rank: rank(map, rule, seeker, &found), first: found.first });
+        insert(list, Pair::new(map, rule, seeker, found));
         ControlFlow::Continue(())
     });
     level

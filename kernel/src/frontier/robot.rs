@@ -149,10 +149,18 @@ impl<M: Map> Robot<M> {
             (true, Ties::Lowest) => self.preferred(rule, view, scratch),
             (true, Ties::Any) => self.any_nearest(scratch, oracle),
         };
-        match way {
-            None => Next::Done,
-            Some(_) if self.waits && view.slot == Slot::Others => Next::Waits,
-            Some(Found { cell: aim, first: side, .. }) => Next::Tries { side, aim },
+        self.follows(way, view.slot)
+    }
+
+    /// What it does next, if it stands, where `way` leads to the unexplored cell that it is paired with, or is `None` if it
+    /// reaches none: for a caller who knows the pairs of the whole team. [`Self::next`] finds them for one robot.
+    pub const fn follows(&self, way: Option<Found>, slot: Slot) -> Next {
+        match (way, slot) {
+            (None, _) => Next::Done,
+            (Some(_), Slot::Others) if self.waits => Next::Waits,
+            (Some(Found { cell: aim, first: side, .. }), Slot::Own | Slot::Others) => {
+                Next::Tries { side, aim }
+            }
         }
     }
 

@@ -29,15 +29,16 @@ pub(super) struct Search<'a> {
     pub(super) rounds: &'a mut u32,
 }
 
-/// A cell that a search has reached.
+/// An unexplored cell that a search has reached through explored ones.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct Found {
-    pub(super) cell: Cell,
+pub struct Found {
+    /// The cell.
+    pub cell: Cell,
     /// Moves to it.
-    pub(super) distance: u32,
-    /// The side through which the first of them goes.
-    pub(super) first: Side,
+    pub distance: u32,
+    /// The side through which the first of them goes: of ways as short the one whose side leads to the lowest number.
+    pub first: Side,
 }
 
 /// Tells of the unexplored cells that are reached from `from` through explored ones in at most so many moves, the nearest first,

@@ -8,18 +8,25 @@ use tautline_kernel::ground::{Area, Cell, Side};
 #[derive(Clone, Debug)]
 pub struct Chart {
     area: Area,
+    /// By place: row by row, with a rim of obstacles around the area, so that every cell has four neighbours.
     cells: Vec<Status>,
     /// What it has learned, in order.
     learned: Vec<(Cell, Status)>,
     /// Unexplored cells beside explored ones.
     frontier: usize,
+    explored: usize,
+    has_erred: bool,
 }
 
 impl Chart {
     /// Nothing known of `area`.
     pub fn new(area: Area) -> Self {
-        let cells = vec![Status::Unexplored; area.width() * area.height()];
-        Self { area, cells, learned: Vec::new(), frontier: 0 }
+        let cells = vec![Status::Obstacle; (area.width() + 2) * (area.height() + 2)];
+        let mut chart = Self { area, cells, learned: Vec::new(), frontier: 0, explored: 0, has_erred: false };
+        for place in area.cells().filter_map(|cell| chart.place(cell)).collect::<Vec<_>>() {
+            chart.cells[place] = Status::Unexplored;
+        }
+        chart
     }
 
     /// What it has learned since it knew so much.
@@ -37,6 +44,38 @@ impl Chart {
         self.learned.is_empty()
     }
 
+    /// How many cells are explored.
+    pub(super) const fn explored(&self) -> usize {
+        self.explored
+    }
+
+    /// Whether a cell was explored that was noted as an obstacle before.
+    pub(super) const fn has_erred(&self) -> bool {
+        self.has_erred
+    }
+
+    /// By place the status of each cell, and of a rim of obstacles around the area.
+    pub(super) fn statuses(&self) -> &[Status] {
+        &self.cells
+    }
+
+    /// How far the place of a neighbour is from that of a cell: in the order of the numbers of the cells beyond the sides.
+    pub(super) fn steps(&self) -> [(isize, Side); 4] {
+        let row = self.area.width() as isize + 2;
+        [(-row, Side::North), (-1, Side::West), (1, Side::East), (row, Side::South)]
+    }
+
+    /// The place of a cell of the area.
+    pub(super) fn place(&self, cell: Cell) -> Option<usize> {
+        self.area.locate(cell).map(|(column, row)| (row + 1) * (self.area.width() + 2) + column + 1)
+    }
+
+    /// The cell in a place.
+    pub(super) fn cell(&self, place: usize) -> Cell {
+        let (first, row) = (self.area.first(), self.area.width() + 2);
+        Cell::new(first.x + (place % row) as i16 - 1, first.y + (place / row) as i16 - 1)
+    }
+
     /// Whether a cell is unexplored and beside an explored one.
     fn is_frontier(&self, cell: Cell) -> bool {
         let is_explored = |side: Side| self.status(cell.beyond(side)) == Status::Explored;
@@ -51,14 +90,12 @@ impl Chart {
         };
         let before = around(self);
         if let Some(place) = self.place(cell) {
+            self.has_erred |= self.cells[place] == Status::Obstacle;
+            self.explored += usize::from(status == Status::Explored);
             self.cells[place] = status;
             self.learned.push((cell, status));
         }
         self.frontier = self.frontier + around(self) - before;
-    }
-
-    fn place(&self, cell: Cell) -> Option<usize> {
-        self.area.locate(cell).map(|(column, row)| row * self.area.width() + column)
     }
 }
 

@@ -112,6 +112,11 @@ impl Radio {
         self.options.range_cells
     }
 
+    /// Whether every robot hears everything.
+    pub(super) fn is_whole(&self) -> bool {
+        self.options.range_cells.is_none() && self.options.loss.is_never()
+    }
+
     /// Whether positions have an error.
     pub(super) const fn is_noisy(&self) -> bool {
         self.signal.is_some()

@@ -1,14 +1,15 @@
 //! A team of the kernel's robots in a layout.
 
 use tautline_kernel::frontier::{
-    Condition, HALF, Map, Next, Other, Place, Robot, Rule, SIDE, Sight, Slot, Status, View, clamped,
-    taken_for,
+    Condition, HALF, Map, Next, Other, Place, Robot, Rule, SIDE, Seeker, Sight, Slot, Status, Ties, View,
+    clamped, taken_for,
 };
 use tautline_kernel::ground::{Area, Cell, Side};
 use tautline_proofs::run::Frame;
 
 use super::chart::{Chart, Memory};
 use super::radio::{Options, Radio};
+use super::waves::{Knowledge, Waves};
 use super::{Ended, Moves, PATIENCE};
 use crate::layout::Layout;
 
@@ -30,6 +31,7 @@ pub struct Explorers {
     heard: Vec<Vec<usize>>,
     radio: Radio,
     memory: Memory,
+    waves: Waves,
     slot: usize,
     /// Team moves since the last news.
     idle: usize,
@@ -60,6 +62,8 @@ impl Explorers {
             entered.explore(start);
         }
         let heard = robots.iter().map(|robot| robot.map().len()).collect();
+        let radio = Radio::new(options, area, seed);
+        let knowledge = if radio.is_whole() { Knowledge::Common } else { Knowledge::Own };
         Self {
             rule,
             layout: layout.clone(),
@@ -69,8 +73,9 @@ impl Explorers {
             places,
             told: vec![others; starts.len()],
             heard: vec![heard; starts.len()],
-            radio: Radio::new(options, area, seed),
+            radio,
             memory: Memory::new(area, starts.len()),
+            waves: Waves::new(knowledge, starts.len()),
             robots,
             slot: 0,
             idle: 0,
@@ -118,6 +123,11 @@ impl Explorers {
     /// # Errors
     /// [`Ended`] if there is none.
     pub fn advance(&mut self) -> Result<Frame, Ended> {
+        self.advance_by(Self::next)
+    }
+
+    /// Makes a team move, each robot by what `next` says of it.
+    fn advance_by(&mut self, next: impl Fn(&mut Self, usize) -> Next) -> Result<Frame, Ended> {
         let robots = self.robots.len();
         let mut moves = Moves::none(robots);
         self.is_wrong = false;
@@ -130,7 +140,7 @@ impl Explorers {
         let (mut does_any, mut know_all) = (false, true);
         let mut entering: Vec<Option<(Cell, Place)>> = vec![None; robots];
         for robot in 0..robots {
-            let next = self.next(robot);
+            let next = next(self, robot);
             know_all &= next == Next::Done;
             does_any |= matches!(next, Next::Tries { .. } | Next::Waits);
             let Next::Tries { side, aim } = next else { continue };
@@ -179,15 +189,32 @@ impl Explorers {
         Ok(moves.frame(&self.cells))
     }
 
+    fn slot(&self, robot: usize) -> Slot {
+        if self.slot == robot { Slot::Own } else { Slot::Others }
+    }
+
+    /// What a robot does next. Where robots are paired with cells, the waves of the whole team tell it.
     fn next(&mut self, robot: usize) -> Next {
+        if !self.rule.has(Condition::Route) || self.rule.ties == Ties::Any {
+            return self.next_alone(robot);
+        }
+        let seeker = |other: &Other| Seeker { cell: other.cell, aim: other.aim };
+        let mut seekers: Vec<Seeker> = self.told[robot].iter().map(seeker).collect();
+        let own = &self.robots[robot];
+        seekers[robot] = Seeker { cell: own.at(), aim: own.aim() };
+        let way = self.waves.way(own.map(), &self.rule, robot, &seekers);
+        own.follows(way, self.slot(robot))
+    }
+
+    /// What a robot does next by the rule of one robot.
+    fn next_alone(&mut self, robot: usize) -> Next {
         let others: Vec<Other> = self.told[robot]
             .iter()
             .enumerate()
             .filter(|&(other, _)| other != robot)
             .map(|(_, other)| *other)
             .collect();
-        let slot = if self.slot == robot { Slot::Own } else { Slot::Others };
-        let view = View { others: &others, slot };
+        let view = View { others: &others, slot: self.slot(robot) };
         self.robots[robot].next(&self.rule, view, &mut self.memory.scratch(), &mut self.radio.dice)
     }
 
@@ -265,4 +292,85 @@ impl Explorers {
 fn cell_of(place: Place) -> Cell {
     let line = |coordinate: i32| (coordinate + HALF).div_euclid(SIDE) as i16;
     Cell::new(line(place.x), line(place.y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kit;
+    use crate::layout::Generator;
+    use crate::layout::generate::Probability;
+
+    /// Lets a team explore, and compares each decision with that of the rule of one robot. How many there were.
+    fn compared(rule: Rule, layout: &Layout, robots: usize, options: Options, seed: u64) -> usize {
+        let free = layout.cells().filter(|&cell| layout.is_free(cell)).collect::<Vec<_>>();
+        let starts = kit::starts(layout, free[seed as usize % free.len()], robots);
+        let mut team = Explorers::new(rule, layout, &starts, options, seed);
+        let compare = |team: &mut Explorers, robot: usize| {
+            let (alone, of_team) = (team.next_alone(robot), team.next(robot));
+            assert_eq!(of_team, alone, "robot {robot} of {robots}, seed {seed}, in {layout}");
+            of_team
+        };
+        // Some rules go on for ever.
+        let moves = (0..2_000).take_while(|_| team.advance_by(compare).is_ok()).count();
+        moves * starts.len()
+    }
+
+    /// Halls with a door between any two that follow each other, now at one end and now at the other.
+    fn halls(width: u64, high: usize, count: usize) -> Layout {
+        let rows = count * (high + 1) - 1;
+        let mut layout = Layout::open(width, rows as u64).expect("a layout");
+        for hall in 1..count {
+            let row = (hall * (high + 1) - 1) as i16;
+            let door = if hall % 2 == 0 { 0 } else { layout.width() - 1 };
+            let wall = layout.cells().filter(|cell| cell.y == row && cell.x != door);
+            for cell in wall.collect::<Vec<_>>() {
+                layout.block(cell);
+            }
+        }
+        layout
+    }
+
+    fn generated(text: &str, seed: u64) -> Layout {
+        text.parse::<Generator>().and_then(|generator| generator.generate(seed)).expect("a layout")
+    }
+
+    /// Messages that are heard near by, or mostly, and positions with an error.
+    fn radios() -> [Options; 4] {
+        let usual = Options::USUAL;
+        let loss: Probability = "0.3".parse().expect("a probability");
+        [
+            usual,
+            Options { range_cells: Some(3), ..usual },
+            Options { loss, ..usual },
+            Options { noise_db: 0.5, ..usual },
+        ]
+    }
+
+    #[test]
+    fn a_robot_goes_where_the_rule_of_one_robot_sends_it() {
+        let mut decisions = 0;
+        for seed in 0..100 {
+            let kinds = ["cells:4x3:0.1", "cells:9x7:0.2", "cells:6x12:0.35", "cells:16x16:0.3", "open:8x8"];
+            let layout = generated(kinds[seed as usize % kinds.len()], seed);
+            for options in radios() {
+                decisions += compared(Rule::REPAIRED, &layout, 1 + seed as usize % 9, options, seed);
+            }
+            for condition in [Condition::Nearer, Condition::Claim, Condition::Corner, Condition::Tell] {
+                let rule = Rule::REPAIRED.without(condition);
+                decisions += compared(rule, &layout, 1 + seed as usize % 5, Options::USUAL, seed);
+            }
+        }
+        assert!(decisions > 40_000, "{decisions} decisions");
+    }
+
+    #[test]
+    fn far_ways_are_those_of_the_rule_of_one_robot() {
+        for (seed, robots) in (0..).zip([1, 2, 3, 5, 8]) {
+            let far = [halls(24, 2, 6), halls(12, 1, 12), generated("cells:40x40:0.35", seed)];
+            let decisions: usize =
+                far.iter().map(|layout| compared(Rule::REPAIRED, layout, robots, Options::USUAL, seed)).sum();
+            assert!(decisions > 1_000, "{decisions} decisions");
+        }
+    }
 }

@@ -64,7 +64,10 @@ fn bounds(asked: &Asked<'_>, most: u64) -> Result<(Size, u64), Fault> {
     }
     let robots = asked.robots.unwrap_or(DEFAULT_ROBOTS);
     if !(1..=most).contains(&robots) {
-        let what = format!("a hunt for {}", counted(robots, "robot"));
+        let what = match robots {
+            0 => "a hunt without a robot finds nothing".to_owned(),
+            _ => format!("this search holds {}, and not {robots}", counted(most, "robot")),
+        };
         return Err(Fault::of_field("robots", what, format_args!("give `robots` a number from 1 to {most}")));
     }
     if robots > size.cells() as u64 {
