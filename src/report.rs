@@ -16,7 +16,7 @@ pub(crate) enum Colour {
 }
 
 /// The fields of a request that have a flag of the same name.
-const FIELDS: [&str; 28] = [
+const FIELDS: [&str; 31] = [
     "robots",
     "base",
     "size",
@@ -39,6 +39,9 @@ const FIELDS: [&str; 28] = [
     "power-dbm",
     "exponent",
     "speed",
+    "sight",
+    "wall",
+    "fail",
     "spread",
     "threshold",
     "rule",

@@ -130,6 +130,6 @@ fn a_run_of_an_unknown_scheme_is_not_minimised() {
     let (_, said) = ended(folder.path(), &["minimise", "run.jsonl"], 2);
     assert_snapshot!(said, @r"
     Error: run.jsonl: this program does not know the scheme pair: it cannot make the run again
-     Help: name a run of chain, full-search, rooker-birk, ants, bricks, bricks-ants, mdfs, helpers, kit, frontier
+     Help: name a run of chain, full-search, rooker-birk, ants, bricks, bricks-ants, mdfs, helpers, kit, frontier, pack
     ");
 }

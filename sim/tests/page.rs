@@ -147,7 +147,8 @@ fn setups() -> Vec<Setup> {
     let mut setups = Vec::new();
     for scheme in SCHEMES {
         for rule in scheme.rules {
-            let kind = if scheme.name == "frontier" { "cells:9x7:0.15" } else { "walls:9x7:0.15" };
+            let has_cells = ["frontier", "pack"].contains(&scheme.name);
+            let kind = if has_cells { "cells:9x7:0.15" } else { "walls:9x7:0.15" };
             let mut layout = kind.parse::<Generator>().expect("a generator").generate(5).expect("a layout");
             let base = Setup::choose_base(&mut layout, None).expect("a free cell");
             let robots = 4;

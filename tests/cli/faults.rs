@@ -41,9 +41,9 @@ fn a_wall_that_appears_is_met_and_nothing_is_broken() {
     let folder = folder();
     let explore = ["explore", "open:9x9", "--rule", "reel", "--robots", "5"];
     let open = json(folder.path(), &explore, 0);
-    // The first robots cross this side at once; from team move 6 on nobody does.
+    // The first robots cross this side at once; from team move 3 on nobody does.
     let shut =
-        json(folder.path(), &[&explore[..], &["--wall", "4,4,E@6", "--trace", "run.jsonl"]].concat(), 0);
+        json(folder.path(), &[&explore[..], &["--wall", "4,4,E@3", "--trace", "run.jsonl"]].concat(), 0);
     assert_ne!(open["steps"], shut["steps"]);
     assert_eq!((&shut["violations"], &shut["explored"]), (&serde_json::json!([]), &81.into()));
     json(folder.path(), &["replay", "run.jsonl"], 0);
@@ -69,7 +69,7 @@ fn a_failure_that_cannot_be_is_refused() {
         (&["--wall", "7,7,E,1@5"], "as in 7,6,E@20"),
         (&["--wall", "14,7,E@5"], "it is not between two cells"),
         (&["--wall", "40,7,E@5"], "it is not between two cells"),
-        (&["--wall", "7,7,E@5", "--fail", "3@5"], "give `wall` and `fail` to two runs"),
+        (&["--wall", "7,7,E@5", "--fail", "3@5"], "give --wall and --fail to two runs"),
         (&["--scheme", "kit", "--wall", "7,7,E@5"], "take the scheme chain"),
         (&["--loss", "1.5"], "1.5"),
         (&["--loss", "-0.1"], "-0.1"),

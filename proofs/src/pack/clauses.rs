@@ -67,11 +67,28 @@ const THREE: [(Size, u32); 8] = [
     ((4, 3), 4),
 ];
 
+/// Floors without obstacles.
+const OPEN: [(Size, u32); 12] = [
+    ((2, 1), 0),
+    ((3, 1), 0),
+    ((2, 2), 0),
+    ((4, 1), 0),
+    ((5, 1), 0),
+    ((3, 2), 0),
+    ((4, 2), 0),
+    ((3, 3), 0),
+    ((5, 2), 0),
+    ((4, 3), 0),
+    ((5, 3), 0),
+    ((5, 5), 0),
+];
+
 const SMALLEST: Bounds =
     Bounds { sizes: &TWO, robots: 2, sight_cells: 1, range_cells: 3, starts: Starts::Beside };
 const OF_FEW: Bounds = Bounds { sizes: &FEW, ..SMALLEST };
 const OF_THREE: Bounds = Bounds { sizes: &THREE, robots: 3, ..SMALLEST };
 const ANYWHERE: Bounds = Bounds { starts: Starts::Linked, ..OF_FEW };
+const ANYWHERE_IN_THE_OPEN: Bounds = Bounds { sizes: &OPEN, ..ANYWHERE };
 
 const fn demand(bounds: Bounds, demand: Demand) -> Floors {
     Floors { bounds, demand, covers: &[] }
@@ -128,7 +145,10 @@ pub static CLAUSES: [Clause; 5] = [
     Clause {
         id: "PACK-5",
         sentence: "When the run of a pack whose robots start anywhere, but linked, ends, every free cell that one of them can walk to MUST be explored.",
-        checks: &[&Check::new(REPAIRED, &demand(ANYWHERE, Demand::Covers), Verdict::Refuted, &[])],
+        checks: &[
+            &Check::new(REPAIRED, &demand(ANYWHERE_IN_THE_OPEN, Demand::Covers), Verdict::Holds, &[NO_LEAD]),
+            &Check::new(REPAIRED, &demand(ANYWHERE, Demand::Covers), Verdict::Refuted, &[]),
+        ],
     },
 ];
 

@@ -157,22 +157,30 @@ impl Method<Rule> for Floors {
 
     fn bound(&self) -> String {
         let Bounds { sizes, robots, sight_cells, range_cells, starts } = self.bounds;
-        let size = |&((width, height), most): &(Size, u32)| {
-            if most >= (width * height) as u32 {
-                format!("{width}×{height}")
-            } else {
-                format!("{width}×{height} with at most {}", counted(most, "obstacle"))
-            }
-        };
-        let sizes: Vec<String> = sizes.iter().map(size).collect();
+        let is_any = |((width, height), most): (Size, u32)| most >= (width * height) as u32;
+        let of_a_kind =
+            |one: &(Size, u32), other: &(Size, u32)| one.1 == other.1 || is_any(*one) && is_any(*other);
+        let floors: Vec<String> = sizes
+            .chunk_by(of_a_kind)
+            .map(|sizes| {
+                let obstacles = match sizes[0] {
+                    kind if is_any(kind) => "all obstacles".to_owned(),
+                    (_, 0) => "no obstacles".to_owned(),
+                    (_, most) => format!("at most {}", counted(most, "obstacle")),
+                };
+                let sizes: Vec<String> =
+                    sizes.iter().map(|((width, height), _)| format!("{width}×{height}")).collect();
+                format!("{obstacles} in {} cells", sizes.join(", "))
+            })
+            .collect();
         let starts = match starts {
             Starts::Beside => "side by side",
             Starts::Linked => "that have links",
         };
         let robots = counted(robots as u64, "robot");
         format!(
-            "all obstacles in {} cells, all starts of {robots} {starts}, R_s {sight_cells}, R_c {range_cells}",
-            sizes.join(", ")
+            "{}; all starts of {robots} {starts}, R_s {sight_cells}, R_c {range_cells}",
+            floors.join(", ")
         )
     }
 
