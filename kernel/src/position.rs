@@ -8,7 +8,8 @@
 //! - [`linear`]: the same for any number of anchors and for every arrangement that is not singular;
 //! - [`Swarm`]: the particles of equations (9) and (10), as they are printed or with the updates in the right order;
 //! - [`locate`] with [`Residual::Metres`] or [`Residual::Decibels`]: damped Gauss–Newton, which finds the minimum that the
-//!   particles look for, and says how far it can be trusted: [`Fix`], [`Estimate`], [`Precision`].
+//!   particles look for, and says how far it can be trusted: [`Fix`], [`Estimate`], [`Precision`]; [`locate_from`] for a robot that
+//!   knows about where it is.
 //!
 //! [`bound`] is the Cramér–Rao bound. Everything is a pure function of numbers of 64 bits in metres and decibels, with `+ − ×
 //! ÷ √` and the logarithm and power of libm, so that results are the same bits on every machine. A `Range` takes 24 bytes, a
@@ -28,7 +29,7 @@ mod swarm;
 pub use bound::{Precision, bound};
 pub use closed::closed_form;
 pub use linear::{Layout, linear};
-pub use locate::{Estimate, Fix, Flags, Residual, locate};
+pub use locate::{Estimate, Fix, Flags, Residual, locate, locate_from};
 pub use place::{Area, Point, Symmetric};
 pub use range::{Range, Refusal, check, check_meeting};
 pub use signal::Signal;

@@ -54,6 +54,10 @@ fn a_refused_position_has_a_remedy() {
         (Refusal::Collinear, "move an anchor off the line of the others"),
         (Refusal::Division, "name the anchors in another order, or solve by linear least squares"),
         (Refusal::NoParticle, "give at least one particle"),
+        (
+            Refusal::NoPlace,
+            "begin from the linear solution, or ask for the position without a place to begin from",
+        ),
     ];
     for (refusal, remedy) in remedies {
         assert_eq!(refusal.remedy(), remedy);

@@ -57,15 +57,10 @@ impl Descent<'_> {
     /// Where the next step leads. A coordinate that is pressed against the rim stays there.
     #[inline]
     fn step(&self, at: Point, normal: &Normal, damping: f64) -> Point {
-        let (x, y) = normal.downhill;
-        let alone = |along: f64, xx: f64| if xx > 0.0 { along / (xx * (1.0 + damping)) } else { 0.0 };
         let (dx, dy) = match self.area.map_or([false; 2], |area| pressed(area, at, normal)) {
-            [false, false] => {
-                let inverse = normal.inverse(damping);
-                (inverse.xx * x + inverse.xy * y, inverse.xy * x + inverse.yy * y)
-            }
-            [true, false] => (0.0, alone(y, normal.matrix.yy)),
-            [false, true] => (alone(x, normal.matrix.xx), 0.0),
+            [false, false] => normal.step(damping),
+            [true, false] => (0.0, normal.step_along_y(damping)),
+            [false, true] => (normal.step_along_x(damping), 0.0),
             [true, true] => (0.0, 0.0),
         };
         let to = Point::new(at.x_m + dx, at.y_m + dy);

@@ -3,7 +3,7 @@
 
 use super::bound::{Precision, precision};
 use super::descent::{Descent, Landing};
-use super::range::{LEAST_M, check, count};
+use super::range::{LEAST_M, check, count, is_told};
 use super::{Area, Layout, Point, Range, Refusal, Signal};
 
 /// What is made small.
@@ -104,12 +104,7 @@ pub fn locate(
     signal: &Signal,
     area: Option<Area>,
 ) -> Result<Fix, Refusal> {
-    check(ranges)?;
-    if residual == Residual::Decibels
-        && let Some(anchor) = ranges.iter().position(|range| range.distance_m < LEAST_M)
-    {
-        return Err(Refusal::Zero { anchor });
-    }
+    check_residual(ranges, residual)?;
     let layout = Layout::of(ranges);
     let squared_m = ranges.iter().map(|range| range.distance_m * range.distance_m).sum::<f64>();
     let (variance, rounding) = match residual {
@@ -147,6 +142,39 @@ pub fn locate(
         }
         Some(_) | None => Fix::One(estimate(&minima.best)),
     })
+}
+
+/// The position to which steps lead from `from`: for a robot that knows about where it is, from its last position or from its
+/// wheels. No second position is looked for. From a place on the line of anchors that are all on one, no step leads off it.
+///
+/// # Errors
+/// [`Refusal`] as for [`locate`], and if `from` is no place.
+pub fn locate_from(
+    from: Point,
+    ranges: &[Range],
+    residual: Residual,
+    signal: &Signal,
+    area: Option<Area>,
+) -> Result<Estimate, Refusal> {
+    check_residual(ranges, residual)?;
+    if ![from.x_m, from.y_m].into_iter().all(is_told) {
+        return Err(Refusal::NoPlace);
+    }
+    let from = area.map_or(from, |area| area.nearest(from));
+    let descent = Descent { ranges, residual, area, last_m: LAST_STEP * Layout::of(ranges).spread_m[0] };
+    let landing = descent.from(from, descent.normal(from), |_| false);
+    Ok(landing.estimate(ranges, residual, signal))
+}
+
+/// Whether these residuals can be had of `ranges`.
+fn check_residual(ranges: &[Range], residual: Residual) -> Result<(), Refusal> {
+    check(ranges)?;
+    if residual == Residual::Decibels
+        && let Some(anchor) = ranges.iter().position(|range| range.distance_m < LEAST_M)
+    {
+        return Err(Refusal::Zero { anchor });
+    }
+    Ok(())
 }
 
 /// The better one of the places on both sides of the anchors' line.

@@ -3,8 +3,8 @@
 use super::range::LEAST_M;
 use super::{Point, Range, Residual, Symmetric};
 
-/// At one position: the sum of the squared residuals, the normal matrix JᵀJ, and Jᵀr, which leads downhill. Residuals in decibels
-/// are in units of [`Signal::decibels`](super::Signal::decibels).
+/// At one position: the sum of the squared residuals, the normal matrix JᵀJ, half of the sum's second derivatives, and Jᵀr, which
+/// leads downhill. Residuals in decibels are in units of [`Signal::decibels`](super::Signal::decibels).
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Normal {
@@ -23,12 +23,12 @@ impl Normal {
                 let distance_m = libm::sqrt(squared_m);
                 let residual = range.distance_m - distance_m;
                 let factor = 1.0 / distance_m;
-                Term { residual, factor, round: -residual * factor, outward: residual * factor }
+                let bend = residual * factor;
+                Term { residual, factor, round: -bend, outward: bend }
             }),
             Residual::Decibels => Self::sum(ranges, at, |range, squared_m| {
-                let times = range.distance_m * range.distance_m / squared_m;
-                let residual = 0.5 * libm::log(times);
                 let factor = 1.0 / squared_m;
+                let residual = 0.5 * libm::log(range.distance_m * range.distance_m * factor);
                 Term { residual, factor, round: -residual * factor, outward: 2.0 * residual }
             }),
         }
@@ -36,49 +36,64 @@ impl Normal {
 
     #[inline]
     fn sum(ranges: &[Range], at: Point, term: impl Fn(&Range, f64) -> Term) -> Self {
-        let mut normal = Self {
-            cost: 0.0,
-            matrix: Symmetric::default(),
-            curvature: Symmetric::default(),
-            downhill: (0.0, 0.0),
-        };
+        let (mut cost, mut downhill, mut round) = (0.0, (0.0, 0.0), 0.0);
+        let (mut matrix, mut curvature) = (Symmetric::default(), Symmetric::default());
         for range in ranges {
             let (x, y) = (at.x_m - range.anchor.x_m, at.y_m - range.anchor.y_m);
-            let Term { residual, factor, round, outward } =
-                term(range, (x * x + y * y).max(LEAST_M * LEAST_M));
-            let (x, y) = (x * factor, y * factor);
-            normal.cost += residual * residual;
-            normal.matrix = normal.matrix.plus(1.0, x, y);
-            normal.curvature = normal.curvature.plus(outward, x, y);
-            normal.curvature.xx += round;
-            normal.curvature.yy += round;
-            normal.downhill = (normal.downhill.0 + x * residual, normal.downhill.1 + y * residual);
+            let term = term(range, not_less(x * x + y * y, LEAST_M * LEAST_M));
+            let (x, y) = (x * term.factor, y * term.factor);
+            let outer = Symmetric { xx: x * x, xy: x * y, yy: y * y };
+            cost += term.residual * term.residual;
+            matrix = matrix.and(outer);
+            curvature = curvature.and(outer.times(1.0 + term.outward));
+            round += term.round;
+            downhill = (downhill.0 + x * term.residual, downhill.1 + y * term.residual);
         }
-        normal
+        curvature.xx += round;
+        curvature.yy += round;
+        Self { cost, matrix, curvature, downhill }
     }
 
-    /// The inverse of the matrix by which a step goes downhill. It is that of all second derivatives where the sum of the squares is
-    /// convex, so that the last steps are few; elsewhere it is Gauss and Newton's JᵀJ, which always leads downhill. `damping`
-    /// times its trace is added to its diagonal; where one direction is not told, so much that the step stays finite.
+    /// The step downhill: along x and along y. It is Newton's, by the second derivatives, where the sum of the squares is convex, so
+    /// that the last steps are few; elsewhere it is Gauss and Newton's, by JᵀJ, which always leads downhill. `damping` times its
+    /// trace is added to the diagonal; where one direction is not told, so much that the step stays finite.
     #[inline]
-    pub(super) fn inverse(&self, damping: f64) -> Symmetric {
-        let whole = self.matrix.and(self.curvature);
-        if whole.xx > 0.0
-            && let Some(inverse) = whole.damped(damping).inverse()
-            && (damping == 0.0 || whole.inverse().is_some())
-        {
-            return inverse;
-        }
-        let inverse = self.matrix.damped(damping).inverse();
-        inverse.or_else(|| self.matrix.damped(LEAST_DAMPING).inverse()).unwrap_or_default()
+    pub(super) fn step(&self, damping: f64) -> (f64, f64) {
+        let by = |matrix: Symmetric, damping| matrix.damped(damping).solve(self.downhill);
+        let is_convex = self.curvature.xx > 0.0 && (damping == 0.0 || self.curvature.is_regular());
+        let newton = if is_convex { by(self.curvature, damping) } else { None };
+        let step = newton.or_else(|| by(self.matrix, damping));
+        step.or_else(|| by(self.matrix, LEAST_DAMPING)).unwrap_or_default()
+    }
+
+    /// The step along x alone, as for a step in both directions.
+    pub(super) fn step_along_x(&self, damping: f64) -> f64 {
+        along(self.downhill.0, self.curvature.xx, self.matrix.xx, damping)
+    }
+
+    /// The step along y alone.
+    pub(super) fn step_along_y(&self, damping: f64) -> f64 {
+        along(self.downhill.1, self.curvature.yy, self.matrix.yy, damping)
     }
 
     /// About how small the sum becomes with the next step.
     #[inline]
     pub(super) fn promise(&self) -> f64 {
-        let (inverse, (x, y)) = (self.matrix.inverse().unwrap_or_default(), self.downhill);
-        self.cost - (inverse.xx * x * x + 2.0 * inverse.xy * x * y + inverse.yy * y * y)
+        let (x, y) = self.matrix.solve(self.downhill).unwrap_or_default();
+        self.cost - (x * self.downhill.0 + y * self.downhill.1)
     }
+}
+
+/// The step in one direction: Newton's where the sum is convex along it, and elsewhere Gauss and Newton's.
+fn along(downhill: f64, curvature: f64, square: f64, damping: f64) -> f64 {
+    let by = if curvature > 0.0 { curvature } else { square };
+    if by > 0.0 { downhill / (by * (1.0 + damping)) } else { 0.0 }
+}
+
+/// The greater one of two numbers. That of `f64` also looks for what is no number.
+#[inline]
+fn not_less(number: f64, least: f64) -> f64 {
+    if number < least { least } else { number }
 }
 
 /// The damping of a matrix that has no inverse.
@@ -102,7 +117,7 @@ pub(super) fn information(
 ) -> Symmetric {
     anchors.fold(Symmetric::default(), |matrix, anchor| {
         let (x, y) = (at.x_m - anchor.x_m, at.y_m - anchor.y_m);
-        let squared_m = (x * x + y * y).max(LEAST_M * LEAST_M);
+        let squared_m = not_less(x * x + y * y, LEAST_M * LEAST_M);
         matrix.plus(weight(squared_m) / squared_m, x, y)
     })
 }

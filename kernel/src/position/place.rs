@@ -107,14 +107,30 @@ impl Symmetric {
         self.xx + self.yy
     }
 
+    #[inline]
+    const fn determinant(self) -> f64 {
+        self.xx * self.yy - self.xy * self.xy
+    }
+
+    /// Whether it is positive definite to the precision of the numbers, if its diagonal is positive.
+    #[inline]
+    pub(super) const fn is_regular(self) -> bool {
+        self.determinant() > 4.0 * f64::EPSILON * self.xx * self.yy
+    }
+
     /// Its inverse; `None` if it is singular to the precision of the numbers, or has a number that is not finite.
     #[inline]
     pub(super) fn inverse(self) -> Option<Self> {
-        let determinant = self.xx * self.yy - self.xy * self.xy;
-        let factor = 1.0 / determinant;
-        let inverse = Self { xx: self.yy * factor, xy: -self.xy * factor, yy: self.xx * factor };
-        let is_regular = determinant > 4.0 * f64::EPSILON * self.xx * self.yy;
-        (is_regular && inverse.is_finite()).then_some(inverse)
+        let inverse = Self { xx: self.yy, xy: -self.xy, yy: self.xx }.times(1.0 / self.determinant());
+        (self.is_regular() && inverse.is_finite()).then_some(inverse)
+    }
+
+    /// Its inverse times (x, y); `None` as for the inverse.
+    #[inline]
+    pub(super) fn solve(self, (x, y): (f64, f64)) -> Option<(f64, f64)> {
+        let factor = 1.0 / self.determinant();
+        let (x, y) = ((self.yy * x - self.xy * y) * factor, (self.xx * y - self.xy * x) * factor);
+        (self.is_regular() && (x.abs() + y.abs()).is_finite()).then_some((x, y))
     }
 
     /// Whether all of it are numbers, and not too large for their sum.

@@ -72,6 +72,8 @@ pub enum Refusal {
     },
     /// There is no particle.
     NoParticle,
+    /// The place from which steps are to begin is infinite or no number, or is above a million kilometres away.
+    NoPlace,
 }
 
 impl Refusal {
@@ -87,6 +89,9 @@ impl Refusal {
             Self::Division => "name the anchors in another order, or solve by linear least squares",
             Self::Apart { .. } => "measure again, or allow for more noise",
             Self::NoParticle => "give at least one particle",
+            Self::NoPlace => {
+                "begin from the linear solution, or ask for the position without a place to begin from"
+            }
         }
     }
 }
@@ -120,6 +125,7 @@ impl fmt::Display for Refusal {
                 second + 1
             ),
             Self::NoParticle => f.write_str("the swarm has no particle"),
+            Self::NoPlace => f.write_str("the place to begin from is infinite, too far or no number"),
         }
     }
 }
@@ -135,7 +141,6 @@ pub fn check(ranges: &[Range]) -> Result<(), Refusal> {
     if ranges.len() < 3 {
         return Err(Refusal::Anchors { count: ranges.len() });
     }
-    let is_told = |number: f64| number.abs() <= MOST_M;
     for (anchor, range) in ranges.iter().enumerate() {
         if ![range.anchor.x_m, range.anchor.y_m, range.distance_m].into_iter().all(is_told) {
             return Err(Refusal::NotFinite { anchor });
@@ -153,6 +158,11 @@ pub fn check(ranges: &[Range]) -> Result<(), Refusal> {
     }
     let (first, second) = coincident(ranges);
     Err(Refusal::Coincident { first, second })
+}
+
+/// Whether a coordinate or a distance is a number whose square is one, too.
+pub(super) fn is_told(number: f64) -> bool {
+    number.abs() <= MOST_M
 }
 
 /// How many ranges there are.

@@ -248,7 +248,11 @@ impl Measured {
                 Some(anchor)
             }
             Refusal::Coincident { second, .. } | Refusal::Apart { second, .. } => Some(second),
-            Refusal::Anchors { .. } | Refusal::Collinear | Refusal::Division | Refusal::NoParticle => None,
+            Refusal::Anchors { .. }
+            | Refusal::Collinear
+            | Refusal::Division
+            | Refusal::NoParticle
+            | Refusal::NoPlace => None,
         };
         let line = about.and_then(|anchor| readings.lines.get(anchor)).or_else(|| readings.lines.last());
         let what = format!("fix {}: {refusal}", readings.name);
