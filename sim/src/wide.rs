@@ -8,6 +8,9 @@
 mod map;
 mod search;
 
+use std::collections::VecDeque;
+use std::sync::Arc;
+
 use tautline_kernel::ground::{Area, Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Step, Steps, links};
 
 pub use self::map::Near;
@@ -29,6 +32,19 @@ pub struct WideGrid {
     search: Search,
     /// The last walk asked for, as long as nothing more is explored or a wall.
     walk: Option<Walk>,
+    /// The last bearings asked for, as long as no wall has changed them.
+    bearings: VecDeque<Bearings>,
+}
+
+/// The last bearings that are kept: as many as one plan of a reel asks for.
+const MOST_BEARINGS: usize = 64;
+
+/// What [`Grid::bearings`] found.
+#[derive(Clone, Debug)]
+struct Bearings {
+    to: Cell,
+    most: u32,
+    near: Arc<Near>,
 }
 
 /// What [`Grid::stops`] found.
@@ -55,6 +71,7 @@ impl WideGrid {
             leader: Field::new(cells, &[EdgeMark::Wall, EdgeMark::Virtual]),
             search: Search::new(cells),
             walk: None,
+            bearings: VecDeque::new(),
         }
     }
 
@@ -90,7 +107,7 @@ impl WideGrid {
 }
 
 impl Grid for WideGrid {
-    type Bearings = Near;
+    type Bearings = Arc<Near>;
 
     fn area(&self) -> Area {
         self.area
@@ -142,7 +159,10 @@ impl Grid for WideGrid {
         self.map.marks[near] |= edge_mark(mark, side);
         self.map.marks[far] |= edge_mark(mark, side.opposite());
         match mark {
-            EdgeMark::Wall => self.walk = None,
+            EdgeMark::Wall => {
+                self.walk = None;
+                self.bearings.retain(|bearings| self.map.outlasts(&bearings.near, near, far));
+            }
             EdgeMark::Open => {}
             EdgeMark::Virtual => self.virtual_edges.push(edge),
         }
@@ -157,6 +177,7 @@ impl Grid for WideGrid {
         match mark {
             EdgeMark::Wall => {
                 self.walk = None;
+                self.bearings.clear();
                 self.map.clear(mark);
                 self.map.close_border();
                 self.followers.forget();
@@ -236,11 +257,24 @@ impl Grid for WideGrid {
         found
     }
 
-    fn bearings(&self, to: Cell, most: u32) -> Near {
-        self.place(to).map_or(Near::NOTHING, |to| self.map.flood(to, most, |_, _| true))
+    fn least_distance(&mut self, from: Cell) -> u32 {
+        self.distance(from, Avoid::Walls).unwrap_or(UNREACHED)
     }
 
-    fn nearer(&self, near: &Near, at: Cell) -> Steps {
+    fn bearings(&mut self, to: Cell, most: u32) -> Arc<Near> {
+        if let Some(known) = self.bearings.iter().find(|known| (known.to, known.most) == (to, most)) {
+            return Arc::clone(&known.near);
+        }
+        let near = self.place(to).map_or(Near::NOTHING, |to| self.map.flood(to, most, |_, _| true));
+        let near = Arc::new(near);
+        if self.bearings.len() == MOST_BEARINGS {
+            self.bearings.pop_front();
+        }
+        self.bearings.push_back(Bearings { to, most, near: Arc::clone(&near) });
+        near
+    }
+
+    fn nearer(&self, near: &Arc<Near>, at: Cell) -> Steps {
         let distance = |cell: Cell| self.place(cell).and_then(|place| near.distance(place));
         let Some(own) = distance(at) else { return Steps::NONE };
         let open = Steps::ALL.without(Step::Stay).minus(self.sides(EdgeMark::Wall, at));

@@ -22,6 +22,7 @@ enum Call {
     ClearEdges(EdgeMark),
     Distance(Cell, Avoid),
     Stops(Cell, usize),
+    Nearer { to: Cell, most: u32, at: Cell },
 }
 
 /// Distances of a cell and of its neighbours, east, south, west, north, as far as they were asked for.
@@ -39,6 +40,10 @@ impl Call {
             Self::PutEdge(mark, edge) => grid.put_edge(mark, edge),
             Self::ClearEdges(mark) => grid.clear_edges(mark),
             Self::Distance(cell, avoid) => return grid.distance(cell, avoid),
+            Self::Nearer { to, most, at } => {
+                let bearings = grid.bearings(to, most);
+                return Some(grid.nearer(&bearings, at).iter().map(|step| 1 << step.place()).sum());
+            }
             Self::Stops(cell, most) => return stops(grid, cell, most).map(|stops| stops.len() as u32),
         }
         None
@@ -80,6 +85,8 @@ fn calls(area: Area) -> impl Strategy<Value = Vec<Call>> {
         40 => (cells(area), avoid).prop_map(|(cell, avoid)| Call::Distance(cell, avoid)),
         5 => (cells(area), 0..9_usize).prop_map(|(cell, most)| Call::Stops(cell, most)),
         10 => Just(Call::Stops(area.first(), 200)),
+        20 => cells(area).prop_map(move |at| Call::Nearer { to: area.first(), most: 200, at }),
+        5 => (cells(area), 0..12_u32, cells(area)).prop_map(|(to, most, at)| Call::Nearer { to, most, at }),
         10 => cells(area).prop_map(|cell| Call::Put(CellMark::Explored, cell)),
         20 => (edge_mark, edges(area)).prop_map(|(mark, edge)| Call::PutEdge(mark, edge)),
         5 => (cell_mark.clone(), cells(area)).prop_map(|(mark, cell)| Call::Put(mark, cell)),

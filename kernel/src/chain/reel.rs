@@ -283,23 +283,49 @@ impl<G: Grid, const ROBOTS: usize> Winder<'_, G, ROBOTS> {
         if above >= most {
             return None;
         }
-        let behind = Some((above, Cell::new(i16::MAX, i16::MAX)));
-        let mut nearest = [None; ROBOTS];
-        for (found, &at) in nearest.iter_mut().zip(self.team).skip(1) {
-            *found = self.grid.next_unexplored(at, behind, most);
+        // For each robot, the next cell behind those that were tried; as long as it is not sought, only how far it is at least.
+        let mut nearest = [Nearest::Nothing; ROBOTS];
+        for (robot, &at) in self.team.iter().enumerate().skip(1) {
+            let least = self.grid.least_distance(at).max(above + 1);
+            nearest[robot] = Nearest::Unsought { least, behind: (above, Cell::new(i16::MAX, i16::MAX)) };
         }
         while *rehearsals > 0 {
-            let of_robot = |robot: usize| nearest[robot].map(|(distance, cell)| (distance, robot, cell));
-            let found = (1..self.team.len()).rev().filter_map(of_robot);
-            let (distance, robot, to) = found.min_by_key(|&(distance, ..)| distance)?;
+            let (distance, robot, to) = self.seek_nearest(&mut nearest, most)?;
             *rehearsals -= 1;
             let begun = Reel { task: Task::Approach { robot: robot as u16, to }, ..Reel::NONE };
             if let Some(moves) = self.rehearse(begun, distance) {
                 return Some((begun, moves));
             }
-            nearest[robot] = self.grid.next_unexplored(self.team[robot], Some((distance, to)), most);
+            nearest[robot] = Nearest::Unsought { least: distance, behind: (distance, to) };
         }
         None
+    }
+
+    /// Of what comes next for each robot, the nearest at most `most` steps away, the leader's before the others'. What cannot be
+    /// nearer is not sought.
+    fn seek_nearest(&mut self, nearest: &mut [Nearest; ROBOTS], most: u32) -> Option<(u32, usize, Cell)> {
+        let robots = (1..self.team.len()).rev();
+        let promising = robots.clone().min_by_key(|&robot| nearest[robot].least());
+        let mut found: Option<(u32, usize, Cell)> = None;
+        for robot in promising.into_iter().chain(robots) {
+            let is_first = |distance| {
+                found.is_none_or(|(least, other, _)| distance < least || distance == least && robot > other)
+            };
+            if let Nearest::Unsought { least, behind } = nearest[robot]
+                && least <= most
+                && is_first(least)
+            {
+                let next = self.grid.next_unexplored(self.team[robot], Some(behind), most);
+                nearest[robot] =
+                    next.map_or(Nearest::Nothing, |(distance, cell)| Nearest::At { distance, cell });
+            }
+            if let Nearest::At { distance, cell } = nearest[robot]
+                && is_first(distance)
+            {
+                found = Some((distance, robot, cell));
+            }
+        }
+        found
     }
 
     /// The shortest way to draw the chain in and let it out again to an unexplored cell that a rehearsal carries through.
@@ -327,5 +353,32 @@ impl<G: Grid, const ROBOTS: usize> Winder<'_, G, ROBOTS> {
             }
         }
         best
+    }
+}
+
+/// What is known of the unexplored cell that comes next for a robot.
+#[derive(Clone, Copy)]
+enum Nearest {
+    /// There is none.
+    Nothing,
+    /// It is at least so far, and comes behind that one.
+    Unsought {
+        least: u32,
+        behind: (u32, Cell),
+    },
+    At {
+        distance: u32,
+        cell: Cell,
+    },
+}
+
+impl Nearest {
+    /// How far it is at least.
+    const fn least(self) -> u32 {
+        match self {
+            Self::Nothing => u32::MAX,
+            Self::Unsought { least, .. } => least,
+            Self::At { distance, .. } => distance,
+        }
     }
 }

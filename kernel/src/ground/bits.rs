@@ -323,7 +323,7 @@ impl<P: Plane> Grid for BitGrid<P> {
         None
     }
 
-    fn bearings(&self, to: Cell, most: u32) -> Layers<P> {
+    fn bearings(&mut self, to: Cell, most: u32) -> Layers<P> {
         let [east, south] = self.open(Avoid::Walls);
         let mut layers = [P::NONE; 3];
         let Some((column, row)) = self.area.locate(to) else { return Layers(layers) };

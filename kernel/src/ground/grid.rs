@@ -123,8 +123,14 @@ pub trait Grid {
     /// `from` over sides that are not known to be walls, at most `most`, and then of rows; with its distance. The first if
     /// there is no `last`; `None` if there is no more.
     fn next_unexplored(&self, from: Cell, last: Option<(u32, Cell)>, most: u32) -> Option<(u32, Cell)>;
+    /// Fewer steps than these lead from `from` to no unexplored cell over sides that are not known to be walls. A grid that keeps what its
+    /// searches have found tells more than 0; then far fewer of them are needed.
+    fn least_distance(&mut self, from: Cell) -> u32 {
+        let _ = from;
+        0
+    }
     /// The distances to `to`, over sides that are not known to be walls, of all cells at most `most` steps away.
-    fn bearings(&self, to: Cell, most: u32) -> Self::Bearings;
+    fn bearings(&mut self, to: Cell, most: u32) -> Self::Bearings;
     /// The steps from `at` that lead one step nearer; none if `at` is too far, or there.
     fn nearer(&self, bearings: &Self::Bearings, at: Cell) -> Steps;
 }

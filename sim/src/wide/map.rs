@@ -117,6 +117,13 @@ impl Map {
         near
     }
 
+    /// Whether the distances in `near` hold with the wall that now stands between two cells: the farther one has another neighbour as near.
+    pub(super) fn outlasts(&self, near: &Near, one: usize, other: usize) -> bool {
+        let (Some(of_one), Some(of_other)) = (near.distance(one), near.distance(other)) else { return true };
+        let (nearer, farther) = if of_one < of_other { (of_one, other) } else { (of_other, one) };
+        self.neighbours(farther, all_sides(EdgeMark::Wall)).any(|place| near.distance(place) == Some(nearer))
+    }
+
     /// The neighbours of the cell at `place` that are one link away: beyond its sides, and round its corners.
     pub(super) fn linked(&self, place: usize) -> impl Iterator<Item = usize> {
         let open = |place: usize| {
