@@ -182,7 +182,8 @@ pub fn dealt<L: Lots>(lots: &L, shards: usize) -> Result<Vec<u64>, L::Fault> {
 /// A shard of the lots, and the looks that it has taken.
 pub struct Shard<L: Lots> {
     lots: L,
-    shard: usize,
+    /// Its number, the first being 0.
+    number: usize,
     stages: Vec<L::Stage>,
     /// Of each stage the shard of each lot.
     owners: Vec<Vec<usize>>,
@@ -200,14 +201,14 @@ impl<L: Lots> Shard<L> {
     /// The fault of a lot.
     pub fn new(
         lots: L,
-        (shard, of): (usize, usize),
+        (number, of): (usize, usize),
         mut looks: Vec<Vec<L::Look>>,
         budget_steps: Option<u64>,
     ) -> Result<Self, L::Fault> {
         let (stages, owners) = (lots.stages(), deal(&lots, of)?);
         looks.truncate(stages.len());
         let left = budget_steps.unwrap_or(u64::MAX);
-        let mut shard = Self { lots, shard, stages, owners, looks, own: Vec::new(), left };
+        let mut shard = Self { lots, number, stages, owners, looks, own: Vec::new(), left };
         if shard.looks.is_empty() {
             shard.begin()?;
         } else {
@@ -281,7 +282,7 @@ impl<L: Lots> Shard<L> {
             return Ok(Vec::new());
         };
         let all = self.lots.lots(stage)?.into_iter().zip(owners);
-        Ok(all.filter(|&(_, &owner)| owner == self.shard).map(|(lot, _)| lot).collect())
+        Ok(all.filter(|&(_, &owner)| owner == self.number).map(|(lot, _)| lot).collect())
     }
 }
 
