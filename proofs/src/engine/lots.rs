@@ -402,7 +402,7 @@ mod tests {
         let lots = Numbers { stages: STAGES.to_vec(), enough: None, endless: None };
         for of in [1, 2, 5, 64] {
             let Ok(left) = dealt(&lots, of);
-            assert_eq!(left.iter().sum::<u64>(), STAGES.iter().sum());
+            assert_eq!(left.iter().sum::<u64>(), STAGES.iter().sum::<u64>());
             let mut loads = vec![0; of];
             let Ok(owners) = deal(&lots, of);
             for (stage, owners) in lots.stages().into_iter().zip(owners) {
