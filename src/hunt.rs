@@ -182,7 +182,7 @@ impl Hunt {
         let asked = self.asked();
         Plan::check(shards)?;
         let (of, dealt) = deal_hunt(&asked, shards)?;
-        let facts = Planned { moves: dealt.moves, left: &dealt.left };
+        let facts = Planned { moves: dealt.moves, of: dealt.of, left: &dealt.left };
         let words = dealt.to_string();
         shards::plan(
             (path, shards),
@@ -289,6 +289,7 @@ fn stored(
 #[derive(Serialize)]
 struct Planned<'a> {
     moves: u64,
+    of: &'static str,
     left: &'a [u64],
 }
 

@@ -227,7 +227,7 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
         println!("skipped: there is no chromium; TAUTLINE_BROWSER can name a browser like it");
         return;
     };
-    let schemes: [(&str, &[&str]); 7] = [
+    let schemes: [(&str, &[&str]); 9] = [
         ("chain", &["walls:9x9:0.1", "--robots", "5"]),
         ("full-search", &["walls:7x7:0.1", "--robots", "3"]),
         ("ants", &["cells:9x9:0.1", "--robots", "6"]),
@@ -235,10 +235,12 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
         ("bricks-ants", &["cells:9x9:0.1", "--robots", "3", "--miss", "0.1"]),
         ("kit", &["walls:7x7:0.1", "--robots", "3"]),
         ("frontier", &["cells:9x9:0.1", "--robots", "3", "--range", "4", "--loss", "0.2"]),
+        ("frontier", &["cells:9x9:0.1", "--robots", "3", "--rule", "hungarian"]),
+        ("helpers", &["cells:9x9:0.1", "--robots", "3", "--miss", "0.1"]),
     ];
-    for (scheme, arguments) in schemes {
+    for (number, (scheme, arguments)) in schemes.into_iter().enumerate() {
         // Each has a file of its own: to another move of the same page a browser goes without loading it anew.
-        let page = format!("{scheme}.html");
+        let page = format!("{number}.html");
         let files = ["--trace", "run.jsonl", "--replay", &page, "--force"];
         run(folder, &[&["explore", "--scheme", scheme][..], arguments, &files].concat());
         let trace = fs::read_to_string(folder.join("run.jsonl")).expect("a trace");
@@ -269,6 +271,7 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
         let share = browser.text("document.getElementById('curve').getAttribute('aria-label')");
         let due = format!("Cells explored: {} of {}", end["end"]["explored"], end["end"]["cells"]);
         assert_eq!(share, due, "{scheme}");
+        browser.value(USED);
     }
     shows_how_a_clause_is_broken(&mut browser, folder);
     browser.value(USED);

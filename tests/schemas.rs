@@ -42,13 +42,18 @@ fn each_schema_is_that_of_what_is_printed() {
             "tautline hunt or reproduce with --shards",
             own(&[
                 "hunt --rule published --robots 3 --max-walls 2 --plan plan.json --shards 2",
+                "hunt --scheme ants --size 2x2 --plan layouts.json --shards 2",
                 "reproduce repair-cost --layouts 4 --plan table.json --shards 2",
             ]),
         ),
         (
             "shard",
             "tautline hunt or reproduce with --shard",
-            own(&["hunt --plan plan.json --shard 1", "reproduce --plan table.json --shard 1"]),
+            own(&[
+                "hunt --plan plan.json --shard 1",
+                "hunt --plan layouts.json --shard 1",
+                "reproduce --plan table.json --shard 1",
+            ]),
         ),
         (
             "explore",

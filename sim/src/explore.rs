@@ -10,6 +10,7 @@ pub mod catalogue;
 pub mod chain;
 mod clause;
 pub mod depth_first;
+mod each;
 pub mod floor;
 pub mod frontier;
 pub mod hunt;

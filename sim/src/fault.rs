@@ -1,6 +1,7 @@
 //! What went wrong with something the user gave, where, and what would be right: the one error type of this crate, as
 //! data. How it is shown, and by which flag a field is given, is the caller's business. A fault in a text keeps only the line it points at, clipped, however large the file.
 
+use std::convert::Infallible;
 use std::fmt;
 use std::ops::Range;
 use std::path::Path;
@@ -77,6 +78,12 @@ impl fmt::Display for Halt {
 }
 
 impl std::error::Error for Halt {}
+
+impl From<Infallible> for Fault {
+    fn from(never: Infallible) -> Self {
+        match never {}
+    }
+}
 
 impl From<Fault> for Halt {
     fn from(fault: Fault) -> Self {

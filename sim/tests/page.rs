@@ -273,6 +273,81 @@ fn each_robots_record_grows_and_is_its_own() {
     }
 }
 
+/// The runs whose pages have a layer of this name, its number, and what there is after each line.
+fn with_layer(name: &str) -> Vec<(Setup, usize, Vec<State>)> {
+    let shown = setups().into_iter().filter_map(|setup| {
+        let (film, states) = read(&page(&setup, &(1..=u32::MAX)).0);
+        let layers = film["layers"].as_array().expect("layers");
+        let number = layers.iter().position(|layer| layer["name"] == name)?;
+        Some((setup, number, states))
+    });
+    shown.collect()
+}
+
+#[test]
+fn rivals_show_which_robot_is_assigned_to_which_frontier_cell() {
+    let mut assigned = 0;
+    let runs = with_layer("assignment");
+    assert_eq!(runs.len(), 4);
+    for (setup, layer, states) in runs {
+        let rule = setup.rule;
+        let of = |state: &State, layer: usize| -> Vec<(usize, u32)> {
+            let values = state.values.keys().filter(|(number, ..)| *number == layer);
+            values.map(|&(_, robot, place)| (robot, place)).collect()
+        };
+        let cell = |place: u32| Cell::new(place as i16 % 9, place as i16 / 9);
+        for (step, state) in states.iter().enumerate() {
+            let own = of(state, layer);
+            let (robots, cells): (BTreeSet<usize>, BTreeSet<u32>) = own.iter().copied().unzip();
+            assert_eq!((robots.len(), cells.len()), (own.len(), own.len()), "{rule}, {step}");
+            assert_eq!(
+                of(state, layer + 1).into_iter().map(|(_, place)| place).collect::<BTreeSet<_>>(),
+                cells
+            );
+            for &place in &cells {
+                assert!(!state.explored.contains(&place), "{rule}, {step}");
+                let beside = Side::ALL.map(|side| cell(place).beyond(side));
+                let is_explored = |cell: &Cell| state.explored.contains(&((cell.y * 9 + cell.x) as u32));
+                assert!(beside.iter().any(is_explored), "{rule}, {step}");
+            }
+            assert!(of(state, layer - 1).iter().all(|&(_, place)| !setup.layout.is_free(cell(place))));
+            assigned += cells.len();
+        }
+        let obstacles = of(states.last().expect("an end"), layer - 1);
+        assert!(!obstacles.is_empty(), "{rule}");
+    }
+    assert!(assigned > 100, "{assigned}");
+}
+
+#[test]
+fn trees_on_a_page_join_explored_cells_and_have_no_loops() {
+    let mut sides = [0, 0];
+    let runs = with_layer("trees");
+    assert!(runs.len() >= 5, "{}", runs.len());
+    for (setup, layer, states) in runs {
+        for (step, state) in states.iter().enumerate() {
+            // The first cell of each part that the sides join so far.
+            let mut part: Vec<u32> = (0..63).collect();
+            for (&(.., place), &value) in state.values.iter().filter(|((number, ..), _)| *number == layer) {
+                sides[value as usize - 1] += 1;
+                if value != 1 {
+                    continue;
+                }
+                let name = format!("{} {}, {step}", setup.scheme.name, setup.rule);
+                let (one, side) = (place / 2, if place % 2 == 0 { Side::East } else { Side::South });
+                let other = if side == Side::East { one + 1 } else { one + 9 };
+                assert!(state.explored.contains(&one) && state.explored.contains(&other), "{name}");
+                let edge = Edge::new(Cell::new(one as i16 % 9, one as i16 / 9), side);
+                assert!(setup.layout.is_open(edge), "{name}");
+                let (from, to) = (part[one as usize], part[other as usize]);
+                assert_ne!(from, to, "{name}: a loop");
+                part.iter_mut().filter(|part| **part == from).for_each(|part| *part = to);
+            }
+        }
+    }
+    assert!(sides.iter().all(|&count| count > 100), "{sides:?}");
+}
+
 #[test]
 fn the_same_run_makes_the_same_page() {
     for setup in setups().iter().take(3) {

@@ -40,6 +40,42 @@ fn the_shards_of_a_hunt_in_any_order_give_what_one_process_gives() {
     assert_eq!(shown(many, &["merge", "plan.json"]), shown(one, &HUNT));
 }
 
+/// Hunts that look at each layout by itself: states, runs and rivals; with a trap, without one, and with one in an early area.
+#[test]
+fn the_shards_of_hunts_of_layouts_give_what_one_process_gives() {
+    let works: [(&[&str], i32); 5] = [
+        (&["--scheme", "bricks", "--max-misses", "1", "--size", "4x3"], 1),
+        (&["--scheme", "ants", "--max-misses", "1", "--size", "3x3"], 0),
+        (&["--scheme", "mdfs", "--rule", "published", "--max-misses", "1", "--size", "3x2"], 1),
+        (&["--scheme", "helpers", "--max-misses", "1", "--size", "3x2"], 0),
+        (&["--scheme", "frontier", "--rule", "earlier", "--robots", "2", "--size", "3x2"], 1),
+    ];
+    for (work, code) in works {
+        let work = [&["hunt"], work].concat();
+        let (one, many) = (folder(), folder());
+        let (one, many) = (one.path(), many.path());
+        let whole = printed(one, &work, code);
+        planned(many, &work, "5");
+        for shard in [4, 1, 5, 3] {
+            hunt_shard(many, "plan.json", shard);
+        }
+        // The last one is ended again and again, and taken up where it was.
+        let shard = ["hunt", "--plan", "plan.json", "--shard", "2", "--budget", "1"];
+        let mut ended = 0;
+        while ran(many, &shard).status.code() == Some(3) {
+            ended += 1;
+        }
+        assert!(ended > 0, "{work:?}");
+        assert_eq!(printed(many, &["merge", "plan.json"], code), whole);
+        for run in names(one) {
+            assert_eq!(read(many, &run), read(one, &run), "{run}");
+        }
+        let shown =
+            |folder, arguments: &[&str]| printed(folder, &[arguments, &["--format", "json"]].concat(), code);
+        assert_eq!(shown(many, &["merge", "plan.json"]), shown(one, &work));
+    }
+}
+
 #[test]
 fn a_shard_that_ran_out_of_its_budget_is_a_gap_until_it_has_gone_on() {
     let folder = folder();
@@ -98,7 +134,7 @@ fn wrong_plans_and_shards() {
     assert!(
         refused(folder, &["hunt", "--plan", "damaged.json", "--shard", "1"]).contains("the file is damaged")
     );
-    let cases: [&[&str]; 16] = [
+    let cases: [&[&str]; 18] = [
         &["hunt", "--plan", "plan.json"],
         &["hunt", "--shards", "3"],
         &["hunt", "--plan", "new.json", "--shards", "0"],
@@ -110,7 +146,9 @@ fn wrong_plans_and_shards() {
         &["hunt", "--plan", "old.json", "--shard", "1"],
         &["hunt", "--plan", "table.json", "--shard", "1"],
         &["hunt", "--plan", "plan-1.json", "--shard", "1"],
-        &["hunt", "--scheme", "bricks", "--plan", "new.json", "--shards", "2"],
+        &["hunt", "--scheme", "kit", "--plan", "new.json", "--shards", "2"],
+        &["hunt", "--scheme", "bricks", "--max-walls", "2", "--plan", "new.json", "--shards", "2"],
+        &["hunt", "--max-misses", "1", "--plan", "new.json", "--shards", "2"],
         &["hunt", "--plan", "new.json", "--shards", "2", "--format", "junit"],
         &["merge", "plan.json", "plan-1.json", "plan-2.json", "plan-1.json"],
         &["merge", "plan.json", "plan-1.json", "other-2.json"],

@@ -12,7 +12,7 @@ pub(crate) const CELLS: usize = 16;
 
 /// A small area: which cells are free, and the walls between them.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct FloorPlan {
+pub struct FloorPlan {
     pub(crate) width: i16,
     pub(crate) height: i16,
     /// Row by row.

@@ -5,12 +5,12 @@
 //! No miss comes before one, one before two; then areas go by their number of cells, narrow ones first, and within an
 //! area every layout of blocked cells and free cells that are all connected, every start. Of the traps in the first
 //! area that has one, the one with the fewest team moves is taken, then that of the first layout, blocked cells read
-//! as a binary number with the north-western one last. Layouts are looked at in waves of a fixed number, so that all
-//! comes out the same on any number of threads.
+//! as a binary number with the north-western one last.
 
+use std::convert::Infallible;
 use std::ops::ControlFlow;
 
-use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Mark, Sensor};
 use tautline_kernel::ground::Cell;
@@ -19,6 +19,7 @@ pub use super::agents::{Acted, Agents};
 use super::plans::{CELLS, FloorPlan, blocked};
 use super::small::{self, Misses, Part, Small, Stored, marked, shut};
 pub use super::way::Way;
+use crate::engine::lots::{self, Lots};
 use crate::engine::outcomes;
 use crate::engine::states::{Bits, Limits, Places, Run, Step, System, search};
 
@@ -48,9 +49,6 @@ pub const MAX_AGENTS: u32 = 2;
 /// Steps that are made in one layout before it is given up: its states then take about a gigabyte.
 const MAX_STEPS: u64 = 1 << 20;
 
-/// Layouts that are looked at together.
-const WAVE: usize = 64;
-
 /// What a search found.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Found {
@@ -69,7 +67,8 @@ pub struct Found {
 }
 
 /// A run that ends, or never ends, before every cell is explored.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Trap {
     /// Columns.
     pub width: i16,
@@ -89,7 +88,8 @@ pub struct Trap {
 }
 
 /// How agents are trapped.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum End {
     /// One of them is done.
     Done,
@@ -102,79 +102,114 @@ const ENDLESS: &str = "every cell is explored in the end";
 
 /// The smallest trap within `bounds`. `watch` hears after each wave what has been found, and may end the search.
 pub fn hunt<A: Agents>(bounds: &Bounds<A>, watch: &mut dyn FnMut(&Found) -> ControlFlow<()>) -> Found {
-    let mut found = Found::default();
-    for misses in 0..=bounds.max_misses {
-        for (width, height) in areas(bounds) {
-            if found.look(bounds, misses, (width, height), watch).is_break() {
-                return Found { trap: None, ..found };
-            }
-            if found.trap.is_some() {
-                found.is_complete = true;
-                return found;
-            }
-        }
-        found.levels += 1;
+    match lots::search(bounds, bounds.budget_steps, watch) {
+        Ok((found, is_complete)) => found.ended(is_complete),
     }
-    found.is_complete = true;
-    found
 }
 
-/// The areas, the smallest first.
-fn areas<A>(bounds: &Bounds<A>) -> Vec<(i16, i16)> {
-    let mut areas: Vec<(i16, i16)> = (1..=bounds.max_width)
-        .flat_map(|width| (1..=bounds.max_height).map(move |height| (width, height)))
+/// Layouts of one area, and the sensors that are missed in each at most.
+pub type Stage = (u8, (i16, i16));
+
+/// The stages of a search for traps: no miss before one, and the smallest area first.
+pub fn stages(max_misses: u8, (max_width, max_height): (i16, i16)) -> Vec<Stage> {
+    let mut areas: Vec<(i16, i16)> = (1..=max_width)
+        .flat_map(|width| (1..=max_height).map(move |height| (width, height)))
         .filter(|&(width, height)| width as usize * height as usize <= MAX_CELLS)
         .collect();
     areas.sort_unstable_by_key(|&(width, height)| (width * height, width));
-    areas
+    (0..=max_misses).flat_map(|misses| areas.iter().map(move |&area| (misses, area))).collect()
+}
+
+/// About how much there is to look at in a layout with so many free cells: every start, a run for every sensor that can be
+/// missed, and runs that are longer the more cells there are.
+pub fn weight((misses, _): Stage, free: u32, agents: u32) -> u64 {
+    u64::from(free).saturating_pow(agents + 2 * u32::from(misses) + 1)
+}
+
+impl<A: Agents> Lots for Bounds<A> {
+    type Stage = Stage;
+    type Lot = FloorPlan;
+    type Look = Look;
+    type Found = Found;
+    type Fault = Infallible;
+
+    fn stages(&self) -> Vec<Stage> {
+        stages(self.max_misses, (self.max_width, self.max_height))
+    }
+
+    fn lots(&self, (_, (width, height)): Stage) -> Result<Vec<FloorPlan>, Infallible> {
+        Ok(blocked(width, height).collect())
+    }
+
+    fn weight(&self, stage: Stage, plan: &FloorPlan) -> u64 {
+        weight(stage, plan.free.count_ones(), self.agents)
+    }
+
+    fn look(&self, (misses, _): Stage, plan: &FloorPlan, most_steps: u64) -> Result<Look, Infallible> {
+        let floors = Floors { way: self.way, plan: *plan, misses };
+        Ok(floors.look(self.agents, most_steps.min(MAX_STEPS)))
+    }
+
+    fn add(&self, found: &mut Found, _: &FloorPlan, look: Look) -> Result<(), Infallible> {
+        found.add(look);
+        Ok(())
+    }
+
+    fn cover(&self, found: &mut Found, stage: Stage) {
+        found.cover(stage, &self.stages());
+    }
 }
 
 impl Found {
-    /// Looks at all layouts of an area, if it may get to their end.
-    fn look<A: Agents>(
-        &mut self,
-        bounds: &Bounds<A>,
-        misses: u8,
-        (width, height): (i16, i16),
-        watch: &mut dyn FnMut(&Self) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
-        let mut plans = blocked(width, height).peekable();
-        while plans.peek().is_some() {
-            let left = bounds.budget_steps.map_or(u64::MAX, |budget| budget.saturating_sub(self.steps));
-            let most_steps = left.min(MAX_STEPS);
-            if left == 0 {
-                return ControlFlow::Break(());
-            }
-            let wave: Vec<FloorPlan> = plans.by_ref().take(WAVE).collect();
-            let looks: Vec<Look> = wave
-                .into_par_iter()
-                .map(|plan| Floors { way: bounds.way, plan, misses }.look(bounds.agents, most_steps))
-                .collect();
-            let mut is_whole = true;
-            for look in looks {
-                self.layouts += 1;
-                self.states += look.states;
-                self.steps += look.steps;
-                is_whole &= look.is_whole;
-                let is_smaller =
-                    |trap: &Trap| self.trap.as_ref().is_none_or(|smallest| trap.moves < smallest.moves);
-                self.trap = look.trap.filter(is_smaller).or(self.trap.take());
-            }
-            if !is_whole {
-                return ControlFlow::Break(());
-            }
-            watch(self)?;
+    /// Adds what was found in one layout.
+    pub fn add(&mut self, look: Look) {
+        self.layouts += 1;
+        self.states += look.states;
+        self.steps += look.steps;
+        let is_smaller = |trap: &Trap| self.trap.as_ref().is_none_or(|smallest| trap.moves < smallest.moves);
+        self.trap = look.trap.filter(is_smaller).or(self.trap.take());
+    }
+
+    /// All layouts of one of these stages were looked at.
+    pub fn cover(&mut self, (misses, area): Stage, stages: &[Stage]) {
+        if stages.last().is_some_and(|&(_, last)| last == area) {
+            self.levels = misses + 1;
         }
-        ControlFlow::Continue(())
+    }
+
+    /// What was found by a search that came to its end, or did not: then no trap is known to be the smallest.
+    #[must_use]
+    pub fn ended(self, is_complete: bool) -> Self {
+        Self { is_complete, trap: self.trap.filter(|_| is_complete), ..self }
     }
 }
 
 /// What was found in one layout.
-struct Look {
-    states: u64,
-    steps: u64,
-    is_whole: bool,
-    trap: Option<Trap>,
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Look {
+    /// States of agents and floors, or runs.
+    pub states: u64,
+    /// Team moves.
+    pub steps: u64,
+    /// Whether it was looked at to its end.
+    pub is_whole: bool,
+    /// The smallest trap in it.
+    pub trap: Option<Trap>,
+}
+
+impl lots::Look for Look {
+    fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    fn is_whole(&self) -> bool {
+        self.is_whole
+    }
+
+    fn is_enough(&self) -> bool {
+        self.trap.is_some()
+    }
 }
 
 /// An agent on the floor.

@@ -77,7 +77,9 @@ impl Team for Player<'_> {
 
     fn broken_at_end(&self, _: &Layout, _: &Survey, end: End) -> Vec<ClauseId> {
         self.clause(match end {
-            End::Explored | End::Exhausted => self.written.broken_at_end(self.now.state, &self.now.cells),
+            End::Explored | End::Exhausted | End::Silent => {
+                self.written.broken_at_end(self.now.state, &self.now.cells)
+            }
             End::Endless => self.written.broken_by_endless(),
         })
     }

@@ -293,7 +293,7 @@ impl<K: Crew> Agents<K> {
 
     /// Makes one team move.
     pub fn advance(&mut self) {
-        self.floor.clear_marked();
+        self.floor.forget_changes();
         self.unseen.clear();
         self.is_premature = false;
         for number in 0..self.bodies.len() {
@@ -434,11 +434,11 @@ impl<K: Crew> Team for Watched<K> {
     }
 
     fn layers(&self) -> Vec<Layer> {
-        floor::layers()
+        floor::layers::<K::Stored>()
     }
 
     fn show(&self, _: &[Cell], scene: &mut Scene) {
-        floor::show(self.team.floor.marked(), scene);
+        floor::show(&self.team.floor, scene);
     }
 }
 

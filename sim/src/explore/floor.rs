@@ -3,7 +3,7 @@
 
 use std::mem;
 
-use tautline_kernel::bricks::tree::{Note, Notes};
+use tautline_kernel::bricks::tree::{Note, Notes, State};
 use tautline_kernel::floor::{Claim, Floor, Mark, Sensor};
 use tautline_kernel::ground::{Cell, Edge, Side};
 
@@ -33,27 +33,47 @@ pub const fn is_visited(mark: Mark) -> bool {
     }
 }
 
-/// What a page shows of a sensor floor: the marks.
-pub(super) fn layers() -> Vec<Layer> {
+/// The places among the layers.
+const MARKS_LAYER: usize = 0;
+const SIDES_LAYER: usize = 1;
+
+/// What a page shows of a sensor floor: the marks, and the sides that sensors store.
+pub(super) fn layers<S: Stored>() -> Vec<Layer> {
     const MARKS: &[Value] = &[
         Value { name: "entered by nobody any more", ink: Ink::Closing },
         Value { name: "visited", ink: Ink::Closed },
         Value { name: "sealed", ink: Ink::Sealed },
     ];
     let about = "what the sensors say of cells that are done with".to_owned();
-    vec![Layer { name: "marks", about, shape: Shape::Cells(MARKS) }]
+    let mut layers = vec![Layer { name: "marks", about, shape: Shape::Cells(MARKS) }];
+    if !S::SIDES.is_empty() {
+        let about = "the side that a sensor stores: of an open cell its parent's, of a visited one the way to what was left";
+        layers.push(Layer { name: "trees", about: about.to_owned(), shape: Shape::Sides(S::SIDES) });
+    }
+    layers
 }
 
-/// The marks that have changed.
-pub(super) fn show(marked: &[(Cell, Mark)], scene: &mut Scene) {
-    for &(cell, mark) in marked {
+/// The marks and the stored sides that have changed.
+pub(super) fn show<S: Stored>(floor: &SensorFloor<S>, scene: &mut Scene) {
+    for &(cell, mark) in &floor.marked {
         let value = match mark {
             Mark::Unexplored | Mark::Explored => 0,
             Mark::Closing => 1,
             Mark::Visited => 2,
             Mark::Sealed => 3,
         };
-        scene.put(0, Shown::Cell(cell), value);
+        scene.put(MARKS_LAYER, Shown::Cell(cell), value);
+    }
+    for &cell in &floor.turned {
+        for side in Side::ALL {
+            // A side can be stored on either side of it. That of a tree is shown then.
+            let of = |cell, side| {
+                floor.place(cell).and_then(|place| place.sensor.side()).filter(|&(at, _)| at == side)
+            };
+            let stored = [of(cell, side), of(cell.beyond(side), side.opposite())].into_iter().flatten();
+            let value = stored.map(|(_, value)| value).min().unwrap_or(0);
+            scene.put(SIDES_LAYER, Shown::Side(Edge::new(cell, side)), value);
+        }
     }
 }
 
@@ -61,6 +81,14 @@ pub(super) fn show(marked: &[(Cell, Mark)], scene: &mut Scene) {
 pub trait Stored: Copy + Default + PartialEq {
     /// The state of its cell.
     fn mark(&self) -> Mark;
+
+    /// What a side that it stores can be.
+    const SIDES: &'static [Value] = &[];
+
+    /// The side that it stores, and which of [`Self::SIDES`] that is, counted from 1.
+    fn side(&self) -> Option<(Side, u8)> {
+        None
+    }
 }
 
 impl Stored for Sensor {
@@ -70,8 +98,22 @@ impl Stored for Sensor {
 }
 
 impl Stored for Note {
+    const SIDES: &'static [Value] = &[
+        Value { name: "from a child to its parent", ink: Ink::Open },
+        Value { name: "to what was left", ink: Ink::Aim },
+    ];
+
     fn mark(&self) -> Mark {
         Self::mark(*self)
+    }
+
+    fn side(&self) -> Option<(Side, u8)> {
+        let value = match self.state {
+            State::Unexplored | State::Explored => return None,
+            State::Open => 1,
+            State::Visited => 2,
+        };
+        Some((self.side?, value))
     }
 }
 
@@ -109,6 +151,8 @@ pub struct SensorFloor<S = Sensor> {
     /// Marks and shut sides that have changed since the start.
     gains: u64,
     marked: Vec<(Cell, Mark)>,
+    /// The cells whose sensors store another side, or none any more, since changes were last forgotten.
+    turned: Vec<Cell>,
 }
 
 impl<S: Stored> SensorFloor<S> {
@@ -123,6 +167,7 @@ impl<S: Stored> SensorFloor<S> {
             claims: Vec::new(),
             gains: 0,
             marked: Vec::new(),
+            turned: Vec::new(),
         };
         for cell in layout.cells().filter(|&cell| layout.is_free(cell)) {
             let sides = Side::ALL.into_iter().filter(|&side| layout.is_open(Edge::new(cell, side)));
@@ -214,13 +259,14 @@ impl<S: Stored> SensorFloor<S> {
         &self.claims
     }
 
-    /// The marks that have changed since this was last cleared, in order.
+    /// The marks that have changed since changes were last forgotten, in order.
     pub(super) fn marked(&self) -> &[(Cell, Mark)] {
         &self.marked
     }
 
-    pub(super) fn clear_marked(&mut self) {
+    pub(super) fn forget_changes(&mut self) {
         self.marked.clear();
+        self.turned.clear();
     }
 
     fn count(&mut self, cell: Cell, component: Number, was: Mark, is: Mark) {
@@ -297,6 +343,9 @@ impl Notes for SensorFloor<Note> {
         let Some(place) = self.places.get_mut(index).filter(|place| place.is_free()) else { return };
         let component = place.component;
         let was = mem::replace(&mut place.sensor, note);
+        if Stored::side(&was) != Stored::side(&note) {
+            self.turned.push(cell);
+        }
         if was.mark() != note.mark() {
             self.count(cell, component, was.mark(), note.mark());
         }

@@ -227,14 +227,14 @@ impl Team for FrontierTeam {
     fn layers(&self) -> Vec<Layer> {
         match &self.who {
             Who::Robots(robots) => shown::layers(robots),
-            Who::Assigned(_) => Vec::new(),
+            Who::Assigned(_) => shown::layers_of_assigned(),
         }
     }
 
     fn show(&self, _: &[Cell], scene: &mut Scene) {
         match &self.who {
             Who::Robots(robots) => shown::show(robots, scene),
-            Who::Assigned(_) => {}
+            Who::Assigned(robots) => shown::show_assigned(robots, scene),
         }
     }
 }

@@ -27,14 +27,7 @@ pub trait Hunt: fmt::Debug + Sync {
 
     /// Why it does not take `bound`: what is wrong, and what would be right.
     fn refusal(&self, bound: Bound) -> (String, String) {
-        let taken =
-            ["robots", "size", "budget"].into_iter().chain(self.takes().iter().map(|bound| bound.field()));
-        let taken: Vec<String> = taken.map(|field| format!("`{field}`")).collect();
-        let field = bound.field();
-        (
-            format!("`{field}` does not bound this hunt"),
-            format!("leave it out; this hunt takes {}", taken.join(", ")),
-        )
+        bound.refused_by(self.takes())
     }
 
     /// Searches within what is `asked`, until everything is searched or `hunter` ends the search.
@@ -57,29 +50,23 @@ pub trait Deals {
     /// A [`Fault`] if it cannot be searched so.
     fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Fault>;
 
-    /// One shard of a deal, the first being 0, where it was.
+    /// One shard of a deal, the first being 0, where it was. The scheme, the rule and the budget are `asked`, all else the deal has.
     ///
     /// # Errors
     /// A [`Fault`] if there is no such deal, or the shard was never there.
-    fn part(
-        &self,
+    fn part<'a>(
+        &'a self,
+        asked: &Asked<'_>,
         deal: &RawValue,
         shard: usize,
         far: Option<&RawValue>,
-        budget_moves: Option<u64>,
-    ) -> Result<Box<dyn Part>, Fault>;
+    ) -> Result<Box<dyn Part + 'a>, Fault>;
 
-    /// What all shards have found.
+    /// What all shards have found. The scheme and the rule are `asked`.
     ///
     /// # Errors
     /// A [`Fault`] if they do not fit their deal.
-    fn merge(
-        &self,
-        scheme: &'static Profile,
-        rule: RuleId,
-        deal: &RawValue,
-        shards: &[Box<RawValue>],
-    ) -> Result<Hunted, Fault>;
+    fn merge(&self, asked: &Asked<'_>, deal: &RawValue, shards: &[Box<RawValue>]) -> Result<Hunted, Fault>;
 }
 
 /// A hunt that is dealt out.
@@ -87,8 +74,10 @@ pub trait Deals {
 pub struct Dealt {
     /// The deal, as a plan has it.
     pub deal: Box<RawValue>,
-    /// About how many team moves each shard has.
+    /// About how much each shard has.
     pub left: Vec<u64>,
+    /// Of what.
+    pub of: &'static str,
     /// Team moves that were made to deal it out.
     pub moves: u64,
 }
@@ -118,6 +107,17 @@ impl Bound {
             Self::Error => "error",
             Self::Resume => "resume",
         }
+    }
+
+    /// Why a hunt that takes others does not take this one.
+    pub(super) fn refused_by(self, takes: &[Self]) -> (String, String) {
+        let taken = ["robots", "size", "budget"].into_iter().chain(takes.iter().map(|bound| bound.field()));
+        let taken: Vec<String> = taken.map(|field| format!("`{field}`")).collect();
+        let field = self.field();
+        (
+            format!("`{field}` does not bound this hunt"),
+            format!("leave it out; this hunt takes {}", taken.join(", ")),
+        )
     }
 }
 
@@ -187,12 +187,12 @@ impl fmt::Display for Dealt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (shards, sum) = (self.left.len() as u64, self.left.iter().sum::<u64>());
         let (mean, most) = (sum / shards.max(1), self.left.iter().max().copied().unwrap_or(0));
-        let (made, mean, most) = (self.moves, counted(mean, "team move"), counted(most, "team move"));
-        write!(
-            f,
-            "{} of about {mean}, the largest {most}; {made} are made already.",
-            counted(shards, "shard")
-        )
+        let (shards, mean, most) = (counted(shards, "shard"), counted(mean, self.of), counted(most, self.of));
+        write!(f, "{shards} of about {mean}, the largest {most}")?;
+        match self.moves {
+            0 => f.write_str("."),
+            made => write!(f, "; {made} are made already."),
+        }
     }
 }
 

@@ -76,6 +76,8 @@ pub enum Ink {
     Barred,
     /// Where somebody is going.
     Aim,
+    /// Where the followed robot itself is going.
+    Goal,
     /// About to be closed.
     Closing,
     /// Done with.
@@ -92,6 +94,7 @@ impl Ink {
             Self::Wall => "wall",
             Self::Barred => "barred",
             Self::Aim => "aim",
+            Self::Goal => "goal",
             Self::Closing => "closing",
             Self::Closed => "closed",
             Self::Sealed => "sealed",

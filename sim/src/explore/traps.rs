@@ -2,11 +2,12 @@
 //! they miss written down.
 
 use serde_json::json;
-use tautline_proofs::floor::trap::{Bounds, End, Found, MAX_AGENTS, MAX_CELLS, Trap, Way, hunt};
+use tautline_proofs::floor::trap::{Bounds, End, Found, MAX_AGENTS, MAX_CELLS, Trap, Way};
 use tautline_proofs::words::counted;
 
 use super::agents::PREMATURE;
-use super::hunt::{Asked, Bound, Far, Hunt, Hunted, Hunter, Quarry, Shown};
+use super::each::Each;
+use super::hunt::{Asked, Bound, Hunted, Quarry, Shown};
 use super::rule::RuleId;
 use super::run::{Limits, OnViolation};
 use super::setup::{Profile, Setup};
@@ -29,33 +30,34 @@ const ENDLESS: &str = "BRICKS-5";
 #[derive(Debug)]
 pub(super) struct Traps(pub(super) Way);
 
-impl Hunt for Traps {
-    fn takes(&self) -> &'static [Bound] {
-        TAKEN
+impl Each for Traps {
+    type Layouts = Bounds;
+
+    const TAKES: &'static [Bound] = TAKEN;
+
+    fn refusal(&self, bound: Bound) -> Option<(String, String)> {
+        Some(refusal(bound))
     }
 
-    fn refusal(&self, bound: Bound) -> (String, String) {
-        refusal(bound)
-    }
-
-    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault> {
+    fn layouts(&self, asked: &Asked<'_>) -> Result<Bounds, Fault> {
         let Sought { agents, max_misses, size } = sought(asked)?;
         let (max_width, max_height) = (size.width(), size.height());
-        let bounds =
-            Bounds { way: self.0, agents, max_misses, max_width, max_height, budget_steps: asked.budget };
-        let found = hunt(&bounds, &mut |found| hunter.hears(Far::Words(so_far(found, max_misses))));
-        let quarries = found.trap.iter().map(|trap| quarry(asked, trap)).collect::<Result<Vec<_>, _>>()?;
-        Ok(hunted((bounds.agents, bounds.max_misses), size, (&found, "state"), quarries))
+        Ok(Bounds { way: self.0, agents, max_misses, max_width, max_height, budget_steps: asked.budget })
+    }
+
+    fn so_far(&self, asked: &Asked<'_>, found: &Found) -> String {
+        so_far(asked, found)
+    }
+
+    fn told(&self, asked: &Asked<'_>, found: Found, is_complete: bool) -> Result<Hunted, Fault> {
+        hunted(asked, &found.ended(is_complete), "state")
     }
 }
 
 /// What is told of a search of so many `what`s: states, or runs.
-pub(super) fn hunted(
-    (agents, max_misses): (u32, u8),
-    size: Size,
-    (found, what): (&Found, &str),
-    quarries: Vec<Quarry>,
-) -> Hunted {
+pub(super) fn hunted(asked: &Asked<'_>, found: &Found, what: &str) -> Result<Hunted, Fault> {
+    let Sought { agents, max_misses, size } = sought(asked)?;
+    let quarries = found.trap.iter().map(|trap| quarry(asked, trap)).collect::<Result<Vec<_>, _>>()?;
     let Found { layouts, states, steps, levels, .. } = *found;
     let done = levels.checked_sub(1);
     let bound = match done {
@@ -65,7 +67,7 @@ pub(super) fn hunted(
     };
     let order = if agents == 1 { "" } else { " that act in turn" };
     let (all_layouts, all_states) = (counted(layouts, "layout"), counted(states, what));
-    Hunted {
+    Ok(Hunted {
         robots: agents.into(),
         facts: vec![
             ("size", json!(size.to_string())),
@@ -89,10 +91,10 @@ pub(super) fn hunted(
             }
         },
         found: quarries,
-    }
+    })
 }
 
-pub(super) fn quarry(asked: &Asked<'_>, trap: &Trap) -> Result<Quarry, Fault> {
+fn quarry(asked: &Asked<'_>, trap: &Trap) -> Result<Quarry, Fault> {
     let Trap { width, height, moves, .. } = *trap;
     let misses = trap.missed.len();
     let (clause, shown) = match trap.end {
@@ -161,8 +163,9 @@ pub(super) fn refusal(bound: Bound) -> (String, String) {
 }
 
 /// How far a hunt is, in words.
-pub(super) fn so_far(found: &Found, max_misses: u8) -> String {
+pub(super) fn so_far(asked: &Asked<'_>, found: &Found) -> String {
     let Found { layouts, states, levels, .. } = found;
+    let max_misses = asked.max_misses.unwrap_or(DEFAULT_MISSES);
     format!("misses {levels} of {max_misses}, layouts {layouts}, states {states}")
 }
 

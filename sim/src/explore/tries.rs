@@ -2,92 +2,98 @@
 //! in every small layout, from every start, and with every choice of sensors that are missed: fewest first, then the smallest area.
 
 use std::fmt;
-use std::ops::ControlFlow;
 
-use rayon::prelude::*;
 use tautline_kernel::ground::Cell;
-use tautline_proofs::floor::trap::{End, Found, Trap};
+use tautline_proofs::engine::lots::Lots;
+use tautline_proofs::floor::trap::{End, Found, Look, Stage, Trap, stages, weight};
 
 use super::agents::{Agents, Crew};
-use super::hunt::{Asked, Bound, Far, Hunt, Hunted, Hunter};
-use super::traps::{Sought, TAKEN, hunted, quarry, refusal, setup, so_far, sought};
+use super::each::Each;
+use super::hunt::{Asked, Bound, Hunted};
+use super::rule::RuleId;
+use super::setup::Profile;
+use super::traps::{Sought, TAKEN, hunted, refusal, setup, so_far, sought};
 use crate::fault::Fault;
-use crate::layout::{Layout, Size};
+use crate::layout::Layout;
 
 /// Team moves for each cell after which a run is taken to go on for ever: an agent alone makes at most four (BRICKS-10), and a
 /// missed sensor costs it a few.
 const MANY: u32 = 100;
 
-/// Layouts that are looked at together.
-const WAVE: usize = 64;
-
 /// The way of the agents that are hunted.
 #[derive(Debug)]
 pub(super) struct Tries<K>(pub(super) K);
 
-impl<K: Crew + Sync + fmt::Debug> Hunt for Tries<K> {
-    fn takes(&self) -> &'static [Bound] {
-        TAKEN
+impl<K: Crew + Sync + Send + fmt::Debug> Each for Tries<K> {
+    type Layouts = Runs<K>;
+
+    const TAKES: &'static [Bound] = TAKEN;
+
+    fn refusal(&self, bound: Bound) -> Option<(String, String)> {
+        Some(refusal(bound))
     }
 
-    fn refusal(&self, bound: Bound) -> (String, String) {
-        refusal(bound)
+    fn layouts(&self, asked: &Asked<'_>) -> Result<Runs<K>, Fault> {
+        let &Asked { scheme, rule, .. } = asked;
+        Ok(Runs { crew: self.0, scheme, rule, sought: sought(asked)? })
     }
 
-    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault> {
-        let sought = sought(asked)?;
-        let mut found = Found::default();
-        let is_ended = self.look(asked, &sought, &mut found, hunter)?.is_break();
-        found.is_complete = !is_ended;
-        let trap = if is_ended { None } else { found.trap.take() };
-        let quarries = trap.iter().map(|trap| quarry(asked, trap)).collect::<Result<Vec<_>, _>>()?;
-        Ok(hunted((sought.agents, sought.max_misses), sought.size, (&found, "run"), quarries))
+    fn so_far(&self, asked: &Asked<'_>, found: &Found) -> String {
+        so_far(asked, found)
+    }
+
+    fn told(&self, asked: &Asked<'_>, found: Found, is_complete: bool) -> Result<Hunted, Fault> {
+        hunted(asked, &found.ended(is_complete), "run")
     }
 }
 
-impl<K: Crew + Sync> Tries<K> {
-    /// Looks at all layouts until there is a trap; whether the work was ended before.
-    fn look(
-        &self,
-        asked: &Asked<'_>,
-        sought: &Sought,
-        found: &mut Found,
-        hunter: &mut dyn Hunter,
-    ) -> Result<ControlFlow<()>, Fault> {
-        for misses in 0..=sought.max_misses {
-            for area in areas(sought.size) {
-                let plans = plans(area)?;
-                for wave in plans.chunks(WAVE) {
-                    if asked.budget.is_some_and(|budget| found.steps >= budget) {
-                        return Ok(ControlFlow::Break(()));
-                    }
-                    let looks: Result<Vec<Look>, Fault> =
-                        wave.par_iter().map(|plan| self.plan(asked, sought.agents, misses, plan)).collect();
-                    for Look { runs, steps, trap } in looks? {
-                        found.layouts += 1;
-                        found.states += runs;
-                        found.steps += steps;
-                        let is_smaller =
-                            |trap: &Trap| found.trap.as_ref().is_none_or(|least| trap.moves < least.moves);
-                        found.trap = trap.filter(is_smaller).or(found.trap.take());
-                    }
-                    if hunter.hears(Far::Words(so_far(found, sought.max_misses))).is_break() {
-                        return Ok(ControlFlow::Break(()));
-                    }
-                }
-                if found.trap.is_some() {
-                    return Ok(ControlFlow::Continue(()));
-                }
-            }
-            found.levels += 1;
-        }
-        Ok(ControlFlow::Continue(()))
+/// Every run of these agents in every layout.
+pub(super) struct Runs<K> {
+    crew: K,
+    scheme: &'static Profile,
+    rule: RuleId,
+    sought: Sought,
+}
+
+impl<K: Crew + Sync> Lots for Runs<K> {
+    type Stage = Stage;
+    type Lot = Plan;
+    type Look = Look;
+    type Found = Found;
+    type Fault = Fault;
+
+    fn stages(&self) -> Vec<Stage> {
+        let Sought { max_misses, size, .. } = self.sought;
+        stages(max_misses, (size.width(), size.height()))
     }
 
+    fn lots(&self, (_, area): Stage) -> Result<Vec<Plan>, Fault> {
+        plans(area)
+    }
+
+    fn weight(&self, stage: Stage, plan: &Plan) -> u64 {
+        weight(stage, plan.free.len() as u32, self.sought.agents)
+    }
+
+    fn look(&self, (misses, _): Stage, plan: &Plan, _: u64) -> Result<Look, Fault> {
+        self.plan(misses, plan)
+    }
+
+    fn add(&self, found: &mut Found, _: &Plan, look: Look) -> Result<(), Fault> {
+        found.add(look);
+        Ok(())
+    }
+
+    fn cover(&self, found: &mut Found, stage: Stage) {
+        found.cover(stage, &self.stages());
+    }
+}
+
+impl<K: Crew + Sync> Runs<K> {
     /// Every run in one layout in which exactly so many sensors are missed.
-    fn plan(&self, asked: &Asked<'_>, agents: u32, misses: u8, plan: &Plan) -> Result<Look, Fault> {
-        let mut look = Look { runs: 0, steps: 0, trap: None };
-        let free = plan.free.len();
+    fn plan(&self, misses: u8, plan: &Plan) -> Result<Look, Fault> {
+        let mut look = Look { states: 0, steps: 0, is_whole: true, trap: None };
+        let (free, agents) = (plan.free.len(), self.sought.agents);
         for number in 0..free.pow(agents) {
             let starts = (0..agents).map(|agent| plan.free[number / free.pow(agent) % free]).collect();
             let trap = Trap {
@@ -99,14 +105,14 @@ impl<K: Crew + Sync> Tries<K> {
                 moves: 0,
                 end: End::Done,
             };
-            self.try_each(asked, trap, misses, &mut look)?;
+            self.try_each(trap, misses, &mut look)?;
         }
         Ok(look)
     }
 
     /// The run of `trap` as far as it is given, and with each way to miss so many sensors more after those that it misses.
-    fn try_each(&self, asked: &Asked<'_>, trap: Trap, misses: u8, look: &mut Look) -> Result<(), Fault> {
-        let mut team = Agents::of(&setup(asked.scheme, asked.rule, &trap)?, self.0);
+    fn try_each(&self, trap: Trap, misses: u8, look: &mut Look) -> Result<(), Fault> {
+        let mut team = Agents::of(&setup(self.scheme, self.rule, &trap)?, self.crew);
         let (mut moves, mut end) = (0, None);
         while end.is_none() && !team.is_over() && team.explored() < team.due() {
             team.advance();
@@ -119,7 +125,7 @@ impl<K: Crew + Sync> Tries<K> {
         }
         look.steps += u64::from(moves);
         if misses == 0 {
-            look.runs += 1;
+            look.states += 1;
             let is_smaller = look.trap.as_ref().is_none_or(|least| moves < least.moves);
             if let Some(end) = end.filter(|_| is_smaller) {
                 look.trap = Some(Trap { moves, end, ..trap });
@@ -129,33 +135,17 @@ impl<K: Crew + Sync> Tries<K> {
         let first = trap.missed.last().map_or(1, |last| last + 1);
         for question in first..=team.asked() {
             let missed = [&trap.missed[..], &[question]].concat();
-            self.try_each(asked, Trap { missed, ..trap.clone() }, misses - 1, look)?;
+            self.try_each(Trap { missed, ..trap.clone() }, misses - 1, look)?;
         }
         Ok(())
     }
 }
 
 /// A layout of which all free cells are connected.
-struct Plan {
+pub(super) struct Plan {
     layout: Layout,
     free: Vec<Cell>,
     blocked: Vec<Cell>,
-}
-
-/// What was found in a layout.
-struct Look {
-    runs: u64,
-    /// Team moves.
-    steps: u64,
-    trap: Option<Trap>,
-}
-
-/// The areas, the smallest first.
-fn areas(size: Size) -> Vec<(i16, i16)> {
-    let all = |width| (1..=size.height()).map(move |height| (width, height));
-    let mut areas: Vec<(i16, i16)> = (1..=size.width()).flat_map(all).collect();
-    areas.sort_unstable_by_key(|&(width, height)| (width * height, width));
-    areas
 }
 
 /// Every layout of an area, blocked cells read as a binary number with the north-western one last.

@@ -40,6 +40,8 @@ pub struct Assigned {
     layout: Layout,
     area: Area,
     chart: Chart,
+    /// How much the repository knew before the last team move.
+    known: usize,
     cells: Vec<Cell>,
     aims: Vec<Option<Cell>>,
     idle: usize,
@@ -57,12 +59,24 @@ impl Assigned {
             chart.explore(start);
         }
         let (layout, cells, aims) = (layout.clone(), starts.to_vec(), vec![None; starts.len()]);
-        Self { assignment, layout, area, chart, cells, aims, idle: 0 }
+        Self { assignment, layout, area, chart, known: 0, cells, aims, idle: 0 }
     }
 
     /// Where the robots are.
     pub fn cells(&self) -> &[Cell] {
         &self.cells
+    }
+
+    /// The obstacles that robots have met in the last team move.
+    pub fn met(&self) -> impl Iterator<Item = Cell> {
+        let news = self.chart.learned(self.known).iter();
+        news.filter(|(_, status)| *status == Status::Obstacle).map(|&(cell, _)| cell)
+    }
+
+    /// The robots that go to a frontier cell in the next team move, and to which.
+    pub fn aims(&self) -> impl Iterator<Item = (usize, Cell)> {
+        let aims = self.assigned(&self.frontier()).into_iter().enumerate();
+        aims.filter_map(|(robot, aim)| Some((robot, aim?)))
     }
 
     /// Makes a team move.
@@ -74,8 +88,9 @@ impl Assigned {
         if frontier.is_empty() {
             return Err(Ended::Known);
         }
-        self.assign(&frontier);
+        self.aims = self.assigned(&frontier);
         let before = self.chart.len();
+        self.known = before;
         let mut moves = Moves::none(self.cells.len());
         let mut entering: Vec<Option<Cell>> = vec![None; self.cells.len()];
         for robot in 0..self.cells.len() {
@@ -157,22 +172,21 @@ impl Assigned {
         None
     }
 
-    fn assign(&mut self, frontier: &BTreeSet<Cell>) {
+    /// The frontier cell of each robot.
+    fn assigned(&self, frontier: &BTreeSet<Cell>) -> Vec<Option<Cell>> {
         let is_kept = matches!(self.assignment, Assignment::Greedy | Assignment::Hungarian);
-        for aim in &mut self.aims {
-            *aim = aim.filter(|aim| is_kept && frontier.contains(aim));
-        }
-        let free: Vec<usize> = (0..self.cells.len()).filter(|&robot| self.aims[robot].is_none()).collect();
-        let left: Vec<Cell> =
-            frontier.iter().copied().filter(|cell| !self.aims.contains(&Some(*cell))).collect();
+        let kept = self.aims.iter().map(|aim| aim.filter(|aim| is_kept && frontier.contains(aim)));
+        let mut aims: Vec<Option<Cell>> = kept.collect();
+        let free: Vec<usize> = (0..self.cells.len()).filter(|&robot| aims[robot].is_none()).collect();
+        let left: Vec<Cell> = frontier.iter().copied().filter(|cell| !aims.contains(&Some(*cell))).collect();
         let ways: Vec<Ways> = free.iter().map(|&robot| self.ways(self.cells[robot])).collect();
         let number = |cell: Cell| (cell.y, cell.x);
         match self.assignment {
             Assignment::Earlier => {
                 for (&robot, ways) in free.iter().zip(&ways) {
-                    let open = left.iter().filter(|&&cell| !self.aims.contains(&Some(cell)));
+                    let open = left.iter().filter(|&&cell| !aims.contains(&Some(cell)));
                     let near = open.filter_map(|&cell| Some((*ways.get(&cell)?, number(cell), cell)));
-                    self.aims[robot] = near.min().map(|(.., cell)| cell);
+                    aims[robot] = near.min().map(|(.., cell)| cell);
                 }
             }
             Assignment::Greedy => {
@@ -184,33 +198,33 @@ impl Assigned {
                 }
                 pairs.sort_unstable();
                 for (_, place, _, cell) in pairs {
-                    if self.aims[free[place]].is_none() && !self.aims.contains(&Some(cell)) {
-                        self.aims[free[place]] = Some(cell);
+                    if aims[free[place]].is_none() && !aims.contains(&Some(cell)) {
+                        aims[free[place]] = Some(cell);
                     }
                 }
             }
-            Assignment::Hungarian | Assignment::HungarianAnew => self.assign_all(&free, &left, &ways),
+            Assignment::Hungarian | Assignment::HungarianAnew => assign_all(&mut aims, &free, &left, &ways),
         }
+        aims
     }
+}
 
-    /// Assigns so that all ways together are shortest. A pair without a way is longer than all others together.
-    fn assign_all(&mut self, free: &[usize], left: &[Cell], ways: &[Ways]) {
-        if free.is_empty() || left.is_empty() {
-            return;
+/// Assigns so that all ways together are shortest. A pair without a way is longer than all others together.
+fn assign_all(aims: &mut [Option<Cell>], free: &[usize], left: &[Cell], ways: &[Ways]) {
+    if free.is_empty() || left.is_empty() {
+        return;
+    }
+    let far = 1_i64 << 32;
+    let cost = |robot: usize, cell: usize| ways[robot].get(&left[cell]).map_or(far, |&way| i64::from(way));
+    if free.len() <= left.len() {
+        let weights = Matrix::from_fn(free.len(), left.len(), |(robot, cell)| cost(robot, cell));
+        for (robot, cell) in kuhn_munkres_min(&weights).1.into_iter().enumerate() {
+            aims[free[robot]] = Some(left[cell]).filter(|_| cost(robot, cell) < far);
         }
-        let far = 1_i64 << 32;
-        let cost =
-            |robot: usize, cell: usize| ways[robot].get(&left[cell]).map_or(far, |&way| i64::from(way));
-        if free.len() <= left.len() {
-            let weights = Matrix::from_fn(free.len(), left.len(), |(robot, cell)| cost(robot, cell));
-            for (robot, cell) in kuhn_munkres_min(&weights).1.into_iter().enumerate() {
-                self.aims[free[robot]] = Some(left[cell]).filter(|_| cost(robot, cell) < far);
-            }
-        } else {
-            let weights = Matrix::from_fn(left.len(), free.len(), |(cell, robot)| cost(robot, cell));
-            for (cell, robot) in kuhn_munkres_min(&weights).1.into_iter().enumerate() {
-                self.aims[free[robot]] = Some(left[cell]).filter(|_| cost(robot, cell) < far);
-            }
+    } else {
+        let weights = Matrix::from_fn(left.len(), free.len(), |(cell, robot)| cost(robot, cell));
+        for (cell, robot) in kuhn_munkres_min(&weights).1.into_iter().enumerate() {
+            aims[free[robot]] = Some(left[cell]).filter(|_| cost(robot, cell) < far);
         }
     }
 }

@@ -3,17 +3,29 @@
 use serde_json::value::RawValue;
 
 use super::{Of, Plan};
-use crate::explore::hunt::{Asked, Deals, Dealt, Hunted};
+use crate::explore::hunt::{Asked, Deals, Dealt, Hunt, Hunted};
 use crate::explore::{Misfit, Profile, RuleId};
 use crate::fault::Fault;
 use crate::part::Part;
 
+/// The hunt of a rule.
+fn hunt(scheme: &'static Profile, rule: RuleId) -> Result<&'static dyn Hunt, Fault> {
+    let row = scheme.rule(rule).ok_or(Misfit::Rule { scheme, rule }).map_err(Fault::from)?;
+    row.hunt.ok_or_else(|| {
+        Fault::usage(format_args!("nothing is hunted of {}", scheme.name), "hunt another scheme")
+    })
+}
+
 /// The hunt of a rule that can be dealt out.
 fn deals(scheme: &'static Profile, rule: RuleId) -> Result<&'static dyn Deals, Fault> {
-    let row = scheme.rule(rule).ok_or(Misfit::Rule { scheme, rule }).map_err(Fault::from)?;
-    row.hunt.and_then(|hunt| hunt.deals()).ok_or_else(|| {
-        let what = format!("a hunt of {} is not dealt out: it is searched in one piece", scheme.name);
-        Fault::of_field("shards", what, "leave `plan` and `shards` out, or hunt a chain")
+    hunt(scheme, rule)?.deals().ok_or_else(|| {
+        let what = format!(
+            "a hunt of {} by the rule {rule} is not dealt out: most of its states are led to from every start, so each shard \
+             would search them again",
+            scheme.name
+        );
+        let remedy = "leave `plan` and `shards` out; a smaller `size` or `max-walls` makes it shorter";
+        Fault::of_field("shards", what, remedy)
     })
 }
 
@@ -33,6 +45,7 @@ fn hunted(plan: &Plan) -> Result<(&'static Profile, RuleId), Fault> {
 /// A [`Fault`] if it cannot be dealt out.
 pub fn deal_hunt(asked: &Asked<'_>, shards: u32) -> Result<(Of, Dealt), Fault> {
     let &Asked { scheme, rule, .. } = asked;
+    asked.check(hunt(scheme, rule)?)?;
     let dealt = deals(scheme, rule)?.deal(asked, shards as usize)?;
     Ok((Of::Hunt { scheme, rule }, dealt))
 }
@@ -49,7 +62,8 @@ pub fn hunt_part(
 ) -> Result<Box<dyn Part>, Fault> {
     plan.check_shard(shard)?;
     let (scheme, rule) = hunted(plan)?;
-    deals(scheme, rule)?.part(&plan.deal, shard as usize - 1, far, budget_moves)
+    let asked = Asked { budget: budget_moves, ..Asked::new(scheme, rule) };
+    deals(scheme, rule)?.part(&asked, &plan.deal, shard as usize - 1, far)
 }
 
 /// What all shards of a hunt have found.
@@ -58,5 +72,5 @@ pub fn hunt_part(
 /// A [`Fault`] if they do not fit their plan.
 pub fn merge_hunt(plan: &Plan, shards: &[Box<RawValue>]) -> Result<Hunted, Fault> {
     let (scheme, rule) = hunted(plan)?;
-    deals(scheme, rule)?.merge(scheme, rule, &plan.deal, shards)
+    deals(scheme, rule)?.merge(&Asked::new(scheme, rule), &plan.deal, shards)
 }

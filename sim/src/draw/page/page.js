@@ -326,7 +326,7 @@ function colour(cell) {
   for (const layer of film.layers) {
     if (layer.shape !== "cells" || !shows(layer.name) || layer.each && followed < 0) continue;
     const value = state[layer.start + (layer.each ? followed * cells : 0) + cell];
-    if (value) return rgba[{ open: "explored", wall: "blocked", aim: "frontier" }[layer.values[value - 1].ink] ?? layer.values[value - 1].ink];
+    if (value) return rgba[{ open: "explored", wall: "blocked", aim: "frontier", goal: "frontier" }[layer.values[value - 1].ink] ?? layer.values[value - 1].ink];
   }
   if (state[FRONTIER + cell] && shows("frontier")) return rgba.frontier;
   return state[EXPLORED + cell] && shows("what the team knows") ? rgba.explored : rgba.unexplored;
@@ -458,13 +458,15 @@ function drawSigns() {
   }
 }
 
-const signInk = name => ({ frontier: ink["frontier-ink"], aim: ink.aim, wall: ink.wall })[name] ?? ink.barred;
+const signInk = name => ({ frontier: ink["frontier-ink"], aim: ink.aim, goal: ink.aim, wall: ink.wall })[name] ?? ink.barred;
 
-/** The sign of a kind of cell round a place: a diamond, a ring, one stroke, two, a cross. */
+/** The sign of a kind of cell round a place: a diamond, a ring, two rings, one stroke, two, a cross. */
 function sign(pen, name, x, y, scale) {
   const r = scale * .13;
   switch (name) {
     case "frontier": pen.moveTo(x, y - r); pen.lineTo(x + r, y); pen.lineTo(x, y + r); pen.lineTo(x - r, y); pen.closePath(); break;
+    case "goal": pen.moveTo(x + r, y); pen.arc(x, y, r, 0, 7);
+    // Falls through: two rings are one more than one.
     case "aim": pen.moveTo(x + 2 * r, y); pen.arc(x, y, 2 * r, 0, 7); break;
     case "closing": pen.moveTo(x + r / 2, y); pen.arc(x, y, r / 2, 0, 7); break;
     case "sealed": pen.moveTo(x - 2 * r, y - 2 * r); pen.lineTo(x + 2 * r, y + 2 * r);
@@ -990,7 +992,7 @@ function key(name) {
     const colour = { wall: ink.unknown, known: ink.wall, bump: ink.bad, trail: ink.trail, lost: ink.bad, link0: ink.link, link1: ink.link, circle: ink.link, arrow: ink.ink, missed: ink.bad }[name] ?? ink[kind];
     line(colour, { link1: 2, circle: 1.5, arrow: 1.5, missed: 1.5 }[name] ?? 3, { lost: [6, 4], link1: [2, 3], circle: [5, 4], missed: [3, 2] }[name] ?? (kind === "barred" ? [4, 3].map(part => part * unit) : []));
   } else if (fill || shape === "cells") {
-    ownPen.fillStyle = fill ?? { open: ink.explored, wall: ink.blocked, aim: ink.frontier }[kind];
+    ownPen.fillStyle = fill ?? { open: ink.explored, wall: ink.blocked, aim: ink.frontier, goal: ink.frontier }[kind];
     ownPen.fillRect((w - h) / 2, 0, h, h);
   } else {
     ownPen.beginPath(); ownPen.arc(w / 2, h / 2, name === "node" ? 2 * unit : 5 * unit, 0, 7);

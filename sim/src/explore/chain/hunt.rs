@@ -91,18 +91,18 @@ impl Deals for Walls {
         let (left, moves) = (deal.left().to_vec(), deal.moves());
         let size = asked.size.map(|size| (size.width(), size.height()));
         let deal = written(&Plan { robots, max_walls, size, deal })?;
-        Ok(Dealt { deal, left, moves })
+        Ok(Dealt { deal, left, of: "team move", moves })
     }
 
-    fn part(
-        &self,
+    fn part<'a>(
+        &'a self,
+        asked: &Asked<'_>,
         deal: &RawValue,
         shard: usize,
         far: Option<&RawValue>,
-        budget_moves: Option<u64>,
-    ) -> Result<Box<dyn Part>, Fault> {
+    ) -> Result<Box<dyn Part + 'a>, Fault> {
         let plan = Plan::read(deal)?;
-        let bounds = Bounds { budget_moves, ..plan.bounds(self.0)? };
+        let bounds = Bounds { budget_moves: asked.budget, ..plan.bounds(self.0)? };
         let search = match far {
             None => Search::shard(&bounds, &plan.deal, shard),
             Some(far) => Search::shard_at(&bounds, &plan.deal, shard, &position(far)?),
@@ -110,18 +110,12 @@ impl Deals for Walls {
         Ok(Box::new(Shard(search.map_err(fault)?)))
     }
 
-    fn merge(
-        &self,
-        scheme: &'static Profile,
-        rule: RuleId,
-        deal: &RawValue,
-        shards: &[Box<RawValue>],
-    ) -> Result<Hunted, Fault> {
+    fn merge(&self, asked: &Asked<'_>, deal: &RawValue, shards: &[Box<RawValue>]) -> Result<Hunted, Fault> {
         let plan = Plan::read(deal)?;
         let bounds = plan.bounds(self.0)?;
         let positions = shards.iter().map(|far| position(far)).collect::<Result<Vec<_>, _>>()?;
         let merged = Search::merged(&bounds, &plan.deal, &positions).map_err(fault)?;
-        told(scheme, rule, &bounds, &merged.found())
+        told(asked.scheme, asked.rule, &bounds, &merged.found())
     }
 }
 

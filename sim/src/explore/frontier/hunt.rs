@@ -1,7 +1,7 @@
 //! Hunts of robots that explore cells. Of the kernel's robots all states are searched: all obstacles, all starts, all orders,
 //! lost messages and wrong fixes. Of rivals all layouts and starts are tried, smallest first.
 
-use std::ops::ControlFlow;
+mod rivals;
 
 use serde_json::json;
 use tautline_kernel::frontier::{Map, Rule as Frontier, Status, TinyMap};
@@ -12,12 +12,12 @@ use tautline_proofs::frontier::drift::{Drift, PARTS};
 use tautline_proofs::frontier::world::{Demand, Event, Setting};
 use tautline_proofs::words::counted;
 
-use super::{ENDS, reachable};
-use crate::explore::hunt::{Asked, Bound, Fact, Far, Hunt, Hunted, Hunter, Quarry, Shown, outcome};
-use crate::explore::run::{Limits, OnViolation, run};
+pub(super) use self::rivals::Simulated;
+use crate::explore::hunt::{Asked, Bound, Fact, Hunt, Hunted, Hunter, Quarry, Shown, outcome};
+use crate::explore::run::{Limits, OnViolation};
 use crate::explore::watched::{Count, watched};
-use crate::explore::{ClauseId, Setup, team};
-use crate::fault::{Fault, Halt};
+use crate::explore::{ClauseId, Setup};
+use crate::fault::Fault;
 use crate::layout::{Layout, Size};
 
 /// Robots when nobody says how many.
@@ -32,16 +32,9 @@ const DEFAULT_SIZE: (u64, u64) = (3, 2);
 /// Cells of the largest areas.
 const MOST_CELLS: usize = 16;
 
-/// Team moves after which a rival is watched no longer.
-const MOST_MOVES: u32 = 1000;
-
 /// The kernel's robots, whose states are searched.
 #[derive(Debug)]
 pub(super) struct Searched(pub(super) Frontier);
-
-/// Rivals, of which every layout is tried.
-#[derive(Debug)]
-pub(super) struct Simulated;
 
 /// All areas up to a size, fewest cells first.
 fn areas(size: Size) -> Vec<(i16, i16)> {
@@ -283,112 +276,4 @@ fn told(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Ve
         outcome: outcome(&found, is_complete, covered),
         found,
     }
-}
-
-impl Hunt for Simulated {
-    fn takes(&self) -> &'static [Bound] {
-        &[Bound::Walls]
-    }
-
-    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault> {
-        let (size, robots) = bounds(asked, MOST_CELLS as u64)?;
-        let mut count = Count { is_complete: true, ..Count::default() };
-        let mut found: Vec<Quarry> = Vec::new();
-        'areas: for (width, height) in areas(size) {
-            let cells: Vec<Cell> =
-                (0..height).flat_map(|y| (0..width).map(move |x| Cell::new(x, y))).collect();
-            let mut blocks: Vec<u32> = (0..1_u32 << cells.len()).collect();
-            let most = asked.max_walls.unwrap_or(u32::MAX);
-            blocks.retain(|blocked| blocked.count_ones() <= most);
-            blocks.sort_by_key(|blocked| (blocked.count_ones(), *blocked));
-            for blocked in blocks {
-                let free = (0..cells.len()).filter(|place| blocked >> place & 1 == 0);
-                let free: Vec<Cell> = free.map(|place| cells[place]).collect();
-                for starts in choose(&free, robots as usize) {
-                    let what = format!("layouts {} of {width}x{height}", count.states);
-                    let is_over = asked.budget.is_some_and(|budget| count.steps >= budget);
-                    if is_over || hunter.hears(Far::Words(what)) == ControlFlow::Break(()) {
-                        count.is_complete = false;
-                        break 'areas;
-                    }
-                    let setup = layout_of(asked, (width, height), &cells, blocked, &starts)?;
-                    if reachable(&setup.layout, &starts).len() < starts.len() {
-                        continue;
-                    }
-                    count.states += 1;
-                    try_one(&setup, &mut count, &mut found)?;
-                }
-            }
-            count.cells = Some(cells.len());
-        }
-        found.sort_by_key(|quarry| quarry.clause);
-        Ok(told(asked, (size, robots), &count, found))
-    }
-}
-
-/// Every choice of so many of the cells, in their order.
-fn choose(cells: &[Cell], count: usize) -> Vec<Vec<Cell>> {
-    if count == 0 {
-        return vec![Vec::new()];
-    }
-    let mut chosen = Vec::new();
-    for (place, &first) in cells.iter().enumerate() {
-        for mut rest in choose(&cells[place + 1..], count - 1) {
-            rest.insert(0, first);
-            chosen.push(rest);
-        }
-    }
-    chosen
-}
-
-fn layout_of(
-    asked: &Asked<'_>,
-    (width, height): (i16, i16),
-    cells: &[Cell],
-    blocked: u32,
-    starts: &[Cell],
-) -> Result<Setup, Fault> {
-    let mut layout = Layout::open(width as u64, height as u64)?;
-    let is_blocked = |place: &usize| blocked >> place & 1 == 1;
-    (0..cells.len()).filter(is_blocked).for_each(|place| layout.block(cells[place]));
-    let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
-    layout.place_base(base)?;
-    let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
-    let setup = Setup::new(asked.scheme, asked.rule, starts.len() as u16, layout, base);
-    Ok(Setup { starts: Some(starts.to_vec()), limits, ..setup })
-}
-
-/// The start of a run without end.
-fn endless(setup: &Setup) -> String {
-    let starts = setup.starts();
-    let starts = (1..).zip(&starts).map(|(robot, start)| format!("R{robot} starts in {start}"));
-    format!("A run without end: {}\n\n{}", starts.collect::<Vec<_>>().join(", "), setup.layout)
-}
-
-/// Runs a rival once, and keeps what breaks a clause that none has broken before.
-fn try_one(setup: &Setup, count: &mut Count, found: &mut Vec<Quarry>) -> Result<(), Fault> {
-    let mut members = team(setup)?;
-    let made = run(&mut *members, &setup.layout, setup.limits, &mut |made| {
-        if made.step > MOST_MOVES { Err(Halt::Interrupted) } else { Ok(()) }
-    });
-    let (steps, broken) = match &made {
-        Ok(report) => (report.steps, report.violations.first().map(|violation| violation.clause)),
-        Err(_) => (MOST_MOVES, Some(ENDS)),
-    };
-    count.steps += u64::from(steps);
-    let Some(clause) = broken.filter(|clause| found.iter().all(|known| known.clause != clause.as_str()))
-    else {
-        return Ok(());
-    };
-    let layout = &setup.layout;
-    let size = [layout.width() as usize, layout.height() as usize];
-    let walls = layout.size().cells() - layout.free_cells();
-    found.push(Quarry {
-        clause: clause.as_str(),
-        facts: sizes(size, walls, steps as usize),
-        title: title(size, walls, steps as usize),
-        setup: setup.clone(),
-        shown: if clause == ENDS { Shown::Told(endless(setup)) } else { Shown::Run(clause) },
-    });
-    Ok(())
 }

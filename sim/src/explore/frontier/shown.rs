@@ -1,10 +1,10 @@
 //! What a page shows of robots that explore cells: each robot's repository, the cells that they have claimed, how far they
-//! are heard, and who misses what they say.
+//! are heard, and who misses what they say; of rivals the obstacles that all know, and who is assigned to which cell.
 
 use tautline_kernel::frontier::Status;
 
 use crate::explore::{Change, Hearers, Ink, Kind, Layer, Place, Scene, Shape, Value};
-use crate::frontier::Explorers;
+use crate::frontier::{Assigned, Explorers};
 
 /// The places among the layers.
 const REPOSITORIES: usize = 0;
@@ -16,11 +16,47 @@ const KINDS: &[Kind] = &[Kind::heard("tells what it knows"), Kind::lost("is not 
 const EXPLORED: u8 = 1;
 const OBSTACLE: u8 = 2;
 
+const CLAIM: &[Value] = &[Value { name: "claimed", ink: Ink::Aim }];
+
+/// The places among the layers of a team whose cells are assigned.
+const OBSTACLES: usize = 0;
+const ASSIGNMENT: usize = 1;
+const ALL_CLAIMS: usize = 2;
+
+fn layer(name: &'static str, about: &str, shape: Shape) -> Layer {
+    Layer { name, about: about.to_owned(), shape }
+}
+
+pub(super) fn layers_of_assigned() -> Vec<Layer> {
+    const MET: &[Value] = &[Value { name: "obstacle", ink: Ink::Wall }];
+    const OWN: &[Value] = &[Value { name: "assigned to the followed robot", ink: Ink::Goal }];
+    vec![
+        layer("obstacles", "the obstacles that a robot has met: all robots know them", Shape::Cells(MET)),
+        layer(
+            "assignment",
+            "the frontier cell that the followed robot goes to next",
+            Shape::CellsOfEach(OWN),
+        ),
+        layer("claims", "the frontier cells that robots go to next", Shape::Cells(CLAIM)),
+    ]
+}
+
+/// What robots have met in the last team move, and who is assigned to which cell from now on.
+pub(super) fn show_assigned(robots: &Assigned, scene: &mut Scene) {
+    for cell in robots.met() {
+        scene.put(OBSTACLES, Place::Cell(cell), 1);
+    }
+    scene.note(Change::Clear { layer: ASSIGNMENT });
+    scene.note(Change::Clear { layer: ALL_CLAIMS });
+    for (robot, cell) in robots.aims() {
+        scene.put_for(ASSIGNMENT, robot, Place::Cell(cell), 1);
+        scene.put(ALL_CLAIMS, Place::Cell(cell), 1);
+    }
+}
+
 pub(super) fn layers(robots: &Explorers) -> Vec<Layer> {
     const REPOSITORY: &[Value] =
         &[Value { name: "explored", ink: Ink::Open }, Value { name: "obstacle", ink: Ink::Wall }];
-    const CLAIM: &[Value] = &[Value { name: "claimed", ink: Ink::Aim }];
-    let layer = |name, about: &str, shape| Layer { name, about: about.to_owned(), shape };
     let mut layers = vec![
         layer("repositories", "what the followed robot has stored of cells", Shape::CellsOfEach(REPOSITORY)),
         layer("claims", "the unexplored cells that robots are going to", Shape::Cells(CLAIM)),

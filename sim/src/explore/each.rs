@@ -1,0 +1,167 @@
+//! Hunts that look at each layout by itself, in one process or dealt out among shards.
+
+use std::fmt;
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
+use serde_json::{Value, json};
+use tautline_proofs::engine::lots::{self, Look, Lots, Shard};
+use tautline_proofs::words::counted;
+
+use super::hunt::{Asked, Bound, Deals, Dealt, Far, Hunt, Hunted, Hunter};
+use crate::fault::{Fault, Halt};
+use crate::layout::Size;
+use crate::part::{Part, written};
+
+/// A hunt that looks at each layout by itself.
+pub(super) trait Each: fmt::Debug + Sync {
+    /// The layouts.
+    type Layouts: Lots<Look: Serialize + DeserializeOwned, Fault: Into<Fault>>;
+
+    /// The bounds that it takes, as of a [`Hunt`].
+    const TAKES: &'static [Bound];
+
+    /// Why it does not take `bound`, if it is not for the same reason as most hunts.
+    fn refusal(&self, _: Bound) -> Option<(String, String)> {
+        None
+    }
+
+    /// All layouts within what is asked.
+    ///
+    /// # Errors
+    /// A [`Fault`] if they are too many, or none.
+    fn layouts(&self, asked: &Asked<'_>) -> Result<Self::Layouts, Fault>;
+
+    /// How far a hunt is, in words.
+    fn so_far(&self, asked: &Asked<'_>, found: &FoundBy<Self>) -> String;
+
+    /// What is told of a hunt that came to its end, or did not.
+    ///
+    /// # Errors
+    /// A [`Fault`] if what was found cannot be told.
+    fn told(&self, asked: &Asked<'_>, found: FoundBy<Self>, is_complete: bool) -> Result<Hunted, Fault>;
+}
+
+/// What a hunt has found.
+pub(super) type FoundBy<E> = <<E as Each>::Layouts as Lots>::Found;
+
+impl<E: Each> Hunt for E {
+    fn takes(&self) -> &'static [Bound] {
+        E::TAKES
+    }
+
+    fn refusal(&self, bound: Bound) -> (String, String) {
+        Each::refusal(self, bound).unwrap_or_else(|| bound.refused_by(E::TAKES))
+    }
+
+    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault> {
+        let layouts = self.layouts(asked)?;
+        let mut hears = |found: &FoundBy<E>| hunter.hears(Far::Words(self.so_far(asked, found)));
+        let searched = lots::search(&layouts, asked.budget, &mut hears);
+        let (found, is_complete) = searched.map_err(Into::into)?;
+        self.told(asked, found, is_complete)
+    }
+
+    fn deals(&self) -> Option<&dyn Deals> {
+        Some(self)
+    }
+}
+
+/// A hunt dealt out: what is asked of it, and among how many shards.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Deal {
+    robots: Option<u64>,
+    size: Option<(i16, i16)>,
+    max_walls: Option<u32>,
+    max_misses: Option<u8>,
+    max_losses: Option<u8>,
+    error_cells: Option<f64>,
+    shards: usize,
+}
+
+impl Deal {
+    fn of(asked: &Asked<'_>, shards: usize) -> Self {
+        let &Asked { robots, max_walls, max_misses, max_losses, error_cells, .. } = asked;
+        let size = asked.size.map(|size| (size.width(), size.height()));
+        Self { robots, size, max_walls, max_misses, max_losses, error_cells, shards }
+    }
+
+    /// What it is a deal of: the scheme, the rule and the budget stand in `asked`.
+    fn read<'a>(text: &RawValue, asked: &Asked<'a>) -> Result<(Asked<'a>, usize), Fault> {
+        let deal: Self =
+            serde_json::from_str(text.get()).map_err(|error| Fault::usage(error, "plan anew"))?;
+        let Self { robots, size, max_walls, max_misses, max_losses, error_cells, shards } = deal;
+        let size = size.map(|(width, height)| Size::new(width as u64, height as u64)).transpose();
+        let size = size.map_err(|problem| Fault::usage(problem, "plan anew"))?;
+        let asked = Asked { robots, size, max_walls, max_misses, max_losses, error_cells, ..*asked };
+        Ok((asked, shards))
+    }
+}
+
+/// The looks that a shard has taken, stage by stage.
+fn taken<L: DeserializeOwned>(far: &RawValue) -> Result<Vec<Vec<L>>, Fault> {
+    serde_json::from_str(far.get()).map_err(|error| Fault::usage(error, "run the shard again"))
+}
+
+impl<E: Each> Deals for E {
+    fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Fault> {
+        let left = lots::dealt(&self.layouts(asked)?, shards).map_err(Into::into)?;
+        Ok(Dealt { deal: written(&Deal::of(asked, shards))?, left, of: "layout", moves: 0 })
+    }
+
+    fn part<'a>(
+        &'a self,
+        asked: &Asked<'_>,
+        deal: &RawValue,
+        shard: usize,
+        far: Option<&RawValue>,
+    ) -> Result<Box<dyn Part + 'a>, Fault> {
+        let (asked, shards) = Deal::read(deal, asked)?;
+        let looks = far.map(taken).transpose()?.unwrap_or_default();
+        let shard = Shard::new(self.layouts(&asked)?, (shard, shards), looks, asked.budget);
+        Ok(Box::new(Looks(shard.map_err(Into::into)?)))
+    }
+
+    fn merge(&self, asked: &Asked<'_>, deal: &RawValue, shards: &[Box<RawValue>]) -> Result<Hunted, Fault> {
+        let (asked, _) = Deal::read(deal, asked)?;
+        let looks = shards.iter().map(|far| taken(far)).collect::<Result<Vec<_>, _>>()?;
+        let (found, is_complete) = lots::merged(&self.layouts(&asked)?, looks).map_err(Into::into)?;
+        self.told(&asked, found, is_complete)
+    }
+}
+
+/// A shard of a hunt.
+struct Looks<L: Lots>(Shard<L>);
+
+impl<L: Lots> Looks<L> {
+    fn count(&self) -> (usize, u64) {
+        let all = || self.0.looks().iter().flatten();
+        (all().count(), all().map(Look::steps).sum())
+    }
+}
+
+impl<L: Lots<Look: Serialize, Fault: Into<Fault>>> Part for Looks<L> {
+    fn step(&mut self) -> Result<bool, Halt> {
+        self.0.wave().map_err(|fault| fault.into().into())
+    }
+
+    fn far(&self) -> Result<Box<RawValue>, Fault> {
+        written(&self.0.looks())
+    }
+
+    fn is_done(&self) -> bool {
+        self.0.is_done()
+    }
+
+    fn facts(&self) -> Vec<(&'static str, Value)> {
+        let (layouts, moves) = self.count();
+        vec![("layouts", json!(layouts)), ("moves", json!(moves))]
+    }
+
+    fn words(&self) -> String {
+        let (layouts, moves) = self.count();
+        format!("{}, {}", counted(layouts, "layout"), counted(moves, "team move"))
+    }
+}

@@ -1,0 +1,245 @@
+//! Hunts of rivals that assign robots to cells: all layouts and starts are tried, smallest first.
+
+use serde::{Deserialize, Serialize};
+use tautline_kernel::ground::Cell;
+use tautline_proofs::engine::lots::{self, Lots};
+
+use super::super::{ENDS, reachable};
+use super::{MOST_CELLS, areas, bounds, sizes, title, told};
+use crate::explore::each::{Each, FoundBy};
+use crate::explore::hunt::{Asked, Bound, Hunted, Quarry, Shown};
+use crate::explore::run::{Limits, OnViolation, run};
+use crate::explore::watched::Count;
+use crate::explore::{ClauseId, Profile, RuleId, Setup, team};
+use crate::fault::{Fault, Halt};
+use crate::layout::Layout;
+
+/// Team moves after which a rival is watched no longer.
+const MOST_MOVES: u32 = 1000;
+
+/// Rivals, of which every layout is tried.
+#[derive(Debug)]
+pub(in crate::explore::frontier) struct Simulated;
+
+impl Each for Simulated {
+    type Layouts = Layouts;
+
+    const TAKES: &'static [Bound] = &[Bound::Walls];
+
+    fn layouts(&self, asked: &Asked<'_>) -> Result<Layouts, Fault> {
+        let (size, robots) = bounds(asked, MOST_CELLS as u64)?;
+        let &Asked { scheme, rule, max_walls, .. } = asked;
+        Ok(Layouts {
+            scheme,
+            rule,
+            robots: robots as usize,
+            max_walls: max_walls.unwrap_or(u32::MAX),
+            areas: areas(size),
+        })
+    }
+
+    fn so_far(&self, _: &Asked<'_>, (count, _): &FoundBy<Self>) -> String {
+        format!("layouts {}, moves {}", count.states, count.steps)
+    }
+
+    fn told(
+        &self,
+        asked: &Asked<'_>,
+        (count, mut found): FoundBy<Self>,
+        is_complete: bool,
+    ) -> Result<Hunted, Fault> {
+        found.sort_by_key(|quarry| quarry.clause);
+        Ok(told(asked, bounds(asked, MOST_CELLS as u64)?, &Count { is_complete, ..count }, found))
+    }
+}
+
+/// All layouts, and all starts in each.
+pub(in crate::explore::frontier) struct Layouts {
+    scheme: &'static Profile,
+    rule: RuleId,
+    robots: usize,
+    /// Most obstacles.
+    max_walls: u32,
+    areas: Vec<(i16, i16)>,
+}
+
+/// An area, and which of its cells are blocked, row by row.
+#[derive(Clone, Copy)]
+pub(in crate::explore::frontier) struct Blocked {
+    area: (i16, i16),
+    set: u32,
+}
+
+/// What was seen in a layout.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::explore::frontier) struct Tried {
+    /// Runs, one for each start.
+    runs: u64,
+    /// Team moves.
+    steps: u64,
+    /// The first run that breaks each clause.
+    broken: Vec<Broken>,
+}
+
+/// A run that breaks a clause.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Broken {
+    clause: ClauseId,
+    /// The number of its start.
+    start: usize,
+    steps: u32,
+}
+
+impl lots::Look for Tried {
+    fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    fn is_whole(&self) -> bool {
+        true
+    }
+
+    fn is_enough(&self) -> bool {
+        false
+    }
+}
+
+impl Lots for Layouts {
+    type Stage = (i16, i16);
+    type Lot = Blocked;
+    type Look = Tried;
+    type Found = (Count, Vec<Quarry>);
+    type Fault = Fault;
+
+    fn stages(&self) -> Vec<(i16, i16)> {
+        self.areas.clone()
+    }
+
+    fn lots(&self, area: (i16, i16)) -> Result<Vec<Blocked>, Fault> {
+        let mut sets: Vec<u32> = (0..1_u32 << (area.0 * area.1)).collect();
+        sets.retain(|set| set.count_ones() <= self.max_walls);
+        sets.sort_by_key(|set| (set.count_ones(), *set));
+        Ok(sets.into_iter().map(|set| Blocked { area, set }).collect())
+    }
+
+    fn weight(&self, _: (i16, i16), blocked: &Blocked) -> u64 {
+        u64::from(blocked.cells(false).len() as u32).saturating_pow(self.robots as u32 + 1)
+    }
+
+    fn look(&self, _: (i16, i16), blocked: &Blocked, _: u64) -> Result<Tried, Fault> {
+        let mut tried = Tried { runs: 0, steps: 0, broken: Vec::new() };
+        for (start, starts) in blocked.starts(self.robots).iter().enumerate() {
+            let setup = self.setup(blocked, starts)?;
+            if reachable(&setup.layout, starts).len() < starts.len() {
+                continue;
+            }
+            let (steps, broken) = try_one(&setup)?;
+            tried.runs += 1;
+            tried.steps += u64::from(steps);
+            let is_new = |clause: &ClauseId| tried.broken.iter().all(|known| known.clause != *clause);
+            if let Some(clause) = broken.filter(is_new) {
+                tried.broken.push(Broken { clause, start, steps });
+            }
+        }
+        Ok(tried)
+    }
+
+    fn add(
+        &self,
+        (count, found): &mut (Count, Vec<Quarry>),
+        blocked: &Blocked,
+        look: Tried,
+    ) -> Result<(), Fault> {
+        count.states += look.runs;
+        count.steps += look.steps;
+        for Broken { clause, start, steps } in look.broken {
+            if found.iter().all(|known| known.clause != clause.as_str())
+                && let Some(starts) = blocked.starts(self.robots).get(start)
+            {
+                found.push(quarry(self.setup(blocked, starts)?, clause, steps));
+            }
+        }
+        Ok(())
+    }
+
+    fn cover(&self, (count, _): &mut (Count, Vec<Quarry>), (width, height): (i16, i16)) {
+        count.cells = Some((width * height) as usize);
+    }
+}
+
+impl Blocked {
+    fn cells(&self, is_blocked: bool) -> Vec<Cell> {
+        let (width, height) = self.area;
+        let cells = (0..height).flat_map(|y| (0..width).map(move |x| Cell::new(x, y)));
+        let wanted = cells.enumerate().filter(|(place, _)| (self.set >> place & 1 == 1) == is_blocked);
+        wanted.map(|(_, cell)| cell).collect()
+    }
+
+    /// Every choice of cells where so many robots can start.
+    fn starts(&self, robots: usize) -> Vec<Vec<Cell>> {
+        choose(&self.cells(false), robots)
+    }
+}
+
+impl Layouts {
+    fn setup(&self, blocked: &Blocked, starts: &[Cell]) -> Result<Setup, Fault> {
+        let (width, height) = blocked.area;
+        let mut layout = Layout::open(width as u64, height as u64)?;
+        blocked.cells(true).into_iter().for_each(|cell| layout.block(cell));
+        let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
+        layout.place_base(base)?;
+        let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
+        let setup = Setup::new(self.scheme, self.rule, starts.len() as u16, layout, base);
+        Ok(Setup { starts: Some(starts.to_vec()), limits, ..setup })
+    }
+}
+
+/// Every choice of so many of the cells, in their order.
+fn choose(cells: &[Cell], count: usize) -> Vec<Vec<Cell>> {
+    if count == 0 {
+        return vec![Vec::new()];
+    }
+    let mut chosen = Vec::new();
+    for (place, &first) in cells.iter().enumerate() {
+        for mut rest in choose(&cells[place + 1..], count - 1) {
+            rest.insert(0, first);
+            chosen.push(rest);
+        }
+    }
+    chosen
+}
+
+/// The start of a run without end.
+fn endless(setup: &Setup) -> String {
+    let starts = setup.starts();
+    let starts = (1..).zip(&starts).map(|(robot, start)| format!("R{robot} starts in {start}"));
+    format!("A run without end: {}\n\n{}", starts.collect::<Vec<_>>().join(", "), setup.layout)
+}
+
+/// Runs a rival once: its team moves, and the clause that it breaks.
+fn try_one(setup: &Setup) -> Result<(u32, Option<ClauseId>), Fault> {
+    let mut members = team(setup)?;
+    let made = run(&mut *members, &setup.layout, setup.limits, &mut |made| {
+        if made.step > MOST_MOVES { Err(Halt::Interrupted) } else { Ok(()) }
+    });
+    Ok(match &made {
+        Ok(report) => (report.steps, report.violations.first().map(|violation| violation.clause)),
+        Err(_) => (MOST_MOVES, Some(ENDS)),
+    })
+}
+
+/// A run that breaks a clause, as one that can be stored, unless it goes on for ever.
+fn quarry(setup: Setup, clause: ClauseId, steps: u32) -> Quarry {
+    let layout = &setup.layout;
+    let size = [layout.width() as usize, layout.height() as usize];
+    let walls = layout.size().cells() - layout.free_cells();
+    Quarry {
+        clause: clause.as_str(),
+        facts: sizes(size, walls, steps as usize),
+        title: title(size, walls, steps as usize),
+        shown: if clause == ENDS { Shown::Told(endless(&setup)) } else { Shown::Run(clause) },
+        setup,
+    }
+}
