@@ -21,7 +21,7 @@ fn is_formed(rule: &Rule, cells: &[Cell]) -> bool {
 }
 
 /// Re-forms `chain` without `robot`, numbered from 1, the base; whether it did so away from home.
-fn reforms(chain: Team, robot: usize, log: &[u8]) -> bool {
+fn reforms(chain: &Team, robot: usize, log: &[u8]) -> bool {
     let movers = chain.cells().len() - 1;
     let mut left: Vec<Cell> = chain.cells().to_vec();
     left.remove(robot - 1);
@@ -36,7 +36,7 @@ fn reforms(chain: Team, robot: usize, log: &[u8]) -> bool {
     loop {
         let formed = is_formed(chain.rule(), parts.cells());
         assert_eq!(parts.is_formed(), formed, "{:?}", parts.cells());
-        let then = parts.clone().formed();
+        let then = parts.formed();
         assert_eq!(then.is_ok(), formed);
         let before = parts.cells().to_vec();
         let mut next = parts;
@@ -86,7 +86,7 @@ fn the_parts_of_a_chain_come_together_or_home() {
             assert_eq!(chain.is_home(), chain.cells().iter().all(|&cell| cell == BASE));
             // Now and then: each of them takes all moves back.
             for robot in (2..=robots).filter(|_| drawn.pick(10) == 0) {
-                away += u32::from(reforms(chain, robot, &log));
+                away += u32::from(reforms(&chain, robot, &log));
             }
             for robot in [0, 1, robots + 1] {
                 assert_eq!(chain.reform(robot, &log).err(), Some(Unformed::NoRobot { robot, robots }));
