@@ -27,14 +27,13 @@ impl Looks {
         Self { used: 0, most, is_over: false }
     }
 
-    /// Looks at `candidates` more; false if they are too many, then and from then on.
-    pub(super) const fn take(&mut self, candidates: u32) -> bool {
+    /// Looks at `candidates` more; if they are too many, at none of them, nor of any later ones.
+    pub(super) const fn take(&mut self, candidates: u32) {
         if self.is_over || candidates > self.most - self.used {
             self.is_over = true;
         } else {
             self.used += candidates;
         }
-        !self.is_over
     }
 
     /// Looks at `candidates` more, one by one, as far as there are looks left.

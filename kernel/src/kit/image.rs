@@ -122,5 +122,7 @@ mod tests {
         assert!(image.known(EdgeMark::Open, Cell::new(1, 0)).has(Step::Cross(Side::West)));
         let back = |node: Cell| Cell::new(node.y, 1 - node.x);
         assert_eq!(image.image(area(3, 2), back, [1, 0]), team);
+        // There is no third robot to take the second one's place: it keeps it.
+        assert_eq!(image.image(area(3, 2), back, [1, 2]), image.image(area(3, 2), back, [1, 1]));
     }
 }

@@ -38,9 +38,8 @@ impl Reach {
     #[inline]
     pub const fn joins(self, one: Cell, other: Cell) -> bool {
         let (dx, dy) = one.apart(other);
-        let (dx, dy) = (dx as u32, dy as u32);
-        // Far apart, squares would not fit.
-        dx < 4 && dy < 4 && dx * dx + dy * dy <= self.squared as u32
+        let (dx, dy) = (dx as u64, dy as u64);
+        dx * dx + dy * dy <= self.squared as u64
     }
 }
 
@@ -148,7 +147,13 @@ mod tests {
     fn ten_metres_are_three_paths_and_one_to_the_side() {
         assert!(in_reach(HERE, Cell::new(3, 1)) && in_reach(HERE, Cell::new(-2, 2)));
         assert!(!in_reach(HERE, Cell::new(3, 2)) && !in_reach(HERE, Cell::new(4, 0)));
-        assert!(!in_reach(Cell::new(i16::MIN, 0), Cell::new(i16::MAX, 0)));
+        for (dx, dy) in (-5..=5).flat_map(|dx| (-5..=5).map(move |dy| (dx, dy))) {
+            assert_eq!(in_reach(HERE, Cell::new(dx, dy)), 9 * (dx * dx + dy * dy) <= 100, "{dx} {dy}");
+        }
+        let (first, last) = (i16::MIN, i16::MAX);
+        for far in [(last, first), (first, last), (last, last)] {
+            assert!(!in_reach(Cell::new(first, first), Cell::new(far.0, far.1)));
+        }
     }
 
     #[test]

@@ -85,8 +85,7 @@ impl Talk {
 
     /// The second of two robots, at the node `at`, and its request.
     pub fn second(rule: Rule, at: Cell, sides: Steps) -> (Self, Sent) {
-        let mut talk =
-            Self { is_second: true, phase: Phase::Drives, has_turn: false, ..Self::first(rule, at) };
+        let mut talk = Self { is_second: true, has_turn: false, ..Self::first(rule, at) };
         let sent = talk.arrived(sides);
         (talk, sent)
     }
@@ -274,5 +273,37 @@ mod tests {
         let again = second.again(Steps::NONE).expect("it repeats");
         assert_eq!(first.hears(again, nothing), [None, response, None]);
         assert!(!first.has_turn());
+    }
+
+    #[test]
+    fn requests_are_numbered_one_after_the_other_and_only_the_latest_is_answered() {
+        let mut first = Talk::first(Rule::ROBUST, START);
+        let (mut second, asked) = Talk::second(Rule::ROBUST, BESIDE, Steps::NONE);
+        assert_eq!((first.number(), second.number()), (0, 1));
+        assert_eq!((first.has_turn(), second.has_turn()), (true, false));
+        let mut request = asked[2].expect("it asks");
+        let (mut asks, mut has) = (&mut second, &mut first);
+        for turn in 0_u8..12 {
+            // Each of the two asks every other time.
+            let number = (turn / 2 + 1) % NUMBERS;
+            assert_eq!((request.number, asks.number()), (number, number));
+            let other = |message| Letter { number: request.number ^ 1, message };
+            let answer = Message::Response { next: START, sides: Steps::NONE };
+            assert_eq!(asks.hears(other(Message::Acknowledged), nothing), NOTHING);
+            assert_eq!(asks.hears(other(answer), nothing), NOTHING);
+            assert_eq!(asks.phase(), Phase::Asks);
+            let [Some(acknowledged), None, None] = has.hears(request, nothing) else { panic!("it decides") };
+            asks.hears(acknowledged, nothing);
+            assert_eq!(asks.phase(), Phase::Waits);
+            let [None, Some(response), Some(next)] = has.stays(nothing) else {
+                panic!("it answers, and asks for the turn that it passes")
+            };
+            assert!(asks.hears(response, nothing)[0].is_some());
+            assert_eq!((asks.phase(), asks.has_turn(), has.has_turn()), (Phase::Decides, true, false));
+            // It comes twice, and is not answered twice.
+            assert_eq!(asks.hears(response, nothing), NOTHING);
+            request = next;
+            (asks, has) = (has, asks);
+        }
     }
 }
