@@ -142,7 +142,7 @@ fn main() {
         Found
     });
     swarms.finish();
-    rows.push(("swarm, 30 particles, 20 iterations", ours.micros, "argmin", theirs.micros));
+    rows.push(("swarm, 30 particles, 20 iterations", ours, "argmin", theirs.micros));
 
     for (name, alone, residual) in [
         ("least squares in metres", "one minimum in metres", Residual::Metres),
@@ -171,16 +171,17 @@ fn main() {
             Found
         });
         least.finish();
-        rows.push((name, ours.micros, "levenberg-marquardt", theirs.micros));
-        rows.push((alone, one.micros, "levenberg-marquardt", theirs.micros));
+        rows.push((name, ours, "levenberg-marquardt", theirs.micros));
+        rows.push((alone, one, "levenberg-marquardt", theirs.micros));
     }
     criterion.final_summary();
 
     println!("\nMicroseconds for a position, the fastest of the samples");
     for (name, ours, crate_name, theirs) in rows {
-        let ratio = theirs / ours;
+        let (micros, of) = (ours.micros, common::Work::parts(&ours.work));
         println!(
-            "  {name:36} of {POSITIONS}: tautline {ours:>6.2}   {crate_name} {theirs:>6.2}   {ratio:>5.1} times"
+            "  {name:36} of {of}: tautline {micros:>6.2}   {crate_name} {theirs:>6.2}   {:>5.1} times",
+            theirs / micros
         );
     }
 }
