@@ -146,7 +146,9 @@ fn with_less_memory_fewer_cells_are_compared_and_still_all_robots() {
 #[test]
 fn a_robot_between_obstacles_has_nothing_to_pick_from() {
     let mut map = blank();
-    Side::ALL.into_iter().for_each(|side| map.block(Cell::new(3, 3).beyond(side)));
+    for side in Side::ALL {
+        map.block(Cell::new(3, 3).beyond(side));
+    }
     for rule in [Rule::PUBLISHED, Rule::WANDERS] {
         assert_eq!(next(&team(map, [(3, 3)]), 0, &rule, 0), Next::Stops);
     }

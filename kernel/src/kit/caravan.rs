@@ -216,8 +216,11 @@ mod tests {
     fn trio(rule: Rule, starts: [(i16, i16); 3], [driven, seen, unknown]: [&[Path]; 3]) -> Trio {
         let area = Area::new(Cell::new(0, 0), Cell::new(3, 3)).expect("an area");
         let mut map = TinyGrid::new(area).expect("16 nodes");
-        driven.iter().for_each(|path| map.put_edge(EdgeMark::Open, edge(path)));
-        seen.iter().for_each(|path| map.put_edge(SEEN, edge(path)));
+        for (mark, paths) in [(EdgeMark::Open, driven), (SEEN, seen)] {
+            for path in paths {
+                map.put_edge(mark, edge(path));
+            }
+        }
         let is_blocked =
             |path: &Edge| ![driven, seen, unknown].into_iter().flatten().any(|free| edge(free) == *path);
         area.edges().filter(is_blocked).for_each(|path| map.put_edge(EdgeMark::Wall, path));
