@@ -18,6 +18,7 @@ struct Nth(u32);
 
 impl Oracle for Nth {
     fn pick(&mut self, below: u32) -> u32 {
+        assert!(below > 0, "there is nothing to pick from");
         self.0.min(below - 1)
     }
 }
@@ -61,6 +62,11 @@ fn teams() -> impl Strategy<Value = Team> {
 }
 
 fn next(team: &Team, robot: usize, rule: &Rule, pick: u32) -> Next {
+    next_within(team, robot, rule, pick, 36).0
+}
+
+/// What a robot does next that has memory for so many pairs, and how many searches it takes.
+fn next_within(team: &Team, robot: usize, rule: &Rule, pick: u32, pairs: usize) -> (Next, u32) {
     let (at, aim) = team.robots[robot];
     let mut own = Robot::new(team.map, at, &[]);
     if let Some(aim) = aim {
@@ -78,11 +84,74 @@ fn next(team: &Team, robot: usize, rule: &Rule, pick: u32) -> Next {
         .map(|(_, robot)| other(robot))
         .collect();
     let (mut reached, mut queue) = ([Reached::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS]);
-    let (mut rounds, mut pairs) = (0, [None; 36]);
+    let (mut rounds, mut pairs) = (0, vec![None; pairs]);
     let mut scratch =
         Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds, pairs: &mut pairs };
     let view = View { others: &others, slot: Slot::Own };
-    own.next(rule, view, &mut scratch, &mut Nth(pick))
+    (own.next(rule, view, &mut scratch, &mut Nth(pick)), rounds)
+}
+
+/// An area that is explored but for these cells.
+fn explored_but(unexplored: &[(i16, i16)]) -> TinyMap {
+    let mut map = blank();
+    area().cells().filter(|&cell| !unexplored.contains(&cell.into())).for_each(|cell| map.explore(cell));
+    map
+}
+
+/// Robots in these cells, none of which has claimed one.
+fn team<const ROBOTS: usize>(map: TinyMap, cells: [(i16, i16); ROBOTS]) -> Team {
+    Team { map, robots: cells.map(|cell| (cell.into(), None)).into() }
+}
+
+/// The cell to which the first robot goes.
+fn aim_of_first(team: &Team, pairs: usize) -> Option<(i16, i16)> {
+    match next_within(team, 0, &Rule::REPAIRED, 0, pairs).0 {
+        Next::Tries { aim, .. } => Some(aim.into()),
+        Next::Waits | Next::Stops | Next::Done => None,
+    }
+}
+
+#[test]
+fn only_robots_that_may_be_as_near_to_its_cell_are_looked_at() {
+    let map = explored_but(&[(0, 1), (6, 6)]);
+    for (other, searches) in [((0, 6), 1), ((6, 5), 1), ((6, 0), 1), ((0, 2), 2), ((1, 1), 2)] {
+        let (next, took) = next_within(&team(map, [(0, 0), other]), 0, &Rule::REPAIRED, 0, 36);
+        assert!(matches!(next, Next::Tries { .. }));
+        assert_eq!(took, searches, "the other one is in {other:?}");
+    }
+}
+
+#[test]
+fn robots_in_one_cell_count_as_one_of_which_the_first_has_a_say() {
+    let map = explored_but(&[(2, 3), (4, 3)]);
+    let here = Cell::new(3, 3);
+    for (own, others) in [((4, 3), (2, 3)), ((2, 3), (4, 3))] {
+        let two = Team { map, robots: vec![(here, Some(own.into())), (here, Some(others.into()))] };
+        assert_eq!(aim_of_first(&two, 36), Some(own));
+    }
+}
+
+#[test]
+fn with_less_memory_fewer_cells_are_compared_and_still_all_robots() {
+    // The second robot goes to the eastern cell and the third one to the northern, so that the southern one is left.
+    let map = explored_but(&[(3, 1), (3, 5), (6, 5)]);
+    let three = team(map, [(3, 3), (5, 5), (3, 0)]);
+    for pairs in [9, 6] {
+        assert_eq!(aim_of_first(&three, pairs), Some((3, 5)), "memory for {pairs} pairs");
+    }
+    assert_eq!(aim_of_first(&three, 3), Some((3, 1)), "it knows but the cell that comes first");
+    assert_eq!(aim_of_first(&three, 2), None, "there is no room for a pair of each");
+}
+
+#[test]
+fn a_robot_between_obstacles_has_nothing_to_pick_from() {
+    let mut map = blank();
+    for side in Side::ALL {
+        map.block(Cell::new(3, 3).beyond(side));
+    }
+    for rule in [Rule::PUBLISHED, Rule::WANDERS] {
+        assert_eq!(next(&team(map, [(3, 3)]), 0, &rule, 0), Next::Stops);
+    }
 }
 
 /// How far the unexplored cells are that are reached through explored ones.
@@ -177,6 +246,19 @@ proptest! {
         let is_apart = aims.iter().flatten().collect::<BTreeSet<_>>().len() == aims.iter().flatten().count();
         let reach_all = team.robots.iter().all(|&(at, _)| ways(&team.map, at).len() == cells.len());
         prop_assert!(is_apart || cells.len() < team.robots.len() || !reach_all, "{:?}", team);
+    }
+
+    #[test]
+    fn a_plain_robot_may_begin_with_any_shortest_way_to_a_nearest_cell(team in teams()) {
+        let at = team.robots[0].0;
+        let distance = |cell: Cell| match team.map.status(cell) {
+            Status::Obstacle => None,
+            Status::Unexplored | Status::Explored => ways(&team.map, cell).into_values().min(),
+        };
+        let beside = Side::ALL.map(|side| at.beyond(side));
+        let least = beside.into_iter().filter_map(distance).min();
+        let nearest = beside.into_iter().filter(|&cell| least.is_some() && distance(cell) == least);
+        prop_assert_eq!(sides(&team, 0, &Rule::PLAIN), nearest.collect::<BTreeSet<_>>(), "{:?}", team);
     }
 
     #[test]

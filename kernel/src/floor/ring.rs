@@ -99,3 +99,23 @@ impl Ring {
         Self((self.0 & rims.0).rotate_left(1) | self.0.rotate_right(1) & rims.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cell_of_both_sets_is_in_either() {
+        let (one, other) = (Ring(0b0000_0110), Ring(0b0001_0010));
+        assert_eq!(one.or(other), Ring(0b0001_0110));
+        assert_eq!(one.and(other), Ring(0b0000_0010));
+    }
+
+    #[test]
+    fn a_cell_between_two_of_the_set_is_beside_them() {
+        let set = Ring(0b0000_0101);
+        assert_eq!(set.beside(Ring(0b1111_1111)), Ring(0b1000_1010));
+        assert_eq!(set.beside(Ring(0b0000_0010)), Ring(0b0000_0010), "from the second one alone");
+        assert_eq!(set.beside(Ring::default()), Ring::default());
+    }
+}

@@ -191,9 +191,39 @@ impl Scan {
 
     /// Whether the square clockwise from the side neighbour in `place` is free all round.
     fn is_filled(&self, place: u32) -> bool {
-        let at = |bits: u8| bits.rotate_right(place % 8);
+        let at = |bits: u8| bits.rotate_right(place);
         at(self.reachable().0) & 0b101 == 0b101
             && at(self.accessible().0) & 0b10 != 0
             && at(self.rims.0) & 0b11 == 0b11
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An oracle that misses every sensor, or none.
+    struct Misses(bool);
+
+    impl Oracle for Misses {
+        fn pick(&mut self, _: u32) -> u32 {
+            self.0.into()
+        }
+    }
+
+    #[test]
+    fn a_sensor_is_detected_if_an_agent_has_been_there_and_it_is_not_missed() {
+        let marks = [Mark::Unexplored, Mark::Explored, Mark::Closing, Mark::Visited, Mark::Sealed];
+        // North of the agent's cell a wall, south of it cells without a sensor of their own yet.
+        let sensor = |cell: Cell| match (cell.x, cell.y) {
+            (_, -1) => None,
+            (_, 1) => Some(Sensor::default()),
+            (x, _) => Some(Sensor { mark: marks[x.rem_euclid(5) as usize], ..Sensor::default() }),
+        };
+        for (x, detected) in [(0, 2), (1, 1), (2, 2), (3, 2), (4, 1)] {
+            let scan = |oracle: &mut Misses| Scan::read(sensor, |_| true, Cell::new(x, 0), oracle);
+            assert_eq!(scan(&mut Misses(false)).detected, detected, "from column {x}");
+            assert_eq!(scan(&mut Misses(true)).detected, 0, "from column {x}");
+        }
     }
 }

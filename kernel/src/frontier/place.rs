@@ -128,4 +128,11 @@ mod tests {
         assert_eq!(Threshold::new(0.5), Some(Threshold::HALF));
         assert!([-0.1, 1.1, f64::NAN].map(Threshold::new).iter().all(Option::is_none));
     }
+
+    #[test]
+    fn an_occupancy_that_is_as_high_as_the_threshold_is_not_below_it() {
+        let half = HALF as u16 / 2;
+        assert!(Threshold::HALF.is_above(half - 1) && !Threshold::HALF.is_above(half));
+        assert_eq!(Threshold::new(0.0).map(|none| none.is_above(0)), Some(false));
+    }
 }

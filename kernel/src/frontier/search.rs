@@ -92,3 +92,91 @@ pub(super) fn search<M: Map>(
         at = Found { cell, distance: reached.distance, first: reached.first };
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use core::cell::Cell as Counter;
+
+    use super::*;
+    use crate::frontier::TinyMap;
+    use crate::ground::Area;
+
+    /// A map that counts how often it is asked.
+    struct Asked {
+        map: TinyMap,
+        frontier: usize,
+        times: Counter<u32>,
+    }
+
+    impl Map for Asked {
+        fn area(&self) -> Area {
+            self.map.area()
+        }
+
+        fn status(&self, cell: Cell) -> Status {
+            self.times.set(self.times.get() + 1);
+            self.map.status(cell)
+        }
+
+        fn frontier(&self) -> usize {
+            self.frontier
+        }
+
+        fn explore(&mut self, cell: Cell) {
+            self.map.explore(cell);
+        }
+
+        fn block(&mut self, cell: Cell) {
+            self.map.block(cell);
+        }
+    }
+
+    /// A corridor of eight cells, of which the first and the seventh are unexplored.
+    fn corridor() -> Asked {
+        let area = Area::new(Cell::new(0, 0), Cell::new(7, 0)).expect("an area");
+        let mut map = TinyMap::new(area).expect("8 cells");
+        for x in [1, 2, 3, 4, 5, 7] {
+            map.explore(Cell::new(x, 0));
+        }
+        Asked { map, frontier: usize::MAX, times: Counter::new(0) }
+    }
+
+    /// The cells that are found within so many moves of the cell in this column: the column and the distance of each.
+    fn found(map: &Asked, column: i16, most: u32) -> ([(i16, u32); 4], usize) {
+        let (mut reached, mut queue, mut rounds) = ([Reached::NEVER; 8], [Cell::new(0, 0); 8], 0);
+        let mut memory = Search { reached: &mut reached, queue: &mut queue, rounds: &mut rounds };
+        let (mut cells, mut count) = ([(0, 0); 4], 0);
+        search(map, Cell::new(column, 0), most, &mut memory, |found| {
+            cells[count] = (found.cell.x, found.distance);
+            count += 1;
+            ControlFlow::Continue(())
+        });
+        (cells, count)
+    }
+
+    #[test]
+    fn cells_are_found_within_so_many_moves_and_no_more() {
+        let map = corridor();
+        assert_eq!(found(&map, 2, 1).1, 0);
+        for most in 2..4 {
+            assert_eq!(found(&map, 2, most), ([(0, 2), (0, 0), (0, 0), (0, 0)], 1), "within {most} moves");
+        }
+        for most in [4, u32::MAX] {
+            assert_eq!(found(&map, 2, most), ([(0, 2), (6, 4), (0, 0), (0, 0)], 2), "within {most} moves");
+        }
+    }
+
+    #[test]
+    fn the_cell_where_a_search_begins_is_not_found_though_it_is_unexplored() {
+        assert_eq!(found(&corridor(), 0, u32::MAX), ([(6, 6), (0, 0), (0, 0), (0, 0)], 1));
+    }
+
+    #[test]
+    fn a_search_that_has_found_the_whole_frontier_looks_no_farther() {
+        let all = corridor();
+        assert_eq!(found(&all, 2, u32::MAX).1, 2);
+        let one = Asked { frontier: 1, ..corridor() };
+        assert_eq!(found(&one, 2, u32::MAX), ([(0, 2), (0, 0), (0, 0), (0, 0)], 1));
+        assert!(one.times.get() < all.times.get());
+    }
+}

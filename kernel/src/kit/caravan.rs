@@ -13,7 +13,7 @@ use super::alone::Way;
 use super::rule::Condition;
 use super::sets::robots;
 use super::team::Kit;
-use super::tether::{Formation, Near};
+use super::tether::Formation;
 use crate::ground::{Cell, Grid, Step, Steps};
 
 /// More drives than there can be between two robots.
@@ -25,14 +25,12 @@ const NOBODY: u8 = u8::MAX;
 /// Who leads, and what for.
 struct Lead {
     leader: usize,
-    /// Its drives to a node with an uncovered side.
-    drives: u16,
     /// The robot that shifts, and whereto, if the ends of a path are taken.
     shift: Option<(usize, Step)>,
 }
 
 impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
-    /// The part of `robot` in a team of three and more. `None` if nobody has one.
+    /// The part of `robot` in a team of any number but two. `None` if nobody has one.
     pub(super) fn together(&self, robot: usize) -> Option<Steps> {
         let formation = self.planned();
         let ways = core::array::from_fn(|other| self.alone(other, &formation, u16::MAX));
@@ -81,7 +79,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         let is_stuck = drives == 0 && sides.iter().all(is_taken) && self.rule.has(Condition::MakesRoom);
         let other_end = sides.iter().next().filter(|_| is_stuck).map(|step| node.after(step));
         let shift = other_end.and_then(|other_end| self.shift(&formation.ends, [node, other_end]));
-        Some(Lead { leader, drives, shift })
+        Some(Lead { leader, shift })
     }
 
     /// The sides of where `robot` stands that it takes, if it is its part.
@@ -94,14 +92,11 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         if robot == lead.leader {
             let is_goal = |node: Cell| !self.uncovered_by_all(node).is_empty();
             let way = self.way(at, |_, _| true, is_goal, u16::MAX);
-            return self
-                .admitted(robot, way.filter(|_| lead.drives > 0).map_or(Steps::NONE, |way| way.sides));
+            return self.admitted(robot, way.map_or(Steps::NONE, |way| way.sides));
         }
-        let now = drives_to(lead.leader, formation, None);
-        let is_nearer = |step: Step| {
-            let near = self.near(at.after(step), None);
-            drives_to(lead.leader, formation, Some((robot, at.after(step), &near))) < now
-        };
+        let now = drives_to(lead.leader, formation);
+        let is_nearer =
+            |step: Step| drives_to(lead.leader, &self.with_robot_at(formation, robot, at.after(step))) < now;
         let free = self.paths(at).filter(|step| !formation.ends.contains(&at.after(step)));
         self.admitted(robot, free).filter(is_nearer)
     }
@@ -184,21 +179,9 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     }
 }
 
-/// The drives of all robots to the leader, each over those that it is tied to; with one of them at another node, if it is
-/// told.
-fn drives_to<const ROBOTS: usize>(
-    leader: usize,
-    formation: &Formation<ROBOTS>,
-    moved: Option<(usize, Cell, &Near)>,
-) -> u32 {
-    let between = |one: usize, other: usize| {
-        let drives = match moved {
-            Some((robot, _, near)) if one == robot => near.drives(formation.ends[other]),
-            Some((robot, node, _)) if other == robot => formation.near[one].drives(node),
-            Some(_) | None => formation.near[one].drives(formation.ends[other]),
-        };
-        drives.unwrap_or(FAR)
-    };
+/// The drives of all robots to the leader, each over those that it is tied to.
+fn drives_to<const ROBOTS: usize>(leader: usize, formation: &Formation<ROBOTS>) -> u32 {
+    let between = |one: usize, other: usize| formation.near[one].drives(formation.ends[other]).unwrap_or(FAR);
     let mut to_leader = [FAR; ROBOTS];
     to_leader[leader] = 0;
     for _ in 1..ROBOTS {
@@ -210,4 +193,74 @@ fn drives_to<const ROBOTS: usize>(
         }
     }
     to_leader.iter().sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::rule::Rule;
+    use super::super::stance::SEEN;
+    use super::*;
+    use crate::ground::{Area, Edge, EdgeMark, Side, TinyGrid};
+
+    type Trio = Kit<TinyGrid, 3, 16>;
+
+    /// A path, by the node where it begins and its side there.
+    type Path = (i16, i16, Side);
+
+    fn edge(&(x, y, side): &Path) -> Edge {
+        Edge::new(Cell::new(x, y), side)
+    }
+
+    /// Three robots in these columns and rows of 4×4 nodes. Paths are driven, seen free by robots at both ends, or unknown; all
+    /// others are blocked.
+    fn trio(rule: Rule, starts: [(i16, i16); 3], [driven, seen, unknown]: [&[Path]; 3]) -> Trio {
+        let area = Area::new(Cell::new(0, 0), Cell::new(3, 3)).expect("an area");
+        let mut map = TinyGrid::new(area).expect("16 nodes");
+        for (mark, paths) in [(EdgeMark::Open, driven), (SEEN, seen)] {
+            for path in paths {
+                map.put_edge(mark, edge(path));
+            }
+        }
+        let is_blocked =
+            |path: &Edge| ![driven, seen, unknown].into_iter().flatten().any(|free| edge(free) == *path);
+        area.edges().filter(is_blocked).for_each(|path| map.put_edge(EdgeMark::Wall, path));
+        Trio::new(rule, map, starts.map(Cell::from)).expect("a team")
+    }
+
+    /// Who shifts, and whereto.
+    fn shift(kit: &Trio) -> Option<(usize, Side)> {
+        let (robot, step) = kit.lead(&kit.planned()).expect("an uncovered side").shift?;
+        let Step::Cross(side) = step else { panic!("it shifts to another node") };
+        Some((robot, side))
+    }
+
+    const NO_ROOM: Rule = Rule::REPAIRED.without(Condition::MakesRoom);
+
+    #[test]
+    fn the_robot_beside_a_free_node_shifts_if_both_ends_of_the_last_path_are_taken() {
+        // Free is the fourth node of a square. Two ways round join the two robots beside it with the third.
+        let starts = [(0, 0), (1, 0), (0, 1)];
+        let driven = [(0, 0, Side::South), (1, 0, Side::South), (0, 1, Side::East)];
+        let paths: [&[Path]; 3] = [&driven, &[(0, 0, Side::East)], &[]];
+        assert_eq!(shift(&trio(Rule::REPAIRED, starts, paths)), Some((1, Side::South)));
+        assert_eq!(shift(&trio(NO_ROOM, starts, paths)), None);
+    }
+
+    /// Three robots in a row whose fourth node is free: the first path is uncovered.
+    const ROW: [(i16, i16); 3] = [(0, 0), (1, 0), (2, 0)];
+    const DRIVEN: [Path; 2] = [(1, 0, Side::East), (2, 0, Side::East)];
+    const UNCOVERED: [Path; 1] = [(0, 0, Side::East)];
+
+    #[test]
+    fn a_robot_may_shift_that_is_at_neither_end_of_the_last_path() {
+        let paths: [&[Path]; 3] = [&DRIVEN, &UNCOVERED, &[]];
+        assert_eq!(shift(&trio(Rule::REPAIRED, ROW, paths)), Some((2, Side::East)));
+        assert_eq!(shift(&trio(NO_ROOM, ROW, paths)), None);
+    }
+
+    #[test]
+    fn nobody_shifts_while_an_end_of_an_uncovered_path_is_free() {
+        let paths: [&[Path]; 3] = [&DRIVEN, &UNCOVERED, &[(0, 0, Side::South)]];
+        assert_eq!(shift(&trio(Rule::REPAIRED, ROW, paths)), None);
+    }
 }

@@ -439,6 +439,10 @@ mod tests {
         let mut three = Kit::<_, 3, 64>::new(Rule::REPAIRED, map(8, 8), starts).expect("a team");
         assert!(run(&mut three, |_| false) >= 112);
         assert!(three.is_over() && is_covered(&three));
+        let one_by_one = Rule::REPAIRED.without(Condition::Meanwhile);
+        let mut three = Kit::<_, 3, 64>::new(one_by_one, map(8, 8), starts).expect("a team");
+        assert!(run(&mut three, |_| false) >= 112);
+        assert!(three.is_over() && is_covered(&three));
     }
 
     #[test]

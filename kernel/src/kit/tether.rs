@@ -175,7 +175,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             return true;
         }
         let back = Step::ALL.into_iter().find(|&step| to.after(step) == from);
-        let is_new = from != to && back.is_some_and(|step| !self.paths(to).has(step));
+        let is_new = back.is_some_and(|step| !self.paths(to).has(step));
         let here = is_new.then(|| self.near(to, back));
         let is_tied = |other: usize| match &here {
             Some(here) => here.has(ends[other]),
@@ -197,8 +197,69 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::rule::Rule;
     use super::super::stance::in_reach;
     use super::*;
+    use crate::ground::{Area, EdgeMark, TinyGrid};
+
+    const FAR: u32 = u32::MAX;
+
+    /// The drives from the middle of an area of 7×7 nodes to each of its nodes, over the paths of `map` between nodes that are
+    /// at most so many columns and rows away, the first and last ones of each.
+    fn flooded(map: &TinyGrid, columns: (i16, i16), rows: (i16, i16)) -> [[u32; 7]; 7] {
+        let is_within = |node: Cell| {
+            (columns.0..=columns.1).contains(&(node.x - 3)) && (rows.0..=rows.1).contains(&(node.y - 3))
+        };
+        let mut drives = [[FAR; 7]; 7];
+        drives[3][3] = 0;
+        for _ in 0..9 {
+            for node in map.area().cells().filter(|&node| is_within(node)) {
+                let open = map.sides(EdgeMark::Open, node);
+                for beyond in open.iter().map(|step| node.after(step)).filter(|&node| is_within(node)) {
+                    let over = drives[beyond.y as usize][beyond.x as usize].saturating_add(1);
+                    let known = &mut drives[node.y as usize][node.x as usize];
+                    *known = over.min(*known);
+                }
+            }
+        }
+        drives
+    }
+
+    #[test]
+    fn a_node_is_joined_by_the_paths_within_one_field() {
+        let area = Area::new(Cell::new(0, 0), Cell::new(6, 6)).expect("an area");
+        let (middle, mut number) = (Cell::new(3, 3), 1_u64);
+        for round in 0..200 {
+            let mut map = TinyGrid::new(area).expect("49 nodes");
+            for edge in area.edges() {
+                number =
+                    number.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                if (number >> 33) % 100 < 40 + round % 61 {
+                    map.put_edge(EdgeMark::Open, edge);
+                }
+            }
+            let mut least = [[FAR; 7]; 7];
+            for (wide, high) in [(3, 3), (4, 2), (2, 4)] {
+                for (column, row) in
+                    (1 - wide..=0).flat_map(|column| (1 - high..=0).map(move |row| (column, row)))
+                {
+                    let flooded = flooded(&map, (column, column + wide - 1), (row, row + high - 1));
+                    for node in area.cells() {
+                        let (x, y) = (node.x as usize, node.y as usize);
+                        least[y][x] = least[y][x].min(flooded[y][x]);
+                    }
+                }
+            }
+            let starts = [2, 3, 4].map(|x| Cell::new(x, 3));
+            let kit = Kit::<_, 3, 49>::new(Rule::REPAIRED, map, starts).expect("a team");
+            let near = kit.near(middle, None);
+            for node in area.cells() {
+                let drives = least[node.y as usize][node.x as usize];
+                assert_eq!(near.drives(node), (drives < FAR).then_some(drives), "{node} in {map:?}");
+                assert_eq!(near.has(node), drives < FAR, "{node} in {map:?}");
+            }
+        }
+    }
 
     #[test]
     fn any_two_nodes_of_a_field_are_in_reach() {

@@ -8,7 +8,7 @@
 //! uncovered side, and a second one comes back from all that are so near.
 //!
 //! Three robots and more have too many places for that. There the robot goes that can come to an uncovered side alone, the
-//! others staying where they go; if there is none, all go together: see `caravan.rs`.
+//! others staying where they go; if there is none, all go together: see `caravan.rs`. So does a robot that has no others.
 
 use super::around::{HERE, Places, at_offset, bit, in_reach, moved, offsets, place_of};
 use super::rule::Condition;
@@ -53,16 +53,12 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// The sides that `robot`, which stands, can take as its part of a shortest way of the team to an uncovered side: none if
     /// others have to go first. `None` if there is no way.
     pub(super) fn part(&self, robot: usize) -> Option<Steps> {
-        let alone = || self.alone(robot, &self.formation(), u16::MAX).map(|way| way.sides);
-        let goes_alone = || self.rule().has(Condition::Meanwhile) && self.another_drives_a_new_path(robot);
-        match ROBOTS {
-            0 | 1 => alone(),
-            2 => {
-                let sides = if goes_alone() { alone() } else { None };
-                sides.or_else(|| self.joint(robot).map(|(_, sides)| sides))
-            }
-            _ => self.together(robot),
+        if ROBOTS != 2 {
+            return self.together(robot);
         }
+        let goes_alone = self.rule().has(Condition::Meanwhile) && self.another_drives_a_new_path(robot);
+        let alone = if goes_alone { self.alone(robot, &self.formation(), u16::MAX) } else { None };
+        alone.map(|way| way.sides).or_else(|| self.joint(robot).map(|(_, sides)| sides))
     }
 
     /// The single drives of a shortest joint way of two robots from where they go, before an uncovered side is admitted for
