@@ -195,8 +195,10 @@ fn two_minima_are_told_if_their_costs_differ_by_less_than_3_84_times_the_varianc
 #[test]
 fn a_mirror_image_is_told_without_noise_too() {
     let mut drawn = Drawn(11);
-    for _ in 0..50 {
-        let (from, along) = (place(&mut drawn, 30.0), place(&mut drawn, 1.0));
+    for round in 0..100 {
+        // Also where rounding makes costs differ by more than other layouts cost.
+        let scale = if round % 2 == 0 { 1.0 } else { 1e6 };
+        let (from, along) = (place(&mut drawn, 30.0 * scale), place(&mut drawn, scale));
         let on_line = |far_m: f64| Point::new(from.x_m + far_m * along.x_m, from.y_m + far_m * along.y_m);
         let off = Point::new(from.x_m - 7.0 * along.y_m, from.y_m + 7.0 * along.x_m);
         let ranges = exact(&[on_line(0.0), on_line(9.0), on_line(20.0)], off);
@@ -248,11 +250,13 @@ fn anchors_on_a_line_are_on_one_wherever_it_is() {
     for (x, y) in [(0.0, 0.0), (1e6, 0.0), (0.0, 1e6), (-3e5, 0.0), (0.0, -3e5), (4e7, -5e7)] {
         for _ in 0..20 {
             let along = place(&mut drawn, 1.0);
-            let anchors =
-                [0.0, 9.0, 20.0].map(|far_m| Point::new(x + far_m * along.x_m, y + far_m * along.y_m));
-            let ranges = exact(&anchors, Point::new(x + 3.0, y - 8.0));
-            assert_eq!(linear(&ranges), Err(Refusal::Collinear), "{ranges:?}");
-            assert_eq!(closed_form(&ranges), Err(Refusal::Collinear), "{ranges:?}");
+            // Also where the centre of the anchors is on an axis.
+            for far_m in [[0.0, 9.0, 20.0], [-11.0, 2.0, 9.0]] {
+                let anchors = far_m.map(|far_m| Point::new(x + far_m * along.x_m, y + far_m * along.y_m));
+                let ranges = exact(&anchors, Point::new(x + 3.0, y - 8.0));
+                assert_eq!(linear(&ranges), Err(Refusal::Collinear), "{ranges:?}");
+                assert_eq!(closed_form(&ranges), Err(Refusal::Collinear), "{ranges:?}");
+            }
         }
     }
 }
