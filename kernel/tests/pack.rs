@@ -237,7 +237,8 @@ fn a_way_of_any_length_is_the_shortest_one() {
     let mut world =
         World::new(Rule::REPAIRED.within(1, 200).expect("a rule"), floor, BTreeSet::new(), &[start]);
     let mut moves = 0;
-    while world.go().is_some() {
+    while let Some((made, _)) = world.go() {
+        assert_eq!(made, Made::Spread, "it goes its own way");
         moves += 1;
     }
     assert_eq!(moves, 149 + 298, "the last cell at each end is seen from the one before it");
@@ -377,11 +378,14 @@ fn each_kind_of_team_move_does_what_its_name_says_and_all_is_explored() {
         let mut world = World::new(rule, floor, obstacles, &starts);
         // Where the robots were before each team move that could be taken back.
         let mut before: Vec<Vec<Cell>> = Vec::new();
+        let mut has_spread = true;
         loop {
             let (from, map) = (world.team.cells().to_vec(), world.map.clone());
             if is_one_piece(&from) {
                 before.clear();
             }
+            let aims: Vec<Option<Cell>> =
+                world.team.aims().map(|aim| aim.filter(|&aim| map.is_frontier(aim))).collect();
             let Some((kind, steps)) = world.go() else { break };
             let to = world.team.cells();
             assert!(is_connected(&rule, to), "{kind:?} from {from:?} to {to:?}");
@@ -392,6 +396,12 @@ fn each_kind_of_team_move_does_what_its_name_says_and_all_is_explored() {
             let name = match kind {
                 Made::Spread => "spread",
                 Made::Led(leader) => {
+                    // If the robots went their own ways before, that of the leader was the shortest.
+                    let goal = world.team.aims().nth(leader).flatten().expect("it leads somewhere");
+                    let way = |robot: usize, to: Cell| distances(&map, from[robot])[&to];
+                    let shortest = (0..robots).map(|robot| way(robot, goal)).min();
+                    let own = (0..robots).filter_map(|robot| Some(way(robot, aims[robot]?)));
+                    assert!(!has_spread || own.min().is_none_or(|own| shortest <= Some(own)));
                     // The others come nearer to where the leader is now.
                     let far = distances(&map, to[leader]);
                     for &robot in moved.iter().filter(|&&robot| robot != leader) {
@@ -415,6 +425,7 @@ fn each_kind_of_team_move_does_what_its_name_says_and_all_is_explored() {
             if kind != Made::TakenBack {
                 before.push(from);
             }
+            has_spread = kind == Made::Spread;
             *made.entry(name).or_default() += 1;
         }
         let left = distances(&world.map, world.team.cells()[0]);

@@ -62,8 +62,9 @@ fn a_map_knows_what_was_put_in_it_and_nothing_outside() {
         let mut map = unknown(floor);
         assert_eq!(map.area(), floor);
         let mut put = BTreeMap::new();
-        for _ in 0..width * height {
-            let cell = Cell::new(-95 + drawn.pick(210) as i16, -6 + drawn.pick(80) as i16);
+        for _ in 0..3 * width * height {
+            let (x, y) = (drawn.pick(width as u32 + 4) as i16, drawn.pick(height as u32 + 4) as i16);
+            let cell = Cell::new(floor.first().x - 2 + x, floor.first().y - 2 + y);
             let is_obstacle = drawn.pick(2) == 0;
             map.put(cell, is_obstacle);
             if floor.contains(cell) {
@@ -92,16 +93,17 @@ fn a_gain_counts_the_unknown_cells_that_would_be_seen_and_that_nobody_else_goes_
     let mut drawn = Drawn(3);
     for sight_cells in [1, 2, 3, 5, 8, 20, 31] {
         let sight = Sight::new(sight_cells).expect("it sees");
-        let floor = area((-40, 5), 130, 60);
-        for known in [5, 50, 90] {
+        for (width, known) in [(130, 5), (128, 50), (130, 50), (128, 90), (30, 60)] {
+            let floor = area((-40, 5), width, 60);
             let mut map = unknown(floor);
             for cell in floor.cells() {
                 if drawn.pick(100) < known {
                     map.put(cell, drawn.pick(4) == 0);
                 }
             }
-            for _ in 0..12 {
-                let mut near = || Cell::new(-44 + drawn.pick(138) as i16, 1 + drawn.pick(68) as i16);
+            for _ in 0..8 {
+                let mut near =
+                    || Cell::new(-44 + drawn.pick(width as u32 + 8) as i16, 1 + drawn.pick(68) as i16);
                 let (cell, one, other) = (near(), near(), near());
                 let by = |by: u32, drawn: &mut Drawn| drawn.pick(2 * by + 1) as i16 - by as i16;
                 let close = Cell::new(
