@@ -368,18 +368,30 @@ fn starts(drawn: &mut Drawn, floor: Area, obstacles: &BTreeSet<Cell>, robots: us
 fn each_kind_of_team_move_does_what_its_name_says_and_all_is_explored() {
     let mut drawn = Drawn(8);
     let mut made = BTreeMap::<&str, u32>::new();
+    let (mut followed, mut led_again) = (0, 0);
     for round in 0..400 {
-        let rule = Rule::REPAIRED.within(1 + round % 2, 3 + round / 2 % 2).expect("a rule");
+        let rule = Rule::REPAIRED.within(1 + round % 3, 3 + round / 3 % 2).expect("a rule");
         let floor = area((-2, 4), 5 + drawn.pick(9) as i16, 3 + drawn.pick(9) as i16);
         let density = 15 + drawn.pick(35);
         let obstacles = obstacles(&mut drawn, floor, density);
         let robots = 2 + drawn.pick(6) as usize;
-        let Some(starts) = starts(&mut drawn, floor, &obstacles, robots) else { continue };
+        // Side by side, or anywhere as long as links join them.
+        let starts = if round % 4 == 0 {
+            let cells: BTreeSet<Cell> =
+                (0..robots).map(|_| free_cell(&mut drawn, floor, &obstacles)).collect();
+            Some(cells.into_iter().collect()).filter(|cells: &Vec<Cell>| is_connected(&rule, cells))
+        } else {
+            starts(&mut drawn, floor, &obstacles, robots)
+        };
+        let Some(starts) = starts else { continue };
+        let robots = starts.len();
         let mut world = World::new(rule, floor, obstacles, &starts);
         // Where the robots were before each team move that could be taken back.
         let mut before: Vec<Vec<Cell>> = Vec::new();
-        let mut has_spread = true;
+        let (mut has_spread, mut was_back, mut moves) = (true, false, 0);
         loop {
+            moves += 1;
+            assert!(moves < 1000, "it goes on for ever");
             let (from, map) = (world.team.cells().to_vec(), world.map.clone());
             if is_one_piece(&from) {
                 before.clear();
@@ -396,12 +408,14 @@ fn each_kind_of_team_move_does_what_its_name_says_and_all_is_explored() {
             let name = match kind {
                 Made::Spread => "spread",
                 Made::Led(leader) => {
+                    followed += moved.iter().filter(|&&robot| robot != leader).count();
+                    led_again += u32::from(was_back && !before.is_empty());
                     // If the robots went their own ways before, that of the leader was the shortest.
                     let goal = world.team.aims().nth(leader).flatten().expect("it leads somewhere");
-                    let way = |robot: usize, to: Cell| distances(&map, from[robot])[&to];
-                    let shortest = (0..robots).map(|robot| way(robot, goal)).min();
-                    let own = (0..robots).filter_map(|robot| Some(way(robot, aims[robot]?)));
-                    assert!(!has_spread || own.min().is_none_or(|own| shortest <= Some(own)));
+                    let way = |robot: usize, to: Cell| distances(&map, from[robot]).get(&to).copied();
+                    let shortest = (0..robots).filter_map(|robot| way(robot, goal)).min();
+                    let own = (0..robots).filter_map(|robot| way(robot, aims[robot]?)).min();
+                    assert!(!has_spread || own.is_none() || shortest <= own, "{shortest:?} {own:?}");
                     // The others come nearer to where the leader is now.
                     let far = distances(&map, to[leader]);
                     for &robot in moved.iter().filter(|&&robot| robot != leader) {
@@ -425,11 +439,14 @@ fn each_kind_of_team_move_does_what_its_name_says_and_all_is_explored() {
             if kind != Made::TakenBack {
                 before.push(from);
             }
-            has_spread = kind == Made::Spread;
+            (has_spread, was_back) = (kind == Made::Spread, kind == Made::TakenBack);
             *made.entry(name).or_default() += 1;
         }
         let left = distances(&world.map, world.team.cells()[0]);
-        assert!(left.keys().all(|&cell| !world.map.is_frontier(cell)), "all is explored");
+        let is_explored = left.keys().all(|&cell| !world.map.is_frontier(cell));
+        assert!(is_explored || !is_one_piece(&starts), "all is explored from {starts:?}");
     }
-    assert!(made.len() == 4 && made.values().all(|&times| times > 10), "{made:?}");
+    // Followers come along, and the team leads again before all is taken back.
+    assert!(followed > 50 && led_again > 5, "{followed} {led_again}");
+    assert!(made.len() == 4 && made.values().all(|&times| times > 5), "{made:?}");
 }
