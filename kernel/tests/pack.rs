@@ -39,8 +39,7 @@ impl Past for Moves {
 
     fn pop(&mut self, steps: &mut [Step]) -> bool {
         let last = self.0.pop();
-        last.iter().for_each(|last| steps.copy_from_slice(last));
-        last.is_some()
+        last.map(|last| steps.copy_from_slice(&last)).is_some()
     }
 
     fn clear(&mut self) {
@@ -162,12 +161,11 @@ fn a_robot_goes_where_the_gain_is_greatest_for_the_way_and_each_step_brings_it_n
                 let Some((made, _)) = world.go() else { break };
                 assert_eq!(made, Made::Spread, "nobody is in its way");
                 let next = world.team.aims().next().flatten();
-                match aim {
-                    Some(_) => assert_eq!(next, aim, "a robot keeps its aim"),
-                    None => {
-                        assert!(is_choice(&world, &map, from, &[], next), "from {from} to {next:?}");
-                        noted += bounds(&world, &map);
-                    }
+                if aim.is_some() {
+                    assert_eq!(next, aim, "a robot keeps its aim");
+                } else {
+                    assert!(is_choice(&world, &map, from, &[], next), "from {from} to {next:?}");
+                    noted += bounds(&world, &map);
                 }
                 aim = next;
                 let to_aim = distances(&map, aim.expect("it goes somewhere"));
@@ -193,7 +191,7 @@ fn robots_choose_one_after_the_other_cells_that_have_a_link_and_share_what_is_to
             let mut obstacles = obstacles(&mut drawn, floor, density);
             let start = Cell::new(5, 7);
             let starts = [start, start.beyond(Side::East)];
-            starts.iter().for_each(|start| _ = obstacles.remove(start));
+            obstacles.retain(|cell| !starts.contains(cell));
             let mut world = World::new(rule, floor, obstacles, &starts);
             let mut has_spread = true;
             loop {

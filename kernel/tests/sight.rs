@@ -112,7 +112,9 @@ fn a_gain_counts_the_unknown_cells_that_would_be_seen_and_that_nobody_else_goes_
                 );
                 let others = [one, other, close];
                 let mut window = Window::new(&map, &sight, cell);
-                others.iter().for_each(|&other| window.take(&sight, other));
+                for other in others {
+                    window.take(&sight, other);
+                }
                 assert_eq!(window.gain(), gain(&map, sight_cells, cell, &others), "{cell} {others:?}");
                 let is_own = |&unknown: &Cell| {
                     map.status(unknown) == Status::Unknown
