@@ -2,15 +2,16 @@
 
 use std::error::Error;
 
+use tautline_kernel::ground::Cell;
 use tautline_kernel::perception::blink::Unidentified;
 use tautline_kernel::perception::blob::{NoSample, TooManySets};
 use tautline_kernel::perception::polar::Unplaced;
 use tautline_kernel::position::Refusal;
-use tautline_kernel::{chain, kit};
+use tautline_kernel::{chain, kit, pack};
 
 #[test]
 fn errors_say_what_would_be_right() {
-    let said: [(&dyn Error, &str); 15] = [
+    let said: [(&dyn Error, &str); 21] = [
         (&chain::Damaged::Byte(0xff), "byte 0xff is no message of the chain"),
         (
             &chain::Damaged::Length { bytes: 6, sent: 7 },
@@ -30,6 +31,12 @@ fn errors_say_what_would_be_right() {
         (&kit::NotNow::Decides, "the robot may not decide now: ask `may_decide` before"),
         (&kit::NotNow::Looks, "the robot looks at no side: `looked` comes after `Next::Looks`"),
         (&kit::NotNow::Drives, "the robot does not drive: `arrived` comes after `Next::Drives`"),
+        (&pack::Refused::Robots(0), "no robots are no pack"),
+        (&pack::Refused::Robots(33), "33 robots are too many for a pack: it has at most 32"),
+        (&pack::Refused::Together(Cell::new(3, -4)), "two robots of a pack are in the cell 3,-4"),
+        (&pack::Refused::Apart(2, 5), "the pack is not connected: links join 2 of its 5 robots"),
+        (&pack::Unfit::Sight, "a robot of a pack sees from 1 to 31 cells far"),
+        (&pack::Unfit::Range, "robots of a pack hear each other 3 cells far or more"),
         (&Unidentified::Lost, "its LED was on in no picture; 0 is no identifier"),
         (&NoSample::Empty, "the rectangle has no pixel: draw it round an LED"),
         (&NoSample::Outside, "the rectangle reaches beyond the picture: draw it inside"),
@@ -50,7 +57,9 @@ fn a_refused_position_has_a_remedy() {
         (Refusal::Anchors { count: 2 }, "give at least three anchors, and exactly three for the closed form"),
         (Refusal::NotFinite { anchor: 0 }, "give metres, at most 10⁹ of them"),
         (Refusal::Negative { anchor: 0 }, "give distances from 0"),
+        (Refusal::Zero { anchor: 0 }, "give a distance above a micrometre, or ask for residuals in metres"),
         (Refusal::Coincident { first: 0, second: 1 }, "give three anchors at different places"),
+        (Refusal::Apart { first: 0, second: 1 }, "measure again, or allow for more noise"),
         (Refusal::Collinear, "move an anchor off the line of the others"),
         (Refusal::Division, "name the anchors in another order, or solve by linear least squares"),
         (Refusal::NoParticle, "give at least one particle"),

@@ -4,8 +4,8 @@
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{
-    Area, Estimate, Fix, Parameters, Particle, Point, Range, Refusal, Residual, Signal, Swarm, bound, check,
-    check_meeting, closed_form, linear, locate, locate_from,
+    Area, Estimate, Fix, Layout, Parameters, Particle, Point, Range, Refusal, Residual, Signal, Swarm, bound,
+    check, check_meeting, closed_form, linear, locate, locate_from,
 };
 
 #[path = "support/numbers.rs"]
@@ -157,7 +157,24 @@ fn a_robot_on_the_rim_of_its_rectangle_is_not_outside() {
                 fix.best().at.distance_m(Point::default()) < 1e-9 && !fix.best().flags.is_outside,
                 "{fix:?}"
             );
+            // Also where nothing leads away from it, to the last bit.
+            let there =
+                locate_from(Point::default(), &ranges, residual, &signal(0.0), area).expect("a place");
+            assert_eq!((there.at, there.steps, there.flags.is_outside), (Point::default(), 1, false));
         }
+    }
+}
+
+#[test]
+fn a_step_as_long_as_the_last_one_may_be_is_the_last() {
+    let anchors = [(4.0, 3.0), (4.0, -3.0), (-4.0, 3.0), (-4.0, -3.0)].map(|(x, y)| Point::new(x, y));
+    let ranges = exact(&anchors, Point::new(2.0, 0.0));
+    let last_m = 1e-5 * Layout::of(&ranges).spread_m[0];
+    let area = Area::new(Point::new(-9.0, -9.0), Point::new(0.0, 9.0));
+    for (times, steps) in [(0.999, 1), (1.0, 1), (1.001, 2)] {
+        let from = Point::new(-times * last_m, 0.0);
+        let there = locate_from(from, &ranges, Residual::Metres, &signal(0.0), area).expect("a place");
+        assert_eq!((there.at, there.steps), (Point::default(), steps), "{times}");
     }
 }
 
@@ -195,8 +212,10 @@ fn two_minima_are_told_if_their_costs_differ_by_less_than_3_84_times_the_varianc
 #[test]
 fn a_mirror_image_is_told_without_noise_too() {
     let mut drawn = Drawn(11);
-    for _ in 0..50 {
-        let (from, along) = (place(&mut drawn, 30.0), place(&mut drawn, 1.0));
+    for round in 0..100 {
+        // Also where rounding makes costs differ by more than other layouts cost, and where anchors are a hundredth of a millimetre apart.
+        let scale = [1.0, 1e6, 3e-5][round % 3];
+        let (from, along) = (place(&mut drawn, 30.0 * scale), place(&mut drawn, scale));
         let on_line = |far_m: f64| Point::new(from.x_m + far_m * along.x_m, from.y_m + far_m * along.y_m);
         let off = Point::new(from.x_m - 7.0 * along.y_m, from.y_m + 7.0 * along.x_m);
         let ranges = exact(&[on_line(0.0), on_line(9.0), on_line(20.0)], off);
@@ -224,6 +243,12 @@ fn positions_have_no_unit_of_their_own() {
             let is_same = |one: Point, other: Point| larger(one).distance_m(other) <= 1e-6 * times;
             let (one, other) = (linear(&ranges).expect("no line"), linear(&scaled).expect("no line"));
             assert!(is_same(one, other), "{one:?} {other:?}");
+            for residual in RESIDUALS {
+                let one = locate_from(spread, &ranges, residual, &signal(2.0), area).expect("an estimate");
+                let other = locate_from(larger(spread), &scaled, residual, &signal(2.0), scaled_area);
+                let other = other.expect("an estimate");
+                assert!(is_same(one.at, other.at) && one.steps == other.steps, "{one:?} {other:?}");
+            }
             for (residual, area, scaled_area) in [
                 (Residual::Metres, None, None),
                 (Residual::Decibels, None, None),
@@ -248,11 +273,13 @@ fn anchors_on_a_line_are_on_one_wherever_it_is() {
     for (x, y) in [(0.0, 0.0), (1e6, 0.0), (0.0, 1e6), (-3e5, 0.0), (0.0, -3e5), (4e7, -5e7)] {
         for _ in 0..20 {
             let along = place(&mut drawn, 1.0);
-            let anchors =
-                [0.0, 9.0, 20.0].map(|far_m| Point::new(x + far_m * along.x_m, y + far_m * along.y_m));
-            let ranges = exact(&anchors, Point::new(x + 3.0, y - 8.0));
-            assert_eq!(linear(&ranges), Err(Refusal::Collinear), "{ranges:?}");
-            assert_eq!(closed_form(&ranges), Err(Refusal::Collinear), "{ranges:?}");
+            // Also where the centre of the anchors is on an axis.
+            for far_m in [[0.0, 9.0, 20.0], [-11.0, 2.0, 9.0]] {
+                let anchors = far_m.map(|far_m| Point::new(x + far_m * along.x_m, y + far_m * along.y_m));
+                let ranges = exact(&anchors, Point::new(x + 3.0, y - 8.0));
+                assert_eq!(linear(&ranges), Err(Refusal::Collinear), "{ranges:?}");
+                assert_eq!(closed_form(&ranges), Err(Refusal::Collinear), "{ranges:?}");
+            }
         }
     }
 }
@@ -300,6 +327,57 @@ fn circles_meet_up_to_four_standard_deviations_and_to_the_rounding_of_numbers() 
             assert!(!meets(within(part, 1e-6).0, within(part, 1e-6).1), "{first:?} {second:?} {part}");
             assert!(!meets(within(part, 1e-6).1, within(part, 1e-6).0), "{first:?} {second:?} {part}");
         }
+    }
+}
+
+#[test]
+fn circles_that_touch_to_the_last_bit_meet() {
+    let most = 1.0 + 1e-9;
+    for (apart_m, one_m, other_m) in [(most, 0.5, 0.5), (1.0, most, 0.0), (1.0, 0.0, most)] {
+        let ranges = [(0.0, 0.0, one_m), (apart_m, 0.0, other_m), (50.0, 50.0, 70.0)]
+            .map(|(x, y, distance_m)| Range::new(Point::new(x, y), distance_m));
+        let apart = Err(Refusal::Apart { first: 0, second: 1 });
+        assert_ne!(check_meeting(&ranges, &signal(0.0)), apart, "{one_m} and {other_m}");
+    }
+}
+
+#[test]
+fn a_line_is_told_in_one_direction_and_anchors_spread_alike_have_the_axes() {
+    let along = |anchors: &[(f64, f64)]| {
+        let ranges: Vec<Range> = anchors.iter().map(|&(x, y)| Range::new(Point::new(x, y), 1.0)).collect();
+        Layout::of(&ranges).along
+    };
+    assert_eq!(along(&[(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0)]), Point::new(1.0, 0.0));
+    // From the diagonal that leads up to the left, round by the right, to the one that leads down to the right, which is not.
+    let mut drawn = Drawn(19);
+    for round in 0..200 {
+        let to = match round {
+            0 => Point::new(1.0, -1.0),
+            1 => Point::new(-4.0, 4.0),
+            _ => place(&mut drawn, 9.0),
+        };
+        let Point { x_m, y_m } = along(&[(to.x_m, to.y_m), (0.0, 0.0), (-to.x_m, -to.y_m)]);
+        assert!(x_m + y_m > 0.0 || x_m + y_m == 0.0 && x_m < 0.0, "{to:?}: {x_m} {y_m}");
+    }
+}
+
+#[test]
+fn of_two_mirror_images_that_fit_alike_the_left_one_is_told_first() {
+    let anchors = [Point::new(0.0, 0.0), Point::new(20.0, 0.0), Point::new(10.0, 0.0)];
+    for residual in RESIDUALS {
+        let fix =
+            locate(&exact(&anchors, Point::new(6.0, 8.0)), residual, &signal(1.0), None).expect("a fix");
+        let Fix::Two(first, second) = fix else { panic!("{fix:?}") };
+        assert!(first.at.y_m > 0.0 && second.at.y_m < 0.0, "{fix:?}");
+    }
+}
+
+#[test]
+fn a_direction_of_which_rounding_leaves_nothing_is_not_told() {
+    let anchors = [-9.0, 4.0, 11.0].map(|along| Point::new(along, 3.0 * along));
+    for off_m in [0.0, 1e-10, 1e-9, 3e-9, 5e-9, 1e-8, 2e-8] {
+        let at = Point::new(3.0 - 3.0 * off_m, 9.0 + off_m);
+        assert_eq!(bound(anchors.into_iter(), at, &signal(1.0)), None, "{off_m} m off the line");
     }
 }
 

@@ -140,6 +140,8 @@ fn what_gives_no_position_is_refused_by_every_way() {
     let zero = with(1, |range| range.distance_m = 0.0);
     assert_eq!(locate(&zero, Residual::Decibels, &signal(1.0), None), Err(Refusal::Zero { anchor: 1 }));
     assert!(locate(&zero, Residual::Metres, &signal(1.0), None).is_ok());
+    let least = with(1, |range| range.distance_m = 1e-6);
+    assert!(locate(&least, Residual::Decibels, &signal(1.0), None).is_ok(), "a micrometre is a distance");
     let near = with(2, |range| range.anchor = Point::new(20.0, 1e-7));
     assert_eq!(linear(&near), Err(Refusal::Coincident { first: 1, second: 2 }));
 }

@@ -385,6 +385,27 @@ mod tests {
     }
 
     #[test]
+    fn without_renewal_a_wfr_repeats_its_choice_as_often_as_it_may_and_calls_no_more() {
+        let rule = Rule::REPAIRED.without(Condition::Renewal);
+        let (offered, _) = closed(after(rule, &[bid(1, 4)]).0);
+        let answer = WfrTimer::Answer { epoch: Epoch::FIRST, repeats_left: 1 };
+        assert_eq!(offered.timer(), Some(answer));
+        let (again, sent) = offered.expire(answer);
+        assert_eq!((sent, again.timer()), (Sent::One(resb(1, 1)), None));
+        let (uncalled, _) = after(rule, &[]);
+        assert_eq!(closed(uncalled), (uncalled, Sent::Nothing));
+    }
+
+    #[test]
+    fn where_ids_do_not_count_the_first_heard_of_equals_is_chosen() {
+        let rule = Rule::REPAIRED.without(Condition::LeastIdentity);
+        for (first, second) in [(2, 1), (1, 2)] {
+            let (_, sent) = closed(after(rule, &[bid(first, 3), bid(second, 3)]).0);
+            assert_eq!(sent, Sent::All([first, second].map(|robot| Some(resb(robot, first)))));
+        }
+    }
+
+    #[test]
     fn a_robot_beyond_those_that_it_can_remember_is_chosen_all_the_same() {
         let (wfr, sent) = closed(after(Rule::REPAIRED, &[bid(1, 4), bid(2, 5), bid(3, 3)]).0);
         assert_eq!(sent, Sent::All([Some(resb(1, 3)), Some(resb(2, 3))]));

@@ -93,17 +93,15 @@ impl Senders {
         self.senders.iter().take(self.count.into()).any(|&heard| heard == sender)
     }
 
-    /// Remembers `sender`, if there is room.
+    /// Remembers `sender`. There is room: a node that has heard as many as there are places is silent.
     fn add(&mut self, mut sender: NodeId) {
-        if usize::from(self.count) < self.senders.len() {
-            for place in self.senders.iter_mut().take(self.count.into()) {
-                if sender < *place {
-                    core::mem::swap(&mut sender, place);
-                }
+        for place in self.senders.iter_mut().take(self.count.into()) {
+            if sender < *place {
+                core::mem::swap(&mut sender, place);
             }
-            if let Some(place) = self.senders.get_mut(usize::from(self.count)) {
-                *place = sender;
-            }
+        }
+        if let Some(place) = self.senders.get_mut(usize::from(self.count)) {
+            *place = sender;
             self.count += 1;
         }
     }
