@@ -179,6 +179,8 @@ impl<const ROBOTS: usize> Solver<'_, ROBOTS> {
 mod tests {
     use super::super::plan::{mark_occupied, unmark_occupied};
     use super::*;
+    use crate::choice::Oracle;
+    use crate::choice::tests::Drawn;
     use crate::ground::{Area, Side, SmallGrid};
 
     const ROBOTS: usize = 5;
@@ -197,11 +199,7 @@ mod tests {
 
     #[test]
     fn what_is_solved_costs_least_of_all_that_is_admitted() {
-        let mut seed = 1_u64;
-        let mut pick = |below: u64| {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (seed >> 33) % below
-        };
+        let mut drawn = Drawn(1);
         let area = Area::new(Cell::new(0, 0), Cell::new(4, 4)).expect("cells");
         let mut told = [0; 2];
         for round in 0..400 {
@@ -214,20 +212,20 @@ mod tests {
             let is_distinct = round / 4 % 2 == 0;
             let rule = if is_distinct { rule } else { rule.without(Condition::Distinct) };
             let mut grid = SmallGrid::new(area).expect("it fits");
-            for edge in area.edges().filter(|_| pick(8) == 0) {
+            for edge in area.edges().filter(|_| drawn.pick(8) == 0) {
                 grid.put_edge(EdgeMark::Wall, edge);
             }
             let mut team = [Cell::new(2, 2); ROBOTS];
             for robot in 1..ROBOTS {
-                let to = (0..3).fold(team[robot - 1], |at, _| at.after(Step::ALL[pick(5) as usize]));
+                let to = (0..3).fold(team[robot - 1], |at, _| at.after(Step::ALL[drawn.pick(5) as usize]));
                 team[robot] = if area.contains(to) { to } else { team[robot - 1] };
             }
             let mut wishes = [Wish::STAY; ROBOTS];
             for wish in &mut wishes[1..] {
-                wish.steps = Steps::of_bits(pick(32) as u8).with(Step::Stay);
-                wish.cost = core::array::from_fn(|_| pick(20) as i32 - 10);
+                wish.steps = Steps::of_bits(drawn.pick(32) as u8).with(Step::Stay);
+                wish.cost = core::array::from_fn(|_| drawn.pick(20) as i32 - 10);
             }
-            let apart = pick(6) as i32;
+            let apart = drawn.pick(6) as i32;
             mark_occupied(&mut grid, team.iter().copied(), team[0]);
             let before = grid;
             let solved = solve(&rule, &mut grid, &team, &wishes, Apart(apart));
