@@ -151,7 +151,7 @@ mod tests {
             let mut area = BTreeSet::new();
             for place in (-2..=8).flat_map(|x| (-2..=8).map(move |y| (x, y))) {
                 let (x, y) = place;
-                let is_there = x >= 0 && x < 6 && y >= 0 && y < 4;
+                let is_there = (0..6).contains(&x) && (0..4).contains(&y);
                 assert_eq!(exhibit.is_free(place), is_there && !blocked.contains(&place), "{place:?}");
                 let is_near = (x - base.0).abs().max((y - base.1).abs()) <= range;
                 assert_eq!(exhibit.is_inside(place), is_there && is_near, "{robots} {place:?}");
