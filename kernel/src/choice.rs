@@ -27,3 +27,18 @@ pub fn one_of<T: Copy, const OPTIONS: usize>(oracle: &mut dyn Oracle, options: &
     const { assert!(OPTIONS > 0, "a choice needs an option") };
     options[(oracle.pick(OPTIONS as u32) as usize).min(OPTIONS - 1)]
 }
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::Oracle;
+
+    /// Answers that a linear congruence makes of the ones before.
+    pub(crate) struct Drawn(pub(crate) u64);
+
+    impl Oracle for Drawn {
+        fn pick(&mut self, below: u32) -> u32 {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (((self.0 >> 32) * u64::from(below)) >> 32) as u32
+        }
+    }
+}

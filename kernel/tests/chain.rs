@@ -51,6 +51,79 @@ fn a_full_cell_is_shut_for_the_leader_and_for_followers_by_a_condition_of_its_ow
     assert!(entered.iter().all(|&times| times > 20), "{entered:?}");
 }
 
+/// Whether `rule` admits the steps, in the words of its conditions.
+fn is_admitted(rule: Rule, grid: &SmallGrid, team: &[Cell], steps: &[Step]) -> bool {
+    let apart = |one: Cell, other: Cell| (one.x.abs_diff(other.x), one.y.abs_diff(other.y));
+    let is_safe = |one, other| apart(one, other).0.max(apart(one, other).1) <= 1;
+    let is_covered = |one, other| is_safe(one, other) || apart(one, other).0 + apart(one, other).1 == 2;
+    let (has, base) = (|condition| rule.has(condition), team[0]);
+    let to = |robot: usize| team[robot].after(steps[robot]);
+    let carries = |robot: usize, mark| match steps[robot] {
+        Step::Cross(side) => grid.edge_has(mark, Edge::new(team[robot], side)),
+        Step::Stay => false,
+    };
+    let others = |robot: usize| (1..team.len()).filter(move |&other| other != robot);
+    steps[0] == Step::Stay
+        && (1..team.len()).all(|robot| {
+            let (is_leader, stays) = (robot + 1 == team.len(), steps[robot] == Step::Stay);
+            let is_sure = stays || carries(robot, EdgeMark::Open);
+            let is_full = to(robot) != base && team.iter().filter(|&&cell| cell == to(robot)).count() > 1;
+            let full = if is_leader { Condition::FullForLeader } else { Condition::FullForFollower };
+            let shares = to(robot) != base && others(robot).any(|other| to(other) == to(robot));
+            !carries(robot, EdgeMark::Wall)
+                && (!has(Condition::CoveredBehind)
+                    || is_leader && stays
+                    || is_covered(to(robot), team[robot - 1]))
+                && (!has(Condition::SafeAhead) || is_safe(to(robot - 1), to(robot)))
+                && (!has(Condition::UnsureAhead) || is_sure || is_covered(to(robot - 1), team[robot]))
+                && (!has(Condition::Hold) || is_covered(to(robot - 1), team[robot]))
+                && (!has(Condition::Distinct) || !shares)
+                && (!has(full) || stays || !is_full)
+        })
+}
+
+#[test]
+fn a_team_move_is_admitted_if_each_of_the_conditions_says_so() {
+    const ROBOTS: usize = 4;
+    let area = grid(9, 9).area();
+    let (mut drawn, base) = (Drawn(4), Cell::new(4, 4));
+    let mut told = [0; 2];
+    for round in 0..4000 {
+        let condition = Condition::ALL[round % Condition::ALL.len()];
+        let rule = [Rule::PUBLISHED, Rule::REPAIRED, Rule::REEL][round % 3];
+        let rule = if drawn.pick(2) == 0 { rule.without(condition) } else { rule };
+        let mut grid = grid(9, 9);
+        for edge in area.edges() {
+            match drawn.pick(8) {
+                0 => grid.put_edge(EdgeMark::Wall, edge),
+                1..=3 => grid.put_edge(EdgeMark::Open, edge),
+                _ => {}
+            }
+        }
+        let mut team = [base; ROBOTS];
+        for robot in 1..ROBOTS {
+            let mut off = || drawn.pick(3) as i16 - 1 + (drawn.pick(6) / 5) as i16;
+            let (x, y) = (team[robot - 1].x + off(), team[robot - 1].y + off());
+            team[robot] = Cell::new(x.clamp(0, 8), y.clamp(0, 8));
+        }
+        let mut steps: [Step; ROBOTS] = core::array::from_fn(|_| Step::ALL[drawn.pick(5) as usize]);
+        steps[ROBOTS - 1] = if drawn.pick(2) == 0 { Step::Stay } else { steps[ROBOTS - 1] };
+        steps[0] = if drawn.pick(20) == 0 { steps[0] } else { Step::Stay };
+        let expected = is_admitted(rule, &grid, &team, &steps);
+        let before = grid;
+        assert_eq!(rule.admits_plan(&mut grid, &team, &steps), expected, "{rule:?} {team:?} {steps:?}");
+        assert!(grid == before, "the grid is left as it was");
+        told[usize::from(expected)] += 1;
+        for robots in 0..ROBOTS {
+            let is_nothing = robots == 0;
+            assert!(!rule.admits_plan(&mut grid, &team, &[Step::Stay; ROBOTS][..robots]));
+            assert!(!rule.admits_plan(&mut grid, &team[..robots], &[Step::Stay; ROBOTS]));
+            assert_eq!(rule.admits_plan(&mut grid, &[], &[Step::Stay; ROBOTS][..robots]), is_nothing);
+        }
+    }
+    assert!(told.iter().all(|&times| times > 100), "{told:?}");
+}
+
 #[test]
 fn a_rule_keeps_what_its_repairs_promise() {
     let rules = Condition::ALL.map(|condition| Rule::REPAIRED.without(condition));
@@ -126,6 +199,17 @@ fn a_chain_tells_what_its_plan_has_cost_and_what_it_would_take_back() {
         );
         // A follower has five candidates at most, and more than one.
         assert!(moves > 0 && (robots == 2 || latest > Some(1)), "{latest:?}");
+    }
+}
+
+#[test]
+fn a_plan_that_no_follower_has_to_move_for_costs_one_look_for_each_of_them() {
+    for robots in 2..=5 {
+        let mut chain =
+            Chain::<_, 5>::new(Rule::REPAIRED, robots, Cell::new(2, 2), grid(5, 5)).expect("it fits");
+        let Ok(Intent::Go(plan)) = chain.plan(&[]) else { panic!("it goes") };
+        assert!(plan.steps()[1..robots - 1].iter().all(|&step| step == Step::Stay));
+        assert_eq!((chain.looked_at(), chain.is_cut_short()), (robots as u32 - 2, false));
     }
 }
 

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use tautline_kernel::bricks::tree::{Label, Note, Notes, View};
+use tautline_kernel::bricks::tree::{Agent, Condition, Label, Next, Note, Notes, Rule, View};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::COMPASS;
 use tautline_kernel::frontier::{Map, Status, TinyMap};
@@ -136,6 +136,51 @@ fn children_restore_what_the_sensor_of_their_parent_stored() {
         );
     }
     assert!(restored > 500 && roots > 100, "{restored} {roots}");
+}
+
+#[test]
+fn an_agent_that_restores_acts_on_what_is_restored() {
+    let (mut drawn, mut restored) = (Drawn(1), 0);
+    let [old, less] = [label(1), label(2)];
+    for round in 0..300 {
+        let floor = tree(&mut drawn, old, 3 * (round % 2));
+        let found = view(&floor, Note::default().of_tree(less, None));
+        let decide = |rule, view: &View| Agent::new(0).decide(rule, view);
+        let act = decide(Rule::DOUBTING, &found);
+        assert_eq!(act, decide(Rule::DOUBTING, &View { here: found.restored(), ..found }), "{floor:?}");
+        restored += u32::from(act != decide(Rule::DOUBTING.without(Condition::Restores), &found));
+    }
+    assert!(restored > 100, "{restored}");
+}
+
+#[test]
+fn an_agent_that_doubts_nothing_it_reads_remembers_nothing_of_what_it_missed() {
+    let here = Note::default().visited(Some(Side::East));
+    let unexplored: BTreeMap<Cell, Note> =
+        (0..9).map(|place| (Cell::new(place % 3, place / 3), Note::default())).collect();
+    for (readings, remembers) in [(1, false), (2, true), (3, true)] {
+        let mut agent = Agent::new(0);
+        agent.decide(Rule::HELPERS.reading(readings), &view(&unexplored, here));
+        assert_eq!(agent != Agent::new(0), remembers, "{readings}");
+    }
+}
+
+#[test]
+fn an_agent_that_finds_a_sensor_where_it_missed_one_goes_back() {
+    let root = Note::default().of_tree(label(0), None);
+    for side in Side::ALL {
+        // One cell reads as unexplored.
+        let beyond = BTreeMap::from([(MIDDLE.beyond(side), Note::default())]);
+        let back = BTreeMap::from([(MIDDLE.beyond(side.opposite()), root)]);
+        for (rule, goes_back) in [(Rule::ROBUST, true), (Rule::ROBUST.without(Condition::Underfoot), false)] {
+            let mut agent = Agent::new(0);
+            assert_eq!(agent.decide(rule, &view(&beyond, root)).next, Next::Explores(side));
+            let there = Note { crossings: 2, ..Note::default().of_tree(label(0), None) };
+            // Nothing else leads it there: it is the root of that tree, too.
+            let next = agent.decide(rule, &view(&back, there)).next;
+            assert_eq!(next == Next::Goes(side.opposite()), goes_back, "{rule:?} {next:?}");
+        }
+    }
 }
 
 #[test]

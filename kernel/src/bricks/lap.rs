@@ -59,10 +59,9 @@ impl Lap {
         matches!(self.hand, Hand::Right)
     }
 
-    /// The way back, for an agent that would have gone on through `onward`.
-    pub(super) const fn cut_short(self, onward: Side) -> Self {
-        let mark = (self.at, onward);
-        Self { hand: Hand::Right, mark, moved: 0, due: Self::FIRST, ..self }
+    /// The way back, on which moves and marks are counted anew.
+    pub(super) const fn cut_short(self) -> Self {
+        Self { hand: Hand::Right, moved: 0, due: Self::FIRST, ..self }
     }
 
     /// Whether the agent is where the lap began.
@@ -79,5 +78,47 @@ impl Lap {
         }
         let comes_round = moved > Self::FIRST && (at, side) == self.mark;
         (!comes_round).then_some(Self { at, moved, ..self })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Moves in a rectangle of so many columns and rows, from outside of which the lap began, until the lap is given up.
+    fn given_up_after(mut lap: Lap, columns: usize, rows: usize) -> u32 {
+        let sides = [
+            (Side::East, columns - 1),
+            (Side::South, rows - 1),
+            (Side::West, columns - 1),
+            (Side::North, rows - 1),
+        ];
+        let mut round = sides.into_iter().flat_map(|(side, moves)| core::iter::repeat_n(side, moves)).cycle();
+        let mut moves = 0;
+        loop {
+            let side = round.next().expect("it goes round and round");
+            moves += 1;
+            let Some(next) = lap.through(side) else { return moves };
+            lap = next;
+            assert_eq!(lap.moved(), moves);
+        }
+    }
+
+    #[test]
+    fn a_lap_that_goes_round_without_coming_home_is_given_up_one_round_after_a_mark() {
+        let begun = Lap::new(Side::North, [0; 8]).through(Side::North).expect("it has left");
+        let out =
+            |moves| (0..moves).fold(begun, |lap, _| lap.through(Side::North).expect("it goes straight on"));
+        for before in [0, 1, 62, 63, 64, 100, 127, 128, 500] {
+            let back = out(before).cut_short();
+            assert!(back.is_cut_short() && !out(before).is_cut_short() && !back.is_home());
+            assert_eq!((out(before).moved(), back.moved()), (before + 1, 0));
+            // A mark after 64, 128, 256 and so on moves, each of which finds rounds that end before the next.
+            for (columns, rows, moves) in
+                [(2, 2, 64 + 4), (17, 16, 64 + 62), (17, 17, 128 + 64), (50, 20, 256 + 136)]
+            {
+                assert_eq!(given_up_after(back, columns, rows), moves, "after {before}");
+            }
+        }
     }
 }

@@ -50,7 +50,8 @@ struct Trial {
 }
 
 /// Whether a robot's step was tried when it was its turn: once all robots ahead had theirs.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Turn {
     Own,
     Early,
@@ -386,5 +387,127 @@ impl<const ROBOTS: usize> Robots<ROBOTS> {
                 Some(64 * word + bit as usize)
             })
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::rule::{Budget, Move, Rule};
+    use super::*;
+    use crate::choice::Oracle;
+    use crate::choice::tests::Drawn;
+    use crate::ground::{Area, CellMark, EdgeMark, MediumGrid, SmallGrid};
+
+    /// So many columns and rows from 0,0.
+    fn area(columns: i16, rows: i16) -> Area {
+        Area::new(Cell::new(0, 0), Cell::new(columns - 1, rows - 1)).expect("cells")
+    }
+
+    #[test]
+    fn the_robot_that_failed_most_for_each_step_it_has_left_is_the_next_and_the_culprit_before_it() {
+        const ROBOTS: usize = 70;
+        let rule = Rule { budget: Budget::Unlimited, ..Rule::PUBLISHED };
+        let mut grid = MediumGrid::new(area(9, 9)).expect("it fits");
+        let team = [Cell::new(4, 4); ROBOTS];
+        let looks = Looks::new(rule.budget, ROBOTS);
+        let planner = Planner::<_, ROBOTS>::new(&rule, &mut grid, &team, looks);
+        // All are in the base, and have all steps left.
+        let mut choices = Choices::new(&planner, Steps::ALL);
+        let leader = ROBOTS - 1;
+        assert!((1..=leader).all(|robot| choices.left[robot] == Steps::ALL));
+        assert_eq!(choices.next(), Some((leader, Turn::Own)));
+        let start = choices.trail_length;
+        // Of two that failed as often the nearer to the leader.
+        for (robot, next) in [(10, 10), (30, 30), (20, 30), (20, 20), (66, 20), (66, 66), (66, 66)] {
+            let (left, failures) = (choices.left, choices.failures[robot]);
+            assert!(!choices.leave(robot, Steps::NONE), "no step is left for it");
+            choices.restore(start);
+            assert!(choices.left == left && choices.failures[robot] == failures + 1);
+            assert_eq!(choices.next(), Some((next, Turn::Early)));
+        }
+        // 66 failed three times and has five steps left, 20 failed twice and has two.
+        choices.leave_exactly(20, Steps::only(Step::Stay).with(Step::ALL[0]));
+        assert_eq!(choices.next(), Some((20, Turn::Early)));
+        for culprit in [40, leader, 66] {
+            choices.culprit = culprit;
+            let turn = if culprit == leader { Turn::Own } else { Turn::Early };
+            assert_eq!(choices.next(), Some((culprit, turn)));
+        }
+        // One that is decided, or that the witness helps, is not tried.
+        choices.culprit = 0;
+        choices.witness[20] = Steps::only(Step::Stay);
+        assert_eq!(choices.next(), Some((66, Turn::Early)));
+        choices.witness = [Steps::ALL; ROBOTS];
+        assert_eq!(choices.next(), None);
+    }
+
+    /// The paper's recursion: the first steps of the robots behind `robot`, the nearest to it first, with which the chain
+    /// closes.
+    fn recursion<const ROBOTS: usize>(planner: &mut Planner<'_, SmallGrid, ROBOTS>, robot: usize) -> bool {
+        let (ahead, behind) = (planner.planned(robot), robot - 1);
+        if behind == 0 {
+            return planner.rule.admits_ahead(Move::stay(planner.base()), ahead);
+        }
+        let at = planner.team[behind];
+        let mut left = planner.candidates(behind).and(planner.rule.steps_ahead(at, ahead));
+        while let Some(step) = planner.preferred(at, ahead, left).0 {
+            left = left.without(step);
+            let to = at.after(step);
+            let is_taken = to != planner.base()
+                && (robot..planner.team.len()).any(|other| planner.planned(other).to() == to);
+            planner.steps[behind] = step;
+            if !is_taken && recursion(planner, behind) {
+                return true;
+            }
+        }
+        false
+    }
+
+    #[test]
+    fn followers_take_the_steps_of_the_recursion() {
+        const ROBOTS: usize = 8;
+        let mut drawn = Drawn(1);
+        let mut told = [0; 2];
+        for round in 0..600 {
+            let rule = if round % 2 == 0 { Rule::PUBLISHED } else { Rule::REPAIRED };
+            let rule = Rule { budget: Budget::Unlimited, ..rule };
+            let mut grid = SmallGrid::new(area(5, 5)).expect("it fits");
+            for edge in area(5, 5).edges() {
+                match drawn.pick(6) {
+                    0 => grid.put_edge(EdgeMark::Wall, edge),
+                    1 | 2 => grid.put_edge(EdgeMark::Open, edge),
+                    _ => {}
+                }
+            }
+            let mut team = [Cell::new(2, 2); ROBOTS];
+            for robot in 1..ROBOTS {
+                let behind = team[robot - 1];
+                let beside = Step::ALL[drawn.pick(5) as usize];
+                let to = behind.after(beside).after(Step::ALL[drawn.pick(5) as usize]);
+                team[robot] = if area(5, 5).contains(to) { to } else { behind };
+                grid.put(CellMark::Explored, team[robot]);
+            }
+            let looks = Looks::new(rule.budget, ROBOTS);
+            let mut planner = Planner::<_, ROBOTS>::new(&rule, &mut grid, &team, looks);
+            let leader = ROBOTS - 1;
+            let leads = planner.candidates(leader);
+            let mut choices = Choices::new(&planner, leads);
+            for lead in leads.iter() {
+                planner.steps = [Step::Stay; ROBOTS];
+                planner.steps[leader] = lead;
+                let follows = recursion(&mut planner, leader);
+                let expected = planner.steps;
+                planner.steps = [Step::Stay; ROBOTS];
+                planner.steps[leader] = lead;
+                assert_eq!(choices.follow(&mut planner, lead), follows, "{team:?} {lead:?}");
+                assert!(
+                    !follows || planner.steps == expected,
+                    "{team:?} {:?}, not {expected:?}",
+                    planner.steps
+                );
+                told[usize::from(follows)] += 1;
+            }
+        }
+        assert!(told.iter().all(|&times| times > 50), "{told:?}");
     }
 }

@@ -128,3 +128,49 @@ impl<'a, G: Grid, const ROBOTS: usize> Planner<'a, G, ROBOTS> {
         Move { from, step, known_open }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ten() -> Looks {
+        Looks::new(Budget::LooksPerRobot(5), 2)
+    }
+
+    #[test]
+    fn a_budget_is_over_as_soon_as_more_is_wanted_than_there_is() {
+        let mut looks = ten();
+        for (candidates, used, is_over) in
+            [(4, 4, false), (6, 10, false), (0, 10, false), (1, 10, true), (0, 10, true)]
+        {
+            looks.take(candidates);
+            assert_eq!((looks.used(), looks.is_over()), (used, is_over));
+        }
+        let mut looks = ten();
+        for (candidates, used, is_over) in
+            [(3, 3, false), (7, 10, false), (0, 10, false), (1, 10, true), (0, 10, true)]
+        {
+            looks.take_each(candidates);
+            assert_eq!((looks.used(), looks.is_over()), (used, is_over));
+        }
+        let mut unlimited = Looks::new(Budget::Unlimited, 2);
+        unlimited.take(u32::MAX);
+        assert_eq!((unlimited.used(), unlimited.is_over()), (u32::MAX, false));
+    }
+
+    #[test]
+    fn of_too_many_candidates_none_is_looked_at_or_each_as_far_as_there_are_looks() {
+        let (mut at_once, mut each) = (ten(), ten());
+        at_once.take(3);
+        each.take_each(3);
+        at_once.take(8);
+        each.take_each(8);
+        assert_eq!((at_once.used(), at_once.is_over()), (3, true));
+        assert_eq!((each.used(), each.is_over()), (10, true));
+        // Nor is any later one.
+        at_once.take(1);
+        assert_eq!(at_once.used(), 3);
+        at_once.take_each(7);
+        assert_eq!((at_once.used(), at_once.is_over()), (3, true));
+    }
+}

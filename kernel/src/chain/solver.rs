@@ -174,3 +174,99 @@ impl<const ROBOTS: usize> Solver<'_, ROBOTS> {
         is_found.then_some(steps)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::plan::{mark_occupied, unmark_occupied};
+    use super::*;
+    use crate::choice::Oracle;
+    use crate::choice::tests::Drawn;
+    use crate::ground::{Area, Side, SmallGrid};
+
+    const ROBOTS: usize = 5;
+
+    /// What `steps` cost, if each is wished for.
+    fn cost(team: &[Cell], steps: &[Step], wishes: &[Wish], apart: i32) -> Option<i32> {
+        let planned = |robot: usize| team[robot].after(steps[robot]);
+        (1..team.len()).try_fold(0, |sum, robot| {
+            let (one, other) = (planned(robot), planned(robot - 1));
+            let is_apart = one.x.abs_diff(other.x) + one.y.abs_diff(other.y) > 1;
+            let own = wishes[robot].cost[steps[robot].place()];
+            let all = sum + own + if is_apart { apart } else { 0 };
+            wishes[robot].steps.has(steps[robot]).then_some(all)
+        })
+    }
+
+    #[test]
+    fn what_is_solved_costs_least_of_all_that_is_admitted() {
+        let mut drawn = Drawn(1);
+        let area = Area::new(Cell::new(0, 0), Cell::new(4, 4)).expect("cells");
+        let mut told = [0; 2];
+        for round in 0..400 {
+            let rule = [
+                Rule::REEL,
+                Rule::REEL.without(Condition::FullForLeader),
+                Rule::REEL.without(Condition::FullForFollower),
+                Rule::PUBLISHED,
+            ][round % 4];
+            let is_distinct = round / 4 % 2 == 0;
+            let rule = if is_distinct { rule } else { rule.without(Condition::Distinct) };
+            let mut grid = SmallGrid::new(area).expect("it fits");
+            for edge in area.edges().filter(|_| drawn.pick(8) == 0) {
+                grid.put_edge(EdgeMark::Wall, edge);
+            }
+            let mut team = [Cell::new(2, 2); ROBOTS];
+            for robot in 1..ROBOTS {
+                let to = (0..3).fold(team[robot - 1], |at, _| at.after(Step::ALL[drawn.pick(5) as usize]));
+                team[robot] = if area.contains(to) { to } else { team[robot - 1] };
+            }
+            let mut wishes = [Wish::STAY; ROBOTS];
+            for wish in &mut wishes[1..] {
+                wish.steps = Steps::of_bits(drawn.pick(32) as u8).with(Step::Stay);
+                wish.cost = core::array::from_fn(|_| drawn.pick(20) as i32 - 10);
+            }
+            let apart = drawn.pick(6) as i32;
+            mark_occupied(&mut grid, team.iter().copied(), team[0]);
+            let before = grid;
+            let solved = solve(&rule, &mut grid, &team, &wishes, Apart(apart));
+            assert!(grid == before, "no mark is left behind");
+            unmark_occupied(&mut grid, team.iter().copied());
+            let all = (0..5_usize.pow(ROBOTS as u32 - 1)).map(|number| {
+                let step = |robot: usize| Step::ALL[number / 5_usize.pow(robot as u32 - 1) % 5];
+                core::array::from_fn(|robot| if robot == 0 { Step::Stay } else { step(robot) })
+            });
+            let costs = all.filter_map(|steps: [Step; ROBOTS]| {
+                let cost = cost(&team, &steps, &wishes, apart)?;
+                rule.admits_plan(&mut grid, &team, &steps).then_some(cost)
+            });
+            let least = costs.min();
+            assert_eq!(solved.is_some(), least.is_some(), "{rule:?} {team:?}");
+            told[usize::from(solved.is_some())] += 1;
+            let Some(steps) = solved else { continue };
+            let cost = cost(&team, &steps, &wishes, apart);
+            assert!(rule.admits_plan(&mut grid, &team, &steps), "{rule:?} {team:?} {steps:?}");
+            // A planned cell of its own for each robot is found first, and not always the cheapest ones.
+            assert!(cost == least || is_distinct && cost > least, "{rule:?} {team:?} {steps:?}");
+        }
+        assert!(told.iter().all(|&times| times > 50), "{told:?}");
+    }
+
+    #[test]
+    fn a_cell_that_both_ends_of_a_long_chain_wish_for_is_given_up_after_five_tries_a_robot() {
+        const MOST: usize = 12;
+        let area = Area::new(Cell::new(0, 0), Cell::new(4, 4)).expect("cells");
+        let mut grid = SmallGrid::new(area).expect("it fits");
+        let (base, step) = (Cell::new(2, 2), |side| Steps::only(Step::Cross(side)));
+        let mut finds = |robots: usize| {
+            // R_2 goes east from the base, where all are but the leader, which would rather go north to the same cell than stay.
+            let mut team = [base; MOST];
+            team[robots - 1] = Cell::new(3, 3);
+            let mut wishes = [Wish { steps: Steps::ALL, ..Wish::STAY }; MOST];
+            wishes[robots - 1].steps = step(Side::North).with(Step::Stay);
+            wishes[robots - 1].cost[Step::Stay.place()] = 9;
+            wishes[1].steps = step(Side::East);
+            solve(&Rule::REEL, &mut grid, &team[..robots], &wishes, Apart(0)).is_some()
+        };
+        assert!((3..=4).all(&mut finds) && !(6..=MOST).any(finds));
+    }
+}

@@ -92,7 +92,7 @@ impl<const ROBOTS: usize> Walk<ROBOTS> {
         if self.cell(leader) == to {
             return;
         }
-        if leader + 1 < 2 * ROBOTS && self.cell(leader + 1) == to && self.ahead() > 0 {
+        if self.ahead() > 0 && self.cell(leader + 1) == to {
             self.leader += 1;
         } else {
             self.leader = self.leader.saturating_sub(1);
@@ -164,4 +164,26 @@ fn way(grid: &impl Grid, from: Cell, to: Cell) -> Option<[Option<Cell>; 2]> {
         between.beyond(side) == to && is_open(from, side) && is_open(between, side)
     };
     Side::ALL.into_iter().find(straight).map(|side| [Some(from.beyond(side)), Some(to)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ground::{Area, TinyGrid};
+
+    #[test]
+    fn a_leader_goes_along_its_walk_and_back_whatever_cell_the_walk_ends_at() {
+        let grid =
+            TinyGrid::new(Area::new(Cell::new(0, 0), Cell::new(3, 3)).expect("cells")).expect("it fits");
+        let team = [Cell::new(1, 0), Cell::new(0, 0), Cell::new(0, 1)];
+        let mut walk = Walk::<3>::own(&grid, &team);
+        let [base, between, end] = team;
+        assert_eq!((walk.leader(), walk.ahead()), (2, 0));
+        for (to, place) in
+            [(end, 2), (between, 1), (between, 1), (base, 0), (between, 1), (end, 2), (between, 1)]
+        {
+            walk.follow(to);
+            assert_eq!((walk.leader(), walk.cell(place), walk.ahead()), (place, to, 2 - place));
+        }
+    }
 }

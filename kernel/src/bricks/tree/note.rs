@@ -227,6 +227,16 @@ mod tests {
     }
 
     #[test]
+    fn a_sensor_counts_who_enters_up_to_what_fits() {
+        let mut note = Note::default();
+        for entered in 1..=Note::MOST_CROSSINGS {
+            note = note.entered();
+            assert_eq!((note.crossings, note.is_new()), (entered, entered == 1));
+        }
+        assert_eq!(note.entered(), note);
+    }
+
+    #[test]
     fn a_depth_fits_into_the_bits_that_a_shorter_label_leaves() {
         let label = Label(u32::MAX).lowest(Rule::DOUBTING.label_bits);
         let deepest = Note::default().of_tree(label, None).at_depth(u32::MAX);

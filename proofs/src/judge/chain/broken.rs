@@ -13,7 +13,7 @@ pub(super) fn broken(clause: &str) -> Option<Broken> {
         "CHAIN-2" => Broken::ByMove(|_, made| cell_is_crowded(&made.places)),
         "CHAIN-3" => Broken::ByMove(|court, made| range_is_left(&court.places, &made.places)),
         "CHAIN-13" => Broken::AtEnd(|court| Ok(misses_within_reach(court))),
-        "CHAIN-14" => Broken::AtEnd(misses_reachable),
+        "CHAIN-14" => Broken::AtEnd(|court| misses_reachable(court, MOST_CONFIGURATIONS)),
         _ => return None,
     })
 }
@@ -57,8 +57,9 @@ fn misses_within_reach(court: &Court<'_>) -> bool {
     !within_reach.is_subset(&court.explored)
 }
 
-/// CHAIN-14: a team that knows the layout, and tries no wall, can bring a robot to a place that was never explored.
-fn misses_reachable(court: &Court<'_>) -> Result<bool, &'static str> {
+/// CHAIN-14: a team that knows the layout, and tries no wall, can bring a robot to a place that was never explored. It is said
+/// if there are at most so many configurations.
+fn misses_reachable(court: &Court<'_>, most: usize) -> Result<bool, &'static str> {
     let start = vec![court.exhibit.base; court.exhibit.robots];
     // One who knows all sides: nobody is unsure, and no wall is planned to be crossed.
     let mut informed = court.clone();
@@ -81,7 +82,7 @@ fn misses_reachable(court: &Court<'_>) -> Result<bool, &'static str> {
                 left.push(next);
             }
         });
-        if seen.len() > MOST_CONFIGURATIONS {
+        if seen.len() > most {
             return Err("the robots have too many places for the judge to say what they can reach");
         }
     }
@@ -113,7 +114,62 @@ impl Court<'_> {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::*;
+    use crate::judge::chain::exhibit::{Exhibit, Repairs};
+
+    /// A layout without walls, its base in the middle.
+    fn exhibit(width: i32, height: i32, robots: usize) -> Exhibit {
+        Exhibit {
+            clause: String::new(),
+            repairs: Repairs::With,
+            width,
+            height,
+            walls: BTreeSet::new(),
+            blocked: BTreeSet::new(),
+            base: (width / 2, height / 2),
+            robots,
+            moves: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn the_judge_looks_at_so_many_configurations_and_no_more() {
+        // In the base, one cell to the east, and one to the west.
+        let exhibit = exhibit(3, 1, 2);
+        let mut court = Court::new(&exhibit, 2);
+        court.explored = exhibit.inside().collect();
+        assert_eq!([3, 4].map(|most| misses_reachable(&court, most)), [Ok(false); 2]);
+        assert!([1, 2].iter().all(|&most| misses_reachable(&court, most).is_err()));
+        court.explored.remove(&(0, 0));
+        assert_eq!(misses_reachable(&court, 3), Ok(true));
+    }
+
+    #[test]
+    fn the_configurations_that_follow_are_those_of_the_moves_that_the_court_admits() {
+        let places = || (0..3).flat_map(|x| (0..3).map(move |y| (x, y)));
+        for repairs in [Repairs::Without, Repairs::With] {
+            let exhibit = Exhibit { repairs, ..exhibit(3, 3, 3) };
+            let mut court = Court::new(&exhibit, 3);
+            court.walls.insert(((1, 1), (1, 2)));
+            court.open.extend([((0, 1), (1, 1)), ((1, 1), (2, 1)), ((1, 0), (1, 1))]);
+            for (one, other) in places().flat_map(|one| places().map(move |other| (one, other))) {
+                court.places = vec![exhibit.base, one, other];
+                let mut found = BTreeSet::new();
+                court.configurations(&mut vec![(0, 0)], &mut |next| {
+                    found.insert(next);
+                });
+                let steps = || SIDES.into_iter().chain([(0, 0)]);
+                let moves = steps().flat_map(|first| steps().map(move |last| [(0, 0), first, last]));
+                let targets = moves.filter_map(|tried| {
+                    let to = tried.iter().zip(&court.places).map(|(&step, &at)| add(at, step)).collect();
+                    court.admits(&tried).is_ok().then_some(to)
+                });
+                assert_eq!(found, targets.collect(), "{repairs:?} {:?}", court.places);
+            }
+        }
+    }
 
     #[test]
     fn centres_of_neighbours_more_than_half_the_root_of_26_apart_at_any_two_ends_break_chain_3() {

@@ -81,7 +81,7 @@ impl<'a> Court<'a> {
     }
 
     fn hear_advance(&mut self, made: &Move) -> Result<(), &'static str> {
-        self.admits(made)?;
+        self.admits(&made.tried)?;
         for robot in 1..made.tried.len() {
             let is_step = made.tried[robot] != (0, 0);
             if made.blocked[robot] && !is_step {
@@ -104,12 +104,12 @@ impl<'a> Court<'a> {
         Ok(())
     }
 
-    /// The sentences of the rule about a planned move.
-    fn admits(&self, made: &Move) -> Result<(), &'static str> {
-        let planned: Vec<Place> = (0..made.tried.len()).map(|robot| self.target(made, robot)).collect();
+    /// The sentences of the rule about a planned move, given by its steps.
+    pub(super) fn admits(&self, tried: &[Place]) -> Result<(), &'static str> {
+        let planned: Vec<Place> = tried.iter().zip(&self.places).map(|(&step, &at)| add(at, step)).collect();
         for robot in 1..planned.len() {
-            self.admits_step(robot, made.tried[robot])?;
-            self.admits_pair(robot, made.tried[robot], planned[robot - 1])?;
+            self.admits_step(robot, tried[robot])?;
+            self.admits_pair(robot, tried[robot], planned[robot - 1])?;
             if planned[robot] != self.exhibit.base && planned[1..robot].contains(&planned[robot]) {
                 return Err("two robots plan to be in one cell outside the base");
             }
@@ -157,5 +157,65 @@ impl<'a> Court<'a> {
 
     pub(super) fn side(&self, robot: usize, step: Place) -> (Place, Place) {
         side_between(self.places[robot], add(self.places[robot], step))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn exhibit(repairs: Repairs) -> Exhibit {
+        Exhibit {
+            clause: String::new(),
+            repairs,
+            width: 7,
+            height: 7,
+            walls: BTreeSet::new(),
+            blocked: BTreeSet::new(),
+            base: (3, 3),
+            robots: 4,
+            moves: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn only_the_leader_may_stay_where_it_is_not_in_e_c_of_the_robot_behind() {
+        let exhibit = exhibit(Repairs::Without);
+        let mut court = Court::new(&exhibit, 4);
+        let stays = |court: &Court<'_>, robot| court.admits_step(robot, (0, 0)).is_ok();
+        assert!((1..4).all(|robot| stays(&court, robot)));
+        court.places[3] = (5, 4);
+        assert!((1..4).all(|robot| stays(&court, robot)) && court.admits_step(3, (1, 0)).is_err());
+        assert!(court.admits_step(3, (0, -1)).is_ok());
+        for robot in [1, 2] {
+            let mut court = Court::new(&exhibit, 4);
+            court.places[robot] = (5, 4);
+            assert!((1..4).all(|other| stays(&court, other) == (other == 3 || other != robot && other != robot + 1)));
+        }
+    }
+
+    #[test]
+    fn who_crosses_a_side_that_was_crossed_before_is_sure() {
+        let exhibit = exhibit(Repairs::With);
+        let mut court = Court::new(&exhibit, 4);
+        let made = |tried: [Place; 4], blocked: [bool; 4], places: [Place; 4]| Move {
+            is_backtrack: false,
+            tried: tried.to_vec(),
+            blocked: blocked.to_vec(),
+            places: places.to_vec(),
+        };
+        let (nowhere, east) = ((0, 0), (1, 0));
+        let out = made([nowhere, nowhere, nowhere, east], [false; 4], [(3, 3), (3, 3), (3, 3), (4, 3)]);
+        assert!(!court.open.contains(&((3, 3), (4, 3))));
+        assert_eq!(court.hear(&out), Ok(()));
+        assert_eq!(court.open, BTreeSet::from([((3, 3), (4, 3))]));
+        court.places = vec![(3, 3), (3, 3), (4, 3), (5, 3)];
+        // The robot behind may leave E_C of where the leader is if the leader is sure to come.
+        let is_left = |court: &Court<'_>, step: Place, behind| court.admits_pair(3, step, behind).is_err();
+        court.open.insert(((4, 3), (5, 3)));
+        assert!(!is_left(&court, (-1, 0), (3, 4)));
+        court.open.clear();
+        assert!(is_left(&court, (-1, 0), (3, 4)) && !is_left(&court, (-1, 0), (4, 4)));
+        assert!(!is_left(&court, nowhere, (4, 4)));
     }
 }

@@ -154,3 +154,40 @@ impl Court<'_> {
         self.is_known_wall(side) || self.refused.contains(&side)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::judge::chain::exhibit::Exhibit;
+
+    #[test]
+    fn a_chain_unfolds_until_it_has_gained_as_long_as_there_is_something_within_reach() {
+        let mut exhibit = Exhibit {
+            clause: String::new(),
+            repairs: Repairs::With,
+            width: 5,
+            height: 5,
+            walls: BTreeSet::new(),
+            blocked: BTreeSet::new(),
+            base: (2, 2),
+            robots: 3,
+            moves: Vec::new(),
+        };
+        for repairs in [Repairs::With, Repairs::Without] {
+            exhibit.repairs = repairs;
+            for (unfolds, gained) in [(false, false), (false, true), (true, false), (true, true)] {
+                let mut court = Court::new(&exhibit, 3);
+                (court.unfolds, court.gained) = (unfolds, gained);
+                let is_unfolding = unfolds && !gained && repairs == Repairs::With;
+                let expected = if is_unfolding { Duty::Unfold } else { Duty::Lead((1, 0)) };
+                assert!(court.duty() == Ok(expected), "{repairs:?} {unfolds} {gained}");
+            }
+        }
+        // Only a corner is left, and its three neighbours are shut off: nothing is within reach.
+        let mut court = Court::new(&exhibit, 3);
+        court.explored = exhibit.inside().filter(|&place| place != (4, 4)).collect();
+        court.walls = BTreeSet::from([((3, 4), (4, 4)), ((4, 3), (4, 4))]);
+        (court.unfolds, court.gained) = (true, false);
+        assert!(court.duty() == Ok(Duty::Nothing));
+    }
+}

@@ -127,3 +127,37 @@ impl Exhibit {
         reached
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_area_is_what_is_in_the_layout_and_at_most_n_minus_1_columns_and_rows_from_the_base() {
+        for (robots, base) in [(2, (0, 0)), (2, (3, 1)), (3, (2, 2)), (4, (1, 3)), (9, (4, 0))] {
+            let blocked = BTreeSet::from([(1, 1), (4, 3), (-1, 2)]);
+            let exhibit = Exhibit {
+                clause: String::new(),
+                repairs: Repairs::With,
+                width: 6,
+                height: 4,
+                walls: BTreeSet::new(),
+                blocked: blocked.clone(),
+                base,
+                robots,
+                moves: Vec::new(),
+            };
+            let range = i32::try_from(robots).expect("few") - 1;
+            let mut area = BTreeSet::new();
+            for place in (-2..=8).flat_map(|x| (-2..=8).map(move |y| (x, y))) {
+                let (x, y) = place;
+                let is_there = (0..6).contains(&x) && (0..4).contains(&y);
+                assert_eq!(exhibit.is_free(place), is_there && !blocked.contains(&place), "{place:?}");
+                let is_near = (x - base.0).abs().max((y - base.1).abs()) <= range;
+                assert_eq!(exhibit.is_inside(place), is_there && is_near, "{robots} {place:?}");
+                area.extend((is_there && is_near).then_some(place));
+            }
+            assert_eq!(exhibit.inside().collect::<BTreeSet<_>>(), area, "{robots}");
+        }
+    }
+}
