@@ -99,7 +99,7 @@ impl<const ROBOTS: usize> Walk<ROBOTS> {
         }
     }
 
-    /// The place of each robot on the walk; 0 for those behind the first. `None` if one is not on it.
+    /// The place of each robot on the walk; 0 for the first and those behind it. `None` if one is not on it.
     pub(super) fn places(&self, team: &[Cell], search: Lookup) -> Option<[usize; ROBOTS]> {
         let (leader, cells) = (team.len() - 1, self.cells.as_flattened());
         let mut places = [0; ROBOTS];
@@ -185,5 +185,16 @@ mod tests {
             walk.follow(to);
             assert_eq!((walk.leader(), walk.cell(place), walk.ahead()), (place, to, 2 - place));
         }
+    }
+
+    #[test]
+    fn the_first_robot_is_at_the_first_place_also_where_the_walk_comes_back_to_its_cell() {
+        let grid =
+            TinyGrid::new(Area::new(Cell::new(0, 0), Cell::new(3, 3)).expect("cells")).expect("it fits");
+        let base = Cell::new(1, 0);
+        let mut walk = Walk::<4>::own(&grid, &[base, Cell::new(0, 0), base, Cell::new(1, 1)]);
+        walk.follow(base);
+        assert_eq!(walk.places(&[base; 4], Lookup::LastFirst), Some([0, 2, 2, 2]));
+        assert_eq!(walk.places(&[base; 4], Lookup::FirstFirst), Some([0, 0, 0, 2]));
     }
 }

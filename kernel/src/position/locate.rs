@@ -276,3 +276,28 @@ impl Landing {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::normal::Normal;
+    use super::super::place::Symmetric;
+    use super::*;
+
+    /// A minimum so many metres to the east.
+    fn minimum(x_m: f64, cost: f64) -> Landing {
+        let even = Symmetric { xx: 1.0, xy: 0.0, yy: 1.0 };
+        let normal = Normal { cost, matrix: even, curvature: even, downhill: (0.0, 0.0) };
+        Landing { at: Point::new(x_m, 0.0), normal, steps: 0, is_outside: false, is_unsettled: false }
+    }
+
+    #[test]
+    fn of_all_minima_the_two_least_are_kept_in_whatever_order_they_come() {
+        for costs in [[1, 2, 3], [1, 3, 2], [2, 1, 3], [2, 3, 1], [3, 1, 2], [3, 2, 1]] {
+            let mut found = costs.map(f64::from).map(|cost| minimum(10.0 * cost, cost)).into_iter();
+            let mut minima = Minima::new(found.next().expect("the first"), 1.0);
+            found.for_each(|landing| minima.add(landing));
+            assert_eq!(minima.best.normal.cost, 1.0, "{costs:?}");
+            assert_eq!(minima.second.map(|second| second.normal.cost), Some(2.0), "{costs:?}");
+        }
+    }
+}

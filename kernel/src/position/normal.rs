@@ -121,3 +121,18 @@ pub(super) fn information(
         matrix.plus(weight(squared_m) / squared_m, x, y)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::along;
+
+    #[test]
+    fn a_step_in_one_direction_is_newton_s_where_the_sum_is_convex_and_none_where_nothing_tells_the_direction()
+     {
+        assert_eq!(along(6.0, 2.0, 4.0, 0.5), 2.0);
+        for curvature in [0.0, -1.0] {
+            assert_eq!(along(6.0, curvature, 4.0, 0.5), 1.0);
+            assert_eq!(along(6.0, curvature, 0.0, 0.5), 0.0);
+        }
+    }
+}
