@@ -28,6 +28,16 @@ pub struct PlainChain {
     unfolds: bool,
     /// Whether it takes nobody for sure to arrive.
     doubts_all: bool,
+    floods: Floods,
+}
+
+/// How many flood fills a plan takes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Floods {
+    /// One for each candidate.
+    Many,
+    /// One for all candidates of the leader, and one for those of the followers.
+    Few,
 }
 
 /// What is known of an edge.
@@ -55,9 +65,18 @@ pub enum PlainIntent {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct TooMany;
 
+/// How the distances from candidates are found.
+enum Distances {
+    /// By a flood fill for each.
+    Each(Avoid),
+    /// By one for all, which gave these, row by row.
+    Known(Vec<Option<u32>>),
+}
+
 /// The making of one plan.
 struct Recursion<'a> {
     chain: &'a PlainChain,
+    distances: &'a Distances,
     /// P′, from the leader backwards; the rest still to come.
     planned: Vec<Option<Step>>,
     looked_at: u64,
@@ -79,6 +98,7 @@ impl PlainChain {
             gained: true,
             unfolds: false,
             doubts_all: false,
+            floods: Floods::Many,
         };
         for cell in area.cells() {
             for side in Side::ALL {
@@ -97,6 +117,13 @@ impl PlainChain {
         Self { doubts_all: true, ..self }
     }
 
+    /// The same chain with one flood fill for all candidates of a plan, from the unexplored cells: the same plans in less
+    /// time where an area is large and most of it explored.
+    #[must_use]
+    pub fn that_floods_once(self) -> Self {
+        Self { floods: Floods::Few, ..self }
+    }
+
     /// Where the robots are, base first.
     pub fn cells(&self) -> &[Cell] {
         &self.cells
@@ -108,9 +135,13 @@ impl PlainChain {
         marks.open || marks.wall
     }
 
-    /// Whether the leader may not cross `edge` in this epoch.
-    pub fn is_virtual(&self, edge: Edge) -> bool {
-        self.marks(edge).virtual_obstacle
+    /// The edges that the leader may not cross in this epoch.
+    pub fn virtual_obstacles(&self) -> impl Iterator<Item = Edge> {
+        let sides = self.area.cells().zip(self.east.iter().zip(&self.south));
+        sides.flat_map(|(cell, (east, south))| {
+            let on = |side: Side, marks: &Marks| marks.virtual_obstacle.then(|| Edge::new(cell, side));
+            [on(Side::East, east), on(Side::South, south)].into_iter().flatten()
+        })
     }
 
     /// What the team intends, and how many candidates of followers it looked at.
@@ -189,32 +220,42 @@ impl PlainChain {
     fn lead(&mut self, most: u64, looked_at: &mut u64) -> Result<Option<Vec<Step>>, TooMany> {
         let leader = self.cells.len() - 1;
         let (at, base) = (self.cells[leader], self.cells[0]);
-        let mut list: Vec<(Side, Step)> = Side::ALL
-            .into_iter()
-            .filter(|&side| !self.marks(Edge::new(at, side)).wall && !self.is_virtual(Edge::new(at, side)))
-            .filter(|&side| self.distance(at.beyond(side), Avoid::WallsAndVirtual).is_some())
-            .map(|side| (side, Step::Cross(side)))
-            .collect();
-        list.sort_by_key(|&(side, _)| {
+        let is_open = |&side: &Side| {
+            let marks = self.marks(Edge::new(at, side));
+            !marks.wall && !marks.virtual_obstacle
+        };
+        let sides: Vec<Side> = Side::ALL.into_iter().filter(is_open).collect();
+        if sides.is_empty() {
+            return Ok(None);
+        }
+        let distances = self.distances(Avoid::WallsAndVirtual);
+        let near = |side: Side| {
             let to = at.beyond(side);
             let outward = i32::from(to.x - at.x) * i32::from(at.x - base.x)
                 + i32::from(to.y - at.y) * i32::from(at.y - base.y);
-            (self.distance(to, Avoid::WallsAndVirtual), -outward)
-        });
-        for (side, step) in &mut list {
+            Some(((self.distance(to, &distances)?, -outward), side, Step::Cross(side)))
+        };
+        let mut list: Vec<((u32, i32), Side, Step)> = sides.into_iter().filter_map(near).collect();
+        if list.is_empty() {
+            return Ok(None);
+        }
+        list.sort_by_key(|&(key, ..)| key);
+        for (_, side, step) in &mut list {
             if !self.admits_behind(at.after(*step), self.cells[leader - 1]) {
                 self.mark(Edge::new(at, *side), |marks| marks.virtual_obstacle = true);
                 *step = Step::Stay;
             }
         }
-        for (side, step) in list {
+        let distances = self.distances(Avoid::Walls);
+        for (_, side, step) in list {
             let to = at.after(step);
             let may_enter =
                 !self.rule.has(Condition::FullForLeader) || step == Step::Stay || !self.is_full(to);
             if may_enter {
                 let mut planned = vec![None; self.cells.len()];
                 planned[leader] = Some(step);
-                let mut recursion = Recursion { chain: self, planned, looked_at: *looked_at, most };
+                let mut recursion =
+                    Recursion { chain: self, distances: &distances, planned, looked_at: *looked_at, most };
                 let found = recursion.follow(leader - 1)?;
                 *looked_at = recursion.looked_at;
                 if found {
@@ -274,13 +315,50 @@ impl PlainChain {
     }
 
     /// Steps from `from` to the nearest unexplored cell.
-    fn distance(&self, from: Cell, avoid: Avoid) -> Option<u32> {
+    fn distance(&self, from: Cell, distances: &Distances) -> Option<u32> {
+        match distances {
+            Distances::Each(avoid) => {
+                let mut nearest = None;
+                self.flood([from], *avoid, |index, steps| {
+                    nearest = (!self.explored[index]).then_some(steps);
+                    nearest.is_some()
+                });
+                nearest
+            }
+            Distances::Known(all) => all[self.index(from)?],
+        }
+    }
+
+    fn distances(&self, avoid: Avoid) -> Distances {
+        if self.floods == Floods::Many {
+            return Distances::Each(avoid);
+        }
+        let is_unexplored = |&cell: &Cell| self.index(cell).is_some_and(|index| !self.explored[index]);
+        let mut all = vec![None; self.explored.len()];
+        self.flood(self.area.cells().filter(is_unexplored), avoid, |index, steps| {
+            all[index] = Some(steps);
+            false
+        });
+        Distances::Known(all)
+    }
+
+    /// Goes to all cells that can be reached from `starts`, near ones first, until one is the last.
+    fn flood(
+        &self,
+        starts: impl IntoIterator<Item = Cell>,
+        avoid: Avoid,
+        mut is_last: impl FnMut(usize, u32) -> bool,
+    ) {
         let mut seen = vec![false; self.explored.len()];
-        let mut queue = VecDeque::from([(from, 0)]);
-        seen[self.index(from)?] = true;
+        let mut queue: VecDeque<(Cell, u32)> = starts.into_iter().map(|start| (start, 0)).collect();
+        for &(start, _) in &queue {
+            if let Some(index) = self.index(start) {
+                seen[index] = true;
+            }
+        }
         while let Some((cell, steps)) = queue.pop_front() {
-            if !self.explored[self.index(cell)?] {
-                return Some(steps);
+            if self.index(cell).is_none_or(|index| is_last(index, steps)) {
+                return;
             }
             for side in Side::ALL {
                 let marks = self.marks(Edge::new(cell, side));
@@ -292,7 +370,6 @@ impl PlainChain {
                 }
             }
         }
-        None
     }
 
     fn explore(&mut self, cell: Cell) {
@@ -431,7 +508,7 @@ impl Recursion<'_> {
             };
             let (dx, dy) = target.apart(to);
             let is_high = dx + dy <= 1;
-            let distance = chain.distance(to, Avoid::Walls).unwrap_or(u32::MAX);
+            let distance = chain.distance(to, self.distances).unwrap_or(u32::MAX);
             list.push(((!(is_high && step == Step::Stay), !is_high, distance), step));
         }
         list.sort_by_key(|&(key, _)| key);

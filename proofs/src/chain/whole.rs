@@ -5,7 +5,9 @@ use std::ops::RangeInclusive;
 
 use tautline_kernel::chain::{Chain, End, Intent, Kind};
 use tautline_kernel::choice::{Oracle, one_of};
-use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, LargeGrid, MediumGrid, SmallGrid};
+use tautline_kernel::ground::{
+    Area, BitGrid, Cell, Edge, EdgeMark, Grid, LargeGrid, MediumGrid, Plane, SmallGrid,
+};
 
 use super::breach::CHEAP_LOOKS;
 use super::observed::{Deception, Observed};
@@ -165,13 +167,14 @@ fn same_plan(observed: &Observed, robots: usize, is_open: &mut dyn FnMut(Edge) -
 }
 
 /// Runs the chain and the plain recursion of the rule it claims to follow side by side.
-fn in_step<G: Grid, const ROBOTS: usize>(
+fn in_step<P: Plane, const ROBOTS: usize>(
     observed: &Observed,
-    mut chain: Chain<G, ROBOTS>,
+    mut chain: Chain<BitGrid<P>, ROBOTS>,
     is_open: &mut dyn FnMut(Edge) -> bool,
 ) -> Outcome {
     let area = chain.grid().area();
-    let mut plain = PlainChain::new(observed.intended, chain.cells().len(), chain.cells()[0], area);
+    let plain = PlainChain::new(observed.intended, chain.cells().len(), chain.cells()[0], area);
+    let mut plain = plain.that_floods_once();
     if observed.deception == Deception::DoubtsAll {
         plain = plain.that_doubts_all();
     }
@@ -196,9 +199,10 @@ fn in_step<G: Grid, const ROBOTS: usize>(
             }
         };
         require(plan.0.steps() == plan.1.as_slice(), "the plan is that of the recursion")?;
-        let same_obstacles =
-            area.edges().all(|edge| chain.grid().edge_has(EdgeMark::Virtual, edge) == plain.is_virtual(edge));
-        require(same_obstacles, "the virtual obstacles are those of the recursion")?;
+        let mut expected_grid = *chain.grid();
+        expected_grid.clear_edges(EdgeMark::Virtual);
+        plain.virtual_obstacles().for_each(|edge| expected_grid.put_edge(EdgeMark::Virtual, edge));
+        require(*chain.grid() == expected_grid, "the virtual obstacles are those of the recursion")?;
         let mut answers = Vec::new();
         let settled = chain.settle(plan.0, |edge| {
             let open = is_open(edge);
@@ -298,6 +302,42 @@ fn plain_run(observed: &Observed, robots: usize, is_open: &mut dyn FnMut(Edge) -
 
 #[cfg(test)]
 mod tests {
+    use rustc_hash::FxHashMap;
+    use tautline_kernel::chain::{Budget, Rule};
+    use tautline_kernel::ground::CellMark;
+
+    use super::super::breach::Breach;
+    use super::super::invariant::{Invariant, Moment};
+    use super::super::links::within_reach;
+    use super::*;
+    use crate::engine::{Seeded, sample};
+
+    #[test]
+    fn one_flood_fill_for_all_candidates_tells_what_one_for_each_does() {
+        let tally = sample(60, 0, |oracle| {
+            let (robots, walls) = (2 + oracle.pick(6) as usize, oracle.pick(30));
+            let (area, base) = area(robots);
+            let mut each = PlainChain::new(Rule::REPAIRED, robots, base, area);
+            let mut once = each.clone().that_floods_once();
+            loop {
+                let plan = each.plan(PATIENCE);
+                require(plan == once.plan(PATIENCE), "the same plan")?;
+                require(each.virtual_obstacles().eq(once.virtual_obstacles()), "the same obstacles")?;
+                let Ok((intent, _)) = plan else { return Err(Stop::GivenUp) };
+                if matches!(intent, PlainIntent::Explored | PlainIntent::Exhausted) {
+                    return Ok("a whole run");
+                }
+                let mut answers = FxHashMap::default();
+                let mut is_open =
+                    |edge: Edge| *answers.entry(edge).or_insert_with(|| oracle.pick(100) >= walls);
+                each.settle(&intent, &mut is_open);
+                once.settle(&intent, &mut is_open);
+            }
+        });
+        assert_eq!(tally.violation, None);
+        assert!(tally.cases > 50, "{} cases", tally.cases);
+    }
+
     #[test]
     #[ignore = "a thousand runs a density take minutes"]
     fn no_order_of_going_breaks_contact_in_a_thousand_runs_a_density() {
@@ -307,15 +347,6 @@ mod tests {
         assert_eq!(runs(&Observed::REEL), 0);
         assert!(runs(&Observed::UNHELD) > 0);
     }
-
-    use tautline_kernel::chain::{Budget, Rule};
-    use tautline_kernel::ground::CellMark;
-
-    use super::super::breach::Breach;
-    use super::super::invariant::{Invariant, Moment};
-    use super::super::links::within_reach;
-    use super::*;
-    use crate::engine::Seeded;
 
     const DEMANDS: [Invariant; 9] = [
         Invariant::Admitted,
