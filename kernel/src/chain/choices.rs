@@ -199,7 +199,9 @@ impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
         let urgent = if self.undecided.has(self.culprit) {
             self.culprit
         } else {
-            lost.fold(first, |best, robot| if urgency(robot) < urgency(best) { robot } else { best })
+            // Who never failed is no more urgent than the first.
+            let failed = lost.filter(|&robot| self.failures[robot] > 0);
+            failed.fold(first, |best, robot| if urgency(robot) < urgency(best) { robot } else { best })
         };
         Some((urgent, if urgent == first { Turn::Own } else { Turn::Early }))
     }

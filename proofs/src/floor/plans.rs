@@ -43,14 +43,21 @@ impl FloorPlan {
         Cell::new(place as i16 % self.width, place as i16 / self.width)
     }
 
-    #[inline]
+    /// Whether `edge` is between two free cells, and no wall is on it.
     pub(crate) fn is_open(&self, edge: Edge) -> bool {
+        let ends = [edge.cell(), edge.cell().beyond(edge.side())];
+        ends.iter().all(|&cell| self.place(cell).is_some()) && !self.has_wall(edge)
+    }
+
+    /// Whether a wall is on `edge`, which is between two free cells.
+    #[inline]
+    pub(crate) fn has_wall(&self, edge: Edge) -> bool {
         let walls = match edge.side() {
             Side::East | Side::West => self.walls.east,
             Side::South | Side::North => self.walls.south,
         };
-        let (one, other) = (self.place(edge.cell()), self.place(edge.cell().beyond(edge.side())));
-        one.zip(other).is_some_and(|(one, _)| walls >> one & 1 == 0)
+        let Cell { x, y } = edge.cell();
+        walls >> (y * self.width + x) & 1 == 1
     }
 
     /// The free cells.

@@ -185,7 +185,7 @@ impl Floor for Small<'_> {
     }
 
     fn is_open(&self, edge: Edge) -> bool {
-        self.plan.is_open(edge)
+        !self.plan.has_wall(edge)
     }
 }
 

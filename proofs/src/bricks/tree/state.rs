@@ -169,6 +169,6 @@ impl Notes for Small<'_> {
     }
 
     fn is_open(&self, edge: Edge) -> bool {
-        self.plan.is_open(edge)
+        !self.plan.has_wall(edge)
     }
 }

@@ -81,6 +81,35 @@ impl<P: Eq + Hash> Parts<P> {
 /// The hash of a state.
 type HashOfState = u32;
 
+/// A state by the numbers of its parts: most of them are also those of the states before and after it.
+#[derive(Default)]
+struct Code {
+    bytes: Vec<u8>,
+    hash: HashOfState,
+}
+
+impl Code {
+    /// The state of so many parts whose numbers, of `width` bytes, are all 0.
+    fn zero(places: usize, width: usize) -> Self {
+        Self {
+            bytes: vec![0; places * width],
+            hash: (0..places).fold(0, |hash, place| hash ^ hash_at(place, 0)),
+        }
+    }
+
+    /// Makes `number` the one in this place.
+    fn put(&mut self, place: usize, width: usize, number: u32) {
+        let bytes = &mut self.bytes[place * width..(place + 1) * width];
+        self.hash ^= hash_at(place, self::number(bytes)) ^ hash_at(place, number);
+        bytes.iter_mut().zip(number.to_le_bytes()).for_each(|(byte, of)| *byte = of);
+    }
+
+    fn set_to(&mut self, other: &Self) {
+        self.bytes.clone_from(&other.bytes);
+        self.hash = other.hash;
+    }
+}
+
 /// States by the numbers of their parts. A number takes as many bytes as the largest needs.
 pub(super) struct Known<P> {
     parts: Parts<P>,
@@ -91,25 +120,22 @@ pub(super) struct Known<P> {
     codes: Pile<u8>,
     /// The states by their hashes, each with its own beside it: the table grows without a look at the numbers.
     nodes: HashTable<(u32, HashOfState)>,
-    /// The numbers of the parts of the state that is shown, of which most are those of the states that follow, and its
-    /// hash. There are none at first.
-    shown: (Vec<u32>, HashOfState),
-    /// The numbers of the parts of the state in the making, and as bytes.
-    numbers: Vec<u32>,
-    code: Vec<u8>,
+    /// The state that is shown; at first none, and all numbers are 0.
+    shown: Code,
+    /// The state in the making.
+    made: Code,
 }
 
 impl<P: Clone + Eq + Hash> Known<P> {
-    pub(super) const fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self {
             parts: Parts { places: HashTable::new(), parts: Vec::new() },
             width: 1,
             places: 0,
             codes: Pile::new(0),
             nodes: HashTable::new(),
-            shown: (Vec::new(), 0),
-            numbers: Vec::new(),
-            code: Vec::new(),
+            shown: Code::default(),
+            made: Code::default(),
         }
     }
 
@@ -129,22 +155,21 @@ impl<P: Clone + Eq + Hash> Known<P> {
     /// Makes a state the one that is shown: `put` gets the parts that it does not share with the one that was before, each
     /// with its place.
     pub(super) fn show(&mut self, node: usize, mut put: impl FnMut(usize, &P)) {
-        let Self { parts, codes, width, shown: (shown, hash), .. } = self;
-        for (place, number) in numbers(codes.entry(node), *width).enumerate() {
-            if let Some(before) = shown.get_mut(place)
-                && *before != number
-            {
+        let Self { parts, codes, places, width, shown, .. } = self;
+        let code = codes.entry(node);
+        for place in 0..*places {
+            let number_in = |bytes: &[u8]| number(&bytes[place * *width..(place + 1) * *width]);
+            let number = number_in(code);
+            if number != number_in(&shown.bytes) {
                 put(place, &parts.parts[number as usize]);
-                *hash ^= hash_at(place, *before) ^ hash_at(place, number);
-                *before = number;
+                shown.put(place, *width, number);
             }
         }
     }
 
     /// Makes the state in the making, whose parts are all put, the one that is shown.
     pub(super) fn show_last(&mut self) {
-        self.shown.0.clone_from(&self.numbers);
-        self.shown.1 = hash(self.numbers.iter().copied());
+        self.shown.set_to(&self.made);
     }
 
     /// The number of `state`, and whether it is new. It has the parts of the state that is shown, but for those that
@@ -155,14 +180,14 @@ impl<P: Clone + Eq + Hash> Known<P> {
         state: &S::State,
         differing: Places,
     ) -> (u32, bool) {
-        let hash = self.take_apart(system, state, differing);
-        let Self { nodes, codes, code, .. } = self;
-        match nodes.entry(spread(hash), is_same(hash, code, codes), |&(_, hash)| spread(hash)) {
+        self.take_apart(system, state, differing);
+        let Self { nodes, codes, made, .. } = self;
+        match nodes.entry(spread(made.hash), is_same(made, codes), |&(_, hash)| spread(hash)) {
             Entry::Occupied(known) => (known.get().0, false),
             Entry::Vacant(vacant) => {
                 let node = codes.len() as u32;
-                vacant.insert((node, hash));
-                codes.push(code.iter().copied());
+                vacant.insert((node, made.hash));
+                codes.push(made.bytes.iter().copied());
                 (node, true)
             }
         }
@@ -170,80 +195,52 @@ impl<P: Clone + Eq + Hash> Known<P> {
 
     /// The number of `state`, if it is known.
     pub(super) fn find<S: System<Part = P>>(&mut self, system: &S, state: &S::State) -> Option<u32> {
-        let hash = self.take_apart(system, state, Places::MAX);
-        let same = is_same(hash, &self.code, &self.codes);
-        self.nodes.find(spread(hash), same).map(|&(node, _)| node)
+        self.take_apart(system, state, Places::MAX);
+        let same = is_same(&self.made, &self.codes);
+        self.nodes.find(spread(self.made.hash), same).map(|&(node, _)| node)
     }
 
-    /// Makes `state` the one in the making; its hash.
-    fn take_apart<S: System<Part = P>>(
-        &mut self,
-        system: &S,
-        state: &S::State,
-        differing: Places,
-    ) -> HashOfState {
+    /// Makes `state` the one in the making.
+    fn take_apart<S: System<Part = P>>(&mut self, system: &S, state: &S::State, differing: Places) {
         if self.codes.len() == 0 {
             self.places = system.places(state);
             self.codes = Pile::new(self.places * self.width);
+            self.shown = Code::zero(self.places, self.width);
         }
         assert_eq!(system.places(state), self.places, "all states of a system have the same number of parts");
-        let Self { numbers, shown: (shown, hash), parts, .. } = self;
-        let mut hash = *hash;
-        numbers.clear();
-        for place in 0..self.places {
-            let differs = place >= Places::BITS as usize || differing >> place & 1 == 1;
-            let before = shown.get(place).copied();
-            let number = match before {
-                Some(number) if !differs => {
-                    debug_assert!(
-                        parts.parts[number as usize] == system.part(state, place),
-                        "it does differ"
-                    );
-                    number
-                }
-                Some(_) | None => {
-                    let number = parts.number(system.part(state, place));
-                    hash ^= hash_at(place, number) ^ before.map_or(0, |before| hash_at(place, before));
-                    number
-                }
-            };
-            numbers.push(number);
-        }
-        while self.parts.parts.len() > 1 << (8 * self.width) {
+        while self.parts.parts.len() + self.places > 1 << (8 * self.width) {
             self.widen();
         }
-        self.code.clear();
-        match self.width {
-            1 => self.write::<1>(),
-            2 => self.write::<2>(),
-            3 => self.write::<3>(),
-            _ => self.write::<4>(),
+        let Self { parts, places, width, shown, made, .. } = self;
+        made.set_to(shown);
+        let differs = |place: usize| place >= Places::BITS as usize || differing >> place & 1 == 1;
+        for place in (0..*places).filter(|&place| differs(place)) {
+            made.put(place, *width, parts.number(system.part(state, place)));
         }
-        hash
-    }
-
-    /// Writes the numbers of the state in the making, so many bytes each.
-    fn write<const WIDTH: usize>(&mut self) {
-        for number in &self.numbers {
-            self.code.extend_from_slice(&number.to_le_bytes()[..WIDTH]);
-        }
+        debug_assert!(
+            (0..*places).all(|place| {
+                let number = number(&made.bytes[place * *width..(place + 1) * *width]);
+                parts.parts[number as usize] == system.part(state, place)
+            }),
+            "it does differ"
+        );
     }
 
     /// Writes all numbers with a byte more.
     fn widen(&mut self) {
         let mut codes = Pile::new(self.places * (self.width + 1));
         for node in 0..self.codes.len() {
-            let numbers = self.codes.entry(node).chunks_exact(self.width);
-            codes.push(numbers.flat_map(|number| number.iter().copied().chain([0])));
+            codes.push(widened(self.codes.entry(node), self.width));
         }
-        self.width += 1;
         self.codes = codes;
+        self.shown.bytes = widened(&self.shown.bytes, self.width).collect();
+        self.width += 1;
     }
 }
 
-/// The numbers that are written with `width` bytes each.
-fn numbers(code: &[u8], width: usize) -> impl Iterator<Item = u32> {
-    code.chunks_exact(width).map(number)
+/// The numbers of `code`, which are of `width` bytes, each with a byte more.
+fn widened(code: &[u8], width: usize) -> impl Iterator<Item = u8> {
+    code.chunks_exact(width).flat_map(|number| number.iter().copied().chain([0]))
 }
 
 fn number(bytes: &[u8]) -> u32 {
@@ -255,13 +252,8 @@ fn number(bytes: &[u8]) -> u32 {
     }
 }
 
-/// The hash of a state by the numbers of its parts. Each place has a share of its own, so that where one part changes,
-/// one share does (Zobrist 1970).
-fn hash(numbers: impl Iterator<Item = u32>) -> HashOfState {
-    numbers.enumerate().fold(0, |hash, (place, number)| hash ^ hash_at(place, number))
-}
-
-/// The share of a place, from splitmix64 (Steele, Lea and Flood 2014) of place and number.
+/// The share of a place in the hash of a state, so that where one part changes, one share does (Zobrist 1970): splitmix64
+/// (Steele, Lea and Flood 2014) of place and number.
 const fn hash_at(place: usize, number: u32) -> HashOfState {
     let mixed = ((place as u64 + 1) << u32::BITS | number as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     let mixed = (mixed ^ mixed >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -269,9 +261,9 @@ const fn hash_at(place: usize, number: u32) -> HashOfState {
     (mixed >> u32::BITS) as HashOfState
 }
 
-/// Whether a state in the table has this hash and this code.
-fn is_same(hash: HashOfState, code: &[u8], codes: &Pile<u8>) -> impl Fn(&(u32, HashOfState)) -> bool {
-    move |&(node, other)| other == hash && codes.entry(node as usize) == code
+/// Whether a state in the table has this code.
+fn is_same(code: &Code, codes: &Pile<u8>) -> impl Fn(&(u32, HashOfState)) -> bool {
+    |&(node, hash)| hash == code.hash && codes.entry(node as usize) == code.bytes
 }
 
 /// The bits that a table asks for: it looks at the highest and at the lowest.
