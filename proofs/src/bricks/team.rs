@@ -82,8 +82,11 @@ impl Team {
     }
 
     /// What no agent ever reads is left out of the state: crossings if it goes round at once and is never lost,
-    /// identifiers if no sensor is missed.
+    /// identifiers if no sensor is missed, and what agents remember that are done.
     fn forget(&self, state: &mut State) {
+        for body in state.bodies.iter_mut().filter(|body| body.is_done) {
+            body.agent = Agent::new(body.agent.id);
+        }
         let is_ideal = self.max_misses == 0;
         if is_ideal && self.rule.patience == 0 || !self.rule.has(Condition::LeastCrossed) {
             state.forget_crossings();
@@ -311,5 +314,54 @@ impl System for Team {
 
     fn awake(&self, state: &Box<State>) -> Bits {
         awake(state)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rustc_hash::FxHashSet;
+
+    use super::*;
+    use crate::floor::plans::Area;
+
+    /// All states of two agents in a few cells; wherever one is done, it might as well remember what the other does.
+    #[test]
+    fn what_an_agent_remembers_that_is_done_plays_no_part() {
+        for (rule, max_misses, width) in [(Rule::REPAIRED, 0, 3), (Rule::ROBUST, 1, 2)] {
+            let plan = Area::blocked(width, 2).plans().next().expect("the open one");
+            let rule = Rule { patience: 2, reach: 4, ..rule };
+            let team = Team {
+                plan,
+                rule,
+                turns: Turns::Whole,
+                max_misses,
+                max_streak: Some(2),
+                may_fail: false,
+                demand: Demand::All,
+            };
+            let come_of = |state: &State| -> Vec<_> {
+                team.turns(state).map(|turned| (turned.state, turned.agent, turned.breaks)).collect()
+            };
+            let (mut known, mut ahead) = (FxHashSet::default(), team.starts(2).collect::<Vec<_>>());
+            let mut compared = 0;
+            while let Some(state) = ahead.pop() {
+                if !known.insert(state.clone()) {
+                    continue;
+                }
+                let next = come_of(&state);
+                for (one, other) in [(0, 1), (1, 0)] {
+                    let mut remembering = state.clone();
+                    let mut agent = state.bodies[other].agent;
+                    agent.id = state.bodies[one].agent.id;
+                    remembering.bodies[one].agent = agent;
+                    if state.bodies[one].is_done && remembering != state {
+                        compared += 1;
+                        assert_eq!(come_of(&remembering), next);
+                    }
+                }
+                ahead.extend(next.into_iter().map(|(state, ..)| state));
+            }
+            assert!(compared > 100, "{compared} states");
+        }
     }
 }

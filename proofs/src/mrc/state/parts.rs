@@ -57,10 +57,19 @@ impl State {
     /// The parts: the robots, the WFRs, the messages of each robot, and the rest.
     pub(in crate::mrc) const PARTS: usize = REST + 1;
 
-    /// Names epochs by their places among those of the same WFR: then states that differ in no other way are one. What
-    /// comes of them is one, too.
+    /// Names epochs by their places among those of the same WFR, and leaves out what plays no part any more: what a robot
+    /// knew that has failed, who took the lease of a call that is over, and what the machines themselves will not look at.
+    /// Then states that differ in no other way are one. What comes of them is one, too.
     pub(in crate::mrc) fn make_canonical(&mut self) {
+        for robot in (0..ROBOTS).filter(|&robot| self.failed[robot]) {
+            self.robots[robot] = self.robots[robot].anew();
+            self.cut[robot] = [None; WFRS];
+        }
+        for wfr in (0..WFRS).filter(|&wfr| !self.wfrs[wfr].is_waiting()) {
+            self.notes.taken.iter_mut().for_each(|taken| taken[wfr] = None);
+        }
         if self.is_renamed() {
+            self.robots.iter_mut().for_each(|robot| *robot = robot.renamed(|call| call));
             self.wfrs.iter_mut().for_each(|wfr| *wfr = wfr.renamed(|call| call));
         } else {
             *self = self.renamed();
@@ -88,22 +97,23 @@ impl State {
 
     /// The places whose parts differ.
     pub(in crate::mrc) fn differing(&self, other: &Self) -> Places {
-        let mut places = 0;
-        let mut tell = |place: usize, differs: bool| places |= Places::from(differs) << place;
-        for robot in 0..ROBOTS {
-            tell(
-                robot,
-                self.robots[robot] != other.robots[robot]
-                    || self.cut[robot] != other.cut[robot]
-                    || self.notes.taken[robot] != other.notes.taken[robot]
-                    || (self.failed[robot], self.hops[robot]) != (other.failed[robot], other.hops[robot]),
-            );
-        }
-        for wfr in 0..WFRS {
-            tell(FIRST_WFR + wfr, self.of_wfr(wfr) != other.of_wfr(wfr));
-        }
-        places |= addressees(&self.network, &other.network) << NETWORK;
-        places | Places::from(self.rest() != other.rest()) << REST
+        let robots = (0..ROBOTS).map(|robot| {
+            self.robots[robot] != other.robots[robot]
+                || self.cut[robot] != other.cut[robot]
+                || self.notes.taken[robot] != other.notes.taken[robot]
+                || (self.failed[robot], self.hops[robot]) != (other.failed[robot], other.hops[robot])
+        });
+        let (notes, others) = (&self.notes, &other.notes);
+        let wfrs = (0..WFRS).map(|wfr| {
+            self.wfrs[wfr] != other.wfrs[wfr]
+                || notes.best[wfr] != others.best[wfr]
+                || (notes.heard[wfr], notes.open[wfr]) != (others.heard[wfr], others.open[wfr])
+        });
+        let differing = (0..).zip(robots.chain(wfrs));
+        let places = differing.fold(0, |places, (place, differs)| places | Places::from(differs) << place);
+        places
+            | addressees(&self.network, &other.network) << NETWORK
+            | Places::from(self.rest() != other.rest()) << REST
     }
 
     const fn of_robot(&self, robot: usize) -> OfRobot {
