@@ -118,17 +118,22 @@ pub trait AnyCheck: Sync {
     /// A name for what it shares with the checks of the same name: see [`Method::family`].
     fn family(&self) -> Option<String>;
 
+    /// The same for the mutant with this number.
+    fn mutant_family(&self, number: usize) -> Option<String>;
+
     /// What comes of its own rule.
     ///
     /// # Errors
     /// [`Refused`] if its method cannot begin.
     fn decide_own(&self, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused>;
 
-    /// What comes of the mutant with this number; open if there is none.
+    /// What comes of the mutant with this number; open if there is none. One violation is enough, unless what is found is to
+    /// tell of more.
     ///
     /// # Errors
     /// [`Refused`] if its method cannot begin.
-    fn decide_mutant(&self, number: usize, desk: &mut Desk<'_, '_>) -> Result<Verdict, Refused>;
+    fn decide_mutant(&self, number: usize, until: Until, desk: &mut Desk<'_, '_>)
+    -> Result<Verdict, Refused>;
 
     /// Decides it, and whether its mutants are rejected, one after the other. `watch` hears of searches only; a search
     /// that it ends leaves the check open.
@@ -139,7 +144,7 @@ pub trait AnyCheck: Sync {
         let mut desk = Desk { memory, watch, room: Room::any() };
         let mut decision = Decision::of(self.decide_own(&mut desk)?);
         for (number, name) in self.mutants().into_iter().enumerate() {
-            decision.add(name, self.decide_mutant(number, &mut desk)?);
+            decision.add(name, self.decide_mutant(number, Until::Violation, &mut desk)?);
         }
         Ok(decision)
     }
@@ -180,13 +185,22 @@ impl<R: Sync> AnyCheck for Check<R> {
         self.method.family(&self.about.rule)
     }
 
+    fn mutant_family(&self, number: usize) -> Option<String> {
+        self.method.family(&self.mutants.get(number)?.rule)
+    }
+
     fn decide_own(&self, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
         self.method.decide(&self.about.rule, Until::Exhausted, desk)
     }
 
-    fn decide_mutant(&self, number: usize, desk: &mut Desk<'_, '_>) -> Result<Verdict, Refused> {
+    fn decide_mutant(
+        &self,
+        number: usize,
+        until: Until,
+        desk: &mut Desk<'_, '_>,
+    ) -> Result<Verdict, Refused> {
         let Some(mutant) = self.mutants.get(number) else { return Ok(Verdict::Open) };
-        Ok(self.method.decide(&mutant.rule, Until::Violation, desk)?.verdict)
+        Ok(self.method.decide(&mutant.rule, until, desk)?.verdict)
     }
 
     fn replay(&self, choices: &Choices) -> Result<Played, Unfit> {

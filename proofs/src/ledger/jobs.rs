@@ -9,8 +9,9 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::{Row, checks};
-use crate::clause::{AnyCheck, Clause, Decision};
+use crate::clause::{Clause, Decision};
 use crate::decide::{Answer, Desk, Memory, Refused, Verdict};
+use crate::engine::Until;
 use crate::engine::states::Room;
 use crate::engine::tree::Progress;
 
@@ -59,36 +60,43 @@ pub fn decide(checks: &[(&'static Clause, usize)], room: &Room, hear: Hear<'_>) 
         done
     };
     let done: Vec<Vec<Done>> = jobs.par_iter().with_max_len(1).map(work).collect::<Result<_, _>>()?;
-    let mut rows: Vec<Option<Row>> = checks.iter().map(|_| None).collect();
-    for Done { place, seconds, came } in done.into_iter().flatten() {
+    let mut done: Vec<Done> = done.into_iter().flatten().collect();
+    done.sort_by_key(|done| done.question);
+    let mut rows: Vec<Row> = Vec::new();
+    for Done { question: Question { place, .. }, seconds, came } in done {
         let (clause, number) = checks[place];
-        match (came, &mut rows[place]) {
-            (Came::Own(answer), row) => {
+        match (came, rows.last_mut()) {
+            (Came::Own(answer), _) => {
                 let check = clause.checks[number];
-                *row = Some(Row { clause, number, check, decision: Decision::of(answer), seconds });
+                rows.push(Row { clause, number, check, decision: Decision::of(answer), seconds });
             }
             (Came::Mutant(name, verdict), Some(row)) => {
                 row.decision.add(name, verdict);
                 row.seconds += seconds;
             }
-            // A check is decided before its mutants.
+            // A check comes before its mutants.
             (Came::Mutant(..), None) => {}
         }
     }
-    Ok(rows.into_iter().flatten().collect())
+    Ok(rows)
 }
 
-/// Work that can be done beside other work. Checks go by their places.
-enum Job {
-    /// Checks that share what is found.
-    Family(Vec<usize>),
-    /// A mutant of a check, by its number and name.
-    Mutant(usize, usize, &'static str),
+/// Work that can be done beside other work: questions that share what is found, one after the other.
+struct Job {
+    questions: Vec<Question>,
+    until: Until,
 }
 
-/// A part of a job that is done.
-struct Done {
+/// What is decided: a check, by its place, or one of its mutants, by its number.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Question {
     place: usize,
+    mutant: Option<usize>,
+}
+
+/// A question that is answered.
+struct Done {
+    question: Question,
     seconds: f64,
     came: Came,
 }
@@ -99,30 +107,50 @@ enum Came {
     Mutant(&'static str, Verdict),
 }
 
-/// The checks, those with most others in their family first, as these may take longest; then the mutants.
+/// The checks, those with most others in their family first, as these may take longest, each family with the mutants about
+/// which it tells as much; then the other mutants.
 fn jobs(checks: &[(&'static Clause, usize)]) -> Vec<Job> {
-    let mut families: Vec<(Option<String>, Vec<usize>)> = Vec::new();
-    let mut mutants = Vec::new();
-    for (place, &(clause, number)) in checks.iter().enumerate() {
-        let check = clause.checks[number];
-        let family = check.family();
-        match families.iter_mut().find(|(known, _)| family.is_some() && *known == family) {
-            Some((_, places)) => places.push(place),
-            None => families.push((family, vec![place])),
+    let of = |place: usize| {
+        let (clause, number) = checks[place];
+        clause.checks[number]
+    };
+    let mut families: Vec<(Option<String>, Vec<Question>)> = Vec::new();
+    for place in 0..checks.len() {
+        let (family, question) = (of(place).family(), Question { place, mutant: None });
+        match joined(&mut families, family.as_deref()) {
+            Some(questions) => questions.push(question),
+            None => families.push((family, vec![question])),
         }
-        mutants.extend((0..).zip(check.mutants()).map(|(number, name)| Job::Mutant(place, number, name)));
     }
-    families.sort_by_key(|(_, places)| Reverse(places.len()));
-    families.into_iter().map(|(_, places)| Job::Family(places)).chain(mutants).collect()
+    families.sort_by_key(|(_, questions)| Reverse(questions.len()));
+    let mut others = Vec::new();
+    for place in 0..checks.len() {
+        for number in 0..of(place).mutants().len() {
+            let (family, question) =
+                (of(place).mutant_family(number), Question { place, mutant: Some(number) });
+            match joined(&mut families, family.as_deref()) {
+                Some(questions) => questions.push(question),
+                None => others.push(Job { questions: vec![question], until: Until::Violation }),
+            }
+        }
+    }
+    let families = families.into_iter().map(|(_, questions)| Job { questions, until: Until::Exhausted });
+    families.chain(others).collect()
+}
+
+/// The questions of the same family, if there are any.
+fn joined<'a>(
+    families: &'a mut [(Option<String>, Vec<Question>)],
+    family: Option<&str>,
+) -> Option<&'a mut Vec<Question>> {
+    let known = families.iter_mut().find(|(known, _)| family.is_some() && known.as_deref() == family);
+    known.map(|(_, questions)| questions)
 }
 
 impl Job {
     /// The place of its first check.
     fn place(&self) -> usize {
-        match self {
-            Self::Family(places) => places.first().copied().unwrap_or_default(),
-            &Self::Mutant(place, ..) => place,
-        }
+        self.questions.first().map_or(0, |question| question.place)
     }
 
     fn work(
@@ -130,23 +158,49 @@ impl Job {
         checks: &[(&'static Clause, usize)],
         desk: &mut Desk<'_, '_>,
     ) -> Result<Vec<Done>, Refused> {
-        let mut timed =
-            |place: usize, work: &dyn Fn(&dyn AnyCheck, &mut Desk<'_, '_>) -> Result<Came, Refused>| {
-                let (clause, number) = checks[place];
-                let start = Instant::now();
-                let came = work(clause.checks[number], desk)?;
-                Ok(Done { place, seconds: start.elapsed().as_secs_f64(), came })
+        let answered = |&question: &Question| {
+            let start = Instant::now();
+            let (clause, number) = checks[question.place];
+            let check = clause.checks[number];
+            let came = match question.mutant {
+                None => Came::Own(check.decide_own(desk)?),
+                Some(number) => {
+                    let name = check.mutants().get(number).copied().unwrap_or_default();
+                    Came::Mutant(name, check.decide_mutant(number, self.until, desk)?)
+                }
             };
-        match self {
-            Self::Family(places) => {
-                let own = |&place| timed(place, &|check, desk| Ok(Came::Own(check.decide_own(desk)?)));
-                places.iter().map(own).collect()
-            }
-            &Self::Mutant(place, number, name) => {
-                let mutant =
-                    timed(place, &|check, desk| Ok(Came::Mutant(name, check.decide_mutant(number, desk)?)));
-                Ok(vec![mutant?])
-            }
-        }
+            Ok(Done { question, seconds: start.elapsed().as_secs_f64(), came })
+        };
+        self.questions.iter().map(answered).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::iter;
+
+    use super::super::clauses;
+    use super::*;
+
+    #[test]
+    fn every_question_is_asked_once_and_that_of_a_mutant_with_its_family() {
+        let checks = checks(&clauses().collect::<Vec<_>>());
+        let jobs = jobs(&checks);
+        let mut asked: Vec<Question> = jobs.iter().flat_map(|job| job.questions.iter().copied()).collect();
+        asked.sort_unstable();
+        let all = (0..).zip(&checks).flat_map(|(place, (clause, number))| {
+            let mutants = 0..clause.checks[*number].mutants().len();
+            iter::once(None).chain(mutants.map(Some)).map(move |mutant| Question { place, mutant })
+        });
+        assert!(asked.into_iter().eq(all));
+        let of = |place: usize| (checks[place].0.id, checks[place].0.checks[checks[place].1]);
+        let is_published = |question: &Question| {
+            let (clause, check) = of(question.place);
+            let is_named = |number: usize| check.mutants()[number] == "as published";
+            (clause, check.engine()) == ("CHAIN-2", "search") && question.mutant.is_some_and(is_named)
+        };
+        let job = jobs.iter().find(|job| job.questions.iter().any(is_published)).expect("a mutant");
+        let (clause, check) = of(job.place());
+        assert_eq!((clause, check.rule(), job.until), ("CHAIN-1", "published", Until::Exhausted));
     }
 }
