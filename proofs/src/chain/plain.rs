@@ -224,30 +224,33 @@ impl PlainChain {
             let marks = self.marks(Edge::new(at, side));
             !marks.wall && !marks.virtual_obstacle
         };
-        let sides: Vec<Side> = Side::ALL.into_iter().filter(is_open).collect();
-        if sides.is_empty() {
+        if !Side::ALL.iter().any(is_open) {
             return Ok(None);
         }
         let distances = self.distances(Avoid::WallsAndVirtual);
-        let near = |side: Side| {
-            let to = at.beyond(side);
-            let outward = i32::from(to.x - at.x) * i32::from(at.x - base.x)
-                + i32::from(to.y - at.y) * i32::from(at.y - base.y);
-            Some(((self.distance(to, &distances)?, -outward), side, Step::Cross(side)))
-        };
-        let mut list: Vec<((u32, i32), Side, Step)> = sides.into_iter().filter_map(near).collect();
+        let mut list: Vec<(Side, Step)> = Side::ALL
+            .into_iter()
+            .filter(is_open)
+            .filter(|&side| self.distance(at.beyond(side), &distances).is_some())
+            .map(|side| (side, Step::Cross(side)))
+            .collect();
         if list.is_empty() {
             return Ok(None);
         }
-        list.sort_by_key(|&(key, ..)| key);
-        for (_, side, step) in &mut list {
+        list.sort_by_key(|&(side, _)| {
+            let to = at.beyond(side);
+            let outward = i32::from(to.x - at.x) * i32::from(at.x - base.x)
+                + i32::from(to.y - at.y) * i32::from(at.y - base.y);
+            (self.distance(to, &distances), -outward)
+        });
+        for (side, step) in &mut list {
             if !self.admits_behind(at.after(*step), self.cells[leader - 1]) {
                 self.mark(Edge::new(at, *side), |marks| marks.virtual_obstacle = true);
                 *step = Step::Stay;
             }
         }
         let distances = self.distances(Avoid::Walls);
-        for (_, side, step) in list {
+        for (side, step) in list {
             let to = at.after(step);
             let may_enter =
                 !self.rule.has(Condition::FullForLeader) || step == Step::Stay || !self.is_full(to);
