@@ -383,7 +383,7 @@ fn clauses_are_decided_by_name() {
 #[test]
 fn a_bound_on_memory_leaves_checks_open_and_says_so() {
     let folder = folder();
-    let enough = printed(folder.path(), &["prove", "MRC-7", "--memory", "1GiB"], 0);
+    let enough = printed(folder.path(), &["prove", "ANTS-1", "--memory", "1GiB"], 0);
     assert!(enough.contains("verdicts are the registered ones."), "{enough}");
     let told = printed(folder.path(), &["prove", "ANTS-1", "--memory", "64KiB"], 3);
     assert!(told.contains("ANTS-1 as published: open, registered as holds"), "{told}");

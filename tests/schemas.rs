@@ -25,7 +25,7 @@ fn each_schema_is_that_of_what_is_printed() {
     let replays =
         ["chain-2-published-n4.jsonl", "bricks-4-repaired-n1.jsonl", "kit-1-published.jsonl"].map(stored);
     let schemas: [(&str, &str, Vec<String>); 12] = [
-        ("prove", "tautline prove", own(&["prove NOTICE-4 LATTICE-1 CHAIN-2 BRICKS-4 --out refuted"])),
+        ("prove", "tautline prove", own(&["prove NOTICE-4 LATTICE-1 CHAIN-2 BRICKS-5 --out refuted"])),
         (
             "hunt",
             "tautline hunt, and tautline merge of a hunt",
