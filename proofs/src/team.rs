@@ -137,7 +137,9 @@ impl<R, T: Team<ROBOTS>, const ROBOTS: usize> Layouts<R, T, ROBOTS> {
         Area::new(Cell::new(0, 0), Cell::new(self.size.0 - 1, self.size.1 - 1))
     }
 
-    /// The search for teams that follow `rule`, at its start: it can be made wave by wave, left and taken up again.
+    /// The search for teams that follow `rule`, at its start: it can be made wave by wave, left and taken up again. A run ends
+    /// at the first of the `wanted` demands that it breaks, and the others are as if they were not there; all are wanted where
+    /// none is named.
     ///
     /// # Errors
     /// [`Refused`] if the area is too large, a robot starts outside, or the limits are beyond what can be searched.
@@ -155,7 +157,27 @@ impl<R, T: Team<ROBOTS>, const ROBOTS: usize> Layouts<R, T, ROBOTS> {
         }
         let state = State { team, cells, grid };
         let limits = Limits { max_walls: self.max_walls, budget_moves: None, wanted: wanted.to_vec(), until };
-        Tree::new(InLayouts { layouts: self, state }, &limits).map_err(Refused::new)
+        Tree::new(InLayouts { layouts: self, wanted: wanted.to_vec(), state }, &limits).map_err(Refused::new)
+    }
+
+    /// What a search finds, which is made only once.
+    fn found<'d>(
+        &'static self,
+        rule: &R,
+        until: Until,
+        wanted: Vec<Promise>,
+        desk: &'d mut Desk<'_, '_>,
+    ) -> Result<&'d Found<Promise, Frame>, Refused>
+    where
+        R: Clone + PartialEq,
+    {
+        let Desk { memory, watch, .. } = desk;
+        let key = (std::ptr::from_ref(self).addr(), rule.clone(), until, wanted);
+        memory.recall(key, |(_, rule, until, wanted)| {
+            let mut tree = self.search(rule, *until, wanted)?;
+            while tree.wave() && watch(&tree.progress()).is_continue() {}
+            Ok(tree.found())
+        })
     }
 
     /// The run that was found.
@@ -201,19 +223,15 @@ where
 
     fn decide(&self, rule: &R, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
         let (layouts, promise) = (self.0, Promise(self.1));
-        // What one search to the end has found answers the checks of all demands.
-        let wanted = match until {
-            Until::Exhausted => Vec::new(),
-            Until::Violation => vec![promise],
+        // One search to the end answers for all demands, unless a run ended at another one: it may have broken this one later.
+        let is_alone = match until {
+            Until::Exhausted => {
+                let together = layouts.found(rule, until, Vec::new(), desk)?;
+                together.counterexamples.iter().any(|found| found.broken != promise)
+            }
+            Until::Violation => true,
         };
-        let key = (std::ptr::from_ref(layouts).addr(), rule.clone(), wanted);
-        let Desk { memory, watch, .. } = desk;
-        let found: Result<&Found<Promise, Frame>, Refused> = memory.recall(key, |(_, rule, wanted)| {
-            let mut tree = layouts.search(rule, until, wanted)?;
-            while tree.wave() && watch(&tree.progress()).is_continue() {}
-            Ok(tree.found())
-        });
-        let found = found?;
+        let found = layouts.found(rule, until, if is_alone { vec![promise] } else { Vec::new() }, desk)?;
         let broken = found.counterexamples.iter().find(|found| found.broken == promise);
         let is_covered = layouts.covers.iter().all(|(name, _)| found.covered.contains(name));
         let evidence = broken.map(|found| layouts.evidence(rule, found));
@@ -226,7 +244,7 @@ where
         if !choices.again.is_empty() {
             return Err(Unfit::Over { at: choices.once.len() });
         }
-        let tree = self.0.search(rule, Until::Exhausted, &[]).map_err(|_| Unfit::Unbroken)?;
+        let tree = self.0.search(rule, Until::Exhausted, &[Promise(self.1)]).map_err(|_| Unfit::Unbroken)?;
         let found = tree.replay(Promise(self.1), &choices.once)?;
         Ok(Played { of: vec![2; found.answers.len()], evidence: self.0.evidence(rule, &found) })
     }
@@ -235,6 +253,8 @@ where
 /// A team in layouts, as the search plays it.
 pub struct InLayouts<R: 'static, T: 'static, const ROBOTS: usize> {
     layouts: &'static Layouts<R, T, ROBOTS>,
+    /// The demands that are looked at; all of them if it is empty.
+    wanted: Vec<Promise>,
     state: State<T, ROBOTS>,
 }
 
@@ -247,10 +267,12 @@ pub struct State<T, const ROBOTS: usize> {
 }
 
 impl<R, T: Team<ROBOTS>, const ROBOTS: usize> InLayouts<R, T, ROBOTS> {
-    /// The first demand that is broken.
+    /// The first demand that is broken, of those that are looked at.
     fn first(&self, is_broken: impl Fn(&Demand<T, ROBOTS>) -> bool) -> Option<(Promise, &'static str)> {
-        let number = self.layouts.demands.iter().position(is_broken)?;
-        Some((Promise(number), self.layouts.demands[number].words))
+        let is_wanted = |promise| self.wanted.is_empty() || self.wanted.contains(&promise);
+        let demands = self.layouts.demands.iter().enumerate();
+        let mut wanted = demands.filter(|&(number, _)| is_wanted(Promise(number)));
+        wanted.find(|(_, demand)| is_broken(demand)).map(|(number, demand)| (Promise(number), demand.words))
     }
 }
 

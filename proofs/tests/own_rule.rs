@@ -59,6 +59,12 @@ static UNCOVERED: Layouts<Rule, Robot, 1> = Layouts {
     ..layouts((4, 1), &[STAYS])
 };
 
+/// The first team move breaks the first demand.
+static STILL_AND_ENDS: Layouts<Rule, Robot, 1> = layouts(
+    (4, 1),
+    &[Demand::always("ROBOT-4", "it stays where it is", |moved| moved.from == moved.to), ENDS],
+);
+
 /// What comes of a demand, by its layouts and its number.
 type Asked = (&'static Layouts<Rule, Robot, 1>, usize);
 
@@ -70,6 +76,15 @@ fn decided(rule: Rule, (layouts, demand): Asked) -> Result<Answer, Refused> {
 
 fn verdict(rule: Rule, asked: Asked) -> Verdict {
     decided(rule, asked).expect("it can be decided").verdict
+}
+
+#[test]
+fn a_demand_is_decided_as_if_it_stood_alone() {
+    assert_eq!(verdict(Rule::Patrols, (&STILL_AND_ENDS, 0)), Verdict::Refuted);
+    let endless = decided(Rule::Patrols, (&STILL_AND_ENDS, 1)).expect("it can be decided");
+    assert_eq!(endless.verdict, Verdict::Refuted);
+    let choices = endless.counterexample.expect("there is a counterexample").choices;
+    assert!(Keeps(&STILL_AND_ENDS, 1).replay(&Rule::Patrols, &choices).is_ok());
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod player;
 mod written;
 
 use std::fs;
+use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
@@ -20,7 +21,7 @@ use tautline_proofs::team::Promise;
 use tautline_sim::aside::{Aside, Replaceable};
 use tautline_sim::counterexample::minimise::{Broken, Case, shrink};
 use tautline_sim::explore::hunt::layout as layout_of;
-use tautline_sim::explore::{ClauseId, Limits, OnViolation, Report, Stage, TeamMove, run};
+use tautline_sim::explore::{Limits, OnViolation, Report, Stage, TeamMove, run};
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::layout::Layout;
 use tautline_sim::trace::{self, Stored, Writer};
@@ -156,18 +157,34 @@ pub(crate) fn hunt_rule(
 /// The search, and its counterexamples made again and made small. On the thread that asks the rule.
 fn found(py: Python<'_>, written: &Arc<Written>, budget: Option<u64>) -> PyResult<Outcome> {
     written.begin(py)?;
-    let wanted = Vec::new();
-    let limits =
-        Bounds { max_walls: written.max_walls, budget_moves: budget, wanted, until: Until::Exhausted };
-    let game = InRule(Arc::clone(written));
-    let mut tree = Tree::new(game, &limits)
-        .map_err(|refused| error(py, Kind::Input, refused, "give fewer max_walls, or a smaller size"))?;
-    while tree.wave() {
+    let search = |demands: Range<usize>| {
+        let limits = Bounds {
+            max_walls: written.max_walls,
+            budget_moves: budget,
+            wanted: Vec::new(),
+            until: Until::Exhausted,
+        };
+        let mut tree = Tree::new(InRule(Arc::clone(written), demands), &limits)
+            .map_err(|refused| error(py, Kind::Input, refused, "give fewer max_walls, or a smaller size"))?;
+        while tree.wave() {
+            written.checked(py)?;
+        }
         written.checked(py)?;
+        let found = tree.found();
+        written.checked(py)?;
+        Ok::<_, PyErr>(found)
+    };
+    let mut found = search(0..written.demands.len())?;
+    // A run that ended where it broke one demand may have broken another one later: each is looked at alone then.
+    if !found.counterexamples.is_empty() && written.demands.len() > 1 {
+        found.counterexamples.clear();
+        for demand in 0..written.demands.len() {
+            let alone = search(demand..demand + 1)?;
+            found.complete &= alone.complete;
+            found.given_up = found.given_up.max(alone.given_up);
+            found.counterexamples.extend(alone.counterexamples);
+        }
     }
-    written.checked(py)?;
-    let found = tree.found();
-    written.checked(py)?;
     let is_found = |demand: &usize| found.counterexamples.iter().any(|example| example.broken.0 == *demand);
     if !written.seen().iter().all(is_found) {
         return Err(written.not_pure(py));
@@ -188,12 +205,12 @@ fn found(py: Python<'_>, written: &Arc<Written>, budget: Option<u64>) -> PyResul
         let halted = |halt: Halt| written.failure(py).unwrap_or_else(|| halted(py, &halt));
         let (layout, _) =
             layout_of(&run).map_err(|problem| halted(Fault::usage(&problem, problem.remedy()).into()))?;
-        let (made, report) = stored(written, &layout, clause).map_err(halted)?;
-        if !report.violations.iter().any(|broken| broken.clause == clause) {
+        let (made, report) = stored(written, &layout, demand).map_err(halted)?;
+        if report.violations.is_empty() {
             return Err(written.not_pure(py));
         }
-        let small = shrunk(written, layout, clause, report.steps).map_err(halted)?;
-        let (minimal, smallest) = stored(written, &small, clause).map_err(halted)?;
+        let small = shrunk(written, layout, demand, report.steps).map_err(halted)?;
+        let (minimal, smallest) = stored(written, &small, demand).map_err(halted)?;
         let named = |made, report| Run { made, name: clause.to_string(), report, clause: Some(clause) };
         let (run, minimal) = (named(made, report), named(minimal, smallest));
         counterexamples.push(Plain { demand, runs: example.runs, run, minimal });
@@ -201,16 +218,16 @@ fn found(py: Python<'_>, written: &Arc<Written>, budget: Option<u64>) -> PyResul
     Ok(Outcome { found, counterexamples })
 }
 
-/// The run of the rule in `layout`, as far as it breaks `clause`.
+/// The run of the rule in `layout`, as far as it breaks the demand with this number.
 fn played(
     written: &Written,
     layout: &Layout,
-    clause: ClauseId,
+    demand: usize,
     watch: &mut dyn FnMut(&TeamMove<'_>) -> Result<(), Halt>,
 ) -> Result<Report, Halt> {
-    let limits = Limits { violation: OnViolation::StopAt(clause), ..Limits::default() };
+    let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
     let mut left = written.longest_run;
-    let report = run(&mut Player::new(written), layout, limits, &mut |made| {
+    let report = run(&mut Player::new(written, demand..demand + 1), layout, limits, &mut |made| {
         left = left.saturating_sub(1);
         // A smaller layout may have a run that neither ends nor comes back.
         if written.is_over() || left == 0 { Err(Halt::Interrupted) } else { watch(made) }
@@ -219,13 +236,13 @@ fn played(
 }
 
 /// The same, written to a file and read again.
-fn stored(written: &Written, layout: &Layout, clause: ClauseId) -> Result<(Made, Report), Halt> {
+fn stored(written: &Written, layout: &Layout, demand: usize) -> Result<(Made, Report), Halt> {
     let folder = tempfile::tempdir().map_err(|error| Fault::usage(error, "make room for temporary files"))?;
     let path = folder.path().join("run.jsonl");
     let stage = Stage::new(written.scheme, written.name, layout, written.starts());
     let aside = Aside::new(&path, &Replaceable::default())?;
-    let mut writer = Writer::new(aside, &stage, Some(clause)).map_err(Fault::from)?;
-    let report = played(written, layout, clause, &mut |made| {
+    let mut writer = Writer::new(aside, &stage, Some(written.demands[demand].clause)).map_err(Fault::from)?;
+    let report = played(written, layout, demand, &mut |made| {
         writer.add(made);
         Ok(())
     })?;
@@ -242,19 +259,18 @@ fn stored(written: &Written, layout: &Layout, clause: ClauseId) -> Result<(Made,
 }
 
 /// The smallest layout that the run shrinks to. The robots start where they did.
-fn shrunk(written: &Written, layout: Layout, clause: ClauseId, steps: u32) -> Result<Layout, Halt> {
+fn shrunk(written: &Written, layout: Layout, demand: usize, steps: u32) -> Result<Layout, Halt> {
     let starts = written.starts();
     let (base, robots) = (starts[0], starts.len() as u16);
     let shrunk = shrink(Case { robots, layout, base }, steps, robots, &mut |case, _| {
         if case.base != base || !starts.iter().all(|&cell| case.layout.is_free(cell)) {
             return Ok(None);
         }
-        let report = match played(written, &case.layout, clause, &mut |_| Ok(())) {
+        let report = match played(written, &case.layout, demand, &mut |_| Ok(())) {
             Err(Halt::Interrupted) if !written.is_over() => return Ok(None),
             report => report?,
         };
-        let broken = report.violations.iter().find(|broken| broken.clause == clause);
-        Ok(broken.map(|broken| Broken { steps: broken.step, met: None }))
+        Ok(report.violations.first().map(|broken| Broken { steps: broken.step, met: None }))
     })?;
     Ok(shrunk.case.layout)
 }

@@ -65,8 +65,10 @@ class Rule:
         """
         raise NotImplementedError("a rule has a start")
 
-    def step(self, state: Any, cells: Sequence[Cell], blocked: Sequence[bool]) -> tuple[Hashable, str] | None:
+    def step(self, state: Any, cells: Sequence[Cell], blocked: Sequence[bool]) -> tuple[Hashable, str | None] | None:
         """The next state, and one letter for each robot of what it tries next; None when the run is over.
+
+        A rule that learns something from the last team move returns its state and None at its end.
 
         ``state`` is what the last call returned, ``cells`` are where the robots are now, and ``blocked`` tells which of them have
         met a wall in the last team move.

@@ -65,6 +65,29 @@ def test_each_demand_is_decided_in_its_own_way():
     assert left.verdict == "refuted" and left.counterexamples[0].run.steps == 1
 
 
+def test_a_demand_is_decided_as_if_it_stood_alone():
+    class Patrol(Walker):
+        patrols = True
+        demands = [tautline.always("WALK-2", "it stays where it is", lambda moved: moved.cells == moved.cells_before), *Walker.demands]
+
+    found = tautline.hunt_rule(Patrol())
+    assert [example.clause for example in found.counterexamples] == ["WALK-2", "WALK-1"]
+    assert found.complete and found.counterexamples[1].run.stopped == "endless"
+
+
+def test_what_is_heard_last_is_known_at_the_end():
+    class Counts(Walker):
+        """It knows at its end that it has met a wall, as it says."""
+
+        def step(self, state, cells, blocked):
+            return (1, None) if blocked[0] else (0, "E")
+
+        demands = [tautline.at_the_end("WALK-3", "it knows of the wall", lambda state, cells: state == 1)]
+
+    found = tautline.hunt_rule(Counts())
+    assert (found.verdict, found.complete) == ("holds", True)
+
+
 def test_a_situation_that_never_occurs_leaves_the_question_open():
     class Uncovered(Walker):
         covers = [("a step north", lambda moved: moved.tried == "N")]

@@ -1,6 +1,6 @@
 //! The rule in all layouts, as the search plays it.
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
 use pyo3::Python;
@@ -13,8 +13,8 @@ use tautline_proofs::team::Promise;
 
 use super::written::{Blocked, Cells, MAX_ROBOTS, Move, Steps, Written};
 
-/// A rule in layouts.
-pub(super) struct InRule(pub(super) Arc<Written>);
+/// A rule in layouts, and the demands that are looked at: a run ends at the first of them that it breaks.
+pub(super) struct InRule(pub(super) Arc<Written>, pub(super) Range<usize>);
 
 /// The number of the rule's state, where its robots are, what came of the last team move, and what was found of the layout.
 #[derive(Clone, Copy)]
@@ -66,9 +66,9 @@ impl Game for InRule {
 
     fn plan(&self, state: &mut State, _: &[u8]) -> Option<Plan> {
         let before = state.number;
-        let (number, steps) = self.0.step(before, &state.cells, &state.blocked)?;
+        let (number, steps) = self.0.step(before, &state.cells, &state.blocked);
         state.number = number;
-        Some(Plan { before, steps })
+        Some(Plan { before, steps: steps? })
     }
 
     fn settle(&self, state: &mut State, plan: &Plan, log: &mut Vec<u8>, world: &mut impl Oracle) {
@@ -99,18 +99,18 @@ impl Game for InRule {
     }
 
     fn broken_by(&self, turn: &Turn<'_, Self>) -> Option<Broken<Self>> {
-        self.told(self.0.broken_by(&moved(turn)))
+        self.told(self.0.broken_by(self.1.clone(), &moved(turn)))
     }
 
     fn broken_at_end(&self, state: &State, _: &[u8]) -> Option<Broken<Self>> {
-        self.told(self.0.broken_at_end(state.number, &state.cells))
+        self.told(self.0.broken_at_end(self.1.clone(), state.number, &state.cells))
     }
 
     fn recurs(&self, then: &State, _: usize, now: &State, _: &[u8]) -> ControlFlow<Option<Broken<Self>>> {
         if (then.number, then.cells, then.blocked) != (now.number, now.cells, now.blocked) {
             return ControlFlow::Continue(());
         }
-        ControlFlow::Break(self.told(self.0.broken_by_endless()))
+        ControlFlow::Break(self.told(self.0.broken_by_endless(self.1.clone())))
     }
 
     fn edges(&self) -> u32 {

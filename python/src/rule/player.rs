@@ -1,5 +1,7 @@
 //! The rule in one layout, as a run plays it.
 
+use std::ops::Range;
+
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_proofs::run::Frame;
@@ -11,6 +13,8 @@ use super::written::{Blocked, Cells, MAX_ROBOTS, Move, Written};
 /// A team that follows the rule.
 pub(super) struct Player<'a> {
     written: &'a Written,
+    /// The demands that are looked at.
+    demands: Range<usize>,
     now: Place,
     last: Option<Move>,
     /// Where the team was, moved on at powers of two (Brent's search for cycles).
@@ -27,10 +31,10 @@ struct Place {
 
 impl<'a> Player<'a> {
     /// At its start.
-    pub(super) fn new(written: &'a Written) -> Self {
+    pub(super) fn new(written: &'a Written, demands: Range<usize>) -> Self {
         let (state, cells) = written.start();
         let now = Place { state, cells, blocked: [false; MAX_ROBOTS] };
-        Self { written, now, last: None, mark: now, made: 0 }
+        Self { written, demands, now, last: None, mark: now, made: 0 }
     }
 
     fn clause(&self, broken: Option<usize>) -> Vec<ClauseId> {
@@ -52,7 +56,11 @@ impl Team for Player<'_> {
         }
         self.made += 1;
         let Place { state: before, cells: from, blocked } = self.now;
-        let (after, steps) = self.written.step(before, &from, &blocked).ok_or(End::Exhausted)?;
+        let (after, steps) = self.written.step(before, &from, &blocked);
+        let Some(steps) = steps else {
+            self.now.state = after;
+            return Err(End::Exhausted);
+        };
         let (mut to, mut blocked) = (from, [false; MAX_ROBOTS]);
         let robots = self.written.robots;
         for (robot, step) in steps.iter().enumerate().take(robots) {
@@ -72,15 +80,15 @@ impl Team for Player<'_> {
     }
 
     fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<ClauseId> {
-        self.clause(self.last.as_ref().and_then(|moved| self.written.broken_by(moved)))
+        self.clause(self.last.as_ref().and_then(|moved| self.written.broken_by(self.demands.clone(), moved)))
     }
 
     fn broken_at_end(&self, _: &Layout, _: &Survey, end: End) -> Vec<ClauseId> {
         self.clause(match end {
             End::Explored | End::Exhausted | End::Silent => {
-                self.written.broken_at_end(self.now.state, &self.now.cells)
+                self.written.broken_at_end(self.demands.clone(), self.now.state, &self.now.cells)
             }
-            End::Endless => self.written.broken_by_endless(),
+            End::Endless => self.written.broken_by_endless(self.demands.clone()),
         })
     }
 }

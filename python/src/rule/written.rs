@@ -1,6 +1,7 @@
 //! The rule itself: what it is asked, what it may answer, and what becomes of an answer that is none.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
@@ -24,8 +25,8 @@ pub(super) const MAX_ROBOTS: usize = 8;
 const MAX_WORD: usize = 64;
 
 /// What to return from `step`.
-const ANSWER: &str = "return None when the run is over, else the next state and a string with one letter of E, S, W, N or . \
-                      for each robot";
+const ANSWER: &str = "return None when the run is over, or a state and None if that is what is known then, else the next state and a \
+                      string with one letter of E, S, W, N or . for each robot";
 
 /// When a demand is looked at.
 #[derive(Debug)]
@@ -289,12 +290,13 @@ impl Written {
         PyTuple::new(py, cells[..self.robots].iter().map(|cell| (cell.x, cell.y)))
     }
 
-    /// What the rule does next, and the number of its state then; none if the run is over, or if the rule has failed.
-    pub(super) fn step(&self, state: u32, cells: &Cells, blocked: &Blocked) -> Option<(u32, Steps)> {
+    /// The number of the rule's state next, and what it does; no steps if the run is over, or if the rule has failed.
+    pub(super) fn step(&self, state: u32, cells: &Cells, blocked: &Blocked) -> (u32, Option<Steps>) {
         if self.is_over() {
-            return None;
+            return (state, None);
         }
-        Python::attach(|py| self.asked(py, state, cells, blocked).unwrap_or_else(|error| self.fail(error)))
+        let asked = Python::attach(|py| self.asked(py, state, cells, blocked));
+        asked.unwrap_or_else(|error| (state, self.fail(error)))
     }
 
     fn asked(
@@ -303,15 +305,17 @@ impl Written {
         state: u32,
         cells: &Cells,
         blocked: &Blocked,
-    ) -> PyResult<Option<(u32, Steps)>> {
+    ) -> PyResult<(u32, Option<Steps>)> {
         let blocked = PyTuple::new(py, &blocked[..self.robots])?;
         let arguments = (self.state(py, state), self.cells(py, cells)?, blocked);
         let answer = self.called(py, "step", || self.object.bind(py).call_method1("step", arguments))?;
         if answer.is_none() {
-            return Ok(None);
+            return Ok((state, None));
         }
         let wrong = || error(py, Kind::WrongType, format_args!("step returned {}", shown(&answer)), ANSWER);
-        let (next, letters): (Bound<'_, PyAny>, String) = answer.extract().map_err(|_| wrong())?;
+        let (next, letters): (Bound<'_, PyAny>, Option<String>) = answer.extract().map_err(|_| wrong())?;
+        let next = |py| self.number(py, "step", &next);
+        let Some(letters) = letters else { return Ok((next(py)?, None)) };
         let mut steps = [Step::Stay; MAX_ROBOTS];
         if letters.chars().count() != self.robots {
             return Err(wrong());
@@ -323,7 +327,7 @@ impl Written {
                 (_, None) => return Err(wrong()),
             };
         }
-        Ok(Some((self.number(py, "step", &next)?, steps)))
+        Ok((next(py)?, Some(steps)))
     }
 
     /// Whether a function of the rule says yes to `argument`; no if it fails.
@@ -337,9 +341,9 @@ impl Written {
         answer.unwrap_or_else(|error| self.fail(error))
     }
 
-    /// The first demand that a team move breaks.
-    pub(super) fn broken_by(&self, moved: &Move) -> Option<usize> {
-        self.first(|py, demand| match &demand.when {
+    /// The first of these demands that a team move breaks.
+    pub(super) fn broken_by(&self, demands: Range<usize>, moved: &Move) -> Option<usize> {
+        self.first(demands, |py, demand| match &demand.when {
             When::Always(is_kept) => {
                 let moved = moved.told(py, self).and_then(|moved| PyTuple::new(py, [moved]));
                 let moved = moved.unwrap_or_else(|_| PyTuple::empty(py));
@@ -349,9 +353,9 @@ impl Written {
         })
     }
 
-    /// The first demand that the end of a run breaks.
-    pub(super) fn broken_at_end(&self, state: u32, cells: &Cells) -> Option<usize> {
-        self.first(|py, demand| match &demand.when {
+    /// The first of these demands that the end of a run breaks.
+    pub(super) fn broken_at_end(&self, demands: Range<usize>, state: u32, cells: &Cells) -> Option<usize> {
+        self.first(demands, |py, demand| match &demand.when {
             When::AtTheEnd(is_kept) => {
                 let end =
                     self.cells(py, cells).and_then(|cells| (self.state(py, state), cells).into_pyobject(py));
@@ -362,17 +366,21 @@ impl Written {
         })
     }
 
-    /// The first demand that a run without end breaks.
-    pub(super) fn broken_by_endless(&self) -> Option<usize> {
-        self.first(|_, demand| matches!(demand.when, When::NeverEndless))
+    /// The first of these demands that a run without end breaks.
+    pub(super) fn broken_by_endless(&self, demands: Range<usize>) -> Option<usize> {
+        self.first(demands, |_, demand| matches!(demand.when, When::NeverEndless))
     }
 
-    /// The first demand of which this is so, unless the rule has failed.
-    fn first(&self, is_broken: impl Fn(Python<'_>, &Demand) -> bool) -> Option<usize> {
+    /// The first of these demands of which this is so, unless the rule has failed.
+    fn first(
+        &self,
+        mut demands: Range<usize>,
+        is_broken: impl Fn(Python<'_>, &Demand) -> bool,
+    ) -> Option<usize> {
         if self.is_over() {
             return None;
         }
-        let found = Python::attach(|py| self.demands.iter().position(|demand| is_broken(py, demand)));
+        let found = Python::attach(|py| demands.find(|&demand| is_broken(py, &self.demands[demand])));
         let found = found.filter(|_| !self.is_over());
         held(&self.seen).extend(found);
         found
