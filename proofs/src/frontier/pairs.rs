@@ -85,12 +85,14 @@ pub(super) fn goes(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
 fn next(rule: &Rule, map: TinyMap, team: &[Known]) -> Next {
     let (at, aim) = team[0];
     let mut own = Robot::new(map, at, &[]);
-    if let Some(aim) = aim {
-        // A robot keeps what it has claimed when it arrives; its fix says that it is where it was.
-        own.tries(Side::East, aim);
-        own.looked(rule, Sight::Open);
-        own.arrived(&rule.without(Condition::Track), at);
+    let claimed = aim.or_else(|| map.area().cells().find(|&cell| map.status(cell) == Status::Unexplored));
+    if let Some(claimed) = claimed {
+        own.tries(Side::East, claimed);
     }
+    // A robot keeps what it has claimed when it arrives; its fix says that it is where it was. It has claimed nothing any more when it
+    // has met another robot.
+    own.looked(rule, if aim.is_some() { Sight::Open } else { Sight::Robot });
+    own.arrived(&rule.without(Condition::Track), at);
     let other = |&(cell, aim): &Known| Other { cell, place: Place::midpoint(cell), aim };
     let others: Vec<Other> = team.iter().skip(1).map(other).collect();
     let (mut reached, mut queue) = ([Reached::NEVER; CELLS], [Cell::new(0, 0); CELLS]);
