@@ -1,7 +1,8 @@
-//! Frontier cells (Rajesh, Nagaraja and Suja 2024): the clauses FRONTIER-1 to FRONTIER-8 and what decides them.
+//! Frontier cells (Rajesh, Nagaraja and Suja 2024): the clauses FRONTIER-1 to FRONTIER-9 and what decides them.
 
 pub mod areas;
 pub mod clauses;
 pub mod drift;
+mod pairs;
 mod place;
 pub mod world;

@@ -22,6 +22,8 @@ pub enum Condition {
     Back,
     /// Each time for the same frontier cell it takes twice as many back.
     Double,
+    /// After a team move is taken back each robot looks for its way anew: the one that it knew began elsewhere.
+    Anew,
 }
 
 crate::conditions!(Condition);
@@ -83,6 +85,7 @@ impl Rule {
             Condition::Lead,
             Condition::Back,
             Condition::Double,
+            Condition::Anew,
         ]),
         ..Self::PUBLISHED
     };

@@ -84,6 +84,10 @@ pub enum Made {
     Marched,
 }
 
+/// Stages that a team goes through at most before it makes a team move or finds none: it spreads, leads, takes back, leads where
+/// all began, finds nothing more to take back, and marches.
+const STAGES: usize = 6;
+
 /// What the team is doing.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -179,7 +183,7 @@ impl Team {
         if self.rule.has(Condition::Lead) && is_side_by_side(self.cells()) {
             past.clear();
         }
-        loop {
+        for _ in 0..STAGES {
             *steps = [Step::Stay; MAX_ROBOTS];
             if let Stage::Lead { goal, .. } | Stage::Back { goal, .. } | Stage::March { goal } = self.stage
                 && !chart.is_frontier(goal)
@@ -199,6 +203,7 @@ impl Team {
             }
             return Ok(made);
         }
+        Err(End::Stuck)
     }
 
     /// A team move in which each robot goes its own way; `None` if the team goes on otherwise.
@@ -381,7 +386,9 @@ impl Team {
                     self.put(robot, from.beyond(side.opposite()));
                 }
             }
-            self.aims = [None; MAX_ROBOTS];
+            if self.rule.has(Condition::Anew) {
+                self.aims = [None; MAX_ROBOTS];
+            }
             self.stage = Stage::Back { goal, moves: moves - 1 };
             return Ok(Some(Made::TakenBack));
         }

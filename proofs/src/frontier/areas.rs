@@ -25,6 +25,14 @@ pub(super) struct Areas<const ROBOTS: usize> {
     pub(super) covers: &'static [&'static str],
 }
 
+/// What a search for all demands has found.
+struct All {
+    states: u64,
+    is_whole: bool,
+    covered: Vec<&'static str>,
+    is_broken: bool,
+}
+
 /// A run that breaks a demand, and where.
 #[derive(Clone, Debug)]
 pub struct Counterexample<const ROBOTS: usize> {
@@ -110,7 +118,7 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
     }
 }
 
-/// An event in words; nothing of a robot that has only decided.
+/// An event in words; nothing of a robot that has only decided, unless a robot misses that.
 fn words(event: &Event, cells: &[Cell]) -> Option<String> {
     let missed = |missed: u8| {
         let robots = (0..u8::BITS).filter(|robot| missed >> robot & 1 == 1);
@@ -124,7 +132,8 @@ fn words(event: &Event, cells: &[Cell]) -> Option<String> {
         Side::North => "north",
     };
     match *event {
-        Event::Decides(..) => None,
+        Event::Decides(.., 0) => None,
+        Event::Decides(robot, _, aim, lost) => Some(format!("R{} claims {aim}{}", robot + 1, missed(lost))),
         Event::Looks(robot, side, sight, lost, _) => {
             let (name, side) = (robot + 1, towards(side));
             Some(match sight {
@@ -143,9 +152,29 @@ fn words(event: &Event, cells: &[Cell]) -> Option<String> {
 }
 
 impl<const ROBOTS: usize> Areas<ROBOTS> {
-    fn setting(&self, rule: &Rule, size: Size) -> Option<Setting<ROBOTS>> {
+    fn setting(&self, rule: &Rule, size: Size) -> Result<Setting<ROBOTS>, Refused> {
         let Self { max_losses, max_wrong, demand, .. } = *self;
-        Some(Setting { max_losses, max_wrong, demand: Some(demand), ..setting(*rule, size)? })
+        let setting = setting(*rule, size).ok_or_else(|| Refused::new("the area is too large"))?;
+        Ok(Setting { max_losses, max_wrong, demand: Some(demand), ..setting })
+    }
+
+    /// Searches all areas for all demands, as far as nothing is broken.
+    fn all(&self, rule: &Rule, limits: Limits<'_>) -> Result<All, Refused> {
+        let mut all = All { states: 0, is_whole: true, covered: Vec::new(), is_broken: false };
+        for &size in self.sizes {
+            let setting = Setting { demand: None, ..self.setting(rule, size)? };
+            let found = search(&setting, setting.starts(), limits);
+            all.states += found.states;
+            all.is_whole &= found.is_whole;
+            for situation in found.covered {
+                cover(&mut all.covered, situation);
+            }
+            all.is_broken = !found.broken.is_empty();
+            if all.is_broken {
+                break;
+            }
+        }
+        Ok(all)
     }
 
     fn evidence(choices: Choices, found: &Counterexample<ROBOTS>) -> Evidence {
@@ -174,12 +203,26 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
         format!("all obstacles in {} cells, all starts, {robots}, every order{lost}{wrong}", sizes.join(", "))
     }
 
+    fn family(&self, rule: &Rule) -> Option<String> {
+        Some(format!("{ROBOTS} {:?} {} {} {rule:?}", self.sizes, self.max_losses, self.max_wrong))
+    }
+
+    /// One search answers the checks of all demands, if it finds none of them broken. Else each demand has its own search.
+    ///
     /// The choices are the numbers of the area, of the most obstacles, of the start, and of the steps.
-    fn decide(&self, rule: &Rule, _: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+    fn decide(&self, rule: &Rule, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
         let limits = Limits { room: desk.room, ..Limits::NONE };
+        if until == Until::Exhausted {
+            let asked = (ROBOTS, self.sizes, self.max_losses, self.max_wrong, *rule);
+            let all = desk.memory.recall(asked, |_| self.all(rule, limits))?;
+            if !all.is_broken {
+                let is_covered = self.covers.iter().all(|situation| all.covered.contains(situation));
+                return Ok(Answer::new(None, all.is_whole && is_covered, self.shows_of(), all.states));
+            }
+        }
         let (mut states, mut is_whole, mut covered) = (0, true, Vec::new());
         for (number, &size) in (0..).zip(self.sizes) {
-            let setting = self.setting(rule, size).ok_or_else(|| Refused::new("the area is too large"))?;
+            let setting = self.setting(rule, size)?;
             let found = search(&setting, setting.starts(), limits);
             states += found.states;
             is_whole &= found.is_whole;
@@ -203,7 +246,7 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
         let mut script = Script::new(choices);
         let size = self.sizes[script.choose(self.sizes.len())?];
         let max_obstacles = script.choose(TinyMap::CELLS + 1)? as u8;
-        let setting = self.setting(rule, size).ok_or(Unfit::Unbroken)?;
+        let setting = self.setting(rule, size).map_err(|_| Unfit::Unbroken)?;
         let setting = Setting { max_obstacles, ..setting };
         let starts = setting.starts();
         let number = script.choose(starts.len())?;

@@ -1,14 +1,17 @@
 //! The clauses of frontier cells, in the order of `SPEC.md`.
 
-use tautline_kernel::frontier::Condition::{Look, Record, Route, Share, Tell, Track, Turn};
+use tautline_kernel::frontier::Condition::{
+    self, Claim, Corner, Look, Nearer, Record, Route, Share, Tell, Track, Turn,
+};
 use tautline_kernel::frontier::{Occupancy, Rule};
 
 use super::areas::{Areas, Size};
 use super::drift::{self, Drift, PARTS};
+use super::pairs;
 use super::place::{self, Bears};
 use super::world::Demand;
 use crate::clause::{Check, Clause, Named};
-use crate::decide::{EveryState, Verdict};
+use crate::decide::{EveryState, Exhaustive, Verdict};
 use crate::step_checks;
 
 const PUBLISHED: Named<Rule> = Named::new("published", Rule::PUBLISHED);
@@ -18,13 +21,30 @@ const PRINTED: Named<Rule> = Named::new("printed", Rule::PRINTED);
 const PLAIN: Named<Rule> = Named::new("plain", Rule::PLAIN);
 const REPAIRED: Named<Rule> = Named::new("repaired", Rule::REPAIRED);
 
-const NO_ROUTE: Named<Rule> = Named::new("no way through explored cells", Rule::PLAIN.without(Route));
-const NO_RECORD: Named<Rule> = Named::new("obstacles are not stored", Rule::PLAIN.without(Record));
-const NO_LOOK: Named<Rule> = Named::new("enters without a look", Rule::PLAIN.without(Look));
-const NO_TURN: Named<Rule> = Named::new("no slots", Rule::PLAIN.without(Turn));
-const NO_TELL: Named<Rule> = Named::new("a robot is an obstacle", Rule::PLAIN.without(Tell));
-const NO_TRACK: Named<Rule> = Named::new("every fix is believed", Rule::PLAIN.without(Track));
-const NO_SHARE: Named<Rule> = Named::new("only what is new is told", Rule::PLAIN.without(Share));
+/// One condition taken out of a rule, under its name.
+const fn without(rule: Rule, condition: Condition) -> Named<Rule> {
+    let name = match condition {
+        Route => "no way through explored cells",
+        Record => "obstacles are not stored",
+        Look => "enters without a look",
+        Turn => "no slots",
+        Tell => "a robot is an obstacle",
+        Track => "every fix is believed",
+        Share => "only what is new is told",
+        Nearer => "others do not count",
+        Claim => "claims do not count",
+        Corner => "unexplored neighbours do not count",
+    };
+    Named::new(name, rule.without(condition))
+}
+
+const fn plain(condition: Condition) -> Named<Rule> {
+    without(Rule::PLAIN, condition)
+}
+
+const fn repaired(condition: Condition) -> Named<Rule> {
+    without(Rule::REPAIRED, condition)
+}
 
 /// The areas in which counterexamples are looked for.
 const SMALLEST: [Size; 5] = [(1, 1), (2, 1), (3, 1), (4, 1), (2, 2)];
@@ -32,8 +52,10 @@ const SMALLEST: [Size; 5] = [(1, 1), (2, 1), (3, 1), (4, 1), (2, 2)];
 const ONE: [Size; 9] = [(1, 1), (2, 1), (3, 1), (4, 1), (2, 2), (5, 1), (3, 2), (4, 2), (3, 3)];
 /// Those of two.
 const TWO: [Size; 6] = [(2, 1), (3, 1), (4, 1), (2, 2), (5, 1), (3, 2)];
+/// The areas of two robots with preferences, which have fewer states.
+const TWO_REPAIRED: [Size; 7] = [(2, 1), (3, 1), (4, 1), (2, 2), (5, 1), (3, 2), (4, 2)];
 /// Those of three.
-const THREE: [Size; 4] = [(3, 1), (4, 1), (2, 2), (5, 1)];
+const THREE: [Size; 5] = [(3, 1), (4, 1), (2, 2), (5, 1), (3, 2)];
 
 /// What happens to a robot that is alone.
 const ALONE: [&str; 4] = ["a decision", "an open cell", "an obstacle", "an arrival"];
@@ -56,9 +78,13 @@ const fn three(demand: Demand) -> Areas<3> {
     Areas { sizes: &THREE, covers: &ALL, ..smallest(demand) }
 }
 
-/// Two robots, of whose messages one may be lost.
-const fn lossy(demand: Demand) -> Areas<2> {
-    Areas { max_losses: 1, ..two(demand) }
+/// The same team, of whose messages one may be lost.
+const fn lossy<const ROBOTS: usize>(areas: Areas<ROBOTS>) -> Areas<ROBOTS> {
+    Areas { max_losses: 1, ..areas }
+}
+
+const fn two_repaired(demand: Demand) -> Areas<2> {
+    Areas { sizes: &TWO_REPAIRED, ..two(demand) }
 }
 
 /// One robot, of whose fixes one may be wrong.
@@ -121,21 +147,22 @@ step_checks! { Occupancy;
 }
 
 /// The clauses.
-pub static CLAUSES: [Clause; 8] = [
+pub static CLAUSES: [Clause; 9] = [
     Clause {
         id: "FRONTIER-1",
         sentence: "Every cell that a robot can reach MUST be explored when the run ends.",
         checks: &[
             &Check::new(PUBLISHED, &smallest::<1>(Demand::Covers), Verdict::Refuted, &[]),
             &Check::new(PRINTED, &smallest::<1>(Demand::Covers), Verdict::Refuted, &[]),
-            &Check::new(PLAIN, &one(Demand::Covers), Verdict::Holds, &[NO_ROUTE]),
+            &Check::new(PLAIN, &one(Demand::Covers), Verdict::Holds, &[plain(Route)]),
             &Check::new(PLAIN, &two(Demand::Covers), Verdict::Holds, &[]),
             &Check::new(PLAIN, &three(Demand::Covers), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &one(Demand::Covers), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &two(Demand::Covers), Verdict::Holds, &[]),
+            &Check::new(PLAIN, &lossy(two(Demand::Covers)), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &one(Demand::Covers), Verdict::Holds, &[repaired(Route)]),
+            &Check::new(REPAIRED, &two_repaired(Demand::Covers), Verdict::Holds, &[]),
             &Check::new(REPAIRED, &three(Demand::Covers), Verdict::Holds, &[]),
-            &Check::new(PLAIN, &lossy(Demand::Covers), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &lossy(Demand::Covers), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &lossy(two_repaired(Demand::Covers)), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &lossy(three(Demand::Covers)), Verdict::Holds, &[]),
         ],
     },
     Clause {
@@ -143,14 +170,13 @@ pub static CLAUSES: [Clause; 8] = [
         sentence: "Two robots MUST never be in one cell.",
         checks: &[
             &Check::new(PUBLISHED, &smallest::<2>(Demand::Alone), Verdict::Refuted, &[]),
-            &Check::new(PLAIN, &one(Demand::Alone), Verdict::Holds, &[]),
-            &Check::new(PLAIN, &two(Demand::Alone), Verdict::Holds, &[NO_LOOK]),
+            &Check::new(PLAIN, &two(Demand::Alone), Verdict::Holds, &[plain(Look)]),
             &Check::new(PLAIN, &three(Demand::Alone), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &one(Demand::Alone), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &two(Demand::Alone), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &three(Demand::Alone), Verdict::Holds, &[]),
-            &Check::new(PLAIN, &lossy(Demand::Alone), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &lossy(Demand::Alone), Verdict::Holds, &[]),
+            &Check::new(PLAIN, &lossy(two(Demand::Alone)), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &two_repaired(Demand::Alone), Verdict::Holds, &[repaired(Look)]),
+            &Check::new(REPAIRED, &three(Demand::Alone), Verdict::Holds, &[repaired(Look)]),
+            &Check::new(REPAIRED, &lossy(two_repaired(Demand::Alone)), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &lossy(three(Demand::Alone)), Verdict::Holds, &[]),
         ],
     },
     Clause {
@@ -159,14 +185,15 @@ pub static CLAUSES: [Clause; 8] = [
         checks: &[
             &Check::new(LITERAL, &smallest::<1>(Demand::Ends), Verdict::Refuted, &[]),
             &Check::new(WANDERS, &smallest::<1>(Demand::Ends), Verdict::Refuted, &[]),
-            &Check::new(PLAIN, &one(Demand::Ends), Verdict::Holds, &[NO_RECORD]),
-            &Check::new(PLAIN, &two(Demand::Ends), Verdict::Holds, &[NO_TURN]),
+            &Check::new(PLAIN, &one(Demand::Ends), Verdict::Holds, &[plain(Record)]),
+            &Check::new(PLAIN, &two(Demand::Ends), Verdict::Holds, &[plain(Turn)]),
             &Check::new(PLAIN, &three(Demand::Ends), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &one(Demand::Ends), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &two(Demand::Ends), Verdict::Holds, &[]),
+            &Check::new(PLAIN, &lossy(two(Demand::Ends)), Verdict::Holds, &[plain(Share)]),
+            &Check::new(REPAIRED, &one(Demand::Ends), Verdict::Holds, &[repaired(Record)]),
+            &Check::new(REPAIRED, &two_repaired(Demand::Ends), Verdict::Holds, &[repaired(Turn)]),
             &Check::new(REPAIRED, &three(Demand::Ends), Verdict::Holds, &[]),
-            &Check::new(PLAIN, &lossy(Demand::Ends), Verdict::Holds, &[NO_SHARE]),
-            &Check::new(REPAIRED, &lossy(Demand::Ends), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &lossy(two_repaired(Demand::Ends)), Verdict::Holds, &[repaired(Share)]),
+            &Check::new(REPAIRED, &lossy(three(Demand::Ends)), Verdict::Holds, &[]),
         ],
     },
     Clause {
@@ -174,14 +201,15 @@ pub static CLAUSES: [Clause; 8] = [
         sentence: "When the run ends, every robot MUST know that no cell is left that it could explore.",
         checks: &[
             &Check::new(PUBLISHED, &smallest::<1>(Demand::Knows), Verdict::Refuted, &[]),
-            &Check::new(PLAIN, &one(Demand::Knows), Verdict::Holds, &[NO_ROUTE]),
+            &Check::new(PLAIN, &one(Demand::Knows), Verdict::Holds, &[plain(Route)]),
             &Check::new(PLAIN, &two(Demand::Knows), Verdict::Holds, &[]),
             &Check::new(PLAIN, &three(Demand::Knows), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &one(Demand::Knows), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &two(Demand::Knows), Verdict::Holds, &[]),
+            &Check::new(PLAIN, &lossy(two(Demand::Knows)), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &one(Demand::Knows), Verdict::Holds, &[repaired(Route)]),
+            &Check::new(REPAIRED, &two_repaired(Demand::Knows), Verdict::Holds, &[]),
             &Check::new(REPAIRED, &three(Demand::Knows), Verdict::Holds, &[]),
-            &Check::new(PLAIN, &lossy(Demand::Knows), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &lossy(Demand::Knows), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &lossy(two_repaired(Demand::Knows)), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &lossy(three(Demand::Knows)), Verdict::Holds, &[]),
         ],
     },
     Clause {
@@ -191,16 +219,19 @@ pub static CLAUSES: [Clause; 8] = [
             &Check::new(PUBLISHED, &wrong(Demand::Marks), Verdict::Refuted, &[]),
             &Check::new(PUBLISHED, &OFF_QUARTER, Verdict::Refuted, &[]),
             &Check::new(PUBLISHED, &OFF_LESS, Verdict::Holds, &[]),
-            &Check::new(PLAIN, &OFF_HALF, Verdict::Holds, &[NO_TRACK]),
-            &Check::new(PLAIN, &wrong(Demand::Marks), Verdict::Holds, &[NO_TRACK]),
+            &Check::new(PLAIN, &OFF_HALF, Verdict::Holds, &[plain(Track)]),
+            &Check::new(PLAIN, &wrong(Demand::Marks), Verdict::Holds, &[plain(Track)]),
+            &Check::new(REPAIRED, &OFF_HALF, Verdict::Holds, &[repaired(Track)]),
+            &Check::new(REPAIRED, &wrong(Demand::Marks), Verdict::Holds, &[repaired(Track)]),
             &Check::new(PLAIN, &one(Demand::Marks), Verdict::Holds, &[]),
-            &Check::new(PLAIN, &two(Demand::Marks), Verdict::Holds, &[NO_TELL]),
+            &Check::new(PLAIN, &two(Demand::Marks), Verdict::Holds, &[plain(Tell)]),
             &Check::new(PLAIN, &three(Demand::Marks), Verdict::Holds, &[]),
+            &Check::new(PLAIN, &lossy(two(Demand::Marks)), Verdict::Holds, &[]),
             &Check::new(REPAIRED, &one(Demand::Marks), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &two(Demand::Marks), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &two_repaired(Demand::Marks), Verdict::Holds, &[repaired(Tell)]),
             &Check::new(REPAIRED, &three(Demand::Marks), Verdict::Holds, &[]),
-            &Check::new(PLAIN, &lossy(Demand::Marks), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &lossy(Demand::Marks), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &lossy(two_repaired(Demand::Marks)), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &lossy(three(Demand::Marks)), Verdict::Holds, &[]),
         ],
     },
     Clause {
@@ -226,6 +257,16 @@ pub static CLAUSES: [Clause; 8] = [
             &occupancy::CHECK,
         ],
     },
+    Clause {
+        id: "FRONTIER-9",
+        sentence: "A robot with preferences MUST go to the unexplored cell that it is paired with, and to the one that comes first for it if all are the others'.",
+        checks: &[&Check::new(
+            REPAIRED,
+            &Exhaustive { body: pairs::goes, range: pairs::teams, covers: &pairs::COVERS },
+            Verdict::Holds,
+            &[repaired(Nearer), repaired(Claim), repaired(Corner)],
+        )],
+    },
 ];
 
 #[cfg(test)]
@@ -240,10 +281,10 @@ mod tests {
 
     #[test]
     fn the_checks_come_out_as_they_are_registered() {
+        let mut memory = Memory::default();
         for clause in &CLAUSES {
             for check in clause.checks {
-                let decision =
-                    check.decide(&mut Memory::default(), &mut unwatched).expect("it can be decided");
+                let decision = check.decide(&mut memory, &mut unwatched).expect("it can be decided");
                 assert!(decision.is_as_registered(*check), "{} {check:?}: {decision:?}", clause.id);
             }
         }
@@ -271,7 +312,7 @@ mod tests {
         assert_eq!(told(&smallest::<2>(Demand::Alone), &Rule::PUBLISHED), (cells("3×1"), 2));
         assert_eq!(told(&smallest::<1>(Demand::Ends), &Rule::LITERAL), (cells("2×1"), 2));
         assert_eq!(told(&wrong(Demand::Marks), &Rule::PUBLISHED), (cells("2×1"), 2));
-        let unshared = told(&lossy(Demand::Ends), &NO_SHARE.rule);
+        let unshared = told(&lossy(two(Demand::Ends)), &plain(Share).rule);
         assert_eq!(unshared.0, cells("3×1"));
     }
 
@@ -293,8 +334,9 @@ mod tests {
             states
         }
         assert_eq!(states::<1>((4, 4), 0), 302_543);
-        assert_eq!(states::<2>((3, 3), 1), 1_525_048);
+        assert_eq!(states::<2>((3, 3), 1), 1_545_860);
         assert_eq!(states::<2>((4, 3), 0), 5_268_146);
+        assert_eq!(states::<3>((3, 2), 1), 1_188_479);
         assert_eq!(states::<3>((3, 3), 0), 18_955_238);
     }
 }

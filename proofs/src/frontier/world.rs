@@ -2,6 +2,9 @@
 //! message is lost, and which fix is wrong, are choices. What the clauses demand is in plain arithmetic here; of the
 //! kernel's rule only what robots do is used.
 //!
+//! A robot decides by its own repository and by what the others have told it. A message says what its sender knows, where it takes
+//! itself to be, and which cell it has claimed; a robot that misses a message knows none of the three.
+//!
 //! A move has three steps: a robot goes to the rim of its cell, looks, and arrives. Time is in slots, which count only while a
 //! robot waits for its own. A robot that is under way when a slot begins arrives before that slot is over, and a robot that
 //! has waited for its slot has made its move, or met another one again, before it is over.
@@ -83,6 +86,8 @@ pub struct World<const ROBOTS: usize> {
     robots: [Robot<TinyMap>; ROBOTS],
     /// Where the robots really are.
     cells: [Cell; ROBOTS],
+    /// By robot: what each other one has told it last, if its rule asks for that.
+    told: [[Option<Other>; ROBOTS]; ROBOTS],
     /// What was entered, and the obstacles that were met.
     truth: TinyMap,
     lost: u8,
@@ -97,8 +102,8 @@ pub struct World<const ROBOTS: usize> {
 /// What happens.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Event {
-    /// A robot goes to the rim of its cell.
-    Decides(usize, Side, Cell),
+    /// A robot goes to the rim of its cell on its way to a cell, which it claims; the robots that miss that have a bit each.
+    Decides(usize, Side, Cell, u8),
     /// A robot looks beyond the rim. The robots that miss what it says have a bit each; and the slot that it is when it
     /// begins to wait.
     Looks(usize, Side, Sight, u8, u8),
@@ -192,7 +197,15 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             truth.explore(cell);
         }
         let robots = cells.map(|cell| Robot::new(map, cell, &cells));
-        Some(World { robots, cells, truth, lost: 0, wrong: 0, slot: 0, old: 0, has_tried: false })
+        let told = std::array::from_fn(|to| {
+            std::array::from_fn(|from| (from != to && self.asks()).then(|| says(&robots[from])))
+        });
+        Some(World { robots, cells, told, truth, lost: 0, wrong: 0, slot: 0, old: 0, has_tried: false })
+    }
+
+    /// Whether what the others have told of themselves plays a part in a decision.
+    const fn asks(&self) -> bool {
+        self.rule.has(Condition::Nearer) || !self.rule.has(Condition::Route)
     }
 
     /// Whether an obstacle is given there.
@@ -206,12 +219,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
 
     /// What `robot` does next, if it stands.
     fn next(&self, world: &World<ROBOTS>, robot: usize, slot: Slot, oracle: &mut dyn Oracle) -> Next {
-        let other = |(other, robot): (usize, &Robot<TinyMap>)| {
-            let cell = world.cells[other];
-            Other { cell, place: Place::midpoint(cell), aim: robot.aim() }
-        };
-        let others = world.robots.iter().enumerate().filter(|&(number, _)| number != robot).map(other);
-        let others: Vec<Other> = others.collect();
+        let others: Vec<Other> = world.told[robot].into_iter().flatten().collect();
         let view = View { others: &others, slot };
         let (mut reached, mut queue, mut rounds) =
             ([Reached::NEVER; TinyMap::CELLS], [Cell::new(0, 0); TinyMap::CELLS], 0);
@@ -242,10 +250,10 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
 
     /// Whether `robot` may decide now.
     fn may_decide(&self, world: &World<ROBOTS>, robot: usize) -> bool {
-        let is_kept = world.robots[robot].waits() && (usize::from(world.slot) != robot || world.has_tried);
+        let is_own = usize::from(world.slot) == robot && !world.has_tried;
+        let slot = if is_own { Slot::Own } else { Slot::Others };
         world.robots[robot].stance() == Stance::Stands
-            && !is_kept
-            && matches!(self.would(world, robot), Next::Tries { .. })
+            && matches!(self.next(world, robot, slot, &mut First), Next::Tries { .. })
     }
 
     /// Every step from `world`.
@@ -277,7 +285,12 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let Next::Tries { side, aim } = self.next(world, robot, Slot::Own, oracle) else { return None };
         let mut after = *world;
         after.robots[robot].tries(side, aim);
-        Some(Turned { world: after, event: Event::Decides(robot, side, aim), breaks: Vec::new() })
+        let missed = if self.rule.has(Condition::Claim) {
+            self.tell(&mut after, robot, (aim, Status::Unexplored), u8::MAX, oracle)
+        } else {
+            0
+        };
+        Some(Turned { world: after, event: Event::Decides(robot, side, aim, missed), breaks: Vec::new() })
     }
 
     fn look(
@@ -309,8 +322,9 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
                 missed = self.tell(&mut after, robot, (known, Status::Obstacle), u8::MAX, oracle);
             }
             Sight::Robot => {
+                // Nothing is known of the cell, but that the robot has claimed none any more.
+                missed = self.tell(&mut after, robot, (cell, Status::Unexplored), u8::MAX, oracle);
                 if self.rule.has(Condition::Share) {
-                    missed = self.tell(&mut after, robot, (cell, Status::Unexplored), met, oracle);
                     for other in (0..ROBOTS).filter(|other| met >> other & 1 == 1) {
                         let to = 1 << robot;
                         missed |= self.tell(&mut after, other, (cell, Status::Unexplored), to, oracle);
@@ -370,7 +384,8 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         Turned { world: after, event: Event::Arrives(robot, fix, missed), breaks }
     }
 
-    /// `from` tells the robots in `to` what is new, or all that it knows. Those that miss it have a bit each.
+    /// `from` tells the robots in `to` where it is, what it has claimed, and what is new, or all that it knows. Those that miss it
+    /// have a bit each.
     fn tell(
         &self,
         world: &mut World<ROBOTS>,
@@ -379,13 +394,16 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         to: u8,
         oracle: &mut dyn Oracle,
     ) -> u8 {
-        let map = *world.robots[from].map();
+        let (map, said) = (*world.robots[from].map(), says(&world.robots[from]));
         let mut missed = 0;
         for other in (0..ROBOTS).filter(|&other| other != from && to >> other & 1 == 1) {
             if world.lost < self.max_losses && oracle.mishap() {
                 world.lost += 1;
                 missed |= 1 << other;
-            } else if self.rule.has(Condition::Share) {
+                continue;
+            }
+            world.told[other][from] = self.asks().then_some(said);
+            if self.rule.has(Condition::Share) {
                 world.robots[other].map_mut().join(&map);
             } else {
                 world.robots[other].hears(cell, status);
@@ -414,6 +432,11 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let entered = self.area.cells().filter(|&cell| world.truth.status(cell) == Status::Explored);
         entered.flat_map(|cell| Side::ALL.map(|side| cell.beyond(side))).any(is_left)
     }
+}
+
+/// What a robot says of itself.
+fn says(robot: &Robot<TinyMap>) -> Other {
+    Other { cell: robot.at(), place: Place::midpoint(robot.at()), aim: robot.aim() }
 }
 
 /// An oracle that always takes the first.

@@ -1,12 +1,14 @@
 //! The clauses of pack exploration, in the order of `SPEC.md`.
 
-use tautline_kernel::pack::Condition::{Back, Connect, Corners, Double, Lead, Single};
+use tautline_kernel::pack::Condition::{Anew, Back, Connect, Corners, Double, Lead, Single};
 use tautline_kernel::pack::Rule;
 
-use super::floors::{Bounds, Floors, Size, Starts};
-use super::played::Demand;
+use super::floors::{Bounds, Drawing, Floors, Size, Starts};
+use super::gains::Gains;
+use super::played::{Demand, SITUATIONS};
+use super::rays::{self, Rays};
 use crate::clause::{Check, Clause, Named};
-use crate::decide::Verdict;
+use crate::decide::{Exhaustive, Verdict};
 
 const PUBLISHED: Named<Rule> = Named::new("published", Rule::PUBLISHED);
 const REPAIRED: Named<Rule> = Named::new("repaired", Rule::REPAIRED);
@@ -17,6 +19,8 @@ const NO_SINGLE: Named<Rule> = Named::new("robots share cells", Rule::REPAIRED.w
 const NO_LEAD: Named<Rule> = Named::new("nobody leads", Rule::REPAIRED.without(Lead));
 const NO_BACK: Named<Rule> = Named::new("no move is taken back", Rule::REPAIRED.without(Back));
 const NO_DOUBLE: Named<Rule> = Named::new("always one move is taken back", Rule::REPAIRED.without(Double));
+const NO_ANEW: Named<Rule> =
+    Named::new("ways are kept when a move is taken back", Rule::REPAIRED.without(Anew));
 
 /// Any number of obstacles.
 const ALL: u32 = u64::BITS;
@@ -55,8 +59,36 @@ const FEW: [(Size, u32); 10] = [
     ((5, 2), ALL),
 ];
 
+/// Floors on which no two cells are R_c apart: whether robots are linked does not rest on equality.
+const NARROW: [(Size, u32); 8] = [
+    ((2, 1), ALL),
+    ((3, 1), ALL),
+    ((2, 2), ALL),
+    ((4, 1), ALL),
+    ((3, 2), ALL),
+    ((4, 2), ALL),
+    ((3, 3), ALL),
+    ((4, 3), ALL),
+];
+
+/// The floors of robots that see two cells far.
+const FAR: [(Size, u32); 8] = [
+    ((4, 1), ALL),
+    ((3, 2), ALL),
+    ((4, 2), ALL),
+    ((3, 3), ALL),
+    ((5, 2), ALL),
+    ((4, 3), ALL),
+    ((5, 3), 4),
+    ((5, 4), 2),
+];
+
+/// The floors on which gains are compared.
+const CHOOSING: [(Size, u32); 6] =
+    [((6, 1), ALL), ((4, 2), ALL), ((3, 3), ALL), ((5, 2), ALL), ((4, 3), 4), ((5, 4), 1)];
+
 /// The floors of three.
-const THREE: [(Size, u32); 8] = [
+const THREE: [(Size, u32); 9] = [
     ((3, 1), ALL),
     ((2, 2), ALL),
     ((4, 1), ALL),
@@ -65,7 +97,11 @@ const THREE: [(Size, u32); 8] = [
     ((3, 3), ALL),
     ((5, 2), ALL),
     ((4, 3), 4),
+    ((5, 3), 2),
 ];
+
+/// Floors on which three robots lead, take back and march.
+const LEADING: [Drawing; 2] = [&[".....", ".##.#", "..#.."], &["...", "#.#", "...", ".#.", "...", "..."]];
 
 /// Floors without obstacles.
 const OPEN: [(Size, u32); 12] = [
@@ -83,10 +119,21 @@ const OPEN: [(Size, u32); 12] = [
     ((5, 5), 0),
 ];
 
-const SMALLEST: Bounds =
-    Bounds { sizes: &TWO, robots: 2, sight_cells: 1, range_cells: 3, starts: Starts::Beside };
+const SMALLEST: Bounds = Bounds {
+    gains: Gains::Unseen,
+    sizes: &TWO,
+    drawn: &[],
+    robots: 2,
+    sight_cells: 1,
+    range_cells: 3,
+    starts: Starts::Beside,
+};
 const OF_FEW: Bounds = Bounds { sizes: &FEW, ..SMALLEST };
-const OF_THREE: Bounds = Bounds { sizes: &THREE, robots: 3, ..SMALLEST };
+const NO_TIES: Bounds = Bounds { sizes: &NARROW, range_cells: 4, ..SMALLEST };
+const OF_THREE: Bounds = Bounds { sizes: &THREE, drawn: &LEADING, robots: 3, ..SMALLEST };
+/// Choices are looked at on smaller floors.
+const OF_GAINS: Bounds = Bounds { sizes: &CHOOSING, gains: Gains::Compared, ..SMALLEST };
+const FAR_SIGHTED: Bounds = Bounds { sizes: &FAR, sight_cells: 2, ..SMALLEST };
 const ANYWHERE: Bounds = Bounds { starts: Starts::Linked, ..OF_FEW };
 const ANYWHERE_IN_THE_OPEN: Bounds = Bounds { sizes: &OPEN, ..ANYWHERE };
 
@@ -94,22 +141,34 @@ const fn demand(bounds: Bounds, demand: Demand) -> Floors {
     Floors { bounds, demand, covers: &[] }
 }
 
+/// The same where robots must lead, take back and march.
+const fn wholly(bounds: Bounds, demand: Demand) -> Floors {
+    Floors { bounds, demand, covers: &SITUATIONS }
+}
+
+/// The same of two robots that see two cells far, which must lead and take back.
+const fn far(demand: Demand) -> Floors {
+    const COVERS: [&str; 3] = [SITUATIONS[0], SITUATIONS[1], SITUATIONS[2]];
+    Floors { bounds: FAR_SIGHTED, demand, covers: &COVERS }
+}
+
 /// The clauses of pack exploration.
-pub static CLAUSES: [Clause; 5] = [
+pub static CLAUSES: [Clause; 8] = [
     Clause {
         id: "PACK-1",
         sentence: "After every team move, links MUST join all robots of a pack: robots are linked if the whole cell of one is within R_c of the midpoint of the other's.",
         checks: &[
-            &Check::new(PUBLISHED, &demand(OF_FEW, Demand::Connected), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &demand(NO_TIES, Demand::Connected), Verdict::Refuted, &[]),
             &Check::new(
                 REPAIRED,
-                &demand(SMALLEST, Demand::Connected),
+                &wholly(SMALLEST, Demand::Connected),
                 Verdict::Holds,
                 &[NO_CONNECT, NO_CORNERS],
             ),
+            &Check::new(REPAIRED, &far(Demand::Connected), Verdict::Holds, &[NO_CONNECT, NO_CORNERS]),
             &Check::new(
                 REPAIRED,
-                &demand(OF_THREE, Demand::Connected),
+                &wholly(OF_THREE, Demand::Connected),
                 Verdict::Holds,
                 &[NO_CONNECT, NO_CORNERS],
             ),
@@ -120,8 +179,9 @@ pub static CLAUSES: [Clause; 5] = [
         sentence: "Two robots of a pack MUST never be in one cell.",
         checks: &[
             &Check::new(PUBLISHED, &demand(OF_FEW, Demand::Single), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &demand(SMALLEST, Demand::Single), Verdict::Holds, &[NO_SINGLE]),
-            &Check::new(REPAIRED, &demand(OF_THREE, Demand::Single), Verdict::Holds, &[NO_SINGLE]),
+            &Check::new(REPAIRED, &wholly(SMALLEST, Demand::Single), Verdict::Holds, &[NO_SINGLE]),
+            &Check::new(REPAIRED, &far(Demand::Single), Verdict::Holds, &[NO_SINGLE]),
+            &Check::new(REPAIRED, &wholly(OF_THREE, Demand::Single), Verdict::Holds, &[NO_SINGLE]),
         ],
     },
     Clause {
@@ -129,8 +189,9 @@ pub static CLAUSES: [Clause; 5] = [
         sentence: "When the run of a pack whose robots start side by side ends, every free cell that a robot can walk to MUST be explored.",
         checks: &[
             &Check::new(PUBLISHED, &demand(OF_FEW, Demand::Covers), Verdict::Refuted, &[]),
-            &Check::new(REPAIRED, &demand(SMALLEST, Demand::Covers), Verdict::Holds, &[NO_LEAD, NO_BACK]),
-            &Check::new(REPAIRED, &demand(OF_THREE, Demand::Covers), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &wholly(SMALLEST, Demand::Covers), Verdict::Holds, &[NO_LEAD, NO_BACK]),
+            &Check::new(REPAIRED, &far(Demand::Covers), Verdict::Holds, &[NO_LEAD, NO_BACK]),
+            &Check::new(REPAIRED, &wholly(OF_THREE, Demand::Covers), Verdict::Holds, &[NO_LEAD, NO_BACK]),
         ],
     },
     Clause {
@@ -138,8 +199,9 @@ pub static CLAUSES: [Clause; 5] = [
         sentence: "Every run of a pack MUST end.",
         checks: &[
             &Check::new(PUBLISHED, &demand(OF_FEW, Demand::Ends), Verdict::Holds, &[]),
-            &Check::new(REPAIRED, &demand(SMALLEST, Demand::Ends), Verdict::Holds, &[NO_DOUBLE]),
-            &Check::new(REPAIRED, &demand(OF_THREE, Demand::Ends), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &wholly(SMALLEST, Demand::Ends), Verdict::Holds, &[NO_DOUBLE]),
+            &Check::new(REPAIRED, &far(Demand::Ends), Verdict::Holds, &[NO_DOUBLE]),
+            &Check::new(REPAIRED, &wholly(OF_THREE, Demand::Ends), Verdict::Holds, &[NO_DOUBLE]),
         ],
     },
     Clause {
@@ -148,6 +210,43 @@ pub static CLAUSES: [Clause; 5] = [
         checks: &[
             &Check::new(REPAIRED, &demand(ANYWHERE_IN_THE_OPEN, Demand::Covers), Verdict::Holds, &[NO_LEAD]),
             &Check::new(REPAIRED, &demand(ANYWHERE, Demand::Covers), Verdict::Refuted, &[]),
+        ],
+    },
+    Clause {
+        id: "PACK-6",
+        sentence: "A robot of a pack MUST always be in a free cell, and in a team move go one step at most.",
+        checks: &[
+            &Check::new(PUBLISHED, &demand(OF_FEW, Demand::Free), Verdict::Holds, &[]),
+            &Check::new(REPAIRED, &wholly(SMALLEST, Demand::Free), Verdict::Holds, &[NO_ANEW]),
+            &Check::new(REPAIRED, &far(Demand::Free), Verdict::Holds, &[NO_ANEW]),
+            &Check::new(REPAIRED, &wholly(OF_THREE, Demand::Free), Verdict::Holds, &[NO_ANEW]),
+        ],
+    },
+    Clause {
+        id: "PACK-7",
+        sentence: "A robot of a pack MUST see a cell within R_s if and only if a ray goes there.",
+        checks: &[&Check::new(
+            Named::new("published", Rays::Stopped),
+            &Exhaustive { body: rays::sees, range: rays::views, covers: &rays::COVERS },
+            Verdict::Holds,
+            &[
+                Named::new("a ray passes between two obstacles", Rays::PassCorners),
+                Named::new("one obstacle at a corner stops a ray", Rays::StopAtCorners),
+                Named::new("no obstacle is seen", Rays::SeeNoObstacle),
+            ],
+        )],
+    },
+    Clause {
+        id: "PACK-8",
+        sentence: "A robot of a pack that goes its own way MUST choose a frontier cell whose metric gain no other cell that it may go to exceeds.",
+        checks: &[
+            &Check::new(REPAIRED, &demand(OF_GAINS, Demand::Best), Verdict::Holds, &[NO_CORNERS]),
+            &Check::new(
+                REPAIRED,
+                &demand(Bounds { sight_cells: 2, ..OF_GAINS }, Demand::Best),
+                Verdict::Holds,
+                &[NO_CORNERS],
+            ),
         ],
     },
 ];
@@ -175,6 +274,6 @@ mod tests {
             floors.push(story.lines().nth(1).expect("a row").to_owned());
             assert_eq!(check.replay(&found.choices).expect("it is one").evidence, found);
         }
-        assert_eq!(floors, ["..12..", "..12.", "1#2.."]);
+        assert_eq!(floors, ["..#.", "..12.", "1#2.."]);
     }
 }

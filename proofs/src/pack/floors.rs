@@ -1,9 +1,10 @@
-//! All small floors: every set of obstacles and all starts (PACK-1 to PACK-5). A rule of a pack leaves nothing to chance, so there is one
+//! All small floors: every set of obstacles and all starts (PACK-1 to PACK-6, PACK-8). A rule of a pack leaves nothing to chance, so there is one
 //! run for each. A counterexample has the fewest cells, and of these the fewest obstacles.
 
 use tautline_kernel::ground::{Area, Cell, neighbours};
 use tautline_kernel::pack::Rule;
 
+use super::gains::Gains;
 use super::played::{Demand, Floor, play, story};
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen, Verdict};
 use crate::engine::{Choices, Script, Unfit, Until, cover};
@@ -11,6 +12,9 @@ use crate::words::counted;
 
 /// Columns and rows.
 pub(super) type Size = (i16, i16);
+
+/// The rows of a floor: `#` is an obstacle.
+pub(super) type Drawing = &'static [&'static str];
 
 /// Where robots start.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -26,10 +30,13 @@ pub(super) enum Starts {
 pub(super) struct Bounds {
     /// Fewest cells first, each with the most obstacles.
     pub(super) sizes: &'static [(Size, u32)],
+    /// And these floors.
+    pub(super) drawn: &'static [Drawing],
     pub(super) robots: usize,
     pub(super) sight_cells: u16,
     pub(super) range_cells: u16,
     pub(super) starts: Starts,
+    pub(super) gains: Gains,
 }
 
 /// Floors, and what is demanded of a pack there.
@@ -63,11 +70,22 @@ impl Bounds {
             .ok_or_else(|| Refused::new("a floor has from 1 to 63 cells"))
     }
 
-    /// The sets of obstacles on a floor of so many cells, the fewest first.
-    fn obstacles(cells: usize, most: u32) -> Vec<u64> {
+    /// How many sizes and drawings there are.
+    const fn count(&self) -> usize {
+        self.sizes.len() + self.drawn.len()
+    }
+
+    /// The area of the size or drawing with this number, and the sets of obstacles there, the fewest first.
+    fn layouts(&self, number: usize) -> Result<(Area, Vec<u64>), Refused> {
+        let Some(&(size, most)) = self.sizes.get(number) else {
+            let drawing = self.drawn.get(number - self.sizes.len()).copied().unwrap_or_default();
+            return Ok((Self::area(size_of(drawing))?, vec![obstacles_of(drawing)]));
+        };
+        let area = Self::area(size)?;
+        let cells = area.width() * area.height();
         let mut sets: Vec<u64> = (0..1_u64 << cells).filter(|set| set.count_ones() <= most).collect();
         sets.sort_by_key(|set| (set.count_ones(), *set));
-        sets
+        Ok((area, sets))
     }
 
     /// The starts among the free cells.
@@ -93,13 +111,13 @@ impl Bounds {
     fn search(&self, rule: &Rule, until: Option<Demand>) -> Result<Found, Refused> {
         let rule = self.rule(rule)?;
         let mut found = Found { runs: 0, covered: Vec::new(), broken: [None; Demand::ALL.len()] };
-        for (number, &(size, most)) in self.sizes.iter().enumerate() {
-            let area = Self::area(size)?;
-            for (set, obstacles) in
-                Self::obstacles(area.width() * area.height(), most).into_iter().enumerate()
-            {
+        for number in 0..self.count() {
+            let (area, sets) = self.layouts(number)?;
+            for (set, obstacles) in sets.into_iter().enumerate() {
                 for (start, starts) in self.starts(area, obstacles).into_iter().enumerate() {
-                    let Some(played) = play(&rule, &Floor { area, obstacles, starts }) else { continue };
+                    let Some(played) = play(&rule, &Floor { area, obstacles, starts }, self.gains) else {
+                        continue;
+                    };
                     found.runs += 1;
                     for situation in played.covered {
                         cover(&mut found.covered, situation);
@@ -117,6 +135,20 @@ impl Bounds {
     }
 }
 
+/// The columns and rows of a drawing.
+const fn size_of(drawing: Drawing) -> Size {
+    match drawing {
+        [first, ..] => (first.len() as i16, drawing.len() as i16),
+        [] => (0, 0),
+    }
+}
+
+/// The obstacles of a drawing, a bit for each cell.
+fn obstacles_of(drawing: Drawing) -> u64 {
+    let cells = drawing.iter().flat_map(|row| row.bytes());
+    (0..).zip(cells).filter(|&(_, sign)| sign == b'#').fold(0, |set, (place, _)| set | 1 << place)
+}
+
 /// Whether the cells share sides and are one set.
 fn is_one(cells: &[Cell]) -> bool {
     let mut left = cells.to_vec();
@@ -131,13 +163,11 @@ impl Floors {
     /// The refutation by the run on one floor; `None` if it breaks something else, or nothing.
     fn evidence(&self, rule: &Rule, [number, set, start]: Place) -> Result<Option<Evidence>, Refused> {
         let rule = self.bounds.rule(rule)?;
-        let Some(&(size, most)) = self.bounds.sizes.get(number) else { return Ok(None) };
-        let area = Bounds::area(size)?;
-        let obstacles = Bounds::obstacles(area.width() * area.height(), most).into_iter().nth(set);
-        let Some(obstacles) = obstacles else { return Ok(None) };
+        let (area, sets) = self.bounds.layouts(number)?;
+        let Some(&obstacles) = sets.get(set) else { return Ok(None) };
         let starts = self.bounds.starts(area, obstacles).into_iter().nth(start);
         let floor = starts.map(|starts| Floor { area, obstacles, starts });
-        let run = floor.and_then(|floor| Some((play(&rule, &floor)?, floor)));
+        let run = floor.and_then(|floor| Some((play(&rule, &floor, self.bounds.gains)?, floor)));
         let run = run.filter(|(played, _)| played.broken.contains(&self.demand));
         Ok(run.map(|(played, floor)| Evidence {
             choices: Choices {
@@ -156,10 +186,14 @@ impl Method<Rule> for Floors {
     }
 
     fn bound(&self) -> String {
-        let Bounds { sizes, robots, sight_cells, range_cells, starts } = self.bounds;
+        let Bounds { sizes, drawn, robots, sight_cells, range_cells, starts, gains: _ } = self.bounds;
         let is_any = |((width, height), most): (Size, u32)| most >= (width * height) as u32;
         let of_a_kind =
             |one: &(Size, u32), other: &(Size, u32)| one.1 == other.1 || is_any(*one) && is_any(*other);
+        let drawn = drawn.iter().map(|&drawing| {
+            let ((width, height), obstacles) = (size_of(drawing), obstacles_of(drawing).count_ones());
+            format!("{} drawn in {width}×{height} cells", counted(obstacles, "obstacle"))
+        });
         let floors: Vec<String> = sizes
             .chunk_by(of_a_kind)
             .map(|sizes| {
@@ -172,6 +206,7 @@ impl Method<Rule> for Floors {
                     sizes.iter().map(|((width, height), _)| format!("{width}×{height}")).collect();
                 format!("{obstacles} in {} cells", sizes.join(", "))
             })
+            .chain(drawn)
             .collect();
         let starts = match starts {
             Starts::Beside => "side by side",
@@ -209,15 +244,13 @@ impl Method<Rule> for Floors {
 
     fn replay(&self, rule: &Rule, choices: &Choices) -> Result<Played, Unfit> {
         let mut script = Script::new(choices);
-        let number = script.choose(self.bounds.sizes.len())?;
-        let (size, most) = self.bounds.sizes[number];
-        let area = Bounds::area(size).map_err(|_| Unfit::Unbroken)?;
-        let sets = Bounds::obstacles(area.width() * area.height(), most);
+        let number = script.choose(self.bounds.count())?;
+        let (area, sets) = self.bounds.layouts(number).map_err(|_| Unfit::Unbroken)?;
         let set = script.choose(sets.len())?;
         let starts = self.bounds.starts(area, sets[set]).len();
         let start = script.choose(starts)?;
         let evidence = self.evidence(rule, [number, set, start]).ok().flatten().ok_or(Unfit::Unbroken)?;
-        let of = [self.bounds.sizes.len(), sets.len(), starts].map(|of| of as u32).to_vec();
+        let of = [self.bounds.count(), sets.len(), starts].map(|of| of as u32).to_vec();
         Ok(Played { of, evidence })
     }
 }

@@ -2,13 +2,18 @@
 
 use std::fmt::Write;
 
-use tautline_kernel::ground::{Area, Cell, Circle, Side, Step};
+use tautline_kernel::ground::{Area, Cell, Circle, Side, Step, neighbours};
 use tautline_kernel::pack::{Chart, MAX_ROBOTS, Made, Past, Rule, Scratch, Team};
 
+use super::gains::{Gains, are_best};
 use crate::words::counted;
 
 /// Team moves at which a run on a small floor counts as endless.
 pub(super) const MOST_MOVES: usize = 1000;
+
+/// What a team move may be.
+pub(super) const SITUATIONS: [&str; 4] =
+    ["each goes its way", "one leads", "a move is taken back", "a caterpillar"];
 
 /// What is demanded of a pack.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -21,10 +26,15 @@ pub(super) enum Demand {
     Covers,
     /// The run ends.
     Ends,
+    /// Robots are in free cells, and go one step at most.
+    Free,
+    /// A robot goes where the metric gain is greatest.
+    Best,
 }
 
 impl Demand {
-    pub(super) const ALL: [Self; 4] = [Self::Connected, Self::Single, Self::Covers, Self::Ends];
+    pub(super) const ALL: [Self; 6] =
+        [Self::Connected, Self::Single, Self::Covers, Self::Ends, Self::Free, Self::Best];
 
     pub(super) const fn words(self) -> &'static str {
         match self {
@@ -32,6 +42,8 @@ impl Demand {
             Self::Single => "two robots are in one cell",
             Self::Covers => "a cell within reach is unexplored",
             Self::Ends => "the run goes on",
+            Self::Free => "a robot is in no free cell, or has gone more than one step",
+            Self::Best => "a robot goes where the metric gain is less than elsewhere",
         }
     }
 }
@@ -134,7 +146,7 @@ fn is_joined(cells: &[Cell], range_cells: u16) -> bool {
 }
 
 /// Runs a pack of `rule` on `floor`; `None` if the robots are no pack there.
-pub(super) fn play(rule: &Rule, floor: &Floor) -> Option<Played> {
+pub(super) fn play(rule: &Rule, floor: &Floor, choices: Gains) -> Option<Played> {
     let area = floor.area;
     let cells = area.width() * area.height();
     let mut team = Team::new(*rule, &floor.starts).ok()?;
@@ -164,17 +176,29 @@ pub(super) fn play(rule: &Rule, floor: &Floor) -> Option<Played> {
         }
         let mut memory =
             Scratch { reached: &mut reached, queue: &mut queue, gains: &mut gains, rounds: &mut rounds };
+        let (before, aims) = (team.cells().to_vec(), team.aims().collect::<Vec<_>>());
         let Ok(made) = team.advance(&chart, &mut past, &mut memory, &mut steps) else { break };
         let now = team.cells().to_vec();
+        let is_step =
+            |(&from, &to): (&Cell, &Cell)| floor.is_free(to) && (from == to || neighbours(from, to));
+        breaks(&mut played.broken, Demand::Free, !before.iter().zip(&now).all(is_step));
+        if made == Made::Spread && choices == Gains::Compared {
+            // A robot that has gone its own way keeps its aim as long as that is a frontier cell.
+            let has_spread = played.moves.last().is_none_or(|&(last, _)| last == Made::Spread);
+            let is_kept = |&aim: &Cell| has_spread && chart.is_frontier(aim);
+            let kept: Vec<Option<Cell>> = aims.into_iter().map(|aim| aim.filter(is_kept)).collect();
+            let chosen: Vec<Option<Cell>> = team.aims().collect();
+            breaks(&mut played.broken, Demand::Best, !are_best(rule, &chart, &before, &kept, &chosen));
+        }
         let is_double = now.iter().enumerate().any(|(robot, cell)| now[..robot].contains(cell));
         breaks(&mut played.broken, Demand::Connected, !is_joined(&now, rule.range_cells()));
         breaks(&mut played.broken, Demand::Single, is_double);
-        let situation = match made {
-            Made::Spread => "each goes its way",
-            Made::Led(_) => "one leads",
-            Made::TakenBack => "a move is taken back",
-            Made::Marched => "a caterpillar",
-        };
+        let situation = SITUATIONS[match made {
+            Made::Spread => 0,
+            Made::Led(_) => 1,
+            Made::TakenBack => 2,
+            Made::Marched => 3,
+        }];
         if !played.covered.contains(&situation) {
             played.covered.push(situation);
         }

@@ -1,0 +1,152 @@
+//! Which unexplored cell a robot goes to by what it knows and what the others have told it (FRONTIER-9): here all pairs of robots and
+//! cells are written down, put in order, and taken one after the other.
+
+use std::collections::VecDeque;
+
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::frontier::{
+    Condition, Map, Next, Other, Place, Reached, Robot, Rule, Scratch, Sight, Slot, Status, TinyMap, View,
+};
+use tautline_kernel::ground::{Area, Cell, Side};
+
+use crate::engine::{Outcome, Stop, Tape, require};
+use crate::words::counted;
+
+/// Columns and rows.
+const SIZE: (i16, i16) = (3, 2);
+
+const CELLS: usize = (SIZE.0 * SIZE.1) as usize;
+
+/// The most robots.
+const ROBOTS: usize = 3;
+
+/// The situations that must occur.
+pub(super) const COVERS: [&str; 3] = ["a pair of its own", "all cells are the others'", "no cell"];
+
+/// What [`goes`] looks at.
+pub(super) fn teams() -> String {
+    format!(
+        "every map of {}×{} cells, all cells and claims of at most {}",
+        SIZE.0,
+        SIZE.1,
+        counted(ROBOTS as u64, "robot")
+    )
+}
+
+/// A robot as another one knows it: its cell, and the cell that it has claimed.
+type Known = (Cell, Option<Cell>);
+
+/// FRONTIER-9: the first of some robots decides.
+///
+/// # Errors
+/// [`Stop`] if the clause is broken.
+pub(super) fn goes(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
+    let area = Area::new(Cell::new(0, 0), Cell::new(SIZE.0 - 1, SIZE.1 - 1)).ok_or(Stop::Assumed)?;
+    let cells: Vec<Cell> = area.cells().collect();
+    let robots = 1 + oracle.pick(ROBOTS as u32);
+    let places: Vec<Cell> = (0..robots).map(|_| cells[oracle.pick(CELLS as u32) as usize]).collect();
+    let mut map = TinyMap::new(area).ok_or(Stop::Assumed)?;
+    for &cell in &cells {
+        if places.contains(&cell) {
+            map.explore(cell);
+            continue;
+        }
+        match oracle.pick(3) {
+            0 => {}
+            1 => map.explore(cell),
+            _ => map.block(cell),
+        }
+    }
+    let left: Vec<Cell> =
+        cells.iter().copied().filter(|&cell| map.status(cell) == Status::Unexplored).collect();
+    let team: Vec<Known> = places
+        .into_iter()
+        .map(|cell| (cell, left.get(oracle.pick(left.len() as u32 + 1) as usize).copied()))
+        .collect();
+    let (paired, nearest) = expected(&map, &team);
+    let next = next(rule, map, &team);
+    match (next, paired.or(nearest)) {
+        (Next::Done, None) => Ok("no cell"),
+        (Next::Tries { side, aim }, Some(cell)) => {
+            require(
+                aim == cell,
+                "a robot goes to the cell of its own pair, or to the nearest if it has none",
+            )?;
+            let (at, _) = team[0];
+            let is_nearer = ways(&map, at.beyond(side), cell) < ways(&map, at, cell);
+            require(is_nearer, "its first move is one of a shortest way")?;
+            Ok(if paired.is_some() { "a pair of its own" } else { "all cells are the others'" })
+        }
+        _ => Err(Stop::Violated("a robot goes as long as it reaches an unexplored cell, and no longer")),
+    }
+}
+
+/// What the first of the robots does next.
+fn next(rule: &Rule, map: TinyMap, team: &[Known]) -> Next {
+    let (at, aim) = team[0];
+    let mut own = Robot::new(map, at, &[]);
+    let claimed = aim.or_else(|| map.area().cells().find(|&cell| map.status(cell) == Status::Unexplored));
+    if let Some(claimed) = claimed {
+        own.tries(Side::East, claimed);
+    }
+    // A robot keeps what it has claimed when it arrives; its fix says that it is where it was. It has claimed nothing any more when it
+    // has met another robot.
+    own.looked(rule, if aim.is_some() { Sight::Open } else { Sight::Robot });
+    own.arrived(&rule.without(Condition::Track), at);
+    let other = |&(cell, aim): &Known| Other { cell, place: Place::midpoint(cell), aim };
+    let others: Vec<Other> = team.iter().skip(1).map(other).collect();
+    let (mut reached, mut queue) = ([Reached::NEVER; CELLS], [Cell::new(0, 0); CELLS]);
+    let (mut rounds, mut pairs) = (0, [None; ROBOTS * ROBOTS]);
+    let mut scratch =
+        Scratch { reached: &mut reached, queue: &mut queue, rounds: &mut rounds, pairs: &mut pairs };
+    own.next(rule, View { others: &others, slot: Slot::Own }, &mut scratch, &mut Tape(&[]))
+}
+
+/// The cell that the first of the robots is paired with, and the one that comes first for it alone.
+fn expected(map: &TinyMap, team: &[Known]) -> (Option<Cell>, Option<Cell>) {
+    let mut pairs = Vec::new();
+    for (robot, &(at, aim)) in team.iter().enumerate() {
+        // Robots in one cell count as one, of which the first has a say.
+        if team[..robot].iter().any(|&(cell, _)| cell == at) {
+            continue;
+        }
+        for cell in map.area().cells().filter(|&cell| map.status(cell) == Status::Unexplored) {
+            let Some(distance) = ways(map, at, cell) else { continue };
+            let beside = Side::ALL.map(|side| map.status(cell.beyond(side)));
+            let unexplored = beside.into_iter().filter(|&status| status == Status::Unexplored).count();
+            let to_rim = cell.x.min(cell.y).min(SIZE.0 - 1 - cell.x).min(SIZE.1 - 1 - cell.y);
+            let order = (distance, aim != Some(cell), unexplored, to_rim, (at.y, at.x), (cell.y, cell.x));
+            pairs.push((order, robot, cell));
+        }
+    }
+    pairs.sort_unstable();
+    let nearest = pairs.iter().find(|&&(_, robot, _)| robot == 0).map(|&(.., cell)| cell);
+    let mut taken: Vec<(usize, Cell)> = Vec::new();
+    for (_, robot, cell) in pairs {
+        if taken.iter().all(|&(other, known)| other != robot && known != cell) {
+            taken.push((robot, cell));
+        }
+    }
+    (taken.into_iter().find(|&(robot, _)| robot == 0).map(|(_, cell)| cell), nearest)
+}
+
+/// The fewest moves from a cell through explored ones to another cell; `None` if there is no way.
+fn ways(map: &TinyMap, from: Cell, to: Cell) -> Option<u32> {
+    let mut left = VecDeque::from([(from, 0)]);
+    let mut known = vec![from];
+    while let Some((cell, far)) = left.pop_front() {
+        if cell == to {
+            return Some(far);
+        }
+        if map.status(cell) != Status::Explored {
+            continue;
+        }
+        for beyond in Side::ALL.map(|side| cell.beyond(side)) {
+            if map.area().contains(beyond) && !known.contains(&beyond) {
+                known.push(beyond);
+                left.push_back((beyond, far + 1));
+            }
+        }
+    }
+    None
+}
