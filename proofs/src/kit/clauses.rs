@@ -94,8 +94,12 @@ const fn side_by_side(demand: Demand) -> Lattices<3> {
 
 const AT_EQUAL_SPEEDS: Lattices<2> =
     Lattices { sizes: &ROWS, speeds: Speeds::Equal, ..published(Demand::Contact) };
-const REPAIRED_AT_EQUAL_SPEEDS: Lattices<2> =
-    Lattices { speeds: Speeds::Equal, pass: Pass::Alone, ..repaired(Demand::Contact) };
+const APART_AT_EQUAL_SPEEDS: Lattices<2> =
+    Lattices { sizes: &SMALL, speeds: Speeds::Equal, ..published(Demand::Apart) };
+
+const fn repaired_at_equal_speeds(demand: Demand) -> Lattices<2> {
+    Lattices { speeds: Speeds::Equal, pass: Pass::Alone, ..repaired(demand) }
+}
 
 /// Two robots that talk, none of whose messages is lost or comes twice.
 const fn talks(rule: &Rule, demand: talks::Demand) -> Talks {
@@ -151,7 +155,12 @@ pub static CLAUSES: [Clause; 13] = [
         sentence: "Two robots that drive at equal speeds MUST hear each other all the time.",
         checks: &[
             &Check::new(PUBLISHED, &AT_EQUAL_SPEEDS, Verdict::Refuted, &[]),
-            &Check::new(REPAIRED, &REPAIRED_AT_EQUAL_SPEEDS, Verdict::Holds, &[NO_NEXT, NO_STAY, OLD_PATHS]),
+            &Check::new(
+                REPAIRED,
+                &repaired_at_equal_speeds(Demand::Contact),
+                Verdict::Holds,
+                &[NO_NEXT, NO_STAY, OLD_PATHS],
+            ),
         ],
     },
     Clause {
@@ -160,7 +169,14 @@ pub static CLAUSES: [Clause; 13] = [
         checks: &[
             &apart::CHECK,
             &Check::new(PUBLISHED, &published(Demand::Apart), Verdict::Refuted, &[]),
+            &Check::new(PUBLISHED, &APART_AT_EQUAL_SPEEDS, Verdict::Refuted, &[]),
             &Check::new(REPAIRED, &repaired(Demand::Apart), Verdict::Holds, &[NOT_APART, NO_STAY]),
+            &Check::new(
+                REPAIRED,
+                &repaired_at_equal_speeds(Demand::Apart),
+                Verdict::Holds,
+                &[NOT_APART, NO_STAY],
+            ),
         ],
     },
     Clause {
@@ -320,6 +336,7 @@ mod tests {
         assert_eq!(story(&published(Demand::Contact), &Rule::PUBLISHED), (5, size("5×1")));
         assert_eq!(story(&published(Demand::Contact), &AHEAD), (4, size("5×1")));
         assert_eq!(story(&published(Demand::Apart), &Rule::PUBLISHED), (3, size("3×1")));
+        assert_eq!(story(&APART_AT_EQUAL_SPEEDS, &Rule::PUBLISHED), (4, size("3×1")));
         assert_eq!(story(&published(Demand::Moves), &Rule::PUBLISHED), (1, size("3×1")));
     }
 }
