@@ -30,6 +30,7 @@ Examples:
   tautline hunt --rule published --robots 4 --max-walls 4 --out counterexamples
   tautline hunt --rule repaired --robots 4 --max-walls 4 --format json
   tautline hunt --robots 5 --max-walls 8 --budget 100000000 --resume hunt.json
+  tautline hunt --rule published --robots 4 --max-cells 12 --max-walls 3
   tautline hunt --robots 5 --max-walls 4 --plan plan.json --shards 64
   tautline hunt --plan plan.json --shard 1
   tautline hunt --scheme bricks --max-misses 2
@@ -59,6 +60,10 @@ pub(super) struct Hunt {
     /// Most walls that a chain meets in one run, 4 unless this says otherwise; the border is not counted.
     #[arg(long, value_name = "K", value_parser = whole::<u32>)]
     max_walls: Option<u32>,
+    /// Search all areas of at most K cells, whatever their columns and rows, with a chain's base in each of their cells: fewest
+    /// cells first, then fewest walls, then fewest team moves, each clause by itself.
+    #[arg(long, value_name = "K", value_parser = whole::<u32>, conflicts_with = "size")]
+    max_cells: Option<u32>,
     /// Most sensors that agents miss in one run, 1 unless this says otherwise.
     #[arg(long, value_name = "K", value_parser = number::<u8>)]
     max_misses: Option<u8>,
@@ -227,6 +232,7 @@ impl Hunt {
             size: self.size.map(|SizeArg(size)| size),
             budget: self.budget,
             max_walls: self.max_walls,
+            max_cells: self.max_cells,
             max_misses: self.max_misses,
             max_losses: self.max_losses,
             error_cells: self.error,

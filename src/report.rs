@@ -16,10 +16,11 @@ pub(crate) enum Colour {
 }
 
 /// The fields of a request that have a flag of the same name.
-const FIELDS: [&str; 31] = [
+const FIELDS: [&str; 32] = [
     "robots",
     "base",
     "size",
+    "max-cells",
     "max-walls",
     "max-misses",
     "max-moves",

@@ -81,8 +81,8 @@ impl Hunter for Stopped<'_> {
 /// Searches all layouts with few walls for runs that break a clause: see `tautline hunt --help`.
 #[pyfunction]
 #[pyo3(signature = (
-    scheme="chain", *, rule="repaired", robots=None, size=None, max_walls=None, max_misses=None, max_losses=None,
-    error=None, budget=None
+    scheme="chain", *, rule="repaired", robots=None, size=None, max_walls=None, max_cells=None, max_misses=None,
+    max_losses=None, error=None, budget=None
 ))]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn hunt(
@@ -92,6 +92,7 @@ pub(crate) fn hunt(
     robots: Option<u64>,
     size: Option<(u64, u64)>,
     max_walls: Option<u32>,
+    max_cells: Option<u32>,
     max_misses: Option<u8>,
     max_losses: Option<u8>,
     error: Option<f64>,
@@ -112,8 +113,19 @@ pub(crate) fn hunt(
     });
     let size = size.transpose()?;
     let (error_cells, resume) = (error, None);
-    let asked =
-        Asked { scheme, rule, robots, size, budget, max_walls, max_misses, max_losses, error_cells, resume };
+    let asked = Asked {
+        scheme,
+        rule,
+        robots,
+        size,
+        budget,
+        max_walls,
+        max_cells,
+        max_misses,
+        max_losses,
+        error_cells,
+        resume,
+    };
     let found = wait_for(py, |is_stopped| {
         asked.check(hunt)?;
         hunt.hunt(&asked, &mut Stopped(is_stopped))

@@ -235,6 +235,7 @@ def hunt(
     robots: int | None = None,
     size: tuple[int, int] | None = None,
     max_walls: int | None = None,
+    max_cells: int | None = None,
     max_misses: int | None = None,
     max_losses: int | None = None,
     error: float | None = None,

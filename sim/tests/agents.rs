@@ -271,6 +271,7 @@ fn hunted(scheme: &'static Profile, rule: RuleId, (robots, max_misses): (u64, u8
         size: Some(Size::new(side, side).expect("a size")),
         budget: None,
         max_walls: None,
+        max_cells: None,
         max_misses: Some(max_misses),
         max_losses: None,
         error_cells: None,

@@ -239,6 +239,7 @@ fn asked(rule: RuleName, robots: u64, (columns, rows): (u64, u64)) -> Asked<'sta
         size: Some(Size::new(columns, rows).expect("a size")),
         budget: None,
         max_walls: Some(2),
+        max_cells: None,
         max_misses: None,
         max_losses: None,
         error_cells: None,

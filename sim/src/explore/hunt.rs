@@ -87,6 +87,8 @@ pub struct Dealt {
 pub enum Bound {
     /// The most walls that are met in one run.
     Walls,
+    /// The most cells of an area, where all areas are searched.
+    Cells,
     /// The most sensors that are missed in one run.
     Misses,
     /// The most messages that are lost in one run.
@@ -102,6 +104,7 @@ impl Bound {
     pub const fn field(self) -> &'static str {
         match self {
             Self::Walls => "max-walls",
+            Self::Cells => "max-cells",
             Self::Misses => "max-misses",
             Self::Losses => "max-losses",
             Self::Error => "error",
@@ -136,6 +139,8 @@ pub struct Asked<'a> {
     pub budget: Option<u64>,
     /// [`Bound::Walls`]
     pub max_walls: Option<u32>,
+    /// [`Bound::Cells`]
+    pub max_cells: Option<u32>,
     /// [`Bound::Misses`]
     pub max_misses: Option<u8>,
     /// [`Bound::Losses`]
@@ -156,6 +161,7 @@ impl Asked<'_> {
             size: None,
             budget: None,
             max_walls: None,
+            max_cells: None,
             max_misses: None,
             max_losses: None,
             error_cells: None,
@@ -170,6 +176,7 @@ impl Asked<'_> {
     pub fn check(&self, hunt: &dyn Hunt) -> Result<(), Fault> {
         let given = [
             (Bound::Walls, self.max_walls.is_some()),
+            (Bound::Cells, self.max_cells.is_some()),
             (Bound::Misses, self.max_misses.is_some()),
             (Bound::Losses, self.max_losses.is_some()),
             (Bound::Error, self.error_cells.is_some()),

@@ -155,6 +155,7 @@ pub(super) fn refusal(bound: Bound) -> (String, String) {
             "a hunt for traps is not kept in a file",
             "leave `resume` out; a smaller `size` or `budget` makes it shorter",
         ),
+        Bound::Cells => ("the areas of agents are bounded by their size", "give `size` for the layouts"),
         Bound::Misses | Bound::Losses | Bound::Error => {
             ("agents send no messages and need no fixes", "give `max-misses` for the sensors")
         }

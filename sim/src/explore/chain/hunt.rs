@@ -11,6 +11,7 @@ use tautline_proofs::chain::search::{Bounds, Deal, Found, Position, Search, Unse
 use tautline_proofs::engine::tree::{self, Progress};
 use tautline_proofs::words::counted;
 
+use super::areas;
 use super::saved::{AGAIN, Saved};
 use crate::explore::hunt::{
     Asked, Bound, Deals, Dealt, Far, Hunt, Hunted, Hunter, Quarry, Shown, outcome, setup,
@@ -35,13 +36,13 @@ pub(super) struct Walls(pub(super) Observed);
 
 impl Hunt for Walls {
     fn takes(&self) -> &'static [Bound] {
-        &[Bound::Walls, Bound::Resume]
+        &[Bound::Walls, Bound::Cells, Bound::Resume]
     }
 
     fn refusal(&self, bound: Bound) -> (String, String) {
         let what = match bound {
             Bound::Losses | Bound::Error => "a hunt of chains loses no messages and has no wrong fixes",
-            Bound::Walls | Bound::Misses | Bound::Resume => {
+            Bound::Walls | Bound::Cells | Bound::Misses | Bound::Resume => {
                 "the robots of a chain have no floor sensors to miss"
             }
         };
@@ -49,6 +50,9 @@ impl Hunt for Walls {
     }
 
     fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault> {
+        if let Some(cells) = asked.max_cells {
+            return areas::hunt(self.0, asked, cells, hunter);
+        }
         let (robots, walls) = team(asked);
         let mut bounds = bounds(self.0, robots, walls, asked.size)?;
         bounds.budget_moves = asked.budget;
@@ -85,6 +89,7 @@ impl Plan {
 
 impl Deals for Walls {
     fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Fault> {
+        areas::refuse(asked, "shards", "a hunt over areas is not dealt out")?;
         let (robots, max_walls) = team(asked);
         let search = start(&bounds(self.0, robots, max_walls, asked.size)?)?;
         let deal = search.deal(shards);
@@ -151,7 +156,7 @@ impl Part for Shard {
 }
 
 /// Robots and walls that are asked for.
-fn team(asked: &Asked<'_>) -> (u64, u32) {
+pub(super) fn team(asked: &Asked<'_>) -> (u64, u32) {
     (asked.robots.unwrap_or(DEFAULT_ROBOTS), asked.max_walls.unwrap_or(DEFAULT_WALLS))
 }
 

@@ -1,0 +1,198 @@
+//! The search over areas: all areas with few cells, the base in each of their cells, all layouts in each. A counterexample has the
+//! fewest cells, of these the fewest walls, and of these the fewest team moves. Each demand is decided by itself: a run goes on
+//! when it breaks another one.
+
+use std::ops::ControlFlow;
+
+use tautline_kernel::ground::{Area, Cell};
+
+use super::bounds::{Bounds, Counterexample};
+use super::invariant::Invariant;
+use super::observed::Observed;
+use super::search::{Found as OfOne, Search, Unsearchable};
+
+/// Areas to search, and for what.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Areas {
+    /// The chain, and how it is deceived.
+    pub observed: Observed,
+    /// Robots, base included: at most 64.
+    pub robots: usize,
+    /// Most cells of an area.
+    pub max_cells: u32,
+    /// Most walls that are met in one run; the border is not counted. An area with fewer edges is searched for all of them.
+    pub max_walls: u32,
+    /// The search stops when it has made so many team moves.
+    pub budget_moves: Option<u64>,
+    /// What is looked for.
+    pub invariants: Vec<Invariant>,
+}
+
+/// An area that was searched, from each of its cells as the base.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Searched {
+    /// Columns.
+    pub columns: i16,
+    /// Rows.
+    pub rows: i16,
+    /// Cells that were the base.
+    pub bases: u64,
+    /// Most walls that a run met or could have met.
+    pub walls: u32,
+    /// Leaves of all trees that were searched.
+    pub runs: u64,
+    /// Edges of all trees that were searched.
+    pub moves: u64,
+}
+
+/// A run that breaks a demand, and the area that it does it in.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Smallest {
+    /// The area, and the base.
+    pub bounds: Bounds,
+    /// The run.
+    pub found: Counterexample,
+}
+
+/// What a search over areas found.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Found {
+    /// The areas that were searched, fewest cells first.
+    pub searched: Vec<Searched>,
+    /// All areas with at most so many cells are among them.
+    pub cells: Option<u32>,
+    /// Whether all areas within the bounds were searched for all demands, or all demands are broken in the areas searched.
+    pub is_complete: bool,
+    /// The smallest for each demand broken, by demand. Where the search was ended, those with more than
+    /// [`cells`](Self::cells) cells need not be the smallest.
+    pub broken: Vec<Smallest>,
+}
+
+impl Found {
+    /// Leaves of all trees that were searched.
+    pub fn runs(&self) -> u64 {
+        self.searched.iter().map(|area| area.runs).sum()
+    }
+
+    /// Edges of all trees that were searched.
+    pub fn moves(&self) -> u64 {
+        self.searched.iter().map(|area| area.moves).sum()
+    }
+
+    /// Makes `found` the smallest of its demand, if it is. Areas come fewest cells first.
+    fn add(&mut self, bounds: &Bounds, found: &Counterexample) {
+        let size = |bounds: &Bounds, found: &Counterexample| {
+            let cells = bounds.area.width() * bounds.area.height();
+            (cells, found.answers.iter().sum::<u32>(), found.frames.len())
+        };
+        let new = || Smallest { bounds: bounds.clone(), found: found.clone() };
+        match self.broken.iter_mut().find(|known| known.found.broken == found.broken) {
+            None => {
+                self.broken.push(new());
+                self.broken.sort_by_key(|known| known.found.broken);
+            }
+            Some(known) if size(bounds, found) < size(&known.bounds, &known.found) => *known = new(),
+            Some(_) => {}
+        }
+    }
+
+    fn has(&self, invariant: Invariant) -> bool {
+        self.broken.iter().any(|known| known.found.broken == invariant)
+    }
+}
+
+/// Columns and rows of all areas with so many cells, the flattest first.
+fn areas(cells: u32) -> impl Iterator<Item = Area> {
+    let sizes = (1..=cells).filter(move |rows| cells.is_multiple_of(*rows));
+    sizes.filter_map(move |rows| {
+        let (columns, rows) = (i16::try_from(cells / rows).ok()?, i16::try_from(rows).ok()?);
+        Area::new(Cell::new(0, 0), Cell::new(columns - 1, rows - 1))
+    })
+}
+
+/// Edges of the area with most of them that has at most so many cells.
+pub fn most_edges(max_cells: u32) -> u32 {
+    (1..=max_cells).flat_map(areas).map(|area| area.edges().count() as u32).max().unwrap_or(0)
+}
+
+/// Searches all areas. The result is the same on any number of threads, unless `watch` ends the search.
+///
+/// # Errors
+/// [`Unsearchable`] if the bounds are beyond what can be searched.
+pub fn search(all: &Areas, watch: &mut dyn FnMut(&Found) -> ControlFlow<()>) -> Result<Found, Unsearchable> {
+    let mut found = Found::default();
+    for cells in 1..=all.max_cells {
+        let left: Vec<Invariant> =
+            all.invariants.iter().copied().filter(|&invariant| !found.has(invariant)).collect();
+        if left.is_empty() {
+            break;
+        }
+        for area in areas(cells) {
+            if !all.search(area, &left, &mut found, watch)? {
+                return Ok(found);
+            }
+        }
+        found.cells = Some(cells);
+    }
+    found.is_complete = true;
+    Ok(found)
+}
+
+impl Areas {
+    /// Searches `area` for what is `left`. Returns whether nothing ended it before.
+    fn search(
+        &self,
+        area: Area,
+        left: &[Invariant],
+        found: &mut Found,
+        watch: &mut dyn FnMut(&Found) -> ControlFlow<()>,
+    ) -> Result<bool, Unsearchable> {
+        let walls = self.max_walls.min(area.edges().count() as u32);
+        let (columns, rows) = (area.width() as i16, area.height() as i16);
+        let place = found.searched.len();
+        for base in area.cells() {
+            let bounds = Bounds { area, base, ..Bounds::new(self.observed, self.robots, walls) };
+            // What the team cannot get to plays no part: the area that it reaches was searched before, for it has fewer cells.
+            if bounds.reach()? != area {
+                continue;
+            }
+            if found.searched.len() == place {
+                found.searched.push(Searched { columns, rows, bases: 0, walls, runs: 0, moves: 0 });
+            }
+            let all = Bounds { invariants: left.to_vec(), ..bounds };
+            let Some(together) = self.tree(&all, found, watch)? else { return Ok(false) };
+            let by_themselves = if together.counterexamples.is_empty() { &[] } else { left };
+            for &invariant in by_themselves {
+                let alone = Bounds { invariants: vec![invariant], ..all.clone() };
+                let Some(tree) = self.tree(&alone, found, watch)? else { return Ok(false) };
+                if let Some(broken) = tree.counterexamples.iter().find(|one| one.broken == invariant) {
+                    found.add(&alone, broken);
+                }
+            }
+            found.searched[place].bases += 1;
+        }
+        Ok(true)
+    }
+
+    /// What one tree has; `None` if it was ended before.
+    fn tree(
+        &self,
+        bounds: &Bounds,
+        found: &mut Found,
+        watch: &mut dyn FnMut(&Found) -> ControlFlow<()>,
+    ) -> Result<Option<OfOne>, Unsearchable> {
+        let budget_moves = self.budget_moves.map(|budget| budget.saturating_sub(found.moves()));
+        let mut search = Search::new(&Bounds { budget_moves, ..bounds.clone() })?;
+        while search.wave() && watch(found).is_continue() {}
+        let tree = search.found();
+        if let Some(area) = found.searched.last_mut() {
+            area.runs += tree.runs;
+            area.moves += tree.moves;
+        }
+        if tree.complete {
+            return Ok(Some(tree));
+        }
+        tree.counterexamples.iter().for_each(|broken| found.add(bounds, broken));
+        Ok(None)
+    }
+}

@@ -1,0 +1,129 @@
+//! The hunt of chains over areas: whatever their columns and rows, and wherever the base is.
+
+use serde_json::{Value, json};
+use tautline_proofs::chain::Observed;
+use tautline_proofs::chain::areas::{Areas, Found, Searched, Smallest, most_edges, search};
+use tautline_proofs::words::counted;
+
+use super::hunt::{bounds, fault, team};
+use crate::explore::hunt::{Asked, Far, Hunted, Hunter, Quarry, Shown, outcome, setup};
+use crate::explore::run::{Limits, OnViolation};
+use crate::explore::{ClauseId, Setup};
+use crate::fault::Fault;
+
+/// Searches all areas of at most so many cells.
+pub(super) fn hunt(
+    observed: Observed,
+    asked: &Asked<'_>,
+    max_cells: u32,
+    hunter: &mut dyn Hunter,
+) -> Result<Hunted, Fault> {
+    if asked.resume.is_some() {
+        refuse(asked, "resume", "a hunt over areas is not kept in a file")?;
+    }
+    let areas = areas(observed, asked, max_cells)?;
+    let mut hears = |found: &Found| {
+        let done = found.cells.unwrap_or(0);
+        let runs = counted(found.runs(), "run");
+        hunter.hears(Far::Words(format!("areas of {done} of {max_cells} cells, {runs}")))
+    };
+    let found = search(&areas, &mut hears).map_err(fault)?;
+    told(asked, &areas, &found)
+}
+
+/// Refuses what a hunt over areas does not take, if this is one.
+pub(super) fn refuse(asked: &Asked<'_>, field: &'static str, what: &str) -> Result<(), Fault> {
+    let remedy = format!("leave `{field}` out; fewer `max-cells` or `max-walls` make it shorter");
+    asked.max_cells.map_or(Ok(()), |_| Err(Fault::of_field(field, what, remedy)))
+}
+
+/// The areas that are asked for.
+fn areas(observed: Observed, asked: &Asked<'_>, max_cells: u32) -> Result<Areas, Fault> {
+    let (robots, walls) = team(asked);
+    let whole = bounds(observed, robots, walls, None)?;
+    let within_reach = (whole.area.width() * whole.area.height()) as u32;
+    if !(1..=within_reach).contains(&max_cells) {
+        let what = match max_cells {
+            0 => "an area has a cell at least".to_owned(),
+            _ => format!("{} get to {within_reach} cells at most", counted(robots, "robot")),
+        };
+        let remedy = format!("give `max-cells` a number from 1 to {within_reach}");
+        return Err(Fault::of_field("max-cells", what, remedy));
+    }
+    let edges = most_edges(max_cells);
+    if asked.max_walls.is_some_and(|walls| walls > edges) {
+        let what = format!("no area of {} has room for {walls} walls", counted(max_cells, "cell"));
+        let remedy = format!("give `max-walls` a number up to {edges}, or more `max-cells`");
+        return Err(Fault::of_field("max-walls", what, remedy));
+    }
+    Ok(Areas {
+        observed,
+        robots: whole.robots,
+        max_cells,
+        max_walls: walls.min(edges),
+        budget_moves: asked.budget,
+        invariants: whole.invariants,
+    })
+}
+
+/// What is told of a search.
+fn told(asked: &Asked<'_>, areas: &Areas, found: &Found) -> Result<Hunted, Fault> {
+    let quarries = found.broken.iter().map(|smallest| quarry(asked, smallest));
+    let quarries = quarries.collect::<Result<Vec<Quarry>, Fault>>()?;
+    let &Areas { max_cells, max_walls, robots, .. } = areas;
+    let (robots, runs, moves) = (robots as u64, found.runs(), found.moves());
+    let (all_runs, all_moves) = (counted(runs, "run"), counted(moves, "team move"));
+    let bases: u64 = found.searched.iter().map(|area| area.bases).sum();
+    let all_areas = counted(found.searched.len(), "area");
+    let covered = found.cells.map(|cells| format!("of at most {}", counted(cells, "cell")));
+    Ok(Hunted {
+        robots,
+        facts: vec![
+            ("runs", json!(runs)),
+            ("moves", json!(moves)),
+            ("max_walls", json!(max_walls)),
+            ("max_cells", json!(max_cells)),
+            ("areas", found.searched.iter().map(area).collect()),
+        ],
+        is_complete: found.is_complete,
+        done: ("cells_done", json!(found.cells)),
+        title: format!(
+            "{}, at most {} and {}: {all_areas} with {}, {all_runs}, {all_moves}",
+            counted(robots, "robot"),
+            counted(max_cells, "cell"),
+            counted(max_walls, "wall"),
+            counted(bases, "place") + " of the base"
+        ),
+        through: format!("{all_runs} and {all_moves}"),
+        outcome: outcome(&quarries, found.is_complete, covered),
+        found: quarries,
+    })
+}
+
+/// The certificate of one area.
+fn area(searched: &Searched) -> Value {
+    let Searched { columns, rows, bases, walls, runs, moves } = searched;
+    json!({ "columns": columns, "rows": rows, "bases": bases, "walls": walls, "runs": runs, "moves": moves })
+}
+
+fn quarry(asked: &Asked<'_>, Smallest { bounds, found }: &Smallest) -> Result<Quarry, Fault> {
+    let run = bounds.run(found);
+    let setup = setup(asked.scheme, asked.rule, &run)?;
+    let (columns, rows) = (bounds.area.width(), bounds.area.height());
+    let (walls, steps) = (run.walls.len(), found.frames.len());
+    let broken = found.broken.breach().map(ClauseId::from);
+    // The run may break another clause before.
+    let violation = broken.map_or(OnViolation::Stop, OnViolation::StopAt);
+    Ok(Quarry {
+        clause: found.broken.clause(),
+        facts: vec![
+            ("columns", json!(columns)),
+            ("rows", json!(rows)),
+            ("walls", json!(walls)),
+            ("steps", json!(steps)),
+        ],
+        title: format!("{columns}x{rows} cells, {}, {}", counted(walls, "wall"), counted(steps, "team move")),
+        setup: Setup { limits: Limits { violation, ..setup.limits }, ..setup },
+        shown: broken.map_or(Shown::Endless, Shown::Run),
+    })
+}
