@@ -90,6 +90,119 @@ fn the_action_keeps_a_page_of_each_counterexample_and_ends_as_its_command() {
     assert_eq!(ran(folder.path(), recipe(".github/action.sh"), &small).status.code(), Some(0));
 }
 
+/// The shell steps of the action, each as an object with its `run`.
+fn shell_steps() -> Vec<serde_json::Value> {
+    let action = fs::read_to_string(recipe("action.yml")).expect("text");
+    let action: serde_json::Value = serde_saphyr::from_str(&action).expect("YAML");
+    let steps = action["runs"]["steps"].as_array().expect("steps").clone();
+    steps.into_iter().filter(|step| step["run"].is_string()).collect()
+}
+
+/// Runs the action's steps as a runner does, in a caller's folder, the action being in a folder beside it. `rustup` and `cargo`
+/// stand in: they say how they were called, and what is built is this program.
+#[test]
+fn the_steps_of_the_action_build_with_its_own_toolchain_and_name_what_they_keep_by_its_sources() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let folder = folder.path();
+    let at = |name: &str| folder.join(name);
+    for name in ["action/.github", "caller", "temp", "stand-ins"] {
+        fs::create_dir_all(at(name)).expect("a folder");
+    }
+    fs::copy(recipe(".github/action.sh"), at("action/.github/action.sh")).expect("a copy");
+    let said = r#"echo "${0##*/} $* in $PWD with $RUSTUP_TOOLCHAIN" >> "$RUNNER_TEMP/said""#;
+    let built = format!(
+        r#"mkdir -p "$RUNNER_TEMP/tautline/bin" && ln -sf {TAUTLINE} "$RUNNER_TEMP/tautline/bin/tautline""#
+    );
+    for (name, does) in [("rustup", "true"), ("cargo", &built)] {
+        fs::write(at("stand-ins").join(name), format!("#!/usr/bin/env bash\n{said}\n{does}\n"))
+            .expect("a file");
+        assert!(
+            Command::new("chmod")
+                .arg("+x")
+                .arg(at("stand-ins").join(name))
+                .status()
+                .expect("chmod")
+                .success()
+        );
+    }
+    let path = format!("{}:{}", at("stand-ins").display(), std::env::var("PATH").expect("a path"));
+    let run = |step: &serde_json::Value| {
+        let mut command = Command::new("bash");
+        command.args(["--noprofile", "--norc", "-eo", "pipefail", "-c", step["run"].as_str().expect("text")]);
+        command.current_dir(at("caller")).env("PATH", &path);
+        command.env("GITHUB_ACTION_PATH", at("action")).env("GITHUB_OUTPUT", at("temp/output"));
+        command.env("RUNNER_TEMP", at("temp")).env("RUNNER_OS", "Linux").env("RUNNER_ARCH", "X64");
+        command.env("RUSTUP_TOOLCHAIN", "the caller's").env_remove("TAUTLINE");
+        for (name, value) in step["env"].as_object().into_iter().flatten() {
+            let value = value.as_str().expect("text");
+            let value = value.replace("${{ runner.temp }}", at("temp").to_str().expect("text"));
+            command.env(
+                name,
+                value.replace(
+                    "${{ inputs.run }}",
+                    "tautline hunt --rule published --robots 3 --max-walls 2 --out \"$OUT\"",
+                ),
+            );
+        }
+        command.output().expect("bash runs")
+    };
+    let [key, build, hunt] = &shell_steps()[..] else { panic!("three steps of a shell") };
+
+    let keyed = || {
+        fs::write(at("temp/output"), "").expect("a file");
+        let output = run(key);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        fs::read_to_string(at("temp/output")).expect("text")
+    };
+    let first = keyed();
+    assert!(first.starts_with("key=tautline-Linux-X64-own-"), "{first}");
+    fs::create_dir_all(at("action/target")).expect("a folder");
+    fs::write(at("action/target/built"), "").expect("a file");
+    assert_eq!(keyed(), first);
+    fs::write(at("action/main.rs"), "").expect("a file");
+    let second = keyed();
+    assert_ne!(second, first);
+    fs::rename(at("action/main.rs"), at("action/other.rs")).expect("a file");
+    assert_ne!(keyed(), second);
+
+    assert!(run(build).status.success());
+    let said = fs::read_to_string(at("temp/said")).expect("text");
+    let action = fs::canonicalize(at("action")).expect("a folder");
+    for (line, begins) in
+        said.lines().zip(["rustup toolchain install 1.95 ", "cargo install --locked --path . "])
+    {
+        assert!(line.starts_with(begins), "{said}");
+        assert!(line.ends_with(&format!(" in {} with 1.95", action.display())), "{said}");
+    }
+    assert_eq!(said.lines().count(), 2, "{said}");
+
+    let output = run(hunt);
+    assert_eq!(output.status.code(), Some(1), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(at("temp/counterexamples/chain-13-published-n3.html").exists());
+}
+
+/// A tag can be moved to another commit, a commit cannot; and a version beside it is what a person reads.
+#[test]
+fn every_action_is_pinned_by_its_commit() {
+    let files = fs::read_dir(recipe(".github/workflows")).expect("a folder");
+    let files = files.map(|entry| entry.expect("a file").path()).chain([recipe("action.yml")]);
+    let mut pinned = 0;
+    for file in files {
+        let text = fs::read_to_string(&file).expect("text");
+        for line in
+            text.lines().filter(|line| line.trim_start().trim_start_matches("- ").starts_with("uses: "))
+        {
+            let (_, reference) = line.split_once('@').expect("a reference");
+            let (commit, version) =
+                reference.split_once(" # v").unwrap_or_else(|| panic!("{}: {line}", file.display()));
+            assert!(commit.len() == 40 && commit.bytes().all(|byte| byte.is_ascii_hexdigit()), "{line}");
+            assert!(version.split('.').count() == 3, "{line}");
+            pinned += 1;
+        }
+    }
+    assert!(pinned > 20, "{pinned}");
+}
+
 #[test]
 fn the_recipes_that_are_not_run_can_be_read() {
     for script in ["docs/recipes/hyperqueue.sh", "docs/recipes/slurm.sh", "docs/recipes/parallel.sh"] {

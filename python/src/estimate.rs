@@ -6,7 +6,7 @@ use tautline_sim::stats;
 use crate::fault::{Kind, error};
 
 /// A mean or a share, and where 95 % of such intervals have the true one.
-#[pyclass(frozen, module = "tautline", get_all)]
+#[pyclass(frozen, module = "pytautline", get_all)]
 pub(crate) struct Estimate {
     /// How many values.
     count: u32,
@@ -39,7 +39,7 @@ impl Estimate {
     }
 
     fn __repr__(&self) -> String {
-        format!("<tautline.Estimate {} of {}>", self.text(4), self.count)
+        format!("<pytautline.Estimate {} of {}>", self.text(4), self.count)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Faults as Python's exceptions: those of the module `tautline._errors`, each with what is wrong and what would be right.
+//! Faults as Python's exceptions: those of the module `pytautline._errors`, each with what is wrong and what would be right.
 
 use std::fmt::Display;
 
@@ -36,7 +36,7 @@ impl Kind {
 
 /// The exception of this kind.
 pub(crate) fn error(py: Python<'_>, kind: Kind, what: impl Display, remedy: impl Display) -> PyErr {
-    let class = py.import("tautline._errors").and_then(|errors| errors.getattr(kind.name()));
+    let class = py.import("pytautline._errors").and_then(|errors| errors.getattr(kind.name()));
     let made = class.and_then(|class| class.call1((what.to_string(), remedy.to_string())));
     made.map_or_else(|error| error, PyErr::from_value)
 }

@@ -15,7 +15,7 @@ use crate::run::Run;
 use crate::wait::wait_for;
 
 /// What came of a hunt.
-#[pyclass(frozen, module = "tautline", get_all)]
+#[pyclass(frozen, module = "pytautline", get_all)]
 pub(crate) struct Hunted {
     /// The name of the scheme.
     scheme: &'static str,
@@ -36,7 +36,7 @@ pub(crate) struct Hunted {
 }
 
 /// A clause that is broken, and how.
-#[pyclass(frozen, module = "tautline", get_all)]
+#[pyclass(frozen, module = "pytautline", get_all)]
 pub(crate) struct Counterexample {
     /// The clause.
     clause: &'static str,
@@ -54,14 +54,14 @@ pub(crate) struct Counterexample {
 impl Hunted {
     fn __repr__(&self) -> String {
         let Self { scheme, rule, verdict, outcome, .. } = self;
-        format!("<tautline.Hunted {scheme} ({rule}): {verdict}. {outcome}>")
+        format!("<pytautline.Hunted {scheme} ({rule}): {verdict}. {outcome}>")
     }
 }
 
 #[pymethods]
 impl Counterexample {
     fn __repr__(&self) -> String {
-        format!("<tautline.Counterexample {}, {}>", self.clause, self.title)
+        format!("<pytautline.Counterexample {}, {}>", self.clause, self.title)
     }
 }
 

@@ -17,7 +17,7 @@ use crate::fault::{Kind, error, raised};
 pub(crate) type Pair = (i16, i16);
 
 /// The ground truth of a run: cells, walls between them, blocked cells.
-#[pyclass(frozen, module = "tautline", eq, hash)]
+#[pyclass(frozen, module = "pytautline", eq, hash)]
 #[derive(Clone)]
 pub(crate) struct Layout {
     pub(crate) ground: Ground,
@@ -210,7 +210,7 @@ impl Layout {
     }
 
     fn __repr__(&self) -> String {
-        format!("<tautline.Layout {} of {}x{} cells>", self.name, self.width(), self.height())
+        format!("<pytautline.Layout {} of {}x{} cells>", self.name, self.width(), self.height())
     }
 }
 

@@ -1,5 +1,5 @@
-//! The native half of the Python package `tautline`: what is slow in Python, or is Tautline's own. The other half, in the
-//! folder `tautline`, has the classes that a person derives from, the errors, and the type stubs.
+//! The native half of the Python package `pytautline`: what is slow in Python, or is Tautline's own. The other half, in the
+//! folder `pytautline`, has the classes that a person derives from, the errors, and the type stubs.
 
 mod arrays;
 mod estimate;
@@ -12,7 +12,7 @@ mod run;
 mod sweep;
 mod wait;
 
-/// What `tautline` imports.
+/// What `pytautline` imports.
 #[pyo3::pymodule]
 mod _native {
     #[pymodule_export]

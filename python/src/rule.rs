@@ -35,7 +35,7 @@ use crate::run::{Made, Run};
 use crate::wait::wait;
 
 /// What came of a hunt of a rule written in Python.
-#[pyclass(frozen, module = "tautline", get_all)]
+#[pyclass(frozen, module = "pytautline", get_all)]
 pub(crate) struct OwnHunted {
     /// The name of the scheme.
     scheme: String,
@@ -64,7 +64,7 @@ pub(crate) struct OwnHunted {
 }
 
 /// A demand that is broken, and how.
-#[pyclass(frozen, module = "tautline", get_all)]
+#[pyclass(frozen, module = "pytautline", get_all)]
 pub(crate) struct OwnCounterexample {
     /// The clause.
     clause: &'static str,
@@ -82,14 +82,14 @@ pub(crate) struct OwnCounterexample {
 impl OwnHunted {
     fn __repr__(&self) -> String {
         let Self { scheme, rule, verdict, runs, moves, .. } = self;
-        format!("<tautline.OwnHunted {scheme} ({rule}): {verdict}; {runs} runs, {moves} team moves>")
+        format!("<pytautline.OwnHunted {scheme} ({rule}): {verdict}; {runs} runs, {moves} team moves>")
     }
 }
 
 #[pymethods]
 impl OwnCounterexample {
     fn __repr__(&self) -> String {
-        format!("<tautline.OwnCounterexample {}: not so that {}>", self.clause, self.words)
+        format!("<pytautline.OwnCounterexample {}: not so that {}>", self.clause, self.words)
     }
 }
 

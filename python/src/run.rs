@@ -49,7 +49,7 @@ impl Made {
 }
 
 /// A run that is over.
-#[pyclass(frozen, module = "tautline")]
+#[pyclass(frozen, module = "pytautline")]
 pub(crate) struct Run {
     pub(crate) made: Made,
     /// What its layout was loaded by.
@@ -408,7 +408,7 @@ impl Run {
     fn __repr__(&self) -> String {
         let stage = self.play().stage();
         let Report { steps, explored, cells, violations, .. } = &self.report;
-        let mut text = format!("<tautline.Run {} ({})", stage.scheme, stage.rule);
+        let mut text = format!("<pytautline.Run {} ({})", stage.scheme, stage.rule);
         // Writing to a string cannot fail.
         let _ = write!(
             text,

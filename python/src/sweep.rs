@@ -31,7 +31,7 @@ struct Job<'a> {
 }
 
 /// A table of runs: a row for each, in the order of layouts, rules, robots and seeds.
-#[pyclass(frozen, module = "tautline")]
+#[pyclass(frozen, module = "pytautline")]
 pub(crate) struct Sweep {
     batch: RecordBatch,
 }
@@ -156,7 +156,7 @@ impl Sweep {
     }
 
     fn __repr__(&self) -> String {
-        format!("<tautline.Sweep of {} runs: {}>", self.batch.num_rows(), self.columns().join(", "))
+        format!("<pytautline.Sweep of {} runs: {}>", self.batch.num_rows(), self.columns().join(", "))
     }
 }
 

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass, replace
 
-import tautline
-from tautline import Cell, Moved
+import pytautline as tautline
+from pytautline import Cell, Moved
 
 SIDES = {"E": (1, 0), "S": (0, 1), "W": (-1, 0), "N": (0, -1)}
 

@@ -1,7 +1,7 @@
 import numpy as np
 from pettingzoo.test import parallel_api_test, parallel_seed_test
 
-from tautline.pettingzoo import parallel_env
+from pytautline.pettingzoo import parallel_env
 
 
 def test_the_api_of_parallel_environments():

@@ -8,7 +8,7 @@ import pytest
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 
-import tautline
+import pytautline as tautline
 
 DOCS = Path(__file__).parents[2] / "docs"
 

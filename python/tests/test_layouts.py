@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-import tautline
-from tautline import InputError, Layout
+import pytautline as tautline
+from pytautline import InputError, Layout
 
 
 def test_a_generated_layout_comes_back_from_its_arrays():

@@ -3,9 +3,9 @@ import time
 import numpy as np
 import pytest
 
-import tautline
+import pytautline as tautline
 from followers import Followers
-from tautline import RuleNeverEnds, RuleNotPure, RuleRaised, RuleWrongType
+from pytautline import RuleNeverEnds, RuleNotPure, RuleRaised, RuleWrongType
 
 
 def test_the_rule_of_the_tutorial_is_refuted_in_two_moves_with_one_wall(tmp_path):

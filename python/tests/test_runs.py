@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import tautline
-from tautline import InputError
+import pytautline as tautline
+from pytautline import InputError
 
 DOCS = Path(__file__).parents[2] / "docs"
 FIGURES = Path(__file__).parent / "figures"

@@ -4,7 +4,7 @@ import polars as pl
 import pyarrow as pa
 import pytest
 
-import tautline
+import pytautline as tautline
 
 
 @pytest.fixture(scope="module")

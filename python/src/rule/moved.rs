@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 /// One team move of a rule written in Python.
-#[pyclass(frozen, module = "tautline", get_all)]
+#[pyclass(frozen, module = "pytautline", get_all)]
 pub(crate) struct Moved {
     /// The state with which the rule was asked for this move.
     pub(crate) before: Py<PyAny>,
@@ -23,6 +23,6 @@ pub(crate) struct Moved {
 #[pymethods]
 impl Moved {
     fn __repr__(&self) -> String {
-        format!("<tautline.Moved {} from {} to {}>", self.tried, self.cells_before, self.cells)
+        format!("<pytautline.Moved {} from {} to {}>", self.tried, self.cells_before, self.cells)
     }
 }

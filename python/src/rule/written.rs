@@ -151,7 +151,7 @@ impl Written {
             return Err(error(py, Kind::Input, format_args!("{robots} robots"), remedy));
         }
         let demands: Vec<Bound<'_, PyAny>> =
-            attribute(rule, "demands", "demands, a list of tautline.Demand")?;
+            attribute(rule, "demands", "demands, a list of pytautline.Demand")?;
         let covers: Vec<(String, Py<PyAny>)> =
             attribute(rule, "covers", "covers, a list of names and functions of a move")?;
         let demands = demands.iter().map(demand).collect::<PyResult<Vec<Demand>>>()?;
@@ -244,7 +244,7 @@ impl Written {
 
     /// The exception for one that Python code of the rule has raised.
     fn refused(&self, py: Python<'_>, what: &str, raised: PyErr) -> PyErr {
-        let overdue = py.import("tautline._errors").and_then(|errors| errors.getattr("Overdue"));
+        let overdue = py.import("pytautline._errors").and_then(|errors| errors.getattr("Overdue"));
         if overdue.is_ok_and(|overdue| raised.matches(py, overdue).unwrap_or(false)) {
             let said = format!("{what} of the rule {} has not returned", self.name);
             return error(
@@ -455,7 +455,7 @@ impl Written {
 
 fn demand(demand: &Bound<'_, PyAny>) -> PyResult<Demand> {
     let py = demand.py();
-    let wanted = "demands made by tautline.always, tautline.at_the_end and tautline.never_endless";
+    let wanted = "demands made by pytautline.always, pytautline.at_the_end and pytautline.never_endless";
     let (id, words): (String, String) =
         (attribute(demand, "id", wanted)?, attribute(demand, "words", wanted)?);
     let when: String = attribute(demand, "when", wanted)?;
@@ -520,7 +520,7 @@ impl Patience<'_> {
             self.since = (call, Instant::now());
         } else if self.since.1.elapsed() > self.most {
             self.since.1 = Instant::now();
-            let overdue = py.import("tautline._errors")?.getattr("interrupt")?;
+            let overdue = py.import("pytautline._errors")?.getattr("interrupt")?;
             overdue.call1((self.written.thread.load(Ordering::Relaxed),))?;
         }
         Ok(())

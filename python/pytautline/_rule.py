@@ -36,7 +36,7 @@ def never_endless(id: str, words: str) -> Demand:
 
 
 class Rule:
-    """A rule for robots on cells, which :func:`tautline.hunt_rule` searches in all layouts within its bound.
+    """A rule for robots on cells, which :func:`pytautline.hunt_rule` searches in all layouts within its bound.
 
     A subclass says what it is about, and has two functions that depend on nothing but their arguments.
     """
