@@ -93,7 +93,7 @@ pub(super) fn story(clause: &Clause, check: &dyn AnyCheck, evidence: &Evidence) 
                 run.frames.len()
             );
             match setup(check, run)? {
-                Some(setup) => head + &draw::story::last_move(&setup)?,
+                Some(setup) => head + &draw::story::of_found(&setup, ClauseId::new(id), run)?,
                 None => head,
             }
         }

@@ -102,15 +102,16 @@ impl Answer {
     }
 
     /// A tally without a violation shows `shown`, but not for want of cases: one that did not cover what it claims to
-    /// gives no verdict.
+    /// gives no verdict, nor does one that is to hold of every case and has given some up.
     pub fn of_tally(tally: Tally, covers: &[&str], shown: Verdict) -> Self {
         let is_covered = covers.iter().all(|situation| tally.covered.contains(situation));
+        let is_whole = is_covered && (tally.given_up == 0 || shown != Verdict::Holds);
         let evidence = tally.violation.map(|(once, demand)| Evidence {
             choices: Choices { once, again: Vec::new() },
             demand,
             seen: Seen::Choices,
         });
-        Self { given_up: tally.given_up, ..Self::new(evidence, is_covered, shown, tally.cases) }
+        Self { given_up: tally.given_up, ..Self::new(evidence, is_whole, shown, tally.cases) }
     }
 }
 
@@ -371,5 +372,33 @@ where
         let (of, run) = script.play(&system, (number, starts.swap_remove(number)), |_| true)?;
         let seen = self.story(&system, &run);
         Ok(Played { of, evidence: Evidence { choices: choices.clone(), demand: run.demand, seen } })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::tree::unwatched;
+
+    /// A rule that ends or goes on for ever, whatever is asked of it.
+    fn ends(ends: &bool, oracle: &mut dyn Oracle) -> Outcome {
+        if oracle.flip() || *ends { Ok("an end") } else { Err(Stop::GivenUp) }
+    }
+
+    fn range() -> String {
+        "either way".to_owned()
+    }
+
+    #[test]
+    fn what_never_ends_leaves_an_exhaustive_check_open_and_is_counted() {
+        let (memory, watch) = (&mut Memory::default(), &mut unwatched);
+        let mut desk = Desk { memory, watch, room: Room::any() };
+        let method = Exhaustive { body: ends, range, covers: &["an end"] };
+        let mut found = |rule| {
+            let answer = method.decide(&rule, Until::Exhausted, &mut desk).expect("a body can be decided");
+            (answer.verdict, answer.cases, answer.given_up)
+        };
+        assert_eq!(found(true), (Verdict::Holds, 2, 0));
+        assert_eq!(found(false), (Verdict::Open, 1, 1));
     }
 }

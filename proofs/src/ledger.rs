@@ -91,7 +91,8 @@ impl Row {
 
     /// What is machine-checked beyond the bound, if the clause holds within it.
     fn composition(&self) -> Option<String> {
-        (self.decision.verdict == Verdict::Holds).then(|| composition::words(self.clause.id)).flatten()
+        let words = || composition::words(self.clause.id, self.check.rule());
+        (self.decision.verdict == Verdict::Holds).then(words).flatten()
     }
 }
 
@@ -204,13 +205,13 @@ mod tests {
         let known = [
             &["published", "repaired", "published", "robust"][..],
             &both,
-            &["mdfs", "tree", "careful", "doubting-1"],
+            &["mdfs", "tree", "careful", "doubting-1", "doubting"],
         ];
         assert_eq!(labels("BRICKS-4"), known.concat());
         let end = [
             &["published", "repaired", "robust", "published", "robust"][..],
             &both,
-            &["careful", "careful", "doubting-1", "doubting-1"],
+            &["careful", "careful", "doubting-1", "doubting-1", "doubting", "doubting"],
         ];
         assert_eq!(labels("BRICKS-6"), end.concat());
     }

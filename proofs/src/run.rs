@@ -43,6 +43,8 @@ pub struct Run {
     pub frames: Vec<Frame>,
     /// The id of the clause that the run breaks as anyone sees who watches it, if it is one of these.
     pub breaks: Option<&'static str>,
+    /// Whether the run breaks a clause by its end, not by its last team move.
+    pub is_over: bool,
 }
 
 /// The walls that `frames` met, each once.

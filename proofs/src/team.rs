@@ -93,6 +93,11 @@ impl<T, const ROBOTS: usize> Demand<T, ROBOTS> {
         }
     }
 
+    /// Whether it is demanded of the end of a run.
+    pub const fn is_of_the_end(&self) -> bool {
+        matches!(self.when, When::AtTheEnd(_))
+    }
+
     /// Whether a run breaks it that never ends.
     pub const fn is_broken_by_endless_runs(&self) -> bool {
         matches!(self.when, When::NeverEndless)
@@ -189,6 +194,7 @@ impl<R, T: Team<ROBOTS>, const ROBOTS: usize> Layouts<R, T, ROBOTS> {
             walls: walls(&found.frames),
             frames: found.frames.clone(),
             breaks: self.demands.get(found.broken.0).map(|demand| demand.id),
+            is_over: self.demands.get(found.broken.0).is_some_and(Demand::is_of_the_end),
         }
     }
 

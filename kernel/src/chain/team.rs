@@ -272,8 +272,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
 
     /// The paper's plan: the leader's, or a backtrack, or both in a new epoch.
     fn plan_by_epochs(&mut self, log: &[u8]) -> Result<Intent<ROBOTS>, Damaged> {
-        let mut fresh_epoch = false;
-        loop {
+        for is_fresh in [false, true] {
             if self.is_unfolding()
                 && let Some(steps) = unfold(&mut self.grid, &self.cells[..self.robots])
             {
@@ -290,15 +289,15 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
                 return self.backtrack(log, entry).map(Intent::Go);
             }
             let gainless = !self.gained() && self.rule.has(Condition::EpochMustGain);
-            let unfolds = !fresh_epoch && self.has_target();
-            if fresh_epoch || (gainless && !unfolds) {
-                return Ok(Intent::Done(End::Exhausted));
+            let unfolds = !is_fresh && self.has_target();
+            if is_fresh || (gainless && !unfolds) {
+                break;
             }
-            fresh_epoch = true;
             self.epochs += 1;
             self.stage = if unfolds { Stage::Unfolding } else { Stage::Seeking };
             self.grid.clear_edges(EdgeMark::Virtual);
         }
+        Ok(Intent::Done(End::Exhausted))
     }
 
     /// The reel's plan: see the module `reel`.

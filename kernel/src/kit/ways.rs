@@ -107,8 +107,11 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         let mut levels = [Level::<NODES>::NONE, Level::NONE];
         let [new, next] = &mut levels;
         new.add(place, pair);
-        let mut length = 0;
-        while new.count > 0 {
+        // Each drive leads to at least one pair of nodes that was not near before.
+        for length in 0..NODES as u32 * Places::BITS {
+            if new.count == 0 {
+                break;
+            }
             for (node, places) in new.nodes() {
                 near[node] |= places;
                 let at = self.node(node);
@@ -122,7 +125,6 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             }
             self.spread(new, next, &near, admitted);
             core::mem::swap(new, next);
-            length += 1;
         }
         None
     }

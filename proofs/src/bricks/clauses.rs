@@ -56,7 +56,7 @@ step_checks! { Observed;
 }
 
 /// The clauses.
-pub static CLAUSES: [Clause; 12] = [
+pub static CLAUSES: [Clause; 14] = [
     Clause {
         id: "BRICKS-1",
         sentence: "Marking a cell MUST leave its accessible side neighbours connected with each other through the \
@@ -129,6 +129,7 @@ pub static CLAUSES: [Clause; 12] = [
             &tree::TREE_HALF_BLIND,
             &tree::ROBUST_KNOWING,
             &tree::DOUBTING_KNOWING,
+            &tree::SHIPPED_KNOWING,
         ],
     },
     Clause {
@@ -170,6 +171,8 @@ pub static CLAUSES: [Clause; 12] = [
             &tree::ROBUST_ENDS_ROUND,
             &tree::DOUBTING_ENDS,
             &tree::DOUBTING_ROUND,
+            &tree::SHIPPED_ENDS,
+            &tree::SHIPPED_ROUND,
         ],
     },
     Clause {
@@ -202,5 +205,15 @@ pub static CLAUSES: [Clause; 12] = [
         id: "BRICKS-12",
         sentence: "An agent alone MUST make at most two moves a cell.",
         checks: &[&tree::HELPERS_TWICE, &tree::TREE_TWICE],
+    },
+    Clause {
+        id: "BRICKS-13",
+        sentence: "An agent that goes to a child MUST go to one that was entered least.",
+        checks: &[&tree::LEAST_ENTERED, &tree::HELPERS_LEAST_ENTERED],
+    },
+    Clause {
+        id: "BRICKS-14",
+        sentence: "Two trees MUST have different labels; the one before which its agent had founded fewer has the greater.",
+        checks: &[&tree::labels_of_trees::CHECK],
     },
 ];

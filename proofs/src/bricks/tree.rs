@@ -3,6 +3,7 @@
 
 pub(super) mod checks;
 mod floors;
+mod labels;
 mod state;
 mod team;
 
@@ -75,18 +76,29 @@ impl Memory {
     }
 }
 
+/// How the observer of a mutant is deceived.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Deception {
+    /// Not at all.
+    None,
+    /// Agents beside each other scan and write at once.
+    ActsAtOnce,
+    /// Of several children an agent goes to the first in the order of the compass.
+    FirstChild,
+}
+
 /// Agents that are observed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Observed {
     /// How they decide.
     pub way: Way,
-    /// Whether agents beside each other scan and write at once.
-    pub at_once: bool,
+    /// What is done to them behind their back.
+    pub deception: Deception,
 }
 
 impl Observed {
     /// Agents that follow `rule`, one after the other.
     pub const fn following(rule: Rule) -> Self {
-        Self { way: Way::Trees(rule), at_once: false }
+        Self { way: Way::Trees(rule), deception: Deception::None }
     }
 }

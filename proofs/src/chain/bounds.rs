@@ -61,6 +61,7 @@ impl Bounds {
             walls: walls(&found.frames),
             frames: found.frames.clone(),
             breaks: found.broken.breach().map(Breach::clause),
+            is_over: found.broken.is_of_the_end(),
         }
     }
 

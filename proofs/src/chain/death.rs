@@ -3,9 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use tautline_kernel::chain::{Chain, Intent, Reforming};
+use tautline_kernel::chain::{Chain, Intent, Kind, Message, Outcome as Came, Reforming};
 use tautline_kernel::choice::{Oracle, one_of};
-use tautline_kernel::ground::{Cell, Edge, Grid, SmallGrid};
+use tautline_kernel::ground::{Cell, Edge, Grid, SmallGrid, Step};
 
 use super::breach::Breach;
 use super::environment::in_covered;
@@ -55,6 +55,10 @@ pub(super) enum Then {
     Wait,
     /// They take two team moves back at once.
     Skip,
+    /// They take team moves back, although none is left.
+    Beyond,
+    /// They go on as soon as neighbours are in contact, also with three robots in a cell.
+    Crowd,
     /// They re-form, and never come home.
     StayOut,
 }
@@ -84,6 +88,73 @@ pub(super) fn at_random(dying: &Dying, oracle: &mut dyn Oracle) -> Outcome {
     Death { dying, moment, robot }.happens(RANDOM.0, &mut || oracle.pick(100) >= walls_percent)
 }
 
+/// Robots, and team moves, of [`whatever_the_log`].
+const MEETING: (usize, u32) = (5, 3);
+
+/// What [`whatever_the_log`] looks at.
+pub(super) fn meetings() -> String {
+    let (robots, moves) = MEETING;
+    format!("N = {robots}, a death after {} team moves in the open, any steps in the log", listed(1..=moves))
+}
+
+const MAY_COME_HOME: &str =
+    "a chain that has re-formed can come home until each part has taken all its moves back";
+
+/// CHAIN-21: when the two parts are one chain again, and whether it can still come home, wherever they come to. A log with other
+/// steps than the robots made leads them to more places than true ones do.
+///
+/// # Errors
+/// [`Stop`] if it is no case, or breaks the clause.
+pub(super) fn whatever_the_log(dying: &Dying, oracle: &mut dyn Oracle) -> Outcome {
+    let (robots, most) = MEETING;
+    let (moves, mute) = (1 + oracle.pick(most), 1 + oracle.pick(robots as u32 - 1) as usize);
+    let mut chain: Small = start(&dying.observed, robots, SmallGrid::new)?;
+    let mut log = Vec::new();
+    for _ in 0..moves {
+        goes_on(&mut chain, &mut log, &mut |_| true)?;
+    }
+    let mut reforming = chain.reform(mute + 1, &log).map_err(|_| Stop::Violated("the others can re-form"))?;
+    let taken_back = oracle.pick(2 * moves + 1);
+    for made in 0..taken_back {
+        // The latest first: those of the part ahead, then those of the part behind.
+        let entry = (2 * moves - 1 - made) % moves;
+        let part = if made < moves { mute + 1..robots } else { 1..mute };
+        for robot in part {
+            let step = one_of(oracle, &Step::ALL);
+            log[entry as usize * (robots - 1) + robot - 1] =
+                Message { step, outcome: Came::Arrived }.encode();
+        }
+        // Steps over sides that nobody has crossed are refused.
+        let is_left = reforming.take_back(&log).map_err(|_| Stop::Assumed)?;
+        require(is_left, "each part takes back as many team moves as the chain has made")?;
+    }
+    if !dying.is_formed(&reforming)? {
+        require(reforming.formed().is_err(), "two parts that are not one chain do not go on")?;
+        let is_crowded = Breach::Crowding.is_in(reforming.cells(), reforming.cells());
+        return Ok(if is_crowded { "three robots in one cell" } else { "two parts" });
+    }
+    let (chain, _) = reforming.formed().map_err(|_| Stop::Violated("the chain goes on"))?;
+    require(chain.can_come_home() == (taken_back < 2 * moves), MAY_COME_HOME)?;
+    Ok(if taken_back < moves { "one chain" } else { "one chain, the part ahead home" })
+}
+
+impl Dying {
+    /// Whether the two parts are one chain again, by what they do; that is so as soon as it can be.
+    fn is_formed(&self, reforming: &Reforming<SmallGrid, 8>) -> Result<bool, Stop> {
+        let cells = reforming.cells();
+        let in_contact = hold(&ways(cells, cells));
+        let is_formed = match self.then {
+            Then::Crowd => in_contact,
+            Then::Reform | Then::Wait | Then::Skip | Then::Beyond | Then::StayOut => reforming.is_formed(),
+        };
+        require(
+            is_formed == (in_contact && !Breach::Crowding.is_in(cells, cells)),
+            "the parts are one chain as soon as neighbours are in contact and no three robots in one cell",
+        )?;
+        Ok(is_formed)
+    }
+}
+
 /// The robot in place `robot` dies after so many team moves, on its way in the next.
 struct Death<'a> {
     dying: &'a Dying,
@@ -99,11 +170,10 @@ impl Death<'_> {
         let mut world = BTreeMap::new();
         let mut is_open = |edge: Edge| *world.entry(key(edge)).or_insert_with(&mut *decides);
         let mut chain: Small = start(&self.dying.observed, robots, SmallGrid::new)?;
-        let mut log = Vec::new();
+        let (mut log, mut history) = (Vec::new(), 0);
         for _ in 0..self.moment {
-            if !goes_on(&mut chain, &mut log, &mut is_open)? {
-                return Err(Stop::Assumed);
-            }
+            let Some(kind) = goes_on(&mut chain, &mut log, &mut is_open)? else { return Err(Stop::Assumed) };
+            history = longer(history, kind);
         }
         let Intent::Go(plan) = chain.plan(&log).map_err(|_| NO_MESSAGE)? else { return Err(Stop::Assumed) };
         let (before, mut heard) = (chain, chain);
@@ -112,28 +182,30 @@ impl Death<'_> {
         require(heard == chain, "who hears the others knows what they know")?;
         log.extend_from_slice(settled.messages());
         // The one that died may be anywhere on its way.
-        let mut ways = ways(before.cells(), chain.cells());
-        ways[self.robot][1] = before.cells()[self.robot].after(plan.steps()[self.robot]);
-        require(hold(&ways), "the team stops in contact, wherever the robot has died")?;
+        let mut gone = ways(before.cells(), chain.cells());
+        gone[self.robot][1] = before.cells()[self.robot].after(plan.steps()[self.robot]);
+        require(hold(&gone), "the team stops in contact, wherever the robot has died")?;
         if robots == 2 {
             return Err(Stop::Assumed);
         }
+        let history = longer(history, plan.kind);
         let mut reforming =
             chain.reform(self.robot + 1, &log).map_err(|_| Stop::Violated("the others can re-form"))?;
         let mut taken_back = 0;
-        while !reforming.is_formed() {
+        while !self.dying.is_formed(&reforming)? {
             require(self.takes_back(&mut reforming, &log)?, "the two parts come into contact")?;
             taken_back += 1;
+            require(
+                taken_back <= 2 * history,
+                "they are in contact after at most twice the team moves that are not taken back",
+            )?;
         }
-        require(
-            taken_back <= 2 * (self.moment + 1),
-            "they are in contact after at most twice the team moves that were made",
-        )?;
         let (mut chain, parts) = reforming.formed().map_err(|_| Stop::Violated("the chain goes on"))?;
+        require(chain.can_come_home() == (taken_back < 2 * history), MAY_COME_HOME)?;
         let mut fresh = Vec::new();
         let mut comes_home = false;
         for _ in 0..MANY {
-            if goes_on(&mut chain, &mut fresh, &mut is_open)? {
+            if goes_on(&mut chain, &mut fresh, &mut is_open)?.is_some() {
                 continue;
             }
             let may_leave = self.dying.then != Then::StayOut && chain.has_more_within_reach();
@@ -148,7 +220,14 @@ impl Death<'_> {
                     (false, _) => "the chain goes on after some moves taken back",
                 });
             };
-            while self.takes_back(&mut reforming, &log)? {}
+            while self.takes_back(&mut reforming, &log)? {
+                taken_back += 1;
+                require(
+                    taken_back <= 2 * history,
+                    "no part takes back more team moves than the chain has made",
+                )?;
+            }
+            require(taken_back == 2 * history, "on the way home each part takes all its team moves back")?;
             (chain, _) = reforming.formed().map_err(|_| Stop::Violated("all are in contact in the base"))?;
             require(chain.is_home(), "all moves taken back, the robots are in the base")?;
             (fresh, comes_home) = (Vec::new(), true);
@@ -163,9 +242,13 @@ impl Death<'_> {
         let mut take_back =
             || reforming.take_back(log).map_err(|_| Stop::Violated("the log leads over crossed sides only"));
         let is_left = match self.dying.then {
-            Then::Reform | Then::StayOut => take_back()?,
+            Then::Reform | Then::Crowd | Then::StayOut => take_back()?,
             Then::Wait => false,
             Then::Skip => take_back()? | take_back()?,
+            Then::Beyond => {
+                take_back()?;
+                true
+            }
         };
         let ways = ways(&before, reforming.cells());
         let (behind, ahead) = ways.split_at(reforming.behind());
@@ -174,19 +257,27 @@ impl Death<'_> {
     }
 }
 
-/// Makes a team move, in which the team must keep contact whoever goes first, and apart; false if the run is over.
+/// How many team moves are not taken back, after one more of this kind.
+const fn longer(history: u32, kind: Kind) -> u32 {
+    match kind {
+        Kind::Advance => history + 1,
+        Kind::Backtrack => history.saturating_sub(1),
+    }
+}
+
+/// Makes a team move, in which the team must keep contact whoever goes first, and apart; `None` if the run is over.
 fn goes_on<G: Grid>(
     chain: &mut Chain<G, 8>,
     log: &mut Vec<u8>,
     is_open: &mut dyn FnMut(Edge) -> bool,
-) -> Result<bool, Stop> {
-    let Intent::Go(plan) = chain.plan(log).map_err(|_| NO_MESSAGE)? else { return Ok(false) };
+) -> Result<Option<Kind>, Stop> {
+    let Intent::Go(plan) = chain.plan(log).map_err(|_| NO_MESSAGE)? else { return Ok(None) };
     require(!chain.is_refused(), "no plan is refused")?;
     let before = chain.cells().to_vec();
     log.extend_from_slice(chain.settle(&plan, is_open).messages());
     require(hold(&ways(&before, chain.cells())), "neighbours keep contact")?;
     require(!Breach::Crowding.is_in(&before, chain.cells()), "no three robots are in one cell")?;
-    Ok(true)
+    Ok(Some(plan.kind))
 }
 
 /// Where robots were, and where they are.

@@ -19,6 +19,9 @@ use crate::run::Frame;
 /// Robots for which it can be said what they could reach at all.
 const MOST_EXHAUSTING: usize = 5;
 
+/// Team moves for each cell of the area after which a run is given up: many times as many as any run is known to take.
+const MOVES_OF_A_CELL: u32 = 64;
+
 /// A chain within bounds.
 pub(super) struct ChainGame<G, const ROBOTS: usize> {
     bounds: Bounds,
@@ -64,6 +67,10 @@ where
 
     fn edges(&self) -> u32 {
         self.start.grid().area().edges().count() as u32
+    }
+
+    fn longest_run(&self) -> u32 {
+        MOVES_OF_A_CELL * self.start.grid().area().cells().count() as u32
     }
 
     fn start(&self) -> Self::State {
@@ -122,6 +129,10 @@ where
             return Some((Invariant::Heard, "no message of a team is refused by it"));
         }
         let grid = chain.grid();
+        let moves = log.len() / (self.bounds.robots - 1);
+        if self.looks_for(Invariant::Short) && moves > most_moves(grid, self.bounds.robots) {
+            return Some((Invariant::Short, "each wall that is met costs at most N² team moves"));
+        }
         if grid.is_explored() {
             return None;
         }
@@ -171,6 +182,12 @@ where
             ControlFlow::Continue(())
         }
     }
+}
+
+/// The team moves that CHAIN-24 lets a chain make of which this is known at the end.
+fn most_moves<G: Grid>(grid: &G, robots: usize) -> usize {
+    let walls = grid.area().edges().filter(|&edge| grid.edge_has(EdgeMark::Wall, edge)).count();
+    9 * (robots - 1) - 1 + robots * robots * walls
 }
 
 fn is_backtrack(messages: &[u8]) -> bool {

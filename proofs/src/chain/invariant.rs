@@ -57,6 +57,10 @@ pub enum Invariant {
     Arrives,
     /// CHAIN-19: contact, whoever goes first or not at all.
     AnyOrder,
+    /// CHAIN-23: take-backs of 1, 2, 4 and more team moves.
+    Doubles,
+    /// CHAIN-24: at the end of a run, not too many team moves for the walls that it has met.
+    Short,
 }
 
 impl Invariant {
@@ -74,7 +78,7 @@ impl Invariant {
         [Self::Admitted, Self::Distinct, Self::BaseStays, Self::Progress, Self::Heard, Self::Cheap];
 
     /// Those of the reel.
-    const OF_REELS: [Self; 12] = [
+    const OF_REELS: [Self; 14] = [
         Self::Without(Breach::Contact),
         Self::Without(Breach::Crowding),
         Self::Without(Breach::Coverage),
@@ -86,6 +90,8 @@ impl Invariant {
         Self::Heard,
         Self::Falls,
         Self::Arrives,
+        Self::Doubles,
+        Self::Short,
         Self::AnyOrder,
     ];
 
@@ -107,7 +113,7 @@ impl Invariant {
             Self::Without(_) | Self::Ends => &Self::OF_RUNS,
             Self::Exhausts => &[Self::Exhausts],
             Self::Certified => &[Self::Certified],
-            Self::Falls | Self::Arrives | Self::AnyOrder => &Self::OF_REELS,
+            Self::Falls | Self::Arrives | Self::AnyOrder | Self::Doubles | Self::Short => &Self::OF_REELS,
             Self::Admitted
             | Self::Distinct
             | Self::BaseStays
@@ -115,6 +121,11 @@ impl Invariant {
             | Self::Heard
             | Self::Cheap => &Self::OF_PLANS,
         }
+    }
+
+    /// Whether it is demanded of the end of a run.
+    pub(super) const fn is_of_the_end(self) -> bool {
+        matches!(self, Self::Without(Breach::Completeness) | Self::Exhausts | Self::Short)
     }
 
     /// The breach that it forbids, if anyone sees one who watches the run.
@@ -132,7 +143,9 @@ impl Invariant {
             | Self::Certified
             | Self::Falls
             | Self::Arrives
-            | Self::AnyOrder => None,
+            | Self::AnyOrder
+            | Self::Doubles
+            | Self::Short => None,
         }
     }
 
@@ -151,6 +164,8 @@ impl Invariant {
             Self::Falls => "CHAIN-17",
             Self::Arrives => "CHAIN-18",
             Self::AnyOrder => "CHAIN-19",
+            Self::Doubles => "CHAIN-23",
+            Self::Short => "CHAIN-24",
         }
     }
 
@@ -182,13 +197,14 @@ impl Invariant {
             }
             Self::Progress => moment.progresses(),
             // Of the end of a run, or of its never coming.
-            Self::Ends | Self::Exhausts => Ok(()),
+            Self::Ends | Self::Exhausts | Self::Short => Ok(()),
             Self::Heard => moment.is_heard(),
             Self::Cheap => moment.is_cheap(),
             Self::Certified => require(!moment.planned.is_refused(), "no plan is refused"),
             Self::Falls => moment.falls(),
             Self::Arrives => moment.arrives(),
             Self::AnyOrder => moment.holds_in_any_order(),
+            Self::Doubles => moment.doubles(),
         }
     }
 }
@@ -343,6 +359,36 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
             ),
             Some(_) | None => Ok(()),
         }
+    }
+
+    /// The team moves left of a take-back, if one is under way in `chain`, and how many have been begun since the last gain.
+    fn take_back(chain: &Chain<G, ROBOTS>) -> (Option<u32>, u32) {
+        let [not_begun, is_under_way, left] = chain.measure();
+        ((is_under_way == 1).then_some(left), u32::from(u8::MAX) - not_begun)
+    }
+
+    /// What is taken back belongs to a take-back. One that is begun has twice as many team moves as the one before, the first
+    /// since the last gain one; and it goes on until they are made, the history ends, or something is gained.
+    fn doubles(&self) -> Result<(), Stop> {
+        let (before, begun) = if self.before.gained() { (None, 0) } else { Self::take_back(self.before) };
+        let (planned, now) = Self::take_back(self.planned);
+        let gains = self.explores() || self.finds_wall();
+        let goes_on = before.is_some_and(|left| left > 0) && self.before.last_open().is_some();
+        require(
+            planned.is_some() == (self.plan.kind == Kind::Backtrack),
+            "team moves are taken back in a take-back alone",
+        )?;
+        if goes_on {
+            return require(
+                gains || planned == before && Self::take_back(self.after).0 == before.map(|left| left - 1),
+                "a take-back goes on until its team moves are made",
+            );
+        }
+        let due = 1_u32.checked_shl(begun).unwrap_or(u32::MAX);
+        require(
+            planned.is_none_or(|left| left == due && now == begun + 1),
+            "each take-back without a gain has twice as many team moves as the one before",
+        )
     }
 
     /// Each of two neighbours has gone, or not yet.

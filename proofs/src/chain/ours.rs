@@ -27,6 +27,9 @@ step_checks! { Observed;
         };
 }
 
+/// Five robots, which may meet as many walls as are soon looked at.
+const FIVE_TWO_WALLS: (usize, u32) = (5, 2);
+
 /// Reels that do not end, or gain nothing where they said so.
 const UNREHEARSED: Named<Observed> =
     Named::new("tasks are not rehearsed", Observed::without_habits(&[Habit::Rehearses]));
@@ -73,7 +76,19 @@ const DEATH: Check<Dying> = Check::new(
         Named::new("the robots ahead wait", dying(Observed::REEL, Then::Wait)),
         Named::new("two team moves are taken back at once", dying(Observed::REEL, Then::Skip)),
         Named::new("the chain never comes home", dying(Observed::REEL, Then::StayOut)),
+        Named::new("team moves are taken back that nobody made", dying(Observed::REEL, Then::Beyond)),
     ],
+);
+
+const MEETING: Check<Dying> = Check::new(
+    DEATH.about,
+    &Exhaustive {
+        body: death::whatever_the_log,
+        range: death::meetings,
+        covers: &["one chain", "one chain, the part ahead home", "three robots in one cell", "two parts"],
+    },
+    Verdict::Holds,
+    &[Named::new("three robots go on in one cell", dying(Observed::REEL, Then::Crowd))],
 );
 
 const DEATH_AT_RANDOM: Check<Dying> = Check::new(
@@ -115,7 +130,7 @@ const SHUT_AT_RANDOM: Check<Shut> = Check::new(
 );
 
 /// The clauses.
-pub static CLAUSES: [Clause; 7] = [
+pub static CLAUSES: [Clause; 9] = [
     Clause {
         id: "CHAIN-16",
         sentence: "A planner MUST make no plan that the admission relation refuses.",
@@ -208,13 +223,41 @@ pub static CLAUSES: [Clause; 7] = [
         id: "CHAIN-21",
         sentence: "When a robot dies, the parts of the reel behind and ahead of it MUST keep contact within themselves, come \
                    into contact with each other, and explore all that is within reach of a chain of one robot fewer.",
-        checks: &[&DEATH, &DEATH_AT_RANDOM],
+        checks: &[&DEATH, &MEETING, &DEATH_AT_RANDOM],
     },
     Clause {
         id: "CHAIN-22",
         sentence: "When walls appear where robots have crossed, the reel MUST keep to CHAIN-1 and CHAIN-2, take no robot to be \
                    through a wall, and end its run.",
         checks: &[&SHUT, &SHUT_AT_RANDOM],
+    },
+    Clause {
+        id: "CHAIN-23",
+        sentence: "As long as nothing is gained, the reel MUST take back one team move, then two, then four, each time twice \
+                   as many, as far as there are.",
+        checks: &[
+            &Check::new(UNHELD, &EveryLayout(Invariant::Doubles, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
+            &Check::new(
+                REEL,
+                &EveryLayout(Invariant::Doubles, FOUR_FEWER_WALLS),
+                Verdict::Holds,
+                &[TAKES_BACK_ONE],
+            ),
+        ],
+    },
+    Clause {
+        id: "CHAIN-24",
+        sentence: "A reel of N robots MUST be done after at most 9(N−1)−1 team moves, and N² more for each wall that it meets.",
+        checks: &[
+            &Check::new(UNHELD, &EveryLayout(Invariant::Short, FOUR_FEWER_WALLS), Verdict::Holds, &[]),
+            &Check::new(
+                REEL,
+                &EveryLayout(Invariant::Short, FOUR_FEWER_WALLS),
+                Verdict::Holds,
+                &[Named::new("as repaired", Observed::reeling(Rule::REPAIRED))],
+            ),
+            &Check::new(REEL, &EveryLayout(Invariant::Short, FIVE_TWO_WALLS), Verdict::Holds, &[]),
+        ],
     },
 ];
 
@@ -245,7 +288,8 @@ mod tests {
 
     #[test]
     fn whatever_is_lost_whoever_dies_and_whichever_walls_appear_the_reel_goes_on_and_mutants_do_not() {
-        let checks: [&dyn AnyCheck; 5] = [&BARRIER, &DEATH, &DEATH_AT_RANDOM, &SHUT, &SHUT_AT_RANDOM];
+        let checks: [&dyn AnyCheck; 6] =
+            [&BARRIER, &DEATH, &MEETING, &DEATH_AT_RANDOM, &SHUT, &SHUT_AT_RANDOM];
         for check in checks {
             let decision = check.decide(&mut Memory::default(), &mut unwatched).expect("it can be decided");
             assert!(decision.is_as_registered(check), "{check:?}: {decision:?}");

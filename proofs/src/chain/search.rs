@@ -227,7 +227,9 @@ impl Method<Observed> for EveryLayout {
         let found = found.map_err(decide::Refused::new)?;
         let broken = found.counterexamples.iter().find(|found| found.broken == self.0);
         let evidence = broken.map(|found| Self::evidence(&bounds, found));
-        Ok(Answer::new(evidence, found.complete, self.shows(), found.runs))
+        let is_whole = found.complete && found.given_up == 0;
+        let answer = Answer::new(evidence, is_whole, self.shows(), found.runs - found.given_up);
+        Ok(Answer { given_up: found.given_up, ..answer })
     }
 
     fn replay(&self, observed: &Observed, choices: &Choices) -> Result<Played, Unfit> {

@@ -99,7 +99,8 @@ pub(super) fn any_order(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome
     let walls_percent = one_of(oracle, &ORDERS.1);
     let mut chain = start::<_, 8>(observed, ORDERS.0, SmallGrid::new)?;
     let mut log = Vec::new();
-    while let Intent::Go(plan) = chain.plan(&log).map_err(|_| NO_MESSAGE)? {
+    for _ in 0..MANY {
+        let Intent::Go(plan) = chain.plan(&log).map_err(|_| NO_MESSAGE)? else { return Ok("a whole run") };
         let mut team = chain.cells().to_vec();
         let settled = chain.settle(&plan, |_| oracle.pick(100) >= walls_percent);
         log.extend_from_slice(settled.messages());
@@ -111,7 +112,7 @@ pub(super) fn any_order(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome
             require(holds, "neighbours are in contact after each robot that goes")?;
         }
     }
-    Ok("a whole run")
+    Err(Stop::GivenUp)
 }
 
 /// Robots, and most walls, of [`same_plan_in_all_layouts`].
@@ -179,7 +180,7 @@ fn in_step<P: Plane, const ROBOTS: usize>(
         plain = plain.that_doubts_all();
     }
     let mut log = Vec::new();
-    loop {
+    for _ in 0..MANY {
         let Ok((expected, _)) = plain.plan(PATIENCE) else { return Err(Stop::GivenUp) };
         let intent = chain.plan(&log).map_err(|_| NO_MESSAGE)?;
         if chain.is_cut_short() {
@@ -213,6 +214,7 @@ fn in_step<P: Plane, const ROBOTS: usize>(
         plain.settle(&expected, |edge| answers.iter().any(|&(asked, open)| asked == edge && open));
         require(plain.cells() == chain.cells(), "the team is where the recursion has it")?;
     }
+    Err(Stop::GivenUp)
 }
 
 /// Team moves after which the cost of plans has been seen enough in one layout.

@@ -1,8 +1,11 @@
-//! Which clauses Rocq has proved for every number of robots, layout or network: read from what the audit of `proofs/rocq`
-//! prints. `docs/machine-checked.md` says what each theorem assumes.
+//! Which clauses Rocq has proved for every number of robots, layout or network, and of which rules: read from what the audit
+//! of `proofs/rocq` prints, and from the list of rules beside it. `docs/machine-checked.md` says what each theorem assumes.
 
 /// What `proofs/rocq/Audit.v` prints: each theorem with its statement, and whether it rests on assumptions.
 const AUDIT: &str = include_str!("../../rocq/audit.expected");
+
+/// The rules that each theorem speaks of: it says nothing of the others that a clause is about.
+const RULES: &str = include_str!("../../rocq/rules.txt");
 
 /// The line below the statement of a theorem that rests on nothing but definitions.
 const CLOSED: &str = "Closed under the global context";
@@ -14,26 +17,36 @@ pub struct Theorem {
     pub clause: String,
     /// What part of the clause it proves, in words; `None` if it is the clause.
     pub part: Option<String>,
+    /// The rules that it speaks of, by their names in the ledger.
+    pub rules: Vec<&'static str>,
 }
 
 impl Theorem {
-    /// The theorem of this name: the id of a clause, with `_` for `-`, and the part behind it. Other names are no theorems
-    /// about a clause.
-    fn named(name: &str) -> Option<Self> {
-        let name = name.rsplit('.').next()?;
-        let mut parts = name.splitn(3, '_');
-        let (scheme, number) = (parts.next()?, parts.next()?);
-        let is_id = scheme.bytes().all(|letter| letter.is_ascii_uppercase())
-            && number.bytes().all(|digit| digit.is_ascii_digit());
-        let part = parts.next().map(|part| part.replace('_', " "));
-        (is_id && !scheme.is_empty() && !number.is_empty())
-            .then(|| Self { clause: format!("{scheme}-{number}"), part })
+    /// The theorem of this name, of which the list of `rules` has a line: the id of a clause, with `_` for `-`, and the part behind
+    /// it, unless the line names the part. Other names are no theorems about a clause.
+    fn named(name: &str, rules: &'static str) -> Option<Self> {
+        let (clause, part) = split(name)?;
+        let line = rules.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(' '))?;
+        let (rules, less) = line.split_once(": ").map_or((line, None), |(rules, less)| (rules, Some(less)));
+        let part = less.map(str::to_owned).or(part);
+        Some(Self { clause, part, rules: rules.split(' ').collect() })
     }
+}
+
+/// The id of the clause that a theorem of this name is about, and what part of it.
+fn split(name: &str) -> Option<(String, Option<String>)> {
+    let name = name.rsplit('.').next()?;
+    let mut parts = name.splitn(3, '_');
+    let (scheme, number) = (parts.next()?, parts.next()?);
+    let is_id = scheme.bytes().all(|letter| letter.is_ascii_uppercase())
+        && number.bytes().all(|digit| digit.is_ascii_digit());
+    let part = parts.next().map(|part| part.replace('_', " "));
+    (is_id && !scheme.is_empty() && !number.is_empty()).then(|| (format!("{scheme}-{number}"), part))
 }
 
 /// The theorems of the audit that are about a clause and rest on no assumption, in its order.
 pub fn theorems() -> Vec<Theorem> {
-    closed(AUDIT).filter_map(Theorem::named).collect()
+    closed(AUDIT).filter_map(|name| Theorem::named(name, RULES)).collect()
 }
 
 /// The names in what an audit prints that stand above a line which says that the theorem is closed.
@@ -43,10 +56,11 @@ fn closed(audit: &str) -> impl Iterator<Item = &str> {
     heads().zip(heads().skip(1)).filter(|&(_, below)| below == CLOSED).map(|(name, _)| name)
 }
 
-/// What the ledger says of a clause that holds: whether it, or a part of it, is machine-checked beyond the bound.
-pub(super) fn words(clause: &str) -> Option<String> {
+/// What the ledger says of a clause that holds for `rule`: whether it, or a part of it, is machine-checked beyond the bound.
+pub(super) fn words(clause: &str, rule: &str) -> Option<String> {
     let mut parts = Vec::new();
-    for theorem in theorems().into_iter().filter(|theorem| theorem.clause == clause) {
+    let about = |theorem: &Theorem| theorem.clause == clause && theorem.rules.contains(&rule);
+    for theorem in theorems().into_iter().filter(about) {
         match theorem.part {
             None => return Some("composition: machine-checked".to_owned()),
             Some(part) => parts.push(part),
@@ -61,12 +75,18 @@ mod tests {
     use crate::ledger::clauses;
 
     #[test]
-    fn every_theorem_about_a_clause_is_about_one_of_ours() {
+    fn every_theorem_about_a_clause_names_its_rules_and_each_has_a_row_of_the_clause() {
+        let about_clauses = closed(AUDIT).filter(|name| split(name).is_some()).count();
+        let lines = RULES.lines().filter(|line| !line.starts_with('#')).count();
         let theorems = theorems();
+        assert_eq!((about_clauses, lines), (theorems.len(), theorems.len()), "{theorems:?}");
         assert!(theorems.len() >= 18, "{theorems:?}");
         for theorem in theorems {
-            let id = &theorem.clause;
-            assert!(clauses().any(|clause| clause.id == id), "no clause {id} is registered: {theorem:?}");
+            let clause = clauses().find(|clause| clause.id == theorem.clause);
+            let clause = clause.unwrap_or_else(|| panic!("no such clause is registered: {theorem:?}"));
+            for rule in &theorem.rules {
+                assert!(clause.checks.iter().any(|check| check.rule() == *rule), "no row: {theorem:?}");
+            }
         }
     }
 
@@ -80,18 +100,33 @@ mod tests {
 
     #[test]
     fn the_name_of_a_theorem_says_the_clause_and_the_part() {
-        let named = |name| Theorem::named(name).map(|theorem| (theorem.clause, theorem.part));
-        assert_eq!(named("Leases.MRC_1"), Some(("MRC-1".to_owned(), None)));
-        assert_eq!(named("CHAIN_13_step"), Some(("CHAIN-13".to_owned(), Some("step".to_owned()))));
+        assert_eq!(split("Leases.MRC_1"), Some(("MRC-1".to_owned(), None)));
+        assert_eq!(split("CHAIN_13_step"), Some(("CHAIN-13".to_owned(), Some("step".to_owned()))));
         for other in ["published_breaks_CHAIN_1", "hold_keeps_coverage", "CHAIN_x", "_1", "CHAIN_"] {
-            assert_eq!(named(other), None, "{other}");
+            assert_eq!(split(other), None, "{other}");
         }
     }
 
     #[test]
-    fn a_clause_of_which_a_part_is_proved_is_said_to_be_so() {
-        assert_eq!(words("CHAIN-1").as_deref(), Some("composition: machine-checked"));
-        assert_eq!(words("BRICKS-2").as_deref(), Some("composition: machine-checked in part (marking)"));
-        assert_eq!(words("CHAIN-14"), None);
+    fn a_theorem_counts_for_the_rules_of_its_line_alone_and_for_none_without_a_line() {
+        let rules = "CHAIN_1 repaired reel\nCHAIN_6 repaired: admitted plans\n";
+        let named = |name| Theorem::named(name, rules).map(|theorem| (theorem.rules, theorem.part));
+        assert_eq!(named("CHAIN_1"), Some((vec!["repaired", "reel"], None)));
+        assert_eq!(named("CHAIN_6"), Some((vec!["repaired"], Some("admitted plans".to_owned()))));
+        assert_eq!((named("CHAIN_10"), named("Hold.CHAIN_1")), (None, None));
+    }
+
+    #[test]
+    fn a_clause_of_which_a_part_is_proved_is_said_to_be_so_for_the_rules_that_the_theorem_speaks_of() {
+        assert_eq!(words("CHAIN-1", "reel").as_deref(), Some("composition: machine-checked"));
+        assert_eq!(
+            words("BRICKS-2", "repaired").as_deref(),
+            Some("composition: machine-checked in part (marking)")
+        );
+        for (clause, rule) in
+            [("CHAIN-14", "repaired"), ("CHAIN-13", "reel"), ("BRICKS-2", "helpers"), ("BRICKS-2", "careful")]
+        {
+            assert_eq!(words(clause, rule), None, "{clause} {rule}");
+        }
     }
 }

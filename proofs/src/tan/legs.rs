@@ -4,7 +4,7 @@
 
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::net::{NodeId, RobotId, Strength};
-use tautline_kernel::tan::{Homing, Nav, Nearness, Stage};
+use tautline_kernel::tan::{Heading, Homing, Nav, Nearness, Stage};
 
 use crate::engine::{Outcome, Stop, require};
 
@@ -131,8 +131,11 @@ fn nav(oracle: &mut dyn Oracle) -> Nav {
 /// A robot that has turned its antenna once round, and then comes to the node, or loses its signal on the way.
 fn measured(mut robot: Homing, loses_it: bool) -> Homing {
     let strength = if loses_it { NEARNESS.near.0 - 1 } else { 10 * NEARNESS.near.0 };
-    while matches!(robot.stage(), Stage::Scanning { .. }) {
+    for _ in Heading::all() {
         robot = robot.measure(Some(Strength(strength)));
+        if !matches!(robot.stage(), Stage::Scanning { .. }) {
+            break;
+        }
     }
     match robot.stage() {
         Stage::Walking { .. } => robot.measure(None),

@@ -6,6 +6,7 @@ use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Side, Step};
 use tautline_proofs::course::Course;
 use tautline_proofs::ledger;
+use tautline_proofs::run::Run;
 use tautline_proofs::words::counted;
 
 use super::{Block, Pose, agents, beside, first_drawn, legend, outcome, team_move};
@@ -80,8 +81,15 @@ pub fn of_end(run: &dyn Play, report: &Report) -> String {
 }
 
 fn unexplored(run: &dyn Play, report: &Report, head: &str, what: &str, cells: &[Cell]) -> String {
-    let cells: Vec<String> = cells.iter().map(|cell| format!("({cell})")).collect();
-    format!("{head}\n\n  {what}: {}.\n\n{}", cells.join(" "), outcome(run, &report.chart, &report.team))
+    let listed: Vec<String> = cells.iter().map(|cell| format!("({cell})")).collect();
+    let left = if cells.is_empty() { String::new() } else { format!("  {what}: {}.\n\n", listed.join(" ")) };
+    format!("{head}\n\n{left}{}", outcome(run, &report.chart, &report.team))
+}
+
+/// The cells that no robot has explored, and what they are.
+fn left(report: &Report) -> (&'static str, Vec<Cell>) {
+    let is_left = |cell: &Cell| report.chart.step(*cell).is_none();
+    ("Unexplored", report.chart.area().cells().filter(is_left).collect())
 }
 
 /// How agents come into the trap of `run`: every team move before it is made, with what each agent tries
@@ -165,14 +173,35 @@ pub fn last_move(run: &dyn Play) -> Result<String, Halt> {
     }
     if report.violations.is_empty() {
         let head = format!("The run ends after team move {}: {}.", report.steps, report.stopped.words());
-        let left: Vec<Cell> =
-            report.chart.area().cells().filter(|&cell| report.chart.step(cell).is_none()).collect();
-        return Ok(unexplored(run, &report, &head, "Unexplored", &left));
+        let (what, cells) = left(&report);
+        return Ok(unexplored(run, &report, &head, what, &cells));
     }
     let mut story = String::new();
     run.play(&mut |made| {
         if made.step == report.steps {
             story = of(run, &report.chart, made);
+        }
+        Ok(())
+    })?;
+    Ok(story)
+}
+
+/// How `run`, the run that a search has `found`, breaks `clause`: by the last team move that was found, or by its end. Whoever
+/// watches it need not see that the clause is broken, and may see it go on.
+///
+/// # Errors
+/// [`Halt`] if the run cannot be made.
+pub fn of_found(run: &dyn Play, clause: ClauseId, found: &Run) -> Result<String, Halt> {
+    let (step, mut story) = (found.frames.len() as u32, String::new());
+    let report = run.play(&mut |_| Ok(()))?;
+    if found.is_over {
+        let head = format!("The end after team move {step} breaks {}", with_sentence(clause));
+        let (what, cells) = run.missed(clause, &report.chart).unwrap_or_else(|| left(&report));
+        return Ok(unexplored(run, &report, &head, what, &cells));
+    }
+    run.play(&mut |made| {
+        if made.step == step {
+            story = of(run, &report.chart, &TeamMove { broken: &[clause], ..*made });
         }
         Ok(())
     })?;

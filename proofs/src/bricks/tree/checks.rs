@@ -6,17 +6,23 @@ use tautline_kernel::bricks::tree::Condition::{
 use tautline_kernel::bricks::tree::Rule;
 
 use super::floors::Floors;
-use super::{Observed, Way};
+use super::{Deception, Observed, Way, labels};
 use crate::clause::{Check, Named};
 use crate::decide::Verdict;
+use crate::step_checks;
 
 const TREE: Named<Observed> = Named::new("tree", Observed::following(Rule::TREE));
 const HELPERS: Named<Observed> = Named::new("helpers", Observed::following(Rule::HELPERS));
 const ROBUST: Named<Observed> = Named::new("careful", Observed::following(Rule::ROBUST));
-const MDFS: Named<Observed> = Named::new("mdfs", Observed { way: Way::Mdfs, at_once: false });
-const AT_ONCE: Observed = Observed { at_once: true, ..TREE.rule };
+const MDFS: Named<Observed> = Named::new("mdfs", Observed { way: Way::Mdfs, deception: Deception::None });
+const AT_ONCE: Observed = Observed { deception: Deception::ActsAtOnce, ..TREE.rule };
 
-/// Agents that believe one scan: those that run believe three in a row, which is more to search than small floors can show.
+/// Agents that doubt as they run: they believe three scans in a row.
+const SHIPPED: Named<Observed> = Named::new("doubting", Observed::following(Rule::DOUBTING));
+const TWO_BELIEVED: Named<Observed> =
+    Named::new("two scans are believed", Observed::following(Rule::DOUBTING.reading(2)));
+
+/// Agents that believe one scan: three are more to search than larger floors can show.
 const DOUBTING: Named<Observed> = Named::new("doubting-1", Observed::following(DOUBTING_RULE));
 
 /// Agents whose trees all have the same label.
@@ -115,6 +121,14 @@ pub(in crate::bricks) static ROBUST_ENDS_ROUND: Check<Observed> =
 /// BRICKS-6, sensors missed and placed unasked.
 pub(in crate::bricks) static DOUBTING_ENDS: Check<Observed> =
     holds(DOUBTING, &Floors::ENDS_ROUND, &[NOT_RESTORED, FORGETFUL]);
+/// BRICKS-4, as shipped.
+pub(in crate::bricks) static SHIPPED_KNOWING: Check<Observed> =
+    holds(SHIPPED, &Floors::KNOWING_AS_SHIPPED, &[]);
+/// BRICKS-6, as shipped.
+pub(in crate::bricks) static SHIPPED_ENDS: Check<Observed> =
+    holds(SHIPPED, &Floors::ENDS_AS_SHIPPED, &[TWO_BELIEVED]);
+/// BRICKS-6, as shipped, one more missed.
+pub(in crate::bricks) static SHIPPED_ROUND: Check<Observed> = refuted(SHIPPED, &Floors::ENDS_SEVEN_MISSED);
 /// BRICKS-6, one more missed.
 pub(in crate::bricks) static DOUBTING_ROUND: Check<Observed> = refuted(DOUBTING, &Floors::ENDS_THRICE_MISSED);
 /// BRICKS-12
@@ -122,3 +136,19 @@ pub(in crate::bricks) static HELPERS_TWICE: Check<Observed> =
     holds(HELPERS, &Floors::TWICE, &[TWICE_ADOPTED]);
 /// BRICKS-12
 pub(in crate::bricks) static TREE_TWICE: Check<Observed> = refuted(TREE, &Floors::TWICE);
+/// BRICKS-13
+pub(in crate::bricks) static LEAST_ENTERED: Check<Observed> = holds(TREE, &Floors::LEAST_ENTERED, &[]);
+/// BRICKS-13
+pub(in crate::bricks) static HELPERS_LEAST_ENTERED: Check<Observed> = holds(
+    HELPERS,
+    &Floors::HELPERS_LEAST_ENTERED,
+    &[Named::new("the first child", Observed { deception: Deception::FirstChild, ..HELPERS.rule })],
+);
+
+step_checks! { Observed;
+    labels_of_trees: labels::labels, TREE, labels::pairs,
+        covers ["two trees of one agent", "trees of two agents"], unwind 10, mutants {
+            wrapping: "labels that come again" => WRAPPING.rule,
+            by_agent: "labels of 8 bits" => Observed::following(Rule { label_bits: 8, ..Rule::TREE }),
+        };
+}

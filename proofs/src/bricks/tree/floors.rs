@@ -3,8 +3,8 @@
 
 use tautline_kernel::bricks::tree::Note;
 
-use super::Observed;
 use super::team::{Demand, Team, Turns};
+use super::{Deception, Observed};
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
 use crate::engine::states::Limits;
 use crate::engine::{Choices, Script, Unfit, Until};
@@ -54,9 +54,10 @@ impl Series {
     /// The teams, one in each plan.
     fn teams(self, observed: &Observed, demand: Demand) -> Vec<Team> {
         let Self { area, agents: _, max_misses, turns, may_fail, most_crossings } = self;
-        let turns = if turns == Turns::Overlapping && observed.at_once { Turns::Free } else { turns };
-        let team =
-            |plan| Team { plan, way: observed.way, turns, max_misses, may_fail, most_crossings, demand };
+        let Observed { way, deception } = *observed;
+        let is_at_once = turns == Turns::Overlapping && deception == Deception::ActsAtOnce;
+        let turns = if is_at_once { Turns::Free } else { turns };
+        let team = |plan| Team { plan, way, deception, turns, max_misses, may_fail, most_crossings, demand };
         area.plans().map(team).collect()
     }
 
@@ -123,14 +124,24 @@ impl Floors {
     pub(super) const KNOWING_ROUND: Self = Self { series: &ROUND, demand: Demand::Knowing };
     /// BRICKS-6, likewise.
     pub(super) const ENDS_ROUND: Self = Self { series: &ROUND, demand: Demand::Ends };
+    /// BRICKS-4, three scans being believed.
+    pub(super) const KNOWING_AS_SHIPPED: Self = Self { series: &AS_SHIPPED, demand: Demand::Knowing };
+    /// BRICKS-6, three scans being believed.
+    pub(super) const ENDS_AS_SHIPPED: Self = Self { series: &AS_SHIPPED, demand: Demand::Ends };
+    /// BRICKS-6, with one missed more.
+    pub(super) const ENDS_SEVEN_MISSED: Self = Self { series: &SEVEN_MISSED, demand: Demand::Ends };
     /// BRICKS-6, with one missed more than [`Floors::ENDS_ROUND`] has.
     pub(super) const ENDS_THRICE_MISSED: Self = Self { series: &THRICE_MISSED, demand: Demand::Ends };
+    /// BRICKS-13
+    pub(super) const LEAST_ENTERED: Self = Self { series: &TOGETHER, demand: Demand::LeastEntered };
+    /// BRICKS-13, as many agents as it takes until one has two children to choose from.
+    pub(super) const HELPERS_LEAST_ENTERED: Self = Self { series: &THREE, demand: Demand::LeastEntered };
     /// BRICKS-11
     pub(super) const SURVIVES: Self = Self { series: &FAILING, demand: Demand::Ends };
 
     /// The same floors with the demands of all clauses that are about them, if these are several.
     fn together(self) -> Option<Self> {
-        let is_shared = [&TOGETHER[..], &HELPING, &HALF_BLIND, &ROUND].contains(&self.series);
+        let is_shared = [&TOGETHER[..], &HELPING, &HALF_BLIND, &ROUND, &AS_SHIPPED].contains(&self.series);
         is_shared.then_some(Self { demand: Demand::All, ..self })
     }
 
@@ -217,6 +228,9 @@ const HELPING: [Series; 3] = [
     Series::new(Area::blocked(4, 2), 2),
 ];
 
+/// Three of them, in areas so small that all their orders can be looked at.
+const THREE: [Series; 2] = [Series::new(Area::blocked(2, 2), 3), Series::new(Area::blocked(4, 1), 3)];
+
 /// Sensors missed.
 const HALF_BLIND: [Series; 5] = [
     Series::missing(Area::blocked(2, 2), 1, 1),
@@ -228,6 +242,10 @@ const HALF_BLIND: [Series; 5] = [
 
 /// Sensors missed on rings of cells, and crossings counted so far that runs that go on for ever come round.
 const ROUND: [Series; 1] = [Series::counting(Area::blocked(3, 3), 1, 2)];
+
+/// As many missed as three scans in a row bear on each layout of this area: six, where two scans bear four.
+const AS_SHIPPED: [Series; 1] = [Series::counting(Area::blocked(3, 2), 1, 6)];
+const SEVEN_MISSED: [Series; 1] = [Series::counting(Area::blocked(3, 2), 1, 7)];
 
 /// One missed more, the smallest areas first.
 const THRICE_MISSED: [Series; 3] = [

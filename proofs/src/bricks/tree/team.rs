@@ -1,13 +1,13 @@
 //! Agents that search in trees on one plan: which agent acts next, which sensors it misses and which agents fail are
 //! choices. What the clauses demand is in plain arithmetic; of the kernel's rule only the agents' actions are used.
 
-use tautline_kernel::bricks::tree::{Next, View};
+use tautline_kernel::bricks::tree::{Next, State as Cellular, View};
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::floor::Mark;
-use tautline_kernel::ground::{Cell, Step};
+use tautline_kernel::floor::{COMPASS, Mark};
+use tautline_kernel::ground::{Cell, Side, Step};
 
-use super::Way;
 use super::state::{Body, Part, Small, State};
+use super::{Deception, Way};
 use crate::course::{Course, Scene, Turn};
 use crate::engine::outcomes;
 use crate::engine::states::{self, Bits, Places, Run, System};
@@ -35,7 +35,9 @@ pub(super) enum Demand {
     Bounded,
     /// BRICKS-12
     Twice,
-    /// BRICKS-2, BRICKS-4, BRICKS-5, BRICKS-6, BRICKS-8 and BRICKS-9, looked at in one pass.
+    /// BRICKS-13
+    LeastEntered,
+    /// BRICKS-2, BRICKS-4, BRICKS-5, BRICKS-6, BRICKS-8, BRICKS-9, and where no sensor is missed BRICKS-13, looked at in one pass.
     All,
 }
 
@@ -44,6 +46,7 @@ pub(super) enum Demand {
 pub(super) struct Team {
     pub(super) plan: FloorPlan,
     pub(super) way: Way,
+    pub(super) deception: Deception,
     pub(super) turns: Turns,
     /// Sensors that are missed in one run at most.
     pub(super) max_misses: u8,
@@ -119,6 +122,7 @@ impl Team {
             | Demand::Whole
             | Demand::Rising
             | Demand::Twice
+            | Demand::LeastEntered
             | Demand::All => false,
         };
         if awake == 0 || is_over {
@@ -152,7 +156,7 @@ impl Team {
             });
         }
         let mut floor = Small { plan: &self.plan, notes: &mut state.notes };
-        let mut unseen = Vec::new();
+        let (mut unseen, mut is_least_entered) = (Vec::new(), true);
         let (act, is_due) = if let Some(act) = body.pending.take() {
             (act, true)
         } else {
@@ -163,7 +167,15 @@ impl Team {
                 let mark = |cell| self.plan.place(cell).map_or(Mark::Unexplored, |at| floor.notes[at].mark());
                 unseen = view.scan.misread(mark, body.cell).collect();
             }
-            (self.way.decide(&mut body.memory, &view), self.turns == Turns::Whole)
+            let mut act = self.way.decide(&mut body.memory, &view);
+            if let (Deception::FirstChild, Next::Goes(side)) = (self.deception, act.next)
+                && entered(&view, side).is_some()
+            {
+                let first = COMPASS.into_iter().find(|&side| entered(&view, side).is_some());
+                act.next = Next::Goes(first.unwrap_or(side));
+            }
+            is_least_entered = goes_to_least_entered(&view, act.next);
+            (act, self.turns == Turns::Whole)
         };
         let mut step = Step::Stay;
         if is_due {
@@ -178,7 +190,23 @@ impl Team {
             body.pending = Some(act);
         }
         state.count_to(self.most_crossings);
-        let breaks = self.broken(&state, agent);
+        let is_asked = match self.demand {
+            Demand::LeastEntered => true,
+            Demand::All => self.max_misses == 0,
+            Demand::Connected
+            | Demand::Knowing
+            | Demand::Explores
+            | Demand::Ends
+            | Demand::Whole
+            | Demand::Rising
+            | Demand::Bounded
+            | Demand::Twice => false,
+        };
+        let breaks = if is_asked && !is_least_entered {
+            Some("an agent that goes to a child goes to one that was entered least")
+        } else {
+            self.broken(&state, agent)
+        };
         Some(Turned { state, agent, step, unseen, fails: false, breaks })
     }
 
@@ -204,6 +232,20 @@ impl Team {
         }
         self.plan.course(turns, round.len(), self.scene(&state))
     }
+}
+
+/// How many times the child of the cell beyond `side` was entered, as far as the agent has seen it; `None` if there is none.
+fn entered(view: &View, side: Side) -> Option<u16> {
+    let (_, note) = COMPASS.into_iter().zip(view.beside).find(|&(other, _)| other == side)?;
+    let is_child = note.state == Cellular::Open && note.side == Some(side.opposite());
+    is_child.then_some(note.crossings)
+}
+
+/// Whether no child was entered less often than the one that the agent goes to, if it goes to one (BRICKS-13).
+fn goes_to_least_entered(view: &View, next: Next) -> bool {
+    let Next::Goes(side) = next else { return true };
+    let least = COMPASS.into_iter().filter_map(|side| entered(view, side)).min();
+    entered(view, side).is_none_or(|often| Some(often) == least)
 }
 
 /// The trees that there have been.
@@ -268,7 +310,8 @@ impl System for Team {
             | Demand::Whole
             | Demand::Rising
             | Demand::Bounded
-            | Demand::Twice => None,
+            | Demand::Twice
+            | Demand::LeastEntered => None,
             Demand::Explores => (!state.is_explored(&self.plan)).then_some("every cell is explored"),
             Demand::Ends | Demand::All => {
                 (state.left(&self.plan) != 0).then_some("when all agents are done, every cell is visited")
@@ -283,7 +326,8 @@ impl System for Team {
             | Demand::Whole
             | Demand::Rising
             | Demand::Bounded
-            | Demand::Twice => None,
+            | Demand::Twice
+            | Demand::LeastEntered => None,
             Demand::Explores => Some("every cell is explored: no run goes on for ever before"),
             Demand::Ends | Demand::All => {
                 Some("no run goes on for ever in which every agent acts again and again")

@@ -4,8 +4,11 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side, Step, TinyGrid};
 use tautline_kernel::kit::{Next, Records, Sight, Stance, touch};
 
-use super::{Answers, Event, Setting, Speeds, Turned, World};
+use super::{Answers, Demand, Event, Setting, Speeds, Turned, World};
 use crate::engine::outcomes;
+
+/// Looks after which a decision is taken for one that never ends: each side once for each reason that there is to look.
+const MOST_LOOKS: usize = 4 * 5;
 
 impl<const ROBOTS: usize> Setting<ROBOTS> {
     /// Every step from `world`.
@@ -61,8 +64,12 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         let from = Self::ends(world)[robot];
         let mut next = after.team.decide(robot, oracle).ok()?;
         let mut looks = Vec::new();
-        let mut is_old = false;
+        let (mut is_old, mut never_ends) = (false, false);
         while let Next::Looks(side) = next {
+            never_ends = looks.len() == MOST_LOOKS;
+            if never_ends {
+                break;
+            }
             is_old = world.team.known(EdgeMark::Open, from).has(Step::Cross(side));
             let sight = self.see(&mut after, (robot, from, side), oracle);
             looks.push((side, sight));
@@ -75,6 +82,9 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             Next::Done => "done",
         };
         let mut breaks = self.broken_by_marks(&after);
+        if never_ends && self.is_wanted(Demand::Ends) {
+            breaks.push(Demand::Ends);
+        }
         if let Next::Drives(to) = next {
             if !is_old {
                 after.fresh |= 1 << robot;

@@ -200,7 +200,7 @@ fn hunted(bounds: &Bounds, found: &Found, quarries: Vec<Quarry>) -> Hunted {
             ("longest", json!(longest)),
             ("max_walls", json!(max_walls)),
         ],
-        is_complete: found.complete,
+        is_complete: found.complete && found.given_up == 0,
         done: ("walls_done", json!(done)),
         title: format!(
             "{}, at most {}: {all_runs}, {all_moves}, {longest} the longest",
@@ -208,7 +208,7 @@ fn hunted(bounds: &Bounds, found: &Found, quarries: Vec<Quarry>) -> Hunted {
             counted(max_walls, "wall")
         ),
         through: format!("{all_runs} and {all_moves}"),
-        outcome: outcome(&quarries, done == Some(max_walls), covered),
+        outcome: outcome(&quarries, done == Some(max_walls) && found.given_up == 0, covered),
         found: quarries,
     }
 }
