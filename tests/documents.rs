@@ -237,6 +237,7 @@ fn the_pictures_are_drawn_by_the_commands_beside_them() {
         ("docs/position.md", "convergence.svg", "reproduce locate-convergence --svg", 0),
         ("README.md", "crowding.svg", "replay docs/chain-2-published-n4.jsonl --svg", 1),
         ("docs/chain.md", "crowding.svg", "replay docs/chain-2-published-n4.jsonl --svg", 1),
+        ("docs/chain.md", "contact.svg", "replay docs/chain-1-published-n4.jsonl --svg", 1),
         ("docs/chain.md", "dear.svg", "replay docs/chain-12-published-n47.jsonl --svg", 1),
         ("docs/own-rule.md", "follow-1.svg", "replay docs/follow-1-written.jsonl --svg", 1),
         ("docs/floor.md", "floors.svg", "reproduce floors --starts 3 --max-steps 100000 --svg", 0),

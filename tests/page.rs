@@ -154,20 +154,20 @@ const USED: &str = "for (const box of document.querySelectorAll('#layers input')
 fn shows_how_a_clause_is_broken(browser: &mut Browser, folder: &Path) {
     let stored = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/chain-2-published-n4.jsonl");
     run(folder, &["replay", stored, "--html", "broken.html"]);
-    browser.load(&folder.join("broken.html"), "#20");
+    browser.load(&folder.join("broken.html"), "#3");
     let played = "document.getElementById('speed').value = 60, document.getElementById('toggle').click(), \
                   new Promise(done => { const wait = setInterval(() => { \
                   if (document.getElementById('toggle').textContent === 'Play') { clearInterval(wait); done(); } }, 20); })";
     browser.value(played);
     assert!(browser.text(SAID).ends_with("breaks CHAIN-2"));
-    assert_eq!(browser.value(HASH), "#32");
+    assert_eq!(browser.value(HASH), "#7");
     let why = browser.text("document.getElementById('why').textContent");
     assert!(
         why.contains("There MUST never be three robots or more in one cell other than the base."),
         "{why}"
     );
     assert!(
-        why.contains("R_2, R_3, R_4 are in one cell, 3,2") && why.contains("meets a wall and stays"),
+        why.contains("R_2, R_3, R_4 are in one cell, 1,1") && why.contains("meets a wall and stays"),
         "{why}"
     );
 }

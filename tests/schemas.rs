@@ -32,6 +32,7 @@ fn each_schema_is_that_of_what_is_printed() {
             own(&[
                 "hunt --rule published --robots 3 --max-walls 2",
                 "hunt --robots 3 --max-walls 1 --resume kept.json",
+                "hunt --rule published --robots 3 --max-cells 9 --force",
                 "hunt --robots 3 --max-walls 2 --budget 1",
                 "hunt --scheme bricks --max-misses 1 --size 2x2",
                 "hunt --scheme frontier --rule published --robots 2 --size 3x1",
