@@ -212,6 +212,20 @@ fn the_errors_of_positions_are_those_of_the_page() {
 }
 
 #[test]
+#[ignore = "minutes: cargo test --release --test documents take_minutes -- --ignored"]
+fn the_tables_that_take_minutes_are_those_of_the_pages() {
+    for (page, table) in [
+        ("docs/reel.md", "reel"),
+        ("docs/rivals.md", "chain-table1"),
+        ("docs/rivals.md", "chain-fig3"),
+        ("docs/chain.md", "repair-cost --layouts 10000"),
+    ] {
+        let arguments: Vec<&str> = ["reproduce"].into_iter().chain(table.split(' ')).collect();
+        shows(page, &printed(&arguments, 0));
+    }
+}
+
+#[test]
 fn a_thousand_rescues_are_those_of_the_page() {
     let rescues =
         ["rescue", "--wfr", "3", "--robots", "3", "--loss", "0.1", "--failing", "1", "--seeds", "0..999"];

@@ -90,6 +90,8 @@ pub struct Line {
     pub robots: u16,
     /// Team moves until every cell is explored, over the runs that explore all.
     pub moves: Option<Estimate>,
+    /// Team moves more than the repaired rule takes on the same layout, over the layouts of which both explore every cell.
+    pub behind: Option<Estimate>,
     /// Runs that explore every cell, in percent.
     pub whole: Option<Estimate>,
     /// Explored cells, in percent.
@@ -197,10 +199,14 @@ impl Table for FrontierFig7 {
     }
 
     fn merge(&self, settings: &Settings, results: Vec<(Job, Vec<Outcome>)>) -> Result<Merged, Halt> {
-        let teams = FRONTIER.rules.iter().flat_map(|rule| TEAMS.map(|robots| (rule.name, robots)));
-        let lines = teams.enumerate().map(|(place, (rule, robots))| {
-            let outcomes = results.iter().filter_map(|(_, outcomes)| outcomes.get(place));
-            Line::of(rule, robots, &outcomes.copied().collect::<Vec<_>>())
+        let teams: Vec<(RuleId, u16)> =
+            FRONTIER.rules.iter().flat_map(|rule| TEAMS.map(|robots| (rule.name, robots))).collect();
+        let outcomes = |wanted: (RuleId, u16)| -> Vec<Outcome> {
+            let place = teams.iter().position(|&team| team == wanted);
+            results.iter().filter_map(|(_, outcomes)| outcomes.get(place?).copied()).collect()
+        };
+        let lines = teams.iter().map(|&(rule, robots)| {
+            Line::of(rule, robots, &outcomes((rule, robots)), &outcomes((RuleId::REPAIRED, robots)))
         });
         let lines: Vec<Line> = lines.collect();
         let judged = judged(&lines);
@@ -263,15 +269,17 @@ fn follow(rule: RuleId, layout: &Layout, starts: &[Cell], seed: u64) -> Result<O
 }
 
 impl Line {
-    fn of(rule: RuleId, robots: u16, outcomes: &[Outcome]) -> Self {
+    fn of(rule: RuleId, robots: u16, outcomes: &[Outcome], repaired: &[Outcome]) -> Self {
         let values = |values: Vec<f64>| Estimate::of_values(&values);
         let share =
             |hits: usize| Estimate::share(hits as u32, outcomes.len() as u32).map(|share| share.times(100.0));
         let moves = outcomes.iter().filter_map(|outcome| outcome.moves.map(f64::from));
+        let more = |(own, other): (&Outcome, &Outcome)| Some(f64::from(own.moves?) - f64::from(other.moves?));
         Self {
             rule,
             robots,
             moves: values(moves.collect()),
+            behind: values(outcomes.iter().zip(repaired).filter_map(more).collect()),
             whole: share(outcomes.iter().filter(|outcome| outcome.moves.is_some()).count()),
             explored: values(outcomes.iter().map(|outcome| f64::from(outcome.explored) / 10.0).collect()),
             double: share(outcomes.iter().filter(|outcome| outcome.is_double).count()),
@@ -340,6 +348,11 @@ fn text(settings: &Settings, merged: &Merged) -> String {
             "Team moves until every cell is explored: {layouts} layouts of {columns}×{rows} cells, {blocked} blocked"
         ),
         |line| line.moves,
+    );
+    part(
+        "Team moves more than the repaired rule takes on the same layouts, of which both explore every cell"
+            .to_owned(),
+        |line| line.behind,
     );
     part("Runs that explore every cell, in %; the others are in no mean of team moves".to_owned(), |line| {
         line.whole

@@ -1,6 +1,6 @@
 //! The reel against the repaired chain, with and without *Hold*, on the same layouts: team moves to 50 % and 75 % of
-//! the cells, to everything within reach, and of whole runs. Sums are whole numbers, so that the result is the same on
-//! any number of threads.
+//! the cells, to everything within reach, and of whole runs, and how many cells they explore. Sums are whole numbers, so that
+//! the result is the same on any number of threads.
 
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::Cell;
@@ -24,7 +24,7 @@ const ROBOTS: u16 = 8;
 const RULES: [RuleId; 3] = [RuleId::REPAIRED, REEL, UNHELD];
 
 /// The grounds, as generators of layouts. The two buildings are one layout each.
-const GROUNDS: [&str; 9] = [
+const GROUNDS: [&str; 10] = [
     "open:15x15",
     "walls:15x15:0.01",
     "walls:15x15:0.02",
@@ -32,6 +32,7 @@ const GROUNDS: [&str; 9] = [
     "walls:15x15:0.1",
     "walls:15x15:0.15",
     "walls:15x15:0.2",
+    "walls:15x15:0.3",
     "rooms-a",
     "rooms-b",
 ];
@@ -66,8 +67,14 @@ pub struct Job {
     seed: u64,
 }
 
-/// By rule and goal: the team moves.
-pub type Moves = [[Option<u32>; GOALS.len()]; RULES.len()];
+/// What came of one run.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug, Serialize, Deserialize)]
+pub struct Outcome {
+    /// By goal: the team moves.
+    moves: [Option<u32>; GOALS.len()],
+    /// Cells that it has explored at its end.
+    explored: u32,
+}
 
 /// The whole table.
 #[derive(Clone, PartialEq, Debug, Serialize)]
@@ -76,6 +83,8 @@ pub struct Merged {
     seed: u64,
     /// For each goal and ground.
     pub lines: Vec<Line>,
+    /// For each ground.
+    pub cells: Vec<Cells>,
 }
 
 /// One goal on one ground.
@@ -108,17 +117,41 @@ pub struct OfRule {
     pub slower: u32,
 }
 
+/// The cells that runs on one ground explore.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Cells {
+    /// The generator of the layouts.
+    pub ground: &'static str,
+    /// For each rule.
+    pub rules: Vec<Explored>,
+}
+
+/// The cells that runs by one rule explore.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Explored {
+    /// Its name.
+    pub rule: &'static str,
+    /// The mean.
+    pub mean: Option<f64>,
+    /// So many of the cells that the repaired rule explores, in percent.
+    pub percent: Option<Estimate>,
+    /// Layouts in which it explores fewer cells than the repaired rule.
+    pub fewer: u32,
+    /// Layouts in which it explores more.
+    pub more: u32,
+}
+
 impl Table for Reel {
     type Settings = Settings;
     type Job = Job;
-    type Measured = Moves;
+    type Measured = [Outcome; RULES.len()];
     type Merged = Merged;
 
     fn about(&self) -> About {
         About {
             id: "reel",
             shows: "the reel against the repaired chain on the same layouts: mean team moves to 50 %, to 75 %, and to \
-                    everything within reach",
+                    everything within reach, and the cells that it explores",
             help: "How many team moves the reel saves, and what holding contact costs",
             more: "",
             examples: &["reel", "reel --layouts 1000 --format json"],
@@ -154,13 +187,13 @@ impl Table for Reel {
         Ok((0..GROUNDS.len()).flat_map(seeds).collect())
     }
 
-    fn measure(&self, _: &Settings, job: &Job, _: &dyn Observer) -> Result<Moves, Halt> {
+    fn measure(&self, _: &Settings, job: &Job, _: &dyn Observer) -> Result<Self::Measured, Halt> {
         let ground = GROUNDS.get(job.ground).copied().unwrap_or_default();
         let generator: Generator = ground.parse().map_err(|problem| unfit(&problem))?;
         let mut layout = generator.generate(job.seed).map_err(|problem| unfit(&problem))?;
         let base = Setup::choose_base(&mut layout, None).map_err(|problem| unfit(&problem))?;
-        let mut moves = Moves::default();
-        for (moves, rule) in moves.iter_mut().zip(RULES) {
+        let mut outcomes = Self::Measured::default();
+        for (outcome, rule) in outcomes.iter_mut().zip(RULES) {
             let setup = Setup { seed: job.seed, ..Setup::new(&CHAIN, rule, ROBOTS, layout.clone(), base) };
             let report = explore(&setup, &mut |_| Ok(()))?;
             if let Some(violation) = report.violations.first() {
@@ -170,22 +203,31 @@ impl Table for Reel {
                 return Err(Fault::of_field("reel", broken, remedy).into());
             }
             let due = within_reach(report.chart.area(), base, ROBOTS.into(), |edge| layout.is_open(edge));
-            *moves = reached(&report, &due);
+            *outcome = Outcome { moves: reached(&report, &due), explored: report.explored };
         }
-        Ok(moves)
+        Ok(outcomes)
     }
 
-    fn merge(&self, settings: &Settings, results: Vec<(Job, Moves)>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Vec<(Job, Self::Measured)>) -> Result<Merged, Halt> {
+        let of_ground = |ground: usize| {
+            let of_ground = results.iter().filter(move |(job, _)| job.ground == ground);
+            of_ground.map(|(_, outcomes)| outcomes)
+        };
         let line = |goal: usize, ground: usize| {
-            let of_ground = results.iter().filter(|(job, _)| job.ground == ground);
             let moves: Vec<[Option<u32>; RULES.len()]> =
-                of_ground.map(|(_, moves)| moves.map(|by_goal| by_goal[goal])).collect();
+                of_ground(ground).map(|outcomes| outcomes.map(|outcome| outcome.moves[goal])).collect();
             let rules = (0..RULES.len()).map(|rule| OfRule::of(rule, &moves)).collect();
             Line { goal: GOALS[goal], ground: GROUNDS[ground], runs: moves.len() as u32, rules }
         };
         let places = (0..GOALS.len()).flat_map(|goal| (0..GROUNDS.len()).map(move |ground| (goal, ground)));
         let lines = places.map(|(goal, ground)| line(goal, ground)).collect();
-        Ok(Merged { robots: ROBOTS, seed: settings.seed, lines })
+        let cells = (0..GROUNDS.len()).map(|ground| {
+            let explored: Vec<[u32; RULES.len()]> =
+                of_ground(ground).map(|outcomes| outcomes.map(|outcome| outcome.explored)).collect();
+            let rules = (0..RULES.len()).map(|rule| Explored::of(rule, &explored)).collect();
+            Cells { ground: GROUNDS[ground], rules }
+        });
+        Ok(Merged { robots: ROBOTS, seed: settings.seed, lines, cells: cells.collect() })
     }
 
     fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
@@ -223,8 +265,32 @@ impl Table for Reel {
             }
             text.push_str(&columns.text());
         }
+        text.push_str(&cells(&merged.cells));
         Ok(text)
     }
+}
+
+/// The cells that runs explore, for people.
+fn cells(cells: &[Cells]) -> String {
+    let numbers = [9, 9, 16, 7, 6, 9, 16, 7, 6].map(|width| Column::right(Width::Of(width)));
+    let mut columns = Columns::new([Column::left(Width::Of(17))].into_iter().chain(numbers));
+    columns.title(
+        "Mean cells explored; in % of those of the repaired rule with their 95 % intervals; layouts in which a rule explores \
+         fewer cells, and more"
+            .to_owned(),
+    );
+    let heads = ["layouts", "repaired", "reel", "in %", "fewer", "more", "unheld", "in %", "fewer", "more"];
+    columns.row(heads.map(str::to_owned));
+    for Cells { ground, rules } in cells {
+        let mean = |rule: &Explored| rule.mean.map_or("-".to_owned(), |mean| format!("{mean:.1}"));
+        let mut row = vec![(*ground).to_owned(), mean(&rules[0])];
+        for rule in &rules[1..] {
+            let percent = Estimate::text_or_dash(rule.percent, 2);
+            row.extend([mean(rule), percent, rule.fewer.to_string(), rule.more.to_string()]);
+        }
+        columns.row(row);
+    }
+    columns.text()
 }
 
 /// The team moves to each of [`GOALS`], if it is reached.
@@ -248,6 +314,21 @@ impl OfRule {
             ratio: ratio.map(|ratio| hundredths(ratio.mean)),
             interval: ratio.and_then(|ratio| ratio.interval).map(|interval| interval.map(hundredths)),
             slower: pairs.iter().filter(|(own, other)| own > other).count() as u32,
+        }
+    }
+}
+
+impl Explored {
+    fn of(rule: usize, explored: &[[u32; RULES.len()]]) -> Self {
+        let pairs: Vec<(f64, f64)> =
+            explored.iter().map(|explored| (explored[rule].into(), explored[0].into())).collect();
+        let own = pairs.iter().map(|&(own, _)| own).collect::<Vec<_>>();
+        Self {
+            rule: RULES[rule].as_str(),
+            mean: Estimate::of_values(&own).map(|estimate| hundredths(estimate.mean)),
+            percent: Estimate::of_ratio(&pairs).map(|ratio| ratio.times(100.0)),
+            fewer: pairs.iter().filter(|(own, other)| own < other).count() as u32,
+            more: pairs.iter().filter(|(own, other)| own > other).count() as u32,
         }
     }
 }
