@@ -150,3 +150,19 @@ fn prove_stores_what_it_refutes_and_replay_draws_it_again() {
     }
     assert!(!folder.path().join("picture.svg").exists());
 }
+
+#[test]
+fn a_counterexample_is_drawn_at_the_move_that_was_found_and_under_its_own_clause() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let told = |clause| {
+        let proved = tautline(folder.path(), &["prove", clause]);
+        assert_eq!(proved.status.code(), Some(0), "{}", String::from_utf8_lossy(&proved.stderr));
+        String::from_utf8(proved.stdout).expect("text")
+    };
+    let order = told("CHAIN-19");
+    assert!(order.contains("and 11 team moves.") && order.contains("Team move 11 breaks CHAIN-19: "), "{order}");
+    assert!(!order.contains("Unexplored"), "{order}");
+    let ends = told("CHAIN-14");
+    assert_eq!(ends.matches(" breaks CHAIN-14: ").count(), 2, "{ends}");
+    assert!(!ends.contains("breaks CHAIN-13") && ends.contains("  Unexplored: ("), "{ends}");
+}
