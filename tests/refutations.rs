@@ -160,7 +160,10 @@ fn a_counterexample_is_drawn_at_the_move_that_was_found_and_under_its_own_clause
         String::from_utf8(proved.stdout).expect("text")
     };
     let order = told("CHAIN-19");
-    assert!(order.contains("and 11 team moves.") && order.contains("Team move 11 breaks CHAIN-19: "), "{order}");
+    assert!(
+        order.contains("and 11 team moves.") && order.contains("Team move 11 breaks CHAIN-19: "),
+        "{order}"
+    );
     assert!(!order.contains("Unexplored"), "{order}");
     let ends = told("CHAIN-14");
     assert_eq!(ends.matches(" breaks CHAIN-14: ").count(), 2, "{ends}");
