@@ -28,7 +28,7 @@ use tautline_sim::trace::{self, Stored, Writer};
 
 use self::game::InRule;
 use self::player::Player;
-use self::written::{Demand, Written};
+use self::written::{Demand, When, Written};
 use crate::fault::{Kind, error, halted};
 use crate::hunt::verdict;
 use crate::run::{Made, Run};
@@ -200,6 +200,7 @@ fn found(py: Python<'_>, written: &Arc<Written>, budget: Option<u64>) -> PyResul
             walls: walls(&example.frames),
             frames: Vec::new(),
             breaks: Some(clause.as_str()),
+            is_over: matches!(written.demands[demand].when, When::AtTheEnd(_)),
         };
         let run = Found { area: written.area(py)?, ..run };
         let halted = |halt: Halt| written.failure(py).unwrap_or_else(|| halted(py, &halt));
