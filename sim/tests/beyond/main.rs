@@ -4,6 +4,7 @@
 mod judge;
 
 use std::collections::BTreeMap;
+use std::time::Duration;
 
 use judge::{Broken, Chain, Drive, Floor, Frontier, Kit, Pack, Place, Trouble};
 use tautline_kernel::chain::Kind;
@@ -205,8 +206,8 @@ fn kit(rule: Touch, robots: [u32; 2], runs: u64) -> Counted {
                     robot: drive.robot,
                     from: place(drive.from),
                     to: place(drive.to),
-                    begin: drive.time[0] as f64 / 1000.0,
-                    end: drive.time[1] as f64 / 1000.0,
+                    begin: Duration::from_millis(drive.time[0]).as_secs_f64(),
+                    end: Duration::from_millis(drive.time[1]).as_secs_f64(),
                 }),
             }
         }
