@@ -13,8 +13,8 @@ use tautline_proofs::words::counted;
 use super::output::Output;
 use super::viewers::{self, ViewerArgs};
 use super::{
-    CellArg, Chance, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless, positive, probability,
-    progress, whole,
+    CellArg, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless, positive, probability, progress,
+    whole,
 };
 use crate::chosen::{self, chosen};
 use tautline_sim::aside::Aside;
@@ -22,8 +22,8 @@ use tautline_sim::draw::page::Page;
 use tautline_sim::draw::svg;
 use tautline_sim::explore::floor::Component;
 use tautline_sim::explore::{
-    Asked, Knowledge, Limits, Milestone, OnViolation, Play, Profile, Report, RuleId, Setup, Stage, Stopped,
-    Violation, Watcher, explore, team,
+    Asked, Knowledge, Limits, Milestone, Misfit, OnViolation, Play, Profile, Report, RuleId, Setup, Stage,
+    Stopped, Violation, Watcher, explore, team,
 };
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::faults::{Appearing, Failure, Faults, Going};
@@ -191,9 +191,11 @@ impl Explore {
         if self.draw.is_some() && self.format.format == Format::Json && self.svg.is_none() {
             return Err(needless("--draw", "JSON has no drawing, and no picture is stored"));
         }
-        let is_random = self.miss.is_some_and(|miss| !miss.is_never());
-        let layout = self.layout.load(if is_random { Chance::Some } else { Chance::None })?;
-        asked.setup(layout)
+        let setup = asked.setup(self.layout.load()?)?;
+        if self.layout.has_other_seed() && !setup.scheme.draws(&setup.stage()) {
+            return Err(Misfit::Seed(setup.scheme).into());
+        }
+        Ok(setup)
     }
 
     fn asked(&self) -> Asked {

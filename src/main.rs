@@ -167,13 +167,6 @@ struct LayoutArgs {
     image: Option<PathBuf>,
 }
 
-/// Whether a command leaves anything else than the layout to chance.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Chance {
-    None,
-    Some,
-}
-
 impl LayoutArgs {
     fn seed(&self) -> u64 {
         self.seed.unwrap_or(0)
@@ -184,14 +177,15 @@ impl LayoutArgs {
         layout::inputs(&self.layout, self.image.as_deref())
     }
 
-    /// The layout. A seed is refused if neither that nor anything else is left to chance.
-    fn load(&self, elsewhere: Chance) -> Result<Layout, Fault> {
-        let layout = layout::load(&self.layout, self.seed(), self.image.as_deref())?;
-        let is_random = self.layout.parse::<Generator>().is_ok_and(|generator| generator.is_random());
-        if self.seed.is_some() && !is_random && elsewhere == Chance::None {
-            return Err(needless("--seed", "nothing here is left to chance"));
-        }
-        Ok(layout)
+    /// The layout.
+    fn load(&self) -> Result<Layout, Fault> {
+        layout::load(&self.layout, self.seed(), self.image.as_deref())
+    }
+
+    /// Whether a seed is given that the layout leaves unused.
+    fn has_other_seed(&self) -> bool {
+        let is_random = || self.layout.parse::<Generator>().is_ok_and(|generator| generator.is_random());
+        self.seed.is_some() && !is_random()
     }
 }
 

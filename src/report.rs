@@ -16,7 +16,10 @@ pub(crate) enum Colour {
 }
 
 /// The fields of a request that have a flag of the same name.
-const FIELDS: [&str; 32] = [
+const FIELDS: [&str; 35] = [
+    "seed",
+    "miss",
+    "speeds",
     "robots",
     "base",
     "size",

@@ -7,7 +7,7 @@ use serde::Serialize;
 use tautline_kernel::ground::Cell;
 
 use super::output::Output;
-use super::{Chance, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless};
+use super::{Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless};
 use tautline_sim::aside::Aside;
 use tautline_sim::draw::svg::{self, Panel};
 use tautline_sim::draw::{self, Environment};
@@ -79,7 +79,10 @@ impl Show {
             }
             return Ok(Exit::Expected);
         }
-        let layout = self.layout.load(Chance::None)?;
+        let layout = self.layout.load()?;
+        if self.layout.has_other_seed() {
+            return Err(needless("--seed", "nothing here is left to chance").into());
+        }
         let [file] = self.force.files([&self.svg], self.layout.inputs())?;
         if file.is_some() {
             svg::check_size(layout.size().area())?;

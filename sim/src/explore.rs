@@ -39,7 +39,7 @@ pub use self::run::{
     End, Limits, Milestone, OnViolation, Report, Stopped, Team, TeamMove, Violation, Watcher, run,
 };
 pub use self::scene::{Change, Hearers, Ink, Joins, Kind, Layer, Place, Scene, Shape, Value, Zone};
-pub use self::setup::{Clause, Extra, Judge, Profile, Rule, Senses, Setup, Start, Starts};
+pub use self::setup::{By, Clause, Drawn, Extra, Judge, Profile, Rule, Senses, Setup, Start, Starts};
 pub use self::stage::{Knowledge, Look, Play, Stage};
 pub use self::survey::Survey;
 

@@ -99,6 +99,7 @@ static PAIR: Profile = Profile {
     knowledge: None,
     clauses: &[Clause::new("PAIR-1")],
     extras: &[],
+    drawn: &[],
 };
 
 /// Runs the pair in `layout` until it breaks its clause, and stores the run at `path`.

@@ -229,7 +229,7 @@ fn again(stage: &Stage<'_>) -> Again {
         let _ = layout.place_base(base);
         layout.to_string()
     });
-    let by_search = Again { command: None, layout, seed: None };
+    let by_search = Again { command: None, layout };
     let Some(profile) = catalogue::scheme(scheme) else { return by_search };
     if !choices.is_empty() || !missed.is_empty() {
         return by_search;
@@ -247,7 +247,7 @@ fn again(stage: &Stage<'_>) -> Again {
         }
     }
     if !miss.is_never() {
-        let _ = write!(command, " --miss {miss} --seed {seed}");
+        let _ = write!(command, " --miss {miss}");
     }
     let usual = Options::default();
     if let Some(range) = options.range_cells {
@@ -284,6 +284,8 @@ fn again(stage: &Stage<'_>) -> Again {
     if let Some(most) = limits.max_moves {
         let _ = write!(command, " --max-moves {most}");
     }
-    let seed = (miss.is_never() && seed > 0).then_some(seed);
-    Again { command: Some(command + " --replay run.html"), seed, ..by_search }
+    if profile.draws(stage) {
+        let _ = write!(command, " --seed {seed}");
+    }
+    Again { command: Some(command + " --replay run.html"), ..by_search }
 }

@@ -110,7 +110,7 @@ fn film(setting: &Setting, seed: u64, [title, outcome]: [&str; 2], report: &Repo
         clauses: clauses.map(sentence).collect(),
         ends: Vec::new(),
         notes: Vec::new(),
-        again: Again { command: Some(command(setting, seed)), layout: None, seed: None },
+        again: Again { command: Some(command(setting, seed)), layout: None },
     }
 }
 

@@ -21,7 +21,7 @@ use super::clause::ClauseId;
 use super::floor::{self, Component, SensorFloor, Stored, is_visited};
 use super::run::{End, Team};
 use super::scene::{Layer, Scene};
-use super::setup::{Profile, Senses, Setup, Starts};
+use super::setup::{By, Drawn, Profile, Senses, Setup, Starts};
 use super::stage::Look;
 use super::survey::Survey;
 use crate::layout::Layout;
@@ -40,6 +40,7 @@ pub(super) const AGENTS: Profile = Profile {
     starts: Starts::Anywhere,
     senses: Senses::Floor,
     extras: &[],
+    drawn: &[Drawn { what: "which sensors are missed", by: By::Miss }],
     look: Look::Apart,
     knowledge: None,
     clauses: &[],

@@ -23,7 +23,7 @@ use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::{End, Team, TeamMove};
 use super::scene::{Layer, Scene};
-use super::setup::{Clause, Extra, Judge, Profile, Rule, Senses, Setup, Starts};
+use super::setup::{By, Clause, Drawn, Extra, Judge, Profile, Rule, Senses, Setup, Starts};
 use super::stage::Look;
 use super::survey::Survey;
 use crate::fault::Fault;
@@ -61,6 +61,10 @@ pub static CHAIN: Profile = Profile {
     starts: Starts::Base,
     senses: Senses::Bumps,
     extras: &[Extra::Loss, Extra::Fail, Extra::Wall, Extra::Speeds],
+    drawn: &[
+        Drawn { what: "which bytes are lost", by: By::Told(Extra::Loss) },
+        Drawn { what: "in which order the robots go", by: By::Told(Extra::Speeds) },
+    ],
     look: Look::Linked {
         is_lost: |from, to| Breach::Contact.is_in(from, to) || Breach::Coverage.is_in(from, to),
     },

@@ -16,7 +16,7 @@ use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::{End, Team};
 use super::scene::{Layer, Scene};
-use super::setup::{Clause, Extra, Profile, Rule, Senses, Setup, Starts};
+use super::setup::{By, Clause, Drawn, Extra, Profile, Rule, Senses, Setup, Starts};
 use super::stage::Look;
 use super::survey::Survey;
 use crate::fault::Fault;
@@ -37,6 +37,12 @@ pub const KNOWS: ClauseId = ClauseId::new("FRONTIER-4");
 
 /// A robot notes of a cell what is not so.
 pub const MARKS: ClauseId = ClauseId::new("FRONTIER-5");
+
+/// The rule without preferences.
+const PLAIN: RuleId = RuleId::new("plain");
+
+/// The rule by which robots wander.
+const WANDERS: RuleId = RuleId::new("wanders");
 
 /// The most robots of a team.
 const MAX_ROBOTS: usize = 64;
@@ -69,8 +75,8 @@ pub static FRONTIER: Profile = Profile {
     rules: &[
         searched!(RuleId::PUBLISHED, "As the paper publishes it", Frontier::PUBLISHED),
         searched!(RuleId::REPAIRED, "With the repairs of its refuted claims", Frontier::REPAIRED),
-        searched!(RuleId::new("plain"), "With the repairs and without preferences", Frontier::PLAIN),
-        searched!(RuleId::new("wanders"), "A robot without a candidate wanders", Frontier::WANDERS),
+        searched!(PLAIN, "With the repairs and without preferences", Frontier::PLAIN),
+        searched!(WANDERS, "A robot without a candidate wanders", Frontier::WANDERS),
         searched!(RuleId::new("literal"), "Obstacles are avoided to the letter", Frontier::LITERAL),
         searched!(RuleId::new("printed"), "The occupancy probability is as printed", Frontier::PRINTED),
         assigned!("greedy", "The nearest pair of robot and frontier cell first", Assignment::Greedy),
@@ -83,6 +89,12 @@ pub static FRONTIER: Profile = Profile {
     starts: Starts::Alone,
     senses: Senses::Bumps,
     extras: &[Extra::Range, Extra::Loss, Extra::Noise, Extra::Threshold],
+    drawn: &[
+        Drawn { what: "which messages are lost", by: By::Told(Extra::Loss) },
+        Drawn { what: "how far off each position is", by: By::Told(Extra::Noise) },
+        Drawn { what: "to which of the nearest cells a robot goes", by: By::Rule(PLAIN) },
+        Drawn { what: "where a robot wanders", by: By::Rule(WANDERS) },
+    ],
     look: Look::Apart,
     knowledge: None,
     clauses: &[

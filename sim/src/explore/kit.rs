@@ -21,7 +21,7 @@ use self::hunt::Searched;
 use super::clause::ClauseId;
 use super::run::{End, Team};
 use super::scene::{Layer, Scene};
-use super::setup::{Clause, Extra, Profile, Rule, Senses, Setup, Starts};
+use super::setup::{By, Clause, Drawn, Extra, Profile, Rule, Senses, Setup, Starts};
 use super::stage::Look;
 use super::survey::Survey;
 use crate::fault::Fault;
@@ -73,6 +73,7 @@ pub static KIT: Profile = Profile {
     starts: Starts::Beside,
     senses: Senses::Bumps,
     extras: &[Extra::Range, Extra::Speed, Extra::Spread],
+    drawn: &[Drawn { what: "which of several sides a robot takes, and how fast it drives", by: By::Every }],
     look: Look::Robots,
     knowledge: None,
     clauses: &[

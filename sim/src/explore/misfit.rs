@@ -9,7 +9,7 @@ use tautline_proofs::words::counted;
 
 use super::catalogue::{SCHEMES, sensing};
 use super::rule::RuleId;
-use super::setup::{Extra, Profile, Rule, Senses, Setup, Starts};
+use super::setup::{Drawn, Extra, Profile, Rule, Senses, Setup, Starts};
 use crate::fault::Fault;
 use crate::faults::Failure;
 use crate::frontier::Options;
@@ -85,6 +85,8 @@ pub enum Misfit {
     Wall(Cell),
     /// A wall that appears may shut the way over which the others re-form behind a robot that dies.
     WallAndFail,
+    /// Nothing is drawn by the seed that is given.
+    Seed(&'static Profile),
     /// No such robot can die.
     Fail {
         /// The robot, numbered from 1, the base.
@@ -109,6 +111,7 @@ impl Misfit {
             Self::Speed => Extra::Speed.field(),
             Self::Spread => Extra::Spread.field(),
             Self::Wall(_) | Self::WallAndFail => Extra::Wall.field(),
+            Self::Seed(_) => "seed",
             Self::Fail { .. } => Extra::Fail.field(),
         }
     }
@@ -153,6 +156,15 @@ impl Misfit {
             Self::Spread => "give `spread` a share from 0 to 0.999".to_owned(),
             Self::Wall(_) => "name a side between two cells of the layout, as in 7,6,E@20".to_owned(),
             Self::WallAndFail => "give `wall` and `fail` to two runs".to_owned(),
+            Self::Seed(Profile { name, drawn: [], .. }) => {
+                format!(
+                    "leave it out: in runs of {name} nothing is drawn but layouts, such as cells:15x15:0.1"
+                )
+            }
+            Self::Seed(Profile { name, drawn, .. }) => {
+                let drawn: Vec<String> = drawn.iter().map(Drawn::to_string).collect();
+                format!("leave it out; of {name} there would be drawn: {}", drawn.join("; "))
+            }
             Self::Fail { robots, .. } => format!("name a robot from 2 to {robots}, as in {robots}@20"),
         }
     }
@@ -206,6 +218,7 @@ impl fmt::Display for Misfit {
             Self::WallAndFail => f.write_str(
                 "a wall that appears may shut the way over which the others re-form behind a robot that dies",
             ),
+            Self::Seed(_) => f.write_str("`seed` has no effect: nothing here is left to chance"),
             Self::Fail { robot: 1, .. } => f.write_str("the base cannot fail: there is no chain without it"),
             Self::Fail { robot, robots } => {
                 write!(f, "there is no robot {robot} that could fail among {robots}")
@@ -292,34 +305,10 @@ impl Setup {
 
     /// Refuses what the scheme cannot be told, and what is out of bounds.
     fn check_extras(&self) -> Result<(), Misfit> {
-        let Options {
-            range_cells,
-            sight_cells,
-            loss,
-            noise_db,
-            threshold,
-            speed_mps,
-            spread,
-            fail,
-            wall,
-            going,
-        } = self.options;
-        let usual = Options::default();
-        let told = [
-            (Extra::Range, range_cells.is_some()),
-            (Extra::Sight, sight_cells.is_some()),
-            (Extra::Loss, !loss.is_never()),
-            (Extra::Noise, noise_db.to_bits() != usual.noise_db.to_bits()),
-            (Extra::Threshold, threshold.to_bits() != usual.threshold.to_bits()),
-            (Extra::Speed, speed_mps.is_some()),
-            (Extra::Spread, spread.is_some()),
-            (Extra::Fail, fail.is_some()),
-            (Extra::Wall, wall.is_some()),
-            (Extra::Speeds, !going.is_usual()),
-        ];
-        let refused =
-            told.into_iter().find(|(extra, is_told)| *is_told && !self.scheme.extras.contains(extra));
-        if let Some((extra, _)) = refused {
+        let Options { noise_db, threshold, speed_mps, spread, fail, wall, .. } = self.options;
+        let is_refused =
+            |extra: &Extra| extra.is_told_by(&self.options) && !self.scheme.extras.contains(extra);
+        if let Some(extra) = Extra::ALL.into_iter().find(is_refused) {
             return Err(Misfit::Extra(self.scheme, extra));
         }
         if let Some(Failure { robot, .. }) = fail.filter(|fail| !(2..=self.robots).contains(&fail.robot)) {

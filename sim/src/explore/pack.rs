@@ -62,6 +62,7 @@ pub static PACK: Profile = Profile {
     starts: Starts::Alone,
     senses: Senses::Bumps,
     extras: &[Extra::Range, Extra::Sight],
+    drawn: &[],
     look: Look::Robots,
     knowledge: None,
     clauses: &[

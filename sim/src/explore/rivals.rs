@@ -8,7 +8,7 @@ use tautline_proofs::run::Frame;
 use super::rule::RuleId;
 use super::run::{End, Team};
 use super::scene::{Joins, Layer, Shape, Zone};
-use super::setup::{Profile, Rule, Senses, Setup, Starts};
+use super::setup::{By, Drawn, Profile, Rule, Senses, Setup, Starts};
 use super::stage::Look;
 use crate::fault::Fault;
 use crate::layout::{Layout, Problem};
@@ -81,6 +81,7 @@ macro_rules! rival {
             knowledge: None,
             clauses: &[],
             extras: &[],
+            drawn: &[Drawn { what: "which of the team moves is made that are as good", by: By::Every }],
         }
     };
 }

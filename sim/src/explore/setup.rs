@@ -36,6 +36,8 @@ pub struct Profile {
     pub senses: Senses,
     /// What a run of it can be told besides.
     pub extras: &'static [Extra],
+    /// What its runs draw by their seed.
+    pub drawn: &'static [Drawn],
     /// How its team is drawn.
     pub look: Look,
     /// What its team knows of a sensor floor, if it is on one.
@@ -113,6 +115,37 @@ pub enum Extra {
 }
 
 impl Extra {
+    /// All of them.
+    pub const ALL: [Self; 10] = [
+        Self::Range,
+        Self::Sight,
+        Self::Loss,
+        Self::Noise,
+        Self::Threshold,
+        Self::Speed,
+        Self::Spread,
+        Self::Fail,
+        Self::Wall,
+        Self::Speeds,
+    ];
+
+    /// Whether `options` tell it.
+    pub fn is_told_by(self, options: &Options) -> bool {
+        let usual = Options::default();
+        match self {
+            Self::Range => options.range_cells.is_some(),
+            Self::Sight => options.sight_cells.is_some(),
+            Self::Loss => !options.loss.is_never(),
+            Self::Noise => options.noise_db.to_bits() != usual.noise_db.to_bits(),
+            Self::Threshold => options.threshold.to_bits() != usual.threshold.to_bits(),
+            Self::Speed => options.speed_mps.is_some(),
+            Self::Spread => options.spread.is_some(),
+            Self::Fail => options.fail.is_some(),
+            Self::Wall => options.wall.is_some(),
+            Self::Speeds => !options.going.is_usual(),
+        }
+    }
+
     /// The field that tells it.
     pub const fn field(self) -> &'static str {
         match self {
@@ -126,6 +159,53 @@ impl Extra {
             Self::Fail => "fail",
             Self::Wall => "wall",
             Self::Speeds => "speeds",
+        }
+    }
+}
+
+/// Something that runs of a scheme draw by their seed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Drawn {
+    /// What it is.
+    pub what: &'static str,
+    /// In which runs it is drawn.
+    pub by: By,
+}
+
+/// In which runs something is drawn.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum By {
+    /// In all.
+    Every,
+    /// Where sensors are missed by chance.
+    Miss,
+    /// Where this is told.
+    Told(Extra),
+    /// In those of this rule.
+    Rule(RuleId),
+}
+
+impl Drawn {
+    /// Whether it is drawn in a run.
+    fn is_in(&self, stage: &Stage<'_>) -> bool {
+        match self.by {
+            By::Every => true,
+            By::Miss => !stage.miss.is_never(),
+            By::Told(extra) => extra.is_told_by(&stage.options),
+            By::Rule(rule) => rule.as_str() == stage.rule,
+        }
+    }
+}
+
+/// What is drawn, and by which field.
+impl fmt::Display for Drawn {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { what, by } = self;
+        match by {
+            By::Every => f.write_str(what),
+            By::Miss => write!(f, "{what}, with `miss`"),
+            By::Told(extra) => write!(f, "{what}, with `{}`", extra.field()),
+            By::Rule(rule) => write!(f, "{what}, with `rule` {rule}"),
         }
     }
 }
@@ -172,6 +252,11 @@ impl Profile {
     /// The rule with this name, if the scheme offers it.
     pub fn rule(&self, name: RuleId) -> Option<&'static Rule> {
         self.rules.iter().find(|rule| rule.name == name)
+    }
+
+    /// Whether a run of it draws anything: whether its seed has an effect.
+    pub fn draws(&self, stage: &Stage<'_>) -> bool {
+        self.drawn.iter().any(|drawn| drawn.is_in(stage))
     }
 
     /// Where `robots` of this rule start in `layout` of which nobody says where, if not all start at the base.

@@ -67,9 +67,6 @@ pub(in crate::draw) struct Again {
     pub(in crate::draw) command: Option<String>,
     /// The drawing of the layout, if it is small.
     pub(in crate::draw) layout: Option<String>,
-    /// The seed of the run, if the command cannot give it: it takes one only where sensors are missed by chance.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(in crate::draw) seed: Option<u64>,
 }
 
 /// Where the run takes place.

@@ -1081,11 +1081,11 @@ function fillIn() {
   find("who-head").textContent = `Where each ${film.robot} is`;
   for (const head of ["", inCells ? "cell" : "place", "tried", "says"]) find("columns").append(element("th", head, { scope: "col" }));
   find("who").open = film.robots <= 16;
-  const { command, layout, seed } = film.again;
+  const { command, layout } = film.again;
   find("again-text").textContent = `This page holds the stored run only: it cannot say what would happen in another layout, with another seed or by another rule. ${
     command === null ? "The run was made by a search or by another program, not by one command; `tautline hunt --help` tells how runs are searched for."
       : inCells ? layout === null ? "Change your layout and run it again, with your file in the place of LAYOUT:" : "To open or close a side, store the layout below in a file, change it, and run it, with the name of your file in the place of LAYOUT:"
-        : "Change what you like and run it again:"}${seed === undefined ? "" : ` (This run had the seed ${seed}; a layout in a file is run with seed 0.)`}`;
+        : "Change what you like and run it again:"}`;
   find("command").textContent = command ?? "";
   find("command").hidden = command === null;
   find("layout").textContent = layout ?? "";
