@@ -27,7 +27,9 @@ use serde::Serialize;
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
 
 use crate::explore::catalogue::sensing;
-use crate::explore::{ClauseId, Limits, OnViolation, Report, Senses, Setup, TeamMove, Violation, explore};
+use crate::explore::{
+    ClauseId, Limits, OnViolation, Report, Senses, Setup, TeamMove, Violation, explore, run, team,
+};
 use crate::fault::{Fault, Halt};
 use crate::layout::{Layout, Problem};
 
@@ -265,10 +267,9 @@ pub fn minimise(
     let shrunk = shrink(case, step, least, &mut |case, progress| {
         let mut edges = Vec::new();
         let smaller = made(case.clone());
-        if smaller.check().is_err() {
-            return Ok(None);
-        }
-        let report = explore(&smaller, &mut |made: &TeamMove<'_>| {
+        // What is no run breaks nothing.
+        let Ok(mut team) = team(&smaller) else { return Ok(None) };
+        let report = run(&mut *team, &smaller.layout, smaller.limits, &mut |made: &TeamMove<'_>| {
             edges.extend(made.frame.bumps());
             watch(progress)
         })?;
