@@ -92,8 +92,8 @@ ours. Where several apply, the code is the first of 70, 2, 4, 3, 1, 0. With --ex
 
 /// What becomes of files.
 const FILES: &str = "\
-Files stand in their places whole or not at all. Only a process that is killed (SIGKILL) can leave a file \
-.tautline-….part behind, which nobody needs.";
+Files stand in their places whole or not at all, those of one command together at its end. Only a process that is killed \
+(SIGKILL) can leave a file .tautline-….part behind, which nobody needs.";
 
 const LAYOUTS: &str = "\
 LAYOUT is a file (our text drawing, a MovingAI .map, a ROS .yaml) or a generator: open:15x15 · walls:15x15:0.1 · \
@@ -338,7 +338,11 @@ fn command(cli: &Cli, name: &str) -> Exit {
     }
     threads::start();
     let mut out = Output::stdout();
-    let result = cli.command.run(&mut out).and_then(|exit| {
+    let result = cli.command.run(&mut out);
+    if result != Err(Halt::Interrupted) {
+        out.place();
+    }
+    let result = result.and_then(|exit| {
         out.flush().map_err(|error| output::unwritable(&error))?;
         Ok(exit)
     });

@@ -4,16 +4,19 @@
 
 use std::fmt;
 use std::io::{self, BufWriter, ErrorKind, StdoutLock, Write};
+use std::mem;
 
 use serde::Serialize;
 
 use super::{SCHEMA_VERSION, complain};
-use tautline_sim::aside::Aside;
+use tautline_sim::aside::{self, Aside, Finished};
 use tautline_sim::fault::Fault;
 
 pub(super) struct Output {
     /// Unless its reader has gone away.
     stdout: Option<BufWriter<StdoutLock<'static>>>,
+    /// Files that are written to their ends, and stand in their places when the command ends: all, or none of them.
+    files: Vec<Finished>,
     has_left_out: bool,
 }
 
@@ -27,12 +30,20 @@ struct Versioned<'a, T> {
 
 impl Output {
     pub(super) fn stdout() -> Self {
-        Self { stdout: Some(BufWriter::new(io::stdout().lock())), has_left_out: false }
+        Self { stdout: Some(BufWriter::new(io::stdout().lock())), files: Vec::new(), has_left_out: false }
     }
 
-    /// Puts a file in its place. Whether it stands there now; otherwise it is left out.
+    /// Keeps a file until the command ends. Whether it will stand in its place; otherwise it is left out.
     pub(super) fn keep(&mut self, file: Aside) -> bool {
-        file.keep().map_err(|fault| self.leave_out(&fault)).is_ok()
+        let finished = file.finish().map_err(|fault| self.leave_out(&fault));
+        finished.map(|file| self.files.push(file)).is_ok()
+    }
+
+    /// Puts all files that were kept in their places.
+    pub(super) fn place(&mut self) {
+        for fault in aside::place(mem::take(&mut self.files)) {
+            self.leave_out(&fault);
+        }
     }
 
     /// Tells why a file is left out. The command goes on, and ends as one with a fault.

@@ -255,9 +255,7 @@ impl Aside {
     /// # Errors
     /// A [`Fault`] if that is not possible, or if the file was left out; then nothing of it is left.
     pub fn keep(self) -> Result<(), Fault> {
-        let (path, target, part) = self.finished()?;
-        part.file.persist(&target).map_err(|refused| unwritable(&path, &refused.error))?;
-        Ok(())
+        place(vec![self.finish()?]).pop().map_or(Ok(()), Err)
     }
 
     /// Puts the file in its place, locked until what is returned is closed.
@@ -265,7 +263,7 @@ impl Aside {
     /// # Errors
     /// A [`Fault`] as of [`Aside::keep`], or if another process has put a file there.
     pub(crate) fn keep_locked(self, standing: Standing) -> Result<File, Fault> {
-        let (path, target, part) = self.finished()?;
+        let Finished { path, target, part, .. } = self.finish()?;
         lock(&path, part.file.as_file())?;
         let kept = match standing {
             Standing::Held => part.file.persist(&target),
@@ -280,8 +278,11 @@ impl Aside {
         })
     }
 
-    /// The path, the target and the whole content.
-    fn finished(self) -> Result<(PathBuf, PathBuf, Part), Fault> {
+    /// The file, written to its end.
+    ///
+    /// # Errors
+    /// A [`Fault`] if that is not possible, or if the file was left out; then nothing of it is left.
+    pub fn finish(self) -> Result<Finished, Fault> {
         let Self { path, target, replaceable, file } = self;
         let part = file?.into_inner().map_err(|error| {
             let (error, file) = error.into_parts();
@@ -290,8 +291,35 @@ impl Aside {
         })?;
         // Meanwhile something else may have come there.
         replaceable.check(&path, &target)?;
-        Ok((path, target, part))
+        Ok(Finished { path, target, replaceable, part })
     }
+}
+
+/// A file that is written to its end, and has yet to be put in its place. Dropped before, it leaves nothing behind.
+#[derive(Debug)]
+pub struct Finished {
+    path: PathBuf,
+    target: PathBuf,
+    replaceable: Replaceable,
+    part: Part,
+}
+
+/// Puts files in their places together, so that all of them are the new ones or all the old ones: whoever [`abandon`]s unfinished
+/// files meanwhile waits. Returns the faults of those that have no place.
+pub fn place(files: Vec<Finished>) -> Vec<Fault> {
+    let together = unfinished();
+    let put = |Finished { path, target, replaceable, part }: Finished| {
+        let Part { file, entry } = part;
+        // Meanwhile something else may have come there.
+        let placed = replaceable.check(&path, &target).and_then(|()| {
+            file.persist(&target).map(drop).map_err(|refused| unwritable(&path, &refused.error))
+        });
+        (entry, placed.err())
+    };
+    let (entries, faults): (Vec<Entry>, Vec<Option<Fault>>) = files.into_iter().map(put).unzip();
+    drop(together);
+    drop(entries);
+    faults.into_iter().flatten().collect()
 }
 
 /// What stands in the place of a file that processes lock.
@@ -342,7 +370,7 @@ pub fn abandon() {
 #[derive(Debug)]
 struct Part {
     file: NamedTempFile,
-    _entry: Entry,
+    entry: Entry,
 }
 
 /// The place of a file among the unfinished ones.
@@ -358,7 +386,7 @@ impl Part {
         let file = builder.tempfile_in(folder)?;
         unfinished.push(file.path().to_owned());
         let entry = Entry(file.path().to_owned());
-        Ok(Self { file, _entry: entry })
+        Ok(Self { file, entry })
     }
 }
 
