@@ -5,7 +5,6 @@ mkdir -p "$OUT"
 "$@"
 code=$?
 for run in "$OUT"/*.jsonl; do
-    # A refutation that is no run has no page.
-    [ -e "$run" ] && "${TAUTLINE:-tautline}" replay "$run" --html "${run%.jsonl}.html" > "${run%.jsonl}.txt" 2> /dev/null
+    [ -e "$run" ] && "${TAUTLINE:-tautline}" replay "$run" --html "${run%.jsonl}.html" > "${run%.jsonl}.txt" 2>&1
 done
 exit "$code"

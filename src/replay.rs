@@ -24,6 +24,7 @@ use super::{Exit, ForceArgs, Format, FormatArgs};
 use tautline_sim::aside::Aside;
 use tautline_sim::counterexample::exhibit::{exhibit, of_agent, of_course, written_down};
 use tautline_sim::counterexample::refutation::{self, Refutation};
+use tautline_sim::draw::page::in_words;
 use tautline_sim::draw::svg;
 use tautline_sim::explore::{ClauseId, Judge, Play, Report, Stage, team};
 use tautline_sim::fault::{Fault, Halt};
@@ -154,7 +155,7 @@ impl Replay {
                 for (file, option) in viewers.iter().zip(["--itf", "--mcap"]) {
                     viewers::refuse(file.as_ref(), (option, "a refutation"), &self.file)?;
                 }
-                self.run_refutation(out)
+                self.run_refutation(page, out)
             }
             Some(trace::FORMAT) => {
                 self.run_stored(trace::open(&self.file)?, Stores { page, picture, viewers }, out)
@@ -304,15 +305,20 @@ impl Replay {
         tell(out, self.format.format, (&setting, seed, &report), files)
     }
 
-    fn run_refutation(&self, out: &mut Output) -> Result<Exit, Halt> {
-        if self.moves.is_some() || self.html.is_some() || self.svg.is_some() {
-            let what = "a refutation has no team moves to choose from, no page and no picture";
-            let remedy = "leave out --moves, --html and --svg, or name a run of a team";
+    fn run_refutation(&self, page: Option<Aside>, out: &mut Output) -> Result<Exit, Halt> {
+        if self.moves.is_some() || self.svg.is_some() {
+            let what = "a refutation has no team moves to choose from, and no picture";
+            let remedy =
+                "leave out --moves and --svg, or name a run of a team; a refutation has a page, with --html";
             return Err(Fault::usage(what, remedy).into());
         }
         let Refutation { clause, check, evidence } = refutation::replay(&self.file)?;
         let is_judged = self.is_judged(clause, check, &evidence)?;
         let (rule, engine, bound) = (check.rule(), check.engine(), check.bound());
+        let story = story(clause, check, &evidence)?;
+        if let Some(page) = page {
+            store_page(page, clause, check, &evidence, &story, out)?;
+        }
         match self.format.format {
             Format::Json => out.json(&Refuted {
                 file: self.file.display().to_string(),
@@ -326,11 +332,10 @@ impl Replay {
             Format::Text => {
                 let judged = said(clause.id, is_judged);
                 out.text(format_args!(
-                    "{}: a counterexample to {} as {rule}, by {engine} within\n{}{judged}\n\n{}",
+                    "{}: a counterexample to {} as {rule}, by {engine} within\n{}{judged}\n\n{story}",
                     self.file.display(),
                     clause.id,
-                    indented(2, &bound),
-                    story(clause, check, &evidence)?
+                    indented(2, &bound)
                 ))?;
             }
         }
@@ -378,6 +383,29 @@ impl Replay {
             None => report.steps.saturating_sub(SHOWN - 1).max(1)..=report.steps,
         }
     }
+}
+
+/// Stores the page of a refutation: it plays the run that breaks the clause if the program can make it, and else tells the story.
+fn store_page(
+    mut page: Aside,
+    clause: &Clause,
+    check: &dyn AnyCheck,
+    evidence: &Evidence,
+    story: &str,
+    out: &mut Output,
+) -> Result<(), Halt> {
+    if let Seen::Robots(run) = &evidence.seen
+        && let Some(setup) = setup(check, run)?
+    {
+        let report = setup.play(&mut |_| Ok(()))?;
+        if report.violations.iter().any(|broken| broken.clause.as_str() == clause.id) {
+            return play(page, &setup, &report, &(1..=report.steps), out);
+        }
+    }
+    let title = format!("{} as {}", clause.id, check.rule());
+    page.append(in_words(&title, &format!("{}: {}", clause.id, clause.sentence), story));
+    out.keep(page);
+    Ok(())
 }
 
 /// What is told of a run besides what came of it.

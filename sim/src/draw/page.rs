@@ -12,6 +12,7 @@ use std::ops::RangeInclusive;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::words::counted;
 
+pub use self::film::in_words;
 use self::film::{Again, Board, Ended, Film, Share};
 use self::line::Line;
 use super::story;

@@ -217,6 +217,19 @@ pub(in crate::draw) fn foot(film: &Film) -> String {
     foot.replace("{{film}}", &json(film)).replace("{{script}}\n", SCRIPT)
 }
 
+/// A whole page of what is no run: a title, a sentence, and what is drawn with letters.
+pub fn in_words(title: &str, sentence: &str, drawn: &str) -> String {
+    let (style, _) = TEMPLATE.split_once("</head>").unwrap_or_default();
+    let (title, sentence) = (escaped(title), escaped(sentence));
+    let style = style.replace("{{title}}", &title);
+    let drawn: Vec<String> = drawn.lines().map(escaped).collect();
+    let drawn = drawn.join("\n");
+    format!(
+        "{HTML_HEAD}{style}</head>\n<body>\n<main>\n<header>\n<h1>{title}</h1>\n<p>{sentence}</p>\n</header>\n\
+         <section style=\"grid-column: 1 / -1; overflow: auto\"><pre>{drawn}</pre></section>\n</main>\n</body>\n</html>\n"
+    )
+}
+
 fn halves() -> (&'static str, &'static str) {
     TEMPLATE.split_once("{{lines}}\n").unwrap_or((TEMPLATE, ""))
 }
