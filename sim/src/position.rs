@@ -4,6 +4,7 @@
 
 pub mod analysis;
 mod measured;
+mod meeting;
 mod solver;
 mod trials;
 

@@ -89,11 +89,15 @@ const PROMISING: f64 = 32.0;
 /// Where a better minimum is found, it is mirrored again, at most this often.
 const MOST_ROUNDS: u32 = 3;
 
+/// Images that are looked at in a round: of more anchors than this, in lines from all over the list, each image once. So the work
+/// grows with the number of anchors and not with its square.
+const MOST_IMAGES: usize = 32;
+
 /// The position from which the residuals are least, or two.
 ///
 /// Steps begin on one side of the line along which the anchors are spread most, as far from it as the distances say on average. Where
-/// they end is then mirrored, in that line and in those through two anchors that follow each other: from an image the two
-/// distances fit as well, and where the others promise to, too, steps begin anew.
+/// they end is then mirrored, in that line and in those through two anchors that follow each other, at most 32 of them: from an image
+/// the two distances fit as well, and where the others promise to, too, steps begin anew.
 ///
 /// # Errors
 /// [`Refusal`] if there are fewer than three anchors at three places, if a distance is no number from 0, or is less than a
@@ -122,7 +126,13 @@ pub fn locate(
             break;
         }
         mirrored = Some(best);
+        let (mut tried, mut count) = ([None; MOST_IMAGES], 0);
         for image in images(ranges, best) {
+            if tried.contains(&Some(image)) {
+                continue;
+            }
+            let Some(place) = tried.get_mut(count) else { break };
+            (*place, count) = (Some(image), count + 1);
             // Within a rectangle also a minimum counts that is worse elsewhere.
             let most =
                 if area.is_some() { f64::INFINITY } else { minima.best.normal.cost + PROMISING * ambiguous };
@@ -194,16 +204,30 @@ fn start(descent: &Descent<'_>, layout: &Layout) -> Landing {
     descent.from(at, normal, |_| false)
 }
 
-/// `at` mirrored in the lines through two anchors that follow each other.
+/// `at` mirrored in the lines through two anchors that follow each other: in their order, or, of many, from all over the list.
 fn images(ranges: &[Range], at: Point) -> impl Iterator<Item = Point> {
-    let anchors = ranges.iter().map(|range| range.anchor);
-    let pairs = anchors.clone().zip(anchors.cycle().skip(1));
+    let count = ranges.len();
+    let step = if count <= MOST_IMAGES { 1 } else { scattering(count) };
+    let places = core::iter::successors(Some(0), move |place| Some((place + step) % count)).take(count);
+    let anchor = move |place: usize| ranges.get(place).map(|range| range.anchor);
+    let pairs = places.filter_map(move |place| anchor(place).zip(anchor((place + 1) % count)));
     pairs.map(move |(from, to)| {
         let (x, y) = (to.x_m - from.x_m, to.y_m - from.y_m);
         let across =
             (x * (at.y_m - from.y_m) - y * (at.x_m - from.x_m)) / (x * x + y * y).max(LEAST_M * LEAST_M);
         Point::new(at.x_m + 2.0 * across * y, at.y_m - 2.0 * across * x)
     })
+}
+
+/// A step by which places of so many follow each other far apart, and none comes twice.
+fn scattering(count: usize) -> usize {
+    let has_common_part = |mut one: usize, mut other: usize| {
+        while other > 0 {
+            (one, other) = (other, one % other);
+        }
+        one > 1
+    };
+    (count / 8 * 5..count).find(|&step| !has_common_part(count, step)).unwrap_or(1)
 }
 
 /// The two best minima so far.

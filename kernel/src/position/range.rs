@@ -188,20 +188,30 @@ const MOST_DEVIATIONS: f64 = 4.0;
 /// How far two circles may miss each other in proportion, for the rounding of numbers.
 const ROUNDING: f64 = 1e-9;
 
-/// Whether every two circles meet, if each distance may be wrong by four standard deviations of `signal`.
+/// How many times too great or too small a distance may be by `signal` before circles are refused that do not meet.
+pub fn most_error(signal: &Signal) -> f64 {
+    libm::exp(MOST_DEVIATIONS * signal.relative_error()) * (1.0 + ROUNDING)
+}
+
+/// Whether two circles meet, if each distance may be `most_error` times too great or too small.
+pub fn do_meet(one: &Range, other: &Range, most_error: f64) -> bool {
+    let between_m = one.anchor.distance_m(other.anchor);
+    let (one_m, other_m) = (one.distance_m, other.distance_m);
+    let is_outside = (one_m + other_m) * most_error < between_m;
+    let is_inside = one_m.max(other_m) / most_error > between_m + one_m.min(other_m) * most_error;
+    !is_outside && !is_inside
+}
+
+/// Whether every two circles meet, if each distance may be wrong by four standard deviations of `signal`. Every two are compared.
 ///
 /// # Errors
 /// [`Refusal::Apart`] if two do not, and what [`check`] returns.
 pub fn check_meeting(ranges: &[Range], signal: &Signal) -> Result<(), Refusal> {
     check(ranges)?;
-    let most = libm::exp(MOST_DEVIATIONS * signal.relative_error()) * (1.0 + ROUNDING);
+    let most_error = most_error(signal);
     for (second, other) in ranges.iter().enumerate() {
         for (first, one) in ranges.iter().enumerate().take(second) {
-            let between_m = one.anchor.distance_m(other.anchor);
-            let (one_m, other_m) = (one.distance_m, other.distance_m);
-            let is_outside = (one_m + other_m) * most < between_m;
-            let is_inside = one_m.max(other_m) / most > between_m + one_m.min(other_m) * most;
-            if is_outside || is_inside {
+            if !do_meet(one, other, most_error) {
                 return Err(Refusal::Apart { first, second });
             }
         }

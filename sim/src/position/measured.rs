@@ -1,19 +1,20 @@
 //! A file of measurements: lines of comma-separated values under the names of their columns, one line for each distance that
 //! a robot has measured. Lines with the same name of a fix belong to one position.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::ops::{Range as Bytes, RangeInclusive};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use tautline_kernel::position::{Estimate, Fix, Point, Range, Refusal, Signal, check_meeting};
+use tautline_kernel::position::{Estimate, Fix, Point, Range, Refusal, Signal};
 use tautline_proofs::engine::Seeded;
 use tautline_proofs::words::counted;
 
 use super::Solver;
 use super::analysis::{Ellipse, ellipse, matrix};
+use super::meeting::check_meeting;
 use crate::explore::RuleName;
 use crate::fault::{BOM, Fault};
 use crate::stats::decimals;
@@ -261,13 +262,10 @@ impl Measured {
 
     /// Every anchor of the file, once.
     pub fn anchors(&self) -> Vec<Point> {
-        let mut anchors = Vec::new();
-        for range in self.fixes.iter().flat_map(|readings| &readings.ranges) {
-            if !anchors.contains(&range.anchor) {
-                anchors.push(range.anchor);
-            }
-        }
-        anchors
+        let mut known = BTreeSet::new();
+        let anchors = self.fixes.iter().flat_map(|readings| &readings.ranges).map(|range| range.anchor);
+        // A coordinate of -0 is one of 0.
+        anchors.filter(|at| known.insert([at.x_m + 0.0, at.y_m + 0.0].map(f64::to_bits))).collect()
     }
 }
 
