@@ -78,7 +78,7 @@ pub(super) struct Hunt {
     /// agents' layouts the most columns and rows, 4x4 without it; at most 16 cells.
     #[arg(long, value_name = "WxH")]
     size: Option<SizeArg>,
-    /// End after so many team moves.
+    /// End after so many team moves of this call; what is kept goes on with the next one.
     #[arg(long, value_name = "MOVES", value_parser = number::<u64>)]
     budget: Option<u64>,
     /// Keep the hunt in FILE while it goes on; if FILE is there, go on from it, also with more walls.

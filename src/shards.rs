@@ -242,7 +242,7 @@ impl Merge {
             }
             Of::Table { .. } => {
                 let asked = restored(&plan)?;
-                let made = asked.merge(&merge_table(&plan, &shards)?)?;
+                let made = asked.merge(&merge_table(&plan, &*asked, &shards)?)?;
                 let (names, paths): (Vec<_>, Vec<_>) = self
                     .pictures
                     .chunks(2)

@@ -245,6 +245,18 @@ impl<L: Lots> Shard<L> {
         Ok(!self.is_done() && self.left > 0)
     }
 
+    /// Whether it has looked at all its lots of each stage before the last one that was begun, and at no other.
+    pub fn is_in_order(&self) -> bool {
+        let own = |owners: &Vec<usize>| owners.iter().filter(|&&owner| owner == self.number).count();
+        let begun = self.looks.len();
+        let mut stages = self.looks.iter().zip(&self.owners).zip(1..);
+        stages.all(
+            |((taken, owners), stage)| {
+                if stage == begun { taken.len() <= own(owners) } else { taken.len() == own(owners) }
+            },
+        )
+    }
+
     /// Whether nothing is left to do.
     pub fn is_done(&self) -> bool {
         self.is_at_end() && (self.has_enough() || self.looks.len() == self.stages.len())

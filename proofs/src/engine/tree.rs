@@ -19,6 +19,7 @@ mod deal;
 mod forecast;
 mod lane;
 mod search;
+mod share;
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -116,7 +117,7 @@ pub trait Game: Send + Sync + 'static {
 pub struct Limits<D> {
     /// Most walls that are met in one run; the border is not counted.
     pub max_walls: u32,
-    /// The search stops when it has made so many team moves.
+    /// The search stops when it has made so many team moves since it was begun or taken up.
     pub budget_moves: Option<u64>,
     /// What is looked for, where it matters: at which demand a search ends that looks for any violation.
     pub wanted: Vec<D>,
@@ -241,6 +242,8 @@ pub enum Unsearchable {
     },
     /// A position that the runs of this rule do not get to.
     Foreign,
+    /// A position of a shard that has searched other parts than it was dealt, or not all of them.
+    Short,
 }
 
 impl fmt::Display for Unsearchable {
@@ -263,6 +266,7 @@ impl fmt::Display for Unsearchable {
             Self::Foreign => {
                 f.write_str("the runs of this rule do not get to where this search is said to be")
             }
+            Self::Short => f.write_str("this shard has not done what the plan dealt it"),
         }
     }
 }

@@ -121,10 +121,15 @@ impl<E: Each> Deals for E {
         let (asked, shards) = Deal::read(deal, asked)?;
         let looks = far.map(taken).transpose()?.unwrap_or_default();
         let shard = Shard::new(self.layouts(&asked)?, (shard, shards), looks, asked.budget);
-        Ok(Box::new(Looks(shard.map_err(Into::into)?)))
+        let shard = shard.map_err(Into::into)?;
+        if !shard.is_in_order() {
+            let what = "this shard has not done what the plan dealt it before it went on";
+            return Err(Fault::usage(what, "run the shard again"));
+        }
+        Ok(Box::new(Looks(shard)))
     }
 
-    fn merge(&self, asked: &Asked<'_>, deal: &RawValue, shards: &[Box<RawValue>]) -> Result<Hunted, Fault> {
+    fn merge(&self, asked: &Asked<'_>, deal: &RawValue, shards: &[&RawValue]) -> Result<Hunted, Fault> {
         let (asked, _) = Deal::read(deal, asked)?;
         let looks = shards.iter().map(|far| taken(far)).collect::<Result<Vec<_>, _>>()?;
         let (found, is_complete) = lots::merged(&self.layouts(&asked)?, looks).map_err(Into::into)?;

@@ -66,7 +66,7 @@ pub trait Deals {
     ///
     /// # Errors
     /// A [`Fault`] if they do not fit their deal.
-    fn merge(&self, asked: &Asked<'_>, deal: &RawValue, shards: &[Box<RawValue>]) -> Result<Hunted, Fault>;
+    fn merge(&self, asked: &Asked<'_>, deal: &RawValue, shards: &[&RawValue]) -> Result<Hunted, Fault>;
 }
 
 /// A hunt that is dealt out.
@@ -135,7 +135,7 @@ pub struct Asked<'a> {
     pub robots: Option<u64>,
     /// Columns and rows.
     pub size: Option<Size>,
-    /// Team moves after which the search ends.
+    /// Team moves after which the search ends, those of earlier calls not counted.
     pub budget: Option<u64>,
     /// [`Bound::Walls`]
     pub max_walls: Option<u32>,

@@ -2,10 +2,10 @@
 
 use serde_json::value::RawValue;
 
-use super::{Of, Plan};
+use super::{Done, Of, Plan};
 use crate::explore::hunt::{Asked, Deals, Dealt, Hunt, Hunted};
 use crate::explore::{Misfit, Profile, RuleId};
-use crate::fault::Fault;
+use crate::fault::{Fault, Halt};
 use crate::part::Part;
 
 /// The hunt of a rule.
@@ -69,8 +69,12 @@ pub fn hunt_part(
 /// What all shards of a hunt have found.
 ///
 /// # Errors
-/// A [`Fault`] if they do not fit their plan.
-pub fn merge_hunt(plan: &Plan, shards: &[Box<RawValue>]) -> Result<Hunted, Fault> {
+/// [`Halt`] if they do not fit their plan, or one has done less than it was dealt.
+pub fn merge_hunt(plan: &Plan, shards: &[Done]) -> Result<Hunted, Halt> {
     let (scheme, rule) = hunted(plan)?;
-    deals(scheme, rule)?.merge(&Asked::new(scheme, rule), &plan.deal, shards)
+    for (number, shard) in (1..).zip(shards) {
+        shard.check(hunt_part(plan, number, Some(&shard.far), None).map_err(Halt::from))?;
+    }
+    let fars: Vec<&RawValue> = shards.iter().map(|shard| &*shard.far).collect();
+    Ok(deals(scheme, rule)?.merge(&Asked::new(scheme, rule), &plan.deal, &fars)?)
 }

@@ -90,6 +90,30 @@ pub struct Plan {
     digest: String,
 }
 
+/// A shard that says that it is at its end.
+#[derive(Debug)]
+pub struct Done {
+    /// Its file.
+    path: PathBuf,
+    /// How far it is.
+    pub(super) far: Box<RawValue>,
+}
+
+impl Done {
+    /// Checks that it has done what it was dealt, where `part` is the shard as its file says that it is.
+    pub(super) fn check(&self, part: Result<Box<dyn Part + '_>, Halt>) -> Result<(), Halt> {
+        match part {
+            Ok(part) if part.is_done() => Ok(()),
+            Ok(part) => {
+                let what = format!("this shard has done less than the plan dealt it: {}", part.words());
+                Err(Fault::in_file(&self.path, what, Sharded::AGAIN).into())
+            }
+            Err(Halt::Fault(fault)) => Err(fault.with_remedy(Sharded::AGAIN).found_in(&self.path).into()),
+            Err(halt @ Halt::Interrupted) => Err(halt),
+        }
+    }
+}
+
 /// What keeps a merge from being whole.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Gap {
@@ -187,12 +211,12 @@ impl Plan {
         Sharded { format, version, plan: self.digest.clone(), shard, done: false }
     }
 
-    /// How far each shard is that `files` tell of, in the order of the shards; or what is missing.
+    /// How far each shard is that `files` tell of, and which of them does, in the order of the shards; or what is missing.
     ///
     /// # Errors
     /// A [`Fault`] if a file is no shard of this plan, or two are the same shard.
-    pub fn results(&self, files: &[PathBuf]) -> Result<Result<Vec<Box<RawValue>>, Vec<Gap>>, Fault> {
-        let mut found: Vec<Option<(bool, Box<RawValue>)>> = (0..self.shards).map(|_| None).collect();
+    pub fn results(&self, files: &[PathBuf]) -> Result<Result<Vec<Done>, Vec<Gap>>, Fault> {
+        let mut found: Vec<Option<(bool, Done)>> = (0..self.shards).map(|_| None).collect();
         for path in files {
             let Some(file) = kept::open::<Sharded>(path)? else {
                 return Err(Fault::in_file(path, "there is no such file", "give the files of shards"));
@@ -208,7 +232,7 @@ impl Plan {
                 let what = format!("shard {shard} is there twice");
                 return Err(lines.in_header("shard", what, "give each shard once"));
             }
-            *place = Some((done, lines.far()?));
+            *place = Some((done, Done { path: path.clone(), far: lines.far()? }));
         }
         let gap = |(place, shard): (&Option<(bool, _)>, u32)| match place {
             None => Some(Gap::Missing(shard)),
@@ -219,7 +243,7 @@ impl Plan {
         if !gaps.is_empty() {
             return Ok(Err(gaps));
         }
-        Ok(Ok(found.into_iter().flatten().map(|(_, far)| far).collect()))
+        Ok(Ok(found.into_iter().flatten().map(|(_, done)| done).collect()))
     }
 }
 

@@ -6,7 +6,7 @@ use serde_json::value::RawValue;
 use serde_json::{Value, json};
 use tautline_proofs::words::counted;
 
-use super::{Of, Plan};
+use super::{Done, Of, Plan};
 use crate::fault::{Fault, Halt};
 use crate::part::{Part, written};
 use crate::tables::{Asked, find};
@@ -85,13 +85,16 @@ pub fn table_part<'a>(
     Ok(Box::new(Jobs { asked, all: jobs, results }))
 }
 
-/// The results of all jobs, in their order.
+/// The results of all jobs of the table that is `asked`, in their order.
 ///
 /// # Errors
-/// A [`Fault`] if they do not fit their plan.
-pub fn merge_table(plan: &Plan, shards: &[Box<RawValue>]) -> Result<Vec<String>, Fault> {
+/// [`Halt`] if they do not fit their plan, or a shard has done less than it was dealt.
+pub fn merge_table(plan: &Plan, asked: &dyn Asked, shards: &[Done]) -> Result<Vec<String>, Halt> {
     let deal: Deal = read(&plan.deal)?;
-    let fars = shards.iter().map(|far| read::<Far>(far)).collect::<Result<Vec<_>, _>>()?;
+    for (number, shard) in (1..).zip(shards) {
+        shard.check(table_part(plan, asked, number, Some(&shard.far)))?;
+    }
+    let fars = shards.iter().map(|shard| read::<Far>(&shard.far)).collect::<Result<Vec<_>, _>>()?;
     let mut shards: Vec<_> = fars.into_iter().map(|far| far.results.into_iter()).collect();
     let of = shards.len();
     let next = |job: usize| {

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Level;
+use super::share::Share;
 
 /// More than any search lives to count, with room for more.
 const COUNTABLE: u128 = 1 << 63;
@@ -42,6 +43,9 @@ pub(super) struct Count<D> {
     /// The situations that occurred, a bit for each.
     #[serde(default, skip_serializing_if = "is_nothing")]
     pub(super) covered: u64,
+    /// The share of the tree that was searched, that of each level counted by itself.
+    #[serde(default)]
+    pub(super) searched: Share,
     /// Team moves made, those included that an earlier level has counted.
     #[serde(skip)]
     pub(super) made: u64,
@@ -49,7 +53,16 @@ pub(super) struct Count<D> {
 
 impl<D> Default for Count<D> {
     fn default() -> Self {
-        Self { runs: 0, moves: 0, longest: 0, broken: Vec::new(), given_up: 0, covered: 0, made: 0 }
+        Self {
+            runs: 0,
+            moves: 0,
+            longest: 0,
+            broken: Vec::new(),
+            given_up: 0,
+            covered: 0,
+            searched: Share::NONE,
+            made: 0,
+        }
     }
 }
 
@@ -81,6 +94,7 @@ impl<D: PartialEq> Count<D> {
         self.longest = self.longest.max(other.longest);
         self.given_up += other.given_up;
         self.covered |= other.covered;
+        self.searched = self.searched.and(other.searched);
         self.made += other.made;
         other.broken.into_iter().for_each(|broken| self.add_broken(broken));
     }

@@ -10,6 +10,7 @@ use tautline_kernel::choice::Oracle;
 
 use super::count::{self, Count, Violation};
 use super::forecast::Forecast;
+use super::share::Share;
 use super::{Broken, Game, Turn};
 use crate::engine::Unfit;
 
@@ -26,6 +27,8 @@ struct Answer {
 #[derive(Clone, Debug)]
 struct Answers {
     given: Vec<Answer>,
+    /// The share of the runs that begin so.
+    share: Share,
     mishaps: u32,
     most: u32,
 }
@@ -33,6 +36,7 @@ struct Answers {
 impl Answers {
     fn give(&mut self, answer: Answer) -> u32 {
         self.mishaps += u32::from(answer.is_mishap && answer.value == 1);
+        self.share = self.share.part_of(answer.below);
         self.given.push(answer);
         answer.value
     }
@@ -41,6 +45,7 @@ impl Answers {
     fn take(&mut self, kept: usize) -> Option<Answer> {
         let answer = (self.given.len() > kept).then(|| self.given.pop()).flatten()?;
         self.mishaps -= u32::from(answer.is_mishap && answer.value == 1);
+        self.share = self.share.times(answer.below);
         Some(answer)
     }
 
@@ -181,7 +186,7 @@ impl<G: Game> Lane<G> {
             state: game.start(),
             log: Vec::new(),
             steps: 0,
-            answers: Answers { given: Vec::new(), mishaps: 0, most: mishaps },
+            answers: Answers { given: Vec::new(), share: Share::WHOLE, mishaps: 0, most: mishaps },
             forks: Vec::new(),
             floor: 0,
             next: Next::Advance,
@@ -310,6 +315,7 @@ impl<G: Game> Lane<G> {
     /// The run is over, perhaps since it breaks something.
     fn end(&mut self, broken: Option<Broken<G>>, count: &mut Count<G::Demand>) {
         self.next = Next::Retreat;
+        count.searched = count.searched.and(self.answers.share);
         if !self.is_new() {
             return;
         }
@@ -393,17 +399,31 @@ impl<G: Game> Lane<G> {
         left
     }
 
+    /// The share of the tree that is left of it.
+    pub(super) fn share_left(&self) -> Share {
+        let own = self.forks.get(self.floor).map_or(self.answers.given.len(), |fork| fork.answered);
+        let (mut share, mut left) = (Share::WHOLE, Share::NONE);
+        for (place, answer) in self.answers.given.iter().enumerate() {
+            share = share.part_of(answer.below);
+            if place >= own {
+                left = left.and(share.times(answer.below - 1 - answer.value));
+            }
+        }
+        if self.next == Next::Advance { left.and(share) } else { left }
+    }
+
     /// Splits off the other outcomes of its first fork.
     pub(super) fn split(&mut self) -> Option<Self> {
         let (place, answered) = self.divisible()?;
         self.floor = place + 1;
         let given = self.answers.given[..answered].to_vec();
         let mishaps = given.iter().filter(|answer| answer.is_mishap && answer.value == 1).count() as u32;
+        let share = given.iter().fold(Share::WHOLE, |share, answer| share.part_of(answer.below));
         Some(Self {
             state: self.state,
             log: self.log[..self.forks[place].sent].to_vec(),
             steps: self.steps,
-            answers: Answers { given, mishaps, most: self.answers.most },
+            answers: Answers { given, share, mishaps, most: self.answers.most },
             forks: vec![self.forks[place]],
             floor: 0,
             next: Next::Retreat,

@@ -10,6 +10,7 @@ use super::count::{Broken, Count, Violation};
 use super::deal::{Deal, Ways};
 use super::forecast::Forecast;
 use super::lane::{self, Lane, Place};
+use super::share::Share;
 use super::{Counterexample, Found, Game, Level, Limits, Progress, Unsearchable, Watch};
 use crate::engine::{Unfit, Until};
 
@@ -109,6 +110,8 @@ pub struct Tree<G: Game> {
     /// The levels that are done.
     pub(super) levels: Vec<Level>,
     pub(super) count: Count<G::Demand>,
+    /// Team moves that were counted when the search was taken up.
+    pub(super) before: u64,
     /// What is left of this level.
     pub(super) lanes: Vec<Lane<G>>,
     /// Team moves that the shares of the last wave made.
@@ -161,6 +164,7 @@ impl<G: Game> Tree<G> {
             most_lanes: (MEMORY / bytes).min(LANES) as usize,
             levels: Vec::new(),
             count: Count::default(),
+            before: 0,
             lanes,
             wave: Vec::new(),
             shard: None,
@@ -201,26 +205,41 @@ impl<G: Game> Tree<G> {
         let first = Limits { max_walls, budget_moves: None, until: Until::Exhausted, ..self.limits.clone() };
         let limits = std::mem::replace(&mut self.limits, first);
         self.levels.clear();
-        self.count = Count::default();
+        (self.count, self.before) = (Count::default(), 0);
         self.lanes = vec![Lane::whole(&self.game, 0)];
         while self.wave() {}
         self.limits = limits;
         position.levels.starts_with(&self.levels)
     }
 
+    /// Whether a shard has searched what it was dealt of the levels that it has begun, but for what is left; `is_at_end` says that
+    /// it has begun no other level than those that are done.
+    fn has_done_what_it_was_dealt(&self, is_at_end: bool) -> bool {
+        let Some((ways, _)) = &self.shard else { return true };
+        let begun = self.levels.len() + usize::from(!is_at_end);
+        let dealt = (0..).zip(ways).take(begun).flat_map(|(walls, places)| {
+            places.iter().filter_map(move |place| Lane::at(&self.game, walls, place))
+        });
+        let dealt = dealt.fold(Share::NONE, |sum, lane| sum.and(lane.share_left()));
+        self.lanes.iter().fold(self.count.searched, |sum, lane| sum.and(lane.share_left())) == dealt
+    }
+
     fn is_over(&self) -> bool {
         let is_wanted = |broken: &Broken<_>| self.limits.wanted.contains(&broken.demand);
         let is_settled = self.limits.until == Until::Violation && self.count.broken.iter().any(is_wanted);
-        is_settled || self.lanes.is_empty() || self.count.moves >= self.budget_moves()
+        is_settled || self.lanes.is_empty() || self.affordable_moves() == 0
     }
 
-    fn budget_moves(&self) -> u64 {
-        self.limits.budget_moves.unwrap_or(u64::MAX)
+    /// Team moves that may still be made.
+    fn affordable_moves(&self) -> u64 {
+        let made = self.count.moves - self.before;
+        self.limits.budget_moves.map_or(u64::MAX, |budget| budget.saturating_sub(made))
     }
 
     /// Splits lanes, shares them out, those with most left first, searches each share a little further, and forgets the lanes
     /// that are done.
     fn search(&mut self) {
+        let budget = self.affordable_moves();
         let left = self.split();
         let mut lanes: Vec<(u64, &mut Lane<G>)> = left.into_iter().zip(&mut self.lanes).collect();
         lanes.sort_by_key(|&(left, _)| Reverse(left));
@@ -230,7 +249,6 @@ impl<G: Game> Tree<G> {
         while moves > LEAST && share_out(&left, moves, most).len() < most {
             moves /= 2;
         }
-        let budget = self.limits.budget_moves.map_or(u64::MAX, |budget| budget - self.count.moves);
         let affordable = (budget / moves).max(1) as usize;
         let mut rest = &mut lanes[..];
         let mut shares = Vec::new();
@@ -306,7 +324,11 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
         }
         self.levels.clone_from(&position.levels);
         self.count = position.count.clone();
+        self.before = self.count.moves;
         self.lanes = lanes;
+        if !self.has_done_what_it_was_dealt(is_done) {
+            return Err(Unsearchable::Short);
+        }
         self.wave.clear();
         if is_done {
             self.begin();

@@ -115,7 +115,7 @@ impl Deals for Walls {
         Ok(Box::new(Shard(search.map_err(fault)?)))
     }
 
-    fn merge(&self, asked: &Asked<'_>, deal: &RawValue, shards: &[Box<RawValue>]) -> Result<Hunted, Fault> {
+    fn merge(&self, asked: &Asked<'_>, deal: &RawValue, shards: &[&RawValue]) -> Result<Hunted, Fault> {
         let plan = Plan::read(deal)?;
         let bounds = plan.bounds(self.0)?;
         let positions = shards.iter().map(|far| position(far)).collect::<Result<Vec<_>, _>>()?;
@@ -292,6 +292,6 @@ pub(super) fn fault(refused: Unsearchable) -> Fault {
             refused,
             format_args!("give `max-walls` {walls} or more, or another `resume` file"),
         ),
-        tree::Unsearchable::Foreign => Fault::of_field("resume", refused, AGAIN),
+        tree::Unsearchable::Foreign | tree::Unsearchable::Short => Fault::of_field("resume", refused, AGAIN),
     }
 }
