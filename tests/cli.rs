@@ -22,6 +22,8 @@ mod frontier;
 mod kit;
 #[path = "cli/locate.rs"]
 mod locate;
+#[path = "cli/seeds.rs"]
+mod seeds;
 #[path = "cli/shards.rs"]
 mod shards;
 

@@ -229,17 +229,70 @@ fn the_shards_of_a_search_count_what_one_search_counts() {
     }
 }
 
-/// The largest shard has at most 1.3 times the mean.
+/// The largest shard has at most 1.3 times the mean, and a plan tells what all shards have to a third, and what each has to a
+/// half.
 #[test]
-fn a_search_is_dealt_out_evenly() {
-    let bounds = Bounds::new(Observed::PUBLISHED, 4, 4);
-    let deal = Search::new(&bounds).expect("four robots fit").deal(DEALT);
-    let moves = |shard| {
-        let mut search = Search::shard(&bounds, &deal, shard).expect("a shard of its own");
-        while search.wave() {}
-        search.progress().moves
+fn a_search_is_dealt_out_evenly_and_as_the_plan_tells() {
+    let cases = [(Observed::PUBLISHED, 4, 4), (Observed::REPAIRED, 3, 5), (Observed::REEL, 4, 3)];
+    for (observed, robots, walls) in cases {
+        let bounds = Bounds::new(observed, robots, walls);
+        let deal = Search::new(&bounds).expect("so many robots fit").deal(DEALT);
+        let moves = |shard| {
+            let mut search = Search::shard(&bounds, &deal, shard).expect("a shard of its own");
+            while search.wave() {}
+            search.progress().moves
+        };
+        let moves: Vec<u64> = (0..DEALT).map(moves).collect();
+        let (most, sum) = (moves.iter().max().expect("shards"), moves.iter().sum::<u64>());
+        assert!(10 * most * DEALT as u64 <= 13 * sum, "{robots} robots, {walls} walls: {moves:?}");
+        let told: u64 = deal.left().iter().sum();
+        assert!((2 * sum..=4 * sum).contains(&(3 * told)), "{robots} robots, {walls} walls: {told} of {sum}");
+        let is_about = |(&told, &made): (&u64, &u64)| (made..=3 * made).contains(&(2 * told));
+        assert!(deal.left().iter().zip(&moves).all(is_about), "{:?}, {moves:?}", deal.left());
+    }
+}
+
+#[test]
+fn a_shard_that_has_not_searched_what_it_was_dealt_is_none_of_the_deal() {
+    let bounds = Bounds::new(Observed::PUBLISHED, 4, 3);
+    let deal = Search::new(&bounds).expect("four robots fit").deal(2);
+    let mut search = Search::shard(&bounds, &deal, 0).expect("a shard");
+    for _ in 0..3 {
+        search.wave();
+    }
+    let text = serde_json::to_string(&search.position()).expect("numbers");
+    let at = |text: &str| {
+        let position = serde_json::from_str(text).expect("a position");
+        Search::shard_at(&bounds, &deal, 0, &position).map(|_| ())
     };
-    let moves: Vec<u64> = (0..DEALT).map(moves).collect();
-    let (most, sum) = (moves.iter().max().expect("shards"), moves.iter().sum::<u64>());
-    assert!(10 * most * DEALT as u64 <= 13 * sum, "{moves:?}");
+    assert_eq!(at(&text), Ok(()));
+    let short = Err(Unsearchable::Search(tree::Unsearchable::Short));
+    let mut position: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let lanes = position["lanes"].as_array_mut().expect("lanes");
+    // A lane is forgotten, or searched twice.
+    let lane = lanes.pop().expect("a lane");
+    assert_eq!(at(&position.to_string()), short);
+    position["lanes"].as_array_mut().expect("lanes").extend([lane.clone(), lane]);
+    assert_eq!(at(&position.to_string()), short);
+}
+
+/// Each call has a budget of its own, and all of them come to what one search comes to.
+#[test]
+fn a_budget_counts_what_was_made_since_the_search_was_taken_up() {
+    let bounds = |budget_moves| Bounds { budget_moves, ..Bounds::new(Observed::REPAIRED, 4, 3) };
+    let whole = found(&bounds(None));
+    let budget = whole.moves / 3 + 1;
+    let mut search = Search::new(&bounds(Some(budget))).expect("four robots fit");
+    let mut calls = Vec::new();
+    loop {
+        while search.wave() {}
+        calls.push(search.progress().moves);
+        if search.is_complete() {
+            break;
+        }
+        assert!(calls.len() < 4, "{calls:?}");
+        search = Search::at(&bounds(Some(budget)), &search.position()).expect("a position of its own");
+    }
+    assert_eq!(calls, [budget, 2 * budget, whole.moves]);
+    assert_eq!(search.found(), whole);
 }

@@ -465,6 +465,31 @@ mod tests {
     }
 
     #[test]
+    fn files_of_one_command_are_all_new_or_all_old() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let paths = ["one", "two", "three"].map(|name| folder.path().join(name));
+        let replaceable = Replaceable::new(Foreign::Replace, []);
+        let finished = |text: &str| {
+            paths.each_ref().map(|path| {
+                let mut aside = Aside::new(path, &replaceable).expect("a place");
+                aside.append(text);
+                aside.finish().expect("room")
+            })
+        };
+        let read = || paths.each_ref().map(|path| fs::read_to_string(path).ok());
+        assert!(place(finished("old").into()).is_empty());
+        drop(finished("given up"));
+        let new = finished("new");
+        assert_eq!(read(), ["old"; 3].map(|text| Some(text.to_owned())));
+        // One that has no place any more is left out alone.
+        fs::remove_file(&paths[1]).expect("a file");
+        fs::create_dir(&paths[1]).expect("a folder");
+        assert_eq!(place(new.into()), [Fault::in_file(&paths[1], "this is a folder", "name a file in it")]);
+        assert_eq!(read(), [Some("new".to_owned()), None, Some("new".to_owned())]);
+        assert_eq!(folder.path().read_dir().expect("a folder").count(), 3);
+    }
+
+    #[test]
     fn a_file_that_is_left_out_leaves_nothing_and_says_why() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("one");

@@ -14,7 +14,10 @@ use tautline_sim::counterexample::exhibit::exhibit;
 use tautline_sim::counterexample::hunt::store;
 use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, Refused, minimise};
 use tautline_sim::explore::chain::CHAIN;
-use tautline_sim::explore::{ClauseId, Limits, OnViolation, RuleId, RuleName, Setup, Stopped, explore};
+use tautline_sim::explore::kit::KIT;
+use tautline_sim::explore::{
+    Asked, ClauseId, Limits, OnViolation, RuleId, RuleName, Setup, Stopped, explore,
+};
 use tautline_sim::fault::Halt;
 use tautline_sim::layout::{self, Generator, Layout};
 use tautline_sim::trace::Trace;
@@ -297,6 +300,26 @@ fn a_run_is_taken_to_its_end_and_no_further() {
     );
     let short = Limits { max_moves: NonZeroU32::new(1), ..Limits::default() };
     assert_eq!(refused(ended(short)), Refused::Unbroken);
+}
+
+/// Of KIT a layout of one node is no layout, and its robots see blocked cells before they could meet them.
+#[test]
+fn a_candidate_that_is_refused_breaks_nothing() {
+    let mut minimised = 0;
+    for seed in 0..12 {
+        let layout = generated("cells:5x5:0.3", seed);
+        let asked = Asked { robots: Some(4), seed, ..Asked::new(&KIT, RuleName::Published) };
+        let setup = asked.setup(layout).expect("a setup");
+        if explore(&setup, &mut |_| Ok(())).expect("a run").violations.is_empty() {
+            continue;
+        }
+        let found = minimise(&setup, None, &mut |_| Ok(())).expect("a run that breaks a clause");
+        let report = explore(&found.setup, &mut |_| Ok(())).expect("the minimal run");
+        let last = report.violations.last().map(|broken| (broken.clause, broken.step));
+        assert_eq!(last, Some((found.clause, found.after.steps)), "seed {seed}");
+        minimised += 1;
+    }
+    assert!(minimised > 2, "{minimised}");
 }
 
 #[test]

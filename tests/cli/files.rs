@@ -528,6 +528,11 @@ fn commands_that_are_ended_at_any_moment_leave_nothing_half_written() {
             for name in names(folder) {
                 assert!(is_whole(folder, &name), "{command:?} after {millis} ms: {name}");
             }
+            let asked = command.iter().filter(|word| word.starts_with("a.") || **word == "b.svg").count();
+            let stored = names(folder).iter().filter(|name| *name != "a.json").count();
+            let is_together =
+                [0, asked].contains(&stored) || command[0] == "hunt" || command[0] == "minimise";
+            assert!(is_together, "{command:?} after {millis} ms: {:?}", names(folder));
         }
         // To show a layout takes no longer than to begin.
         assert!(ended >= 3 || command[0] == "show", "{command:?}: ended {ended} times");

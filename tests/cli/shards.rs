@@ -17,6 +17,13 @@ fn read(folder: &Path, name: &str) -> String {
     fs::read_to_string(folder.join(name)).expect("text")
 }
 
+/// The first two lines of a file, with the checksum that belongs to them.
+fn sealed(text: &str) -> String {
+    let lines: Vec<&str> = text.lines().take(2).collect();
+    let lines = lines.join("\n") + "\n";
+    format!("{lines}{{\"crc32\":{}}}\n", crc32fast::hash(lines.as_bytes()))
+}
+
 #[test]
 fn the_shards_of_a_hunt_in_any_order_give_what_one_process_gives() {
     let (one, many) = (folder(), folder());
@@ -92,6 +99,93 @@ fn a_shard_that_ran_out_of_its_budget_is_a_gap_until_it_has_gone_on() {
     assert_eq!(printed(folder, &["merge", "plan.json"], 1), whole);
 }
 
+/// A nightly hunt: the same command each night, with a budget of somewhat more than a third of the whole.
+#[test]
+fn three_nights_with_a_budget_come_to_what_one_call_without_one_comes_to() {
+    let (one, nights) = (folder(), folder());
+    let (one, nights) = (one.path(), nights.path());
+    let whole = json(one, &[&HUNT[..], &["--resume", "hunt.json"]].concat(), 1);
+    let moves = whole["moves"].as_u64().expect("a number");
+    let budget = (moves * 2 / 5).to_string();
+    let night = [&HUNT[..], &["--resume", "hunt.json", "--budget", &budget]].concat();
+    let made = [3, 3, 1].map(|code| json(nights, &night, code));
+    let moves_by: Vec<u64> = made.iter().map(|night| night["moves"].as_u64().expect("a number")).collect();
+    assert_eq!(moves_by, [moves * 2 / 5, 2 * (moves * 2 / 5), moves]);
+    assert_eq!(made[2], whole);
+    assert_eq!(names(nights), names(one));
+    for name in names(one) {
+        assert_eq!(read(nights, &name), read(one, &name), "{name}");
+    }
+}
+
+#[test]
+fn a_shard_that_is_run_again_with_the_same_budget_goes_on() {
+    let folder = folder();
+    let folder = folder.path();
+    let whole = printed(folder, &HUNT, 1);
+    planned(folder, &HUNT, "2");
+    hunt_shard(folder, "plan.json", 1);
+    let shard = ["hunt", "--plan", "plan.json", "--shard", "2", "--budget", "50000"];
+    let mut nights = 1;
+    while ran(folder, &shard).status.code() == Some(3) {
+        nights += 1;
+        assert!(nights < 20, "it never goes on");
+    }
+    assert!(nights > 2, "{nights}");
+    assert_eq!(printed(folder, &["merge", "plan.json"], 1), whole);
+}
+
+/// A file with right digests and a right checksum that says that all is done, and less is.
+#[test]
+fn a_shard_that_did_less_than_it_was_dealt_is_refused() {
+    let folder = folder();
+    let folder = folder.path();
+    let refused_with = |far: &dyn Fn(&mut Value)| {
+        let kept = read(folder, "plan-2.json");
+        let (head, rest) = kept.split_once('\n').expect("lines");
+        let mut value = serde_json::from_str(rest.lines().next().expect("a line")).expect("JSON");
+        far(&mut value);
+        let head = head.replace("\"done\":false", "\"done\":true");
+        fs::write(folder.join("plan-2.json"), sealed(&format!("{head}\n{value}\n"))).expect("room");
+        let said = refused(folder, &["merge", "plan.json"]);
+        fs::write(folder.join("plan-2.json"), kept).expect("room");
+        assert!(said.contains("plan-2.json"), "{said}");
+        assert!(said.contains("remove it, and run the shard again"), "{said}");
+        said
+    };
+    let budget = ["hunt", "--plan", "plan.json", "--shard", "2", "--budget", "5000"];
+    planned(folder, &HUNT, "2");
+    hunt_shard(folder, "plan.json", 1);
+    printed(folder, &budget, 3);
+    let mut said = vec![refused_with(&|_| {})];
+    // It forgets what is left of this number of walls, and of all.
+    let forget = |far: &mut Value, levels: usize| {
+        far["lanes"] = Value::Array(Vec::new());
+        let all = far["levels"].as_array_mut().expect("levels");
+        all.resize(levels, serde_json::json!({"runs": 0, "moves": 0}));
+    };
+    said.push(refused_with(&|far| forget(far, 4)));
+    hunt_shard(folder, "plan.json", 2);
+    said.push(refused_with(&|far| far["count"]["searched"] = 1.into()));
+    fs::remove_file(folder.join("plan.json")).expect("a file");
+    (1..=2).for_each(|shard| fs::remove_file(folder.join(format!("plan-{shard}.json"))).expect("a file"));
+    let layouts = ["hunt", "--scheme", "mdfs", "--rule", "published", "--max-misses", "1", "--size", "3x2"];
+    planned(folder, &layouts, "2");
+    (1..=2).for_each(|shard| hunt_shard(folder, "plan.json", shard));
+    let stages = |far: &mut Value| far.as_array().expect("stages").len();
+    let looks = |far: &mut Value, stage: usize| far[stage].as_array_mut().expect("looks").pop();
+    said.push(refused_with(&|far| drop(looks(far, stages(&mut far.clone()) - 1))));
+    said.push(refused_with(&|far| drop(looks(far, stages(&mut far.clone()) - 2))));
+    fs::remove_file(folder.join("plan.json")).expect("a file");
+    (1..=2).for_each(|shard| fs::remove_file(folder.join(format!("plan-{shard}.json"))).expect("a file"));
+    planned(folder, &TABLE, "2");
+    for shard in ["1", "2"] {
+        printed(folder, &["reproduce", "--plan", "plan.json", "--shard", shard], 0);
+    }
+    said.push(refused_with(&|far| drop(far["results"].as_array_mut().expect("results").pop())));
+    assert_snapshot!(said.join("\n"));
+}
+
 #[test]
 fn the_shards_of_a_table_give_what_one_process_gives() {
     let (one, many) = (folder(), folder());
@@ -121,11 +215,6 @@ fn wrong_plans_and_shards() {
     // What is not the same in every build is not shown.
     let (head, rest) = plan.split_once("\"program\":\"").expect("a program");
     let foreign = format!("{head}\"program\":\"{}{}", "0".repeat(64), &rest[64..]);
-    let sealed = |text: &str| {
-        let lines: Vec<&str> = text.lines().take(2).collect();
-        let lines = lines.join("\n") + "\n";
-        format!("{lines}{{\"crc32\":{}}}\n", crc32fast::hash(lines.as_bytes()))
-    };
     fs::write(folder.join("foreign.json"), sealed(&foreign)).expect("a file");
     let old = plan.replace("\"version\":1", "\"version\":0");
     fs::write(folder.join("old.json"), sealed(&old)).expect("a file");

@@ -315,6 +315,29 @@ mod tests {
     }
 
     #[test]
+    fn images_of_many_anchors_are_taken_from_all_over_the_list_each_once() {
+        let anchor = |number: u32| Range::new(Point::new(f64::from(number * number), f64::from(number)), 1.0);
+        let all: [Range; 1000] = core::array::from_fn(|number| anchor(number as u32));
+        for count in [3, 32, 33, 34, 64, 100, 997, 1000] {
+            let ranges = &all[..count];
+            let at = Point::new(-3.0, 5.0);
+            let whole = |place: usize| {
+                let pair = [ranges[place], ranges[(place + 1) % count]];
+                images(&pair, at).next().expect("an image")
+            };
+            assert_eq!(images(ranges, at).count(), count);
+            for (number, image) in images(ranges, at).enumerate() {
+                let place = if count <= MOST_IMAGES { number } else { number * scattering(count) % count };
+                assert_eq!(image, whole(place), "{number} of {count}");
+            }
+            // Of eight parts of the list each has some of the first ones.
+            let first = (0..MOST_IMAGES).map(|number| number * scattering(count) % count * 8 / count);
+            let parts = first.fold(0_u32, |parts, part| parts | 1 << part);
+            assert!(count <= MOST_IMAGES || parts == 0xff, "{count}: {parts:b}");
+        }
+    }
+
+    #[test]
     fn of_all_minima_the_two_least_are_kept_in_whatever_order_they_come() {
         for costs in [[1, 2, 3], [1, 3, 2], [2, 1, 3], [2, 3, 1], [3, 1, 2], [3, 2, 1]] {
             let mut found = costs.map(f64::from).map(|cost| minimum(10.0 * cost, cost)).into_iter();

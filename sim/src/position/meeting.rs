@@ -101,3 +101,40 @@ impl Circles {
         is_outside || is_around || is_inside
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use tautline_kernel::choice::Oracle;
+    use tautline_kernel::net::Propagation;
+    use tautline_kernel::position;
+    use tautline_proofs::engine::Seeded;
+
+    use super::*;
+
+    #[test]
+    fn circles_meet_where_the_kernel_says_so_which_compares_every_two() {
+        let mut refused = 0;
+        for seed in 0..600 {
+            let dice = &mut Seeded::new(seed, 0);
+            let mut number = |below: u32| f64::from(dice.pick(below));
+            let noise_db = [0.0, 0.1, 1.0, 6.0][seed as usize % 4];
+            let signal = Signal::new(Propagation::FREE_SPACE, noise_db).expect("a signal");
+            let count = 3 + seed as usize % 60;
+            let robot = Point::new(number(100), number(100));
+            // Few places, so that anchors come again; few distances are wrong.
+            let places = 2 + number(40) as u32;
+            let ranges: Vec<Range> = (0..count)
+                .map(|_| {
+                    let place = number(places);
+                    let anchor = Point::new(place * 7.0 % 101.0, place * place % 103.0);
+                    let wrong = if number(40) < 1.0 { 0.2 + number(4) } else { 1.0 };
+                    Range::new(anchor, robot.distance_m(anchor) * wrong)
+                })
+                .collect();
+            let found = check_meeting(&ranges, &signal);
+            assert_eq!(found, position::check_meeting(&ranges, &signal), "seed {seed}");
+            refused += usize::from(matches!(found, Err(Refusal::Apart { .. })));
+        }
+        assert!((100..500).contains(&refused), "{refused}");
+    }
+}

@@ -50,3 +50,19 @@ impl Share {
         Self((self.0 as u128 * inverse % PRIME as u128) as u64)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_parts_add_up_to_what_is_divided() {
+        for share in [1, 2, 3, PRIME / 2, PRIME - 2, PRIME - 1].map(Share) {
+            for count in 1..100 {
+                let part = share.part_of(count);
+                assert_eq!(part.times(count), share);
+                assert_eq!((0..count).fold(Share::NONE, |sum, _| sum.and(part)), share);
+            }
+        }
+    }
+}

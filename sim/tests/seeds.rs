@@ -1,0 +1,109 @@
+//! What each scheme says of its seed: a run in which nothing is drawn is the same with every seed, and whatever is drawn makes
+//! runs differ.
+
+use std::num::NonZeroU32;
+
+use tautline_sim::explore::catalogue::SCHEMES;
+use tautline_sim::explore::{Asked, By, Drawn, Extra, Limits, Profile, Rule, explore};
+use tautline_sim::faults::{Appearing, Failure, Going};
+use tautline_sim::layout::generate::Probability;
+use tautline_sim::layout::{Generator, Layout};
+
+const SEEDS: u64 = 6;
+
+/// What a run is told besides, if anything.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Told {
+    Nothing,
+    Miss,
+    Extra(Extra),
+}
+
+impl Told {
+    fn all() -> impl Iterator<Item = Self> {
+        [Self::Nothing, Self::Miss].into_iter().chain(Extra::ALL.map(Self::Extra))
+    }
+
+    fn tell(self, asked: &mut Asked) {
+        let robot = "3@9".parse::<Failure>();
+        let wall = "3,3,E@9".parse::<Appearing>();
+        match self {
+            Self::Nothing => {}
+            Self::Miss => asked.miss = Probability::new(0.3),
+            Self::Extra(Extra::Range) => asked.range_cells = Some(3),
+            Self::Extra(Extra::Sight) => asked.sight_cells = Some(2),
+            Self::Extra(Extra::Loss) => asked.loss = Probability::new(0.3),
+            Self::Extra(Extra::Noise) => asked.noise_db = Some(12.0),
+            Self::Extra(Extra::Threshold) => asked.threshold = Some(0.4),
+            Self::Extra(Extra::Speed) => asked.speed_mps = Some(0.5),
+            Self::Extra(Extra::Spread) => asked.spread = Some(0.5),
+            Self::Extra(Extra::Fail) => asked.fail = robot.ok(),
+            Self::Extra(Extra::Wall) => asked.wall = wall.ok(),
+            Self::Extra(Extra::Speeds) => asked.going = Going::OneByOne,
+        }
+    }
+}
+
+/// A run with this seed: whether it is said to draw anything, and all that came of it. `None` if the rule cannot be told that.
+fn run(
+    scheme: &'static Profile,
+    rule: &Rule,
+    told: Told,
+    layout: &Layout,
+    seed: u64,
+) -> Option<(bool, String)> {
+    let limits = Limits { max_moves: NonZeroU32::new(60), ..Limits::default() };
+    let mut asked = Asked { robots: Some(4), seed, limits, ..Asked::new(scheme, rule.name) };
+    told.tell(&mut asked);
+    let setup = asked.setup(layout.clone()).ok()?;
+    let mut moves = String::new();
+    let report = explore(&setup, &mut |made| {
+        moves += &format!("{:?}", made.frame);
+        Ok(())
+    });
+    let report = report.ok()?;
+    let seen = format!("{moves} {:?} {:?} {:?}", report.violations, report.faults, report.milliseconds);
+    Some((scheme.draws(&setup.stage()), seen))
+}
+
+#[test]
+fn each_scheme_says_what_its_seed_draws() {
+    for scheme in SCHEMES {
+        let mut seen: Vec<&Drawn> = Vec::new();
+        for (rule, told) in scheme.rules.iter().flat_map(|rule| Told::all().map(move |told| (rule, told))) {
+            // An open area has most ways that are as good; obstacles make messages matter.
+            for layout in ["open:7x6", "cells:7x6:0.2"] {
+                let layout = layout.parse::<Generator>().and_then(|generator| generator.generate(5));
+                let layout = layout.expect("a layout");
+                let runs: Option<Vec<_>> =
+                    (0..SEEDS).map(|seed| run(scheme, rule, told, &layout, seed)).collect();
+                let Some(runs) = runs else { continue };
+                let (draws, first) = &runs[0];
+                let differ = runs.iter().any(|(_, other)| other != first);
+                assert!(*draws || !differ, "{} ({}), {told:?}: a seed has an effect", scheme.name, rule.name);
+                let by = scheme.drawn.iter().filter(|drawn| match drawn.by {
+                    By::Every => told == Told::Nothing,
+                    By::Miss => told == Told::Miss,
+                    By::Told(extra) => told == Told::Extra(extra),
+                    By::Rule(name) => name == rule.name && told == Told::Nothing,
+                });
+                seen.extend(by.filter(|_| differ));
+            }
+        }
+        for drawn in scheme.drawn {
+            assert!(seen.contains(&drawn), "{}: {drawn} has no effect in any run", scheme.name);
+        }
+    }
+}
+
+#[test]
+fn of_a_scheme_in_which_every_run_draws_no_rule_is_without_chance() {
+    let of_every = |scheme: &&&Profile| scheme.drawn.iter().any(|drawn| drawn.by == By::Every);
+    let open = Layout::open(7, 6).expect("a layout");
+    for scheme in SCHEMES.iter().filter(of_every) {
+        for rule in scheme.rules {
+            let run = |seed| run(scheme, rule, Told::Nothing, &open, seed).expect("a run").1;
+            assert!((1..SEEDS).any(|seed| run(seed) != run(0)), "{} ({})", scheme.name, rule.name);
+        }
+    }
+}

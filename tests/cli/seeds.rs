@@ -1,0 +1,80 @@
+//! Seeds: each scheme takes one in any layout where it draws something, and the command on a page has it.
+
+use tautline_sim::explore::catalogue::SCHEMES;
+use tautline_sim::explore::{By, Profile};
+
+use super::*;
+
+/// What lets a run of `scheme` draw something, of each kind: rule and options.
+fn told(scheme: &Profile) -> Vec<Vec<String>> {
+    let words = |by: &By| match by {
+        By::Every => String::new(),
+        By::Miss => "--miss 0.2".to_owned(),
+        By::Told(extra) => match extra.field() {
+            "speeds" => "--speeds".to_owned(),
+            "loss" => "--loss 0.3".to_owned(),
+            field => format!("--{field} 6"),
+        },
+        By::Rule(rule) => format!("--rule {rule}"),
+    };
+    let each = scheme.drawn.iter().map(|drawn| words(&drawn.by));
+    each.map(|words| words.split_whitespace().map(str::to_owned).collect()).collect()
+}
+
+/// The text that a page has for `key`, as JSON.
+fn on_page(page: &str, key: &str) -> String {
+    let (_, film) = page.split_once("id=\"film\">").expect("a film");
+    let film: Value = serde_json::from_str(film.split("</script>").next().expect("its end")).expect("JSON");
+    film["again"][key].as_str().expect("text").to_owned()
+}
+
+#[test]
+fn the_command_on_a_page_makes_its_run_again_in_an_own_map() {
+    let mut again = 0;
+    for scheme in SCHEMES {
+        for told in told(scheme) {
+            let folder = folder();
+            let folder = folder.path();
+            let explore =
+                ["explore", "cells:6x6:0.1", "--seed", "5", "--robots", "3", "--scheme", scheme.name];
+            let rule = scheme.rules[0].name;
+            let rule: &[&str] =
+                if told.contains(&"--rule".to_owned()) { &[] } else { &["--rule", rule.as_str()] };
+            let told: Vec<&str> = told.iter().map(String::as_str).collect();
+            let files = ["--replay", "run.html", "--trace", "run.jsonl", "--max-moves", "30"];
+            let output = ran(folder, &[&explore, rule, &told, &files].concat());
+            assert!(matches!(output.status.code(), Some(0 | 1)), "{}, {told:?}: {output:?}", scheme.name);
+            let page = fs::read_to_string(folder.join("run.html")).expect("a page");
+            fs::write(folder.join("own.txt"), on_page(&page, "layout")).expect("room");
+            let command = on_page(&page, "command");
+            assert!(command.contains(" --seed 5 "), "{command}");
+            let words = command.replace("LAYOUT", "own.txt").replace("run.html", "again.html");
+            let words: Vec<&str> =
+                words.split_whitespace().skip(1).chain(["--trace", "again.jsonl"]).collect();
+            assert_eq!(ran(folder, &words).status.code(), output.status.code(), "{command}");
+            let [run, same] = ["run.jsonl", "again.jsonl"]
+                .map(|name| fs::read_to_string(folder.join(name)).expect("a run"));
+            assert_eq!(run, same, "{command}");
+            again += 1;
+        }
+    }
+    assert!(again >= SCHEMES.len(), "{again}");
+}
+
+#[test]
+fn a_seed_that_draws_nothing_is_refused_with_what_would_be_drawn() {
+    let folder = folder();
+    let folder = folder.path();
+    let said: Vec<String> = SCHEMES
+        .iter()
+        .filter(|scheme| scheme.drawn.iter().all(|drawn| drawn.by != By::Every))
+        .map(|scheme| {
+            let rule = scheme.rules[0].name;
+            let arguments =
+                ["explore", "open:5x5", "--seed", "3", "--robots", "2", "--scheme", scheme.name, "--rule"];
+            format!("{}: {}\n", scheme.name, refused(folder, &[&arguments[..], &[rule.as_str()]].concat()))
+        })
+        .collect();
+    assert_snapshot!(said.join("\n"));
+    assert!(refused(folder, &["show", "open:5x5", "--seed", "3"]).contains("nothing here is left to chance"));
+}
