@@ -26,6 +26,9 @@ const MOVES: u64 = 64;
 /// A level of fewer team moves is not dealt out.
 const WORTH_DEALING: f64 = 1e5;
 
+/// Nor is one of fewer team moves if there are too few levels yet to tell the others.
+const WORTH_TELLING: f64 = 1e7;
+
 /// A search dealt out among shards.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -61,11 +64,18 @@ impl<D> Deal<D> {
     }
 }
 
+/// How much is left of all these parts.
+fn total(parts: &[(u64, Place)]) -> u128 {
+    parts.iter().map(|&(left, _)| u128::from(left)).sum()
+}
+
 impl<G: Game> Tree<G> {
     pub(super) fn dealt(&mut self, shards: usize) -> Deal<G::Demand> {
         let (edges, last) = (self.game.edges(), self.limits.max_walls as usize);
-        let is_small =
-            |levels: &[Level]| forecast::next(levels, edges).is_none_or(|moves| moves < WORTH_DEALING);
+        let is_small = |levels: &[Level]| {
+            let worth = if levels.len() < forecast::TELLING { WORTH_TELLING } else { WORTH_DEALING };
+            forecast::next(levels, edges).is_none_or(|moves| moves < worth)
+        };
         while is_small(&self.levels) && self.wave() {}
         let mut deal = Deal {
             levels: self.levels.clone(),
@@ -81,10 +91,12 @@ impl<G: Game> Tree<G> {
         for walls in self.levels.len()..=last {
             let before = (self.count.runs, self.count.moves);
             let most = deal.expected[walls].moves / (shards as u64 * PARTS).max(1);
-            parts.extend(
-                self.divided(walls, &forecast, most).into_iter().map(|(left, place)| (left, walls, place)),
-            );
+            let level = self.divided(walls, &forecast, most);
             let (runs, moves) = (self.count.runs - before.0, self.count.moves - before.1);
+            // How parts compare is known better than how much they are together: that the level tells.
+            let (due, sum) = (deal.expected[walls].moves.saturating_sub(moves), total(&level));
+            let scaled = |left: u64| (u128::from(left) * u128::from(due) / sum.max(1)) as u64;
+            parts.extend(level.into_iter().map(|(left, place)| (scaled(left), walls, place)));
             deal.begun.push(Level { runs, moves });
         }
         self.lanes.clear();
@@ -135,7 +147,7 @@ impl<G: Game> Tree<G> {
         }
         self.shard = Some((ways.clone(), deal.expected.clone()));
         self.levels.clear();
-        self.count = Count::default();
+        (self.count, self.before) = (Count::default(), 0);
         self.lanes.clear();
         self.begin();
         self.end_levels();

@@ -9,15 +9,20 @@ const PARTS: u64 = 8;
 /// A fraction of one is a number of these.
 const ONE: u64 = 1 << 20;
 
+/// Levels by which the next one can be told: fewer do not show that walls make runs longer.
+pub(super) const TELLING: usize = 3;
+
 /// Team moves of the next level, if the levels grow on as they have so far. The runs that meet *k* walls are about as many as
-/// sets of *k* edges, so their growth falls as that of the sets does.
+/// sets of *k* edges, so their growth falls as that of the sets does. In excess of that, walls make runs longer, by less with each
+/// wall: from one level to the next the excess is taken to grow by the square root of what it grew by before.
 #[expect(clippy::cast_precision_loss, reason = "an estimate")]
 pub(super) fn next(levels: &[Level], edges: u32) -> Option<f64> {
-    let [.., before, last] = levels else { return None };
-    let growth_of_sets = |walls: f64| (f64::from(edges) - walls + 1.0) / walls;
-    let done = levels.len() as f64 - 1.0;
-    let excess = last.moves as f64 / before.moves as f64 / growth_of_sets(done);
-    Some(last.moves as f64 * excess * growth_of_sets(done + 1.0))
+    let moves: Vec<f64> = levels.iter().map(|level| level.moves as f64).collect();
+    let growth_of_sets = |walls: usize| (f64::from(edges) - walls as f64 + 1.0) / walls as f64;
+    let excess = |walls: usize| moves[walls] / moves[walls - 1] / growth_of_sets(walls);
+    let done = moves.len().checked_sub(1).filter(|&done| done > 0)?;
+    let slowed = if moves.len() < TELLING { 1.0 } else { (excess(done) / excess(done - 1)).sqrt() };
+    Some(moves[done] * excess(done) * slowed * growth_of_sets(done + 1))
 }
 
 /// The levels up to that of `last` walls: those that are known, and what is expected of the others.
