@@ -56,8 +56,8 @@ impl System for Election {
         (0..ROBOTS).filter_map(arrives)
     }
 
-    fn broken_at_end(&self, ring: &Ring) -> Option<&'static str> {
-        (!ring.leads.contains(&true)).then_some("nobody leads")
+    fn broken_at_end(&self, ring: &Ring) -> Vec<&'static str> {
+        if ring.leads.contains(&true) { Vec::new() } else { vec!["nobody leads"] }
     }
 }
 

@@ -142,9 +142,9 @@ impl<R, T: Team<ROBOTS>, const ROBOTS: usize> Layouts<R, T, ROBOTS> {
         Area::new(Cell::new(0, 0), Cell::new(self.size.0 - 1, self.size.1 - 1))
     }
 
-    /// The search for teams that follow `rule`, at its start: it can be made wave by wave, left and taken up again. A run ends
-    /// at the first of the `wanted` demands that it breaks, and the others are as if they were not there; all are wanted where
-    /// none is named.
+    /// The search for teams that follow `rule`, at its start: it can be made wave by wave, left and taken up again. It is for
+    /// the demands that are `wanted`, or for all if none is said to be; each is decided as if it stood alone, so a run goes on
+    /// until it has broken all of them.
     ///
     /// # Errors
     /// [`Refused`] if the area is too large, a robot starts outside, or the limits are beyond what can be searched.
@@ -161,8 +161,10 @@ impl<R, T: Team<ROBOTS>, const ROBOTS: usize> Layouts<R, T, ROBOTS> {
             return Err(Refused::new(format_args!("a robot starts in {outside}, outside of the area")));
         }
         let state = State { team, cells, grid };
-        let limits = Limits { max_walls: self.max_walls, budget_moves: None, wanted: wanted.to_vec(), until };
-        Tree::new(InLayouts { layouts: self, wanted: wanted.to_vec(), state }, &limits).map_err(Refused::new)
+        let all = || (0..self.demands.len()).map(Promise).collect();
+        let wanted = if wanted.is_empty() { all() } else { wanted.to_vec() };
+        let limits = Limits { max_walls: self.max_walls, budget_moves: None, until };
+        Tree::new(InLayouts { layouts: self, wanted, state }, &limits).map_err(Refused::new)
     }
 
     /// What a search finds, which is made only once.
@@ -250,7 +252,8 @@ where
         if !choices.again.is_empty() {
             return Err(Unfit::Over { at: choices.once.len() });
         }
-        let tree = self.0.search(rule, Until::Exhausted, &[Promise(self.1)]).map_err(|_| Unfit::Unbroken)?;
+        let wanted = [Promise(self.1)];
+        let tree = self.0.search(rule, Until::Exhausted, &wanted).map_err(|_| Unfit::Unbroken)?;
         let found = tree.replay(Promise(self.1), &choices.once)?;
         Ok(Played { of: vec![2; found.answers.len()], evidence: self.0.evidence(rule, &found) })
     }
@@ -259,7 +262,6 @@ where
 /// A team in layouts, as the search plays it.
 pub struct InLayouts<R: 'static, T: 'static, const ROBOTS: usize> {
     layouts: &'static Layouts<R, T, ROBOTS>,
-    /// The demands that are looked at; all of them if it is empty.
     wanted: Vec<Promise>,
     state: State<T, ROBOTS>,
 }
@@ -273,12 +275,14 @@ pub struct State<T, const ROBOTS: usize> {
 }
 
 impl<R, T: Team<ROBOTS>, const ROBOTS: usize> InLayouts<R, T, ROBOTS> {
-    /// The first demand that is broken, of those that are looked at.
-    fn first(&self, is_broken: impl Fn(&Demand<T, ROBOTS>) -> bool) -> Option<(Promise, &'static str)> {
-        let is_wanted = |promise| self.wanted.is_empty() || self.wanted.contains(&promise);
-        let demands = self.layouts.demands.iter().enumerate();
-        let mut wanted = demands.filter(|&(number, _)| is_wanted(Promise(number)));
-        wanted.find(|(_, demand)| is_broken(demand)).map(|(number, demand)| (Promise(number), demand.words))
+    /// The demands that are wanted and broken.
+    fn broken(&self, is_broken: impl Fn(&Demand<T, ROBOTS>) -> bool) -> Vec<(Promise, &'static str)> {
+        let wanted =
+            self.wanted.iter().filter_map(|&promise| Some((promise, self.layouts.demands.get(promise.0)?)));
+        wanted
+            .filter(|(_, demand)| is_broken(demand))
+            .map(|(promise, demand)| (promise, demand.words))
+            .collect()
     }
 }
 
@@ -323,13 +327,17 @@ impl<R, T: Team<ROBOTS>, const ROBOTS: usize> Game for InLayouts<R, T, ROBOTS> {
         }
     }
 
-    fn broken_by(&self, turn: &Turn<'_, Self>) -> Option<Broken<Self>> {
-        let moved = moved(turn);
-        self.first(|demand| demand.is_broken_by(&moved))
+    fn wanted(&self) -> &[Promise] {
+        &self.wanted
     }
 
-    fn broken_at_end(&self, state: &Self::State, _: &[u8]) -> Option<Broken<Self>> {
-        self.first(|demand| demand.is_broken_at_end(&state.team, &state.cells))
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Broken<Self>> {
+        let moved = moved(turn);
+        self.broken(|demand| demand.is_broken_by(&moved))
+    }
+
+    fn broken_at_end(&self, state: &Self::State, _: &[u8]) -> Vec<Broken<Self>> {
+        self.broken(|demand| demand.is_broken_at_end(&state.team, &state.cells))
     }
 
     fn recurs(
@@ -338,11 +346,11 @@ impl<R, T: Team<ROBOTS>, const ROBOTS: usize> Game for InLayouts<R, T, ROBOTS> {
         _: usize,
         now: &Self::State,
         _: &[u8],
-    ) -> ControlFlow<Option<Broken<Self>>> {
+    ) -> ControlFlow<Vec<Broken<Self>>> {
         if (&then.team, then.cells) != (&now.team, now.cells) {
             return ControlFlow::Continue(());
         }
-        ControlFlow::Break(self.first(Demand::is_broken_by_endless_runs))
+        ControlFlow::Break(self.broken(Demand::is_broken_by_endless_runs))
     }
 
     fn edges(&self) -> u32 {

@@ -290,8 +290,8 @@ impl System for Team {
         })
     }
 
-    fn broken_at_end(&self, state: &Box<State>) -> Option<&'static str> {
-        match self.demand {
+    fn broken_at_end(&self, state: &Box<State>) -> Vec<&'static str> {
+        let broken = match self.demand {
             Demand::Connected | Demand::Knowing => None,
             Demand::Explores => (!self.is_explored(state)).then_some("every cell is explored"),
             Demand::Ends | Demand::All => {
@@ -299,7 +299,8 @@ impl System for Team {
                 (self.marked(state, is_left) != 0)
                     .then_some("when all agents are done, every cell is visited")
             }
-        }
+        };
+        broken.into_iter().collect()
     }
 
     fn broken_by_endless_runs(&self) -> Option<&'static str> {

@@ -29,7 +29,7 @@ pub struct Bounds {
     pub max_walls: u32,
     /// The search stops when it has made so many team moves.
     pub budget_moves: Option<u64>,
-    /// What is looked for. A run without end is always found, since it would never be left.
+    /// What is looked for, each as if it stood alone. A run without end is always found, since it would never be left.
     pub invariants: Vec<Invariant>,
     /// When to stop.
     pub until: Until,
@@ -66,9 +66,9 @@ impl Bounds {
     }
 
     /// The limits of the search.
-    pub(super) fn limits(&self) -> Limits<Invariant> {
+    pub(super) const fn limits(&self) -> Limits {
         let Self { max_walls, budget_moves, until, .. } = *self;
-        Limits { max_walls, budget_moves, wanted: self.invariants.clone(), until }
+        Limits { max_walls, budget_moves, until }
     }
 
     /// The area as the chain's range cuts it.

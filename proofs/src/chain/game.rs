@@ -92,7 +92,11 @@ where
         frame(turn.plan.kind, turn.sent, turn.after.cells())
     }
 
-    fn broken_by(&self, turn: &Turn<'_, Self>) -> Option<Broken<Self>> {
+    fn wanted(&self) -> &[Invariant] {
+        &self.bounds.invariants
+    }
+
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Broken<Self>> {
         let Turn { before, planned, after, plan, sent } = *turn;
         let observed = &self.bounds.observed;
         let (mut forged_steps, mut forged_messages) = ([Step::Stay; ROBOTS], [0; ROBOTS]);
@@ -118,15 +122,17 @@ where
         let is_harmless = is_harmless(before.cells(), after.cells());
         let is_met = |invariant: Invariant| is_harmless && invariant.breach().is_some();
         let doubtful = self.bounds.invariants.iter().filter(|&&invariant| !is_met(invariant));
-        doubtful.copied().find_map(|invariant| match invariant.check(&moment) {
+        let broken = doubtful.copied().filter_map(|invariant| match invariant.check(&moment) {
             Err(Stop::Violated(demand)) => Some((invariant, demand)),
             Err(Stop::Assumed | Stop::GivenUp) | Ok(()) => None,
-        })
+        });
+        broken.collect()
     }
 
-    fn broken_at_end(&self, chain: &Self::State, log: &[u8]) -> Option<Broken<Self>> {
+    fn broken_at_end(&self, chain: &Self::State, log: &[u8]) -> Vec<Broken<Self>> {
+        let mut broken = Vec::new();
         if self.looks_for(Invariant::Heard) && chain.clone().plan(log).is_err() {
-            return Some((Invariant::Heard, "no message of a team is refused by it"));
+            broken.push((Invariant::Heard, "no message of a team is refused by it"));
         }
         let grid = chain.grid();
         let moves = log.len() / (self.bounds.robots - 1);
@@ -134,7 +140,7 @@ where
             return Some((Invariant::Short, "each wall that is met costs at most N² team moves"));
         }
         if grid.is_explored() {
-            return None;
+            return broken;
         }
         let is_open = |edge| !grid.edge_has(EdgeMark::Wall, edge);
         let is_missed = |cell| !grid.has(CellMark::Explored, cell);
@@ -143,16 +149,18 @@ where
         if self.looks_for(complete)
             && within_reach(grid.area(), base, robots, is_open).into_iter().any(is_missed)
         {
-            return Some((complete, "at the end every cell within reach is explored"));
+            broken.push((complete, "at the end every cell within reach is explored"));
         }
-        if !self.looks_for(exhausts) {
-            return None;
-        }
-        let ground = Ground::new(grid.area(), base, robots, is_open)?;
+        let ground =
+            self.looks_for(exhausts).then(|| Ground::new(grid.area(), base, robots, is_open)).flatten();
+        let Some(ground) = ground else { return broken };
         let mut missed = CellSet::new(grid.area());
         grid.area().cells().filter(|&cell| is_missed(cell)).for_each(|cell| missed.insert(cell));
         let is_reachable = ground.reaches_any(chain.rule(), &missed).unwrap_or(false);
-        is_reachable.then_some((exhausts, "at the end every cell that a chain can reach is explored"))
+        if is_reachable {
+            broken.push((exhausts, "at the end every cell that a chain can reach is explored"));
+        }
+        broken
     }
 
     /// The chain is where it was, and what it took back since then, it has done again: so it goes on as it did. If it
@@ -163,7 +171,7 @@ where
         sent: usize,
         now: &Self::State,
         log: &[u8],
-    ) -> ControlFlow<Option<Broken<Self>>> {
+    ) -> ControlFlow<Vec<Broken<Self>>> {
         if !now.is_where(then) {
             return ControlFlow::Continue(());
         }
@@ -177,7 +185,7 @@ where
         let recurs = (height == 0 || height > 0 && !was_home)
             && self.open_moves(&log[..sent]).take(undone).eq(self.open_moves(log).take(undone));
         if recurs {
-            ControlFlow::Break(Some((Invariant::Ends, "a run never comes back to where it was")))
+            ControlFlow::Break(vec![(Invariant::Ends, "a run never comes back to where it was")])
         } else {
             ControlFlow::Continue(())
         }

@@ -95,8 +95,8 @@ impl Invariant {
         Self::AnyOrder,
     ];
 
-    /// Those that are looked for in one search with this one, of a chain that claims to follow `rule`. A run ends where it
-    /// breaks one of them: so only those are among them that the rule promises.
+    /// Those that are looked for in one search with this one, of a chain that claims to follow `rule`: only those
+    /// that the rule promises are among them.
     pub(super) const fn companions(self, rule: &Rule) -> &'static [Self] {
         match (self, rule.pursuit, Self::OF_REELS.split_last()) {
             (Self::Certified, ..) => &[Self::Certified],

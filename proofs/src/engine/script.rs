@@ -116,7 +116,7 @@ impl<'a> Script<'a> {
         let first = self.of.len();
         let still = |state: &S::State| {
             let is_still = !system.steps(state).any(|step| step.is_bound);
-            is_still.then(|| system.broken_at_end(state)).flatten().filter(&is_meant)
+            is_still.then(|| system.broken_at_end(state).into_iter().find(&is_meant)).flatten()
         };
         let mut there = None;
         while self.of.len() < self.choices.once.len() {

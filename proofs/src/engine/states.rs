@@ -59,9 +59,9 @@ pub trait System {
     /// Every step from `state`, always in the same order.
     fn steps(&self, state: &Self::State) -> impl Iterator<Item = Step<Self::State, Self::Demand>>;
 
-    /// What is broken by staying in `state`, from which no step is bound to be made.
-    fn broken_at_end(&self, _: &Self::State) -> Option<Self::Demand> {
-        None
+    /// Everything that is broken by staying in `state`, from which no step is bound to be made.
+    fn broken_at_end(&self, _: &Self::State) -> Vec<Self::Demand> {
+        Vec::new()
     }
 
     /// What is broken by a run that never ends and owes the same thing throughout, everybody acting who is awake
@@ -80,7 +80,8 @@ pub trait System {
         0
     }
 
-    /// Whether nothing more is looked for once a step or an end breaks `demand`.
+    /// Whether nothing more is looked for once a step or an end breaks `demand`: what is not found then may be broken all the
+    /// same. Where it is not, each demand is decided as if it stood alone, since steps are made from every state.
     fn is_enough(&self, _: Self::Demand) -> bool {
         true
     }

@@ -1,7 +1,8 @@
 //! The search over all layouts. Walls are not drawn in advance: the world decides an edge when a robot first tries
-//! it, both ways, so one tree of runs covers every layout. A run is a leaf; it ends by itself or at its first
-//! violation. A team move is an edge of the tree and is counted once. States never merge, since branches differ
-//! for ever in a revealed edge.
+//! it, both ways, so one tree of runs covers every layout. A run is a leaf; it ends by itself, or when it has broken
+//! everything that is wanted: each demand is decided as if it stood alone, so a run goes on for the demands that it has not
+//! broken yet. A team move is an edge of the tree and is counted once. States never merge, since branches differ for ever in
+//! a revealed edge.
 //!
 //! The tree is searched by levels: first the runs that meet no wall, then those that meet one, and so on, so that the
 //! first counterexample has the fewest walls. On the way to its runs a level goes the ways of the levels before it
@@ -76,21 +77,24 @@ pub trait Game: Send + Sync + 'static {
     /// What a team move looks like.
     fn frame(&self, turn: &Turn<'_, Self>) -> Self::Frame;
 
-    /// What a team move breaks.
-    fn broken_by(&self, turn: &Turn<'_, Self>) -> Option<Broken<Self>>;
+    /// The demands that are looked for, each as if it stood alone: a run that has broken all of them is over.
+    fn wanted(&self) -> &[Self::Demand];
 
-    /// What a run breaks that ends in `state`, with all that it remembers in `log`.
-    fn broken_at_end(&self, state: &Self::State, log: &[u8]) -> Option<Broken<Self>>;
+    /// Everything that a team move breaks.
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Broken<Self>>;
 
-    /// Whether a run goes on for ever, and what it breaks by that: it was in the state `then` when the log had `sent` bytes,
-    /// and is in `now` without an answer in between. A run that breaks nothing by coming back is over.
+    /// Everything that a run breaks that ends in `state`, with all that it remembers in `log`.
+    fn broken_at_end(&self, state: &Self::State, log: &[u8]) -> Vec<Broken<Self>>;
+
+    /// Whether a run goes on for ever, and everything that it breaks by that: it was in the state `then` when the log had
+    /// `sent` bytes, and is in `now` without an answer in between. A run that breaks nothing by coming back is over.
     fn recurs(
         &self,
         then: &Self::State,
         sent: usize,
         now: &Self::State,
         log: &[u8],
-    ) -> ControlFlow<Option<Broken<Self>>>;
+    ) -> ControlFlow<Vec<Broken<Self>>>;
 
     /// How many edges can be walls: a run asks for no more answers than this.
     fn edges(&self) -> u32;
@@ -112,16 +116,14 @@ pub trait Game: Send + Sync + 'static {
     }
 }
 
-/// What to search for, and how far.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Limits<D> {
+/// How far to search.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Limits {
     /// Most walls that are met in one run; the border is not counted.
     pub max_walls: u32,
     /// The search stops when it has made so many team moves since it was begun or taken up.
     pub budget_moves: Option<u64>,
-    /// What is looked for, where it matters: at which demand a search ends that looks for any violation.
-    pub wanted: Vec<D>,
-    /// When to stop.
+    /// When to stop: any violation is one of what is [wanted](Game::wanted).
     pub until: Until,
 }
 
@@ -156,7 +158,7 @@ pub struct Level {
     pub moves: u64,
 }
 
-/// A run that breaks a demand in its last move, or by having ended, or by never ending.
+/// A run that breaks a demand in its last move, or by having ended, or by never ending. It may have broken others before.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Counterexample<D, F> {
     /// What is broken.

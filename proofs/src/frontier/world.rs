@@ -516,12 +516,14 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
         })
     }
 
-    fn broken_at_end(&self, state: &World<ROBOTS>) -> Option<Demand> {
-        if self.is_wanted(Demand::Covers) && self.is_owed(state) {
-            return Some(Demand::Covers);
-        }
+    fn broken_at_end(&self, state: &World<ROBOTS>) -> Vec<Demand> {
+        let covers = !self.is_wanted(Demand::Covers) || !self.is_owed(state);
         let all_know = || (0..ROBOTS).all(|robot| self.would(state, robot) == Next::Done);
-        (self.is_wanted(Demand::Knows) && !all_know()).then_some(Demand::Knows)
+        let knows = !self.is_wanted(Demand::Knows) || all_know();
+        [(covers, Demand::Covers), (knows, Demand::Knows)]
+            .into_iter()
+            .filter_map(|(is_kept, demand)| (!is_kept).then_some(demand))
+            .collect()
     }
 
     fn broken_by_endless_runs(&self) -> Option<Demand> {

@@ -200,7 +200,7 @@ impl System for Symmetric {
         })
     }
 
-    fn broken_at_end(&self, state: &World<2>) -> Option<Demand> {
+    fn broken_at_end(&self, state: &World<2>) -> Vec<Demand> {
         self.setting.broken_at_end(state)
     }
 

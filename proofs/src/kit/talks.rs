@@ -256,8 +256,8 @@ impl System for Talks {
         acts.chain(letters).collect::<Vec<_>>().into_iter()
     }
 
-    fn broken_at_end(&self, state: &State) -> Option<&'static str> {
-        (self.waiting(state) != 0).then_some(WAITS)
+    fn broken_at_end(&self, state: &State) -> Vec<&'static str> {
+        (self.waiting(state) != 0).then_some(WAITS).into_iter().collect()
     }
 
     fn broken_by_endless_runs(&self) -> Option<&'static str> {

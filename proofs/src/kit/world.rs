@@ -324,7 +324,7 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
         })
     }
 
-    fn broken_at_end(&self, state: &World<ROBOTS>) -> Option<Demand> {
+    fn broken_at_end(&self, state: &World<ROBOTS>) -> Vec<Demand> {
         self.broken_by_staying(state)
     }
 

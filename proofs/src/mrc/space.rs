@@ -230,8 +230,9 @@ impl System for Space {
         state.actions(&self.setting).into_iter().map(step)
     }
 
-    fn broken_at_end(&self, state: &State) -> Option<Demand> {
-        (self.looks_for_service() && self.owed(state) != 0).then_some(Demand::IsServed)
+    fn broken_at_end(&self, state: &State) -> Vec<Demand> {
+        let waits = self.looks_for_service() && self.owed(state) != 0;
+        waits.then_some(Demand::IsServed).into_iter().collect()
     }
 
     fn broken_by_endless_runs(&self) -> Option<Demand> {

@@ -161,9 +161,9 @@ impl System for Case {
     }
 
     /// What is demanded on the way is told on the way.
-    fn broken_at_end(&self, spread: &Spread<SMALL>) -> Option<Self::Demand> {
+    fn broken_at_end(&self, spread: &Spread<SMALL>) -> Vec<Self::Demand> {
         let is_of_ends = |(demand, _): &(Demand, _)| self.demands.len() == 1 || demand.is_of_ends();
-        self.broken(spread, Point::End).find(is_of_ends)
+        self.broken(spread, Point::End).filter(is_of_ends).collect()
     }
 
     /// Among several demands the others are looked for.

@@ -292,7 +292,8 @@ pub(super) fn outcome(found: &[Quarry], is_whole: bool, covered: Option<String>)
     }
 }
 
-/// The run of `scheme` that `found` is, in the area of its search; it stops at the violation.
+/// The run of `scheme` that `found` is, in the area of its search; it stops at the violation of what it was found for, and may
+/// break other clauses before.
 ///
 /// # Errors
 /// [`Problem`] if the area is too large for a layout, or the base is outside.
@@ -300,7 +301,9 @@ pub fn setup(scheme: &'static Profile, rule: impl Into<RuleId>, found: &Run) -> 
     let (mut layout, starts) = layout(found)?;
     let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
     layout.place_base(base)?;
-    let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
+    let violation =
+        found.breaks.map_or(OnViolation::Stop, |clause| OnViolation::StopAt(ClauseId::new(clause)));
+    let limits = Limits { violation, ..Limits::default() };
     Ok(Setup { limits, ..Setup::new(scheme, rule, starts.len() as u16, layout, base) })
 }
 

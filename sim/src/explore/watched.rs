@@ -89,8 +89,8 @@ impl<S: System> System for Watched<'_, '_, S> {
         (!self.is_stopped.get()).then(|| self.system.steps(state)).into_iter().flatten()
     }
 
-    fn broken_at_end(&self, state: &S::State) -> Option<S::Demand> {
-        self.system.broken_at_end(state).filter(|_| !self.is_stopped.get())
+    fn broken_at_end(&self, state: &S::State) -> Vec<S::Demand> {
+        if self.is_stopped.get() { Vec::new() } else { self.system.broken_at_end(state) }
     }
 
     fn broken_by_endless_runs(&self) -> Option<S::Demand> {

@@ -303,8 +303,8 @@ impl System for Team {
         })
     }
 
-    fn broken_at_end(&self, state: &Box<State>) -> Option<&'static str> {
-        match self.demand {
+    fn broken_at_end(&self, state: &Box<State>) -> Vec<&'static str> {
+        let broken = match self.demand {
             Demand::Connected
             | Demand::Knowing
             | Demand::Whole
@@ -316,7 +316,8 @@ impl System for Team {
             Demand::Ends | Demand::All => {
                 (state.left(&self.plan) != 0).then_some("when all agents are done, every cell is visited")
             }
-        }
+        };
+        broken.into_iter().collect()
     }
 
     fn broken_by_endless_runs(&self) -> Option<&'static str> {

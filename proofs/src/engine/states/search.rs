@@ -152,8 +152,10 @@ impl<'a, S: System> Search<'a, S> {
         if is_last {
             cover(&mut self.covered, END);
         }
-        if is_still && let Some(demand) = system.broken_at_end(state) {
-            self.note(Broken { demand, node, how: How::Still })?;
+        if is_still {
+            for demand in system.broken_at_end(state) {
+                self.note(Broken { demand, node, how: How::Still })?;
+            }
         }
         ControlFlow::Continue(())
     }
@@ -252,6 +254,8 @@ mod tests {
         owing: &'static [usize],
         /// Whom nothing but their own acts puts to sleep.
         awake: Bits,
+        /// Whether one demand is enough.
+        is_enough: bool,
     }
 
     const STEP: &str = "a step";
@@ -277,8 +281,8 @@ mod tests {
             })
         }
 
-        fn broken_at_end(&self, &node: &usize) -> Option<&'static str> {
-            (node == self.dead).then_some("no end there")
+        fn broken_at_end(&self, &node: &usize) -> Vec<&'static str> {
+            if node == self.dead { vec!["no end there", "no end at all"] } else { Vec::new() }
         }
 
         fn broken_by_endless_runs(&self) -> Option<&'static str> {
@@ -292,6 +296,10 @@ mod tests {
         fn awake(&self, _: &usize) -> Bits {
             self.awake
         }
+
+        fn is_enough(&self, _: &'static str) -> bool {
+            self.is_enough
+        }
     }
 
     const NOWHERE: usize = 99;
@@ -303,6 +311,7 @@ mod tests {
         dead: NOWHERE,
         owing: &[],
         awake: 0,
+        is_enough: true,
     };
 
     fn found(graph: &Graphic) -> Found<&'static str> {
@@ -348,6 +357,19 @@ mod tests {
         let run = Run { demand: "no end there", start: 0, steps: vec![0, 1, 0, 1], ending: Ending::Still };
         assert_eq!(broken(&Graphic { dead: 5, ..GRAPH }), Some(run));
         assert_eq!(broken(&Graphic { dead: 4, ..GRAPH }), None);
+    }
+
+    /// The step to 1 is forbidden, and all runs make it first.
+    #[test]
+    fn a_demand_that_is_broken_first_hides_none_of_the_others() {
+        let alone = |graph: Graphic| broken(&Graphic { is_enough: true, ..graph }).expect("it is broken");
+        let (forbidden, dead, owing) = (1, 5, &[6][..]);
+        let all = Graphic { forbidden, dead, owing, is_enough: false, ..GRAPH };
+        let step = alone(Graphic { forbidden, ..GRAPH });
+        let end = alone(Graphic { dead, ..GRAPH });
+        let other_end = Run { demand: "no end at all", ..end.clone() };
+        let round = alone(Graphic { owing, ..GRAPH });
+        assert_eq!(found(&all).broken, [step, end, other_end, round]);
     }
 
     #[test]

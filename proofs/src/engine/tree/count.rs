@@ -79,13 +79,17 @@ impl<D: PartialEq> Count<D> {
         }
     }
 
-    /// Whether a search that has these levels behind it can have counted so.
-    pub(super) fn follows(&self, levels: &[Level]) -> bool {
+    /// Whether a search that has these levels behind it, and so many lanes left, can have counted so. A run that breaks a
+    /// demand is counted when it does, and as a leaf when it is over: until then some lane is on it.
+    pub(super) fn follows(&self, levels: &[Level], lanes: usize) -> bool {
         let runs: u128 = levels.iter().map(|level| u128::from(level.runs)).sum();
         let moves: u128 = levels.iter().map(|level| u128::from(level.moves)).sum();
-        let broken: u128 = self.broken.iter().map(|broken| u128::from(broken.runs)).sum();
         let (all_runs, all_moves) = (u128::from(self.runs), u128::from(self.moves));
-        runs.max(broken) <= all_runs && moves <= all_moves && all_runs.max(all_moves) < COUNTABLE
+        let is_countable = |broken: &Broken<D>| u128::from(broken.runs) <= all_runs + lanes as u128;
+        runs <= all_runs
+            && moves <= all_moves
+            && self.broken.iter().all(is_countable)
+            && all_runs.max(all_moves) < COUNTABLE
     }
 
     pub(super) fn add(&mut self, other: Self) {

@@ -8,7 +8,7 @@ use std::collections::BinaryHeap;
 
 use serde::{Deserialize, Serialize};
 
-use super::count::{Broken, Count};
+use super::count::Count;
 use super::forecast::{self, Forecast};
 use super::lane::{Lane, Place};
 use super::search::{Position, Tree};
@@ -161,7 +161,7 @@ impl<G: Game> Tree<G> {
     ) -> Result<(), Unsearchable> {
         let levels = self.limits.max_walls as usize + 1;
         let is_whole = |shard: &Position<_>| {
-            shard.lanes.is_empty() && shard.levels.len() == levels && shard.count.follows(&shard.levels)
+            shard.lanes.is_empty() && shard.levels.len() == levels && shard.count.follows(&shard.levels, 0)
         };
         let is_dealt = deal.levels.len() + deal.begun.len() == levels && shards.len() == deal.shards.len();
         if !is_dealt || !shards.iter().all(is_whole) {
@@ -177,9 +177,7 @@ impl<G: Game> Tree<G> {
             }
         }
         self.lanes.clear();
-        let is_recorded =
-            |broken: &Broken<_>| self.record(broken).is_some_and(|found| found.broken == broken.demand);
-        if !self.count.follows(&self.levels) || !self.count.broken.iter().all(is_recorded) {
+        if !self.count.follows(&self.levels, 0) || !self.records(&self.count) {
             return Err(Unsearchable::Foreign);
         }
         Ok(())

@@ -97,6 +97,8 @@ struct Fork<G: Game> {
     steps: u32,
     sent: usize,
     answered: usize,
+    /// Demands that the run had broken before it.
+    broken: usize,
 }
 
 impl<G: Game> Clone for Fork<G> {
@@ -150,6 +152,8 @@ pub(super) struct Lane<G: Game> {
     log: Vec<u8>,
     steps: u32,
     answers: Answers,
+    /// The demands that the run has broken, in the order in which it did.
+    broken: Vec<G::Demand>,
     forks: Vec<Fork<G>>,
     /// The forks before this one belong to other lanes.
     floor: usize,
@@ -187,6 +191,7 @@ impl<G: Game> Lane<G> {
             log: Vec::new(),
             steps: 0,
             answers: Answers { given: Vec::new(), share: Share::WHOLE, mishaps: 0, most: mishaps },
+            broken: Vec::new(),
             forks: Vec::new(),
             floor: 0,
             next: Next::Advance,
@@ -200,15 +205,21 @@ impl<G: Game> Lane<G> {
         let mut lane = Self::whole(game, mishaps);
         let at = (place.answers.len(), place.moved);
         while (lane.answers.given.len(), lane.mark.moved) < at {
-            let fork = lane.plan(game)?;
-            lane.follow(game, &fork, &place.answers)?;
+            let fork = lane.plan(game).filter(|_| !lane.is_spent(game))?;
+            lane.script.extend_from_slice(place.answers.get(fork.answered..)?);
+            if !lane.settle(game, &fork.ready()) {
+                return None;
+            }
+            let broken = game.broken_by(&lane.turn(&fork.ready(), fork.sent));
+            lane.note(broken, |_, _| ());
             if lane.recurs(game).is_break() || lane.steps > game.longest_run() {
                 return None;
             }
         }
         lane.next = place.next;
         lane.floor = lane.forks.iter().filter(|fork| fork.answered < place.fixed).count();
-        (lane.place() == *place).then_some(lane)
+        let is_over = lane.next == Next::Advance && lane.is_spent(game);
+        (lane.place() == *place && !is_over).then_some(lane)
     }
 
     /// Where it is.
@@ -223,13 +234,7 @@ impl<G: Game> Lane<G> {
         let before = self.state;
         let plan = game.plan(&mut self.state, &self.log)?;
         let (steps, sent, answered) = (self.steps, self.log.len(), self.answers.given.len());
-        Some(Fork { before, planned: self.state, plan, steps, sent, answered })
-    }
-
-    /// Makes the team move of `fork` in a run of which all answers are known; `None` if they do not fit.
-    fn follow(&mut self, game: &G, fork: &Fork<G>, answers: &[u32]) -> Option<()> {
-        self.script.extend_from_slice(answers.get(fork.answered..)?);
-        self.settle(game, &fork.ready()).then_some(())
+        Some(Fork { before, planned: self.state, plan, steps, sent, answered, broken: self.broken.len() })
     }
 
     /// Makes the team move that is planned, with the answers of the script first; whether they fit its questions. Only a
@@ -244,8 +249,10 @@ impl<G: Game> Lane<G> {
         self.script.clear();
         if self.answers.given.len() > answered {
             let Ready { before, planned, plan } = *ready;
+            let (before, planned, plan) = (*before, *planned, *plan);
             self.mark = Mark::NONE;
-            self.forks.push(Fork { before: *before, planned: *planned, plan: *plan, steps, sent, answered });
+            let broken = self.broken.len();
+            self.forks.push(Fork { before, planned, plan, steps, sent, answered, broken });
         } else {
             self.mark.moved += 1;
         }
@@ -259,7 +266,8 @@ impl<G: Game> Lane<G> {
                 Next::Advance => {
                     let before = self.state;
                     let Some(plan) = game.plan(&mut self.state, &self.log) else {
-                        self.end(game.broken_at_end(&self.state, &self.log), count);
+                        self.breaks(game.broken_at_end(&self.state, &self.log), count);
+                        self.end(count);
                         continue;
                     };
                     let planned = self.state;
@@ -283,14 +291,45 @@ impl<G: Game> Lane<G> {
         let turn = self.turn(ready, sent);
         count.covered |= game.occurs(&turn);
         let broken = game.broken_by(&turn);
-        if let Some(broken) = broken {
-            self.end(Some(broken), count);
+        self.breaks(broken, count);
+        if self.is_spent(game) {
+            self.end(count);
         } else if let ControlFlow::Break(broken) = self.recurs(game) {
-            self.end(broken, count);
+            self.breaks(broken, count);
+            self.end(count);
         } else if self.steps >= game.longest_run() {
             count.given_up += u64::from(self.is_new());
-            self.end(None, count);
+            self.end(count);
         }
+    }
+
+    /// Notes what the run breaks, and hands on what it had not broken before.
+    #[inline]
+    fn note(&mut self, broken: Vec<Broken<G>>, mut first: impl FnMut(&Self, G::Demand)) {
+        for (demand, _) in broken {
+            if !self.broken.contains(&demand) {
+                self.broken.push(demand);
+                first(self, demand);
+            }
+        }
+    }
+
+    /// Counts what the run breaks for the first time.
+    #[inline]
+    fn breaks(&mut self, broken: Vec<Broken<G>>, count: &mut Count<G::Demand>) {
+        self.note(broken, |lane, demand| {
+            if lane.is_new() {
+                let answers = lane.answers.values(0).collect();
+                let smallest = Violation { mishaps: lane.answers.mishaps, steps: lane.steps, answers };
+                count.add_broken(count::Broken { demand, runs: 1, smallest });
+            }
+        });
+    }
+
+    /// Whether the run has broken everything that is wanted.
+    #[inline]
+    fn is_spent(&self, game: &G) -> bool {
+        !self.broken.is_empty() && game.wanted().iter().all(|demand| self.broken.contains(demand))
     }
 
     /// The latest team move, before which the log had `sent` bytes.
@@ -300,7 +339,7 @@ impl<G: Game> Lane<G> {
     }
 
     /// Whether the run comes back to where it was, and so never ends, and what is broken by that.
-    fn recurs(&mut self, game: &G) -> ControlFlow<Option<Broken<G>>> {
+    fn recurs(&mut self, game: &G) -> ControlFlow<Vec<Broken<G>>> {
         let Mark { at, moved, due } = &self.mark;
         if moved < due {
             return match at {
@@ -312,19 +351,13 @@ impl<G: Game> Lane<G> {
         ControlFlow::Continue(())
     }
 
-    /// The run is over, perhaps since it breaks something.
-    fn end(&mut self, broken: Option<Broken<G>>, count: &mut Count<G::Demand>) {
+    /// The run is over.
+    fn end(&mut self, count: &mut Count<G::Demand>) {
         self.next = Next::Retreat;
         count.searched = count.searched.and(self.answers.share);
-        if !self.is_new() {
-            return;
-        }
-        count.runs += 1;
-        count.longest = count.longest.max(self.steps);
-        if let Some((demand, _)) = broken {
-            let answers = self.answers.values(0).collect();
-            let smallest = Violation { mishaps: self.answers.mishaps, steps: self.steps, answers };
-            count.add_broken(count::Broken { demand, runs: 1, smallest });
+        if self.is_new() {
+            count.runs += 1;
+            count.longest = count.longest.max(self.steps);
         }
     }
 
@@ -346,6 +379,7 @@ impl<G: Game> Lane<G> {
                     self.state = fork.planned;
                     self.steps = fork.steps;
                     self.log.truncate(fork.sent);
+                    self.broken.truncate(fork.broken);
                     return Some(fork);
                 }
             }
@@ -424,6 +458,7 @@ impl<G: Game> Lane<G> {
             log: self.log[..self.forks[place].sent].to_vec(),
             steps: self.steps,
             answers: Answers { given, share, mishaps, most: self.answers.most },
+            broken: self.broken[..self.forks[place].broken].to_vec(),
             forks: vec![self.forks[place]],
             floor: 0,
             next: Next::Retreat,
@@ -433,22 +468,20 @@ impl<G: Game> Lane<G> {
     }
 }
 
-/// Makes the run with these answers, at most `most` of them mishaps, as far as it goes: what it breaks in its last team
-/// move, or by its end, and its team moves.
+/// Makes the run with these answers, at most `most` of them mishaps, as far as it breaks `demand`, whatever else it breaks: in
+/// words what is not so, and its team moves.
 pub(super) fn replay<G: Game>(
     game: &G,
     most: u32,
+    demand: G::Demand,
     answers: &[u32],
-) -> Result<(Broken<G>, Vec<G::Frame>), Unfit> {
-    let mishaps = answers.iter().filter(|&&answer| answer != 0).count() as u32;
-    let mut lane = Lane::whole(game, mishaps.min(most));
+) -> Result<(&'static str, Vec<G::Frame>), Unfit> {
+    let words =
+        |broken: Vec<Broken<G>>| broken.into_iter().find(|&(one, _)| one == demand).map(|(_, words)| words);
+    let mut lane = Lane::whole(game, most);
     let mut frames = Vec::new();
-    let mut broken = None;
-    while broken.is_none() {
-        let Some(fork) = lane.plan(game) else {
-            broken = game.broken_at_end(&lane.state, &lane.log);
-            break;
-        };
+    let broken = loop {
+        let Some(fork) = lane.plan(game) else { break words(game.broken_at_end(&lane.state, &lane.log)) };
         lane.script.extend_from_slice(answers.get(fork.answered..).unwrap_or_default());
         if !lane.settle(game, &fork.ready()) {
             let mut given = lane.answers.given.iter().zip(answers);
@@ -460,35 +493,18 @@ pub(super) fn replay<G: Game>(
         }
         let turn = lane.turn(&fork.ready(), fork.sent);
         frames.push(game.frame(&turn));
-        broken = game.broken_by(&turn).or_else(|| lane.recurs(game).break_value().flatten());
-    }
+        if let Some(words) = words(game.broken_by(&turn)) {
+            break Some(words);
+        }
+        match lane.recurs(game) {
+            ControlFlow::Break(broken) => break words(broken),
+            ControlFlow::Continue(()) if lane.steps >= game.longest_run() => break None,
+            ControlFlow::Continue(()) => {}
+        }
+    };
     let used = lane.answers.given.len();
     if used < answers.len() {
         return Err(Unfit::Over { at: used });
     }
     Ok((broken.ok_or(Unfit::Unbroken)?, frames))
-}
-
-/// The team moves of the run with these answers, and what it breaks in the last of them; `None` if that is nothing, or
-/// there is no such run.
-pub(super) fn record<G: Game>(
-    game: &G,
-    mishaps: u32,
-    steps: u32,
-    answers: &[u32],
-) -> Option<(Broken<G>, Vec<G::Frame>)> {
-    let mut lane = Lane::whole(game, mishaps);
-    let mut frames = Vec::new();
-    let mut broken = None;
-    while lane.steps < steps {
-        let fork = lane.plan(game)?;
-        lane.follow(game, &fork, answers)?;
-        let turn = lane.turn(&fork.ready(), fork.sent);
-        frames.push(game.frame(&turn));
-        broken = game.broken_by(&turn).or_else(|| lane.recurs(game).break_value().flatten());
-    }
-    if broken.is_none() && lane.plan(game).is_none() {
-        broken = game.broken_at_end(&lane.state, &lane.log);
-    }
-    Some((broken?, frames))
 }

@@ -72,7 +72,7 @@ pub trait Waves<D, F> {
 /// [`Unsearchable`] if the limits are beyond what can be searched.
 pub fn search<G: Game>(
     game: G,
-    limits: &Limits<G::Demand>,
+    limits: &Limits,
     watch: Watch<'_>,
 ) -> Result<Found<G::Demand, G::Frame>, Unsearchable> {
     let mut tree = Tree::new(game, limits)?;
@@ -105,7 +105,7 @@ const COUNTED_AGAIN: usize = 2;
 /// The tree of runs of a game.
 pub struct Tree<G: Game> {
     pub(super) game: G,
-    pub(super) limits: Limits<G::Demand>,
+    pub(super) limits: Limits,
     most_lanes: usize,
     /// The levels that are done.
     pub(super) levels: Vec<Level>,
@@ -148,7 +148,7 @@ impl<G: Game> Tree<G> {
     ///
     /// # Errors
     /// [`Unsearchable`] if the limits are beyond what can be searched.
-    pub fn new(game: G, limits: &Limits<G::Demand>) -> Result<Self, Unsearchable> {
+    pub fn new(game: G, limits: &Limits) -> Result<Self, Unsearchable> {
         let (edges, max_walls) = (game.edges(), limits.max_walls);
         if max_walls > edges {
             return Err(Unsearchable::TooManyWalls { max_walls, edges });
@@ -160,7 +160,7 @@ impl<G: Game> Tree<G> {
         let lanes = vec![Lane::whole(&game, 0)];
         Ok(Self {
             game,
-            limits: limits.clone(),
+            limits: *limits,
             most_lanes: (MEMORY / bytes).min(LANES) as usize,
             levels: Vec::new(),
             count: Count::default(),
@@ -202,7 +202,7 @@ impl<G: Game> Tree<G> {
         let Some(max_walls) = (position.levels.len().min(COUNTED_AGAIN) as u32).checked_sub(1) else {
             return true;
         };
-        let first = Limits { max_walls, budget_moves: None, until: Until::Exhausted, ..self.limits.clone() };
+        let first = Limits { max_walls, budget_moves: None, until: Until::Exhausted };
         let limits = std::mem::replace(&mut self.limits, first);
         self.levels.clear();
         (self.count, self.before) = (Count::default(), 0);
@@ -225,7 +225,7 @@ impl<G: Game> Tree<G> {
     }
 
     fn is_over(&self) -> bool {
-        let is_wanted = |broken: &Broken<_>| self.limits.wanted.contains(&broken.demand);
+        let is_wanted = |broken: &Broken<_>| self.game.wanted().contains(&broken.demand);
         let is_settled = self.limits.until == Until::Violation && self.count.broken.iter().any(is_wanted);
         is_settled || self.lanes.is_empty() || self.affordable_moves() == 0
     }
@@ -295,12 +295,18 @@ impl<G: Game> Tree<G> {
         left
     }
 
+    /// Whether every smallest run breaks its demand again.
+    pub(super) fn records(&self, count: &Count<G::Demand>) -> bool {
+        count.broken.iter().all(|broken| self.record(broken).is_some())
+    }
+
     /// The smallest run that breaks a demand again; `None` if it does not.
-    pub(super) fn record(&self, broken: &Broken<G::Demand>) -> Option<Counterexample<G::Demand, G::Frame>> {
+    fn record(&self, broken: &Broken<G::Demand>) -> Option<Counterexample<G::Demand, G::Frame>> {
         let Violation { mishaps, steps, answers } = &broken.smallest;
-        let ((demand, words), frames) = lane::record(&self.game, *mishaps, *steps, answers)?;
+        let (words, frames) = lane::replay(&self.game, *mishaps, broken.demand, answers).ok()?;
+        let is_so_long = frames.len() == *steps as usize;
         let (runs, answers) = (broken.runs, answers.clone());
-        Some(Counterexample { broken: demand, runs, demand: words, frames, answers })
+        is_so_long.then_some(Counterexample { broken: broken.demand, runs, demand: words, frames, answers })
     }
 }
 
@@ -317,9 +323,7 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
         }
         let lane = |place| Lane::at(&self.game, walls, place).ok_or(Unsearchable::Foreign);
         let lanes = position.lanes.iter().map(lane).collect::<Result<_, _>>()?;
-        let is_recorded =
-            |broken: &Broken<_>| self.record(broken).is_some_and(|found| found.broken == broken.demand);
-        if !position.count.follows(&position.levels) || !position.count.broken.iter().all(is_recorded) {
+        if !position.count.follows(&position.levels, position.lanes.len()) || !self.records(&position.count) {
             return Err(Unsearchable::Foreign);
         }
         self.levels.clone_from(&position.levels);
@@ -404,10 +408,9 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
         demand: G::Demand,
         answers: &[u32],
     ) -> Result<Counterexample<G::Demand, G::Frame>, Unfit> {
-        let ((broken, words), frames) = lane::replay(&self.game, self.limits.max_walls, answers)?;
-        if broken != demand {
-            return Err(Unfit::Unbroken);
-        }
-        Ok(Counterexample { broken, runs: 1, demand: words, frames, answers: answers.to_vec() })
+        let mishaps = answers.iter().filter(|&&answer| answer != 0).count() as u32;
+        let most = mishaps.min(self.limits.max_walls);
+        let (words, frames) = lane::replay(&self.game, most, demand, answers)?;
+        Ok(Counterexample { broken: demand, runs: 1, demand: words, frames, answers: answers.to_vec() })
     }
 }

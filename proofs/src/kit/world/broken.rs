@@ -102,21 +102,23 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         is_nearer([None; ROBOTS], u8::MAX) || goes_alone && is_nearer(std::array::from_fn(left), 1 << robot)
     }
 
-    /// The first of the demands that are looked at and broken by staying in `world`.
-    pub(super) fn broken_by_staying(&self, world: &World<ROBOTS>) -> Option<Demand> {
+    /// The demands that are looked at and broken by staying in `world`.
+    pub(super) fn broken_by_staying(&self, world: &World<ROBOTS>) -> Vec<Demand> {
         let is_over = world.team.is_over();
-        let is_stuck = || !is_over && self.is_owed(world);
-        if self.is_wanted(Demand::Moves) && is_stuck() {
-            return Some(Demand::Moves);
+        let mut breaks = Vec::new();
+        if self.is_wanted(Demand::Moves) && !is_over && self.is_owed(world) {
+            breaks.push(Demand::Moves);
         }
-        let is_short = || !is_over || self.is_owed(world);
-        if self.is_wanted(Demand::Covers) && is_short() {
-            return Some(Demand::Covers);
+        if self.is_wanted(Demand::Covers) && (!is_over || self.is_owed(world)) {
+            breaks.push(Demand::Covers);
         }
         let is_left_over = || {
             let map = self.found(world);
             !is_over || Found { map: &map, left: [None; ROBOTS] }.is_left_over(Self::ends(world))
         };
-        (self.is_wanted(Demand::Whole) && is_left_over()).then_some(Demand::Whole)
+        if self.is_wanted(Demand::Whole) && is_left_over() {
+            breaks.push(Demand::Whole);
+        }
+        breaks
     }
 }

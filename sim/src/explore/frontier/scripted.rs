@@ -133,7 +133,7 @@ impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
         let is_still = self.setting.turns(&self.world).is_empty();
         let is_short = is_still && !self.missed(layout, chart).is_empty();
         let knows = Setting { demand: Some(Demand::Knows), ..self.setting };
-        let knows_not = is_still && knows.broken_at_end(&self.world) == Some(Demand::Knows);
+        let knows_not = is_still && knows.broken_at_end(&self.world).contains(&Demand::Knows);
         [is_short.then_some(COVERS), knows_not.then_some(KNOWS)].into_iter().flatten().collect()
     }
 }

@@ -165,7 +165,7 @@ impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
         ];
         let is_broken = |&(demand, starts, _): &(Demand, Starts, ClauseId)| {
             let asked = Setting { demand: Some(demand), starts, ..self.setting };
-            asked.broken_at_end(&self.world) == Some(demand)
+            asked.broken_at_end(&self.world).contains(&demand)
         };
         ends.iter().filter(|end| is_broken(end)).map(|&(.., clause)| clause).collect()
     }

@@ -138,9 +138,10 @@ impl Lots for Layouts {
             let (steps, broken) = try_one(&setup)?;
             tried.runs += 1;
             tried.steps += u64::from(steps);
-            let is_new = |clause: &ClauseId| tried.broken.iter().all(|known| known.clause != *clause);
-            if let Some(clause) = broken.filter(is_new) {
-                tried.broken.push(Broken { clause, start, steps });
+            for (clause, steps) in broken {
+                if tried.broken.iter().all(|known| known.clause != clause) {
+                    tried.broken.push(Broken { clause, start, steps });
+                }
             }
         }
         Ok(tried)
@@ -190,9 +191,8 @@ impl Layouts {
         blocked.cells(true).into_iter().for_each(|cell| layout.block(cell));
         let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
         layout.place_base(base)?;
-        let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
         let setup = Setup::new(self.scheme, self.rule, starts.len() as u16, layout, base);
-        Ok(Setup { starts: Some(starts.to_vec()), limits, ..setup })
+        Ok(Setup { starts: Some(starts.to_vec()), ..setup })
     }
 }
 
@@ -218,15 +218,27 @@ fn endless(setup: &Setup) -> String {
     format!("A run without end: {}\n\n{}", starts.collect::<Vec<_>>().join(", "), setup.layout)
 }
 
-/// Runs a rival once: its team moves, and the clause that it breaks.
-fn try_one(setup: &Setup) -> Result<(u32, Option<ClauseId>), Fault> {
+/// Runs a rival once: its team moves, and what it breaks, each with the team move. It goes on after it has broken something,
+/// for the sake of the other clauses.
+fn try_one(setup: &Setup) -> Result<(u32, Vec<(ClauseId, u32)>), Fault> {
     let mut members = team(setup)?;
+    let mut broken = Vec::new();
     let made = run(&mut *members, &setup.layout, setup.limits, &mut |made| {
-        if made.step > MOST_MOVES { Err(Halt::Interrupted) } else { Ok(()) }
+        if made.step > MOST_MOVES {
+            return Err(Halt::Interrupted);
+        }
+        broken.extend(made.broken.iter().map(|&clause| (clause, made.step)));
+        Ok(())
     });
-    Ok(match &made {
-        Ok(report) => (report.steps, report.violations.first().map(|violation| violation.clause)),
-        Err(_) => (MOST_MOVES, Some(ENDS)),
+    Ok(match made {
+        Ok(report) => {
+            let broken = report.violations.iter().map(|violation| (violation.clause, violation.step));
+            (report.steps, broken.collect())
+        }
+        Err(_) => {
+            broken.push((ENDS, MOST_MOVES));
+            (MOST_MOVES, broken)
+        }
     })
 }
 
@@ -235,11 +247,12 @@ fn quarry(setup: Setup, clause: ClauseId, steps: u32) -> Quarry {
     let layout = &setup.layout;
     let size = [layout.width() as usize, layout.height() as usize];
     let walls = layout.size().cells() - layout.free_cells();
+    let limits = Limits { violation: OnViolation::StopAt(clause), ..Limits::default() };
     Quarry {
         clause: clause.as_str(),
         facts: sizes(size, walls, steps as usize),
         title: title(size, walls, steps as usize),
         shown: if clause == ENDS { Shown::Told(endless(&setup)) } else { Shown::Run(clause) },
-        setup,
+        setup: Setup { limits, ..setup },
     }
 }
