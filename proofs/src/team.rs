@@ -231,15 +231,12 @@ where
 
     fn decide(&self, rule: &R, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
         let (layouts, promise) = (self.0, Promise(self.1));
-        // One search to the end answers for all demands, unless a run ended at another one: it may have broken this one later.
-        let is_alone = match until {
-            Until::Exhausted => {
-                let together = layouts.found(rule, until, Vec::new(), desk)?;
-                together.counterexamples.iter().any(|found| found.broken != promise)
-            }
-            Until::Violation => true,
+        // A search that goes on for each demand answers for all of them.
+        let wanted = match until {
+            Until::Exhausted => Vec::new(),
+            Until::Violation => vec![promise],
         };
-        let found = layouts.found(rule, until, if is_alone { vec![promise] } else { Vec::new() }, desk)?;
+        let found = layouts.found(rule, until, wanted, desk)?;
         let broken = found.counterexamples.iter().find(|found| found.broken == promise);
         let is_covered = layouts.covers.iter().all(|(name, _)| found.covered.contains(name));
         let evidence = broken.map(|found| layouts.evidence(rule, found));

@@ -49,9 +49,13 @@ const fn layouts(size: (i16, i16), demands: &'static [Demand<Robot, 1>]) -> Layo
 const STAYS: Demand<Robot, 1> = Demand::always("ROBOT-1", "it stays in its row", |moved| moved.to[0].y == 0);
 const ENDS: Demand<Robot, 1> = Demand::never_endless("ROBOT-2", "its run ends");
 const LEAVES: Demand<Robot, 1> = Demand::at_the_end("ROBOT-3", "it left", |_, cells| cells[0].x > 0);
+const NOTHING: Demand<Robot, 1> = Demand::always("WALK-1", "it makes no team move", |_| false);
+const ARRIVES: Demand<Robot, 1> = Demand::at_the_end("WALK-2", "it arrives", |_, cells| cells[0].x == 3);
 
 static ROW: Layouts<Rule, Robot, 1> = layouts((4, 1), &[STAYS, ENDS, LEAVES]);
 static PATROL: Layouts<Rule, Robot, 1> = layouts((4, 1), &[STAYS]);
+static MASKED: Layouts<Rule, Robot, 1> = layouts((4, 1), &[NOTHING, ARRIVES]);
+static ALONE: Layouts<Rule, Robot, 1> = layouts((4, 1), &[ARRIVES]);
 static WIDE: Layouts<Rule, Robot, 1> = layouts((17, 1), &[STAYS]);
 static NONE: Layouts<Rule, Robot, 1> = layouts((0, 1), &[STAYS]);
 static UNCOVERED: Layouts<Rule, Robot, 1> = Layouts {
@@ -120,6 +124,16 @@ fn a_run_that_neither_ends_nor_comes_back_is_given_up_and_the_question_is_open()
 fn a_situation_that_never_occurs_leaves_the_question_open() {
     assert_eq!(verdict(Rule::Ends, (&PATROL, 0)), Verdict::Holds);
     assert_eq!(verdict(Rule::Ends, (&UNCOVERED, 0)), Verdict::Open);
+}
+
+/// A demand before the one in question is broken by every first team move.
+#[test]
+fn a_walker_that_never_arrives_is_refuted_whatever_it_breaks_before() {
+    let masked = decided(Rule::Ends, (&MASKED, 1)).expect("it can be decided");
+    let alone = decided(Rule::Ends, (&ALONE, 0)).expect("it can be decided");
+    assert_eq!(masked.verdict, Verdict::Refuted);
+    assert_eq!(masked.counterexample, alone.counterexample);
+    assert_eq!(verdict(Rule::Ends, (&MASKED, 0)), Verdict::Refuted);
 }
 
 #[test]

@@ -7,7 +7,6 @@ mod player;
 mod written;
 
 use std::fs;
-use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
@@ -157,34 +156,16 @@ pub(crate) fn hunt_rule(
 /// The search, and its counterexamples made again and made small. On the thread that asks the rule.
 fn found(py: Python<'_>, written: &Arc<Written>, budget: Option<u64>) -> PyResult<Outcome> {
     written.begin(py)?;
-    let search = |demands: Range<usize>| {
-        let limits = Bounds {
-            max_walls: written.max_walls,
-            budget_moves: budget,
-            wanted: Vec::new(),
-            until: Until::Exhausted,
-        };
-        let mut tree = Tree::new(InRule(Arc::clone(written), demands), &limits)
-            .map_err(|refused| error(py, Kind::Input, refused, "give fewer max_walls, or a smaller size"))?;
-        while tree.wave() {
-            written.checked(py)?;
-        }
+    let limits = Bounds { max_walls: written.max_walls, budget_moves: budget, until: Until::Exhausted };
+    let game = InRule::new(Arc::clone(written));
+    let mut tree = Tree::new(game, &limits)
+        .map_err(|refused| error(py, Kind::Input, refused, "give fewer max_walls, or a smaller size"))?;
+    while tree.wave() {
         written.checked(py)?;
-        let found = tree.found();
-        written.checked(py)?;
-        Ok::<_, PyErr>(found)
-    };
-    let mut found = search(0..written.demands.len())?;
-    // A run that ended where it broke one demand may have broken another one later: each is looked at alone then.
-    if !found.counterexamples.is_empty() && written.demands.len() > 1 {
-        found.counterexamples.clear();
-        for demand in 0..written.demands.len() {
-            let alone = search(demand..demand + 1)?;
-            found.complete &= alone.complete;
-            found.given_up = found.given_up.max(alone.given_up);
-            found.counterexamples.extend(alone.counterexamples);
-        }
     }
+    written.checked(py)?;
+    let found = tree.found();
+    written.checked(py)?;
     let is_found = |demand: &usize| found.counterexamples.iter().any(|example| example.broken.0 == *demand);
     if !written.seen().iter().all(is_found) {
         return Err(written.not_pure(py));

@@ -13,8 +13,8 @@ use tautline_proofs::team::Promise;
 
 use super::written::{Blocked, Cells, MAX_ROBOTS, Move, Steps, Written};
 
-/// A rule in layouts, and the demands that are looked at: a run ends at the first of them that it breaks.
-pub(super) struct InRule(pub(super) Arc<Written>, pub(super) Range<usize>);
+/// A rule in layouts, and the numbers of its demands.
+pub(super) struct InRule(Arc<Written>, Vec<Promise>);
 
 /// The number of the rule's state, where its robots are, what came of the last team move, and what was found of the layout.
 #[derive(Clone, Copy)]
@@ -33,8 +33,17 @@ pub(super) struct Plan {
 }
 
 impl InRule {
-    fn told(&self, broken: Option<usize>) -> Option<Broken<Self>> {
-        broken.map(|demand| (Promise(demand), self.0.demands[demand].words))
+    pub(super) fn new(written: Arc<Written>) -> Self {
+        let demands = (0..written.demands.len()).map(Promise).collect();
+        Self(written, demands)
+    }
+
+    const fn demands(&self) -> Range<usize> {
+        0..self.1.len()
+    }
+
+    fn told(&self, broken: Vec<usize>) -> Vec<Broken<Self>> {
+        broken.into_iter().map(|demand| (Promise(demand), self.0.demands[demand].words)).collect()
     }
 }
 
@@ -98,19 +107,23 @@ impl Game for InRule {
         }
     }
 
-    fn broken_by(&self, turn: &Turn<'_, Self>) -> Option<Broken<Self>> {
-        self.told(self.0.broken_by(self.1.clone(), &moved(turn)))
+    fn wanted(&self) -> &[Promise] {
+        &self.1
     }
 
-    fn broken_at_end(&self, state: &State, _: &[u8]) -> Option<Broken<Self>> {
-        self.told(self.0.broken_at_end(self.1.clone(), state.number, &state.cells))
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Broken<Self>> {
+        self.told(self.0.broken_by(self.demands(), &moved(turn)))
     }
 
-    fn recurs(&self, then: &State, _: usize, now: &State, _: &[u8]) -> ControlFlow<Option<Broken<Self>>> {
+    fn broken_at_end(&self, state: &State, _: &[u8]) -> Vec<Broken<Self>> {
+        self.told(self.0.broken_at_end(self.demands(), state.number, &state.cells))
+    }
+
+    fn recurs(&self, then: &State, _: usize, now: &State, _: &[u8]) -> ControlFlow<Vec<Broken<Self>>> {
         if (then.number, then.cells, then.blocked) != (now.number, now.cells, now.blocked) {
             return ControlFlow::Continue(());
         }
-        ControlFlow::Break(self.told(self.0.broken_by_endless(self.1.clone())))
+        ControlFlow::Break(self.told(self.0.broken_by_endless(self.demands())))
     }
 
     fn edges(&self) -> u32 {

@@ -37,8 +37,8 @@ impl<'a> Player<'a> {
         Self { written, demands, now, last: None, mark: now, made: 0 }
     }
 
-    fn clause(&self, broken: Option<usize>) -> Vec<ClauseId> {
-        broken.map(|demand| self.written.demands[demand].clause).into_iter().collect()
+    fn clauses(&self, broken: Vec<usize>) -> Vec<ClauseId> {
+        broken.into_iter().map(|demand| self.written.demands[demand].clause).collect()
     }
 }
 
@@ -80,11 +80,12 @@ impl Team for Player<'_> {
     }
 
     fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<ClauseId> {
-        self.clause(self.last.as_ref().and_then(|moved| self.written.broken_by(self.demands.clone(), moved)))
+        let Some(moved) = &self.last else { return Vec::new() };
+        self.clauses(self.written.broken_by(self.demands.clone(), moved))
     }
 
     fn broken_at_end(&self, _: &Layout, _: &Survey, end: End) -> Vec<ClauseId> {
-        self.clause(match end {
+        self.clauses(match end {
             End::Explored | End::Exhausted | End::Silent => {
                 self.written.broken_at_end(self.demands.clone(), self.now.state, &self.now.cells)
             }

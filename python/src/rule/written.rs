@@ -341,9 +341,9 @@ impl Written {
         answer.unwrap_or_else(|error| self.fail(error))
     }
 
-    /// The first of these demands that a team move breaks.
-    pub(super) fn broken_by(&self, demands: Range<usize>, moved: &Move) -> Option<usize> {
-        self.first(demands, |py, demand| match &demand.when {
+    /// The demands of these that a team move breaks.
+    pub(super) fn broken_by(&self, demands: Range<usize>, moved: &Move) -> Vec<usize> {
+        self.broken(demands, |py, demand| match &demand.when {
             When::Always(is_kept) => {
                 let moved = moved.told(py, self).and_then(|moved| PyTuple::new(py, [moved]));
                 let moved = moved.unwrap_or_else(|_| PyTuple::empty(py));
@@ -353,9 +353,9 @@ impl Written {
         })
     }
 
-    /// The first of these demands that the end of a run breaks.
-    pub(super) fn broken_at_end(&self, demands: Range<usize>, state: u32, cells: &Cells) -> Option<usize> {
-        self.first(demands, |py, demand| match &demand.when {
+    /// The demands of these that the end of a run breaks.
+    pub(super) fn broken_at_end(&self, demands: Range<usize>, state: u32, cells: &Cells) -> Vec<usize> {
+        self.broken(demands, |py, demand| match &demand.when {
             When::AtTheEnd(is_kept) => {
                 let end =
                     self.cells(py, cells).and_then(|cells| (self.state(py, state), cells).into_pyobject(py));
@@ -366,23 +366,26 @@ impl Written {
         })
     }
 
-    /// The first of these demands that a run without end breaks.
-    pub(super) fn broken_by_endless(&self, demands: Range<usize>) -> Option<usize> {
-        self.first(demands, |_, demand| matches!(demand.when, When::NeverEndless))
+    /// The demands of these that a run without end breaks.
+    pub(super) fn broken_by_endless(&self, demands: Range<usize>) -> Vec<usize> {
+        self.broken(demands, |_, demand| matches!(demand.when, When::NeverEndless))
     }
 
-    /// The first of these demands of which this is so, unless the rule has failed.
-    fn first(
+    /// The demands of these of which this is so; none if the rule has failed.
+    fn broken(
         &self,
-        mut demands: Range<usize>,
+        demands: Range<usize>,
         is_broken: impl Fn(Python<'_>, &Demand) -> bool,
-    ) -> Option<usize> {
+    ) -> Vec<usize> {
         if self.is_over() {
-            return None;
+            return Vec::new();
         }
-        let found = Python::attach(|py| demands.find(|&demand| is_broken(py, &self.demands[demand])));
-        let found = found.filter(|_| !self.is_over());
-        held(&self.seen).extend(found);
+        let found: Vec<usize> =
+            Python::attach(|py| demands.filter(|&demand| is_broken(py, &self.demands[demand])).collect());
+        if self.is_over() {
+            return Vec::new();
+        }
+        held(&self.seen).extend(&found);
         found
     }
 

@@ -363,7 +363,7 @@ mod tests {
     #[test]
     fn a_demand_that_is_broken_first_hides_none_of_the_others() {
         let alone = |graph: Graphic| broken(&Graphic { is_enough: true, ..graph }).expect("it is broken");
-        let (forbidden, dead, owing) = (1, 5, &[6][..]);
+        let (forbidden, dead, owing) = (1, 5, &[6]);
         let all = Graphic { forbidden, dead, owing, is_enough: false, ..GRAPH };
         let step = alone(Graphic { forbidden, ..GRAPH });
         let end = alone(Graphic { dead, ..GRAPH });
