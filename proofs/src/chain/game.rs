@@ -137,7 +137,7 @@ where
         let grid = chain.grid();
         let moves = log.len() / (self.bounds.robots - 1);
         if self.looks_for(Invariant::Short) && moves > most_moves(grid, self.bounds.robots) {
-            return Some((Invariant::Short, "each wall that is met costs at most N² team moves"));
+            broken.push((Invariant::Short, "each wall that is met costs at most N² team moves"));
         }
         if grid.is_explored() {
             return broken;
