@@ -240,12 +240,12 @@ fn stored(written: &Written, layout: &Layout, demand: usize) -> Result<(Made, Re
     }
 }
 
-/// The smallest layout that the run shrinks to. The robots start where they did.
+/// The layout with the fewest walls that the run shrinks to. The area stays as it is, which the rule and its demands may know.
 fn shrunk(written: &Written, layout: Layout, demand: usize, steps: u32) -> Result<Layout, Halt> {
-    let starts = written.starts();
+    let (size, starts) = (layout.size(), written.starts());
     let (base, robots) = (starts[0], starts.len() as u16);
     let shrunk = shrink(Case { robots, layout, base }, steps, robots, &mut |case, _| {
-        if case.base != base || !starts.iter().all(|&cell| case.layout.is_free(cell)) {
+        if case.layout.size() != size {
             return Ok(None);
         }
         let report = match played(written, &case.layout, demand, &mut |_| Ok(())) {

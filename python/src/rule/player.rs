@@ -1,5 +1,6 @@
 //! The rule in one layout, as a run plays it.
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 use tautline_kernel::chain::Kind;
@@ -17,12 +18,11 @@ pub(super) struct Player<'a> {
     demands: Range<usize>,
     now: Place,
     last: Option<Move>,
-    /// Where the team was, moved on at powers of two (Brent's search for cycles).
-    mark: Place,
-    made: u32,
+    /// Where the team was.
+    been: HashSet<Place>,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct Place {
     state: u32,
     cells: Cells,
@@ -34,7 +34,7 @@ impl<'a> Player<'a> {
     pub(super) fn new(written: &'a Written, demands: Range<usize>) -> Self {
         let (state, cells) = written.start();
         let now = Place { state, cells, blocked: [false; MAX_ROBOTS] };
-        Self { written, demands, now, last: None, mark: now, made: 0 }
+        Self { written, demands, now, last: None, been: HashSet::new() }
     }
 
     fn clauses(&self, broken: Vec<usize>) -> Vec<ClauseId> {
@@ -48,13 +48,9 @@ impl Team for Player<'_> {
     }
 
     fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
-        if self.made > 0 && self.mark == self.now {
+        if !self.been.insert(self.now) {
             return Err(End::Endless);
         }
-        if self.made.is_power_of_two() {
-            self.mark = self.now;
-        }
-        self.made += 1;
         let Place { state: before, cells: from, blocked } = self.now;
         let (after, steps) = self.written.step(before, &from, &blocked);
         let Some(steps) = steps else {

@@ -372,11 +372,7 @@ impl Written {
     }
 
     /// The demands of these of which this is so; none if the rule has failed.
-    fn broken(
-        &self,
-        demands: Range<usize>,
-        is_broken: impl Fn(Python<'_>, &Demand) -> bool,
-    ) -> Vec<usize> {
+    fn broken(&self, demands: Range<usize>, is_broken: impl Fn(Python<'_>, &Demand) -> bool) -> Vec<usize> {
         if self.is_over() {
             return Vec::new();
         }

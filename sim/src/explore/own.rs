@@ -1,6 +1,8 @@
 //! A team of one's own that is searched over all layouts ([`tautline_proofs::team`]), as a run plays it: in one layout, with
 //! what it breaks.
 
+use std::collections::HashMap;
+
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_proofs::run::Frame;
@@ -18,15 +20,14 @@ pub struct Own<T: 'static, const ROBOTS: usize> {
     before: T,
     cells: [Cell; ROBOTS],
     demands: &'static [Demand<T, ROBOTS>],
-    /// Where the team was, moved on at powers of two (Brent's search for cycles).
-    mark: (T, [Cell; ROBOTS]),
-    moved: u32,
+    /// What the team was in these cells.
+    been: HashMap<[Cell; ROBOTS], Vec<T>>,
 }
 
 impl<T: team::Team<ROBOTS>, const ROBOTS: usize> Own<T, ROBOTS> {
     /// `team` at its start, in these cells.
-    pub const fn new(team: T, cells: [Cell; ROBOTS], demands: &'static [Demand<T, ROBOTS>]) -> Self {
-        Self { team, before: team, cells, demands, mark: (team, cells), moved: 0 }
+    pub fn new(team: T, cells: [Cell; ROBOTS], demands: &'static [Demand<T, ROBOTS>]) -> Self {
+        Self { team, before: team, cells, demands, been: HashMap::new() }
     }
 
     fn broken(&self, is_broken: impl Fn(&Demand<T, ROBOTS>) -> bool) -> Vec<ClauseId> {
@@ -41,13 +42,11 @@ impl<T: team::Team<ROBOTS>, const ROBOTS: usize> Team for Own<T, ROBOTS> {
     }
 
     fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
-        if self.moved > 0 && self.mark == (self.team, self.cells) {
+        let been = self.been.entry(self.cells).or_default();
+        if been.contains(&self.team) {
             return Err(End::Endless);
         }
-        if self.moved.is_power_of_two() {
-            self.mark = (self.team, self.cells);
-        }
-        self.moved += 1;
+        been.push(self.team);
         self.before = self.team;
         let steps = self.team.plan().ok_or(End::Exhausted)?;
         let mut blocked = [false; ROBOTS];

@@ -92,7 +92,7 @@ pub struct Stage<'a> {
 }
 
 impl<'a> Stage<'a> {
-    /// Agents in these `starts` of `layout`, the first of which is the base; nothing is left to chance.
+    /// Robots in these `starts` of `layout`, the first of which is the base; nothing is left to chance.
     pub fn new(scheme: &'a str, rule: &'a str, layout: &'a Layout, starts: &'a [Cell]) -> Self {
         let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
         Self {
@@ -108,7 +108,7 @@ impl<'a> Stage<'a> {
             options: Options::default(),
             choices: &[],
             limits: Limits::default(),
-            look: Look::Apart,
+            look: Look::Robots,
             knowledge: None,
         }
     }

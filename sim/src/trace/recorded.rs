@@ -116,7 +116,7 @@ impl Play for Recorded {
             options: options.unwrap_or_default(),
             choices,
             limits: Limits::default(),
-            look: Look::Apart,
+            look: Look::Robots,
             knowledge: None,
         }
     }

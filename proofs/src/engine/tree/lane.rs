@@ -468,18 +468,29 @@ impl<G: Game> Lane<G> {
     }
 }
 
-/// Makes the run with these answers, at most `most` of them mishaps, as far as it breaks `demand`, whatever else it breaks: in
-/// words what is not so, and its team moves.
+/// A run made again.
+pub(super) struct Replayed<F> {
+    /// What is not so.
+    pub(super) words: &'static str,
+    /// Its team moves; of a run without end, as far as it first comes back to where it was.
+    pub(super) frames: Vec<F>,
+    /// Team moves until the search saw what it breaks.
+    pub(super) steps: u32,
+}
+
+/// Makes the run with these answers, at most `most` of them mishaps, as far as it breaks `demand`, whatever else it breaks.
 pub(super) fn replay<G: Game>(
     game: &G,
     most: u32,
     demand: G::Demand,
     answers: &[u32],
-) -> Result<(&'static str, Vec<G::Frame>), Unfit> {
+) -> Result<Replayed<G::Frame>, Unfit> {
     let words =
         |broken: Vec<Broken<G>>| broken.into_iter().find(|&(one, _)| one == demand).map(|(_, words)| words);
     let mut lane = Lane::whole(game, most);
     let mut frames = Vec::new();
+    // Where it was since the last answer.
+    let mut been = vec![(lane.state, 0)];
     let broken = loop {
         let Some(fork) = lane.plan(game) else { break words(game.broken_at_end(&lane.state, &lane.log)) };
         lane.script.extend_from_slice(answers.get(fork.answered..).unwrap_or_default());
@@ -493,11 +504,18 @@ pub(super) fn replay<G: Game>(
         }
         let turn = lane.turn(&fork.ready(), fork.sent);
         frames.push(game.frame(&turn));
+        if lane.mark.moved == 0 {
+            been.clear();
+        }
+        been.push((lane.state, lane.log.len()));
         if let Some(words) = words(game.broken_by(&turn)) {
             break Some(words);
         }
         match lane.recurs(game) {
-            ControlFlow::Break(broken) => break words(broken),
+            ControlFlow::Break(broken) => {
+                frames.truncate(frames.len() + 1 - been.len() + first_round(game, &been, &lane.log));
+                break words(broken);
+            }
             ControlFlow::Continue(()) if lane.steps >= game.longest_run() => break None,
             ControlFlow::Continue(()) => {}
         }
@@ -506,5 +524,16 @@ pub(super) fn replay<G: Game>(
     if used < answers.len() {
         return Err(Unfit::Over { at: used });
     }
-    Ok((broken.ok_or(Unfit::Unbroken)?, frames))
+    Ok(Replayed { words: broken.ok_or(Unfit::Unbroken)?, frames, steps: lane.steps })
+}
+
+/// The place in these states where a run that has come back to one of them first did.
+fn first_round<G: Game>(game: &G, been: &[(G::State, usize)], log: &[u8]) -> usize {
+    let recurs = |then: usize, now: usize| {
+        let ((then, sent), (now, end)) = (&been[then], &been[now]);
+        game.recurs(then, *sent, now, &log[..*end]).is_break()
+    };
+    let last = been.len() - 1;
+    let Some(round) = (1..=last).find(|round| recurs(last - round, last)) else { return last };
+    (0..last).find(|&first| recurs(first, first + round)).map_or(last, |first| first + round)
 }

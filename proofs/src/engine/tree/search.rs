@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::count::{Broken, Count, Violation};
 use super::deal::{Deal, Ways};
 use super::forecast::Forecast;
-use super::lane::{self, Lane, Place};
+use super::lane::{self, Lane, Place, Replayed};
 use super::share::Share;
 use super::{Counterexample, Found, Game, Level, Limits, Progress, Unsearchable, Watch};
 use crate::engine::{Unfit, Until};
@@ -303,10 +303,16 @@ impl<G: Game> Tree<G> {
     /// The smallest run that breaks a demand again; `None` if it does not.
     fn record(&self, broken: &Broken<G::Demand>) -> Option<Counterexample<G::Demand, G::Frame>> {
         let Violation { mishaps, steps, answers } = &broken.smallest;
-        let (words, frames) = lane::replay(&self.game, *mishaps, broken.demand, answers).ok()?;
-        let is_so_long = frames.len() == *steps as usize;
+        let again = lane::replay(&self.game, *mishaps, broken.demand, answers).ok()?;
         let (runs, answers) = (broken.runs, answers.clone());
-        is_so_long.then_some(Counterexample { broken: broken.demand, runs, demand: words, frames, answers })
+        let Replayed { words, frames, .. } = again;
+        (again.steps == *steps).then_some(Counterexample {
+            broken: broken.demand,
+            runs,
+            demand: words,
+            frames,
+            answers,
+        })
     }
 }
 
@@ -410,7 +416,7 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
     ) -> Result<Counterexample<G::Demand, G::Frame>, Unfit> {
         let mishaps = answers.iter().filter(|&&answer| answer != 0).count() as u32;
         let most = mishaps.min(self.limits.max_walls);
-        let (words, frames) = lane::replay(&self.game, most, demand, answers)?;
+        let Replayed { words, frames, .. } = lane::replay(&self.game, most, demand, answers)?;
         Ok(Counterexample { broken: demand, runs: 1, demand: words, frames, answers: answers.to_vec() })
     }
 }
