@@ -6,6 +6,7 @@ use tautline_proofs::clause::{AnyCheck, Clause};
 use tautline_proofs::course::Course;
 use tautline_proofs::decide::{Evidence, Seen};
 use tautline_proofs::run::Run;
+use tautline_proofs::words::counted;
 
 use tautline_sim::draw;
 use tautline_sim::explore::{ClauseId, RuleName, Setup, catalogue, hunt};
@@ -86,11 +87,14 @@ pub(super) fn story(clause: &Clause, check: &dyn AnyCheck, evidence: &Evidence) 
             format!("{id} as {rule}: not so: {demand}. The choices that lead there: {choices}\n")
         }
         Seen::Robots(run) => {
-            let walls = run.walls.len();
+            let (first, last) = (run.area.first(), run.area.last());
             let head = format!(
-                "{id} as {rule}: the smallest counterexample has {walls} walls ({}) and {} team moves.\n\n",
+                "{id} as {rule}: of those in {}×{} cells the counterexample with the fewest walls has {} ({}) and {}.\n\n",
+                last.x - first.x + 1,
+                last.y - first.y + 1,
+                counted(run.walls.len(), "wall"),
                 named(&run.walls),
-                run.frames.len()
+                counted(run.frames.len(), "team move")
             );
             match setup(check, run)? {
                 Some(setup) => head + &draw::story::of_found(&setup, ClauseId::new(id), run)?,

@@ -40,7 +40,7 @@ Examples:
   tautline hunt --scheme kit --rule published --size 5x1
   tautline hunt --scheme kit --robots 2 --size 3x2 --max-walls 4";
 
-/// Search all layouts with few walls for runs that break a clause, and store the smallest.
+/// Search all layouts of an area with few walls for runs that break a clause, and store the smallest of each.
 ///
 /// Of agents on a sensor floor, search all layouts with few cells for the fewest missed sensors that trap them: one of
 /// them is done, or all go round for ever, before every cell is explored.

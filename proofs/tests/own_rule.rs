@@ -2,7 +2,7 @@
 //! a run that neither ends nor comes back, an area that is too large.
 
 use tautline_kernel::ground::{Cell, Side, Step};
-use tautline_proofs::decide::{Answer, Desk, Memory, Method, Refused, Verdict};
+use tautline_proofs::decide::{Answer, Desk, Memory, Method, Refused, Seen, Verdict};
 use tautline_proofs::engine::Until;
 use tautline_proofs::engine::states::Room;
 use tautline_proofs::engine::tree::{Waves, unwatched};
@@ -107,6 +107,9 @@ fn every_demand_is_decided_in_its_own_way() {
 fn a_run_that_comes_back_breaks_what_demands_an_end_and_is_over_where_nothing_does() {
     let endless = decided(Rule::Patrols, (&ROW, 1)).expect("it can be decided");
     assert_eq!(endless.verdict, Verdict::Refuted);
+    // East, a wall, and once there and back: then it is where it was when it had met the wall.
+    let Some(Seen::Robots(run)) = endless.counterexample.map(|found| found.seen) else { panic!("a run") };
+    assert_eq!(run.frames.len(), 3 + 1 + 8);
     let patrol = decided(Rule::Patrols, (&PATROL, 0)).expect("it can be decided");
     assert_eq!((patrol.verdict, patrol.given_up), (Verdict::Holds, 0));
 }

@@ -18,9 +18,8 @@ use tautline_proofs::engine::tree::{self, Limits as Bounds, Tree, Waves};
 use tautline_proofs::run::{Frame, Run as Found, walls};
 use tautline_proofs::team::Promise;
 use tautline_sim::aside::{Aside, Replaceable};
-use tautline_sim::counterexample::minimise::{Broken, Case, shrink};
 use tautline_sim::explore::hunt::layout as layout_of;
-use tautline_sim::explore::{Limits, OnViolation, Report, Stage, TeamMove, run};
+use tautline_sim::explore::{Limits, OnViolation, Report, Stage, run};
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::layout::Layout;
 use tautline_sim::trace::{self, Stored, Writer};
@@ -71,10 +70,8 @@ pub(crate) struct OwnCounterexample {
     words: &'static str,
     /// How many runs break it.
     runs: u64,
-    /// The run that meets the fewest walls.
+    /// The run that meets the fewest walls, and of those the one with the fewest team moves.
     run: Py<Run>,
-    /// The smallest that it shrinks to.
-    minimal: Py<Run>,
 }
 
 #[pymethods]
@@ -97,7 +94,6 @@ struct Plain {
     demand: usize,
     runs: u64,
     run: Run,
-    minimal: Run,
 }
 
 /// What was found before Python has it.
@@ -133,8 +129,7 @@ pub(crate) fn hunt_rule(
     let told = |plain: Plain| {
         let Demand { clause, words, .. } = &written.demands[plain.demand];
         let (clause, words, runs) = (clause.as_str(), *words, plain.runs);
-        let (run, minimal) = (Py::new(py, plain.run)?, Py::new(py, plain.minimal)?);
-        Py::new(py, OwnCounterexample { clause, words, runs, run, minimal })
+        Py::new(py, OwnCounterexample { clause, words, runs, run: Py::new(py, plain.run)? })
     };
     let is_whole = found.complete && found.given_up == 0 && found.covered.len() == written.covers.len();
     Ok(OwnHunted {
@@ -153,7 +148,7 @@ pub(crate) fn hunt_rule(
     })
 }
 
-/// The search, and its counterexamples made again and made small. On the thread that asks the rule.
+/// The search, and its counterexamples made again. On the thread that asks the rule.
 fn found(py: Python<'_>, written: &Arc<Written>, budget: Option<u64>) -> PyResult<Outcome> {
     written.begin(py)?;
     let limits = Bounds { max_walls: written.max_walls, budget_moves: budget, until: Until::Exhausted };
@@ -191,43 +186,31 @@ fn found(py: Python<'_>, written: &Arc<Written>, budget: Option<u64>) -> PyResul
         if report.violations.is_empty() {
             return Err(written.not_pure(py));
         }
-        let small = shrunk(written, layout, demand, report.steps).map_err(halted)?;
-        let (minimal, smallest) = stored(written, &small, demand).map_err(halted)?;
-        let named = |made, report| Run { made, name: clause.to_string(), report, clause: Some(clause) };
-        let (run, minimal) = (named(made, report), named(minimal, smallest));
-        counterexamples.push(Plain { demand, runs: example.runs, run, minimal });
+        let run = Run { made, name: clause.to_string(), report, clause: Some(clause) };
+        counterexamples.push(Plain { demand, runs: example.runs, run });
     }
     Ok(Outcome { found, counterexamples })
 }
 
-/// The run of the rule in `layout`, as far as it breaks the demand with this number.
-fn played(
-    written: &Written,
-    layout: &Layout,
-    demand: usize,
-    watch: &mut dyn FnMut(&TeamMove<'_>) -> Result<(), Halt>,
-) -> Result<Report, Halt> {
-    let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
-    let mut left = written.longest_run;
-    let report = run(&mut Player::new(written, demand..demand + 1), layout, limits, &mut |made| {
-        left = left.saturating_sub(1);
-        // A smaller layout may have a run that neither ends nor comes back.
-        if written.is_over() || left == 0 { Err(Halt::Interrupted) } else { watch(made) }
-    })?;
-    if written.is_over() { Err(Halt::Interrupted) } else { Ok(report) }
-}
-
-/// The same, written to a file and read again.
+/// The run of the rule in `layout`, as far as it breaks the demand with this number, written to a file and read again.
 fn stored(written: &Written, layout: &Layout, demand: usize) -> Result<(Made, Report), Halt> {
     let folder = tempfile::tempdir().map_err(|error| Fault::usage(error, "make room for temporary files"))?;
     let path = folder.path().join("run.jsonl");
-    let stage = Stage::new(written.scheme, written.name, layout, written.starts());
+    let clause = written.demands[demand].clause;
+    let limits = Limits { violation: OnViolation::StopAt(clause), ..Limits::default() };
+    let stage = Stage { limits, ..Stage::new(written.scheme, written.name, layout, written.starts()) };
     let aside = Aside::new(&path, &Replaceable::default())?;
-    let mut writer = Writer::new(aside, &stage, Some(written.demands[demand].clause)).map_err(Fault::from)?;
-    let report = played(written, layout, demand, &mut |made| {
+    let mut writer = Writer::new(aside, &stage, Some(clause)).map_err(Fault::from)?;
+    let mut left = written.longest_run;
+    let report = run(&mut Player::new(written, demand..demand + 1), layout, limits, &mut |made| {
+        left = left.saturating_sub(1);
         writer.add(made);
-        Ok(())
+        // A rule that is not the same each time may have a run that neither ends nor comes back.
+        if written.is_over() || left == 0 { Err(Halt::Interrupted) } else { Ok(()) }
     })?;
+    if written.is_over() {
+        return Err(Halt::Interrupted);
+    }
     writer.end(&report).keep()?;
     let unread = |error| Fault::in_file(&path, error, "make room for temporary files");
     let text = fs::read_to_string(&path).map_err(unread)?;
@@ -238,21 +221,4 @@ fn stored(written: &Written, layout: &Layout, demand: usize) -> Result<(Made, Re
             Err(Fault::usage(what, "give the rule's scheme another name").into())
         }
     }
-}
-
-/// The layout with the fewest walls that the run shrinks to. The area stays as it is, which the rule and its demands may know.
-fn shrunk(written: &Written, layout: Layout, demand: usize, steps: u32) -> Result<Layout, Halt> {
-    let (size, starts) = (layout.size(), written.starts());
-    let (base, robots) = (starts[0], starts.len() as u16);
-    let shrunk = shrink(Case { robots, layout, base }, steps, robots, &mut |case, _| {
-        if case.layout.size() != size {
-            return Ok(None);
-        }
-        let report = match played(written, &case.layout, demand, &mut |_| Ok(())) {
-            Err(Halt::Interrupted) if !written.is_over() => return Ok(None),
-            report => report?,
-        };
-        Ok(report.violations.first().map(|broken| Broken { steps: broken.step, met: None }))
-    })?;
-    Ok(shrunk.case.layout)
 }

@@ -382,7 +382,12 @@ impl Run {
             Made::Known(setup) => setup,
             Made::Recorded(..) => {
                 let what = "a run of a rule that is not in the catalogue";
-                return Err(error(py, Kind::Input, what, "take the minimal run that hunt_rule has found"));
+                return Err(error(
+                    py,
+                    Kind::Input,
+                    what,
+                    "take the run that hunt_rule has found: it has the fewest walls",
+                ));
             }
         };
         let asked = clause

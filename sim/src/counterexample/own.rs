@@ -1,12 +1,11 @@
-//! Counterexamples to a rule of one's own: made again in one layout, stored as files that anyone can replay, and shrunk.
+//! Counterexamples to a rule of one's own: made again in one layout, and stored as files that anyone can replay. Nothing in them can go: the search
+//! finds the fewest walls, and the area is what the rule and its demands may know.
 
 use std::path::Path;
 
-use tautline_kernel::ground::Cell;
 use tautline_proofs::run::Run;
 use tautline_proofs::team::{self, Layouts};
 
-use super::minimise::{Broken, Case, Shrunk, shrink};
 use crate::aside::{Aside, Replaceable};
 use crate::explore::hunt::layout as layout_of;
 use crate::explore::{ClauseId, Limits, OnViolation, Own, Report, Stage, TeamMove, run};
@@ -24,8 +23,6 @@ pub struct Found<'a, R: 'static, T: 'static, const ROBOTS: usize> {
     pub run: &'a Run,
 }
 
-const STOP: Limits = Limits { until: None, max_moves: None, violation: OnViolation::Stop };
-
 impl<R, T: team::Team<ROBOTS>, const ROBOTS: usize> Found<'_, R, T, ROBOTS> {
     fn own(&self) -> Own<T, ROBOTS> {
         let (team, cells) = (self.layouts.start)(self.rule.1);
@@ -36,14 +33,18 @@ impl<R, T: team::Team<ROBOTS>, const ROBOTS: usize> Found<'_, R, T, ROBOTS> {
         self.run.breaks.map(ClauseId::new)
     }
 
+    fn limits(&self) -> Limits {
+        let violation = self.clause().map_or(OnViolation::Stop, OnViolation::StopAt);
+        Limits { until: None, max_moves: None, violation }
+    }
+
     /// Makes the run again, in the layout that has the walls that it met and no others.
     fn play(
         &self,
         layout: &Layout,
         watch: &mut dyn FnMut(&TeamMove<'_>) -> Result<(), Halt>,
     ) -> Result<Report, Halt> {
-        let violation = self.clause().map_or(OnViolation::Stop, OnViolation::StopAt);
-        run(&mut self.own(), layout, Limits { violation, ..STOP }, watch)
+        run(&mut self.own(), layout, self.limits(), watch)
     }
 
     /// Writes the run to a file at `path`, which `tautline replay` plays. The file has yet to be put in its place.
@@ -53,7 +54,7 @@ impl<R, T: team::Team<ROBOTS>, const ROBOTS: usize> Found<'_, R, T, ROBOTS> {
     pub fn store(&self, path: &Path, replaceable: &Replaceable) -> Result<(Aside, Report), Halt> {
         let (layout, starts) = layout_of(self.run).map_err(Fault::from)?;
         let stage = Stage::new(self.layouts.scheme, self.rule.0, &layout, &starts);
-        let stage = Stage { limits: STOP, ..stage };
+        let stage = Stage { limits: self.limits(), ..stage };
         let aside = Aside::new(path, replaceable)?;
         let mut writer = Writer::new(aside, &stage, self.clause()).map_err(Fault::from)?;
         let report = self.play(&layout, &mut |made| {
@@ -61,27 +62,5 @@ impl<R, T: team::Team<ROBOTS>, const ROBOTS: usize> Found<'_, R, T, ROBOTS> {
             Ok(())
         })?;
         Ok((writer.end(&report), report))
-    }
-
-    /// The layout with the fewest walls that the run shrinks to: without any one of them the clause is not broken. The area
-    /// stays as it is, and the robots start where they did, since the rule and its demands may know both.
-    ///
-    /// # Errors
-    /// [`Halt`] if the area is too large for a layout.
-    pub fn minimise(&self) -> Result<Shrunk, Halt> {
-        let (layout, starts) = layout_of(self.run).map_err(Fault::from)?;
-        let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
-        let size = layout.size();
-        let case = Case { robots: ROBOTS as u16, layout, base };
-        let steps = self.run.frames.len() as u32;
-        shrink(case, steps, ROBOTS as u16, &mut |case, _| {
-            if case.layout.size() != size {
-                return Ok(None);
-            }
-            let report = self.play(&case.layout, &mut |_| Ok(()))?;
-            let is_meant = |id: ClauseId| self.clause().is_none_or(|clause| clause == id);
-            let broken = report.violations.iter().find(|broken| is_meant(broken.clause));
-            Ok(broken.map(|broken| Broken { steps: broken.step, met: None }))
-        })
     }
 }

@@ -264,9 +264,9 @@ impl Table for Atlas {
         let mut text = format!(
             "All runs in all layouts of (2N−1)² cells, the base in the middle, by the walls that a run meets at most\n\n{}\n\
              layouts: with at most so many walls, all covered · runs, team moves: leaves and edges of the tree of runs ·\n\
-             longest: team moves of the longest run · CHAIN-…: runs that break the clause and none before it; they end\n\
-             there · -: not looked for\n\
-             \nThe smallest counterexamples\n",
+             longest: team moves of the longest run · CHAIN-…: runs that break the clause, whatever else they break ·\n\
+             -: not looked for\n\
+             \nThe counterexamples with the fewest walls, and of those with the fewest team moves, in these areas\n",
             columns.text()
         );
         for Line { robots, rule, broken, .. } in &merged.lines {

@@ -295,9 +295,15 @@ fn nothing_is_broken_in_two_thousand_runs_of_each() {
     all_hold(2000);
 }
 
+/// What the judges find in runs of the rules as published.
 #[test]
-fn the_judge_of_frontiers_finds_what_the_published_rule_breaks() {
-    let broken = frontier(Cells::PUBLISHED, 60, false).broken;
-    let clauses: Vec<&str> = broken.keys().copied().collect();
-    assert_eq!(clauses, ["FRONTIER-1", "FRONTIER-2"], "{broken:?}");
+fn the_judges_find_what_the_published_rules_break() {
+    let finds = |counted: Counted, clauses: &[&str]| {
+        let found: Vec<&str> = counted.broken.keys().copied().collect();
+        assert_eq!(found, clauses, "{:?}", counted.broken);
+    };
+    finds(frontier(Cells::PUBLISHED, 60, false), &["FRONTIER-1", "FRONTIER-2"]);
+    finds(pack(RuleId::PUBLISHED, 60), &["PACK-1"]);
+    finds(kit(Touch::PUBLISHED, [2, 2], 60), &["KIT-1"]);
+    finds(reel(RuleId::PUBLISHED, 60), &["CHAIN-1"]);
 }

@@ -230,16 +230,12 @@ fn try_one(setup: &Setup) -> Result<(u32, Vec<(ClauseId, u32)>), Fault> {
         broken.extend(made.broken.iter().map(|&clause| (clause, made.step)));
         Ok(())
     });
-    Ok(match made {
-        Ok(report) => {
-            let broken = report.violations.iter().map(|violation| (violation.clause, violation.step));
-            (report.steps, broken.collect())
-        }
-        Err(_) => {
-            broken.push((ENDS, MOST_MOVES));
-            (MOST_MOVES, broken)
-        }
-    })
+    if let Ok(report) = made {
+        let broken = report.violations.iter().map(|violation| (violation.clause, violation.step));
+        return Ok((report.steps, broken.collect()));
+    }
+    broken.push((ENDS, MOST_MOVES));
+    Ok((MOST_MOVES, broken))
 }
 
 /// A run that breaks a clause, as one that can be stored, unless it goes on for ever.
