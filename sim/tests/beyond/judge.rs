@@ -2,6 +2,7 @@
 //! they share no code with the rules, the searches and the simulator.
 
 mod chain;
+mod controls;
 mod frontier;
 mod kit;
 mod pack;
