@@ -157,8 +157,8 @@ fn a_stored_run_of_a_team_of_ones_own_is_drawn() {
     assert_snapshot!(story::last_move(&read).expect("a run"), @r"
     Team move 2 breaks PAIR-1.
 
-      Agent 1 at 1,0 tries to go east, meets a wall and stays.
-      Agent 2 at 0,0 goes east to 1,0.
+      Robot 1 at 1,0 tries to go east, meets a wall and stays.
+      Robot 2 at 0,0 goes east to 1,0.
 
     before, with what each tries   after
     +---+---+---+                  +---+---+---+
