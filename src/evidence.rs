@@ -89,7 +89,7 @@ pub(super) fn story(clause: &Clause, check: &dyn AnyCheck, evidence: &Evidence) 
         Seen::Robots(run) => {
             let (first, last) = (run.area.first(), run.area.last());
             let head = format!(
-                "{id} as {rule}: of those in {}×{} cells the counterexample with the fewest walls has {} ({}) and {}.\n\n",
+                "{id} as {rule}: the smallest counterexample in {}×{} cells has {} ({}) and {}.\n\n",
                 last.x - first.x + 1,
                 last.y - first.y + 1,
                 counted(run.walls.len(), "wall"),

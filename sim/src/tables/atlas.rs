@@ -266,7 +266,7 @@ impl Table for Atlas {
              layouts: with at most so many walls, all covered · runs, team moves: leaves and edges of the tree of runs ·\n\
              longest: team moves of the longest run · CHAIN-…: runs that break the clause, whatever else they break ·\n\
              -: not looked for\n\
-             \nThe counterexamples with the fewest walls, and of those with the fewest team moves, in these areas\n",
+             \nThe smallest counterexamples in these areas, by walls, then team moves\n",
             columns.text()
         );
         for Line { robots, rule, broken, .. } in &merged.lines {
