@@ -1,5 +1,6 @@
 //! `tautline explore`: one run.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::num::NonZeroU32;
 use std::ops::RangeInclusive;
@@ -447,13 +448,18 @@ fn components(report: &Report, words: impl Fn(&Component) -> String) -> String {
     text
 }
 
-/// Violations that are listed; the others are counted.
+/// Violations that are listed, the first of each clause among them; the others are counted.
 const LISTED: usize = 10;
 
 fn violations(report: &Report) -> String {
     let mut text = String::new();
-    for violation in report.violations.iter().take(LISTED) {
-        let Violation { clause, step } = *violation;
+    let mut known = BTreeSet::new();
+    let (mut listed, again): (Vec<_>, Vec<_>) =
+        report.violations.iter().enumerate().partition(|(_, violation)| known.insert(violation.clause));
+    listed.extend(again);
+    listed.truncate(LISTED);
+    listed.sort_by_key(|&(place, _)| place);
+    for (_, &Violation { clause, step }) in listed {
         let _ = match draw::story::sentence(clause) {
             Some(sentence) => writeln!(text, "{clause} is broken in team move {step}: {sentence}"),
             None => writeln!(text, "{clause} is broken in team move {step}"),

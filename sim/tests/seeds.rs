@@ -56,13 +56,13 @@ fn run(
     let mut asked = Asked { robots: Some(4), seed, limits, ..Asked::new(scheme, rule.name) };
     told.tell(&mut asked);
     let setup = asked.setup(layout.clone()).ok()?;
-    let mut moves = String::new();
+    let mut moves = Vec::new();
     let report = explore(&setup, &mut |made| {
-        moves += &format!("{:?}", made.frame);
+        moves.push(format!("{:?}", made.frame));
         Ok(())
     });
     let report = report.ok()?;
-    let seen = format!("{moves} {:?} {:?} {:?}", report.violations, report.faults, report.milliseconds);
+    let seen = format!("{moves:?} {:?} {:?} {:?}", report.violations, report.faults, report.milliseconds);
     Some((scheme.draws(&setup.stage()), seen))
 }
 
@@ -71,8 +71,8 @@ fn each_scheme_says_what_its_seed_draws() {
     for scheme in SCHEMES {
         let mut seen: Vec<&Drawn> = Vec::new();
         for (rule, told) in scheme.rules.iter().flat_map(|rule| Told::all().map(move |told| (rule, told))) {
-            // An open area has most ways that are as good; obstacles make messages matter.
-            for layout in ["open:7x6", "cells:7x6:0.2"] {
+            // An open area has most ways that are as good; obstacles make messages matter, and walls the order of robots.
+            for layout in ["open:7x6", "cells:7x6:0.2", "walls:7x6:0.2"] {
                 let layout = layout.parse::<Generator>().and_then(|generator| generator.generate(5));
                 let layout = layout.expect("a layout");
                 let runs: Option<Vec<_>> =

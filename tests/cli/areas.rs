@@ -3,6 +3,9 @@
 use std::fs;
 use std::path::Path;
 
+use tautline_sim::explore::catalogue::SCHEMES;
+use tautline_sim::explore::{RuleId, Starts};
+
 use super::{folder, json, names, printed, ran, refused};
 
 const HUNT: [&str; 7] = ["hunt", "--rule", "published", "--max-cells", "10", "--max-walls", "13"];
@@ -87,5 +90,45 @@ fn what_no_hunt_over_areas_can_be_told_is_refused() {
         let said = refused(folder, &[&["hunt"], arguments].concat());
         assert!(said.contains(right), "{arguments:?}: {said}");
     }
+    assert!(names(folder).is_empty());
+}
+
+/// Robots that each need a cell of their own; those of a chain and agents may start in one cell together.
+#[test]
+fn an_area_too_small_for_the_team_is_refused_with_what_would_be_right() {
+    let folder = folder();
+    let folder = folder.path();
+    let mut told = 0;
+    for scheme in SCHEMES {
+        for rule in scheme.rules {
+            let has_own_cells = match scheme.starts {
+                Starts::Alone => true,
+                Starts::Beside => rule.name != RuleId::PUBLISHED,
+                Starts::Base | Starts::Anywhere => false,
+            };
+            let team = ["--scheme", scheme.name, "--rule", rule.name.as_str(), "--robots", "3"];
+            if has_own_cells {
+                let said = refused(folder, &[&["explore", "open:2x1"], &team[..]].concat());
+                let right = "give --robots a number up to 2, or take a larger layout";
+                assert!(
+                    said.contains("3 robots do not find room") && said.contains(right),
+                    "{team:?}: {said}"
+                );
+                told += 1;
+            }
+            if rule.hunt.is_some() && has_own_cells {
+                let said = refused(folder, &[&["hunt", "--size", "2x1"], &team[..]].concat());
+                let right = "give --robots a number up to 2, or a larger --size";
+                assert!(
+                    said.contains("3 robots do not find room") && said.contains(right),
+                    "{team:?}: {said}"
+                );
+                told += 1;
+            }
+        }
+    }
+    assert!(told > 10, "{told}");
+    let chain = refused(folder, &["hunt", "--size", "1x1", "--robots", "3"]);
+    assert!(chain.contains("give --max-walls a number up to 0, or a larger --size"), "{chain}");
     assert!(names(folder).is_empty());
 }

@@ -18,9 +18,11 @@ fn a_hunt_stores_what_breaks_and_each_file_breaks_it_again() {
     let stored = || found.iter().filter_map(|quarry| Some((quarry, quarry["file"].as_str()?)));
     for (quarry, file) in stored() {
         let replayed = printed(folder, &["replay", file], 1);
-        assert!(replayed.contains(quarry["clause"].as_str().expect("an id")), "{replayed}");
+        let clause = quarry["clause"].as_str().expect("an id");
+        assert!(replayed.contains(&format!("{clause} is broken in team move")), "{replayed}");
     }
-    assert!(stored().count() >= 4);
+    assert!(stored().count() >= 5);
+    assert_eq!(stored().count(), found.len());
     assert_eq!(names(&folder.join("found")).len(), stored().count());
 
     let repaired = json(folder, &hunt, 0);

@@ -14,7 +14,8 @@
 //! - *A wall* inside the rim.
 //!
 //! What a run never met goes all at once, before anything else and after everything that goes: the cells out of the
-//! team's reach, and the walls and blocked cells that no robot bumped into. The run is the same without. Then the
+//! team's reach, and the walls and blocked cells that no robot bumped into. Where robots see what they do not bump into,
+//! as those of KIT do, another run comes of it: what is left is run again, and stays whole if it does not break the clause. Then the
 //! robots are tried, the smallest team first, and columns, rows, blocked cells and walls in this order: all, then in
 //! chunks half as large each time (Zeller and Hildebrandt 2002, *Simplifying and Isolating Failure-Inducing Input*),
 //! then single ones; all this until nothing goes any more. There is no chance in it.
@@ -175,7 +176,7 @@ pub struct Case {
 pub struct Broken {
     /// Team moves up to the one that breaks it.
     pub steps: u32,
-    /// What the run met, if a run that meets the same is the same; then all the rest goes at once.
+    /// What the run met; where nothing else makes a difference to it, all the rest can go at once.
     pub met: Option<Met>,
 }
 
@@ -459,15 +460,25 @@ impl Shrinking<'_, '_> {
         Ok(false)
     }
 
-    /// Runs `candidate` and, if it breaks the clause, makes what it met the smallest case. Whether it does.
+    /// Runs `candidate` and, if it breaks the clause, makes it the smallest case, or what it met if that breaks the clause, too.
+    /// Whether it does.
     fn attempt(&mut self, candidate: &Case) -> Result<bool, Halt> {
-        self.progress.runs += 1;
-        let Some(Broken { steps, met }) = (self.breaks)(candidate, self.progress)? else { return Ok(false) };
-        self.smallest = match met {
-            Some(met) => cut_down(candidate, &met).map_err(Fault::from)?,
-            None => candidate.clone(),
-        };
+        let Some(Broken { mut steps, met }) = self.run(candidate)? else { return Ok(false) };
+        self.smallest = candidate.clone();
+        if let Some(met) = met {
+            let cut = cut_down(candidate, &met).map_err(Fault::from)?;
+            if cut.layout != candidate.layout
+                && let Some(again) = self.run(&cut)?
+            {
+                (self.smallest, steps) = (cut, again.steps);
+            }
+        }
         self.progress.smallest = Extent::new(&self.smallest, steps);
         Ok(true)
+    }
+
+    fn run(&mut self, case: &Case) -> Result<Option<Broken>, Halt> {
+        self.progress.runs += 1;
+        (self.breaks)(case, self.progress)
     }
 }

@@ -40,6 +40,9 @@ pub const APART: ClauseId = ClauseId::new("KIT-3");
 /// A path within reach is not driven, and nobody can decide.
 pub const MOVES: ClauseId = ClauseId::new("KIT-6");
 
+/// Robots go round for ever, and keep nobody from acting: what a search has found so.
+pub const ENDS: ClauseId = ClauseId::new("KIT-7");
+
 /// All robots are done, and a path within reach is not driven.
 pub const COVERS: ClauseId = ClauseId::new("KIT-8");
 
@@ -81,6 +84,7 @@ pub static KIT: Profile = Profile {
         Clause::new(EQUAL.as_str()),
         Clause::new(APART.as_str()),
         Clause { missed: Some(MISSED), ..Clause::new(MOVES.as_str()) },
+        Clause::new(ENDS.as_str()),
         Clause { missed: Some(MISSED), ..Clause::new(COVERS.as_str()) },
         Clause::new(MARKS.as_str()),
         Clause::new(SHORTENS.as_str()),

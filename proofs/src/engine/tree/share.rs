@@ -36,7 +36,7 @@ impl Share {
     pub(super) const fn part_of(self, count: u32) -> Self {
         if count == 2 {
             // An odd number is halved as the even one that stands for the same.
-            return Self(if self.0 % 2 == 0 { self.0 / 2 } else { self.0.div_ceil(2) + PRIME / 2 });
+            return Self(if self.0.is_multiple_of(2) { self.0 / 2 } else { self.0.div_ceil(2) + PRIME / 2 });
         }
         // By Fermat's little theorem.
         let (mut inverse, mut square, mut power) = (1, count as u128, PRIME - 2);

@@ -281,9 +281,11 @@ pub(super) fn fault(refused: Unsearchable) -> Fault {
         Unsearchable::Search(refused) => refused,
     };
     match refused {
-        tree::Unsearchable::TooManyWalls { edges, .. } => {
-            Fault::of_field("max-walls", refused, format_args!("give `max-walls` a number up to {edges}"))
-        }
+        tree::Unsearchable::TooManyWalls { edges, .. } => Fault::of_field(
+            "max-walls",
+            refused,
+            format_args!("give `max-walls` a number up to {edges}, or a larger `size`"),
+        ),
         tree::Unsearchable::TooLarge { .. } => {
             Fault::of_field("size", refused, "give fewer `robots` or a smaller `size`")
         }

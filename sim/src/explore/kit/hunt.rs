@@ -210,7 +210,7 @@ impl Searched {
     }
 }
 
-/// A counterexample of a search as one that can be stored, unless its run goes on for ever.
+/// A counterexample of a search as one that can be stored.
 fn quarry<const ROBOTS: usize>(asked: &Asked<'_>, broken: &Broken<ROBOTS>) -> Result<Quarry, Fault> {
     let Broken { clause, found, .. } = broken;
     let area = found.setting.area;
@@ -234,7 +234,7 @@ fn quarry<const ROBOTS: usize>(asked: &Asked<'_>, broken: &Broken<ROBOTS>) -> Re
         clause: clause.as_str(),
         facts: sizes([columns, rows], walls, drives),
         title: format!("{columns}x{rows} nodes, {}, {}", counted(walls, "wall"), counted(drives, "drive")),
-        shown: if found.run.round().is_empty() { Shown::Story(*clause, story) } else { Shown::Told(story) },
+        shown: Shown::Story(*clause, story),
         setup: Setup { starts, choices, limits, ..setup },
     })
 }

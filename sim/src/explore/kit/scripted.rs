@@ -4,11 +4,11 @@
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Step, TinyGrid};
 use tautline_kernel::kit::{Next, Rule as Kit, Sight};
-use tautline_proofs::engine::states::System;
+use tautline_proofs::engine::states::{Bits, System};
 use tautline_proofs::kit::world::{Demand, Event, Setting, Speeds, Starts, World};
 use tautline_proofs::run::Frame;
 
-use super::{COVERS, EQUAL, MOVES, WHOLE, nodes};
+use super::{COVERS, ENDS, EQUAL, MOVES, WHOLE, nodes};
 use crate::explore::ClauseId;
 use crate::explore::misfit::of_choices;
 use crate::explore::run::{End, Team};
@@ -64,15 +64,16 @@ fn begin<const ROBOTS: usize>(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>,
     };
     let due = paths(layout, setup.base);
     let choices = choices.to_vec();
-    Ok(Box::new(Scripted { setting, world, choices, made: 0, cells: starts, due, broken: Vec::new() }))
+    let (past, broken) = (Vec::new(), Vec::new());
+    Ok(Box::new(Scripted { setting, world, choices, past, cells: starts, due, broken }))
 }
 
 struct Scripted<const ROBOTS: usize> {
     setting: Setting<ROBOTS>,
     world: World<ROBOTS>,
     choices: Vec<u32>,
-    /// Choices so far.
-    made: usize,
+    /// The world before each choice so far, and whose it was.
+    past: Vec<(World<ROBOTS>, usize)>,
     cells: Vec<Cell>,
     /// The paths within reach.
     due: Vec<Edge>,
@@ -90,20 +91,29 @@ enum Wanted {
 impl<const ROBOTS: usize> Scripted<ROBOTS> {
     /// Makes the next choice, if it is what is wanted.
     fn choose(&mut self, wanted: Wanted) -> Option<Event> {
-        let number = *self.choices.get(self.made)?;
+        let number = *self.choices.get(self.past.len())?;
         let turned = self.setting.turns(&self.world).into_iter().nth(number as usize)?;
         let event = turned.events.into_iter().next()?;
-        let is_wanted = match event {
-            Event::Arrives(..) => wanted == Wanted::Arrival,
-            Event::Decides(..) => wanted == Wanted::Decision,
+        let (robot, is_wanted) = match event {
+            Event::Arrives(robot, _) => (robot, wanted == Wanted::Arrival),
+            Event::Decides(robot, ..) => (robot, wanted == Wanted::Decision),
         };
         if !is_wanted {
             return None;
         }
-        self.made += 1;
+        self.past.push((self.world, robot));
         self.broken.extend(turned.breaks);
         self.world = turned.world;
         Some(event)
+    }
+
+    /// Whether the choices have led back to where the robots were, and keep nobody from acting: so they can go on for ever.
+    fn goes_round(&self) -> bool {
+        let Some(home) = self.past.iter().position(|(world, _)| *world == self.world) else { return false };
+        let round = &self.past[home..];
+        let awake = round.iter().fold(Bits::MAX, |awake, (world, _)| awake & self.setting.awake(world));
+        let acting = round.iter().fold(0, |acting, (_, robot)| acting | 1 << robot);
+        awake & !acting == 0
     }
 
     fn clause(&self, demand: Demand) -> ClauseId {
@@ -120,7 +130,7 @@ impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
     fn advance(&mut self, _: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
         self.broken.clear();
         let Some(Event::Decides(robot, looks, next)) = self.choose(Wanted::Decision) else {
-            return Err(End::Exhausted);
+            return Err(if self.goes_round() { End::Endless } else { End::Exhausted });
         };
         while self.choose(Wanted::Arrival).is_some() {}
         let (mut steps, mut blocked) = (vec![Step::Stay; ROBOTS], vec![false; ROBOTS]);
@@ -154,7 +164,10 @@ impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
         broken
     }
 
-    fn broken_at_end(&self, _: &Layout, _: &Survey, _: End) -> Vec<ClauseId> {
+    fn broken_at_end(&self, _: &Layout, _: &Survey, end: End) -> Vec<ClauseId> {
+        if end == End::Endless {
+            return vec![ENDS];
+        }
         if !self.setting.turns(&self.world).is_empty() {
             return Vec::new();
         }
