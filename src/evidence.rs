@@ -1,5 +1,6 @@
 //! What a person sees of a refutation, whoever has found it: `prove` as it decides, `replay` in a file.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_kernel::ground::Edge;
 use tautline_proofs::clause::{AnyCheck, Clause};
@@ -14,7 +15,7 @@ use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::words::Worded;
 
 /// A refutation as JSON.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 #[serde(untagged)]
 pub(super) enum Shown {
     Choices {

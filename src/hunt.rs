@@ -7,8 +7,8 @@ use std::time::Instant;
 
 use clap::Args;
 use indicatif::ProgressBar;
-use serde::ser::SerializeMap;
-use serde::{Serialize, Serializer};
+use schemars::JsonSchema;
+use serde::Serialize;
 use tautline_proofs::decide::Verdict;
 
 use super::findings::{self, Finding, Format, FormatArgs, Outcome};
@@ -19,7 +19,7 @@ use crate::{chosen, report, shards};
 use tautline_sim::aside::{Aside, Replaceable};
 use tautline_sim::counterexample::hunt::store;
 use tautline_sim::draw::story;
-use tautline_sim::explore::hunt::{Asked, Far, Hunted, Hunter, Quarry, Shown};
+use tautline_sim::explore::hunt::{Asked, Done, Facts, Far, Hunted, Hunter, Quarry, RunSize, Shown};
 use tautline_sim::explore::{Misfit, Profile, RuleId, Senses};
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::reading::real;
@@ -104,43 +104,31 @@ struct Told<'a> {
     files: Vec<Option<String>>,
 }
 
-/// A counterexample, and where it stands.
-struct Stored<'a>(&'a Quarry, &'a Option<String>);
-
-impl Serialize for Told<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { asked, hunted, verdict, files } = self;
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("scheme", asked.scheme)?;
-        map.serialize_entry("rule", &asked.rule)?;
-        map.serialize_entry("robots", &hunted.robots)?;
-        for (name, value) in &hunted.facts {
-            map.serialize_entry(name, value)?;
-        }
-        map.serialize_entry("complete", &hunted.is_complete)?;
-        let (name, done) = &hunted.done;
-        map.serialize_entry(name, done)?;
-        map.serialize_entry("verdict", verdict.word())?;
-        if let Some(path) = asked.resume {
-            map.serialize_entry("kept", &shown(path))?;
-        }
-        let stored = hunted.found.iter().zip(files).map(|(quarry, file)| Stored(quarry, file));
-        map.serialize_entry("counterexamples", &stored.collect::<Vec<_>>())?;
-        map.end()
-    }
+/// The JSON of a hunt.
+#[derive(JsonSchema, Serialize)]
+pub(super) struct Printed<'a> {
+    scheme: &'static Profile,
+    rule: RuleId,
+    robots: u64,
+    #[serde(flatten)]
+    facts: &'a Facts,
+    complete: bool,
+    #[serde(flatten)]
+    done: Done,
+    verdict: &'static str,
+    /// Where the hunt is kept.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kept: Option<String>,
+    counterexamples: Vec<Stored<'a>>,
 }
 
-impl Serialize for Stored<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self(quarry, file) = self;
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("clause", quarry.clause)?;
-        for (name, value) in &quarry.facts {
-            map.serialize_entry(name, value)?;
-        }
-        map.serialize_entry("file", file)?;
-        map.end()
-    }
+/// A counterexample, and where it stands.
+#[derive(JsonSchema, Serialize)]
+struct Stored<'a> {
+    clause: &'static str,
+    #[serde(flatten)]
+    size: RunSize,
+    file: &'a Option<String>,
 }
 
 /// Whoever watches a hunt at a terminal.
@@ -266,7 +254,7 @@ impl Found<'_> {
         };
         let told = Told { asked, hunted, verdict, files };
         match format {
-            Format::Json => out.json(&told)?,
+            Format::Json => out.json(&told.printed())?,
             Format::Text => out.text(told.text()?)?,
             Format::Github => out.text(findings::github(&told.findings()?, &told.headline()))?,
             Format::Junit => out.text(findings::junit("hunt", &told.findings()?)?)?,
@@ -292,14 +280,34 @@ fn stored(
 }
 
 /// What is told of a plan, for programs.
-#[derive(Serialize)]
-struct Planned<'a> {
+#[derive(JsonSchema, Serialize)]
+pub(super) struct Planned<'a> {
     moves: u64,
     of: &'static str,
     left: &'a [u64],
 }
 
 impl Told<'_> {
+    /// What a program is told.
+    fn printed(&self) -> Printed<'_> {
+        let Self { asked, hunted, verdict, files } = self;
+        let stored = |(quarry, file)| {
+            let &Quarry { clause, facts: size, .. } = quarry;
+            Stored { clause, size, file }
+        };
+        Printed {
+            scheme: asked.scheme,
+            rule: asked.rule,
+            robots: hunted.robots,
+            facts: &hunted.facts,
+            complete: hunted.is_complete,
+            done: hunted.done,
+            verdict: verdict.word(),
+            kept: asked.resume.map(shown),
+            counterexamples: hunted.found.iter().zip(files).map(stored).collect(),
+        }
+    }
+
     /// What was searched, and what follows from it.
     fn headline(&self) -> String {
         let Asked { scheme, rule, .. } = self.asked;

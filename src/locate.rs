@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{Point, Signal};
@@ -117,8 +118,8 @@ fn trials(text: &str) -> Result<u32, String> {
 const SQUARE: [Point; 3] = [Point::new(0.0, 0.0), Point::new(20.0, 0.0), Point::new(0.0, 20.0)];
 
 /// The JSON of trials.
-#[derive(Serialize)]
-struct Located<'a> {
+#[derive(JsonSchema, Serialize)]
+pub(super) struct Located<'a> {
     #[serde(flatten)]
     setting: &'a Setting,
     #[serde(flatten)]
@@ -126,8 +127,8 @@ struct Located<'a> {
 }
 
 /// The JSON of measurements.
-#[derive(Serialize)]
-struct Fixes<'a> {
+#[derive(JsonSchema, Serialize)]
+pub(super) struct Fixes<'a> {
     solver: Solver,
     noise_db: f64,
     exponent: f64,

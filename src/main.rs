@@ -20,6 +20,8 @@ mod replay;
 mod report;
 mod reproduce;
 mod rescue;
+#[cfg(test)]
+mod schemas;
 mod shards;
 mod show;
 mod threads;

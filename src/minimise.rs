@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
+use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_proofs::words::counted;
 
@@ -44,8 +45,8 @@ pub(super) struct Minimise {
     format: FormatArgs,
 }
 
-#[derive(Serialize)]
-struct Minimised {
+#[derive(JsonSchema, Serialize)]
+pub(super) struct Minimised {
     scheme: &'static Profile,
     rule: RuleId,
     clause: ClauseId,

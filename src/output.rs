@@ -6,6 +6,7 @@ use std::fmt;
 use std::io::{self, BufWriter, ErrorKind, StdoutLock, Write};
 use std::mem;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{SCHEMA_VERSION, complain};
@@ -21,8 +22,8 @@ pub(super) struct Output {
 }
 
 /// What every JSON object begins with.
-#[derive(Serialize)]
-struct Versioned<'a, T> {
+#[derive(JsonSchema, Serialize)]
+pub(super) struct Versioned<'a, T> {
     schema_version: u32,
     #[serde(flatten)]
     content: &'a T,

@@ -8,6 +8,7 @@ use std::str::FromStr;
 use std::time::Instant;
 
 use clap::Args;
+use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_proofs::clause::Clause;
 use tautline_proofs::decide::Seen;
@@ -69,15 +70,15 @@ pub(super) struct Prove {
     format: FormatArgs,
 }
 
-#[derive(Serialize)]
-struct Ledger {
+#[derive(JsonSchema, Serialize)]
+pub(super) struct Ledger {
     clauses: Vec<Line>,
     as_registered: bool,
     /// Whether a search was cut off for want of memory.
     out_of_memory: bool,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct Line {
     id: &'static str,
     rule: &'static str,
@@ -95,7 +96,7 @@ struct Line {
     seconds: f64,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct Mutants {
     killed: usize,
     of: usize,

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::Args;
+use schemars::JsonSchema;
 use serde::ser::{Error, SerializeSeq};
 use serde::{Serialize, Serializer};
 use tautline_kernel::ground::Area;
@@ -93,8 +94,8 @@ const SHOWN: u32 = 100;
 /// Robots that the judge can judge, over all team moves of a counterexample: all of them are held.
 const MAX_JUDGED: usize = 1 << 22;
 
-#[derive(Serialize)]
-struct Replayed<'a> {
+#[derive(JsonSchema, Serialize)]
+pub(super) struct Replayed<'a> {
     #[serde(flatten)]
     run: Summary<'a>,
     /// The clause that the file says it is a counterexample to; for a chain the judge agrees.
@@ -102,6 +103,7 @@ struct Replayed<'a> {
     /// Of a scheme that this program does not know, that its rule was not run.
     #[serde(skip_serializing_if = "Option::is_none")]
     is_rule_run: Option<bool>,
+    #[schemars(with = "Vec<StoredMove>")]
     moves: ShownMoves<'a>,
 }
 
@@ -127,8 +129,8 @@ impl Serialize for ShownMoves<'_> {
     }
 }
 
-#[derive(Serialize)]
-struct Refuted {
+#[derive(JsonSchema, Serialize)]
+pub(super) struct Refuted {
     file: String,
     counterexample_to: &'static str,
     rule: &'static str,

@@ -8,6 +8,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::error::ErrorKind;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, Subcommand};
 use indicatif::ProgressBar;
+use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::words::counted;
@@ -61,14 +62,14 @@ struct Wanted {
     format: FormatArgs,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct Listed {
     id: &'static str,
     shows: &'static str,
 }
 
-#[derive(Serialize)]
-struct List {
+#[derive(JsonSchema, Serialize)]
+pub(super) struct List {
     reproductions: Vec<Listed>,
 }
 
@@ -130,8 +131,8 @@ impl Wanted {
 }
 
 /// What is told of a plan, for programs.
-#[derive(Serialize)]
-struct Planned {
+#[derive(JsonSchema, Serialize)]
+pub(super) struct Planned {
     jobs: usize,
 }
 

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::Args;
+use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_proofs::mrc::Demand;
 use tautline_proofs::words::counted;
@@ -188,8 +189,8 @@ impl Seeds {
 }
 
 /// The JSON of rescues.
-#[derive(Serialize)]
-struct Rescued<'a> {
+#[derive(JsonSchema, Serialize)]
+pub(super) struct Rescued<'a> {
     #[serde(flatten)]
     setting: &'a Setting,
     /// The first and the last.

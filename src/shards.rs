@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::{Args, value_parser};
-use serde::ser::SerializeMap;
-use serde::{Serialize, Serializer};
+use schemars::JsonSchema;
+use serde::Serialize;
 use serde_json::value::RawValue;
 use tautline_sim::explore::hunt::Asked;
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::part::{KEEP_EVERY, Part};
+use tautline_sim::part::{Facts, KEEP_EVERY, Part};
 use tautline_sim::shards::{Gap, Keeper, Of, Plan, merge_hunt, merge_table, restored};
 
 use super::findings::FormatArgs;
@@ -69,8 +69,8 @@ impl ShardArgs {
 }
 
 /// What is told of a new plan.
-#[derive(Serialize)]
-struct Planned<'a, F: Serialize> {
+#[derive(JsonSchema, Serialize)]
+pub(super) struct Planned<'a, F> {
     plan: String,
     shards: u32,
     #[serde(flatten)]
@@ -97,27 +97,15 @@ pub(super) fn plan(
 }
 
 /// How far a shard is, and where it is kept.
-struct Told<'a> {
-    plan: &'a Plan,
+#[derive(JsonSchema, Serialize)]
+pub(super) struct Told {
+    plan: String,
     shard: u32,
-    part: &'a dyn Part,
+    shards: u32,
+    #[serde(flatten)]
+    facts: Facts,
+    complete: bool,
     kept: String,
-}
-
-impl Serialize for Told<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self { plan, shard, part, kept } = self;
-        let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("plan", &shown(plan.path()))?;
-        map.serialize_entry("shard", shard)?;
-        map.serialize_entry("shards", &plan.shards)?;
-        for (name, value) in part.facts() {
-            map.serialize_entry(name, &value)?;
-        }
-        map.serialize_entry("complete", &part.is_done())?;
-        map.serialize_entry("kept", kept)?;
-        map.end()
-    }
 }
 
 /// Runs a shard to its end, or until it is to stop.
@@ -154,13 +142,20 @@ pub(super) fn run<'p>(
     }
     spinner.finish_and_clear();
     keeper.keep(&*part)?;
-    let told = Told { plan, shard, part: &*part, kept: shown(&path) };
+    let kept = shown(&path);
     match format {
-        Format::Json => out.json(&told)?,
+        Format::Json => out.json(&Told {
+            plan: shown(plan.path()),
+            shard,
+            shards: plan.shards,
+            facts: part.facts(),
+            complete: part.is_done(),
+            kept,
+        })?,
         Format::Text => {
             let end = if part.is_done() { "done" } else { "ended before its bound: run it again to go on" };
             let (words, of) = (part.words(), plan.shards);
-            out.text(format_args!("Shard {shard} of {of}: {words}; {end}.\nIt is kept in {}.\n", told.kept))?;
+            out.text(format_args!("Shard {shard} of {of}: {words}; {end}.\nIt is kept in {kept}.\n"))?;
         }
     }
     Ok(if part.is_done() { Exit::Expected } else { Exit::Unfinished })

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_kernel::ground::Cell;
 
@@ -12,6 +13,7 @@ use tautline_sim::aside::Aside;
 use tautline_sim::draw::svg::{self, Panel};
 use tautline_sim::draw::{self, Environment};
 use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::schema::CellWritten;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -37,27 +39,29 @@ pub(super) struct Show {
     format: FormatArgs,
 }
 
-#[derive(Serialize)]
-struct Shown<'a> {
+#[derive(JsonSchema, Serialize)]
+pub(super) struct Shown<'a> {
     layout: &'a str,
     width: i16,
     height: i16,
     free_cells: usize,
     walls: usize,
+    #[schemars(with = "CellWritten")]
     base: Cell,
     robots: Option<u16>,
     drawing: String,
 }
 
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct ShownEnvironment {
     symbol: &'static str,
     /// Columns and rows from the centre.
+    #[schemars(with = "Vec<CellWritten>")]
     offsets: Vec<Cell>,
 }
 
-#[derive(Serialize)]
-struct ShownEnvironments {
+#[derive(JsonSchema, Serialize)]
+pub(super) struct ShownEnvironments {
     environments: [ShownEnvironment; 3],
 }
 

@@ -3,7 +3,9 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use serde::Serialize;
 use tautline_sim::explore::hunt::{Asked, Far, Hunter, Quarry, Shown};
 use tautline_sim::fault::Fault;
 use tautline_sim::layout::Size;
@@ -155,10 +157,9 @@ pub(crate) const fn verdict(is_unbroken: bool, is_complete: bool) -> &'static st
 }
 
 /// Numbers and words by their names.
-fn facts(py: Python<'_>, facts: &[tautline_sim::explore::hunt::Fact]) -> PyResult<Py<PyAny>> {
-    let map: serde_json::Map<String, serde_json::Value> =
-        facts.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect();
-    Ok(py.import("json")?.call_method1("loads", (serde_json::Value::Object(map).to_string(),))?.unbind())
+fn facts(py: Python<'_>, facts: &impl Serialize) -> PyResult<Py<PyAny>> {
+    let text = serde_json::to_string(facts).map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+    Ok(py.import("json")?.call_method1("loads", (text,))?.unbind())
 }
 
 fn told(py: Python<'_>, quarry: &Quarry) -> PyResult<Py<Counterexample>> {

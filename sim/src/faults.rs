@@ -5,11 +5,14 @@ use std::fmt;
 use std::num::NonZeroU32;
 use std::str::FromStr;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::{Cell, Edge, Side};
 
+use crate::schema::CellWritten;
+
 /// A robot dies on its way: it does not go in this team move, and says nothing from then on.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Failure {
     /// The robot, numbered from 1, the base.
@@ -48,10 +51,11 @@ impl FromStr for Failure {
 }
 
 /// A wall appears on a side of a cell: from this team move on no robot crosses it.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Appearing {
     /// The cell.
+    #[schemars(with = "CellWritten")]
     pub cell: Cell,
     /// Which side of it.
     pub side: Compass,
@@ -61,7 +65,7 @@ pub struct Appearing {
 }
 
 /// A side of a cell by its letter.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub enum Compass {
     /// East.
     E,
@@ -136,7 +140,7 @@ impl FromStr for Appearing {
 }
 
 /// In what order the robots go in a team move.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Going {
     /// All at once.
@@ -154,7 +158,7 @@ impl Going {
 }
 
 /// What has failed in a run, and what came of it.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize)]
 pub struct Faults {
     /// Bytes that one robot said and another one did not hear.
     pub lost_bytes: u64,

@@ -18,6 +18,7 @@ pub mod radio;
 pub mod reading;
 pub mod rescue;
 pub mod rivals;
+pub mod schema;
 pub mod shards;
 pub mod stats;
 pub mod tables;

@@ -2,14 +2,27 @@
 
 use std::time::Duration;
 
+use schemars::JsonSchema;
 use serde::Serialize;
-use serde_json::Value;
 use serde_json::value::{RawValue, to_raw_value};
 
 use crate::fault::{Fault, Halt};
 
 /// How often work that can be taken up again is kept in its file.
 pub const KEEP_EVERY: Duration = Duration::from_secs(5);
+
+/// How much of a part is done, under the names that JSON has for it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
+#[serde(untagged)]
+#[expect(missing_docs, reason = "the fields are named as in the text for people")]
+pub enum Facts {
+    /// Of a hunt of a chain.
+    Chain { runs: u64, moves: u64 },
+    /// Of a hunt on sensor floors.
+    Floor { layouts: usize, moves: u64 },
+    /// Of a table.
+    Table { jobs: usize, jobs_done: usize },
+}
 
 /// A part of some work.
 pub trait Part {
@@ -29,7 +42,7 @@ pub trait Part {
     fn is_done(&self) -> bool;
 
     /// How much is done, for programs.
-    fn facts(&self) -> Vec<(&'static str, Value)>;
+    fn facts(&self) -> Facts;
 
     /// The same for people.
     fn words(&self) -> String;

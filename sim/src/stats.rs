@@ -1,13 +1,14 @@
 //! Means and shares with their 95 % intervals. Everything is summed exactly or in the order given, and no step but
 //! division and square root rounds, so results are the same on every machine and any number of threads.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The normal distribution's 97.5 % quantile.
 const NORMAL: f64 = 1.959_964;
 
 /// A mean or a share, and where 95 % of such intervals have the true one.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Estimate {
     /// How many values it is of.
     pub count: u32,
@@ -101,7 +102,7 @@ impl Estimate {
 }
 
 /// Exact sums over whole numbers, to be added up in any order.
-#[derive(Clone, Copy, PartialEq, Eq, Default, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Moments {
     count: u32,
     sum: i128,

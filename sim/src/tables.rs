@@ -27,6 +27,7 @@ pub mod rivals;
 use std::fmt;
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use tautline_proofs::engine::tree::Progress;
@@ -77,7 +78,7 @@ pub trait Table: fmt::Debug + Sync + 'static {
     /// What comes of a job.
     type Measured: Serialize + DeserializeOwned + Send;
     /// The whole table. Its members follow `schema_version` and `id` in the JSON.
-    type Merged: Serialize;
+    type Merged: JsonSchema + Serialize;
 
     /// Its name, and what a person is told of it.
     fn about(&self) -> About;

@@ -11,7 +11,7 @@ use crate::common::Unwatched;
 use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule;
 use tautline_sim::counterexample::refutation;
-use tautline_sim::explore::hunt::{Asked, Hunted, Quarry, Shown};
+use tautline_sim::explore::hunt::{Asked, Hunted, Quarry, RunSize, Shown};
 use tautline_sim::explore::kit::{APART, CONNECTED, CONTACT, ENDS, KIT};
 use tautline_sim::explore::{Report, RuleName, Setup, Stopped, explore};
 use tautline_sim::fault::Fault;
@@ -254,11 +254,12 @@ fn hunted(asked: &Asked<'_>) -> Result<Hunted, Fault> {
 }
 
 /// The clauses that are broken, each with its columns, rows, walls and drives.
-fn broken(hunted: &Hunted) -> Vec<(&'static str, [u64; 4])> {
-    let size = |facts: &[(&str, serde_json::Value)]| -> [u64; 4] {
-        std::array::from_fn(|place| facts[place].1.as_u64().expect("a number"))
+fn broken(hunted: &Hunted) -> Vec<(&'static str, [usize; 4])> {
+    let size = |quarry: &Quarry| match quarry.facts {
+        RunSize::Area { columns, rows, walls, steps } => [columns, rows, walls, steps],
+        RunSize::Chain { .. } | RunSize::Floor { .. } => panic!("an area"),
     };
-    hunted.found.iter().map(|quarry| (quarry.clause, size(&quarry.facts))).collect()
+    hunted.found.iter().map(|quarry| (quarry.clause, size(quarry))).collect()
 }
 
 /// Runs each counterexample that a file tells again: it breaks its clause.

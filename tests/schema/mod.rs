@@ -1,131 +1,94 @@
-//! JSON Schemas, from what the program prints. A schema has every field and type that occurred; a field that was not
-//! always there is not required, and one that a later version adds is allowed. The committed file is compared with a fresh
-//! one, so no field comes, goes or changes its type without a change that a person reviews.
+//! Whether JSON is as a schema in docs/schemas says. Of JSON Schema this knows the words that those schemas have: on any other it
+//! panics.
 
-use std::collections::BTreeMap;
-use std::env;
 use std::fs;
 use std::path::Path;
 
-use serde_json::{Map, Value, json};
+use serde_json::Value;
 
-/// What values are like.
-#[derive(Clone, PartialEq, Eq, Default, Debug)]
-pub(crate) struct Shape {
-    /// Names of the simple types that occurred.
-    simple: Vec<&'static str>,
-    items: Option<Box<Shape>>,
-    object: Option<Object>,
-}
-
-#[derive(Clone, PartialEq, Eq, Default, Debug)]
-struct Object {
-    /// Each with whether it was always there.
-    fields: BTreeMap<String, (Shape, bool)>,
-}
-
-impl Shape {
-    /// Of all these values.
-    pub(crate) fn of<'a>(values: impl IntoIterator<Item = &'a Value>) -> Self {
-        values.into_iter().map(Self::one).reduce(Self::or).unwrap_or_default()
-    }
-
-    fn one(value: &Value) -> Self {
-        let simple = |name| Self { simple: vec![name], ..Self::default() };
-        match value {
-            Value::Null => simple("null"),
-            Value::Bool(_) => simple("boolean"),
-            Value::Number(number) if number.is_f64() => simple("number"),
-            Value::Number(_) => simple("integer"),
-            Value::String(_) => simple("string"),
-            Value::Array(items) => Self { items: Some(Box::new(Self::of(items))), ..Self::default() },
-            Value::Object(fields) => {
-                let fields = fields.iter().map(|(name, value)| (name.clone(), (Self::one(value), true)));
-                Self { object: Some(Object { fields: fields.collect() }), ..Self::default() }
-            }
-        }
-    }
-
-    fn or(mut self, other: Self) -> Self {
-        self.simple.extend(other.simple);
-        self.simple.sort_unstable();
-        self.simple.dedup();
-        self.items = match (self.items, other.items) {
-            (Some(one), Some(other)) => Some(Box::new(one.or(*other))),
-            (one, other) => one.or(other),
-        };
-        self.object = match (self.object, other.object) {
-            (Some(one), Some(other)) => Some(one.or(other)),
-            (one, other) => one.or(other),
-        };
-        self
-    }
-
-    fn schema(&self) -> Value {
-        let mut types: Vec<&str> = self.simple.clone();
-        // A whole number is a number, too.
-        if types.contains(&"number") {
-            types.retain(|name| *name != "integer");
-        }
-        let mut schema = Map::new();
-        if let Some(items) = &self.items {
-            types.push("array");
-            schema.insert("items".to_owned(), items.schema());
-        }
-        if let Some(Object { fields }) = &self.object {
-            types.push("object");
-            let required = fields.iter().filter(|(_, (_, is_always))| *is_always).map(|(name, _)| name);
-            let properties = fields.iter().map(|(name, (shape, _))| (name.clone(), shape.schema()));
-            schema.insert("required".to_owned(), required.cloned().collect());
-            schema.insert("properties".to_owned(), Value::Object(properties.collect()));
-        }
-        let types = if let [one] = types[..] { json!(one) } else { json!(types) };
-        if types != json!([]) {
-            schema.insert("type".to_owned(), types);
-        }
-        Value::Object(schema)
-    }
-}
-
-impl Object {
-    fn or(mut self, other: Self) -> Self {
-        for (name, (_, is_always)) in &mut self.fields {
-            *is_always &= other.fields.contains_key(name);
-        }
-        for (name, (shape, is_always)) in other.fields {
-            let known = self.fields.remove(&name);
-            let merged =
-                known.map_or((shape.clone(), false), |(known, both)| (known.or(shape), both && is_always));
-            self.fields.insert(name, merged);
-        }
-        self
-    }
-}
-
-/// The command that writes the schemas anew.
-const RENEW: &str = "SCHEMAS_UPDATE=always cargo test --workspace schema";
-
-/// The committed schema of this name is that of these values.
-pub(crate) fn is_up_to_date(name: &str, title: &str, values: &[Value]) {
-    let mut schema = Map::new();
-    schema.insert("$schema".to_owned(), json!("https://json-schema.org/draft/2020-12/schema"));
-    schema.insert("title".to_owned(), json!(title));
-    if let Value::Object(fields) = Shape::of(values).schema() {
-        schema.extend(fields);
-    }
-    let fresh = serde_json::to_string_pretty(&schema).expect("JSON") + "\n";
+/// Panics unless `value` is as docs/schemas/`name`.json says.
+pub(crate) fn check(name: &str, value: &Value, printed_by: &str) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let root = if root.join("docs").is_dir() { root } else { root.parent().expect("the workspace") };
-    let path = root.join(format!("docs/schemas/{name}.json"));
-    if env::var_os("SCHEMAS_UPDATE").is_some_and(|value| value == "always") {
-        fs::write(&path, fresh).expect("a file that can be written");
-        return;
+    let schema = fs::read_to_string(root.join(format!("docs/schemas/{name}.json"))).expect("a schema");
+    let schema = serde_json::from_str(&schema).expect("JSON");
+    if let Err(what) = is_as(&schema, value) {
+        panic!("{printed_by}: not as docs/schemas/{name}.json says: {what}\n{value}");
     }
-    // A checkout may have changed the ends of lines.
-    let committed = fs::read_to_string(&path).unwrap_or_default().replace("\r\n", "\n");
-    assert!(
-        committed == fresh,
-        "what is printed is not as docs/schemas/{name}.json says. If that is meant, write it anew with\n    {RENEW}\nand let \
-         schema_version grow if a field has gone or changed"
-    );
+}
+
+/// What of `value` is not as `schema` says.
+pub(crate) fn is_as(schema: &Value, value: &Value) -> Result<(), String> {
+    let words = match schema {
+        Value::Bool(true) => return Ok(()),
+        Value::Object(words) => words,
+        _ => panic!("no schema: {schema}"),
+    };
+    words.iter().try_for_each(|(word, said)| {
+        is_so(word, said, schema, value).map_err(|what| format!("{word}: {what}"))
+    })
+}
+
+fn is_so(word: &str, said: &Value, schema: &Value, value: &Value) -> Result<(), String> {
+    let or = |is_so: bool| if is_so { Ok(()) } else { Err(format!("{value} is not {said}")) };
+    let list = || said.as_array().expect("a list");
+    let fitting = || list().iter().filter(|schema| is_as(schema, value).is_ok()).count();
+    let each = |mut items: &mut dyn Iterator<Item = (&Value, &Value)>| {
+        Iterator::try_for_each(&mut items, |(schema, item)| is_as(schema, item))
+    };
+    let items = value.as_array().map_or(&[][..], Vec::as_slice);
+    match word {
+        "$schema" | "title" => Ok(()),
+        "type" => {
+            or(said.as_array().map_or(std::slice::from_ref(said), Vec::as_slice).iter().any(
+                |name| match name.as_str().expect("a name") {
+                    "null" => value.is_null(),
+                    "boolean" => value.is_boolean(),
+                    "integer" => value.is_i64() || value.is_u64(),
+                    "number" => value.is_number(),
+                    "string" => value.is_string(),
+                    "array" => value.is_array(),
+                    "object" => value.is_object(),
+                    name => panic!("no type: {name}"),
+                },
+            ))
+        }
+        "const" => or(value == said),
+        "enum" => or(list().contains(value)),
+        "minItems" => or(!value.is_array() || items.len() as u64 >= said.as_u64().expect("a number")),
+        "maxItems" => or(!value.is_array() || items.len() as u64 <= said.as_u64().expect("a number")),
+        "prefixItems" => each(&mut list().iter().zip(items)),
+        "items" => each(&mut items.iter().map(|item| (said, item))),
+        "required" => or(!value.is_object()
+            || list().iter().all(|name| value.get(name.as_str().expect("a name")).is_some())),
+        "properties" => {
+            let fields = said.as_object().expect("fields");
+            each(&mut fields.iter().filter_map(|(name, schema)| Some((schema, value.get(name)?))))
+        }
+        "additionalProperties" => {
+            let fields = value.as_object().into_iter().flatten();
+            each(
+                &mut fields
+                    .filter(|(name, _)| schema["properties"].get(name).is_none())
+                    .map(|(_, field)| (said, field)),
+            )
+        }
+        "anyOf" => or(fitting() > 0),
+        "oneOf" => or(fitting() == 1),
+        "allOf" => or(fitting() == list().len()),
+        _ => panic!("a word that is not known here: {word} in {schema}"),
+    }
+}
+
+/// A check that accepts all is none.
+#[test]
+fn a_value_with_a_wrong_field_is_refused() {
+    let schema = serde_json::json!({
+        "type": "object",
+        "properties": { "a": { "type": ["integer", "null"] }, "b": { "items": { "enum": ["x"] }, "type": "array" } },
+        "required": ["a"],
+    });
+    let fits = |text: &str| is_as(&schema, &serde_json::from_str(text).expect("JSON")).is_ok();
+    assert!(fits(r#"{"a":null,"more":1}"#) && fits(r#"{"a":1,"b":["x"]}"#));
+    assert!(!fits(r#"{"b":[]}"#) && !fits(r#"{"a":"1"}"#) && !fits(r#"{"a":1,"b":["y"]}"#) && !fits("[]"));
 }

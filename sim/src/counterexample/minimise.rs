@@ -24,6 +24,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::ops::Range;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
 
@@ -50,7 +51,7 @@ pub struct Minimal {
 }
 
 /// How large a run is.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 pub struct Extent {
     /// Robots, the base counted.
     pub robots: u16,

@@ -5,14 +5,13 @@ use std::fmt;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
-use serde_json::{Value, json};
 use tautline_proofs::engine::lots::{self, Look, Lots, Shard};
 use tautline_proofs::words::counted;
 
 use super::hunt::{Asked, Bound, Deals, Dealt, Far, Hunt, Hunted, Hunter};
 use crate::fault::{Fault, Halt};
 use crate::layout::Size;
-use crate::part::{Part, written};
+use crate::part::{Facts, Part, written};
 
 /// A hunt that looks at each layout by itself.
 pub(super) trait Each: fmt::Debug + Sync {
@@ -160,9 +159,9 @@ impl<L: Lots<Look: Serialize, Fault: Into<Fault>>> Part for Looks<L> {
         self.0.is_done()
     }
 
-    fn facts(&self) -> Vec<(&'static str, Value)> {
+    fn facts(&self) -> Facts {
         let (layouts, moves) = self.count();
-        vec![("layouts", json!(layouts)), ("moves", json!(moves))]
+        Facts::Floor { layouts, moves }
     }
 
     fn words(&self) -> String {

@@ -5,7 +5,8 @@ use std::fmt;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use serde_json::Value;
+use schemars::JsonSchema;
+use serde::Serialize;
 use serde_json::value::RawValue;
 use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::engine::tree::Progress;
@@ -224,8 +225,76 @@ pub enum Far<'a> {
     Words(String),
 }
 
-/// A number or a word with the name that it has in JSON.
-pub type Fact = (&'static str, Value);
+/// How much a hunt has searched, and within which bounds, under the names that JSON has for them.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
+#[serde(untagged)]
+#[expect(
+    missing_docs,
+    reason = "the fields are named as in the options of the hunts and in the text for people"
+)]
+pub enum Facts {
+    /// Of a chain in one area.
+    Chain { runs: u64, moves: u64, longest: u32, max_walls: u32 },
+    /// Of a chain in all areas of at most so many cells.
+    Areas { runs: u64, moves: u64, max_walls: u32, max_cells: u32, areas: Vec<Area> },
+    /// Of agents on a sensor floor.
+    Floor { size: String, layouts: u64, states: u64, steps: u64, max_misses: u8 },
+    /// Of robots that explore frontier cells.
+    Frontier {
+        size: String,
+        states: u64,
+        steps: u64,
+        max_walls: Option<u32>,
+        max_losses: u8,
+        error: Option<f64>,
+    },
+    /// Of robots that keep in touch.
+    Kit { size: String, states: u64, steps: u64, max_walls: Option<u32> },
+}
+
+/// How much was searched of the areas of one size.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
+pub struct Area {
+    /// Its columns.
+    pub columns: i16,
+    /// Its rows.
+    pub rows: i16,
+    /// Places of the base.
+    pub bases: u64,
+    /// The most walls up to which every layout was covered.
+    pub walls: u32,
+    /// Runs.
+    pub runs: u64,
+    /// Their team moves.
+    pub moves: u64,
+}
+
+/// The bound up to which every layout was covered, if any was.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Done {
+    /// So many walls.
+    WallsDone(Option<u32>),
+    /// Areas of so many cells.
+    CellsDone(Option<u32>),
+    /// So many missed sensors.
+    MissesDone(Option<u8>),
+    /// Layouts of so many nodes.
+    NodesDone(Option<usize>),
+}
+
+/// How large a run is, under the names that JSON has for it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
+#[serde(untagged)]
+#[expect(missing_docs, reason = "the fields are named as in the text for people")]
+pub enum RunSize {
+    /// Of a chain in one area: `runs` of them break the clause.
+    Chain { runs: u64, walls: usize, steps: usize },
+    /// Of robots in an area of its own.
+    Area { columns: usize, rows: usize, walls: usize, steps: usize },
+    /// Of agents on a sensor floor.
+    Floor { misses: usize, columns: i16, rows: i16, steps: u32 },
+}
 
 /// What came of a hunt.
 #[derive(Clone, Debug)]
@@ -233,11 +302,11 @@ pub struct Hunted {
     /// Robots.
     pub robots: u64,
     /// How much was searched, and within which bounds.
-    pub facts: Vec<Fact>,
+    pub facts: Facts,
     /// Whether every layout within the bounds was covered.
     pub is_complete: bool,
     /// The bound up to which every layout was covered, if any was.
-    pub done: Fact,
+    pub done: Done,
     /// The first line for people, behind the scheme and its rule.
     pub title: String,
     /// What was searched through, for the log.
@@ -254,7 +323,7 @@ pub struct Quarry {
     /// The clause.
     pub clause: &'static str,
     /// How large the run is.
-    pub facts: Vec<Fact>,
+    pub facts: RunSize,
     /// The same for people, behind the clause.
     pub title: String,
     /// The run.

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 use tautline_kernel::chain::Rule;
 use tautline_proofs::chain::Observed;
@@ -9,7 +10,7 @@ use tautline_proofs::chain::Observed;
 use crate::words::Worded;
 
 /// Whether a scheme is taken as its paper has it.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum RuleName {
     /// As the paper publishes it.

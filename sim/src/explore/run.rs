@@ -4,6 +4,7 @@
 use std::fmt;
 use std::num::NonZeroU32;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Area, Cell, Edge};
@@ -107,7 +108,7 @@ impl fmt::Debug for dyn Team + '_ {
 }
 
 /// When a run is stopped before it ends by itself.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Limits {
     /// When so much is explored.
@@ -119,7 +120,7 @@ pub struct Limits {
 }
 
 /// What a violation does to a run.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum OnViolation {
     /// The run goes on.
@@ -143,7 +144,7 @@ impl OnViolation {
 }
 
 /// A share of the free cells of the area.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, JsonSchema, Serialize, Deserialize)]
 pub enum Milestone {
     /// 50 %
     #[serde(rename = "50")]
@@ -194,7 +195,7 @@ pub enum End {
 }
 
 /// Why a run is over.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Stopped {
     /// Every cell of the area is explored.

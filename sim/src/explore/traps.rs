@@ -1,13 +1,12 @@
 //! Traps: the hunt of agents on a sensor floor. A [`Trap`] becomes the setup of agents in its layout, with the sensors that
 //! they miss written down.
 
-use serde_json::json;
 use tautline_proofs::floor::trap::{Bounds, End, Found, MAX_AGENTS, MAX_CELLS, Trap, Way};
 use tautline_proofs::words::counted;
 
 use super::agents::PREMATURE;
 use super::each::Each;
-use super::hunt::{Asked, Bound, Hunted, Quarry, Shown};
+use super::hunt::{Asked, Bound, Done, Facts, Hunted, Quarry, RunSize, Shown};
 use super::rule::RuleId;
 use super::run::{Limits, OnViolation};
 use super::setup::{Profile, Setup};
@@ -69,15 +68,9 @@ pub(super) fn hunted(asked: &Asked<'_>, found: &Found, what: &str) -> Result<Hun
     let (all_layouts, all_states) = (counted(layouts, "layout"), counted(states, what));
     Ok(Hunted {
         robots: agents.into(),
-        facts: vec![
-            ("size", json!(size.to_string())),
-            ("layouts", json!(layouts)),
-            ("states", json!(states)),
-            ("steps", json!(steps)),
-            ("max_misses", json!(max_misses)),
-        ],
+        facts: Facts::Floor { size: size.to_string(), layouts, states, steps, max_misses },
         is_complete: found.is_complete,
-        done: ("misses_done", json!(done)),
+        done: Done::MissesDone(done),
         title: format!(
             "{}{order}, at most {max_misses} missed, layouts up to {size}: {all_layouts}, {all_states}, {}",
             counted(agents, "agent"),
@@ -101,12 +94,7 @@ fn quarry(asked: &Asked<'_>, trap: &Trap) -> Result<Quarry, Fault> {
         End::Done => (PREMATURE.as_str(), Shown::Run(PREMATURE)),
         End::Endless => (ENDLESS, Shown::Endless),
     };
-    let facts = vec![
-        ("misses", json!(misses)),
-        ("columns", json!(width)),
-        ("rows", json!(height)),
-        ("steps", json!(moves)),
-    ];
+    let facts = RunSize::Floor { misses, columns: width, rows: height, steps: moves };
     let title = format!("{misses} missed, {width}x{height} cells, {}", counted(moves, "team move"));
     Ok(Quarry { clause, facts, title, setup: setup(asked.scheme, asked.rule, trap)?, shown })
 }

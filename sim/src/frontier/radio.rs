@@ -2,6 +2,7 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{Place, SIDE, Threshold};
@@ -14,7 +15,7 @@ use crate::layout::generate::{self, Probability};
 use crate::radio::deviation_db;
 
 /// What a run is told besides, if its scheme can be told that. The default is what it is without a word.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Options {
     /// Farther than so many cells no message is heard. Without it all are; robots that keep in touch hear 10 m, those of a pack 60 cells.

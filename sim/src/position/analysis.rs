@@ -1,13 +1,14 @@
 //! The analyses of positions, by nalgebra. The kernel says the same of two unknowns without matrices, and is compared with this.
 
 use nalgebra::{DMatrix, Matrix2, Vector2};
+use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_kernel::position::{Point, Signal, Symmetric};
 
 use crate::stats::decimals;
 
 /// An ellipse about a place.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Ellipse {
     /// Its middle, x and y in metres.
     pub middle_m: [f64; 2],

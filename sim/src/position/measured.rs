@@ -7,6 +7,7 @@ use std::io::{ErrorKind, Read};
 use std::ops::{Range as Bytes, RangeInclusive};
 use std::path::{Path, PathBuf};
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_kernel::position::{Estimate, Fix, Point, Range, Refusal, Signal};
 use tautline_proofs::engine::Seeded;
@@ -66,7 +67,7 @@ struct Readings {
 }
 
 /// The position of a fix.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Found {
     /// What the file calls the fix.
     pub fix: String,
@@ -75,7 +76,7 @@ pub struct Found {
 }
 
 /// A position, and how far it can be trusted where the way to it tells.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Place {
     /// Along +x, in metres.
     pub x_m: f64,

@@ -1,5 +1,6 @@
 //! The ways to a position, by name.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::position::{
@@ -11,7 +12,7 @@ use crate::explore::RuleName;
 use crate::words::Worded;
 
 /// A way from distances to a position.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Solver {
     /// Equations (5) to (8).

@@ -1,6 +1,7 @@
 //! Trials: a robot at random places measures its distances to anchors, and how far its position is from where it is.
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::position::{
@@ -76,7 +77,7 @@ impl Serialize for Anchors {
 }
 
 /// What is tried.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Setting {
     /// The anchors, x and y in metres.
     #[serde(rename = "anchors_m")]
@@ -85,6 +86,7 @@ pub struct Setting {
     pub at_m: Option<[f64; 2]>,
     /// How strength tells a distance.
     #[serde(flatten, serialize_with = "told")]
+    #[schemars(with = "Told")]
     pub signal: Signal,
     /// How a position is found.
     pub solver: Solver,
@@ -98,18 +100,19 @@ pub struct Setting {
     pub seed: u64,
 }
 
-/// A signal's noise and exponent.
+/// A signal as it is printed.
+#[derive(JsonSchema, Serialize)]
+struct Told {
+    noise_db: f64,
+    exponent: f64,
+}
+
 fn told<S: Serializer>(signal: &Signal, serializer: S) -> Result<S::Ok, S::Error> {
-    #[derive(Serialize)]
-    struct Told {
-        noise_db: f64,
-        exponent: f64,
-    }
     Told { noise_db: signal.noise_db(), exponent: signal.propagation().exponent() }.serialize(serializer)
 }
 
 /// What came of trials.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Report {
     /// Trials whose distances were refused; the numbers below are of the others.
     pub refused: u32,
@@ -135,7 +138,7 @@ pub struct Report {
 }
 
 /// A median, a 95th percentile and a root mean square.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Quantiles<T> {
     /// As many are below as above.
     pub median: T,
@@ -146,7 +149,7 @@ pub struct Quantiles<T> {
 }
 
 /// Distances, and the 95 % interval of each of their numbers.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Errors {
     /// The numbers.
     #[serde(flatten)]
@@ -159,7 +162,7 @@ pub struct Errors {
 ///
 /// With cells of side L, a fix that is wrong by at most E and moves that are wrong by at most D, each fix may be believed if 2E + D <
 /// L/2, and the place within a cell, the cell being counted by moves, if E + D < L/2. Here D is 0.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Advice {
     /// The shorter side of the rectangle that the anchors span, in metres.
     pub side_m: f64,

@@ -1,12 +1,13 @@
 //! Channels by name, as command lines and stored runs have them.
 
 use crate::words::Worded;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Channel, Shared};
 
 /// What lies between the nodes.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ChannelName {
     /// Whoever is in range hears at once.

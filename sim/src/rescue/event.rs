@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::radio::Point;
@@ -16,7 +17,7 @@ pub(super) fn millimetres(at: Point) -> Millimetres {
 
 /// The number of a robot, a WFR, or an event at one: counted from 0 here, and from 1 wherever people read it, in text and in
 /// JSON.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(try_from = "usize", into = "usize")]
 pub struct Ordinal(pub usize);
 
@@ -41,7 +42,7 @@ impl fmt::Display for Ordinal {
 }
 
 /// Something that happens. Nodes are numbered from 0, as in the field.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 #[expect(missing_docs, reason = "the fields are the numbers of who takes part")]
 pub enum Event {
@@ -127,7 +128,7 @@ impl fmt::Display for Event {
 }
 
 /// When something happened.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Logged {
     /// In nanoseconds.

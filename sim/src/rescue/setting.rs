@@ -1,5 +1,6 @@
 //! What a rescue is made of, as the user gives it: plain numbers, which are checked when the field is laid out.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Problem;
@@ -17,7 +18,7 @@ pub const MAX_WFRS: usize = 16;
 pub const MAX_EVENTS: usize = 16;
 
 /// How calls are broadcast.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SchemeName {
     /// k-farthest-node forwarding.
@@ -43,7 +44,7 @@ impl Worded for SchemeName {
 }
 
 /// When something happens at the WFRs for the first time.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CallTimes {
     /// At all in the beginning.
@@ -60,7 +61,7 @@ impl Worded for CallTimes {
 }
 
 /// A rescue, but for its seed.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Setting {
     /// MRC as published, or repaired.

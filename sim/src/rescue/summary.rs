@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_proofs::engine::Seeded;
 use tautline_proofs::mrc::Demand;
@@ -14,7 +15,7 @@ use crate::fault::{Fault, Halt, Watch};
 use crate::stats::{Estimate, rounded};
 
 /// What came of many rescues.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Summary {
     /// The share of all nodes that the first call for an event reaches, the WFR included.
     pub reach: Estimate,
@@ -38,7 +39,7 @@ pub struct Summary {
 }
 
 /// What became of the events at the WFRs.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize)]
 pub struct Assignments {
     /// WFRs in all.
     pub wfrs: u32,
@@ -59,7 +60,7 @@ pub struct Assignments {
 }
 
 /// When robots failed.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize)]
 pub struct RobotsFailed {
     /// While they had set out for a WFR and had not come.
     pub on_their_way: u32,
@@ -70,7 +71,7 @@ pub struct RobotsFailed {
 }
 
 /// A clause that was broken.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Broken {
     /// Its id.
     pub clause: &'static str,

@@ -13,6 +13,7 @@
 
 use std::fmt;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::chain::MAX_ROBOTS;
 use tautline_kernel::ground::Circle;
@@ -20,7 +21,7 @@ use tautline_kernel::ground::Circle;
 use crate::words::Worded;
 
 /// Which two robots have a link.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Links {
     /// One is in E_S of the other.
@@ -48,7 +49,7 @@ impl Links {
 }
 
 /// Whether robots may plan to share a cell outside the base.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cells {
     /// They may not.
@@ -65,7 +66,7 @@ impl Worded for Cells {
 }
 
 /// What a robot can do in a team move.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Moves {
     /// Cross one of four sides.
@@ -75,7 +76,7 @@ pub enum Moves {
 }
 
 /// Which team moves are compared.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Search {
     /// All of them: Full search.
@@ -85,7 +86,7 @@ pub enum Search {
 }
 
 /// What the null move is to a pool.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Null {
     /// It stands by: it is made if all that are drawn have more faults than it has. So a team leaves a place where every
@@ -96,7 +97,7 @@ pub enum Null {
 }
 
 /// How a robot's next cell is valued.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Weights {
     /// The price of a side on the shortest way from there to an unexplored cell, over sides not known to be walls.
     pub distance: f64,
@@ -105,7 +106,7 @@ pub struct Weights {
 }
 
 /// What a team does that has gained nothing for a while: neither an explored cell nor a wall.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Deadlock {
     /// It goes on: only ties are at random.
@@ -120,7 +121,7 @@ pub enum Deadlock {
 }
 
 /// Everything that a rival is told.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Parameters {
     /// Which team moves are compared.
     pub search: Search,

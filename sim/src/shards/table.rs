@@ -3,12 +3,11 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
-use serde_json::{Value, json};
 use tautline_proofs::words::counted;
 
 use super::{Done, Of, Plan};
 use crate::fault::{Fault, Halt};
-use crate::part::{Part, written};
+use crate::part::{Facts, Part, written};
 use crate::tables::{Asked, find};
 
 /// Jobs for each thread that are measured before the results are kept.
@@ -125,8 +124,8 @@ impl Part for Jobs<'_> {
         self.results.len() == self.all.len()
     }
 
-    fn facts(&self) -> Vec<(&'static str, Value)> {
-        vec![("jobs", json!(self.all.len())), ("jobs_done", json!(self.results.len()))]
+    fn facts(&self) -> Facts {
+        Facts::Table { jobs: self.all.len(), jobs_done: self.results.len() }
     }
 
     fn words(&self) -> String {

@@ -8,6 +8,7 @@
 mod drawn;
 mod printed;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::Cell;
 use tautline_kernel::{ants, bricks};
@@ -29,7 +30,7 @@ use crate::reading::{number, within};
 use crate::stats::Estimate;
 
 /// A scheme under one of its rules.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 pub struct Team {
     /// The scheme.
     pub scheme: &'static Profile,
@@ -169,7 +170,7 @@ impl Figure {
 }
 
 /// How much is measured.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Settings {
     /// Layouts at each point.
     pub layouts: u32,
@@ -194,7 +195,7 @@ pub struct Job {
 }
 
 /// The whole figure.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Merged {
     layouts: u32,
     seed: u64,
@@ -206,7 +207,7 @@ pub struct Merged {
 }
 
 /// A team at a point.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Line {
     /// Who explores.
     #[serde(flatten)]
@@ -228,7 +229,7 @@ pub struct Line {
 }
 
 /// How long something took; of how many runs, says the count.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Duration {
     /// In team moves.
     pub team_moves: Estimate,
@@ -237,14 +238,14 @@ pub struct Duration {
 }
 
 /// When something was so.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub(super) struct Moment {
     pub(super) team_moves: u32,
     milliseconds: u64,
 }
 
 /// What came of one run.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Outcome {
     pub(super) cells: u32,
     explored: u32,

@@ -3,6 +3,7 @@
 //! straight ahead. The pattern here is the one that [`Antenna`] says. Beside it: how far the strongest of 24 directions is
 //! off the node's, by the noise of the measurements, from nodes in every direction.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::tan::{Heading, Scan};
@@ -30,7 +31,7 @@ const NOISES_DB: [f64; 5] = [0.0, 0.5, 1.0, 2.0, 4.0];
 pub struct AntennaFig4;
 
 /// What is measured.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Settings {
     /// How far off the node is, in metres.
     pub distance_m: f64,
@@ -55,7 +56,7 @@ pub struct Job {
 }
 
 /// The whole figure.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Merged {
     distance_m: f64,
     scans: u32,
@@ -67,7 +68,7 @@ pub struct Merged {
 }
 
 /// What is heard at an angle.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Angle {
     /// Between the antenna and the node.
     pub degrees: i32,
@@ -76,7 +77,7 @@ pub struct Angle {
 }
 
 /// How well a scan tells where a node is.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Noise {
     /// The standard deviation, in dB.
     pub noise_db: f64,

@@ -3,6 +3,7 @@
 
 use std::fmt::Write;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::chain::breach::Breach;
@@ -17,20 +18,21 @@ use crate::columns::{Column, Columns, Width};
 use crate::explore::RuleName;
 use crate::explore::chain::hunt::start;
 use crate::fault::Halt;
+use crate::schema::CellWritten;
 
 /// The atlas.
 #[derive(Clone, Copy, Debug)]
 pub struct Atlas;
 
 /// How far is searched.
-#[derive(Clone, Copy, PartialEq, Eq, Default, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Settings {
     /// Which sheets.
     pub depth: Depth,
 }
 
 /// How many walls are allowed.
-#[derive(Clone, Copy, PartialEq, Eq, Default, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug, JsonSchema, Serialize, Deserialize)]
 pub enum Depth {
     /// What takes seconds.
     #[default]
@@ -66,14 +68,14 @@ pub struct Searched {
 }
 
 /// The whole atlas.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 pub struct Merged {
     /// Sheet by sheet, each under every rule.
     pub lines: Vec<Line>,
 }
 
 /// A number of robots, and the bound on the walls that one run meets.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Sheet {
     /// Robots, base included.
     pub robots: u16,
@@ -85,7 +87,7 @@ pub struct Sheet {
 
 /// Whether runs are counted that miss a cell which is not within reach but which a chain could reach all the same: that
 /// takes long.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub enum Reach {
     /// They are.
     Counted,
@@ -118,7 +120,7 @@ const DEEP: [Sheet; 6] = [
 ];
 
 /// One rule on one sheet.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 pub struct Line {
     /// As published or repaired.
     pub rule: RuleName,
@@ -130,6 +132,7 @@ pub struct Line {
     pub edges: u32,
     /// Layouts with at most so many walls: all of them are covered, and those with more of which no run meets more.
     #[serde(serialize_with = "as_string")]
+    #[schemars(with = "String")]
     pub layouts: u128,
     /// Leaves of the tree of runs.
     pub runs: u64,
@@ -148,13 +151,14 @@ fn as_string<S: serde::Serializer>(number: &u128, serializer: S) -> Result<S::Ok
 }
 
 /// The runs that break a clause.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Broken {
     /// Its id.
     pub clause: String,
     /// How many.
     pub runs: u64,
     /// Walls of the smallest.
+    #[schemars(with = "Vec<[CellWritten; 2]>")]
     pub walls: Vec<[Cell; 2]>,
     /// Its team moves.
     pub steps: usize,

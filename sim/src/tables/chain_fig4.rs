@@ -2,6 +2,7 @@
 //! 4 m a side, an even number, so that no cell is its middle: the area with obstacles has 7×7 cells. Where its obstacles are the
 //! figure shows, and not the text: ours are two rectangles.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::{Area, Cell};
 use tautline_proofs::words::counted;
@@ -14,6 +15,7 @@ use crate::explore::chain::CHAIN;
 use crate::explore::{RuleName, Setup, explore, team};
 use crate::fault::{Fault, Halt};
 use crate::layout::Layout;
+use crate::schema::CellWritten;
 use crate::tribot::{Body, Odometer};
 
 /// Fig. 4.
@@ -26,11 +28,11 @@ const ROBOTS: u16 = 8;
 const OBSTACLES: [[(i16, i16); 2]; 2] = [[(1, 1), (2, 1)], [(4, 5), (5, 5)]];
 
 /// Nothing can be asked.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize, Deserialize)]
 pub struct Settings {}
 
 /// Where the robots are.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Place {
     /// 15×15 cells without obstacles.
@@ -47,7 +49,7 @@ pub struct Job {
 }
 
 /// What comes of it.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Run {
     place: Place,
     rule: RuleName,
@@ -65,11 +67,12 @@ pub struct Run {
     places: u32,
     /// The cells of R_2 … R_N.
     #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(with = "Vec<Vec<CellWritten>>")]
     ways: Vec<Vec<Cell>>,
 }
 
 /// The whole figure.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Merged {
     robots: u16,
     runs: Vec<Run>,

@@ -7,6 +7,7 @@
 //! the first byte of one end is at the other; that is the least, since bytes go both ways.
 
 use rand_chacha::ChaCha8Rng;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::chain::{Message, Outcome};
 use tautline_kernel::ground::Circle;
@@ -34,7 +35,7 @@ const TEAMS: [u16; 6] = [3, 4, 5, 6, 7, 8];
 const SWITCH_MS: [u64; 2] = [3000, 6000];
 
 /// What is measured.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Settings {
     runs: u32,
     seed: u64,
@@ -67,14 +68,14 @@ pub struct Measured {
 }
 
 /// The whole table.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Merged {
     settings: Settings,
     switch_ms: [u64; 2],
     lines: Vec<Line>,
 }
 
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 struct Line {
     robots: u16,
     team_moves: u32,

@@ -3,6 +3,7 @@
 
 use std::fmt;
 
+use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -10,6 +11,7 @@ use super::csv::csv;
 use super::parameter::Given;
 use super::{About, Observer, Table, measure};
 use crate::fault::{Fault, Halt};
+use crate::schema;
 
 /// A table of any types.
 pub trait Entry: fmt::Debug + Sync {
@@ -27,6 +29,9 @@ pub trait Entry: fmt::Debug + Sync {
     /// # Errors
     /// What to write instead.
     fn check(&self, name: &str, text: &str) -> Result<(), String>;
+
+    /// What its JSON is like.
+    fn schema(&self) -> Schema;
 
     /// The table with the settings of these options and their values.
     ///
@@ -126,6 +131,10 @@ impl<T: Table> Entry for T {
         parameter.map_or(Ok(()), |parameter| (parameter.read)(&mut T::Settings::default(), &[text]))
     }
 
+    fn schema(&self) -> Schema {
+        schema::of::<Document<'_, T::Merged>>(&format!("tautline reproduce {}", Table::about(self).id))
+    }
+
     fn asked<'a>(&'a self, given: &[(String, Vec<String>)]) -> Result<Box<dyn Asked + 'a>, Fault> {
         let mut settings = T::Settings::default();
         for parameter in self.parameters() {
@@ -155,7 +164,7 @@ struct Whole<'a, T: Table> {
 }
 
 /// What every JSON object of a table begins with.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct Document<'a, M> {
     schema_version: u32,
     id: &'static str,

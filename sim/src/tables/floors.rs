@@ -2,6 +2,7 @@
 //! lower bound, cells by agents. Layouts are files of maps, or generated; the agents of a run start in one cell.
 
 use rand_chacha::rand_core::Rng;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::{Cell, Edge, Side};
 
@@ -21,7 +22,7 @@ use crate::stats::Estimate;
 pub struct Floors;
 
 /// How much is measured.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Settings {
     /// Files of layouts, or descriptions of generated ones.
     pub maps: Vec<String>,
@@ -60,7 +61,7 @@ pub struct Job {
 }
 
 /// A team in a layout.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Line {
     /// The layout.
     pub map: String,
@@ -84,7 +85,7 @@ pub struct Line {
 }
 
 /// The whole table.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Merged {
     settings: Settings,
     /// Layout by layout, by the number of agents, of all teams.

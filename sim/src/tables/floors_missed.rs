@@ -1,6 +1,7 @@
 //! What missed sensors do to agents that are to know that they are done: how often one of them is done although it could have
 //! got to an unexplored cell, and what it costs. Each run has a start, and a generated layout, of its own.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::bricks::tree::Rule;
 use tautline_proofs::bricks::tree::Way;
@@ -35,7 +36,7 @@ const fn doubting(readings: u8) -> Explorer {
 pub struct FloorsMissed;
 
 /// How much is measured.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Settings {
     /// Files of layouts, or descriptions of generated ones.
     pub maps: Vec<String>,
@@ -73,7 +74,7 @@ pub struct Job {
 }
 
 /// A team in a layout.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Line {
     /// The layout.
     pub map: String,
@@ -92,7 +93,7 @@ pub struct Line {
 }
 
 /// The whole table.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Merged {
     settings: Settings,
     /// Layout by layout, by the number of agents, of all teams.

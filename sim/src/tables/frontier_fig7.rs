@@ -8,6 +8,7 @@ use std::fmt::Write;
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::Cell;
 
@@ -33,7 +34,7 @@ const MOST_MOVES: u32 = 5000;
 pub struct FrontierFig7;
 
 /// How much is measured.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Settings {
     /// Layouts.
     pub layouts: u32,
@@ -60,7 +61,7 @@ pub struct Job {
 }
 
 /// What came of one run.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Outcome {
     /// Team moves until every cell is explored, if all are.
     moves: Option<u32>,
@@ -71,7 +72,7 @@ pub struct Outcome {
 }
 
 /// The whole figure.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Merged {
     #[serde(flatten)]
     settings: Settings,
@@ -82,7 +83,7 @@ pub struct Merged {
 }
 
 /// A team of a rule.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Line {
     /// The rule.
     pub rule: RuleId,
@@ -101,7 +102,7 @@ pub struct Line {
 }
 
 /// A sentence of the paper.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 pub struct Judged {
     /// What it says.
     pub sentence: &'static str,

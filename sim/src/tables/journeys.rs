@@ -13,6 +13,7 @@ mod drawn;
 mod text;
 mod world;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use self::claims::{Claim, Decision, Verdict};
@@ -114,7 +115,7 @@ impl Figure {
 }
 
 /// A way to find to the WFR.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Way {
     /// By the navigation tree of k-FNF.
@@ -143,7 +144,7 @@ impl Way {
 }
 
 /// What is measured.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Settings {
     /// Numbers of nodes; none for those of the figure.
     pub nodes: Vec<usize>,
@@ -187,7 +188,7 @@ pub struct Job {
 }
 
 /// The whole figure.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Merged {
     side_m: f64,
     range_m: f64,

@@ -13,6 +13,7 @@ mod printed;
 
 use std::num::NonZeroU32;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule;
@@ -33,7 +34,7 @@ pub const PATHS: usize = 26;
 pub const EXPLORED: usize = 23;
 
 /// Robots under one rule.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 pub struct Team {
     /// The rule.
     pub rule: RuleName,
@@ -89,7 +90,7 @@ enum Figure {
 }
 
 /// How much is measured.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Settings {
     /// Layouts of each family.
     pub layouts: u32,
@@ -115,7 +116,7 @@ pub struct Job {
 }
 
 /// What came of one run.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Outcome {
     /// Milliseconds until each path is driven, in the order in which they are; as many as are.
     paths: Vec<u64>,
@@ -128,7 +129,7 @@ pub struct Outcome {
 }
 
 /// The whole figure.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Merged {
     #[serde(flatten)]
     settings: Settings,
@@ -140,7 +141,7 @@ pub struct Merged {
 }
 
 /// A team in a family.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Line {
     /// The family.
     pub family: &'static str,
@@ -164,7 +165,7 @@ pub struct Line {
 }
 
 /// Two robots against one.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Race {
     /// The family.
     pub family: &'static str,

@@ -2,6 +2,7 @@
 //! brought down to less than 5cm in 20 iterations”, “0.02cm or below”): by the order of the updates, by what random numbers
 //! are drawn for, and by the inertia. Beside it the distance to where the robot is, which is another thing.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{
@@ -45,7 +46,7 @@ const VARIANTS: [(&str, Order, Draws, Parameters); 6] = [
 pub struct LocateConvergence;
 
 /// A square with anchors in three corners, and what is tried in it.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Field {
     /// The standard deviation of the levels, in dB.
     pub noise_db: f64,
@@ -121,14 +122,14 @@ pub struct Job {
 }
 
 /// What came of it.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Course {
     /// By the number of iterations.
     pub after: Vec<After>,
 }
 
 /// Where particles have come.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct After {
     /// How many iterations.
     pub iterations: u32,
@@ -143,7 +144,7 @@ pub struct After {
 }
 
 /// The whole table.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Merged {
     #[serde(flatten)]
     field: Field,
@@ -152,7 +153,7 @@ pub struct Merged {
 }
 
 /// A reading.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Variant {
     /// Which.
     pub reading: &'static str,

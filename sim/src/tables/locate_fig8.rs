@@ -2,6 +2,7 @@
 //! robots. The text that we have prints no number of it; its two sentences are judged: that the error falls with the swarm, and
 //! that it grows with the number of robots. Robots stand at random places of a square with anchors in three corners.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::position::{Point, Signal};
 use tautline_proofs::engine::Seeded;
@@ -44,7 +45,7 @@ pub struct Job {
 type Team = [[f64; SOLVERS.len()]; MOST];
 
 /// The whole figure.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Merged {
     #[serde(flatten)]
     field: Field,
@@ -55,7 +56,7 @@ pub struct Merged {
 }
 
 /// The errors of teams of one size.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Size {
     /// Robots.
     pub robots: usize,
@@ -64,7 +65,7 @@ pub struct Size {
 }
 
 /// The errors of one way.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Errors {
     /// The way.
     pub solver: Solver,
@@ -75,7 +76,7 @@ pub struct Errors {
 }
 
 /// A sentence of the paper.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Sentence {
     /// What is said.
     pub paper: &'static str,

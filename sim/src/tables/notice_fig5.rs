@@ -2,6 +2,7 @@
 //! density. The paper counts all nodes; those that no link connects to the source nothing can reach, so the reach within
 //! the source's component stands beside it. Every scheme broadcasts over the same topologies, from the same sources.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::NodeId;
@@ -39,7 +40,7 @@ const PAPER: (Count, f64) = (Count::ONE, 1.0);
 pub struct NoticeFig5;
 
 /// What is measured.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Settings {
     /// Numbers of nodes.
     pub nodes: Vec<usize>,
@@ -80,7 +81,7 @@ pub struct Job {
 }
 
 /// The whole figure.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Merged {
     side_m: f64,
     range_m: f64,
@@ -92,7 +93,7 @@ pub struct Merged {
 }
 
 /// All schemes at one number of nodes.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Density {
     /// The number of nodes.
     pub nodes: usize,
@@ -105,7 +106,7 @@ pub struct Density {
 }
 
 /// One scheme at one number of nodes.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Line {
     /// The scheme.
     pub scheme: String,

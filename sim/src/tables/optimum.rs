@@ -7,6 +7,7 @@
 mod area;
 mod sums;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 
 use self::area::{Area, WallSet, solve};
@@ -25,7 +26,7 @@ use crate::reading::within;
 pub struct Optimum;
 
 /// How far it goes.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Settings {
     /// Most walls of a layout of three robots.
     pub max_walls: u32,
@@ -38,7 +39,7 @@ impl Default for Settings {
 }
 
 /// A team, and the layouts of its area that it is measured in: (2N−1)² cells, the base in the middle.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Field {
     robots: u16,
     /// The fewest walls and the most.
@@ -67,14 +68,14 @@ pub struct Job {
 const ORBITS: usize = 16;
 
 /// The whole table.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Merged {
     /// Field by field, each under every rule.
     pub lines: Vec<Line>,
 }
 
 /// One rule in the layouts of one team with some numbers of walls.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Line {
     /// Robots, base included.
     pub robots: u16,
@@ -103,7 +104,7 @@ pub struct Line {
 }
 
 /// The layout in which the chain is farthest from the optimum.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 pub struct Worst {
     /// The chain's team moves.
     pub chain: u32,
@@ -111,6 +112,7 @@ pub struct Worst {
     pub optimum: u32,
     /// The layout, with the base.
     #[serde(serialize_with = "as_drawing")]
+    #[schemars(with = "String")]
     pub layout: Layout,
 }
 

@@ -1,5 +1,6 @@
 //! What can be asked of a table, as a person asks it: options with values, from which its settings are read.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::notice::Count;
 
@@ -132,7 +133,7 @@ pub(super) fn all_shown(values: &[impl ToString]) -> Vec<String> {
 }
 
 /// How many senders make a node silent: a [`Count`] that is stored.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(try_from = "u8", into = "u8")]
 pub struct Senders(pub Count);
 

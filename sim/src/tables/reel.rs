@@ -2,6 +2,7 @@
 //! the cells, to everything within reach, and of whole runs, and how many cells they explore. Sums are whole numbers, so that
 //! the result is the same on any number of threads.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::links::within_reach;
@@ -45,7 +46,7 @@ const GOALS: [&str; 4] = ["50 %", "75 %", "everything within reach", "the end of
 pub struct Reel;
 
 /// How much is measured.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Settings {
     /// Layouts at each density.
     pub layouts: u32,
@@ -77,7 +78,7 @@ pub struct Outcome {
 }
 
 /// The whole table.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Merged {
     robots: u16,
     seed: u64,
@@ -88,7 +89,7 @@ pub struct Merged {
 }
 
 /// One goal on one ground.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Line {
     /// What is counted.
     pub goal: &'static str,
@@ -101,7 +102,7 @@ pub struct Line {
 }
 
 /// Team moves by one rule.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct OfRule {
     /// Its name.
     pub rule: &'static str,
@@ -118,7 +119,7 @@ pub struct OfRule {
 }
 
 /// The cells that runs on one ground explore.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Cells {
     /// The generator of the layouts.
     pub ground: &'static str,
@@ -127,7 +128,7 @@ pub struct Cells {
 }
 
 /// The cells that runs by one rule explore.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Explored {
     /// Its name.
     pub rule: &'static str,

@@ -3,6 +3,7 @@
 //! rule breaks a clause. Sums are whole numbers, so that the result is
 //! the same on any number of threads.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::words::counted;
@@ -35,7 +36,7 @@ const MOST_JOBS: u32 = 1000;
 pub struct RepairCost;
 
 /// How much is measured.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Settings {
     /// Layouts at each density.
     pub layouts: u32,
@@ -60,7 +61,7 @@ pub struct Job {
 }
 
 /// The whole table.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Merged {
     robots: u16,
     seed: u64,
@@ -69,7 +70,7 @@ pub struct Merged {
 }
 
 /// The same layouts under both rules.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Line {
     /// The probability of a wall.
     pub density: &'static str,
@@ -86,7 +87,7 @@ pub struct Line {
 }
 
 /// Team moves to a milestone, where both rules reach it.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Reached {
     /// The milestone.
     pub percent: u32,
@@ -96,7 +97,7 @@ pub struct Reached {
 }
 
 /// One number of both rules.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Comparison {
     /// Layouts in which there is one under both.
     pub pairs: u32,
@@ -113,7 +114,7 @@ pub struct Comparison {
 }
 
 /// Runs that break a clause.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 pub struct Violations {
     /// Its id.
     pub clause: &'static str,
@@ -132,7 +133,7 @@ pub struct Sums {
     violations: [[u32; Breach::CHAIN.len()]; RuleName::ALL.len()],
 }
 
-#[derive(Clone, Copy, Default, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, Default, Debug, JsonSchema, Serialize, Deserialize)]
 struct Paired {
     published: Moments,
     repaired: Moments,

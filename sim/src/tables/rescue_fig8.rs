@@ -3,6 +3,7 @@
 //! in many networks, under MRC as published and repaired, without any fault, and how much farther the robots have to go
 //! than under the best of all assignments. Both rules have the same networks.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_proofs::words::counted;
 
@@ -40,7 +41,7 @@ const PAPER: f64 = 1.0;
 pub struct RescueFig8;
 
 /// What is measured.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Settings {
     /// Nodes.
     pub nodes: usize,
@@ -70,7 +71,7 @@ pub struct Job {
 }
 
 /// The whole figure.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Merged {
     #[serde(flatten)]
     settings: Settings,
@@ -79,7 +80,7 @@ pub struct Merged {
 }
 
 /// One rule.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Line {
     /// MRC as published, or repaired.
     pub rule: RuleName,
@@ -99,7 +100,7 @@ pub struct Line {
 }
 
 /// A share beside the paper's.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Compared {
     /// The paper's.
     pub paper: f64,

@@ -9,6 +9,7 @@ mod table1;
 
 use std::num::NonZeroU32;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::Cell;
 
@@ -35,7 +36,7 @@ const OPEN: &str = "open:15x15";
 const ROOMS: [&str; 2] = ["rooms-a", "rooms-b"];
 
 /// Who explores.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum Who {
     /// A chain of this rule.
@@ -111,7 +112,7 @@ impl Who {
 }
 
 /// What comes of a run.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 struct Outcome {
     /// The team moves to each milestone that it reached.
     milestones: [Option<u32>; Milestone::ALL.len()],
@@ -135,7 +136,7 @@ impl Outcome {
 }
 
 /// Team moves of some runs to a milestone.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
 struct Times {
     runs: u32,
     /// Runs that get there.

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
@@ -14,6 +15,7 @@ use crate::fault::Fault;
 use crate::frontier::Options;
 use crate::layout::generate::Probability;
 use crate::layout::{Layout, Problem};
+use crate::schema::CellWritten;
 
 /// The format of the header.
 pub const FORMAT: &str = "tautline run";
@@ -64,17 +66,19 @@ pub(super) enum Line {
 }
 
 /// One team move, in the order of the robots, as it is stored.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StoredMove {
     /// Its number, counted from 1.
     pub(super) step: u32,
+    #[schemars(with = "String")]
     kind: Kind,
     /// One letter a robot: E, S, W, N, or `.` for a robot that stays.
     tried: String,
     /// The numbers of the robots that met a wall; the base of a chain is 1.
     blocked: Vec<usize>,
     /// Where the robots are now.
+    #[schemars(with = "Vec<CellWritten>")]
     cells: Vec<Cell>,
 }
 
@@ -90,7 +94,7 @@ pub(super) struct StoredEnd {
 }
 
 /// A clause that was broken, and in which team move.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StoredViolation {
     pub(super) clause: String,

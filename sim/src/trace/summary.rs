@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_kernel::ground::Cell;
 
@@ -10,21 +11,24 @@ use crate::explore::floor::Component;
 use crate::explore::{Knowledge, Milestone, Play, Report, Stage, Stopped, Violation};
 use crate::faults::Faults;
 use crate::layout::generate::Probability;
+use crate::schema::CellWritten;
 
 /// The JSON of a run.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 pub struct Summary<'a> {
     scheme: &'a str,
     rule: &'a str,
     robots: u16,
     seed: u64,
     layout: &'a str,
+    #[schemars(with = "CellWritten")]
     base: Cell,
     #[serde(flatten)]
     floor: Option<FloorSummary<'a>>,
     steps: u32,
     explored: u32,
     cells: u32,
+    #[schemars(with = "BTreeMap<String, Option<u32>>")]
     milestones: BTreeMap<u32, Option<u32>>,
     stopped: Stopped,
     /// What has failed, where something was to fail.
@@ -35,10 +39,11 @@ pub struct Summary<'a> {
 
 /// What there is of a sensor floor besides. Ants mark nothing and never know that they are done: of them nothing is said
 /// about that.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct FloorSummary<'a> {
     miss: Probability,
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Option<Vec<CellWritten>>")]
     starts: Option<&'a [Cell]>,
     #[serde(flatten)]
     marked: Option<Marked>,
@@ -55,14 +60,14 @@ fn seconds(report: &Report) -> f64 {
 }
 
 /// What agents that mark cells have done and know.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct Marked {
     visited: u32,
     terminated: bool,
 }
 
 /// A part of the layout that is not connected with the others.
-#[derive(Serialize)]
+#[derive(JsonSchema, Serialize)]
 struct Part {
     robots: u16,
     cells: u32,

@@ -1,12 +1,13 @@
 //! The hunt of chains over areas: whatever their columns and rows, and wherever the base is.
 
-use serde_json::{Value, json};
 use tautline_proofs::chain::Observed;
 use tautline_proofs::chain::areas::{Areas, Found, Searched, Smallest, most_edges, search};
 use tautline_proofs::words::counted;
 
 use super::hunt::{bounds, fault, team};
-use crate::explore::hunt::{Asked, Far, Hunted, Hunter, Quarry, Shown, outcome, setup};
+use crate::explore::hunt::{
+    Area, Asked, Done, Facts, Far, Hunted, Hunter, Quarry, RunSize, Shown, outcome, setup,
+};
 use crate::explore::run::{Limits, OnViolation};
 use crate::explore::{ClauseId, Setup};
 use crate::fault::Fault;
@@ -78,15 +79,15 @@ fn told(asked: &Asked<'_>, areas: &Areas, found: &Found) -> Result<Hunted, Fault
     let covered = found.cells.map(|cells| format!("of at most {}", counted(cells, "cell")));
     Ok(Hunted {
         robots,
-        facts: vec![
-            ("runs", json!(runs)),
-            ("moves", json!(moves)),
-            ("max_walls", json!(max_walls)),
-            ("max_cells", json!(max_cells)),
-            ("areas", found.searched.iter().map(area).collect()),
-        ],
+        facts: Facts::Areas {
+            runs,
+            moves,
+            max_walls,
+            max_cells,
+            areas: found.searched.iter().map(area).collect(),
+        },
         is_complete: found.is_complete,
-        done: ("cells_done", json!(found.cells)),
+        done: Done::CellsDone(found.cells),
         title: format!(
             "{}, at most {} and {}: {all_areas} with {}, {all_runs}, {all_moves}",
             counted(robots, "robot"),
@@ -101,9 +102,9 @@ fn told(asked: &Asked<'_>, areas: &Areas, found: &Found) -> Result<Hunted, Fault
 }
 
 /// The certificate of one area.
-fn area(searched: &Searched) -> Value {
-    let Searched { columns, rows, bases, walls, runs, moves } = searched;
-    json!({ "columns": columns, "rows": rows, "bases": bases, "walls": walls, "runs": runs, "moves": moves })
+const fn area(searched: &Searched) -> Area {
+    let &Searched { columns, rows, bases, walls, runs, moves } = searched;
+    Area { columns, rows, bases, walls, runs, moves }
 }
 
 fn quarry(asked: &Asked<'_>, Smallest { bounds, found }: &Smallest) -> Result<Quarry, Fault> {
@@ -116,12 +117,7 @@ fn quarry(asked: &Asked<'_>, Smallest { bounds, found }: &Smallest) -> Result<Qu
     let violation = broken.map_or(OnViolation::Stop, OnViolation::StopAt);
     Ok(Quarry {
         clause: found.broken.clause(),
-        facts: vec![
-            ("columns", json!(columns)),
-            ("rows", json!(rows)),
-            ("walls", json!(walls)),
-            ("steps", json!(steps)),
-        ],
+        facts: RunSize::Area { columns, rows, walls, steps },
         title: format!("{columns}x{rows} cells, {}, {}", counted(walls, "wall"), counted(steps, "team move")),
         setup: Setup { limits: Limits { violation, ..setup.limits }, ..setup },
         shown: broken.map_or(Shown::Endless, Shown::Run),

@@ -4,7 +4,6 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
-use serde_json::{Value, json};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::Observed;
 use tautline_proofs::chain::search::{Bounds, Deal, Found, Position, Search, Unsearchable};
@@ -14,12 +13,13 @@ use tautline_proofs::words::counted;
 use super::areas;
 use super::saved::{AGAIN, Saved};
 use crate::explore::hunt::{
-    Asked, Bound, Deals, Dealt, Far, Hunt, Hunted, Hunter, Quarry, Shown, outcome, setup,
+    Asked, Bound, Deals, Dealt, Done, Facts, Far, Hunt, Hunted, Hunter, Quarry, RunSize, Shown, outcome,
+    setup,
 };
 use crate::explore::{ClauseId, Profile, RuleId};
 use crate::fault::{Fault, Halt};
 use crate::layout::Size;
-use crate::part::{KEEP_EVERY, Part, written};
+use crate::part::{self, KEEP_EVERY, Part, written};
 
 /// Robots of a chain when nobody says how many.
 const DEFAULT_ROBOTS: u64 = 4;
@@ -144,9 +144,9 @@ impl Part for Shard {
         self.0.is_complete()
     }
 
-    fn facts(&self) -> Vec<(&'static str, Value)> {
+    fn facts(&self) -> part::Facts {
         let Progress { runs, moves, .. } = self.0.progress();
-        vec![("runs", json!(runs)), ("moves", json!(moves))]
+        part::Facts::Chain { runs, moves }
     }
 
     fn words(&self) -> String {
@@ -170,7 +170,7 @@ fn told(scheme: &'static Profile, rule: RuleId, bounds: &Bounds, found: &Found) 
         let broken = counterexample.broken.breach().map(ClauseId::from);
         Ok(Quarry {
             clause: counterexample.broken.clause(),
-            facts: vec![("runs", json!(runs)), ("walls", json!(walls)), ("steps", json!(steps))],
+            facts: RunSize::Chain { runs, walls, steps },
             title: format!(
                 "{}, {}; broken in {}",
                 counted(walls, "wall"),
@@ -194,14 +194,9 @@ fn hunted(bounds: &Bounds, found: &Found, quarries: Vec<Quarry>) -> Hunted {
     let (all_runs, all_moves) = (counted(*runs, "run"), counted(*moves, "team move"));
     Hunted {
         robots,
-        facts: vec![
-            ("runs", json!(runs)),
-            ("moves", json!(moves)),
-            ("longest", json!(longest)),
-            ("max_walls", json!(max_walls)),
-        ],
+        facts: Facts::Chain { runs: *runs, moves: *moves, longest: *longest, max_walls },
         is_complete: found.complete && found.given_up == 0,
-        done: ("walls_done", json!(done)),
+        done: Done::WallsDone(done),
         title: format!(
             "{}, at most {}: {all_runs}, {all_moves}, {longest} the longest",
             counted(robots, "robot"),

@@ -3,7 +3,6 @@
 
 mod rivals;
 
-use serde_json::json;
 use tautline_kernel::frontier::{Map, Rule as Frontier, Status, TinyMap};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::engine::states::Limits as Most;
@@ -13,7 +12,9 @@ use tautline_proofs::frontier::world::{Demand, Event, Setting};
 use tautline_proofs::words::counted;
 
 pub(super) use self::rivals::Simulated;
-use crate::explore::hunt::{Asked, Bound, Fact, Hunt, Hunted, Hunter, Quarry, Shown, outcome};
+use crate::explore::hunt::{
+    Asked, Bound, Done, Facts, Hunt, Hunted, Hunter, Quarry, RunSize, Shown, outcome,
+};
 use crate::explore::run::{Limits, OnViolation};
 use crate::explore::watched::{Count, watched};
 use crate::explore::{ClauseId, Setup};
@@ -146,7 +147,7 @@ fn drifting(
             let clause = Demand::Marks.clause();
             found.push(Quarry {
                 clause,
-                facts: sizes(size, walls, run.steps.len()),
+                facts: RunSize::Area { columns: size[0], rows: size[1], walls, steps: run.steps.len() },
                 title: title(size, walls, run.steps.len()),
                 setup: Setup::new(asked.scheme, asked.rule, 1, layout, base),
                 shown: Shown::Told(story),
@@ -233,15 +234,11 @@ fn quarry<const ROBOTS: usize>(
     let (columns, rows) = (area.width(), area.height());
     Ok(Quarry {
         clause: demand.clause(),
-        facts: sizes([columns, rows], walls, moves),
+        facts: RunSize::Area { columns, rows, walls, steps: moves },
         title: title([columns, rows], walls, moves),
         shown: if is_stored { Shown::Story(clause, story) } else { Shown::Told(story) },
         setup,
     })
-}
-
-fn sizes([columns, rows]: [usize; 2], walls: usize, moves: usize) -> Vec<Fact> {
-    vec![("columns", json!(columns)), ("rows", json!(rows)), ("walls", json!(walls)), ("steps", json!(moves))]
 }
 
 fn title([columns, rows]: [usize; 2], walls: usize, moves: usize) -> String {
@@ -258,16 +255,16 @@ fn told(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Ve
     let walls = asked.max_walls.map_or_else(String::new, |walls| format!(", at most {walls} blocked"));
     Hunted {
         robots,
-        facts: vec![
-            ("size", json!(size.to_string())),
-            ("states", json!(states)),
-            ("steps", json!(steps)),
-            ("max_walls", json!(asked.max_walls)),
-            ("max_losses", json!(losses)),
-            ("error", json!(asked.error_cells)),
-        ],
+        facts: Facts::Frontier {
+            size: size.to_string(),
+            states,
+            steps,
+            max_walls: asked.max_walls,
+            max_losses: losses,
+            error: asked.error_cells,
+        },
         is_complete,
-        done: ("cells_done", json!(cells)),
+        done: Done::CellsDone(cells.map(|cells| cells as u32)),
         title: format!(
             "{}, layouts up to {size}{walls}{lost}: {all_states}, {all_steps}",
             counted(robots, "robot")

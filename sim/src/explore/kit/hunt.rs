@@ -2,7 +2,6 @@
 //! two robots one image of each state is searched; what is broken there is searched again as it is, with as few walls as can
 //! be.
 
-use serde_json::json;
 use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule as Kit;
 use tautline_proofs::engine::states::{Found, Limits as Most};
@@ -12,7 +11,9 @@ use tautline_proofs::kit::world::{Demand, Setting, Speeds, Starts};
 use tautline_proofs::words::counted;
 
 use super::EQUAL;
-use crate::explore::hunt::{Asked, Bound, Fact, Hunt, Hunted, Hunter, Quarry, Shown, outcome};
+use crate::explore::hunt::{
+    Asked, Bound, Done, Facts, Hunt, Hunted, Hunter, Quarry, RunSize, Shown, outcome,
+};
 use crate::explore::run::{Limits, OnViolation};
 use crate::explore::watched::{Count, watched};
 use crate::explore::{ClauseId, Setup};
@@ -232,20 +233,11 @@ fn quarry<const ROBOTS: usize>(asked: &Asked<'_>, broken: &Broken<ROBOTS>) -> Re
     let (drives, walls) = (found.drives(), walls.len());
     Ok(Quarry {
         clause: clause.as_str(),
-        facts: sizes([columns, rows], walls, drives),
+        facts: RunSize::Area { columns, rows, walls, steps: drives },
         title: format!("{columns}x{rows} nodes, {}, {}", counted(walls, "wall"), counted(drives, "drive")),
         shown: Shown::Story(*clause, story),
         setup: Setup { starts, choices, limits, ..setup },
     })
-}
-
-fn sizes([columns, rows]: [usize; 2], walls: usize, drives: usize) -> Vec<Fact> {
-    vec![
-        ("columns", json!(columns)),
-        ("rows", json!(rows)),
-        ("walls", json!(walls)),
-        ("steps", json!(drives)),
-    ]
 }
 
 /// What is told of a hunt.
@@ -257,14 +249,9 @@ fn told(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Ve
         asked.max_walls.map_or_else(String::new, |walls| format!(", at most {}", counted(walls, "wall")));
     Hunted {
         robots,
-        facts: vec![
-            ("size", json!(size.to_string())),
-            ("states", json!(states)),
-            ("steps", json!(steps)),
-            ("max_walls", json!(asked.max_walls)),
-        ],
+        facts: Facts::Kit { size: size.to_string(), states, steps, max_walls: asked.max_walls },
         is_complete,
-        done: ("nodes_done", json!(cells)),
+        done: Done::NodesDone(cells),
         title: format!(
             "{}, layouts up to {size}{walls}: {all_states}, {all_steps}",
             counted(robots, "robot")

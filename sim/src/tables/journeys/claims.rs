@@ -1,12 +1,13 @@
 //! What the paper says of TAN and its rivals, and what is so.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Way;
 use crate::stats::Estimate;
 
 /// What the paper says of RD.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Claim {
     /// “Very close to position-based Verma's scheme” (4.3).
@@ -20,7 +21,7 @@ pub enum Claim {
 }
 
 /// What has come of a claim.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// The whole interval says so.
@@ -32,7 +33,7 @@ pub enum Verdict {
 }
 
 /// A claim with its verdict.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Decision {
     /// The paper's.
     pub paper: Claim,

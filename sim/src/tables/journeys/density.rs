@@ -1,5 +1,6 @@
 //! All ways at one number of nodes, over all topologies.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Way;
@@ -8,7 +9,7 @@ use super::world::{Sample, Walked};
 use crate::stats::{Estimate, rounded};
 
 /// All ways at one number of nodes.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Density {
     /// The number of nodes.
     pub nodes: usize,
@@ -29,7 +30,7 @@ pub struct Density {
 }
 
 /// A way at one number of nodes.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Line {
     /// Which.
     pub way: Way,

@@ -1,5 +1,6 @@
 //! One topology, and what comes of the journeys in it.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::NodeId;
@@ -27,7 +28,7 @@ pub(super) struct World {
 }
 
 /// What came of one topology.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Sample {
     /// The fewest hops from the robot to the WFR, if links lead there.
     pub(super) fewest_hops: Option<u16>,
@@ -40,7 +41,7 @@ pub struct Sample {
 }
 
 /// What a robot has walked until it was there.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub(super) struct Walked {
     pub(super) length_m: f64,
     pub(super) time_s: Option<f64>,

@@ -1,5 +1,6 @@
 //! The figures of KIT as text, with what the paper prints beside it.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_proofs::words::counted;
 
@@ -8,7 +9,7 @@ use crate::columns::{Column, Columns, Width};
 use crate::stats::Estimate;
 
 /// A figure that the paper prints, and ours.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub(super) struct Printed {
     what: String,
     paper: f64,

@@ -1,5 +1,6 @@
 //! What can be asked of the rivals' tables: the parameters of the rivals that are numbers.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::super::parameter::{Parameter, put, shown};
@@ -9,7 +10,7 @@ use crate::reading::{number, real};
 use crate::rivals::{Cells, Deadlock, Links, Parameters, Search, Weights};
 
 /// What the rivals are told, but for what the tables vary.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Told {
     /// Runs of each line, or layouts of each point.
     pub runs: u32,

@@ -1,12 +1,13 @@
 //! What the paper says of the chain and its rivals, and what is so.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::columns::{Column, Columns, Width};
 use crate::stats::Estimate;
 
 /// What has come of a sentence.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum Verdict {
     /// It is so.
@@ -18,7 +19,7 @@ pub(super) enum Verdict {
 }
 
 /// A sentence of the paper, and what is so.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub(super) struct Judged {
     /// Its words, shortened, and where they stand.
     pub(super) sentence: &'static str,
@@ -64,7 +65,7 @@ impl Verdict {
 }
 
 /// On how many of the same layouts one team is sooner than another; a team that never gets there is later than any.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize)]
 pub(super) struct Race {
     pub(super) sooner: u32,
     pub(super) later: u32,

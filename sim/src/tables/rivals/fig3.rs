@@ -1,5 +1,6 @@
 //! Fig. 3: team moves to 50 % and to 75 % of the cells by the density of walls, and in two buildings.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_proofs::words::counted;
 
@@ -26,7 +27,7 @@ const DENSITIES: [&str; 7] = ["0", "0.01", "0.02", "0.05", "0.1", "0.15", "0.2"]
 const MILESTONES: [Milestone; 2] = [Milestone::Half, Milestone::ThreeQuarters];
 
 /// How much is measured.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Settings {
     told: Told,
 }
@@ -62,7 +63,7 @@ pub struct Job {
 pub struct Measured([Outcome; 6]);
 
 /// The whole figure.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Merged {
     settings: Settings,
     areas: Vec<Area>,
@@ -70,13 +71,13 @@ pub struct Merged {
 }
 
 /// All teams in the layouts of one density, or in one building.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 struct Area {
     area: &'static str,
     teams: Vec<Line>,
 }
 
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 struct Line {
     who: Who,
     milestones: [Times; MILESTONES.len()],

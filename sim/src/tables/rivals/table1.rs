@@ -1,6 +1,7 @@
 //! Table I: team moves without walls, and how much of two buildings is explored when MAX_MOVES ends the run; and how far the
 //! rivals' figures depend on what the paper does not say.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_proofs::words::counted;
 
@@ -24,7 +25,7 @@ pub struct ChainTable1;
 const POOLS: [u32; 4] = [50, 200, 1000, 10_000];
 
 /// How much is measured.
-#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Settings {
     told: Told,
     /// MAX_MOVES of the runs in buildings.
@@ -58,7 +59,7 @@ pub struct Job {
 }
 
 /// Where it is.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 enum Place {
     Open,
     Rooms(usize),
@@ -69,7 +70,7 @@ enum Place {
 pub struct Measured(Outcome);
 
 /// The whole table.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Merged {
     settings: Settings,
     /// Team moves without walls.
@@ -80,13 +81,13 @@ pub struct Merged {
     sentences: Vec<Judged>,
 }
 
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 struct Line {
     who: Who,
     milestones: [Times; Milestone::ALL.len()],
 }
 
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 struct Share {
     room: &'static str,
     who: Who,
@@ -98,7 +99,7 @@ struct Share {
 }
 
 /// A figure that the paper prints, and ours.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 struct Printed {
     what: String,
     paper: f64,

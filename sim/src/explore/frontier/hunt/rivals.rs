@@ -5,9 +5,9 @@ use tautline_kernel::ground::Cell;
 use tautline_proofs::engine::lots::{self, Lots};
 
 use super::super::{ENDS, reachable};
-use super::{MOST_CELLS, areas, bounds, sizes, title, told};
+use super::{MOST_CELLS, areas, bounds, title, told};
 use crate::explore::each::{Each, FoundBy};
-use crate::explore::hunt::{Asked, Bound, Hunted, Quarry, Shown};
+use crate::explore::hunt::{Asked, Bound, Hunted, Quarry, RunSize, Shown};
 use crate::explore::run::{Limits, OnViolation, run};
 use crate::explore::watched::Count;
 use crate::explore::{ClauseId, Profile, RuleId, Setup, team};
@@ -246,7 +246,7 @@ fn quarry(setup: Setup, clause: ClauseId, steps: u32) -> Quarry {
     let limits = Limits { violation: OnViolation::StopAt(clause), ..Limits::default() };
     Quarry {
         clause: clause.as_str(),
-        facts: sizes(size, walls, steps as usize),
+        facts: RunSize::Area { columns: size[0], rows: size[1], walls, steps: steps as usize },
         title: title(size, walls, steps as usize),
         shown: if clause == ENDS { Shown::Told(endless(&setup)) } else { Shown::Run(clause) },
         setup: Setup { limits, ..setup },

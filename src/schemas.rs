@@ -1,0 +1,84 @@
+//! The JSON Schemas in docs/schemas are those of the types that the commands print.
+
+use std::path::Path;
+use std::{env, fs};
+
+use schemars::JsonSchema;
+use serde_json::{Value, to_string_pretty};
+use tautline_sim::schema::of;
+use tautline_sim::tables::TABLES;
+use tautline_sim::trace::Summary;
+
+use super::output::Versioned;
+use super::{hunt, locate, minimise, prove, replay, reproduce, rescue, shards, show};
+
+/// The command that writes the schemas anew.
+const RENEW: &str = "SCHEMAS_UPDATE=always cargo test -p tautline --bin tautline schemas";
+
+/// The schema of what [`super::output::Output::json`] prints of a type.
+fn printed<T: JsonSchema>(title: &str) -> Value {
+    of::<Versioned<'_, T>>(title).to_value()
+}
+
+/// One or the other.
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "only its schema is of use")]
+enum Either<A, B> {
+    A(A),
+    B(B),
+}
+
+/// Each file's name, and its schema.
+fn schemas() -> Vec<(String, Value)> {
+    let commands = [
+        ("prove", printed::<prove::Ledger>("tautline prove")),
+        ("hunt", printed::<hunt::Printed<'_>>("tautline hunt, and tautline merge of a hunt")),
+        (
+            "plan",
+            printed::<shards::Planned<'_, Either<hunt::Planned<'_>, reproduce::Planned>>>(
+                "tautline hunt or reproduce with --shards",
+            ),
+        ),
+        ("shard", printed::<shards::Told>("tautline hunt or reproduce with --shard")),
+        ("explore", printed::<Summary<'_>>("tautline explore")),
+        (
+            "replay",
+            printed::<Either<replay::Replayed<'_>, replay::Refuted>>(
+                "tautline replay of a run of a team, or of a refutation",
+            ),
+        ),
+        ("minimise", printed::<minimise::Minimised>("tautline minimise")),
+        ("rescue", printed::<rescue::Rescued<'_>>("tautline rescue, and tautline replay of a rescue")),
+        ("locate", printed::<Either<locate::Located<'_>, locate::Fixes<'_>>>("tautline locate")),
+        ("show", printed::<show::Shown<'_>>("tautline show")),
+        ("show-environments", printed::<show::ShownEnvironments>("tautline show environments")),
+        ("reproduce", printed::<reproduce::List>("tautline reproduce")),
+    ];
+    let commands = commands.into_iter().map(|(name, schema)| (name.to_owned(), schema));
+    let table = |id| format!("reproduce-{id}");
+    let tables = TABLES.iter().map(|entry| (table(entry.about().id), entry.schema().to_value()));
+    commands.chain(tables).collect()
+}
+
+#[test]
+fn each_schema_is_that_of_the_type_that_is_printed() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/schemas");
+    let is_renewed = env::var_os("SCHEMAS_UPDATE").is_some_and(|value| value == "always");
+    let schemas = schemas();
+    for (name, schema) in &schemas {
+        let (path, fresh) =
+            (folder.join(format!("{name}.json")), to_string_pretty(schema).expect("JSON") + "\n");
+        if is_renewed {
+            fs::write(&path, &fresh).expect("a file that can be written");
+        }
+        // A checkout may have changed the ends of lines.
+        let committed = fs::read_to_string(&path).unwrap_or_default().replace("\r\n", "\n");
+        assert!(
+            committed == fresh,
+            "what is printed is not as docs/schemas/{name}.json says. If that is meant, write it anew with\n    {RENEW}\nand \
+             let schema_version grow if a field has gone or changed"
+        );
+    }
+    assert_eq!(fs::read_dir(folder).expect("a folder").count(), schemas.len(), "a schema of nothing");
+}
