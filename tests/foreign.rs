@@ -43,14 +43,14 @@ fn a_run_of_an_unknown_scheme_plays_as_it_was_written() {
     let (told, said) = ended(folder.path(), &["replay", "run.jsonl"], 1);
     assert_eq!(said, "");
     assert_snapshot!(told, @r"
-    pair (eager), 2 agents, start 0,0: run.jsonl
+    pair (eager), 2 robots, start 0,0: run.jsonl
     2 team moves: a clause was broken
     2 of 3 cells explored (66 %), 50 % at team move 1, 75 % never, 100 % never
     PAIR-1 is broken in team move 2
     this program does not know the scheme pair: its rule eager was not run, the team moves are those of the file
     the file says that it is a counterexample to PAIR-1
 
-    1, 2, … are the agents, K× stands for K of them in one cell; · is explored, : explored and entered by nobody any more, ░░░ visited, ▒▒▒ sealed, ## blocked; ? is a sensor that an agent missed.
+    1, 2, … are the robots, K× stands for K of them in one cell; · is explored, ## blocked; x stands where a robot met a wall.
 
     move 1                 move 2 breaks PAIR-1
     +---+---+---+          +---+---+---+
@@ -59,8 +59,8 @@ fn a_run_of_an_unknown_scheme_plays_as_it_was_written() {
 
     Team move 2 breaks PAIR-1.
 
-      Agent 1 at 1,0 tries to go east, meets a wall and stays.
-      Agent 2 at 0,0 goes east to 1,0.
+      Robot 1 at 1,0 tries to go east, meets a wall and stays.
+      Robot 2 at 0,0 goes east to 1,0.
 
     before, with what each tries   after
     +---+---+---+                  +---+---+---+
@@ -78,13 +78,13 @@ fn a_run_of_an_unknown_scheme_that_names_no_clause_is_as_expected() {
     let folder = folder(&kept);
     let (told, _) = ended(folder.path(), &["replay", "run.jsonl", "--moves", "1..1"], 0);
     assert_snapshot!(told, @r"
-    pair (eager), 2 agents, start 0,0: run.jsonl
+    pair (eager), 2 robots, start 0,0: run.jsonl
     2 team moves: the team can explore nothing more
     2 of 3 cells explored (66 %), 50 % at team move 1, 75 % never, 100 % never
     no clause is broken
     this program does not know the scheme pair: its rule eager was not run, the team moves are those of the file
 
-    1, 2, … are the agents, K× stands for K of them in one cell; · is explored, : explored and entered by nobody any more, ░░░ visited, ▒▒▒ sealed, ## blocked; ? is a sensor that an agent missed.
+    1, 2, … are the robots, K× stands for K of them in one cell; · is explored, ## blocked; x stands where a robot met a wall.
 
     move 1
     +---+---+---+
