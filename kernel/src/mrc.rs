@@ -1,5 +1,5 @@
 //! MRC, Mobile Robot Coordination (paper 003, 3.3): which robot goes to which node that waits for rescue (WFR).
-//! Clauses MRC-1 to MRC-12.
+//! Clauses MRC-1 to MRC-14.
 //!
 //! A WFR calls by a NOTICE that spreads through the network; robots answer with MOVE along the tree that the NOTICE
 //! has left; the WFR chooses one and tells all of them by RESB. [`Wfr`], [`Robot`] and [`Relay`], the node on the way,

@@ -2,4 +2,5 @@
 
 pub mod clauses;
 mod colony;
+mod ties;
 mod walk;

@@ -19,6 +19,8 @@ pub enum Deception {
     ActsAtOnce,
     /// Sensors are localised with errors of more than half a cell.
     LocalisesBadly,
+    /// An agent does not see the corners around it.
+    MissesCorners,
 }
 
 /// Agents that are observed.

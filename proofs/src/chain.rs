@@ -17,6 +17,7 @@ pub mod optimum;
 pub mod ours;
 mod pair;
 pub mod plain;
+mod plain_reel;
 pub mod reach;
 pub mod search;
 mod shut;

@@ -2,3 +2,4 @@
 
 pub mod clauses;
 mod legs;
+mod way;

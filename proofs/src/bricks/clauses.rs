@@ -49,6 +49,10 @@ step_checks! { Observed;
         covers ["a sensor"], unwind 9, mutants {
             badly: "errors of more than half a cell" => Observed::deceiving(Deception::LocalisesBadly),
         };
+    ways_on: marking::most_walled, REPAIRED, marking::ways_on,
+        covers ["a way on", "nothing unexplored"], unwind 17, mutants {
+            no_corners: "corners are not seen" => Observed::deceiving(Deception::MissesCorners),
+        };
     half_seen: marking::half_seen, ROBUST, marking::readings,
         covers ["explored", "visited"], unwind 17, mutants {
             without_seen_only: "ways through what reads as unexplored" => Observed::marking_twice_without(SeenOnly),
@@ -56,7 +60,7 @@ step_checks! { Observed;
 }
 
 /// The clauses.
-pub static CLAUSES: [Clause; 14] = [
+pub static CLAUSES: [Clause; 15] = [
     Clause {
         id: "BRICKS-1",
         sentence: "Marking a cell MUST leave its accessible side neighbours connected with each other through the \
@@ -215,5 +219,11 @@ pub static CLAUSES: [Clause; 14] = [
         id: "BRICKS-14",
         sentence: "Two trees MUST have different labels; the one before which its agent had founded fewer has the greater.",
         checks: &[&tree::labels_of_trees::CHECK],
+    },
+    Clause {
+        id: "BRICKS-15",
+        sentence: "An agent that explores MUST go to the unexplored neighbour with the most inaccessible sides, as far as it \
+                   sees them, the first in the order of the compass.",
+        checks: &[&ways_on::CHECK],
     },
 ];

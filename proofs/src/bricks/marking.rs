@@ -1,9 +1,10 @@
 //! The local rule of Brick&Mortar (BRICKS-1): whatever is around a cell, marking it leaves its side neighbours
 //! connected with each other. The eight cells are gone round one by one here; of the kernel only the rule is asked.
 
-use tautline_kernel::bricks::{Rule, blocks};
+use tautline_kernel::bricks::{Agent, Next, Rule, blocks};
 use tautline_kernel::choice::{Oracle, one_of};
-use tautline_kernel::floor::{Ring, Scan, Sensor};
+use tautline_kernel::floor::{COMPASS, Ring, Scan, Sensor};
+use tautline_kernel::ground::Side;
 
 use super::{Deception, Observed};
 use crate::engine::{Outcome, require};
@@ -138,6 +139,46 @@ pub(crate) fn half_seen(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome
     decide(observed.rule, &around)
 }
 
+/// What [`most_walled`] looks at.
+pub(crate) fn ways_on() -> String {
+    format!("all {} neighbourhoods that are explored, unexplored or walls", 3_u32.pow(AROUND as u32))
+}
+
+/// Where an agent goes to explore: of the unexplored side neighbours each has two corners beside it.
+pub(crate) fn most_walled(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    let what: [u32; AROUND] = core::array::from_fn(|_| oracle.pick(3));
+    let ring = |is_in: &dyn Fn(u32) -> bool| {
+        Ring((0..AROUND).fold(0, |ring, place| ring | u8::from(is_in(what[place])) << place))
+    };
+    let accessible = what.map(|what| what > 0);
+    let around = Around {
+        accessible,
+        unexplored: ring(&|what| what == 2),
+        explored: ring(&|what| what == 1),
+        rims: core::array::from_fn(|place| accessible[place] && accessible[(place + 1) % 8]),
+        spokes: core::array::from_fn(|place| place % 2 == 0),
+    };
+    let mut most: Option<(usize, Side)> = None;
+    for (side, place) in COMPASS.into_iter().zip([0, 2, 4, 6]) {
+        let walls =
+            [(place + 1) % 8, (place + 7) % 8].into_iter().filter(|&corner| what[corner] == 0).count();
+        if what[place] == 2 && most.is_none_or(|(most, _)| walls > most) {
+            most = Some((walls, side));
+        }
+    }
+    let mut scan = around.scan();
+    if observed.deception == Deception::MissesCorners {
+        scan.rims = Ring::default();
+    }
+    let next = Agent::new(0).decide(observed.rule, &scan).next;
+    let Some((_, due)) = most else { return Ok("nothing unexplored") };
+    require(
+        matches!(next, Next::Goes(side, ..) if side == due),
+        "it goes to the unexplored neighbour with the most inaccessible sides",
+    )?;
+    Ok("a way on")
+}
+
 /// The side of a cell in millimetres (paper 004, V.A).
 const SIDE: u16 = 480;
 
@@ -156,7 +197,7 @@ pub(crate) fn errors() -> String {
 pub(crate) fn localised(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
     let most = match observed.deception {
         Deception::LocalisesBadly => i32::from(SIDE) * 3 / 5,
-        Deception::None | Deception::ActsAtOnce => i32::from(SIDE) / 2 - 1,
+        Deception::None | Deception::ActsAtOnce | Deception::MissesCorners => i32::from(SIDE) / 2 - 1,
     };
     let place = oracle.pick(AROUND as u32);
     let (columns, rows) = PLACES[place as usize];

@@ -2,13 +2,14 @@
 //! their own: of the kernel's rule only the names of its conditions are used.
 
 use serde::{Deserialize, Serialize};
-use tautline_kernel::chain::{Budget, Chain, Condition, Kind, Message, Outcome, Plan, Pursuit, Rule};
+use tautline_kernel::chain::{Budget, Chain, Condition, Intent, Kind, Message, Outcome, Plan, Pursuit, Rule};
 use tautline_kernel::ground::{Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Step};
 
 use super::breach::Breach;
 use super::environment::{in_covered, in_safe};
 use super::observed::Observed;
 use super::plain::walk;
+use super::plain_reel::PlainReel;
 use crate::engine::{Stop, require};
 
 /// One team move, with the chain in its three states.
@@ -61,6 +62,8 @@ pub enum Invariant {
     Doubles,
     /// CHAIN-24: at the end of a run, not too many team moves for the walls that it has met.
     Short,
+    /// CHAIN-25: the team moves are those of the procedure.
+    Chosen,
 }
 
 impl Invariant {
@@ -101,6 +104,7 @@ impl Invariant {
         match (self, rule.pursuit, Self::OF_REELS.split_last()) {
             (Self::Certified, ..) => &[Self::Certified],
             (Self::AnyOrder, ..) => &[Self::AnyOrder],
+            (Self::Chosen, ..) => &[Self::Chosen],
             (_, Pursuit::Reel(_), Some((Self::AnyOrder, others))) if !rule.has(Condition::Hold) => others,
             (_, Pursuit::Reel(_), _) => &Self::OF_REELS,
             (_, Pursuit::Epochs, _) => self.family(),
@@ -113,6 +117,7 @@ impl Invariant {
             Self::Without(_) | Self::Ends => &Self::OF_RUNS,
             Self::Exhausts => &[Self::Exhausts],
             Self::Certified => &[Self::Certified],
+            Self::Chosen => &[Self::Chosen],
             Self::Falls | Self::Arrives | Self::AnyOrder | Self::Doubles | Self::Short => &Self::OF_REELS,
             Self::Admitted
             | Self::Distinct
@@ -145,7 +150,8 @@ impl Invariant {
             | Self::Arrives
             | Self::AnyOrder
             | Self::Doubles
-            | Self::Short => None,
+            | Self::Short
+            | Self::Chosen => None,
         }
     }
 
@@ -166,6 +172,7 @@ impl Invariant {
             Self::AnyOrder => "CHAIN-19",
             Self::Doubles => "CHAIN-23",
             Self::Short => "CHAIN-24",
+            Self::Chosen => "CHAIN-25",
         }
     }
 
@@ -204,6 +211,7 @@ impl Invariant {
             Self::Falls => moment.falls(),
             Self::Arrives => moment.arrives(),
             Self::AnyOrder => moment.holds_in_any_order(),
+            Self::Chosen => moment.is_chosen(),
             Self::Doubles => moment.doubles(),
         }
     }
@@ -389,6 +397,46 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
             planned.is_none_or(|left| left == due && now == begun + 1),
             "each take-back without a gain has twice as many team moves as the one before",
         )
+    }
+
+    /// The team move is A if there is one; what is begun else is B or C, as the procedure has them to their ends, and D
+    /// if there is none.
+    fn is_chosen(&self) -> Result<(), Stop> {
+        if self.planned.is_cut_short() {
+            return Ok(());
+        }
+        let reel = PlainReel::new(self.planned.grid(), self.planned.cells());
+        if let Some(touched) = reel.touch() {
+            return require(self.steps == touched, "the leader touches as the procedure says");
+        }
+        let (take_back, _) = Self::take_back(self.before);
+        let goes_on = self.before.until_gain().is_some()
+            || take_back.is_some_and(|left| left > 0) && self.before.last_open().is_some();
+        if goes_on && !self.before.gained() {
+            return Ok(());
+        }
+        let Some(task) = reel.task() else {
+            return require(
+                self.plan.kind == Kind::Backtrack,
+                "nothing is begun where the procedure finds nothing",
+            );
+        };
+        let left = self.planned.until_gain().and_then(|left| usize::try_from(left).ok());
+        require(left == Some(task.len()), "what is begun has as many team moves as the procedure says")?;
+        let (mut chain, mut plan) = (*self.planned, *self.plan);
+        for steps in &task {
+            require(plan.steps() == steps, "what is begun is what the procedure says")?;
+            chain.settle(&plan, |_| true);
+            if chain.gained() {
+                break;
+            }
+            match chain.plan(&[]) {
+                Ok(Intent::Go(next)) if chain.until_gain().is_some() => plan = next,
+                // A comes first.
+                Ok(_) | Err(_) => break,
+            }
+        }
+        Ok(())
     }
 
     /// Each of two neighbours has gone, or not yet.

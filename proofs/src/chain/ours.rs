@@ -30,6 +30,10 @@ step_checks! { Observed;
 /// Five robots, which may meet as many walls as are soon looked at.
 const FIVE_TWO_WALLS: (usize, u32) = (5, 2);
 
+/// The bounds of the clause that is looked at by a slow procedure.
+const FOUR_TWO_WALLS: (usize, u32) = (4, 2);
+const THREE_THREE_WALLS: (usize, u32) = (3, 3);
+
 /// Reels that do not end, or gain nothing where they said so.
 const UNREHEARSED: Named<Observed> =
     Named::new("tasks are not rehearsed", Observed::without_habits(&[Habit::Rehearses]));
@@ -130,7 +134,7 @@ const SHUT_AT_RANDOM: Check<Shut> = Check::new(
 );
 
 /// The clauses.
-pub static CLAUSES: [Clause; 9] = [
+pub static CLAUSES: [Clause; 10] = [
     Clause {
         id: "CHAIN-16",
         sentence: "A planner MUST make no plan that the admission relation refuses.",
@@ -257,6 +261,19 @@ pub static CLAUSES: [Clause; 9] = [
                 &[Named::new("as repaired", Observed::reeling(Rule::REPAIRED))],
             ),
             &Check::new(REEL, &EveryLayout(Invariant::Short, FIVE_TWO_WALLS), Verdict::Holds, &[]),
+        ],
+    },
+    Clause {
+        id: "CHAIN-25",
+        sentence: "Each team move of the reel MUST be the one that its procedure names first.",
+        checks: &[
+            &Check::new(
+                REEL,
+                &EveryLayout(Invariant::Chosen, FOUR_TWO_WALLS),
+                Verdict::Holds,
+                &[UNREHEARSED, FICKLE, Named::new("as repaired", Observed::reeling(Rule::REPAIRED))],
+            ),
+            &Check::new(REEL, &EveryLayout(Invariant::Chosen, THREE_THREE_WALLS), Verdict::Holds, &[]),
         ],
     },
 ];

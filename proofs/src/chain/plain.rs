@@ -416,27 +416,7 @@ pub(crate) fn walk(
 ) -> Option<(Vec<Cell>, Vec<usize>)> {
     // East, south, west, north, and the corners between them, from east over south round to east again.
     let around = [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)];
-    // The cells from one to another that is linked to it, the first left out.
-    let way = |from: Cell, (dx, dy): (i16, i16)| -> Option<Vec<Cell>> {
-        let horizontal = if dx > 0 { Side::East } else { Side::West };
-        let vertical = if dy > 0 { Side::South } else { Side::North };
-        let straight = [if dy == 0 { horizontal } else { vertical }];
-        let bent = [[horizontal, vertical], [vertical, horizontal]];
-        let mut ways: [&[Side]; 2] = if dx == 0 || dy == 0 { [&straight; 2] } else { [&bent[0], &bent[1]] };
-        ways.sort();
-        ways.into_iter().find_map(|sides| {
-            let mut cell = from;
-            let mut cells = Vec::new();
-            for &side in sides {
-                if !is_open(Edge::new(cell, side)) {
-                    return None;
-                }
-                cell = cell.beyond(side);
-                cells.push(cell);
-            }
-            Some(cells)
-        })
-    };
+    let way = |from, offset: (i16, i16)| way(&is_open, from, offset);
     let mut layers = vec![vec![base]];
     let mut met = FxHashSet::from_iter([base]);
     let target = loop {
@@ -475,6 +455,29 @@ pub(crate) fn walk(
         places.push(cells.len() - 1);
     }
     Some((cells, places))
+}
+
+/// The cells from one to another that is this far away, over one side or two in the order of directions, the first left
+/// out; none, if no way is open.
+pub(super) fn way(is_open: &impl Fn(Edge) -> bool, from: Cell, (dx, dy): (i16, i16)) -> Option<Vec<Cell>> {
+    let horizontal = if dx > 0 { Side::East } else { Side::West };
+    let vertical = if dy > 0 { Side::South } else { Side::North };
+    let sides =
+        [vec![horizontal; dx.unsigned_abs().into()], vec![vertical; dy.unsigned_abs().into()]].concat();
+    let mut ways = [sides.clone(), sides.into_iter().rev().collect()];
+    ways.sort();
+    ways.into_iter().filter(|sides| sides.len() <= 2).find_map(|sides| {
+        let mut cell = from;
+        let mut cells = Vec::new();
+        for side in sides {
+            if !is_open(Edge::new(cell, side)) {
+                return None;
+            }
+            cell = cell.beyond(side);
+            cells.push(cell);
+        }
+        Some(cells)
+    })
 }
 
 impl Recursion<'_> {

@@ -134,7 +134,7 @@ fn words(lost: u8, doubled: u8) -> String {
 }
 
 /// The clauses.
-pub static CLAUSES: [Clause; 13] = [
+pub static CLAUSES: [Clause; 14] = [
     Clause {
         id: "KIT-1",
         sentence: "Two robots MUST hear each other all the time, at whatever speeds they drive.",
@@ -297,6 +297,12 @@ pub static CLAUSES: [Clause; 13] = [
             Verdict::Holds,
             &[NO_LOOK_BESIDE, NO_CARAVAN, NO_ROOM],
         )],
+    },
+    Clause {
+        id: "KIT-14",
+        sentence: "Of two robots one that drives a path again MUST be able to take each side that begins a shortest way, and no \
+                   other.",
+        checks: &[&Check::new(REPAIRED, &repaired(Demand::AnyShortest), Verdict::Holds, &[NO_STAY, NO_NEXT])],
     },
 ];
 

@@ -28,7 +28,7 @@ impl<const ROBOTS: usize> Found<'_, ROBOTS> {
     }
 
     /// Whether a robot could drive there once more, or for the first time: no wall, nobody in the way, and all connected.
-    fn admits(&self, cells: &[Cell; ROBOTS], robot: usize, side: Side) -> bool {
+    pub(super) fn admits(&self, cells: &[Cell; ROBOTS], robot: usize, side: Side) -> bool {
         let (from, to) = (cells[robot], cells[robot].beyond(side));
         if self.map.edge_has(EdgeMark::Wall, Edge::new(from, side))
             || cells.contains(&to)

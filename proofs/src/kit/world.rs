@@ -31,6 +31,8 @@ pub enum Demand {
     Marks,
     /// KIT-11
     Shortens,
+    /// KIT-14
+    AnyShortest,
     /// KIT-13
     Whole,
 }
@@ -47,6 +49,7 @@ impl Demand {
             Self::Covers => "KIT-8",
             Self::Marks => "KIT-10",
             Self::Shortens => "KIT-11",
+            Self::AnyShortest => "KIT-14",
             Self::Whole => "KIT-13",
         }
     }
@@ -60,6 +63,7 @@ impl Demand {
             Self::Covers => "the run is over with every side within reach covered, and all know it",
             Self::Marks => "the sides that are driven or seen blocked count as covered, and no others",
             Self::Shortens => "a drive over an old path brings the team nearer to an uncovered side",
+            Self::AnyShortest => "a robot takes any of the sides that begin a shortest way",
             Self::Whole => "the run is over with every side covered that paths join to the starts",
         }
     }
@@ -251,7 +255,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     /// Whether this is looked at, and promised to so many robots that start so.
     fn is_wanted(&self, demand: Demand) -> bool {
         let is_promised = match demand {
-            Demand::Shortens => ROBOTS <= 2,
+            Demand::Shortens | Demand::AnyShortest => ROBOTS == 2,
             Demand::Whole => ROBOTS > 2 && self.starts == Starts::SideBySide,
             Demand::Contact
             | Demand::Apart

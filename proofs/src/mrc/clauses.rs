@@ -46,6 +46,24 @@ const WAYS_BACK: Check<Observed> = Check::new(
     ],
 );
 
+const REPEATED: Check<Observed> = Check::new(
+    REPAIRED,
+    &Exhaustive { body: records::repeated, range: records::repeats, covers: &["a WFR", "a robot"] },
+    Verdict::Holds,
+    &[Named::new("no repetition", Observed::rescuing(Rule::REPAIRED.without(Repetition)))],
+);
+
+const FILLED: Check<Observed> = Check::new(
+    REPAIRED,
+    &Exhaustive {
+        body: records::filled,
+        range: records::fillings,
+        covers: &["nobody gives way", "one gives way", "room for all"],
+    },
+    Verdict::Holds,
+    &[Named::new("whoever is chosen goes", Observed::rescuing(Rule::REPAIRED.without(StillAsks)))],
+);
+
 const REDECIDE: Observed = Observed::rescuing(Rule::REPAIRED.without(ChoiceStands));
 const FIRST_OF_EQUALS: Observed = Observed::rescuing(Rule::REPAIRED.without(LeastIdentity));
 const NO_EPOCH: Observed = Observed::rescuing(Rule::REPAIRED.without(Epochs));
@@ -69,7 +87,7 @@ const ONE_AND_TWO: Setting = Setting { robots: 1, events: 3, ..TWO };
 const ONE_AND_THREE: Setting = Setting { robots: 1, wfrs: 3, events: 3, ..TWO };
 
 /// The clauses.
-pub static CLAUSES: [Clause; 12] = [
+pub static CLAUSES: [Clause; 14] = [
     Clause {
         id: "MRC-1",
         sentence: "Two robots MUST never be on their way for the same call of a WFR.",
@@ -284,6 +302,18 @@ pub static CLAUSES: [Clause; 12] = [
                    keep it until it hears a newer call.",
         checks: &[&SERVED],
     },
+    Clause {
+        id: "MRC-13",
+        sentence: "A MOVE, and the RESB to the robot chosen, MUST be repeated as often as the rule says while nobody answers, \
+                   and not more often.",
+        checks: &[&REPEATED],
+    },
+    Clause {
+        id: "MRC-14",
+        sentence: "A robot whose records are full MUST put a new WFR in the place of the first that it is done with, unless it \
+                   holds that one's lease, and leave it to others if there is none.",
+        checks: &[&FILLED],
+    },
 ];
 
 #[cfg(test)]
@@ -295,7 +325,7 @@ mod tests {
 
     #[test]
     fn whatever_one_machine_hears_the_clauses_hold_and_their_mutants_are_rejected() {
-        for check in [&RECORDS, &SERVED, &WAYS_BACK] {
+        for check in [&RECORDS, &SERVED, &WAYS_BACK, &REPEATED, &FILLED] {
             let decision =
                 check.decide(&mut Memory::default(), &mut unwatched).expect("a body can be decided");
             assert!(decision.is_as_registered(check), "{}: {decision:?}", check.bound());

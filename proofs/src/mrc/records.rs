@@ -1,8 +1,8 @@
-//! What robots and path nodes write down (MRC-10 to MRC-12): every order in which a few messages reach one of them, against
+//! What robots and path nodes write down (MRC-10 to MRC-14): every order in which a few messages reach one of them, against
 //! what follows from the list of them. Repetitions and losses are orders, too.
 
 use tautline_kernel::choice::{Oracle, one_of};
-use tautline_kernel::mrc::{Downward, Hop, Relay, Resb, Robot, Served, Upward, Word};
+use tautline_kernel::mrc::{Downward, Hop, Relay, Resb, Robot, Rule, Sent, Served, Task, Upward, Wfr, Word};
 use tautline_kernel::net::{Call, Epoch, NodeId, Notice, RobotId};
 
 use super::{Misread, Observed};
@@ -171,6 +171,117 @@ pub(super) fn ways_back(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome
     }
     let stranger = Resb { call: call(oracle), robot: RobotId(9), chosen: None };
     require(relay.down(stranger).is_none(), "a RESB of a robot that was not heard ends here")?;
+    Ok(situation)
+}
+
+/// The bound of [`repeated`].
+pub(super) fn repeats() -> String {
+    format!("a robot or a WFR that repeats 0 to {MESSAGES} times")
+}
+
+/// MRC-13: how often a message is sent that nobody answers.
+///
+/// # Errors
+/// [`crate::engine::Stop`] if the clause is broken.
+pub(super) fn repeated(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    let repeats = oracle.pick(MESSAGES as u32 + 1) as u8;
+    let rule = Rule { repeats, ..observed.rule };
+    let call = Call { wfr: NodeId(0), epoch: Epoch::FIRST };
+    let demand = "what is not answered is sent as often as the rule repeats";
+    if oracle.flip() {
+        let notice = Notice { call, hops: 0, sender: SENDERS[0] };
+        let (mut robot, mut sent) = Robot::<1>::new(rule, ROBOT).receive(Downward::Notice(notice));
+        for left in (0..=repeats).rev() {
+            require(sent.is_some() && robot.timer().is_some_and(|timer| timer.repeats_left == left), demand)?;
+            if let Some(timer) = robot.timer() {
+                (robot, sent) = robot.expire(timer);
+            }
+        }
+        require((sent, robot.task()) == (None, Task::Free), demand)?;
+        return Ok("a robot");
+    }
+    let word = Word::Move { hops: 1 };
+    let bid = Upward { call, robot: ROBOT, word, parent: call.wfr };
+    let (mut wfr, mut sent) = Wfr::<1>::new(rule, call.wfr).raise().0.receive(bid);
+    for told in 0..=repeats {
+        if let Some(timer) = wfr.timer() {
+            (wfr, sent) = wfr.expire(timer);
+        }
+        let is_told = if told == 0 { matches!(sent, Sent::All(_)) } else { matches!(sent, Sent::One(_)) };
+        require(is_told && wfr.call() == call, demand)?;
+    }
+    if let Some(timer) = wfr.timer() {
+        (wfr, sent) = wfr.expire(timer);
+    }
+    require(matches!(sent, Sent::Notice(_)) && wfr.call().epoch == call.epoch.next(), demand)?;
+    Ok("a WFR")
+}
+
+/// Places of a table that is too small, and what happens to it.
+const PLACES: usize = 2;
+const FILLINGS: usize = 5;
+
+/// The bound of [`filled`].
+pub(super) fn fillings() -> String {
+    format!("{FILLINGS} NOTICEs, RESBs or arrivals of {} WFRs, {PLACES} places", PLACES + 1)
+}
+
+/// MRC-14: which WFRs a robot knows, and what it does, if its table is too small for all.
+///
+/// # Errors
+/// [`crate::engine::Stop`] if the clause is broken.
+pub(super) fn filled(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
+    let mut robot = Robot::<PLACES>::new(observed.rule, ROBOT);
+    let (mut table, mut asks, mut holds): (Vec<(u32, bool)>, Option<u32>, Option<u32>) =
+        (Vec::new(), None, None);
+    let mut situation = "room for all";
+    for _ in 0..FILLINGS {
+        let wfr = oracle.pick(PLACES as u32 + 1);
+        let call = Call { wfr: NodeId(wfr), epoch: Epoch::FIRST };
+        let known = table.iter().position(|&(known, _)| known == wfr);
+        let event = oracle.pick(4);
+        robot = match event {
+            0 => robot.receive(Downward::Notice(Notice { call, hops: 0, sender: SENDERS[0] })).0,
+            1 | 2 => {
+                let chosen = Some(RobotId(event as u16 - 1));
+                robot.receive(Downward::Resb(Resb { call, robot: ROBOT, chosen })).0
+            }
+            _ => robot.arrive().0,
+        };
+        match (event, known) {
+            (0, None) if table.len() < PLACES => table.push((wfr, false)),
+            (0, None) => {
+                let is_over = |&(known, is_served): &(u32, bool)| is_served && Some(known) != asks.or(holds);
+                situation = "nobody gives way";
+                if let Some(place) = table.iter_mut().find(|place| is_over(place)) {
+                    (*place, situation) = ((wfr, false), "one gives way");
+                }
+            }
+            (1 | 2, Some(place)) => {
+                table[place].1 = true;
+                if asks == Some(wfr) {
+                    (asks, holds) = (None, (event == 1).then_some(wfr));
+                }
+            }
+            (3, _) => holds = None,
+            _ => {}
+        }
+        let seeks = matches!(event, 0 | 3) || event == 2 && known.is_some();
+        if seeks && asks.or(holds).is_none() {
+            asks = table.iter().filter(|&&(_, is_served)| !is_served).map(|&(wfr, _)| wfr).min();
+        }
+        let records = robot.requests().map(|request| (request.call.wfr.0, request.served == Served::Yes));
+        require(
+            records.eq(table.iter().copied()),
+            "a new WFR takes the place of the first that is done with",
+        )?;
+        let task = match robot.task() {
+            Task::Free => (None, None),
+            Task::Asking { call, .. } => (Some(call.wfr.0), None),
+            Task::Leased { call } => (None, Some(call.wfr.0)),
+        };
+        require(task == (asks, holds), "it does what the records and answers say")?;
+    }
     Ok(situation)
 }
 

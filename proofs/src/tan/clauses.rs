@@ -1,6 +1,7 @@
 //! The clauses of TAN, in the order of `SPEC.md`.
 
 use super::legs::{self, Reading};
+use super::way::{self, Patience, TRUE};
 use crate::clause::{Check, Clause, Named};
 use crate::decide::{Exhaustive, Verdict};
 
@@ -32,8 +33,33 @@ const GOES_ON: Check<Reading> = Check::new(
     &[Named::new("a node is its own parent", Reading::NoParent)],
 );
 
+const WHOLE_WAY: Check<Patience> = Check::new(
+    Named::new("repaired", TRUE),
+    &Exhaustive {
+        body: way::whole_way,
+        range: way::events,
+        covers: &["at the WFR", "it asks", "lost", "on its way"],
+    },
+    Verdict::Holds,
+    &[
+        Named::new("asks three times", Patience { tries: 3, ..TRUE }),
+        Named::new("goes nearer twice", Patience { times: 2, ..TRUE }),
+    ],
+);
+
+const GUIDES: Check<bool> = Check::new(
+    Named::new("repaired", true),
+    &Exhaustive {
+        body: way::guides,
+        range: way::requests,
+        covers: &["idle", "it keeps silent", "it signals"],
+    },
+    Verdict::Holds,
+    &[Named::new("others do not count", false)],
+);
+
 /// The clauses.
-pub static CLAUSES: [Clause; 2] = [
+pub static CLAUSES: [Clause; 4] = [
     Clause {
         id: "TAN-1",
         sentence: "A robot MUST follow only the signal of the node that it has asked, one hop nearer than itself in the \
@@ -46,6 +72,19 @@ pub static CLAUSES: [Clause; 2] = [
                    next if it is not.",
         checks: &[&GOES_ON],
     },
+    Clause {
+        id: "TAN-3",
+        sentence: "A robot MUST walk in the first of the strongest directions, scan again when the signal gets weaker or its way \
+                   is barred, ask again what it does not hear, and go nearer to the node before when that was in vain, as often \
+                   as it may.",
+        checks: &[&WHOLE_WAY],
+    },
+    Clause {
+        id: "TAN-4",
+        sentence: "A node MUST signal for T_x if it was asked before it had to keep silent, as it was asked last, and else keep \
+                   silent.",
+        checks: &[&GUIDES],
+    },
 ];
 
 #[cfg(test)]
@@ -57,7 +96,8 @@ mod tests {
 
     #[test]
     fn whatever_one_machine_hears_the_clauses_hold_and_their_mutants_are_rejected() {
-        for check in [&FOLLOWS, &GOES_ON] {
+        let checks: [&dyn AnyCheck; 4] = [&FOLLOWS, &GOES_ON, &WHOLE_WAY, &GUIDES];
+        for check in checks {
             let decision =
                 check.decide(&mut Memory::default(), &mut unwatched).expect("a body can be decided");
             assert!(decision.is_as_registered(check), "{}: {decision:?}", check.bound());

@@ -1,6 +1,6 @@
 //! What is broken on a small lattice, by a drive or by staying.
 
-use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Step, Steps};
+use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side, Step, Steps};
 use tautline_kernel::kit::{Condition, Stance};
 
 use super::{Demand, Setting, Speeds, World};
@@ -100,6 +100,34 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             |other: usize| before.team.stance(other).filter(|stance| !stance.stands()).map(Stance::from);
         let goes_alone = self.rule.has(Condition::Meanwhile) && before.fresh & !(1 << robot) != 0;
         is_nearer([None; ROBOTS], u8::MAX) || goes_alone && is_nearer(std::array::from_fn(left), 1 << robot)
+    }
+
+    /// The sides of old paths with which a shortest way of the team begins, or of `robot` alone while another one drives a new
+    /// path and it has one.
+    pub(super) fn shortest(&self, world: &World<ROBOTS>, robot: usize) -> Vec<Side> {
+        let map = self.found(world);
+        let cells = Self::ends(world);
+        let left =
+            |other: usize| world.team.stance(other).filter(|stance| !stance.stands()).map(Stance::from);
+        let now = Found { map: &map, left: std::array::from_fn(left) };
+        let goes_alone = self.rule.has(Condition::Meanwhile) && world.fresh & !(1 << robot) != 0;
+        let alone = (now, 1 << robot);
+        let (found, movers) = if goes_alone && now.distance(cells, alone.1).is_some() {
+            alone
+        } else {
+            (Found { left: [None; ROBOTS], ..now }, u8::MAX)
+        };
+        let is_nearer = |&side: &Side| {
+            let mut after = cells;
+            after[robot] = cells[robot].beyond(side);
+            let is_old = map.edge_has(EdgeMark::Open, Edge::new(cells[robot], side));
+            let may_drive = is_old && now.admits(&cells, robot, side);
+            may_drive
+                && found
+                    .distance(after, movers)
+                    .is_some_and(|far| Some(far + 1) == found.distance(cells, movers))
+        };
+        Side::ALL.into_iter().filter(is_nearer).collect()
     }
 
     /// The demands that are looked at and broken by staying in `world`.

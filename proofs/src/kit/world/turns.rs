@@ -22,7 +22,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
                 continue;
             }
             if !is_driving {
-                turns.extend(outcomes(|oracle| self.decide(world, robot, oracle)));
+                turns.extend(self.decided(world, robot));
                 continue;
             }
             let all_drive = world.team.stances().all(|stance| !stance.stands());
@@ -39,8 +39,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             let node = Self::ends(&after)[robot];
             let arrival = Event::Arrives(robot, node);
             if self.answers == Answers::AtOnce && after.team.may_decide(robot) {
-                let decided = outcomes(|oracle| self.decide(&after, robot, oracle));
-                turns.extend(decided.map(|mut turned| {
+                turns.extend(self.decided(&after, robot).into_iter().map(|mut turned| {
                     turned.events.insert(0, arrival.clone());
                     turned
                 }));
@@ -56,6 +55,26 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
             });
         }
         turns
+    }
+
+    /// All that comes of a decision of `robot`, if it may decide. Where it drives an old path at once, it is any that begins a
+    /// shortest way.
+    fn decided(&self, world: &World<ROBOTS>, robot: usize) -> Vec<Turned<ROBOTS>> {
+        let mut decided: Vec<_> = outcomes(|oracle| self.decide(world, robot, oracle)).collect();
+        let taken = |turned: &Turned<ROBOTS>| match (turned.situation, &turned.events[..]) {
+            ("an old path", [Event::Decides(_, looks, _)]) if looks.len() == 1 => Some(looks[0].0),
+            _ => None,
+        };
+        let sides: Vec<Side> = decided.iter().filter_map(taken).collect();
+        if self.is_wanted(Demand::AnyShortest) && !sides.is_empty() {
+            let due = self.shortest(world, robot);
+            if !due.iter().all(|side| sides.contains(side)) || !sides.iter().all(|side| due.contains(side)) {
+                for turned in &mut decided {
+                    turned.breaks.push(Demand::AnyShortest);
+                }
+            }
+        }
+        decided
     }
 
     /// `robot` decides, if it may.

@@ -1,0 +1,189 @@
+//! A robot on its whole way by TAN, and a node that guides robots, once more in few words (TAN-3, TAN-4): what is asked, how the
+//! antenna is read, when a robot goes back, and when a node keeps silent, follow from lists of what happened.
+
+use tautline_kernel::choice::{Oracle, one_of};
+use tautline_kernel::net::{NodeId, RobotId, Strength};
+use tautline_kernel::tan::{Conduct, Guide, Heading, Homing, Nav, Nearness, Order, ReqNav, Stage};
+
+use crate::engine::{Outcome, Stop, require};
+
+/// What happens to a robot.
+const EVENTS: u8 = 6;
+
+/// Hops at the start: two nodes, and the WFR.
+const HOPS: u16 = 3;
+
+const WFR: NodeId = NodeId(0);
+const ME: RobotId = RobotId(1);
+const NEAR: i32 = 100;
+const CLOSER: u16 = 10;
+
+/// How often a robot asks a node, and goes nearer to one.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Patience {
+    pub(super) tries: u8,
+    pub(super) times: u8,
+}
+
+/// What a robot should know.
+struct Way {
+    asked: u16,
+    in_vain: u8,
+    /// The node where it has been last, and how often it has gone nearer to that one since.
+    last: Option<(u16, u8)>,
+}
+
+impl Way {
+    /// The node that it asks next when one more attempt was in vain; none if it is lost.
+    fn fails(&mut self) -> Option<u16> {
+        self.in_vain += 1;
+        if self.in_vain < TRUE.tries {
+            return Some(self.asked);
+        }
+        let (last, nearer) = self.last.filter(|&(last, nearer)| last != self.asked && nearer < TRUE.times)?;
+        (self.in_vain, self.last, self.asked) = (0, Some((last, nearer + 1)), last);
+        Some(last)
+    }
+
+    /// How strong the signal is to be where the robot is at the node.
+    fn due(&self) -> i32 {
+        let nearer = self.last.filter(|&(last, _)| last == self.asked).map_or(0, |(_, nearer)| nearer);
+        NEAR + i32::from(nearer) * i32::from(CLOSER)
+    }
+
+    fn reaches(&mut self) {
+        let nearer = self.last.filter(|&(last, _)| last == self.asked).map_or(0, |(_, nearer)| nearer);
+        (self.last, self.in_vain) = (Some((self.asked, nearer)), 0);
+        self.asked = self.asked.saturating_sub(1);
+    }
+}
+
+/// What the rule has.
+pub(super) const TRUE: Patience = Patience { tries: 2, times: 1 };
+
+/// The bound of [`whole_way`].
+pub(super) fn events() -> String {
+    format!("{EVENTS} events from {HOPS} hops on, {} tries, {} time nearer", TRUE.tries, TRUE.times)
+}
+
+/// TAN-3: what a robot does next.
+///
+/// # Errors
+/// [`crate::engine::Stop`] if the clause is broken.
+pub(super) fn whole_way(patience: &Patience, oracle: &mut dyn Oracle) -> Outcome {
+    let nearness = Nearness { near: Strength(NEAR), closer: CLOSER, times: patience.times };
+    let mut robot = Homing::new(WFR, ME, NodeId(2), HOPS, nearness, patience.tries);
+    let mut way = Way { asked: HOPS - 1, in_vain: 0, last: None };
+    for number in 0..EVENTS {
+        let node = NodeId(way.asked.into());
+        let is_asked = robot.order() == Order::Ask(ReqNav { wfr: WFR, robot: ME, node });
+        require(is_asked && robot.hops() == way.asked + 1, "it asks the node that is due")?;
+        if oracle.flip() {
+            robot = robot.expire();
+        } else {
+            let parent = NodeId(way.asked.saturating_sub(1).into());
+            robot = robot.hear(Nav { wfr: WFR, node, hops: way.asked, parent });
+            if !walks(&mut robot, &way, number, oracle)? {
+                return Ok("on its way");
+            }
+            if robot.hops() == way.asked {
+                way.reaches();
+                if robot.stage() == Stage::Arrived {
+                    require(robot.hops() == 0, "it has arrived at the WFR alone")?;
+                    return Ok("at the WFR");
+                }
+                continue;
+            }
+        }
+        if way.fails().is_none() {
+            require(robot.stage() == Stage::Lost, "it is lost when all was in vain")?;
+            return Ok("lost");
+        }
+    }
+    Ok("it asks")
+}
+
+/// A scan, and a walk; whether the robot has come to the node or lost its signal. In scan `number` two directions are as good.
+fn walks(robot: &mut Homing, way: &Way, number: u8, oracle: &mut dyn Oracle) -> Result<bool, Stop> {
+    let strongest = one_of(oracle, &[None, Some(way.due() - 1), Some(way.due())]);
+    let best = [5 + number % 2, 9].map(|steps| Heading::FIRST.turned(steps));
+    for heading in Heading::all() {
+        require(robot.order() == Order::Point(heading), "it turns its antenna once round")?;
+        let weaker = if best.contains(&heading) { 0 } else { 7 };
+        *robot = robot.measure(strongest.map(|strongest| Strength(strongest - weaker)));
+    }
+    let Some(strongest) = strongest.filter(|&strongest| strongest < way.due()) else { return Ok(true) };
+    let ahead = Order::Walk(best[0]);
+    require(robot.order() == ahead, "it walks in the first of the strongest directions")?;
+    let heard = match oracle.pick(5) {
+        0 => {
+            *robot = robot.measure(Some(Strength(strongest)));
+            require(robot.order() == ahead, "it goes on while the signal is not weaker")?;
+            return Ok(false);
+        }
+        1 => None,
+        2 => Some(way.due()),
+        walk => {
+            *robot = if walk == 3 { robot.bump() } else { robot.measure(Some(Strength(strongest - 1))) };
+            for heading in Heading::all() {
+                require(robot.order() == Order::Point(heading), "it scans again")?;
+                *robot = robot.measure(None);
+            }
+            return Ok(true);
+        }
+    };
+    *robot = robot.measure(heard.map(Strength));
+    Ok(true)
+}
+
+/// What happens to a node that guides.
+const REQUESTS: usize = 4;
+
+/// The bound of [`guides`].
+pub(super) fn requests() -> String {
+    format!("{REQUESTS} requests, signals of others, or ends of T_x")
+}
+
+/// TAN-4: what a node does until T_x has passed.
+///
+/// # Errors
+/// [`crate::engine::Stop`] if the clause is broken.
+pub(super) fn guides(is_patient: &bool, oracle: &mut dyn Oracle) -> Outcome {
+    let own = |hops| Nav { wfr: WFR, node: NodeId(2), hops, parent: NodeId(1) };
+    let mut guide = Guide::IDLE;
+    // Since T_x has passed: the places in the tree under which it was asked, none for what was not for it.
+    let mut since: Vec<Option<Nav>> = Vec::new();
+    for _ in 0..REQUESTS {
+        let event = oracle.pick(4);
+        let node = NodeId(if event == 0 { 2 } else { 3 });
+        let own = own(1 + oracle.pick(2) as u16);
+        guide = match event {
+            0 | 1 => guide.request(ReqNav { wfr: WFR, robot: ME, node }, NodeId(2), Some(own)),
+            2 => guide.overhear(),
+            _ => guide.expire(),
+        };
+        match event {
+            3 => since.clear(),
+            _ => since.push((event == 0).then_some(own)),
+        }
+        if !is_patient {
+            since.retain(Option::is_some);
+        }
+        let due = match since.first() {
+            None => Conduct::Idle,
+            Some(None) => Conduct::Silent,
+            Some(Some(_)) => {
+                since.iter().rev().flatten().next().map_or(Conduct::Idle, |&nav| Conduct::Signals(nav))
+            }
+        };
+        require(
+            guide.conduct == due,
+            "it signals if it was asked before it had to keep silent, as it was asked last",
+        )?;
+    }
+    Ok(match guide.conduct {
+        Conduct::Idle => "idle",
+        Conduct::Signals(_) => "it signals",
+        Conduct::Silent => "it keeps silent",
+    })
+}
