@@ -83,7 +83,8 @@ impl<const ROBOTS: usize> Reel<ROBOTS> {
     pub(super) fn went_on(&mut self, leader: Cell) {
         self.left = self.left.saturating_sub(1);
         match self.task {
-            Task::DrawIn { .. } | Task::LetOut => self.walk.follow(leader),
+            Task::DrawIn { .. } => self.walk.go_back(leader),
+            Task::LetOut => self.walk.go_on(leader),
             Task::None | Task::Approach { .. } | Task::TakeBack => {}
         }
         if self.left == 0 && self.task != Task::TakeBack {

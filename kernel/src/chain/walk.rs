@@ -81,22 +81,14 @@ impl<const ROBOTS: usize> Walk<ROBOTS> {
         self.cells.as_flattened()[place]
     }
 
-    /// The places behind the leader at the end.
-    pub(super) fn ahead(&self) -> usize {
-        self.stop(self.links.into()).saturating_sub(self.leader())
+    /// The leader, which is in the cell `to`, has gone back by one place, or stayed.
+    pub(super) fn go_back(&mut self, to: Cell) {
+        self.leader -= u16::from(self.cell(self.leader()) != to).min(self.leader);
     }
 
-    /// The leader goes to the cell `to` beside its place, or stays.
-    pub(super) fn follow(&mut self, to: Cell) {
-        let leader = self.leader();
-        if self.cell(leader) == to {
-            return;
-        }
-        if self.ahead() > 0 && self.cell(leader + 1) == to {
-            self.leader += 1;
-        } else {
-            self.leader = self.leader.saturating_sub(1);
-        }
+    /// The leader, which is in the cell `to`, has gone on by one place, or stayed.
+    pub(super) fn go_on(&mut self, to: Cell) {
+        self.leader += u16::from(self.cell(self.leader()) != to);
     }
 
     /// The place of each robot on the walk; 0 for the first and those behind it. `None` if one is not on it.
@@ -172,18 +164,19 @@ mod tests {
     use crate::ground::{Area, TinyGrid};
 
     #[test]
-    fn a_leader_goes_along_its_walk_and_back_whatever_cell_the_walk_ends_at() {
+    fn a_leader_that_is_drawn_in_goes_back_also_where_its_walk_visits_a_cell_twice() {
         let grid =
             TinyGrid::new(Area::new(Cell::new(0, 0), Cell::new(3, 3)).expect("cells")).expect("it fits");
-        let team = [Cell::new(1, 0), Cell::new(0, 0), Cell::new(0, 1)];
+        let team = [(0, 0), (1, 1), (1, 0)].map(Cell::from);
         let mut walk = Walk::<3>::own(&grid, &team);
-        let [base, between, end] = team;
-        assert_eq!((walk.leader(), walk.ahead()), (2, 0));
-        for (to, place) in
-            [(end, 2), (between, 1), (between, 1), (base, 0), (between, 1), (end, 2), (between, 1)]
-        {
-            walk.follow(to);
-            assert_eq!((walk.leader(), walk.cell(place), walk.ahead()), (place, to, 2 - place));
+        let places = [3, 2, 2, 1, 0].map(|place| {
+            walk.go_back(walk.cell(place));
+            walk.leader()
+        });
+        assert_eq!((places, walk.cell(1)), ([3, 2, 2, 1, 0], walk.cell(3)));
+        for place in [1, 1, 2, 3] {
+            walk.go_on(walk.cell(place));
+            assert_eq!(walk.leader(), place);
         }
     }
 
@@ -193,7 +186,7 @@ mod tests {
             TinyGrid::new(Area::new(Cell::new(0, 0), Cell::new(3, 3)).expect("cells")).expect("it fits");
         let base = Cell::new(1, 0);
         let mut walk = Walk::<4>::own(&grid, &[base, Cell::new(0, 0), base, Cell::new(1, 1)]);
-        walk.follow(base);
+        walk.go_back(base);
         assert_eq!(walk.places(&[base; 4], Lookup::LastFirst), Some([0, 2, 2, 2]));
         assert_eq!(walk.places(&[base; 4], Lookup::FirstFirst), Some([0, 0, 0, 2]));
     }

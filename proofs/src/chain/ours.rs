@@ -32,7 +32,7 @@ const FIVE_TWO_WALLS: (usize, u32) = (5, 2);
 
 /// The bounds of the clause that is looked at by a slow procedure.
 const FOUR_TWO_WALLS: (usize, u32) = (4, 2);
-const THREE_THREE_WALLS: (usize, u32) = (3, 3);
+const THREE_FOUR_WALLS: (usize, u32) = (3, 4);
 
 /// Reels that do not end, or gain nothing where they said so.
 const UNREHEARSED: Named<Observed> =
@@ -273,7 +273,7 @@ pub static CLAUSES: [Clause; 10] = [
                 Verdict::Holds,
                 &[UNREHEARSED, FICKLE, Named::new("as repaired", Observed::reeling(Rule::REPAIRED))],
             ),
-            &Check::new(REEL, &EveryLayout(Invariant::Chosen, THREE_THREE_WALLS), Verdict::Holds, &[]),
+            &Check::new(REEL, &EveryLayout(Invariant::Chosen, THREE_FOUR_WALLS), Verdict::Holds, &[]),
         ],
     },
 ];
