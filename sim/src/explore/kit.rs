@@ -52,6 +52,9 @@ pub const MARKS: ClauseId = ClauseId::new("KIT-10");
 /// A drive over an old path shortens no way.
 pub const SHORTENS: ClauseId = ClauseId::new("KIT-11");
 
+/// A robot that drives a path again may take each side that begins a shortest way, and no other.
+pub const ANY_SHORTEST: ClauseId = ClauseId::new("KIT-14");
+
 /// Of three robots and more, one may be cut off at some speeds.
 pub const CONNECTED: ClauseId = ClauseId::new("KIT-12");
 
@@ -88,6 +91,7 @@ pub static KIT: Profile = Profile {
         Clause { missed: Some(MISSED), ..Clause::new(COVERS.as_str()) },
         Clause::new(MARKS.as_str()),
         Clause::new(SHORTENS.as_str()),
+        Clause::new(ANY_SHORTEST.as_str()),
         Clause::new(CONNECTED.as_str()),
         Clause { missed: Some(MISSED), ..Clause::new(WHOLE.as_str()) },
     ],
