@@ -91,9 +91,9 @@ pub static KIT: Profile = Profile {
         Clause { missed: Some(MISSED), ..Clause::new(COVERS.as_str()) },
         Clause::new(MARKS.as_str()),
         Clause::new(SHORTENS.as_str()),
-        Clause::new(ANY_SHORTEST.as_str()),
         Clause::new(CONNECTED.as_str()),
         Clause { missed: Some(MISSED), ..Clause::new(WHOLE.as_str()) },
+        Clause::new(ANY_SHORTEST.as_str()),
     ],
 };
 
