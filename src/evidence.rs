@@ -88,11 +88,10 @@ pub(super) fn story(clause: &Clause, check: &dyn AnyCheck, evidence: &Evidence) 
             format!("{id} as {rule}: not so: {demand}. The choices that lead there: {choices}\n")
         }
         Seen::Robots(run) => {
-            let (first, last) = (run.area.first(), run.area.last());
             let head = format!(
                 "{id} as {rule}: the smallest counterexample in {}×{} cells has {} ({}) and {}.\n\n",
-                last.x - first.x + 1,
-                last.y - first.y + 1,
+                run.area.width(),
+                run.area.height(),
                 counted(run.walls.len(), "wall"),
                 named(&run.walls),
                 counted(run.frames.len(), "team move")

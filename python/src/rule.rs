@@ -19,7 +19,7 @@ use tautline_proofs::run::{Frame, Run as Found, walls};
 use tautline_proofs::team::Promise;
 use tautline_sim::aside::{Aside, Replaceable};
 use tautline_sim::explore::hunt::layout as layout_of;
-use tautline_sim::explore::{Limits, OnViolation, Report, Stage, run};
+use tautline_sim::explore::{Limits, Report, Stage, run};
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::layout::Layout;
 use tautline_sim::trace::{self, Stored, Writer};
@@ -197,7 +197,7 @@ fn stored(written: &Written, layout: &Layout, demand: usize) -> Result<(Made, Re
     let folder = tempfile::tempdir().map_err(|error| Fault::usage(error, "make room for temporary files"))?;
     let path = folder.path().join("run.jsonl");
     let clause = written.demands[demand].clause;
-    let limits = Limits { violation: OnViolation::StopAt(clause), ..Limits::default() };
+    let limits = Limits::stopping_at(Some(clause));
     let stage = Stage { limits, ..Stage::new(written.scheme, written.name, layout, written.starts()) };
     let aside = Aside::new(&path, &Replaceable::default())?;
     let mut writer = Writer::new(aside, &stage, Some(clause)).map_err(Fault::from)?;

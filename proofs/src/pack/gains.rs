@@ -28,39 +28,31 @@ pub(super) fn are_best<W: AsRef<[[u64; 2]]>>(
     kept: &[Option<Cell>],
     chosen: &[Option<Cell>],
 ) -> bool {
+    let are_chosen = |chosen: &[Option<Cell>]| {
+        let mut aims = kept.to_vec();
+        for (robot, &from) in cells.iter().enumerate() {
+            if kept[robot].is_some() {
+                if chosen[robot] != kept[robot] {
+                    return false;
+                }
+                continue;
+            }
+            let others: Vec<Cell> = aims.iter().flatten().copied().collect();
+            if !is_best(rule, chart, from, &others, chosen[robot]) {
+                return false;
+            }
+            aims[robot] = chosen[robot];
+        }
+        true
+    };
     match (cells, chosen) {
-        ([_], _) => are_chosen(rule, chart, cells, kept, chosen),
+        ([_], _) => are_chosen(chosen),
         (&[one, other], &[first, second]) => {
             let (columns, rows) = one.apart(other);
-            are_chosen(rule, chart, cells, kept, chosen)
-                || columns + rows <= 2 && are_chosen(rule, chart, cells, kept, &[second, first])
+            are_chosen(chosen) || columns + rows <= 2 && are_chosen(&[second, first])
         }
         _ => true,
     }
-}
-
-fn are_chosen<W: AsRef<[[u64; 2]]>>(
-    rule: &Rule,
-    chart: &Chart<W>,
-    cells: &[Cell],
-    kept: &[Option<Cell>],
-    chosen: &[Option<Cell>],
-) -> bool {
-    let mut aims = kept.to_vec();
-    for (robot, &from) in cells.iter().enumerate() {
-        if kept[robot].is_some() {
-            if chosen[robot] != kept[robot] {
-                return false;
-            }
-            continue;
-        }
-        let others: Vec<Cell> = aims.iter().flatten().copied().collect();
-        if !is_best(rule, chart, from, &others, chosen[robot]) {
-            return false;
-        }
-        aims[robot] = chosen[robot];
-    }
-    true
 }
 
 /// Whether no frontier cell has a greater metric gain than `aim`, for a robot in `from` that has heard where the others go.

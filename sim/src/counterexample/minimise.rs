@@ -256,7 +256,7 @@ pub fn minimise(
     let report = explore(&first, &mut |_| watch(Progress { runs: 0, smallest: before }))?;
     let Violation { clause, step } = first_violation(&report, asked)?;
     before.steps = step;
-    let limits = Limits { violation: OnViolation::StopAt(clause), ..Limits::default() };
+    let limits = Limits::stopping_at(Some(clause));
     // Starts that nobody has given are those of the smaller case; others stay where they are.
     let starts =
         |robots, layout: &Layout, base| setup.scheme.default_starts(setup.rule, layout, base, robots);

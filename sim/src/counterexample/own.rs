@@ -1,5 +1,5 @@
-//! Counterexamples to a rule of one's own: made again in one layout, and stored as files that anyone can replay. Nothing in them can go: the search
-//! finds the fewest walls, and the area is what the rule and its demands may know.
+//! Counterexamples to a rule of one's own: made again in one layout, and stored as files that anyone can replay. Nothing in
+//! them can go: the search finds the fewest walls, and the area is what the rule and its demands may know.
 
 use std::path::Path;
 
@@ -8,9 +8,8 @@ use tautline_proofs::team::{self, Layouts};
 
 use crate::aside::{Aside, Replaceable};
 use crate::explore::hunt::layout as layout_of;
-use crate::explore::{ClauseId, Limits, OnViolation, Own, Report, Stage, TeamMove, run};
+use crate::explore::{ClauseId, Limits, Own, Report, Stage, run};
 use crate::fault::{Fault, Halt};
-use crate::layout::Layout;
 use crate::trace::Writer;
 
 /// A rule of one's own, in the layout of a run that was found.
@@ -24,40 +23,20 @@ pub struct Found<'a, R: 'static, T: 'static, const ROBOTS: usize> {
 }
 
 impl<R, T: team::Team<ROBOTS>, const ROBOTS: usize> Found<'_, R, T, ROBOTS> {
-    fn own(&self) -> Own<T, ROBOTS> {
-        let (team, cells) = (self.layouts.start)(self.rule.1);
-        Own::new(team, cells, self.layouts.demands)
-    }
-
-    fn clause(&self) -> Option<ClauseId> {
-        self.run.breaks.map(ClauseId::new)
-    }
-
-    fn limits(&self) -> Limits {
-        let violation = self.clause().map_or(OnViolation::Stop, OnViolation::StopAt);
-        Limits { until: None, max_moves: None, violation }
-    }
-
-    /// Makes the run again, in the layout that has the walls that it met and no others.
-    fn play(
-        &self,
-        layout: &Layout,
-        watch: &mut dyn FnMut(&TeamMove<'_>) -> Result<(), Halt>,
-    ) -> Result<Report, Halt> {
-        run(&mut self.own(), layout, self.limits(), watch)
-    }
-
-    /// Writes the run to a file at `path`, which `tautline replay` plays. The file has yet to be put in its place.
+    /// Makes the run again, in the layout that has the walls that it met and no others, and writes it to a file at `path`, which
+    /// `tautline replay` plays. The file has yet to be put in its place.
     ///
     /// # Errors
     /// [`Halt`] if the area is too large for a layout, or a robot starts in a blocked cell.
     pub fn store(&self, path: &Path, replaceable: &Replaceable) -> Result<(Aside, Report), Halt> {
+        let clause = self.run.breaks.map(ClauseId::new);
+        let limits = Limits::stopping_at(clause);
         let (layout, starts) = layout_of(self.run).map_err(Fault::from)?;
-        let stage = Stage::new(self.layouts.scheme, self.rule.0, &layout, &starts);
-        let stage = Stage { limits: self.limits(), ..stage };
+        let stage = Stage { limits, ..Stage::new(self.layouts.scheme, self.rule.0, &layout, &starts) };
         let aside = Aside::new(path, replaceable)?;
-        let mut writer = Writer::new(aside, &stage, self.clause()).map_err(Fault::from)?;
-        let report = self.play(&layout, &mut |made| {
+        let mut writer = Writer::new(aside, &stage, clause).map_err(Fault::from)?;
+        let (team, cells) = (self.layouts.start)(self.rule.1);
+        let report = run(&mut Own::new(team, cells, self.layouts.demands), &layout, limits, &mut |made| {
             writer.add(made);
             Ok(())
         })?;

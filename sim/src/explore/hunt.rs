@@ -15,7 +15,7 @@ use tautline_proofs::words::counted;
 
 use super::clause::ClauseId;
 use super::rule::RuleId;
-use super::run::{Limits, OnViolation};
+use super::run::Limits;
 use super::setup::{Profile, Setup};
 use crate::fault::Fault;
 use crate::layout::{Layout, Problem, Size};
@@ -370,9 +370,7 @@ pub fn setup(scheme: &'static Profile, rule: impl Into<RuleId>, found: &Run) -> 
     let (mut layout, starts) = layout(found)?;
     let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
     layout.place_base(base)?;
-    let violation =
-        found.breaks.map_or(OnViolation::Stop, |clause| OnViolation::StopAt(ClauseId::new(clause)));
-    let limits = Limits { violation, ..Limits::default() };
+    let limits = Limits::stopping_at(found.breaks.map(ClauseId::new));
     Ok(Setup { limits, ..Setup::new(scheme, rule, starts.len() as u16, layout, base) })
 }
 

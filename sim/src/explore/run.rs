@@ -119,6 +119,14 @@ pub struct Limits {
     pub violation: OnViolation,
 }
 
+impl Limits {
+    /// A run that stops where it breaks `clause`, whatever it breaks before; at its first violation, if none is named.
+    pub fn stopping_at(clause: Option<ClauseId>) -> Self {
+        let violation = clause.map_or(OnViolation::Stop, OnViolation::StopAt);
+        Self { violation, ..Self::default() }
+    }
+}
+
 /// What a violation does to a run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

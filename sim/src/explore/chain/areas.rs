@@ -5,11 +5,10 @@ use tautline_proofs::chain::areas::{Areas, Found, Searched, Smallest, most_edges
 use tautline_proofs::words::counted;
 
 use super::hunt::{bounds, fault, team};
+use crate::explore::ClauseId;
 use crate::explore::hunt::{
     Area, Asked, Done, Facts, Far, Hunted, Hunter, Quarry, RunSize, Shown, outcome, setup,
 };
-use crate::explore::run::{Limits, OnViolation};
-use crate::explore::{ClauseId, Setup};
 use crate::fault::Fault;
 
 /// Searches all areas of at most so many cells.
@@ -113,13 +112,11 @@ fn quarry(asked: &Asked<'_>, Smallest { bounds, found }: &Smallest) -> Result<Qu
     let (columns, rows) = (bounds.area.width(), bounds.area.height());
     let (walls, steps) = (run.walls.len(), found.frames.len());
     let broken = found.broken.breach().map(ClauseId::from);
-    // The run may break another clause before.
-    let violation = broken.map_or(OnViolation::Stop, OnViolation::StopAt);
     Ok(Quarry {
         clause: found.broken.clause(),
         facts: RunSize::Area { columns, rows, walls, steps },
         title: format!("{columns}x{rows} cells, {}, {}", counted(walls, "wall"), counted(steps, "team move")),
-        setup: Setup { limits: Limits { violation, ..setup.limits }, ..setup },
+        setup,
         shown: broken.map_or(Shown::Endless, Shown::Run),
     })
 }

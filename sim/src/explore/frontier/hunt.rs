@@ -15,7 +15,7 @@ pub(super) use self::rivals::Simulated;
 use crate::explore::hunt::{
     Asked, Bound, Done, Facts, Hunt, Hunted, Hunter, Quarry, RunSize, Shown, outcome,
 };
-use crate::explore::run::{Limits, OnViolation};
+use crate::explore::run::Limits;
 use crate::explore::watched::{Count, watched};
 use crate::explore::{ClauseId, Setup};
 use crate::fault::Fault;
@@ -226,7 +226,7 @@ fn quarry<const ROBOTS: usize>(
     layout.place_base(base)?;
     // The run may break another clause before.
     let clause = ClauseId::new(demand.clause());
-    let limits = Limits { violation: OnViolation::StopAt(clause), ..Limits::default() };
+    let limits = Limits::stopping_at(Some(clause));
     let setup = Setup::new(asked.scheme, asked.rule, ROBOTS as u16, layout, base);
     let setup = Setup { starts: Some(cells.to_vec()), choices, limits, ..setup };
     let is_stored = found.run.round().is_empty() && !setup.choices.is_empty();

@@ -14,7 +14,7 @@ use super::EQUAL;
 use crate::explore::hunt::{
     Asked, Bound, Done, Facts, Hunt, Hunted, Hunter, Quarry, RunSize, Shown, outcome,
 };
-use crate::explore::run::{Limits, OnViolation};
+use crate::explore::run::Limits;
 use crate::explore::watched::{Count, watched};
 use crate::explore::{ClauseId, Setup};
 use crate::fault::Fault;
@@ -225,7 +225,7 @@ fn quarry<const ROBOTS: usize>(asked: &Asked<'_>, broken: &Broken<ROBOTS>) -> Re
     let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
     layout.place_base(base)?;
     // The run may break another clause before.
-    let limits = Limits { violation: OnViolation::StopAt(*clause), ..Limits::default() };
+    let limits = Limits::stopping_at(Some(*clause));
     let setup = Setup::new(asked.scheme, asked.rule, ROBOTS as u16, layout, base);
     let starts = Some(starts).filter(|starts| starts.iter().any(|&start| start != base));
     let choices = super::scripted::choices(found.setting.speeds, &choices);

@@ -8,7 +8,7 @@ use super::super::{ENDS, reachable};
 use super::{MOST_CELLS, areas, bounds, title, told};
 use crate::explore::each::{Each, FoundBy};
 use crate::explore::hunt::{Asked, Bound, Hunted, Quarry, RunSize, Shown};
-use crate::explore::run::{Limits, OnViolation, run};
+use crate::explore::run::{Limits, run};
 use crate::explore::watched::Count;
 use crate::explore::{ClauseId, Profile, RuleId, Setup, team};
 use crate::fault::{Fault, Halt};
@@ -243,7 +243,7 @@ fn quarry(setup: Setup, clause: ClauseId, steps: u32) -> Quarry {
     let layout = &setup.layout;
     let size = [layout.width() as usize, layout.height() as usize];
     let walls = layout.size().cells() - layout.free_cells();
-    let limits = Limits { violation: OnViolation::StopAt(clause), ..Limits::default() };
+    let limits = Limits::stopping_at(Some(clause));
     Quarry {
         clause: clause.as_str(),
         facts: RunSize::Area { columns: size[0], rows: size[1], walls, steps: steps as usize },
