@@ -9,10 +9,10 @@ use std::collections::BinaryHeap;
 use std::num::NonZeroU32;
 
 use criterion::{BenchmarkId, Criterion};
+use tautline_field::radio::{Area, Channel, Faults, Field, Model, Network, Radio, broadcast};
 use tautline_kernel::net::{Heard, NodeId};
 use tautline_kernel::notice::{Node, Reaction, Rule, Scheme, Surroundings};
 use tautline_proofs::engine::Seeded;
-use tautline_sim::radio::{Area, Channel, Faults, Field, Model, Network, Radio, broadcast};
 
 use self::common::{Cost, Work, group, measure};
 

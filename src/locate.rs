@@ -6,16 +6,16 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use schemars::JsonSchema;
 use serde::Serialize;
+use tautline_field::draw;
+use tautline_field::position::{
+    Advice, Anchors, Errors, Found, Measured, Place, Power, Report, Setting, Solver, refused,
+};
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{Point, Signal};
 use tautline_proofs::words::counted;
 use tautline_sim::columns::{Column, Columns, Width};
-use tautline_sim::draw;
 use tautline_sim::explore::RuleName;
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::position::{
-    Advice, Anchors, Errors, Found, Measured, Place, Power, Report, Setting, Solver,
-};
 use tautline_sim::reading::{Metres, within};
 use tautline_sim::words::Worded;
 
@@ -164,7 +164,7 @@ impl Locate {
         let named = self.anchors.iter().map(|&Metres([x_m, y_m])| Point::new(x_m, y_m));
         let places = if self.anchors.is_empty() { SQUARE.to_vec() } else { named.collect() };
         let setting = Setting {
-            anchors: Anchors::new(places).map_err(Fault::from)?,
+            anchors: Anchors::new(places).map_err(refused)?,
             at_m: self.at.map(|Metres(at)| at),
             signal,
             solver: self.solver,

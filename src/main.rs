@@ -18,9 +18,10 @@ mod progress;
 mod prove;
 mod replay;
 mod report;
+#[cfg(feature = "papers")]
 mod reproduce;
 mod rescue;
-#[cfg(test)]
+#[cfg(all(test, feature = "papers"))]
 mod schemas;
 mod shards;
 mod show;
@@ -126,6 +127,7 @@ enum Command {
     Locate(locate::Locate),
     Replay(replay::Replay),
     Show(show::Show),
+    #[cfg(feature = "papers")]
     Reproduce(reproduce::Reproduce),
     Merge(shards::Merge),
 
@@ -378,6 +380,7 @@ impl Command {
             Self::Locate(locate) => locate.run(out),
             Self::Replay(replay) => replay.run(out),
             Self::Show(show) => show.run(out),
+            #[cfg(feature = "papers")]
             Self::Reproduce(reproduce) => reproduce.run(out),
             Self::Merge(merge) => merge.run(out),
             Self::Completions { shell } => {

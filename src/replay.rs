@@ -22,15 +22,16 @@ use super::output::Output;
 use super::rescue::{Files, tell};
 use super::viewers::{self, ViewerArgs, ViewerFiles};
 use super::{Exit, ForceArgs, Format, FormatArgs};
+use tautline_field::rescue;
 use tautline_sim::aside::Aside;
 use tautline_sim::counterexample::exhibit::{exhibit, of_agent, of_course, written_down};
 use tautline_sim::counterexample::refutation::{self, Refutation};
+use tautline_sim::draw;
 use tautline_sim::draw::page::in_words;
 use tautline_sim::draw::svg;
 use tautline_sim::explore::{ClauseId, Judge, Play, Report, Stage, team};
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::trace::{self, Recorded, Stored, StoredMove, Summary, Trace, lines};
-use tautline_sim::{draw, rescue};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -10,13 +10,14 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, Sub
 use indicatif::ProgressBar;
 use schemars::JsonSchema;
 use serde::Serialize;
+use tautline_papers::shards::{deal_table, restored, table_part};
+use tautline_papers::tables::parameter::{Given, Values};
+use tautline_papers::tables::{About, Asked, Entry, Made, Observer, TABLES, find};
 use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::words::counted;
 use tautline_sim::aside::Aside;
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::shards::{Plan, deal_table, restored, table_part};
-use tautline_sim::tables::parameter::{Given, Values};
-use tautline_sim::tables::{About, Asked, Entry, Made, Observer, TABLES, find};
+use tautline_sim::shards::Plan;
 
 use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, SCHEMA_VERSION, progress, shards, whole};

@@ -13,21 +13,20 @@ use tautline_proofs::mrc::Demand;
 use tautline_proofs::words::counted;
 
 use super::output::Output;
-use super::{Exit, ForceArgs, Format, FormatArgs, needless, progress, real, whole};
+use super::{Exit, ForceArgs, Format, FormatArgs, needless, progress, real, viewers, whole};
 use crate::chosen::chosen;
+use tautline_field::draw::{self, field::picture};
+use tautline_field::radio::{ChannelName, FREE_SPACE};
+use tautline_field::rescue::{
+    Assignments, CallTimes, Event, Logged, Ordinal, Report, RobotsFailed, SchemeName, Setting, Summary,
+    rescue, seconds, trace,
+};
+use tautline_field::stats::Estimate;
 use tautline_sim::aside::Aside;
 use tautline_sim::columns::{Column, Columns, Width};
-use tautline_sim::draw;
-use tautline_sim::draw::field::picture;
 use tautline_sim::explore::RuleName;
 use tautline_sim::fault::{Fault, Halt, Watch};
-use tautline_sim::radio::{ChannelName, FREE_SPACE};
 use tautline_sim::reading::Metres;
-use tautline_sim::rescue::{
-    Assignments, CallTimes, Event, Logged, Ordinal, Report, RobotsFailed, SchemeName, Setting, Summary,
-    recording, rescue, seconds, trace,
-};
-use tautline_sim::stats::Estimate;
 use tautline_sim::words::Worded;
 
 const EXAMPLES: &str = "\
@@ -133,7 +132,8 @@ pub(super) struct Rescue {
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     /// Store the rescue as a recording of ROS 2, for its viewers; one seed only.
-    #[arg(long, value_name = "FILE")]
+    #[cfg_attr(not(feature = "viewers"), arg(skip))]
+    #[cfg_attr(feature = "viewers", arg(long, value_name = "FILE"))]
     mcap: Option<PathBuf>,
     #[command(flatten)]
     force: ForceArgs,
@@ -301,7 +301,7 @@ pub(super) fn tell(
         out.keep(map);
     }
     if let Some(mut file) = files.recording {
-        recording::write(&mut file, setting, seed, report)?;
+        viewers::record(&mut file, setting, seed, report)?;
         out.keep(file);
     }
     print(out, format, setting, &(seed..=seed), (&summary, Some(report)))

@@ -7,14 +7,17 @@ use clap::{Args, value_parser};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::value::RawValue;
+#[cfg(feature = "papers")]
+use tautline_papers::shards::{merge_table, restored};
 use tautline_sim::explore::hunt::Asked;
 use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::part::{Facts, KEEP_EVERY, Part};
-use tautline_sim::shards::{Gap, Keeper, Of, Plan, merge_hunt, merge_table, restored};
+use tautline_sim::shards::{Gap, Keeper, Of, Plan, merge_hunt};
 
 use super::findings::FormatArgs;
 use super::hunt::{Found, check_folder, shown};
 use super::output::Output;
+#[cfg(feature = "papers")]
 use super::reproduce::{Files, tell};
 use super::{Exit, ForceArgs, Format, complain, interrupt, progress, whole};
 
@@ -180,10 +183,12 @@ pub(super) struct Merge {
     #[arg(long, value_name = "DIR", default_value = ".")]
     out: PathBuf,
     /// Store a picture of a table: its name, as `reproduce ID --help` tells it, and a file.
-    #[arg(long = "picture", value_names = ["NAME", "FILE"], num_args = 2, value_parser = value_parser!(PathBuf))]
+    #[cfg_attr(not(feature = "papers"), arg(skip))]
+    #[cfg_attr(feature = "papers", arg(long = "picture", value_names = ["NAME", "FILE"], num_args = 2, value_parser = value_parser!(PathBuf)))]
     pictures: Vec<PathBuf>,
     /// Store the values of a table as comma-separated values.
-    #[arg(long, value_name = "FILE")]
+    #[cfg_attr(not(feature = "papers"), arg(skip))]
+    #[cfg_attr(feature = "papers", arg(long, value_name = "FILE"))]
     csv: Option<PathBuf>,
     #[command(flatten)]
     force: ForceArgs,
@@ -235,6 +240,12 @@ impl Merge {
                     out,
                 )
             }
+            #[cfg(not(feature = "papers"))]
+            Of::Table { .. } => {
+                let remedy = "build it with the feature `papers`";
+                Err(Fault::usage("this program was built without tables", remedy).into())
+            }
+            #[cfg(feature = "papers")]
             Of::Table { .. } => {
                 let asked = restored(&plan)?;
                 let made = asked.merge(&merge_table(&plan, &*asked, &shards)?)?;

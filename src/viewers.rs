@@ -3,21 +3,25 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use tautline_field::rescue::{Report, Setting};
 use tautline_sim::aside::Aside;
 use tautline_sim::explore::Play;
 use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::trace;
+#[cfg(feature = "viewers")]
+use tautline_viewers::{itf, mcap, rescue};
 
 use super::output::Output;
 
 /// The files that a run of a team is stored in besides.
 #[derive(Debug, Args)]
 pub(super) struct ViewerArgs {
+    #[cfg_attr(not(feature = "viewers"), arg(skip))]
+    #[cfg_attr(feature = "viewers", arg(long, value_name = "FILE"))]
     /// Store the run in the Informal Trace Format, for the viewers of model checkers.
-    #[arg(long, value_name = "FILE")]
     itf: Option<PathBuf>,
     /// Store the run as a recording of ROS 2, for its viewers: the map that the team knows, robots, links, team moves.
-    #[arg(long, value_name = "FILE")]
+    #[cfg_attr(not(feature = "viewers"), arg(skip))]
+    #[cfg_attr(feature = "viewers", arg(long, value_name = "FILE"))]
     mcap: Option<PathBuf>,
 }
 
@@ -44,13 +48,32 @@ pub(super) fn refuse(asked: Option<&Aside>, (option, what): (&str, &str), path: 
 }
 
 /// Writes `run` to these files.
+#[cfg(feature = "viewers")]
 pub(super) fn store([itf, mcap]: ViewerFiles, run: &dyn Play, out: &mut Output) -> Result<(), Halt> {
     type Write = fn(&mut Aside, &dyn Play) -> Result<(), Halt>;
-    for (file, write) in [(itf, trace::itf::write as Write), (mcap, trace::mcap::write)] {
+    for (file, write) in [(itf, itf::write as Write), (mcap, mcap::write)] {
         if let Some(mut file) = file {
             write(&mut file, run)?;
             out.keep(file);
         }
     }
+    Ok(())
+}
+
+/// Writes nothing: this program was built without viewers, and has no option that names such a file.
+#[cfg(not(feature = "viewers"))]
+pub(super) fn store(_: ViewerFiles, _: &dyn Play, _: &mut Output) -> Result<(), Halt> {
+    Ok(())
+}
+
+/// Writes a rescue as a recording of ROS 2.
+#[cfg(feature = "viewers")]
+pub(super) fn record(file: &mut Aside, setting: &Setting, seed: u64, report: &Report) -> Result<(), Fault> {
+    rescue::write(file, setting, seed, report)
+}
+
+/// Writes nothing: this program was built without viewers, and has no option that names such a file.
+#[cfg(not(feature = "viewers"))]
+pub(super) fn record(_: &mut Aside, _: &Setting, _: u64, _: &Report) -> Result<(), Fault> {
     Ok(())
 }

@@ -1,5 +1,5 @@
 //! What each command prints as JSON is as its schema in docs/schemas says. What tables print is looked at where all tables are
-//! measured, in `sim/tests/tables.rs`.
+//! measured, in `papers/tests/tables.rs`.
 
 mod schema;
 

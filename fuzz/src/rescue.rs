@@ -3,14 +3,14 @@
 use std::fs;
 use std::io::Write;
 
+use tautline_field::radio::ChannelName;
+use tautline_field::rescue::{CallTimes, Fate, SchemeName, Setting, rescue as run, trace};
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_proofs::engine::Tape;
 use tautline_proofs::mrc::Demand;
 use tautline_sim::aside::{Aside, Foreign, Replaceable};
 use tautline_sim::explore::RuleName;
 use tautline_sim::fault::Fault;
-use tautline_sim::radio::ChannelName;
-use tautline_sim::rescue::{CallTimes, Fate, SchemeName, Setting, rescue as run, trace};
 
 use super::{numbers, told};
 

@@ -1,7 +1,7 @@
 //! Means and shares with the intervals that the program prints.
 
 use pyo3::prelude::*;
-use tautline_sim::stats;
+use tautline_field::stats;
 
 use crate::fault::{Kind, error};
 

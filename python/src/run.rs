@@ -335,7 +335,7 @@ impl Run {
     /// The run in the Informal Trace Format of Apalache, as `--itf` stores it.
     fn itf(&self, py: Python<'_>) -> PyResult<String> {
         self.text(py, |run, mut aside| {
-            trace::itf::write(&mut aside, run.play())?;
+            tautline_viewers::itf::write(&mut aside, run.play())?;
             Ok(aside)
         })
     }
@@ -343,7 +343,7 @@ impl Run {
     /// The run as a recording of ROS 2, as `--mcap` stores it.
     fn mcap<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let bytes = self.bytes(py, |run, mut aside| {
-            trace::mcap::write(&mut aside, run.play())?;
+            tautline_viewers::mcap::write(&mut aside, run.play())?;
             Ok(aside)
         })?;
         Ok(PyBytes::new(py, &bytes))

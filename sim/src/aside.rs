@@ -37,19 +37,18 @@ pub(crate) const HTML_HEAD: &str = "<!doctype html>
 ";
 
 /// The beginning of a trace for the viewers of model checkers.
-pub(crate) const ITF_HEAD: &str = "{\"#meta\":{\"source\":\"tautline\",";
+pub const ITF_HEAD: &str = "{\"#meta\":{\"source\":\"tautline\",";
 
-/// The profile and the library in the first record of a recording.
-#[cfg(feature = "mcap")]
-pub(crate) const MCAP_PROFILE: &str = "ros2";
-#[cfg(feature = "mcap")]
-pub(crate) const MCAP_LIBRARY: &str = "tautline";
+/// The profile in the first record of a recording.
+pub const MCAP_PROFILE: &str = "ros2";
+/// The library in the first record of a recording.
+pub const MCAP_LIBRARY: &str = "tautline";
 
 /// The beginning of a recording: what all begin with, a header record of 20 bytes, its profile and its library.
 const MCAP_HEAD: &[u8] = b"\x89MCAP0\r\n\x01\x14\0\0\0\0\0\0\0\x04\0\0\0ros2\x08\0\0\0tautline";
 
 /// The beginning of a table as comma-separated values: its first columns.
-pub(crate) const CSV_HEAD: &str = "schema_version,id,list,";
+pub const CSV_HEAD: &str = "schema_version,id,list,";
 
 /// The beginning of a manual page: a comment.
 pub const MAN_HEAD: &str = ".\\\" Written by tautline.\n";
@@ -433,6 +432,18 @@ fn unwritable(path: &Path, error: &io::Error) -> Fault {
             format_args!("it cannot be written: {error}"),
             "name a file in a folder that you can write to",
         ),
+    }
+}
+
+/// What goes wrong is told when the file is put in its place.
+impl Write for Aside {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.append(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
     }
 }
 

@@ -2,11 +2,7 @@
 //! cell. Walls are drawn as in our layout format. Pictures for pages are in [`svg`] and [`chart`], the words that go with a
 //! counterexample in [`story`].
 
-pub mod chart;
-pub mod field;
 pub mod page;
-pub mod position;
-pub mod rescue;
 pub mod story;
 pub mod svg;
 

@@ -13,7 +13,7 @@ const CLIP_CHARS: usize = 32;
 const MAX_MESSAGE_CHARS: usize = 1_000;
 
 /// What some editors put before a text; it is no part of it.
-pub(crate) const BOM: char = '\u{feff}';
+pub const BOM: char = '\u{feff}';
 
 /// A place, what is wrong there, and the remedy. `Display` is one plain line,
 /// `file:line:column: what; remedy`.

@@ -1,5 +1,4 @@
-//! Robot teams in layouts and radio fields: the runs of the kernel's rules, their traces and counterexamples, and how they
-//! are drawn and counted. What a person types, and how an error is printed, is the program's business.
+//! Robot teams in layouts: the runs of the kernel's rules, their traces and counterexamples, and how they are drawn. What a person types, and how an error is printed, is the program's business.
 
 pub mod aside;
 pub mod columns;
@@ -12,19 +11,13 @@ pub mod frontier;
 mod kept;
 pub mod kit;
 pub mod layout;
+pub mod noise;
 pub mod part;
-pub mod position;
-pub mod radio;
 pub mod reading;
-pub mod rescue;
 pub mod rivals;
 pub mod schema;
 pub mod shards;
-pub mod stats;
-pub mod tables;
-pub mod tan;
 pub mod trace;
-pub mod tribot;
 pub mod wide;
 pub mod words;
 

@@ -49,6 +49,9 @@ pub trait Part {
 }
 
 /// `value` as JSON, as it stands in a file.
-pub(crate) fn written(value: &impl Serialize) -> Result<Box<RawValue>, Fault> {
+///
+/// # Errors
+/// A [`Fault`] if it cannot be written.
+pub fn written(value: &impl Serialize) -> Result<Box<RawValue>, Fault> {
     to_raw_value(value).map_err(|error| Fault::usage(error, "report it: this is a bug of tautline"))
 }

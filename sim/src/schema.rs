@@ -1,13 +1,10 @@
 //! JSON Schemas of what is printed, made of the types that are printed.
 
-use std::borrow::Cow;
-
 use schemars::transform::{Transform, transform_subschemas};
-use schemars::{JsonSchema, Schema, SchemaGenerator, generate::SchemaSettings};
+use schemars::{JsonSchema, Schema, generate::SchemaSettings};
 use serde_json::Value;
 
 use crate::explore::{ClauseId, Profile, RuleId};
-use crate::position::Anchors;
 
 /// A cell, as it is written: column and row.
 pub type CellWritten = [i16; 2];
@@ -55,22 +52,24 @@ fn words(schemas: &Value) -> Option<Value> {
     Some(words?.concat().into())
 }
 
+/// Gives types the schema of what they are written as.
+#[macro_export]
 macro_rules! written_as {
     ($($printed:ty as $written:ty),*) => {$(
-        impl JsonSchema for $printed {
+        impl ::schemars::JsonSchema for $printed {
             fn inline_schema() -> bool {
                 true
             }
 
-            fn schema_name() -> Cow<'static, str> {
+            fn schema_name() -> ::std::borrow::Cow<'static, str> {
                 <$written>::schema_name()
             }
 
-            fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+            fn json_schema(generator: &mut ::schemars::SchemaGenerator) -> ::schemars::Schema {
                 <$written>::json_schema(generator)
             }
         }
     )*};
 }
 
-written_as! { Anchors as Vec<[f64; 2]>, ClauseId as str, Profile as str, RuleId as str }
+written_as! { ClauseId as str, Profile as str, RuleId as str }

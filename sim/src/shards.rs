@@ -4,8 +4,6 @@
 
 mod hunt;
 mod plan;
-mod table;
 
 pub use self::hunt::{deal_hunt, hunt_part, merge_hunt};
 pub use self::plan::{Done, Gap, Keeper, Of, Plan};
-pub use self::table::{deal_table, merge_table, restored, table_part};

@@ -10,10 +10,7 @@
 //! ```
 
 mod format;
-pub mod itf;
 pub mod lines;
-#[cfg(feature = "mcap")]
-pub mod mcap;
 mod recorded;
 mod summary;
 

@@ -2,8 +2,8 @@
 //! what changes, so that long runs stay small; it is written as the run goes on. What a scheme shows beside its robots comes
 //! from its [`Layer`]s: the page knows no scheme.
 
-pub(super) mod film;
-pub(super) mod line;
+pub mod film;
+pub mod line;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -181,13 +181,13 @@ impl<'a> Page<'a> {
 }
 
 /// The fault of a page that is too large.
-pub(super) fn too_large(path: &std::path::Path, remedy: &str) -> Fault {
+pub fn too_large(path: &std::path::Path, remedy: &str) -> Fault {
     let what = format!("a page of more than {} MB is left out", MAX_BYTES / 1_000_000);
     Fault::in_file(path, what, remedy)
 }
 
 /// Whether a page of so many bytes is too large.
-pub(super) const fn is_too_large(bytes: usize) -> bool {
+pub const fn is_too_large(bytes: usize) -> bool {
     bytes > MAX_BYTES
 }
 

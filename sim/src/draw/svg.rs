@@ -15,7 +15,7 @@ use crate::layout::Layout;
 /// The side of a cell.
 const CELL: i32 = 24;
 /// The space round a picture and between its panels.
-pub(super) const MARGIN: i32 = 16;
+pub const MARGIN: i32 = 16;
 /// The height of a line of text above a panel.
 const CAPTION: i32 = 22;
 /// Panels beside each other take up at most so much.
@@ -56,10 +56,10 @@ pub fn check_size(area: Area) -> Result<(), Fault> {
 }
 
 /// How many colours there are for what is to be told apart.
-pub(super) const SERIES: usize = 6;
+pub const SERIES: usize = 6;
 
 /// These colours.
-pub(super) const SERIES_STYLE: &str = "\
+pub const SERIES_STYLE: &str = "\
 svg{--series-0:#1d5fa8;--series-1:#b9480e;--series-2:#0b7a53;--series-3:#5b3a8c;--series-4:#856500;--series-5:#b02a73}\
 @media(prefers-color-scheme:dark){svg{--series-0:#6aa9ee;--series-1:#ff9d6b;--series-2:#4cc79a;--series-3:#b795e6;\
 --series-4:#d9b93b;--series-5:#f08ac0}}";
@@ -104,12 +104,12 @@ pub fn picture(title: &str, panels: &[Panel]) -> String {
 }
 
 /// About how wide a line of text is.
-pub(super) fn text_width(text: &str) -> i32 {
+pub fn text_width(text: &str) -> i32 {
     text.chars().count() as i32 * 7
 }
 
 /// Text as XML has it. Characters that XML has no place for become U+FFFD.
-pub(super) fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     text.chars().fold(String::new(), |mut escaped, symbol| {
         match symbol {
             '&' => escaped.push_str("&amp;"),
@@ -125,7 +125,7 @@ pub(super) fn escaped(text: &str) -> String {
 }
 
 /// A picture of `body` alone, which wants `style` beside that of all pictures. The title is escaped.
-pub(super) fn document(title: &str, style: &str, (width, height): (i32, i32), body: &str) -> String {
+pub fn document(title: &str, style: &str, (width, height): (i32, i32), body: &str) -> String {
     format!(
         "{SVG_HEAD}viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" role=\"img\" \
          aria-label=\"{title}\">\n<title>{title}</title>\n<style>{STYLE}{style}</style>\n\

@@ -167,7 +167,7 @@ fn check(setup: &Setup) -> Result<(), Fault> {
 }
 
 /// The free cells of a layout that are reached from the starts, row by row.
-pub(crate) fn reachable(layout: &Layout, starts: &[Cell]) -> Vec<Cell> {
+pub fn reachable(layout: &Layout, starts: &[Cell]) -> Vec<Cell> {
     let mut reached: BTreeSet<(i16, i16)> = starts.iter().map(|start| (start.y, start.x)).collect();
     let mut queue: VecDeque<Cell> = starts.iter().copied().collect();
     while let Some(cell) = queue.pop_front() {

@@ -129,7 +129,7 @@ pub fn rival(
 }
 
 /// The fault of a team that does not fit.
-pub(crate) fn fault(unfit: &Unfit) -> Fault {
+pub fn fault(unfit: &Unfit) -> Fault {
     Fault::of_field(unfit.field(), unfit, unfit.remedy())
 }
 

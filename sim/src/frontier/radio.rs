@@ -12,7 +12,7 @@ use tautline_kernel::position::{self, Point, Range, Residual, Signal, locate};
 
 use crate::faults::{Appearing, Failure, Going};
 use crate::layout::generate::{self, Probability};
-use crate::radio::deviation_db;
+use crate::noise::deviation_db;
 
 /// What a run is told besides, if its scheme can be told that. The default is what it is without a word.
 #[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]

@@ -149,7 +149,7 @@ impl Probability {
 }
 
 /// The generator of whatever `tag` names.
-pub(crate) fn source(seed: u64, tag: [u8; 8]) -> ChaCha8Rng {
+pub fn source(seed: u64, tag: [u8; 8]) -> ChaCha8Rng {
     let mut bytes = [0; 32];
     bytes[..8].copy_from_slice(&seed.to_le_bytes());
     bytes[8..16].copy_from_slice(&tag);
@@ -157,7 +157,7 @@ pub(crate) fn source(seed: u64, tag: [u8; 8]) -> ChaCha8Rng {
 }
 
 /// A number below `n`: the high half of n times 64 random bits.
-pub(crate) fn below(n: u32, rng: &mut ChaCha8Rng) -> u32 {
+pub fn below(n: u32, rng: &mut ChaCha8Rng) -> u32 {
     ((u128::from(rng.next_u64()) * u128::from(n)) >> 64) as u32
 }
 

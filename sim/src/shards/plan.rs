@@ -96,12 +96,15 @@ pub struct Done {
     /// Its file.
     path: PathBuf,
     /// How far it is.
-    pub(super) far: Box<RawValue>,
+    pub far: Box<RawValue>,
 }
 
 impl Done {
     /// Checks that it has done what it was dealt, where `part` is the shard as its file says that it is.
-    pub(super) fn check(&self, part: Result<Box<dyn Part + '_>, Halt>) -> Result<(), Halt> {
+    ///
+    /// # Errors
+    /// [`Halt`] if it has not, or `part` cannot be had.
+    pub fn check(&self, part: Result<Box<dyn Part + '_>, Halt>) -> Result<(), Halt> {
         match part {
             Ok(part) if part.is_done() => Ok(()),
             Ok(part) => {

@@ -118,7 +118,7 @@ impl StoredMove {
     }
 
     /// Whether it seeks new cells or takes a move back, in a word.
-    pub(super) const fn kind(&self) -> &'static str {
+    pub const fn kind(&self) -> &'static str {
         match self.kind {
             Kind::Advance => "advance",
             Kind::Backtrack => "backtrack",
@@ -126,7 +126,7 @@ impl StoredMove {
     }
 
     /// One letter a robot.
-    pub(super) fn tried(&self) -> &str {
+    pub fn tried(&self) -> &str {
         &self.tried
     }
 

@@ -25,7 +25,7 @@ struct Magic {
 }
 
 /// A line of a file: `value`, and its end.
-pub(crate) fn line_of(value: &impl Serialize) -> String {
+pub fn line_of(value: &impl Serialize) -> String {
     // Strings, numbers and lists of them can always be written.
     serde_json::to_string(value).unwrap_or_default() + "\n"
 }
@@ -41,7 +41,7 @@ pub fn format(path: &Path) -> Option<String> {
 
 /// The lines of a file, one at a time.
 #[derive(Debug)]
-pub(crate) struct Lines {
+pub struct Lines {
     path: PathBuf,
     input: BufReader<File>,
     /// How many were read.
@@ -55,7 +55,7 @@ impl Lines {
     ///
     /// # Errors
     /// A [`Fault`] if it cannot be opened.
-    pub(crate) fn open(path: &Path, again: &'static str) -> Result<Self, Fault> {
+    pub fn open(path: &Path, again: &'static str) -> Result<Self, Fault> {
         let unreadable =
             |what: String| Fault::in_file(path, what, "name a file that `trace` or `tautline hunt` wrote");
         if path.is_dir() {
@@ -85,7 +85,7 @@ impl Lines {
     ///
     /// # Errors
     /// A [`Fault`] that says what it is instead.
-    pub(crate) fn header(&mut self, format: &str, version: u32, most: u64) -> Result<String, Fault> {
+    pub fn header(&mut self, format: &str, version: u32, most: u64) -> Result<String, Fault> {
         let text = self.next(most)?.ok_or_else(|| {
             let remedy = format!("a trace begins with its header; {}", self.again);
             Fault::in_file(&self.path, "the file is empty", remedy)
@@ -147,7 +147,7 @@ impl Lines {
     ///
     /// # Errors
     /// A [`Fault`] where it first differs.
-    pub(crate) fn expect<T>(&mut self, expected: &T) -> Result<(), Fault>
+    pub fn expect<T>(&mut self, expected: &T) -> Result<(), Fault>
     where
         T: Serialize + PartialEq + for<'a> Deserialize<'a>,
     {
@@ -175,7 +175,7 @@ impl Lines {
     ///
     /// # Errors
     /// A [`Fault`] if there is one.
-    pub(crate) fn end(&mut self) -> Result<(), Fault> {
+    pub fn end(&mut self) -> Result<(), Fault> {
         match self.next(MAX_LINE_BYTES)? {
             Some(text) if !text.trim().is_empty() => {
                 Err(self.whole(&text, "a line after the end", "leave it out"))
@@ -188,7 +188,7 @@ impl Lines {
     ///
     /// # Errors
     /// A [`Fault`] where it is no such thing.
-    pub(crate) fn parse<'a, T: Deserialize<'a>>(&self, text: &'a str, remedy: &str) -> Result<T, Fault> {
+    pub fn parse<'a, T: Deserialize<'a>>(&self, text: &'a str, remedy: &str) -> Result<T, Fault> {
         serde_json::from_str(text).map_err(|error| {
             let message = error.to_string();
             let message = message.split(" at line ").next().unwrap_or_default();
@@ -205,7 +205,7 @@ impl Lines {
     }
 
     /// A fault in the value that `key` has in the line.
-    pub(crate) fn fault_in(&self, text: &str, key: &str, what: impl Display, remedy: impl Display) -> Fault {
+    pub fn fault_in(&self, text: &str, key: &str, what: impl Display, remedy: impl Display) -> Fault {
         let name = format!("\"{key}\"");
         let rest = text.find(&name).map_or(text, |start| &text[start + name.len()..]);
         let start = text.len() - rest.trim_start_matches([' ', ':']).len();

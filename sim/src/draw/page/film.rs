@@ -16,66 +16,79 @@ const SCRIPT: &str = include_str!("page.js");
 
 /// What stands still on a page.
 #[derive(Serialize)]
-pub(in crate::draw) struct Film {
-    pub(in crate::draw) title: String,
+pub struct Film {
+    /// The title of the page.
+    pub title: String,
     /// What came of the run, in a sentence.
-    pub(in crate::draw) outcome: String,
+    pub outcome: String,
     /// What a line is.
-    pub(in crate::draw) unit: &'static str,
+    pub unit: &'static str,
     /// What a robot is called.
-    pub(in crate::draw) robot: &'static str,
-    pub(in crate::draw) robots: usize,
+    pub robot: &'static str,
+    /// How many robots there are.
+    pub robots: usize,
     /// Whether the first robot is a base.
-    pub(in crate::draw) has_base: bool,
+    pub has_base: bool,
     /// Whether the last robot leads.
-    pub(in crate::draw) has_leader: bool,
+    pub has_leader: bool,
     /// The number of the first line, which is what there was before.
-    pub(in crate::draw) first: u32,
+    pub first: u32,
     /// How many there are in the whole run.
-    pub(in crate::draw) of: u32,
-    pub(in crate::draw) share: Share,
-    pub(in crate::draw) board: Board,
-    pub(in crate::draw) layers: Vec<Shown>,
+    pub of: u32,
+    /// The curve under the board.
+    pub share: Share,
+    /// Where the robots are.
+    pub board: Board,
+    /// What the scheme shows besides.
+    pub layers: Vec<Shown>,
     /// By clause that is broken, its sentence.
-    pub(in crate::draw) clauses: BTreeMap<&'static str, &'static str>,
+    pub clauses: BTreeMap<&'static str, &'static str>,
     /// What the end breaks.
-    pub(in crate::draw) ends: Vec<Ended>,
+    pub ends: Vec<Ended>,
     /// What is worth a jump, by the number of its line.
-    pub(in crate::draw) notes: Vec<(u32, String)>,
-    pub(in crate::draw) again: Again,
+    pub notes: Vec<(u32, String)>,
+    /// How to make the run again.
+    pub again: Again,
 }
 
 /// What the curve under the board counts.
 #[derive(Serialize)]
-pub(in crate::draw) struct Share {
-    pub(in crate::draw) of: u32,
-    pub(in crate::draw) what: &'static str,
+pub struct Share {
+    /// The count at which it is whole.
+    pub of: u32,
+    /// The noun of what is counted.
+    pub what: &'static str,
 }
 
 /// A clause that the end of the run breaks, and the cells that are missed.
 #[derive(Serialize)]
-pub(in crate::draw) struct Ended {
-    pub(in crate::draw) clause: &'static str,
-    pub(in crate::draw) what: &'static str,
-    pub(in crate::draw) cells: Vec<u32>,
+pub struct Ended {
+    /// The id of the clause.
+    pub clause: &'static str,
+    /// The sentence of what is missed.
+    pub what: &'static str,
+    /// The places of the cells, row by row.
+    pub cells: Vec<u32>,
 }
 
 /// How to make another run.
 #[derive(Serialize)]
-pub(in crate::draw) struct Again {
+pub struct Again {
     /// The command, in which LAYOUT is a file; none where the run was not made by one.
-    pub(in crate::draw) command: Option<String>,
+    pub command: Option<String>,
     /// The drawing of the layout, if it is small.
-    pub(in crate::draw) layout: Option<String>,
+    pub layout: Option<String>,
 }
 
 /// Where the run takes place.
 #[derive(Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
-pub(in crate::draw) enum Board {
+pub enum Board {
     /// In cells.
     Cells {
+        /// How many columns there are.
         columns: usize,
+        /// How many rows there are.
         rows: usize,
         /// The column and the row of the first cell.
         first: [i16; 2],
@@ -89,9 +102,11 @@ pub(in crate::draw) enum Board {
     },
     /// In an area; lengths in millimetres.
     Metres {
+        /// Its width and its height.
         size: [u32; 2],
         /// West, north, east and south.
         obstacles: Vec<[u32; 4]>,
+        /// Where the nodes of the network are.
         nodes: Vec<[u32; 2]>,
         /// Who waits for robots.
         callers: Vec<[u32; 2]>,
@@ -131,7 +146,7 @@ impl Board {
 
 /// A layer as the page reads it.
 #[derive(Serialize)]
-pub(in crate::draw) struct Shown {
+pub struct Shown {
     name: &'static str,
     about: String,
     shape: &'static str,
@@ -171,7 +186,7 @@ struct Reach {
 }
 
 /// A layer as the page reads it.
-pub(in crate::draw) fn layer(layer: &Layer) -> Shown {
+pub fn layer(layer: &Layer) -> Shown {
     let plain = Shown {
         name: layer.name,
         about: layer.about.clone(),
@@ -206,13 +221,13 @@ pub(in crate::draw) fn layer(layer: &Layer) -> Shown {
 }
 
 /// A page up to where its lines begin.
-pub(in crate::draw) fn head(title: &str) -> String {
+pub fn head(title: &str) -> String {
     let (head, _) = halves();
     HTML_HEAD.to_owned() + &head.replace("{{title}}", &escaped(title))
 }
 
 /// A page from the end of its lines on.
-pub(in crate::draw) fn foot(film: &Film) -> String {
+pub fn foot(film: &Film) -> String {
     let (_, foot) = halves();
     foot.replace("{{film}}", &json(film)).replace("{{script}}\n", SCRIPT)
 }
@@ -235,7 +250,7 @@ fn halves() -> (&'static str, &'static str) {
 }
 
 /// What is told at the end of a line beside its words.
-pub(in crate::draw) fn told(told: &impl Serialize) -> String {
+pub fn told(told: &impl Serialize) -> String {
     format!("\t{}", json(told))
 }
 

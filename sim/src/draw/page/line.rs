@@ -198,7 +198,7 @@ pub(super) fn steps(frame: &Frame) -> String {
 }
 
 /// A word with numbers in rising order: the first, then each as what it is more than the one before, to the base 36.
-pub(in crate::draw) fn word(name: &str, numbers: &[u32]) -> String {
+pub fn word(name: &str, numbers: &[u32]) -> String {
     let (mut text, mut last) = (format!("{name}:"), 0);
     for (place, &number) in numbers.iter().enumerate() {
         if place > 0 {
@@ -211,7 +211,7 @@ pub(in crate::draw) fn word(name: &str, numbers: &[u32]) -> String {
 }
 
 /// A number to the base 36.
-pub(in crate::draw) fn base36(text: &mut String, number: i64) {
+pub fn base36(text: &mut String, number: i64) {
     if number < 0 {
         text.push('-');
     }

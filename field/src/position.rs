@@ -1,0 +1,24 @@
+//! Where robots are, by the strength of anchors' signals (POSITION): trials with a robot at random places, positions from
+//! measured distances, and how exact they are. The kernel's rules find the positions; the analyses about them, covariance,
+//! error ellipse, dilution of precision, Cramér–Rao bound and singular values, are nalgebra's.
+
+pub mod analysis;
+mod measured;
+mod meeting;
+mod solver;
+mod trials;
+
+pub use measured::{Found, Measured, Place, Power};
+pub use solver::PARTICLES;
+pub use solver::Solver;
+pub use trials::distances;
+pub use trials::{Advice, Anchors, Errors, Quantiles, Report, Setting, Spot};
+
+use tautline_kernel::position::Refusal;
+
+use tautline_sim::fault::Fault;
+
+/// What is wrong where the kernel refuses, for a person.
+pub fn refused(refusal: Refusal) -> Fault {
+    Fault::usage(refusal, refusal.remedy())
+}

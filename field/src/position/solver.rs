@@ -1,0 +1,89 @@
+//! The ways to a position, by name.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::position::{
+    Area, Fix, Order, Parameters, Particle, Point, Range, Refusal, Residual, Signal, Swarm, closed_form,
+    linear, locate,
+};
+
+use tautline_sim::explore::RuleName;
+use tautline_sim::words::Worded;
+
+/// A way from distances to a position.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Solver {
+    /// Equations (5) to (8).
+    ClosedForm,
+    /// Particles about it.
+    Pso,
+    /// Damped Gauss–Newton on distances.
+    LeastSquares,
+    /// Damped Gauss–Newton in decibels.
+    Decibel,
+}
+
+impl Worded for Solver {
+    const WORDS: &'static [(Self, &'static str, &'static str)] = &[
+        (Self::ClosedForm, "closed-form", "The closed form of the paper, for three anchors"),
+        (Self::Pso, "pso", "Particle swarm optimisation about the closed form, as in the paper"),
+        (
+            Self::LeastSquares,
+            "least-squares",
+            "The least squares of what distances miss, by damped Gauss-Newton",
+        ),
+        (Self::Decibel, "decibel", "The least squares of what levels miss: the most likely position"),
+    ];
+}
+
+/// Particles of a swarm.
+pub const PARTICLES: usize = 30;
+
+/// A position, and another one that fits as well.
+pub(crate) type Solved = (Point, Option<Fix>);
+
+impl Solver {
+    /// The position that the distances tell. The closed form alone is restricted to three anchors; a swarm begins about the linear
+    /// solution where there are more, or where the closed form divides by 0.
+    pub fn solve(
+        self,
+        rule: RuleName,
+        ranges: &[Range],
+        signal: &Signal,
+        area: Option<Area>,
+        oracle: &mut impl Oracle,
+    ) -> Result<Solved, Refusal> {
+        match self {
+            Self::ClosedForm => Ok((closed_form(ranges)?, None)),
+            Self::Pso => {
+                let around = closed_form(ranges).or_else(|_| linear(ranges))?;
+                let mut particles = [Particle::UNUSED; PARTICLES];
+                let swarm = Swarm::start(ranges, around, parameters(rule), &mut particles, oracle)?;
+                Ok((swarm.run(oracle), None))
+            }
+            Self::LeastSquares => fixed(locate(ranges, Residual::Metres, signal, area)?),
+            Self::Decibel => fixed(locate(ranges, Residual::Decibels, signal, area)?),
+        }
+    }
+
+    /// Whether it can keep a position within a rectangle.
+    pub const fn has_area(self) -> bool {
+        matches!(self, Self::LeastSquares | Self::Decibel)
+    }
+}
+
+#[expect(clippy::unnecessary_wraps, reason = "as the other ways are")]
+fn fixed(fix: Fix) -> Result<Solved, Refusal> {
+    Ok((fix.best().at, Some(fix)))
+}
+
+/// The constants of the paper's swarm, with the updates in the printed order or in the corrected one.
+pub(super) const fn parameters(rule: RuleName) -> Parameters {
+    let order = match rule {
+        RuleName::Published => Order::Published,
+        RuleName::Repaired => Order::Corrected,
+    };
+    Parameters { order, ..Parameters::CONTRACTING }
+}

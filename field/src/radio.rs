@@ -1,0 +1,25 @@
+//! The radio field: nodes in an area, the links between them, and what becomes of what they send. A [`Field`] has
+//! positions and obstacles; a [`Network`] the links that a [`Radio`] makes of them; [`run`] lets a [`Protocol`] send and
+//! hear over a [`Channel`]. Everything left to chance is asked of an `Oracle`: the same answers make the same run.
+//!
+//! Results depend on `+ − × ÷ √` and whole numbers alone, which are the same on every machine, and, where signals have a
+//! shadow or noise, on the power function of libm. Time is in nanoseconds, distances between nodes are in micrometres.
+
+mod air;
+mod broadcast;
+mod chance;
+mod field;
+mod grid;
+mod names;
+mod network;
+mod problem;
+mod queue;
+
+pub use air::{Air, Channel, Faults, Protocol, Shared, run};
+pub use broadcast::{Broadcast, LONGEST_WAIT_NS, Reach, Report, broadcast};
+pub use chance::Chance;
+pub(crate) use chance::checked_deviation;
+pub use field::{Area, Field, MAX_NODES, Obstacle, Point};
+pub use names::ChannelName;
+pub use network::{FREE_SPACE, Link, MAX_RANGE_M, Model, Network, Radio};
+pub use problem::Problem;

@@ -1,0 +1,166 @@
+//! What a rescue is made of, as the user gives it: plain numbers, which are checked when the field is laid out.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Problem;
+use crate::radio::{self, ChannelName, FREE_SPACE, Model, checked_deviation};
+use tautline_sim::explore::RuleName;
+use tautline_sim::words::Worded;
+
+/// The most robots: what a WFR and a path node remember is sized by it.
+pub const MAX_ROBOTS: usize = 16;
+
+/// The most WFRs: what a robot and a path node remember is sized by it.
+pub const MAX_WFRS: usize = 16;
+
+/// The most events at each WFR.
+pub const MAX_EVENTS: usize = 16;
+
+/// How calls are broadcast.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SchemeName {
+    /// k-farthest-node forwarding.
+    KFnf,
+    /// Everybody forwards.
+    Flooding,
+    /// Who has heard more than k senders, the first counted, is silent.
+    Counter,
+    /// Who has heard a sender nearer than 0.8 of the range is silent.
+    Distance,
+    /// Who has no neighbour left to reach is silent.
+    Sba,
+}
+
+impl Worded for SchemeName {
+    const WORDS: &'static [(Self, &'static str, &'static str)] = &[
+        (Self::KFnf, "k-fnf", "k-farthest-node forwarding"),
+        (Self::Flooding, "flooding", "Everybody forwards"),
+        (Self::Counter, "counter", "Who has heard more than k senders, the first counted, is silent"),
+        (Self::Distance, "distance", "Who has heard a sender nearer than 0.8 of the range is silent"),
+        (Self::Sba, "sba", "Who has no neighbour left to reach is silent"),
+    ];
+}
+
+/// When something happens at the WFRs for the first time.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CallTimes {
+    /// At all in the beginning.
+    Together,
+    /// At each at a random time of the first ten minutes.
+    Spread,
+}
+
+impl Worded for CallTimes {
+    const WORDS: &'static [(Self, &'static str, &'static str)] = &[
+        (Self::Together, "together", "At all in the beginning"),
+        (Self::Spread, "spread", "At each at a random time of the first ten minutes"),
+    ];
+}
+
+/// A rescue, but for its seed.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Setting {
+    /// MRC as published, or repaired.
+    pub rule: RuleName,
+    /// How calls are broadcast.
+    pub scheme: SchemeName,
+    /// How many senders, the first not counted, make a node silent under k-FNF and the counter-based scheme.
+    pub k: u8,
+    /// Sensor nodes.
+    pub nodes: usize,
+    /// Width and height, in metres.
+    pub area_m: [f64; 2],
+    /// The radio range of nodes and robots, in metres.
+    pub range_m: f64,
+    /// West, north, east and south of each obstacle, in metres.
+    pub obstacles_m: Vec<[f64; 4]>,
+    /// How many nodes call.
+    pub wfrs: usize,
+    /// Which nodes call, as far as they are not to be random ones.
+    pub wfrs_at: Vec<u32>,
+    /// How many robots there are.
+    pub robots: usize,
+    /// Where robots begin, x and y in metres, as far as they are not to be at random places.
+    pub robots_at_m: Vec<[f64; 2]>,
+    /// How often something happens at each WFR: again at a random time of the ten minutes after a robot has served it.
+    #[serde(default = "once")]
+    pub events_per_wfr: usize,
+    /// When something happens at the WFRs for the first time.
+    pub calls: CallTimes,
+    /// What lies between a sender and those who hear it.
+    pub channel: ChannelName,
+    /// How likely it is that a message is lost, on each link anew.
+    pub loss: f64,
+    /// The standard deviation of the shadow on each link, in dB.
+    #[serde(default)]
+    pub shadowing_db: f64,
+    /// α: power falls with the distance to the power of it.
+    #[serde(default = "free_space")]
+    pub exponent: f64,
+    /// The standard deviation of the strength of a signal, each time anew, in dB.
+    pub noise_db: f64,
+    /// How many robots fail, each at a random time of the first ten minutes.
+    pub failing: usize,
+    /// How many nodes fail, likewise. No WFR does.
+    pub failing_nodes: usize,
+}
+
+impl Setting {
+    /// How signals spread.
+    pub(super) fn model(&self) -> Model {
+        let Self { exponent, shadowing_db: deviation_db, .. } = *self;
+        let is_plain = [exponent, deviation_db] == [FREE_SPACE, 0.0];
+        if is_plain { Model::Disc } else { Model::Shadowed { exponent, deviation_db } }
+    }
+
+    /// The field that makes a problem.
+    pub(super) fn culprit(&self, problem: Problem) -> &'static str {
+        match problem {
+            Problem::Field(problem) => self.culprit_of_field(problem),
+            Problem::K { .. } => "k",
+            Problem::Wfrs { .. } | Problem::WfrsOfNodes { .. } => "wfrs",
+            Problem::WfrTwice { .. } | Problem::WfrPlaces { .. } => "wfrs_at",
+            Problem::Events { .. } => "events_per_wfr",
+            Problem::Robots { .. } => "robots",
+            Problem::RobotPlaces { .. } | Problem::RobotOutside { .. } | Problem::RobotBlocked { .. } => {
+                "robots_at_m"
+            }
+            Problem::Failing { .. } => "failing",
+            Problem::FailingNodes { .. } => "failing_nodes",
+            Problem::TooLarge { .. } => "nodes",
+        }
+    }
+
+    fn culprit_of_field(&self, problem: radio::Problem) -> &'static str {
+        match problem {
+            radio::Problem::Side { .. } => "area_m",
+            radio::Problem::Nodes { .. }
+            | radio::Problem::Outside { .. }
+            | radio::Problem::Blocked { .. }
+            | radio::Problem::TooDense { .. } => "nodes",
+            radio::Problem::Obstacle { .. } | radio::Problem::NoRoom => "obstacles_m",
+            radio::Problem::Range { .. } => "range_m",
+            radio::Problem::Exponent { .. } => "exponent",
+            radio::Problem::Deviation { .. } if checked_deviation(self.shadowing_db).is_err() => {
+                "shadowing_db"
+            }
+            radio::Problem::Deviation { .. } => "noise_db",
+            radio::Problem::Probability { .. } => "loss",
+            radio::Problem::NoNode { .. } => "wfrs_at",
+        }
+    }
+}
+
+/// What stored rescues have that do not say how many events there are.
+const fn once() -> usize {
+    1
+}
+
+/// What stored rescues have that do not say how power falls.
+const fn free_space() -> f64 {
+    FREE_SPACE
+}

@@ -1,0 +1,134 @@
+//! Tables dealt out.
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
+use tautline_proofs::words::counted;
+
+use crate::tables::{Asked, find};
+use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::part::{Facts, Part, written};
+use tautline_sim::shards::{Done, Of, Plan};
+
+/// Jobs for each thread that are measured before the results are kept.
+const JOBS_AT_ONCE: usize = 8;
+
+/// How a table is dealt out: its jobs in turn.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Deal {
+    settings: Box<RawValue>,
+    jobs: usize,
+}
+
+/// How far a shard is.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Far {
+    /// Of its jobs, in their order.
+    results: Vec<Box<RawValue>>,
+}
+
+struct Jobs<'a> {
+    asked: &'a (dyn Asked + 'a),
+    all: Vec<String>,
+    results: Vec<Box<RawValue>>,
+}
+
+fn raw(text: String) -> Result<Box<RawValue>, Fault> {
+    RawValue::from_string(text).map_err(|error| Fault::usage(error, "report it: this is a bug of tautline"))
+}
+
+fn read<'a, T: Deserialize<'a>>(value: &'a RawValue) -> Result<T, Fault> {
+    serde_json::from_str(value.get()).map_err(|error| Fault::usage(error, "take it as tautline wrote it"))
+}
+
+/// Deals the jobs of a table out.
+///
+/// # Errors
+/// [`Halt`] if its settings cannot be measured.
+pub fn deal_table(id: &str, asked: &dyn Asked) -> Result<(Of, Box<RawValue>, usize), Halt> {
+    let (settings, jobs) = (raw(asked.settings()?)?, asked.jobs()?.len());
+    Ok((Of::Table { id: id.to_owned() }, written(&Deal { settings, jobs })?, jobs))
+}
+
+/// The table that a plan deals out.
+///
+/// # Errors
+/// A [`Fault`] if it is none of a table.
+pub fn restored(plan: &Plan) -> Result<Box<dyn Asked>, Fault> {
+    let none = || Fault::usage("this plan is none of a table", "run it with the command that planned it");
+    let Of::Table { id } = &plan.of else { return Err(none()) };
+    let deal: Deal = read(&plan.deal)?;
+    find(id).ok_or_else(none)?.restored(deal.settings.get())
+}
+
+/// A shard of a table, where it was.
+///
+/// # Errors
+/// [`Halt`] if the plan has no such shard, or it was never there.
+pub fn table_part<'a>(
+    plan: &Plan,
+    asked: &'a dyn Asked,
+    shard: u32,
+    far: Option<&RawValue>,
+) -> Result<Box<dyn Part + 'a>, Halt> {
+    plan.check_shard(shard)?;
+    let (first, of) = (shard as usize - 1, plan.shards as usize);
+    let jobs: Vec<String> = asked.jobs()?.into_iter().skip(first).step_by(of).collect();
+    let results = far.map(read::<Far>).transpose()?.map_or(Vec::new(), |far| far.results);
+    if results.len() > jobs.len() {
+        let what = format!("shard {shard} has {}, and kept are more", counted(jobs.len(), "job"));
+        return Err(Fault::usage(what, "remove its file, and run it again").into());
+    }
+    Ok(Box::new(Jobs { asked, all: jobs, results }))
+}
+
+/// The results of all jobs of the table that is `asked`, in their order.
+///
+/// # Errors
+/// [`Halt`] if they do not fit their plan, or a shard has done less than it was dealt.
+pub fn merge_table(plan: &Plan, asked: &dyn Asked, shards: &[Done]) -> Result<Vec<String>, Halt> {
+    let deal: Deal = read(&plan.deal)?;
+    for (number, shard) in (1..).zip(shards) {
+        shard.check(table_part(plan, asked, number, Some(&shard.far)))?;
+    }
+    let fars = shards.iter().map(|shard| read::<Far>(&shard.far)).collect::<Result<Vec<_>, _>>()?;
+    let mut shards: Vec<_> = fars.into_iter().map(|far| far.results.into_iter()).collect();
+    let of = shards.len();
+    let next = |job: usize| {
+        let result = shards.get_mut(job % of).and_then(Iterator::next);
+        let missing =
+            || Fault::usage(format_args!("the result of job {job} is missing"), "run its shard again");
+        Ok(result.ok_or_else(missing)?.get().to_owned())
+    };
+    (0..deal.jobs).map(next).collect()
+}
+
+impl Part for Jobs<'_> {
+    fn step(&mut self) -> Result<bool, Halt> {
+        let at_once = JOBS_AT_ONCE * rayon::current_num_threads();
+        let next = self.all.iter().skip(self.results.len()).take(at_once);
+        let next: Vec<&String> = next.collect();
+        let measure = |job: &&String| Ok(raw(self.asked.measure(job)?)?);
+        let measured = next.par_iter().map(measure).collect::<Result<Vec<_>, Halt>>()?;
+        self.results.extend(measured);
+        Ok(!self.is_done())
+    }
+
+    fn far(&self) -> Result<Box<RawValue>, Fault> {
+        written(&Far { results: self.results.clone() })
+    }
+
+    fn is_done(&self) -> bool {
+        self.results.len() == self.all.len()
+    }
+
+    fn facts(&self) -> Facts {
+        Facts::Table { jobs: self.all.len(), jobs_done: self.results.len() }
+    }
+
+    fn words(&self) -> String {
+        format!("{} of {}", self.results.len(), counted(self.all.len(), "job"))
+    }
+}

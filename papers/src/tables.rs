@@ -1,0 +1,255 @@
+//! What the papers and SPEC.md report as tables and figures, measured again. A table is a row of [`TABLES`]: what can be
+//! asked of it, jobs that know nothing of each other, and how their results become a text, JSON and pictures. A new table
+//! is a file of its own and one line here.
+
+pub mod agents;
+pub mod antenna_fig4;
+pub mod atlas;
+pub mod chain_fig4;
+pub mod chain_radio;
+mod csv;
+mod entry;
+pub mod floors;
+pub mod floors_missed;
+pub mod frontier_fig7;
+pub mod journeys;
+pub mod kit;
+pub mod locate_convergence;
+pub mod locate_fig8;
+pub mod notice_fig5;
+pub mod optimum;
+pub mod parameter;
+pub mod reel;
+pub mod repair_cost;
+pub mod rescue_fig8;
+pub mod rivals;
+
+use std::fmt;
+
+use rayon::prelude::*;
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use tautline_proofs::engine::tree::Progress;
+
+pub use self::entry::{Asked, Entry, Made};
+use self::parameter::Parameter;
+use crate::chart::Point;
+use tautline_field::radio::Problem;
+use tautline_field::stats::Estimate;
+use tautline_sim::fault::{Fault, Halt};
+
+/// Every table, in the order in which they are listed.
+pub const TABLES: &[&dyn Entry] = &[
+    &repair_cost::RepairCost,
+    &reel::Reel,
+    &optimum::Optimum,
+    &atlas::Atlas,
+    &rivals::ChainTable1,
+    &rivals::ChainFig3,
+    &chain_fig4::ChainFig4,
+    &chain_radio::ChainRadio,
+    &agents::BRICKS_FIG11,
+    &agents::BRICKS_FIG12,
+    &agents::BRICKS_IDEAL,
+    &floors::Floors,
+    &floors_missed::FloorsMissed,
+    &antenna_fig4::AntennaFig4,
+    &notice_fig5::NoticeFig5,
+    &journeys::RESCUE_FIG6,
+    &journeys::RESCUE_FIG7,
+    &rescue_fig8::RescueFig8,
+    &journeys::RESCUE_FIG9,
+    &journeys::RESCUE_FIG10,
+    &kit::KIT_FIG9,
+    &kit::KIT_FIG14,
+    &frontier_fig7::FrontierFig7,
+    &locate_fig8::LocateFig8,
+    &locate_convergence::LocateConvergence,
+];
+
+/// A table or a figure that can be measured. Its results depend on its settings alone, and not on who measures which of
+/// its jobs, or in which order.
+pub trait Table: fmt::Debug + Sync + 'static {
+    /// What can be asked of it.
+    type Settings: Default + Serialize + DeserializeOwned + Sync;
+    /// A part of the work, independent of all others.
+    type Job: Serialize + DeserializeOwned + Send + Sync;
+    /// What comes of a job.
+    type Measured: Serialize + DeserializeOwned + Send;
+    /// The whole table. Its members follow `schema_version` and `id` in the JSON.
+    type Merged: JsonSchema + Serialize;
+
+    /// Its name, and what a person is told of it.
+    fn about(&self) -> About;
+
+    /// Its settings, as a person gives them, in the order in which a help text has them.
+    fn parameters(&self) -> Vec<Parameter<Self::Settings>>;
+
+    /// The pictures that can be drawn of it.
+    fn charts(&self) -> Vec<Chart<Self>> {
+        Vec::new()
+    }
+
+    /// How its jobs share the threads.
+    fn threads(&self) -> Threads {
+        Threads::OneEach
+    }
+
+    /// All jobs. Their order is that of the results which are merged.
+    ///
+    /// # Errors
+    /// [`Halt`] if the settings cannot be measured: the same each time, whichever job would meet it first.
+    fn jobs(&self, settings: &Self::Settings) -> Result<Vec<Self::Job>, Halt>;
+
+    /// How many parts a job has, of those that a person sees counted.
+    fn parts(&self, _job: &Self::Job) -> u64 {
+        1
+    }
+
+    /// Measures one job. The observer hears of what goes on within it, not of its end.
+    ///
+    /// # Errors
+    /// [`Halt`], as the observer returned it, or if the job cannot be measured.
+    fn measure(
+        &self,
+        settings: &Self::Settings,
+        job: &Self::Job,
+        observer: &dyn Observer,
+    ) -> Result<Self::Measured, Halt>;
+
+    /// The table from the results of all jobs, in their order.
+    ///
+    /// # Errors
+    /// [`Halt`] if there is none.
+    fn merge(
+        &self,
+        settings: &Self::Settings,
+        results: Vec<(Self::Job, Self::Measured)>,
+    ) -> Result<Self::Merged, Halt>;
+
+    /// The table for people. Ends with a newline.
+    ///
+    /// # Errors
+    /// [`Halt`] if what is drawn in it cannot be found again.
+    fn text(&self, settings: &Self::Settings, merged: &Self::Merged) -> Result<String, Halt>;
+
+    /// Whether a clause is broken that was to hold.
+    fn is_broken(&self, _merged: &Self::Merged) -> bool {
+        false
+    }
+}
+
+/// A table's name, and what a person is told of it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct About {
+    /// Its name.
+    pub id: &'static str,
+    /// What it shows, in the list of all tables.
+    pub shows: &'static str,
+    /// The first line of its help.
+    pub help: &'static str,
+    /// What else its help says; may be empty.
+    pub more: &'static str,
+    /// Ids with options that are worth a try.
+    pub examples: &'static [&'static str],
+    /// What is done while it is measured.
+    pub doing: &'static str,
+}
+
+/// Draws a table with these settings as SVG.
+pub type Draw<T> = fn(&T, &<T as Table>::Settings, &<T as Table>::Merged) -> Result<String, Halt>;
+
+/// A picture of a table.
+#[derive(Debug)]
+pub struct Chart<T: Table + ?Sized> {
+    /// What it is asked for by.
+    pub name: &'static str,
+    /// What it shows, as a help text has it.
+    pub about: &'static str,
+    /// What draws it.
+    pub draw: Draw<T>,
+}
+
+/// How the jobs of a table share the threads.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Threads {
+    /// Jobs are measured side by side, each on one thread.
+    OneEach,
+    /// Jobs are measured one after the other, each on all threads.
+    AllForEach,
+}
+
+/// Is told how far the work is, from any thread, and may stop it.
+pub trait Observer: Sync {
+    /// The work begins; it has so many parts.
+    fn begin(&self, parts: u64);
+
+    /// So many more parts are done.
+    ///
+    /// # Errors
+    /// [`Halt`] if the work is to stop.
+    fn done(&self, parts: u64) -> Result<(), Halt>;
+
+    /// The job in hand is a search, and this is how far it is.
+    ///
+    /// # Errors
+    /// [`Halt`] if the work is to stop.
+    fn searched(&self, what: &str, progress: &Progress<'_>) -> Result<(), Halt>;
+}
+
+/// Nobody.
+impl Observer for () {
+    fn begin(&self, _parts: u64) {}
+
+    fn done(&self, _parts: u64) -> Result<(), Halt> {
+        Ok(())
+    }
+
+    fn searched(&self, _what: &str, _progress: &Progress<'_>) -> Result<(), Halt> {
+        Ok(())
+    }
+}
+
+/// Measures all jobs of `table`, and merges them. The result is the same on any number of threads.
+///
+/// # Errors
+/// [`Halt`], as the observer returned it, or if the settings cannot be measured.
+pub fn measure<T: Table>(
+    table: &T,
+    settings: &T::Settings,
+    observer: &dyn Observer,
+) -> Result<T::Merged, Halt> {
+    let jobs = table.jobs(settings)?;
+    observer.begin(jobs.iter().map(|job| table.parts(job)).sum());
+    let measure = |job: T::Job| {
+        let measured = table.measure(settings, &job, observer)?;
+        observer.done(table.parts(&job))?;
+        Ok((job, measured))
+    };
+    let results: Result<Vec<_>, Halt> = match table.threads() {
+        Threads::OneEach => jobs.into_par_iter().map(measure).collect(),
+        Threads::AllForEach => jobs.into_iter().map(measure).collect(),
+    };
+    table.merge(settings, results?)
+}
+
+/// The table of this name.
+pub fn find(id: &str) -> Option<&'static dyn Entry> {
+    TABLES.iter().copied().find(|table| table.about().id == id)
+}
+
+/// What is wrong with a radio field that was asked for.
+fn usage(problem: Problem) -> Halt {
+    Fault::usage(problem, problem.remedy()).into()
+}
+
+/// What is wrong with a layout that was asked for.
+fn unfit(problem: &tautline_sim::layout::Problem) -> Fault {
+    Fault::usage(problem, problem.remedy())
+}
+
+/// A mean or a share with its interval, at `x` in a chart.
+const fn point(x: f64, estimate: Estimate) -> Point {
+    Point { x, y: estimate.mean, interval: estimate.interval }
+}

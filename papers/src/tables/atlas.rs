@@ -1,0 +1,334 @@
+//! The atlas of the chain: for each rule and number of robots, what becomes of all runs in all layouts within a bound
+//! on the walls met. All counts are exact.
+
+use std::fmt::Write;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use tautline_kernel::ground::{Cell, Edge};
+use tautline_proofs::chain::breach::Breach;
+use tautline_proofs::chain::invariant::Invariant;
+use tautline_proofs::chain::search::{Bounds, Counterexample};
+use tautline_proofs::run::walls;
+use tautline_proofs::words::counted;
+
+use super::parameter::Parameter;
+use super::{About, Observer, Table, Threads};
+use tautline_sim::columns::{Column, Columns, Width};
+use tautline_sim::explore::RuleName;
+use tautline_sim::explore::chain::hunt::start;
+use tautline_sim::fault::Halt;
+use tautline_sim::schema::CellWritten;
+
+/// The atlas.
+#[derive(Clone, Copy, Debug)]
+pub struct Atlas;
+
+/// How far is searched.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug, JsonSchema, Serialize, Deserialize)]
+pub struct Settings {
+    /// Which sheets.
+    pub depth: Depth,
+}
+
+/// How many walls are allowed.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug, JsonSchema, Serialize, Deserialize)]
+pub enum Depth {
+    /// What takes seconds.
+    #[default]
+    Quick,
+    /// What takes the better part of an hour.
+    Deep,
+}
+
+impl Depth {
+    const fn sheets(self) -> [Sheet; 6] {
+        match self {
+            Self::Quick => QUICK,
+            Self::Deep => DEEP,
+        }
+    }
+}
+
+/// One rule on one sheet.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct Job {
+    sheet: Sheet,
+    rule: RuleName,
+}
+
+/// What a search found.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct Searched {
+    edges: u32,
+    runs: u64,
+    moves: u64,
+    longest: u32,
+    broken: Vec<Broken>,
+}
+
+/// The whole atlas.
+#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize)]
+pub struct Merged {
+    /// Sheet by sheet, each under every rule.
+    pub lines: Vec<Line>,
+}
+
+/// A number of robots, and the bound on the walls that one run meets.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
+pub struct Sheet {
+    /// Robots, base included.
+    pub robots: u16,
+    /// Most walls that are met in one run.
+    pub max_walls: u32,
+    /// Whether it is asked what a chain could have reached by any team moves at all.
+    pub reach: Reach,
+}
+
+/// Whether runs are counted that miss a cell which is not within reach but which a chain could reach all the same: that
+/// takes long.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
+pub enum Reach {
+    /// They are.
+    Counted,
+    /// They are not.
+    LeftOut,
+}
+
+const fn sheet(robots: u16, max_walls: u32, reach: Reach) -> Sheet {
+    Sheet { robots, max_walls, reach }
+}
+
+/// All 12 edges of two robots can be walls: nothing is left out.
+const QUICK: [Sheet; 6] = [
+    sheet(2, 12, Reach::Counted),
+    sheet(3, 5, Reach::Counted),
+    sheet(4, 4, Reach::Counted),
+    sheet(5, 3, Reach::Counted),
+    sheet(6, 2, Reach::LeftOut),
+    sheet(8, 1, Reach::LeftOut),
+];
+
+/// The same with more walls.
+const DEEP: [Sheet; 6] = [
+    sheet(2, 12, Reach::Counted),
+    sheet(3, 8, Reach::LeftOut),
+    sheet(4, 6, Reach::LeftOut),
+    sheet(5, 5, Reach::LeftOut),
+    sheet(6, 3, Reach::LeftOut),
+    sheet(8, 2, Reach::LeftOut),
+];
+
+/// One rule on one sheet.
+#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize)]
+pub struct Line {
+    /// As published or repaired.
+    pub rule: RuleName,
+    /// Robots, base included.
+    pub robots: u16,
+    /// Most walls that are met in one run.
+    pub max_walls: u32,
+    /// Edges that can be walls.
+    pub edges: u32,
+    /// Layouts with at most so many walls: all of them are covered, and those with more of which no run meets more.
+    #[serde(serialize_with = "as_string")]
+    #[schemars(with = "String")]
+    pub layouts: u128,
+    /// Leaves of the tree of runs.
+    pub runs: u64,
+    /// Its edges.
+    pub moves: u64,
+    /// Team moves of the longest run.
+    pub longest: u32,
+    /// What the runs break.
+    pub broken: Vec<Broken>,
+    /// Whether it was looked for runs that break CHAIN-14 and not CHAIN-13.
+    pub looked_beyond: bool,
+}
+
+fn as_string<S: serde::Serializer>(number: &u128, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(number)
+}
+
+/// The runs that break a clause.
+#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
+pub struct Broken {
+    /// Its id.
+    pub clause: String,
+    /// How many.
+    pub runs: u64,
+    /// Walls of the smallest.
+    #[schemars(with = "Vec<[CellWritten; 2]>")]
+    pub walls: Vec<[Cell; 2]>,
+    /// Its team moves.
+    pub steps: usize,
+}
+
+impl Broken {
+    fn of(found: &Counterexample) -> Self {
+        let between = |wall: &Edge| [wall.cell(), wall.cell().beyond(wall.side())];
+        Self {
+            clause: found.broken.clause().to_owned(),
+            runs: found.runs,
+            walls: walls(&found.frames).iter().map(between).collect(),
+            steps: found.frames.len(),
+        }
+    }
+}
+
+/// The clauses of the atlas, in order.
+const CLAUSES: [&str; 6] = [
+    Breach::Contact.clause(),
+    Breach::Crowding.clause(),
+    Breach::Coverage.clause(),
+    Invariant::Ends.clause(),
+    Breach::Completeness.clause(),
+    BEYOND,
+];
+
+/// The clause that is looked for only where it is quickly decided.
+const BEYOND: &str = Invariant::Exhausts.clause();
+
+impl Table for Atlas {
+    type Settings = Settings;
+    type Job = Job;
+    type Measured = Searched;
+    type Merged = Merged;
+
+    fn about(&self) -> About {
+        About {
+            id: "atlas",
+            shows: "all runs of the chain in all layouts with few walls, by rule and number of robots: how many there are, \
+                    how long, and how many break which clause",
+            help: "What becomes of all runs in all layouts with few walls, by rule and number of robots",
+            more: "",
+            examples: &["atlas", "atlas --deep --format json"],
+            doing: "searching",
+        }
+    }
+
+    fn parameters(&self) -> Vec<Parameter<Settings>> {
+        vec![Parameter::flag("deep", "More walls: many minutes instead of seconds", |all, _| {
+            all.depth = Depth::Deep;
+            Ok(())
+        })]
+    }
+
+    /// A search uses all threads by itself, and one takes most of the time.
+    fn threads(&self) -> Threads {
+        Threads::AllForEach
+    }
+
+    fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
+        let of = |sheet| RuleName::ALL.map(|rule| Job { sheet, rule });
+        Ok(settings.depth.sheets().into_iter().flat_map(of).collect())
+    }
+
+    fn measure(&self, _: &Settings, job: &Job, observer: &dyn Observer) -> Result<Searched, Halt> {
+        let Job { sheet, rule } = *job;
+        let mut bounds = Bounds::new(rule.observed(), sheet.robots.into(), sheet.max_walls);
+        if sheet.reach == Reach::Counted {
+            bounds.invariants.push(Invariant::Exhausts);
+        }
+        let what = format!("{} robots, {rule}", sheet.robots);
+        let mut search = start(&bounds)?;
+        while search.wave() {
+            observer.searched(&what, &search.progress())?;
+        }
+        let edges = search.progress().edges;
+        let found = search.found();
+        Ok(Searched {
+            edges,
+            runs: found.runs,
+            moves: found.moves,
+            longest: found.longest,
+            broken: found.counterexamples.iter().map(Broken::of).collect(),
+        })
+    }
+
+    fn merge(&self, _: &Settings, results: Vec<(Job, Searched)>) -> Result<Merged, Halt> {
+        let line = |(Job { sheet, rule }, searched): (Job, Searched)| {
+            let Searched { edges, runs, moves, longest, broken } = searched;
+            let Sheet { robots, max_walls, reach } = sheet;
+            let layouts = layouts(edges, max_walls);
+            let looked_beyond = reach == Reach::Counted;
+            Line { rule, robots, max_walls, edges, layouts, runs, moves, longest, broken, looked_beyond }
+        };
+        Ok(Merged { lines: results.into_iter().map(line).collect() })
+    }
+
+    fn text(&self, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+        let heads = ["N", "walls", "rule", "layouts", "runs", "team moves", "longest"];
+        let heads = heads.into_iter().chain(CLAUSES);
+        let mut columns = Columns::new(heads.clone().map(|_| Column::right(Width::Fit)));
+        columns.row(heads);
+        for line in &merged.lines {
+            columns.row(line.cells());
+        }
+        let mut text = format!(
+            "All runs in all layouts of (2N−1)² cells, the base in the middle, by the walls that a run meets at most\n\n{}\n\
+             layouts: with at most so many walls, all covered · runs, team moves: leaves and edges of the tree of runs ·\n\
+             longest: team moves of the longest run · CHAIN-…: runs that break the clause, whatever else they break ·\n\
+             -: not looked for\n\
+             \nThe smallest counterexamples in these areas, by walls, then team moves\n",
+            columns.text()
+        );
+        for Line { robots, rule, broken, .. } in &merged.lines {
+            for Broken { clause, walls, steps, .. } in broken {
+                let between: Vec<String> =
+                    walls.iter().map(|[one, other]| format!("{one}|{other}")).collect();
+                let (walls, moves) = (counted(walls.len(), "wall"), counted(*steps, "team move"));
+                // Writing to a string cannot fail.
+                let _ = writeln!(
+                    text,
+                    "{robots} robots, {rule}: {clause}, {walls}, {moves}: {}",
+                    between.join(" ")
+                );
+            }
+        }
+        Ok(text)
+    }
+
+    /// That some chain-reachable cells are missed is registered; all else the repaired rule must keep to.
+    fn is_broken(&self, merged: &Merged) -> bool {
+        let repaired = merged.lines.iter().filter(|line| line.rule == RuleName::Repaired);
+        repaired.flat_map(|line| &line.broken).any(|broken| broken.clause != BEYOND)
+    }
+}
+
+impl Line {
+    fn cells(&self) -> Vec<String> {
+        let Self { rule, robots, max_walls, layouts, runs, moves, longest, .. } = self;
+        let counts = CLAUSES.map(|clause| match self.broken.iter().find(|broken| broken.clause == clause) {
+            Some(broken) => broken.runs.to_string(),
+            None if clause == BEYOND && !self.looked_beyond => "-".to_owned(),
+            None => "0".to_owned(),
+        });
+        let mut cells =
+            vec![robots.to_string(), max_walls.to_string(), rule.to_string(), layouts.to_string()];
+        cells.extend([runs.to_string(), moves.to_string(), longest.to_string()]);
+        cells.extend(counts);
+        cells
+    }
+}
+
+/// The number of sets of at most `most` of `edges`.
+fn layouts(edges: u32, most: u32) -> u128 {
+    let sets = (0..u128::from(most)).scan(1_u128, |sets, less| {
+        *sets = *sets * u128::from(edges).saturating_sub(less) / (less + 1);
+        Some(*sets)
+    });
+    1 + sets.sum::<u128>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn layouts_are_counted_as_sets_of_walls() {
+        assert_eq!(layouts(12, 12), 1 << 12);
+        assert_eq!(layouts(84, 0), 1);
+        assert_eq!(layouts(84, 2), 1 + 84 + 84 * 83 / 2);
+    }
+}

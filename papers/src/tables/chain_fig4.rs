@@ -1,0 +1,263 @@
+//! Fig. 4 of the chain's paper: the trajectories of seven robots, and what their runs take. A room of 32 m has eight cells of
+//! 4 m a side, an even number, so that no cell is its middle: the area with obstacles has 7×7 cells. Where its obstacles are the
+//! figure shows, and not the text: ours are two rectangles.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use tautline_kernel::ground::{Area, Cell};
+use tautline_proofs::words::counted;
+
+use super::parameter::Parameter;
+use super::{About, Chart, Observer, Table, unfit};
+use crate::tribot::{Body, Odometer};
+use tautline_sim::columns::{Column, Columns, Width};
+use tautline_sim::draw::svg;
+use tautline_sim::explore::chain::CHAIN;
+use tautline_sim::explore::{RuleName, Setup, explore, team};
+use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::layout::Layout;
+use tautline_sim::schema::CellWritten;
+
+/// Fig. 4.
+#[derive(Clone, Copy, Debug)]
+pub struct ChainFig4;
+
+const ROBOTS: u16 = 8;
+
+/// The cells that obstacles fill, by their corners.
+const OBSTACLES: [[(i16, i16); 2]; 2] = [[(1, 1), (2, 1)], [(4, 5), (5, 5)]];
+
+/// Nothing can be asked.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize, Deserialize)]
+pub struct Settings {}
+
+/// Where the robots are.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Place {
+    /// 15×15 cells without obstacles.
+    Open,
+    /// 7×7 cells with obstacles.
+    Obstacles,
+}
+
+/// A run.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct Job {
+    place: Place,
+    rule: RuleName,
+}
+
+/// What comes of it.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
+pub struct Run {
+    place: Place,
+    rule: RuleName,
+    team_moves: u32,
+    explored: u32,
+    cells: u32,
+    milliseconds: u64,
+    longest_way_mm: u64,
+    drift_mm: u64,
+    walls: u32,
+    passed: u32,
+    /// Of the robots' places from team move N−1 on, those of R_i that are i−1 cells from the base in columns or rows.
+    on_squares: u32,
+    /// All these places.
+    places: u32,
+    /// The cells of R_2 … R_N.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(with = "Vec<Vec<CellWritten>>")]
+    ways: Vec<Vec<Cell>>,
+}
+
+/// The whole figure.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
+pub struct Merged {
+    robots: u16,
+    runs: Vec<Run>,
+}
+
+impl Place {
+    fn layout(self) -> Result<Layout, Halt> {
+        let side = match self {
+            Self::Open => 15,
+            Self::Obstacles => 7,
+        };
+        let mut layout = Layout::open(side, side).map_err(|problem| unfit(&problem))?;
+        if self == Self::Obstacles {
+            for [(left, top), (right, bottom)] in OBSTACLES {
+                (top..=bottom).for_each(|y| (left..=right).for_each(|x| layout.block(Cell::new(x, y))));
+            }
+        }
+        Setup::choose_base(&mut layout, None).map_err(|problem| unfit(&problem))?;
+        Ok(layout)
+    }
+
+    const fn words(self) -> &'static str {
+        match self {
+            Self::Open => "15x15, no obstacle",
+            Self::Obstacles => "7x7, two rectangles",
+        }
+    }
+
+    fn setup(self, rule: RuleName) -> Result<Setup, Halt> {
+        let layout = self.layout()?;
+        let base = layout.base().unwrap_or(Cell::new(0, 0));
+        Ok(Setup::new(&CHAIN, rule, ROBOTS, layout, base))
+    }
+}
+
+impl Table for ChainFig4 {
+    type Settings = Settings;
+    type Job = Job;
+    type Measured = Run;
+    type Merged = Merged;
+
+    fn about(&self) -> About {
+        About {
+            id: "chain-fig4",
+            shows: "the trajectories of seven robots without and with obstacles, and what the runs take: minutes, metres, \
+                    contacts",
+            help: "Fig. 4 of the chain's paper: trajectories, and how long real robots would take",
+            more: "Cells of 4 m, 0.30 m/s, 180 degrees a second; a robot that touches something backs up 30 cm and goes round. \
+                   The team waits for its last robot; the radio's time is not counted (see chain-radio).",
+            examples: &["chain-fig4", "chain-fig4 --svg-open open.svg --svg-obstacles obstacles.svg"],
+            doing: "driving",
+        }
+    }
+
+    fn parameters(&self) -> Vec<Parameter<Settings>> {
+        Vec::new()
+    }
+
+    fn charts(&self) -> Vec<Chart<Self>> {
+        vec![
+            Chart {
+                name: "svg-open",
+                about: "Store the trajectories without obstacles as a picture",
+                draw: |_, _, merged| picture(merged, Place::Open),
+            },
+            Chart {
+                name: "svg-obstacles",
+                about: "Store the trajectories with obstacles as a picture",
+                draw: |_, _, merged| picture(merged, Place::Obstacles),
+            },
+        ]
+    }
+
+    fn jobs(&self, _: &Settings) -> Result<Vec<Job>, Halt> {
+        let places = [Place::Open, Place::Obstacles].into_iter();
+        Ok(places.flat_map(|place| RuleName::ALL.map(|rule| Job { place, rule })).collect())
+    }
+
+    fn measure(&self, _: &Settings, job: &Job, _: &dyn Observer) -> Result<Run, Halt> {
+        let Job { place, rule } = *job;
+        let setup = place.setup(rule)?;
+        let mut odometer = Odometer::new(Body::NXT, ROBOTS.into());
+        let mut ways = vec![vec![setup.base]; usize::from(ROBOTS) - 1];
+        let (mut on_squares, mut places) = (0, 0);
+        let report = explore(&setup, &mut |made| {
+            odometer.make(made.before, made.frame);
+            for (robot, (way, &cell)) in (1..).zip(ways.iter_mut().zip(&made.frame.cells[1..])) {
+                way.push(cell);
+                if made.step >= u32::from(ROBOTS) - 1 {
+                    let (columns, rows) = cell.apart(setup.base);
+                    places += 1;
+                    on_squares += u32::from(columns.max(rows) == robot);
+                }
+            }
+            Ok(())
+        })?;
+        Ok(Run {
+            place,
+            rule,
+            team_moves: report.steps,
+            explored: report.explored,
+            cells: report.cells,
+            milliseconds: odometer.milliseconds,
+            longest_way_mm: odometer.longest_mm(),
+            drift_mm: odometer.drift_mm(),
+            walls: odometer.walls,
+            passed: odometer.passed,
+            on_squares,
+            places,
+            ways,
+        })
+    }
+
+    fn merge(&self, _: &Settings, results: Vec<(Job, Run)>) -> Result<Merged, Halt> {
+        let runs = results.into_iter().map(|(_, run)| run).collect();
+        Ok(Merged { robots: ROBOTS, runs })
+    }
+
+    fn text(&self, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+        let Body { cell_mm, speed_mm, drift_per_mille, .. } = Body::NXT;
+        let mut text = format!(
+            "{ROBOTS} robots: cells of {} m, {speed_mm} mm/s, error {drift_per_mille} ‰ of the way\n\n",
+            cell_mm / 1000
+        );
+        let numbers = [Column::right(Width::Fit); 9];
+        let mut columns = Columns::new([Column::left(Width::Fit)].into_iter().chain(numbers));
+        columns.row([
+            "area",
+            "rule",
+            "team moves",
+            "explored",
+            "minutes",
+            "s a move",
+            "longest way m",
+            "error m",
+            "walls",
+            "robots passed",
+        ]);
+        for run in &merged.runs {
+            let tenths = |number: u64, unit: u64| {
+                let tenths = (number * 10 + unit / 2) / unit;
+                format!("{}.{}", tenths / 10, tenths % 10)
+            };
+            columns.row([
+                run.place.words().to_owned(),
+                run.rule.to_string(),
+                run.team_moves.to_string(),
+                format!("{}/{}", run.explored, run.cells),
+                tenths(run.milliseconds, 60_000),
+                tenths(run.milliseconds, 1000 * u64::from(run.team_moves.max(1))),
+                tenths(run.longest_way_mm, 1000),
+                tenths(run.drift_mm, 1000),
+                run.walls.to_string(),
+                run.passed.to_string(),
+            ]);
+        }
+        text += &columns.text();
+        text += "\nThe paper prints no figure of these runs. What it says of them:\n";
+        for run in merged.runs.iter().filter(|run| run.rule == RuleName::Published) {
+            let Run { on_squares, places, passed, .. } = run;
+            let said = match run.place {
+                Place::Open => format!(
+                    "“a regular pattern with concentric squares”: {}, {on_squares} of {places} places of R_i are i-1 cells off the \
+                     base from team move {} on\n",
+                    if on_squares == places { "holds" } else { "holds in part" },
+                    ROBOTS - 1
+                ),
+                Place::Obstacles => format!(
+                    "“clearly the two contact points”: open, our obstacles are not the paper's; {}\n",
+                    counted(*passed, "contact")
+                ),
+            };
+            text.push_str(&said);
+        }
+        Ok(text)
+    }
+}
+
+fn picture(merged: &Merged, place: Place) -> Result<String, Halt> {
+    let rule = RuleName::Published;
+    let setup = place.setup(rule)?;
+    let run = merged.runs.iter().find(|run| run.place == place && run.rule == rule);
+    let run = run.ok_or_else(|| Fault::usage("there is no such run", "measure it"))?;
+    let area: Area = team(&setup)?.area(&setup.layout);
+    let caption = format!("{}: {}", place.words(), counted(run.team_moves, "team move"));
+    let title = format!("The ways of robots 2 to {ROBOTS}, {rule}");
+    Ok(svg::picture(&title, &[svg::trajectories(&setup.layout, area, &caption, &run.ways)]))
+}

@@ -1,0 +1,273 @@
+//! The radio chain [Kovács 2011, II]: a robot with two radios keeps both its neighbours, one with a single radio is a bridge
+//! that leaves the one to speak to the other. “This switching … takes between 3 and 6 seconds … Under this period the network is
+//! not connected.” The bytes are those of real runs without walls: after each team move each robot's byte goes to all others.
+//!
+//! *Two radios*: a byte needs one hop time for each link, and each link carries one byte each way in a hop time, so that all
+//! bytes are everywhere after N−1 hop times. *Bridges*: besides, each of the N−2 robots between the ends switches once before
+//! the first byte of one end is at the other; that is the least, since bytes go both ways.
+
+use rand_chacha::ChaCha8Rng;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use tautline_kernel::chain::{Message, Outcome};
+use tautline_kernel::ground::Circle;
+use tautline_proofs::words::counted;
+
+use super::parameter::{Parameter, put, shown};
+use super::{About, Observer, Table, unfit};
+use crate::tribot::{Body, Odometer};
+use tautline_field::stats::{Estimate, rounded};
+use tautline_sim::columns::{Column, Columns, Width};
+use tautline_sim::explore::chain::CHAIN;
+use tautline_sim::explore::{RuleName, Setup, explore};
+use tautline_sim::fault::Halt;
+use tautline_sim::layout::{Layout, generate};
+use tautline_sim::reading::{number, within};
+
+/// The radio chain.
+#[derive(Clone, Copy, Debug)]
+pub struct ChainRadio;
+
+/// The chains that are compared, the base counted: the paper's of three to seven robots, and its team of eight.
+const TEAMS: [u16; 6] = [3, 4, 5, 6, 7, 8];
+
+/// How long a bridge's switch takes, in milliseconds.
+const SWITCH_MS: [u64; 2] = [3000, 6000];
+
+/// What is measured.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
+pub struct Settings {
+    runs: u32,
+    seed: u64,
+    /// One byte over one link.
+    hop_ms: u64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { runs: 200, seed: 0, hop_ms: 30 }
+    }
+}
+
+/// The runs of a chain of so many.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct Job {
+    robots: u16,
+}
+
+/// What comes of them.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct Measured {
+    team_moves: u32,
+    bytes: u32,
+    /// Team moves after which two neighbours are out of E_C.
+    cut: u32,
+    driving_ms: u64,
+    /// Of each run, how long the bridges made the team wait.
+    waiting_ms: Vec<u64>,
+}
+
+/// The whole table.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
+pub struct Merged {
+    settings: Settings,
+    switch_ms: [u64; 2],
+    lines: Vec<Line>,
+}
+
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
+struct Line {
+    robots: u16,
+    team_moves: u32,
+    bytes: u32,
+    cut: u32,
+    driving_minutes: f64,
+    /// Until all bytes of a team move are everywhere.
+    dual_s: f64,
+    dual_minutes: f64,
+    bridges_s: Option<Estimate>,
+    bridges_minutes: Option<Estimate>,
+    /// The share of the time in which a bridge is switching, in percent.
+    switching: Option<Estimate>,
+}
+
+impl Table for ChainRadio {
+    type Settings = Settings;
+    type Job = Job;
+    type Measured = Measured;
+    type Merged = Merged;
+
+    fn about(&self) -> About {
+        About {
+            id: "chain-radio",
+            shows: "a chain with two radios a robot against a scatternet of bridges, for three to eight robots: how long the bytes \
+                    of a team move take, and how long a run waits for them",
+            help: "Two radios a robot against bridges that switch between two nets",
+            more: "The bytes are those of runs without walls. A switch takes 3 to 6 s, all durations as likely; N-2 switches a \
+                   team move are the least that bridges need.",
+            examples: &["chain-radio", "chain-radio --hop-ms 5 --format json"],
+            doing: "sending",
+        }
+    }
+
+    fn parameters(&self) -> Vec<Parameter<Settings>> {
+        vec![
+            Parameter::one(
+                "runs",
+                "COUNT",
+                "Runs of each chain",
+                |all| shown(&all.runs),
+                |all, texts| put(&mut all.runs, texts, |text| within(text, &(1..=100_000_i64))),
+            ),
+            Parameter::one(
+                "seed",
+                "SEED",
+                "The seed of the durations",
+                |all| shown(&all.seed),
+                |all, texts| put(&mut all.seed, texts, number),
+            ),
+            Parameter::one(
+                "hop-ms",
+                "MS",
+                "How long a byte takes over one link; the paper does not say",
+                |all| shown(&all.hop_ms),
+                |all, texts| put(&mut all.hop_ms, texts, |text| within(text, &(1..=60_000_i64))),
+            ),
+        ]
+    }
+
+    fn jobs(&self, _: &Settings) -> Result<Vec<Job>, Halt> {
+        Ok(TEAMS.map(|robots| Job { robots }).into())
+    }
+
+    fn measure(&self, settings: &Settings, job: &Job, _: &dyn Observer) -> Result<Measured, Halt> {
+        let side = u64::from(2 * job.robots - 1);
+        let mut layout = Layout::open(side, side).map_err(|problem| unfit(&problem))?;
+        let base = Setup::choose_base(&mut layout, None).map_err(|problem| unfit(&problem))?;
+        let setup = Setup::new(&CHAIN, RuleName::Repaired, job.robots, layout, base);
+        let mut odometer = Odometer::new(Body::NXT, job.robots.into());
+        let (mut log, mut cut) = (Vec::new(), 0);
+        let report = explore(&setup, &mut |made| {
+            odometer.make(made.before, made.frame);
+            let robots = made.frame.steps.iter().zip(&made.frame.blocked).skip(1);
+            log.extend(robots.map(|(&step, &blocked)| {
+                let outcome = if blocked { Outcome::Blocked } else { Outcome::Arrived };
+                Message { step, outcome }.encode()
+            }));
+            cut +=
+                u32::from(made.frame.cells.windows(2).any(|pair| !Circle::COVERED.covers(pair[0], pair[1])));
+            Ok(())
+        })?;
+        let mut dice = generate::source(settings.seed.wrapping_add(job.robots.into()), *b"switches");
+        let bridges = u32::from(job.robots) - 2;
+        let run = || (0..report.steps * bridges).map(|_| switch(&mut dice)).sum::<u64>();
+        let hops = u64::from(report.steps) * u64::from(job.robots - 1) * settings.hop_ms;
+        let waiting_ms: Vec<u64> =
+            std::iter::repeat_with(run).take(settings.runs as usize).map(|ms| ms + hops).collect();
+        let (team_moves, driving_ms) = (report.steps, odometer.milliseconds);
+        Ok(Measured { team_moves, bytes: log.len() as u32, cut, driving_ms, waiting_ms })
+    }
+
+    fn merge(&self, settings: &Settings, results: Vec<(Job, Measured)>) -> Result<Merged, Halt> {
+        let lines =
+            results.into_iter().map(|(job, measured)| Line::of(job, &measured, settings.hop_ms)).collect();
+        Ok(Merged { settings: *settings, switch_ms: SWITCH_MS, lines })
+    }
+
+    fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
+        let [least, most] = SWITCH_MS.map(|ms| ms / 1000);
+        let mut text = format!(
+            "Chains without walls, a hop {} ms, a switch {least} to {most} s; means of {} with 95 % intervals\n\n",
+            settings.hop_ms,
+            counted(settings.runs, "run")
+        );
+        let mut columns = Columns::new([Column::right(Width::Fit); 10]);
+        columns.row([
+            "robots",
+            "moves",
+            "bytes",
+            "moves cut",
+            "driving min",
+            "dual s a move",
+            "min",
+            "bridges s a move",
+            "min",
+            "switching %",
+        ]);
+        for line in &merged.lines {
+            columns.row([
+                line.robots.to_string(),
+                line.team_moves.to_string(),
+                line.bytes.to_string(),
+                line.cut.to_string(),
+                format!("{:.1}", line.driving_minutes),
+                format!("{:.2}", line.dual_s),
+                format!("{:.2}", line.dual_minutes),
+                Estimate::text_or_dash(line.bridges_s, 1),
+                Estimate::text_or_dash(line.bridges_minutes, 1),
+                Estimate::text_or_dash(line.switching, 0),
+            ]);
+        }
+        text += &columns.text();
+        text += "\nmoves cut: after which two neighbours are out of E_C · switching: of driving and waiting, the share in which a \
+                 bridge switches\n\nWhat the paper says\n\n";
+        let cut: u32 = merged.lines.iter().map(|line| line.cut).sum();
+        let most =
+            merged.lines.iter().filter_map(|line| line.switching).map(|share| share.mean).fold(0.0, f64::max);
+        let judged = [
+            (
+                "“ensures that every node … is reachable continuously”",
+                cut == 0,
+                format!("{cut} team moves cut"),
+            ),
+            (
+                "“in almost any moment there is an unconnected part”",
+                most >= 90.0,
+                format!("at most {most:.0} % of the time"),
+            ),
+        ];
+        let mut columns = Columns::new([Width::Fit, Width::Fit, Width::Fit].map(Column::left));
+        for (sentence, holds, measured) in judged {
+            columns.row([if holds { "holds" } else { "fails" }.to_owned(), sentence.to_owned(), measured]);
+        }
+        Ok(text + &columns.text())
+    }
+}
+
+/// How long a switch takes.
+fn switch(dice: &mut ChaCha8Rng) -> u64 {
+    use rand_chacha::rand_core::Rng;
+    let [least, most] = SWITCH_MS;
+    least + ((u128::from(dice.next_u64()) * u128::from(most - least + 1)) >> 64) as u64
+}
+
+/// Minutes or seconds, to hundredths.
+#[expect(clippy::cast_precision_loss, reason = "no run takes 2⁵³ milliseconds")]
+fn of_ms(ms: u64, unit_ms: f64) -> f64 {
+    ms as f64 / unit_ms
+}
+
+impl Line {
+    fn of(job: Job, measured: &Measured, hop_ms: u64) -> Self {
+        let Measured { team_moves, bytes, cut, driving_ms, waiting_ms } = measured;
+        let dual_ms = u64::from(job.robots - 1) * hop_ms;
+        let mean = |of: &dyn Fn(u64) -> f64| {
+            let values: Vec<f64> = waiting_ms.iter().map(|&ms| of(ms)).collect();
+            Estimate::of_values(&values).map(|mean| rounded(mean, 100.0))
+        };
+        let moves = f64::from(*team_moves);
+        let hops = u64::from(*team_moves) * dual_ms;
+        Self {
+            robots: job.robots,
+            team_moves: *team_moves,
+            bytes: *bytes,
+            cut: *cut,
+            driving_minutes: of_ms(*driving_ms, 60_000.0),
+            dual_s: of_ms(dual_ms, 1000.0),
+            dual_minutes: of_ms(hops, 60_000.0),
+            bridges_s: mean(&|ms| of_ms(ms, 1000.0) / moves),
+            bridges_minutes: mean(&|ms| of_ms(ms, 60_000.0)),
+            switching: mean(&|ms| 100.0 * of_ms(ms - hops, 1.0) / of_ms(ms + driving_ms, 1.0)),
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! The face of a table whose types are not known: settings from options, jobs and results as JSON, for the program and for
+//! those who measure jobs elsewhere.
+
+use std::fmt;
+
+use schemars::{JsonSchema, Schema};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::csv::csv;
+use super::parameter::Given;
+use super::{About, Observer, Table, measure};
+use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::schema;
+
+/// A table of any types.
+pub trait Entry: fmt::Debug + Sync {
+    /// Its name, and what a person is told of it.
+    fn about(&self) -> About;
+
+    /// Its options, in the order of its help, each with the texts that stand for it where it is not given.
+    fn options(&self) -> Vec<(Given, Vec<String>)>;
+
+    /// The names of its pictures, and what they show.
+    fn pictures(&self) -> Vec<(&'static str, &'static str)>;
+
+    /// Whether `text` is a value of the option `name`.
+    ///
+    /// # Errors
+    /// What to write instead.
+    fn check(&self, name: &str, text: &str) -> Result<(), String>;
+
+    /// What its JSON is like.
+    fn schema(&self) -> Schema;
+
+    /// The table with the settings of these options and their values.
+    ///
+    /// # Errors
+    /// A [`Fault`] if a value is wrong.
+    fn asked<'a>(&'a self, given: &[(String, Vec<String>)]) -> Result<Box<dyn Asked + 'a>, Fault>;
+
+    /// The table with settings as [`Asked::settings`] gave them.
+    ///
+    /// # Errors
+    /// A [`Fault`] if they are none.
+    fn restored<'a>(&'a self, settings: &str) -> Result<Box<dyn Asked + 'a>, Fault>;
+}
+
+/// A table with its settings.
+pub trait Asked: Sync {
+    /// Its settings as JSON.
+    ///
+    /// # Errors
+    /// A [`Fault`] if they cannot be written.
+    fn settings(&self) -> Result<String, Fault>;
+
+    /// Its jobs as JSON, in their order.
+    ///
+    /// # Errors
+    /// [`Halt`] if the settings cannot be measured.
+    fn jobs(&self) -> Result<Vec<String>, Halt>;
+
+    /// What comes of one of them, as JSON.
+    ///
+    /// # Errors
+    /// [`Halt`] if it cannot be measured.
+    fn measure(&self, job: &str) -> Result<String, Halt>;
+
+    /// The table from the results of all jobs, in their order.
+    ///
+    /// # Errors
+    /// [`Halt`] if they are not those of all jobs.
+    fn merge<'a>(&'a self, results: &[String]) -> Result<Box<dyn Made + 'a>, Halt>;
+
+    /// The table, measured here and now on all threads.
+    ///
+    /// # Errors
+    /// [`Halt`], as the observer returned it, or if the settings cannot be measured.
+    fn run<'a>(&'a self, observer: &dyn Observer) -> Result<Box<dyn Made + 'a>, Halt>;
+}
+
+/// A table that has been measured.
+pub trait Made {
+    /// For people.
+    ///
+    /// # Errors
+    /// [`Halt`] if what is drawn in it cannot be found again.
+    fn text(&self) -> Result<String, Halt>;
+
+    /// For programs: one JSON object.
+    ///
+    /// # Errors
+    /// A [`Fault`] if it cannot be written.
+    fn json(&self, schema_version: u32) -> Result<String, Fault>;
+
+    /// For spreadsheets and data frames: comma-separated values, a row for each element of each of its lists.
+    ///
+    /// # Errors
+    /// A [`Fault`] as of [`Made::json`].
+    fn csv(&self, schema_version: u32) -> Result<String, Fault> {
+        csv(&self.json(schema_version)?)
+    }
+
+    /// The picture of this name, as SVG.
+    ///
+    /// # Errors
+    /// [`Halt`] if there is nothing to draw.
+    fn picture(&self, name: &str) -> Result<String, Halt>;
+
+    /// Whether a clause is broken that was to hold.
+    fn is_broken(&self) -> bool;
+}
+
+impl<T: Table> Entry for T {
+    fn about(&self) -> About {
+        Table::about(self)
+    }
+
+    fn options(&self) -> Vec<(Given, Vec<String>)> {
+        let settings = T::Settings::default();
+        let parameters = self.parameters().into_iter();
+        parameters.map(|parameter| (parameter.option, (parameter.show)(&settings))).collect()
+    }
+
+    fn pictures(&self) -> Vec<(&'static str, &'static str)> {
+        self.charts().iter().map(|chart| (chart.name, chart.about)).collect()
+    }
+
+    fn check(&self, name: &str, text: &str) -> Result<(), String> {
+        let parameter = self.parameters().into_iter().find(|parameter| parameter.option.name == name);
+        parameter.map_or(Ok(()), |parameter| (parameter.read)(&mut T::Settings::default(), &[text]))
+    }
+
+    fn schema(&self) -> Schema {
+        schema::of::<Document<'_, T::Merged>>(&format!("tautline reproduce {}", Table::about(self).id))
+    }
+
+    fn asked<'a>(&'a self, given: &[(String, Vec<String>)]) -> Result<Box<dyn Asked + 'a>, Fault> {
+        let mut settings = T::Settings::default();
+        for parameter in self.parameters() {
+            let name = parameter.option.name;
+            if let Some((_, texts)) = given.iter().find(|(given, _)| given == name) {
+                let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+                (parameter.read)(&mut settings, &texts)
+                    .map_err(|remedy| Fault::usage(format_args!("--{name} is wrong"), remedy))?;
+            }
+        }
+        Ok(Box::new(With { table: self, settings }))
+    }
+
+    fn restored<'a>(&'a self, settings: &str) -> Result<Box<dyn Asked + 'a>, Fault> {
+        Ok(Box::new(With { table: self, settings: read(settings)? }))
+    }
+}
+
+struct With<'a, T: Table> {
+    table: &'a T,
+    settings: T::Settings,
+}
+
+struct Whole<'a, T: Table> {
+    asked: &'a With<'a, T>,
+    merged: T::Merged,
+}
+
+/// What every JSON object of a table begins with.
+#[derive(JsonSchema, Serialize)]
+struct Document<'a, M> {
+    schema_version: u32,
+    id: &'static str,
+    #[serde(flatten)]
+    merged: &'a M,
+}
+
+fn written(value: &impl Serialize) -> Result<String, Fault> {
+    let unwritten = |error| Fault::usage(error, "report it: this is a bug of tautline");
+    serde_json::to_string(value).map_err(unwritten)
+}
+
+fn read<V: DeserializeOwned>(text: &str) -> Result<V, Fault> {
+    serde_json::from_str(text).map_err(|error| Fault::usage(error, "take it as tautline wrote it"))
+}
+
+impl<T: Table> Asked for With<'_, T> {
+    fn settings(&self) -> Result<String, Fault> {
+        written(&self.settings)
+    }
+
+    fn jobs(&self) -> Result<Vec<String>, Halt> {
+        let jobs = self.table.jobs(&self.settings)?;
+        Ok(jobs.iter().map(written).collect::<Result<_, _>>()?)
+    }
+
+    fn measure(&self, job: &str) -> Result<String, Halt> {
+        Ok(written(&self.table.measure(&self.settings, &read(job)?, &())?)?)
+    }
+
+    fn merge<'a>(&'a self, results: &[String]) -> Result<Box<dyn Made + 'a>, Halt> {
+        let jobs = self.table.jobs(&self.settings)?;
+        if jobs.len() != results.len() {
+            let what = format!("{} results of {} jobs", results.len(), jobs.len());
+            return Err(Fault::usage(what, "give the results of all jobs, in their order").into());
+        }
+        let results = results.iter().map(|result| read(result)).collect::<Result<Vec<_>, _>>()?;
+        let merged = self.table.merge(&self.settings, jobs.into_iter().zip(results).collect())?;
+        Ok(Box::new(Whole { asked: self, merged }))
+    }
+
+    fn run<'a>(&'a self, observer: &dyn Observer) -> Result<Box<dyn Made + 'a>, Halt> {
+        let merged = measure(self.table, &self.settings, observer)?;
+        Ok(Box::new(Whole { asked: self, merged }))
+    }
+}
+
+impl<T: Table> Made for Whole<'_, T> {
+    fn text(&self) -> Result<String, Halt> {
+        self.asked.table.text(&self.asked.settings, &self.merged)
+    }
+
+    fn json(&self, schema_version: u32) -> Result<String, Fault> {
+        let id = Table::about(self.asked.table).id;
+        written(&Document { schema_version, id, merged: &self.merged })
+    }
+
+    fn picture(&self, name: &str) -> Result<String, Halt> {
+        let With { table, settings } = self.asked;
+        let chart = table.charts().into_iter().find(|chart| chart.name == name);
+        let chart = chart.ok_or_else(|| {
+            let names: Vec<&str> = table.charts().iter().map(|chart| chart.name).collect();
+            Fault::usage(format_args!("there is no picture {name}"), format_args!("ask for one of {names:?}"))
+        })?;
+        (chart.draw)(table, settings, &self.merged)
+    }
+
+    fn is_broken(&self) -> bool {
+        self.asked.table.is_broken(&self.merged)
+    }
+}

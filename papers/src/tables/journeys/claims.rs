@@ -1,0 +1,120 @@
+//! What the paper says of TAN and its rivals, and what is so.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::Way;
+use tautline_field::stats::Estimate;
+
+/// What the paper says of RD.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Claim {
+    /// “Very close to position-based Verma's scheme” (4.3).
+    CloseToVerma,
+    /// “Shorter moving distance … than Verma's scheme” (4.4, Table 2).
+    ShorterThanVerma,
+    /// “Smaller RD than positionless Reich's scheme for some cases” (4.3).
+    SmallerThanReich,
+    /// “About the same moving distance … as Reich's scheme” (4.4).
+    LikeReich,
+}
+
+/// What has come of a claim.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// The whole interval says so.
+    Holds,
+    /// The whole interval says the contrary.
+    Fails,
+    /// Part of it does.
+    Open,
+}
+
+/// A claim with its verdict.
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
+pub struct Decision {
+    /// The paper's.
+    pub paper: Claim,
+    /// RD of TAN less that of the rival.
+    pub difference: Option<Estimate>,
+    /// What that says of the claim.
+    pub verdict: Verdict,
+}
+
+/// How far two RD may be from each other to be close: a tenth of the shortest way. The paper gives no number.
+pub(super) const CLOSE: f64 = 0.1;
+
+impl Claim {
+    /// All, in the order of every table.
+    pub const ALL: [Self; 4] =
+        [Self::CloseToVerma, Self::ShorterThanVerma, Self::SmallerThanReich, Self::LikeReich];
+
+    /// Whom TAN is compared with.
+    pub const fn rival(self) -> Way {
+        match self {
+            Self::CloseToVerma | Self::ShorterThanVerma => Way::Verma,
+            Self::SmallerThanReich | Self::LikeReich => Way::Reich,
+        }
+    }
+
+    /// In words, with the section.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::CloseToVerma => "very close (4.3)",
+            Self::ShorterThanVerma => "shorter (4.4)",
+            Self::SmallerThanReich => "smaller (4.3)",
+            Self::LikeReich => "about as long (4.4)",
+        }
+    }
+
+    /// What the interval of TAN's RD less the rival's says of it.
+    pub fn verdict(self, difference: Option<Estimate>) -> Verdict {
+        let Some([low, high]) = difference.and_then(|difference| difference.interval) else {
+            return Verdict::Open;
+        };
+        let (holds, fails) = match self {
+            Self::CloseToVerma | Self::LikeReich => {
+                (low >= -CLOSE && high <= CLOSE, low > CLOSE || high < -CLOSE)
+            }
+            Self::ShorterThanVerma | Self::SmallerThanReich => (high < 0.0, low > 0.0),
+        };
+        match (holds, fails) {
+            (true, _) => Verdict::Holds,
+            (false, true) => Verdict::Fails,
+            (false, false) => Verdict::Open,
+        }
+    }
+}
+
+impl Verdict {
+    /// In a word.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::Fails => "fails",
+            Self::Open => "open",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Verdict::{Fails, Holds, Open};
+    use super::*;
+
+    #[test]
+    fn a_claim_is_decided_by_the_whole_interval() {
+        let verdicts = |low: f64, high: f64| {
+            let difference = Estimate { count: 9, mean: low, interval: Some([low, high]) };
+            Claim::ALL.map(|claim| claim.verdict(Some(difference)))
+        };
+        assert_eq!(verdicts(-0.05, -0.01), [Holds, Holds, Holds, Holds]);
+        assert_eq!(verdicts(-0.05, 0.05), [Holds, Open, Open, Holds]);
+        assert_eq!(verdicts(0.05, 0.15), [Open, Fails, Fails, Open]);
+        assert_eq!(verdicts(0.4, 0.5), [Fails, Fails, Fails, Fails]);
+        assert_eq!(verdicts(-0.5, -0.4), [Fails, Holds, Holds, Fails]);
+        assert_eq!(Claim::ALL.map(|claim| claim.verdict(None)), [Open; 4]);
+    }
+}

@@ -1,0 +1,66 @@
+//! The figures of journeys as pictures: the ways in one topology, or RD as a chart.
+
+use tautline_kernel::net::NodeId;
+
+use super::super::{point, usage};
+use super::density::Density;
+use super::world::World;
+use super::{Settings, Way};
+use crate::chart::{Axis, LineChart, Series, Stroke};
+use tautline_field::draw::field::{self, Map, Terminus, Trail};
+use tautline_field::tan::End;
+use tautline_sim::fault::{Fault, Halt};
+
+/// The journeys by some ways in the topology in which the shortest is the longest.
+pub(super) fn picture(settings: &Settings, ways: &[Way], densities: &[Density]) -> Result<String, Halt> {
+    let drawn = densities.iter().find_map(|density| Some((density.nodes, density.longest?)));
+    let (nodes, topology) = drawn.ok_or_else(|| {
+        let remedy = "take more topologies or nodes";
+        Fault::usage("there is no topology to draw in which all arrive", remedy)
+    })?;
+    let world = World::new(settings, nodes, topology).map_err(usage)?;
+    let tree = world.tree().map_err(usage)?;
+    let place = |node: NodeId| world.field.nodes()[node.0 as usize];
+    let map = |&way: &Way| {
+        let journey = world.journey(&tree, way);
+        let times = world.shortest_m().map_or(String::new(), |shortest_m| {
+            format!(", {:.2} times the shortest way", journey.length_m / shortest_m)
+        });
+        let links = match way {
+            Way::Tan => tree.links().map(|(node, parent)| [place(node), place(parent)]).collect(),
+            Way::Verma | Way::Reich | Way::Sheu => Vec::new(),
+        };
+        let end = match journey.end {
+            End::Arrived => Terminus::There,
+            End::Unaware | End::Lost | End::Astray => Terminus::GaveUp,
+        };
+        Map {
+            caption: format!("{}: {:.0} m{times}", way.word(), journey.length_m),
+            field: &world.field,
+            nodes,
+            links,
+            trails: vec![Trail { name: way.word().to_owned(), places: journey.trail, end }],
+            wfrs: vec![world.goal()],
+        }
+    };
+    let maps: Vec<Map<'_>> = ways.iter().map(map).collect();
+    Ok(field::picture("The way of a robot to the node that waits for rescue", &maps))
+}
+
+/// RD by the number of nodes, as a chart.
+pub(super) fn chart(densities: &[Density]) -> LineChart {
+    let series = |(place, way): (usize, &Way)| {
+        let point = |density: &Density| {
+            let ratio = density.ways.get(place)?.ratio?;
+            Some(point(f64::from(density.nodes as u32), ratio))
+        };
+        let points = densities.iter().filter_map(point).collect();
+        Series { name: way.word().to_owned(), stroke: Stroke::Solid, points }
+    };
+    LineChart {
+        title: "Metres walked for each metre of the shortest way".to_owned(),
+        x: Axis::new("nodes", ""),
+        y: Axis::new("RD", "").showing([1.0, 1.0]),
+        series: Way::ALL.iter().enumerate().map(series).collect(),
+    }
+}

@@ -1,0 +1,66 @@
+//! The figures of journeys as text.
+
+use tautline_proofs::words::counted;
+
+use super::claims::{CLOSE, Claim};
+use super::density::Density;
+use super::{Settings, Way};
+use tautline_field::stats::Estimate;
+use tautline_sim::columns::Figures;
+
+/// The figure for people.
+pub(super) fn text(settings: &Settings, densities: &[Density]) -> String {
+    let obstacles = match settings.obstacles_m.len() {
+        0 => "no obstacle".to_owned(),
+        some => counted(some, "obstacle"),
+    };
+    let heading = format!(
+        "{side}×{side} m, range {} m, {obstacles}, k = {}, noise {} dB, {} for each number of nodes, seed {}",
+        settings.range_m,
+        settings.k.0.get(),
+        settings.noise_db,
+        counted(settings.topologies, "topology"),
+        settings.seed,
+        side = settings.side_m,
+    );
+    let mut table = Figures::new(heading, densities);
+    let or_dash = |estimate: Option<Estimate>| Estimate::text_or_dash(estimate, 2);
+    let percent = |share: Option<Estimate>| Estimate::text_or_dash(share.map(|share| share.times(100.0)), 1);
+    table.row("nodes", |density| density.nodes.to_string());
+    table.row("linked", |density| percent(Some(density.linked)));
+    table.row("told", |density| percent(density.told));
+    table.title("Arrivals, % of those linked");
+    for (place, way) in Way::ALL.into_iter().enumerate() {
+        table.row(way.word(), |density| percent(density.ways[place].arrivals));
+    }
+    table.title("RD where all arrive");
+    table.row("topologies", |density| density.ways[0].ratio.map_or(0, |ratio| ratio.count).to_string());
+    for (place, way) in Way::ALL.into_iter().enumerate() {
+        table.row(way.word(), |density| or_dash(density.ways[place].ratio));
+    }
+    table.title("Seconds for each metre of the shortest way");
+    for (place, way) in Way::ALL.into_iter().enumerate() {
+        if densities.iter().any(|density| density.ways[place].seconds.is_some()) {
+            table.row(way.word(), |density| or_dash(density.ways[place].seconds));
+        }
+    }
+    table.title("TAN");
+    table.row("hops", |density| or_dash(density.hops));
+    table.row("shorter, %", |density| percent(density.shorter_than_reich));
+    table.title("RD of TAN, in the paper's words, and the difference");
+    let mut rival = None;
+    for (place, claim) in Claim::ALL.into_iter().enumerate() {
+        if rival.replace(claim.rival()) != Some(claim.rival()) {
+            table.row(format!("TAN less {}", claim.rival().word()), |density| {
+                or_dash(density.claims[place].difference)
+            });
+        }
+        table.row(format!("  {}", claim.words()), |density| density.claims[place].verdict.word().to_owned());
+    }
+    table.with_notes(&format!(
+        "linked: % of the topologies in which links lead from the robot to the WFR · told: % of those in which the \
+         robot\nhears the call by k-FNF, which TAN needs · RD: metres walked for each metre of the shortest way · hops: for \
+         each hop\nof the shortest chain of links · shorter: % of the topologies in which TAN's way is shorter than Reich's · \
+         holds, fails:\nthe whole 95 % interval says so, close being up to {CLOSE} · ±, […]: that interval"
+    ))
+}

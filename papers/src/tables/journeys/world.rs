@@ -1,0 +1,127 @@
+//! One topology, and what comes of the journeys in it.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::net::NodeId;
+use tautline_kernel::notice::{Rule, Scheme};
+use tautline_proofs::engine::Seeded;
+
+use super::super::parameter::Senders;
+use super::{Settings, Way};
+use tautline_field::radio::{
+    Area, Channel, Faults, Field, LONGEST_WAIT_NS, Model, Network, Obstacle, Point, Problem, Radio,
+};
+use tautline_field::rescue::seconds;
+use tautline_field::tan::{End, Equipment, Journey, Site, Tree, hops, shortest_m};
+
+/// A topology with a robot as the last node of its field.
+pub(super) struct World {
+    pub(super) field: Field,
+    network: Network,
+    equipment: Equipment,
+    rule: Rule,
+    robot: NodeId,
+    wfr: NodeId,
+    /// The seed of all topologies, and which of them it is.
+    stream: (u64, u64),
+}
+
+/// What came of one topology.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
+pub struct Sample {
+    /// The fewest hops from the robot to the WFR, if links lead there.
+    pub(super) fewest_hops: Option<u16>,
+    /// Those of TAN's tree.
+    pub(super) tree_hops: Option<u16>,
+    /// In metres, if there is a way at all.
+    shortest_m: Option<f64>,
+    /// Those who arrive, in the order of [`Way::ALL`].
+    pub(super) walked: [Option<Walked>; 4],
+}
+
+/// What a robot has walked until it was there.
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
+pub(super) struct Walked {
+    pub(super) length_m: f64,
+    pub(super) time_s: Option<f64>,
+}
+
+impl Walked {
+    fn of(journey: &Journey) -> Option<Self> {
+        let time_s = journey.time_ns.map(seconds);
+        (journey.end == End::Arrived).then_some(Self { length_m: journey.length_m, time_s })
+    }
+}
+
+impl World {
+    pub(super) fn new(settings: &Settings, nodes: usize, topology: u32) -> Result<Self, Problem> {
+        let area = Area::new(settings.side_m, settings.side_m)?;
+        let radio = Radio::new(settings.range_m, Model::Disc)?;
+        let stream = (settings.seed, u64::from(topology));
+        let chance = &mut Seeded::new(stream.0, 2 * stream.1);
+        let obstacles: Vec<Obstacle> = settings.obstacles_m.iter().copied().map(Into::into).collect();
+        let field = Field::random(area, obstacles, nodes, chance)?;
+        let field = field.with(&[field.place(chance)?])?;
+        let network = Network::new(&field, radio, chance)?;
+        let Senders(k) = settings.k;
+        Ok(Self {
+            equipment: Equipment::new(radio, settings.noise_db)?,
+            rule: Rule::new(Scheme::Farthest { k: Some(k) }, radio.range_um(), LONGEST_WAIT_NS),
+            robot: NodeId(nodes as u32),
+            wfr: NodeId(chance.pick(nodes as u32)),
+            field,
+            network,
+            stream,
+        })
+    }
+
+    fn site(&self) -> Site<'_> {
+        Site { field: &self.field, network: &self.network, equipment: self.equipment }
+    }
+
+    /// The broadcast and each journey have a stream of answers to themselves, different from that of the topology.
+    fn chance(&self) -> Seeded {
+        let (seed, topology) = self.stream;
+        Seeded::new(seed, 2 * topology + 1)
+    }
+
+    pub(super) fn tree(&self) -> Result<Tree, Problem> {
+        let ends = (self.wfr, self.robot);
+        Tree::grow(&self.network, self.rule, Channel::Ideal, &Faults::NONE, ends, &mut self.chance())
+    }
+
+    pub(super) fn journey(&self, tree: &Tree, way: Way) -> Journey {
+        match way {
+            Way::Tan => self.site().tan(tree, self.wfr, &mut self.chance()),
+            Way::Verma => self.site().verma(self.wfr),
+            Way::Reich => self.site().reich(self.wfr, &mut self.chance()),
+            Way::Sheu => self.site().sheu(self.wfr, &mut self.chance()),
+        }
+    }
+
+    pub(super) fn goal(&self) -> Point {
+        self.field.nodes()[self.wfr.0 as usize]
+    }
+
+    pub(super) fn shortest_m(&self) -> Option<f64> {
+        shortest_m(&self.field, self.site().start(), self.goal())
+    }
+}
+
+impl Sample {
+    pub(super) fn of(world: &World) -> Result<Self, Problem> {
+        let tree = world.tree()?;
+        let walked = Way::ALL.map(|way| Walked::of(&world.journey(&tree, way)));
+        let hops = hops(&world.network, world.wfr, |node| node != world.robot);
+        let fewest_hops = hops.last().copied().flatten();
+        let tree_hops = tree.entry().map(|(_, hops)| hops);
+        Ok(Self { fewest_hops, tree_hops, shortest_m: world.shortest_m(), walked })
+    }
+
+    /// The metres of the shortest way, and what was walked, if all arrive.
+    pub(super) fn all(&self) -> Option<(f64, [Walked; 4])> {
+        let [tan, verma, reich, sheu] = self.walked;
+        Some((self.shortest_m?, [tan?, verma?, reich?, sheu?]))
+    }
+}

@@ -1,0 +1,424 @@
+//! Figure 5 of paper 003: how many nodes of a random network a broadcast reaches, and how many forward it, by scheme and
+//! density. The paper counts all nodes; those that no link connects to the source nothing can reach, so the reach within
+//! the source's component stands beside it. Every scheme broadcasts over the same topologies, from the same sources.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::net::NodeId;
+use tautline_kernel::notice::{Count, Rule, Scheme};
+use tautline_proofs::engine::Seeded;
+use tautline_proofs::words::counted;
+
+use super::parameter::{Given, Parameter, Senders, Values, all_shown, put, put_all, shown};
+use super::{About, Chart, Observer, Table, point, usage};
+use crate::chart::{Axis, LineChart, Series, Stroke};
+use tautline_field::radio::{
+    Area, ChannelName, Faults, Field, LONGEST_WAIT_NS, Model, Network, Problem, Radio, broadcast,
+};
+use tautline_field::stats::{Estimate, decimals, rounded};
+use tautline_sim::columns::Figures;
+use tautline_sim::fault::Halt;
+use tautline_sim::reading::{number, real, whole, within};
+use tautline_sim::words::Worded;
+
+/// The numbers of nodes of the paper.
+pub const NODES: [usize; 5] = [300, 500, 700, 900, 1100];
+
+/// The side of the paper's square, in metres.
+pub const SIDE_M: f64 = 300.0;
+
+/// The paper's radio range, in metres.
+pub const RANGE_M: f64 = 25.0;
+
+/// The k of the paper's figure, and what it has k-FNF reach there: “near 100 %”, at every density. All else it draws
+/// only.
+const PAPER: (Count, f64) = (Count::ONE, 1.0);
+
+/// Figure 5.
+#[derive(Clone, Copy, Debug)]
+pub struct NoticeFig5;
+
+/// What is measured.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
+pub struct Settings {
+    /// Numbers of nodes.
+    pub nodes: Vec<usize>,
+    /// The side of the square, in metres.
+    pub side_m: f64,
+    /// The radio range, in metres.
+    pub range_m: f64,
+    /// The k of k-FNF.
+    pub ks: Vec<Senders>,
+    /// Topologies for each number of nodes.
+    pub topologies: u32,
+    /// The seed of all of them.
+    pub seed: u64,
+    /// What lies between the nodes.
+    pub channel: ChannelName,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            nodes: NODES.into(),
+            side_m: SIDE_M,
+            range_m: RANGE_M,
+            ks: [1, 2, 3].into_iter().filter_map(Count::new).map(Senders).collect(),
+            topologies: 200,
+            seed: 0,
+            channel: ChannelName::Ideal,
+        }
+    }
+}
+
+/// One topology at one number of nodes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct Job {
+    /// The place of the number of nodes.
+    density: usize,
+    topology: u32,
+}
+
+/// The whole figure.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
+pub struct Merged {
+    side_m: f64,
+    range_m: f64,
+    topologies: u32,
+    seed: u64,
+    channel: ChannelName,
+    /// Density by density.
+    pub densities: Vec<Density>,
+}
+
+/// All schemes at one number of nodes.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
+pub struct Density {
+    /// The number of nodes.
+    pub nodes: usize,
+    /// The share of the topologies in which links connect all nodes.
+    pub connected: Estimate,
+    /// The share of the nodes that links connect to the source, the source included.
+    pub component: Estimate,
+    /// Scheme by scheme.
+    pub schemes: Vec<Line>,
+}
+
+/// One scheme at one number of nodes.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
+pub struct Line {
+    /// The scheme.
+    pub scheme: String,
+    /// The share of all nodes that know of the event in the end, the source included.
+    pub reach: Estimate,
+    /// What the paper says of it.
+    pub paper: Option<f64>,
+    /// Ours less the paper's.
+    pub difference: Option<f64>,
+    /// The share of the nodes of the source's component that do.
+    pub reach_component: Estimate,
+    /// Nodes that forward, the source not included.
+    pub rebroadcasts: Estimate,
+}
+
+/// One topology: the nodes that links connect to the source, and scheme by scheme the nodes reached and the
+/// rebroadcasts.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct Sample {
+    component: u32,
+    schemes: Vec<(u32, u32)>,
+}
+
+impl Settings {
+    /// The schemes of the figure by name, k-FNF for each k.
+    fn schemes(&self, range_um: u32) -> Vec<(String, Scheme)> {
+        let farthest =
+            |&Senders(k): &Senders| (format!("k-fnf k={}", k.get()), Scheme::Farthest { k: Some(k) });
+        let counter = |below: Count| (format!("counter C={}", below.get()), Scheme::Counter { below });
+        let distance = |tenths: u32| {
+            let least_um = (u64::from(range_um) * u64::from(tenths) / 10) as u32;
+            (format!("distance 0.{tenths}"), Scheme::Distance { least_um })
+        };
+        let rivals = [2, 3].into_iter().filter_map(Count::new).map(counter).chain([8, 5].map(distance));
+        let plain = [("sba".to_owned(), Scheme::Scalable), ("flooding".to_owned(), Scheme::Flooding)];
+        self.ks.iter().map(farthest).chain(rivals).chain(plain).collect()
+    }
+
+    fn radio(&self) -> Result<Radio, Problem> {
+        Radio::new(self.range_m, Model::Disc)
+    }
+
+    /// The topology has a stream of answers to itself; each scheme draws its waits from another.
+    fn sample(&self, nodes: usize, topology: u32, extent: Extent) -> Result<Sample, Problem> {
+        let area = Area::new(self.side_m, self.side_m)?;
+        let radio = self.radio()?;
+        let range_um = radio.range_um();
+        let stream = 2 * u64::from(topology);
+        let chance = &mut Seeded::new(self.seed, stream);
+        let field = Field::random(area, Vec::new(), nodes, chance)?;
+        let network = Network::new(&field, radio, chance)?;
+        let source = NodeId(chance.pick(nodes as u32));
+        let schemes = match extent {
+            Extent::Topology => Vec::new(),
+            Extent::Broadcasts => self.schemes(range_um.get()),
+        };
+        let schemes = schemes.into_iter().map(|(_, scheme)| {
+            let rule = Rule::new(scheme, range_um, LONGEST_WAIT_NS);
+            let chance = &mut Seeded::new(self.seed, stream + 1);
+            let channel = self.channel.channel();
+            let (report, _) = broadcast(&network, &rule, channel, &Faults::NONE, source, chance)?;
+            Ok((report.reached, report.rebroadcasts))
+        });
+        let schemes = schemes.collect::<Result<_, Problem>>()?;
+        Ok(Sample { component: network.component(source) as u32, schemes })
+    }
+
+    fn density(&self, nodes: usize, samples: &[&Sample], schemes: &[(String, Scheme)]) -> Density {
+        let all = f64::from(nodes as u32);
+        let mean = |value: &dyn Fn(&Sample) -> f64| {
+            let values: Vec<f64> = samples.iter().map(|sample| value(sample)).collect();
+            Estimate::of_values(&values).unwrap_or(Estimate::NOTHING)
+        };
+        let connected = samples.iter().filter(|sample| sample.component as usize == nodes).count() as u32;
+        let is_papers = self.side_m == SIDE_M && self.range_m == RANGE_M && NODES.contains(&nodes);
+        let line = |(place, (name, scheme)): (usize, &(String, Scheme))| {
+            let (paper_k, paper_reach) = PAPER;
+            let reach = mean(&|sample| f64::from(sample.schemes[place].0) / all);
+            let is_paper = is_papers && *scheme == Scheme::Farthest { k: Some(paper_k) };
+            let paper = is_paper.then_some(paper_reach);
+            Line {
+                scheme: name.clone(),
+                reach: rounded(reach, 1e4),
+                paper,
+                difference: paper.map(|paper| decimals(reach.mean - paper, 1e4)),
+                reach_component: rounded(
+                    mean(&|sample| f64::from(sample.schemes[place].0) / f64::from(sample.component)),
+                    1e4,
+                ),
+                rebroadcasts: rounded(mean(&|sample| f64::from(sample.schemes[place].1)), 1e2),
+            }
+        };
+        Density {
+            nodes,
+            connected: rounded(Estimate::share(connected, self.topologies).unwrap_or(Estimate::NOTHING), 1e4),
+            component: rounded(mean(&|sample| f64::from(sample.component) / all), 1e4),
+            schemes: schemes.iter().enumerate().map(line).collect(),
+        }
+    }
+}
+
+/// How much is measured of a topology.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Extent {
+    /// Itself.
+    Topology,
+    /// A broadcast by every scheme, too.
+    Broadcasts,
+}
+
+impl Table for NoticeFig5 {
+    type Settings = Settings;
+    type Job = Job;
+    type Measured = Sample;
+    type Merged = Merged;
+
+    fn about(&self) -> About {
+        About {
+            id: "notice-fig5",
+            shows: "k-FNF, flooding, counter, distance and scalable broadcasts in random networks: the share of all nodes \
+                    and of those connected to the source that each reaches, and how many nodes forward",
+            help: "How many nodes a broadcast reaches, and how many forward it, by scheme and density",
+            more: "Nodes at random places in a square, from a random source: of all nodes, and of those that links connect \
+                   to the source.",
+            examples: &[
+                "notice-fig5",
+                "notice-fig5 --svg-reach reach.svg --svg-rebroadcasts rebroadcasts.svg",
+                "notice-fig5 --nodes 300 --k 1,2,4,8 --topologies 1000 --format json",
+                "notice-fig5 --channel shared",
+            ],
+            doing: "broadcasting",
+        }
+    }
+
+    fn parameters(&self) -> Vec<Parameter<Settings>> {
+        let channel = Given {
+            name: "channel",
+            value: "CHANNEL",
+            about: "What lies between the nodes",
+            values: Values::words::<ChannelName>(),
+        };
+        vec![
+            Parameter::list(
+                "nodes",
+                "Numbers of nodes",
+                |all| all_shown(&all.nodes),
+                |all, texts| put_all(&mut all.nodes, texts, whole),
+            ),
+            Parameter::one(
+                "side",
+                "METRES",
+                "The side of the square, in metres",
+                |all| shown(&all.side_m),
+                |all, texts| put(&mut all.side_m, texts, real),
+            ),
+            Parameter::one(
+                "range",
+                "METRES",
+                "The radio range, in metres",
+                |all| shown(&all.range_m),
+                |all, texts| put(&mut all.range_m, texts, real),
+            ),
+            Parameter::list(
+                "k",
+                "The k of k-FNF: how many senders, the first not counted, make a node silent",
+                |all| shown(&all.ks.iter().map(|k| k.0.get().to_string()).collect::<Vec<_>>().join(",")),
+                |all, texts| put_all(&mut all.ks, texts, Senders::read),
+            ),
+            Parameter::one(
+                "topologies",
+                "COUNT",
+                "Topologies for each number of nodes",
+                |all| shown(&all.topologies),
+                |all, texts| put(&mut all.topologies, texts, |text| within(text, &(1..=100_000_i64))),
+            ),
+            Parameter::one(
+                "seed",
+                "SEED",
+                "The seed of all topologies",
+                |all| shown(&all.seed),
+                |all, texts| put(&mut all.seed, texts, number),
+            ),
+            Parameter::new(
+                channel,
+                |all| shown(all.channel.word()),
+                |all, texts| {
+                    put(&mut all.channel, texts, |word| {
+                        ChannelName::of(word).ok_or("it is none of the words")
+                    })
+                },
+            ),
+        ]
+    }
+
+    fn charts(&self) -> Vec<Chart<Self>> {
+        vec![
+            Chart {
+                name: "svg-reach",
+                about: "Store the reach as a picture",
+                draw: |_, _, merged| Ok(chart(Part::Reach, &merged.densities).svg()),
+            },
+            Chart {
+                name: "svg-rebroadcasts",
+                about: "Store the rebroadcasts as a picture",
+                draw: |_, _, merged| Ok(chart(Part::Rebroadcasts, &merged.densities).svg()),
+            },
+        ]
+    }
+
+    fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
+        for &nodes in &settings.nodes {
+            settings.sample(nodes, 0, Extent::Topology).map_err(usage)?;
+        }
+        let topologies = |density| (0..settings.topologies).map(move |topology| Job { density, topology });
+        Ok((0..settings.nodes.len()).flat_map(topologies).collect())
+    }
+
+    fn measure(&self, settings: &Settings, job: &Job, _: &dyn Observer) -> Result<Sample, Halt> {
+        let nodes = settings.nodes.get(job.density).copied().unwrap_or_default();
+        settings.sample(nodes, job.topology, Extent::Broadcasts).map_err(usage)
+    }
+
+    fn merge(&self, settings: &Settings, results: Vec<(Job, Sample)>) -> Result<Merged, Halt> {
+        let Settings { side_m, range_m, topologies, seed, channel, .. } = *settings;
+        let schemes = settings.schemes(settings.radio().map_err(usage)?.range_um().get());
+        let densities = settings.nodes.iter().enumerate().map(|(density, &nodes)| {
+            let samples = results.iter().filter(|(job, _)| job.density == density);
+            let samples: Vec<&Sample> = samples.map(|(_, sample)| sample).collect();
+            settings.density(nodes, &samples, &schemes)
+        });
+        Ok(Merged { side_m, range_m, topologies, seed, channel, densities: densities.collect() })
+    }
+
+    fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
+        let densities = &merged.densities;
+        let heading = format!(
+            "{side}×{side} m, range {} m, {} for each number of nodes, seed {}, {} channel",
+            settings.range_m,
+            counted(settings.topologies, "topology"),
+            settings.seed,
+            settings.channel.word(),
+            side = settings.side_m,
+        );
+        let percent = |estimate: Estimate| estimate.times(100.0).text(2);
+        let mut table = Figures::new(heading, densities);
+        table.row("nodes", |density| density.nodes.to_string());
+        table.row("connected", |density| density.connected.times(100.0).text(1));
+        table.row("component", |density| percent(density.component));
+        let schemes = densities.first().map_or(&[][..], |density| &density.schemes);
+        table.title("Reach, % of all nodes");
+        for (place, line) in schemes.iter().enumerate() {
+            table.row(line.scheme.as_str(), |density| percent(density.schemes[place].reach));
+            if densities.iter().any(|density| density.schemes[place].paper.is_some()) {
+                let said =
+                    |part: Option<f64>| part.map_or("-".to_owned(), |part| format!("{:.2}", 100.0 * part));
+                table.row("  paper", |density| said(density.schemes[place].paper));
+                table.row("  difference", |density| said(density.schemes[place].difference));
+            }
+        }
+        table.title("Reach, % of the nodes connected to the source");
+        for (place, line) in schemes.iter().enumerate() {
+            table.row(line.scheme.as_str(), |density| percent(density.schemes[place].reach_component));
+        }
+        table.title("Rebroadcasts");
+        for (place, line) in schemes.iter().enumerate() {
+            table.row(line.scheme.as_str(), |density| density.schemes[place].rebroadcasts.text(2));
+        }
+        Ok(table.with_notes(
+            "connected: % of the networks in which links connect all nodes · component: % of the nodes that they connect \
+             to the\nsource · ±, […]: the 95 % interval · paper: “near 100 %” at every density; all else it draws only",
+        ))
+    }
+}
+
+/// The two parts of the figure.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Part {
+    /// (a): the reach of all nodes, in percent.
+    Reach,
+    /// (b): the rebroadcasts.
+    Rebroadcasts,
+}
+
+/// A part of the figure as a chart.
+fn chart(part: Part, densities: &[Density]) -> LineChart {
+    let names = densities.first().map_or(&[][..], |density| &density.schemes);
+    let points = |place: usize| {
+        let point = |density: &Density| {
+            let line = density.schemes.get(place)?;
+            let estimate = match part {
+                Part::Reach => line.reach.times(100.0),
+                Part::Rebroadcasts => line.rebroadcasts,
+            };
+            Some(point(f64::from(density.nodes as u32), estimate))
+        };
+        densities.iter().filter_map(point).collect()
+    };
+    let series = |(place, line): (usize, &Line)| Series {
+        name: line.scheme.clone(),
+        stroke: Stroke::Solid,
+        points: points(place),
+    };
+    let (title, y) = match part {
+        Part::Reach => ("Nodes that a broadcast reaches", Axis::new("reach", "%").showing([0.0, 100.0])),
+        Part::Rebroadcasts => {
+            ("Nodes that forward a broadcast", Axis::new("rebroadcasts", "").showing([0.0, 0.0]))
+        }
+    };
+    LineChart {
+        title: title.to_owned(),
+        x: Axis::new("nodes", ""),
+        y,
+        series: names.iter().enumerate().map(series).collect(),
+    }
+}

@@ -1,0 +1,353 @@
+//! What the repairs of the chain cost: team moves to 50 % and to 75 % of the cells and of whole runs, as published and
+//! repaired, on the same random layouts; and what they give: how many cells are explored, and in how many runs each
+//! rule breaks a clause. Sums are whole numbers, so that the result is
+//! the same on any number of threads.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use tautline_proofs::chain::breach::Breach;
+use tautline_proofs::words::counted;
+
+use super::parameter::{Parameter, put, shown};
+use super::{About, Observer, Table, unfit};
+use tautline_field::stats::{Estimate, Moments, hundredths};
+use tautline_sim::columns::{Column, Columns, Width};
+use tautline_sim::explore::chain::CHAIN;
+use tautline_sim::explore::{Milestone, Report, RuleName, Setup, explore};
+use tautline_sim::fault::Halt;
+use tautline_sim::layout::Generator;
+use tautline_sim::reading::{number, within};
+
+/// The team of the paper.
+pub const ROBOTS: u16 = 8;
+
+/// The probabilities of a wall.
+pub const DENSITIES: [&str; 7] = ["0.01", "0.05", "0.1", "0.15", "0.2", "0.3", "0.4"];
+
+/// The milestones that are compared.
+pub const MILESTONES: [Milestone; 2] = [Milestone::Half, Milestone::ThreeQuarters];
+
+/// The most jobs at a density: so many that all threads end at about the same time, and so few that their results take
+/// little room.
+const MOST_JOBS: u32 = 1000;
+
+/// What the repairs of the chain cost.
+#[derive(Clone, Copy, Debug)]
+pub struct RepairCost;
+
+/// How much is measured.
+#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
+pub struct Settings {
+    /// Layouts at each density.
+    pub layouts: u32,
+    /// The seed of the first one; the others have the seeds after it.
+    pub seed: u64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { layouts: 300, seed: 0 }
+    }
+}
+
+/// Layouts of one density that follow each other.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct Job {
+    /// The place in [`DENSITIES`].
+    density: usize,
+    /// The seed of the first layout.
+    seed: u64,
+    layouts: u32,
+}
+
+/// The whole table.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
+pub struct Merged {
+    robots: u16,
+    seed: u64,
+    /// For each of [`DENSITIES`].
+    pub densities: Vec<Line>,
+}
+
+/// The same layouts under both rules.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
+pub struct Line {
+    /// The probability of a wall.
+    pub density: &'static str,
+    /// How many layouts: those of the seeds from the first one on.
+    pub layouts: u32,
+    /// For each of [`MILESTONES`].
+    pub milestones: [Reached; MILESTONES.len()],
+    /// Team moves of whole runs.
+    pub moves: Comparison,
+    /// Cells explored when a run ends.
+    pub explored: Comparison,
+    /// For each of [`Breach::CHAIN`]: runs that break it.
+    pub violations: [Violations; Breach::CHAIN.len()],
+}
+
+/// Team moves to a milestone, where both rules reach it.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
+pub struct Reached {
+    /// The milestone.
+    pub percent: u32,
+    /// The team moves.
+    #[serde(flatten)]
+    pub moves: Comparison,
+}
+
+/// One number of both rules.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
+pub struct Comparison {
+    /// Layouts in which there is one under both.
+    pub pairs: u32,
+    /// Layouts in which there is not.
+    pub left_out: u32,
+    /// The mean as published, over the pairs.
+    pub published: f64,
+    /// The mean repaired, over the pairs.
+    pub repaired: f64,
+    /// The mean of repaired less published.
+    pub difference: f64,
+    /// Half the width of its 95 % interval.
+    pub margin: f64,
+}
+
+/// Runs that break a clause.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
+pub struct Violations {
+    /// Its id.
+    pub clause: &'static str,
+    /// As published.
+    pub published: u32,
+    /// Repaired.
+    pub repaired: u32,
+}
+
+/// Sums over layouts.
+#[derive(Clone, Copy, Default, Debug, Serialize, Deserialize)]
+pub struct Sums {
+    milestones: [Paired; MILESTONES.len()],
+    moves: Paired,
+    explored: Paired,
+    violations: [[u32; Breach::CHAIN.len()]; RuleName::ALL.len()],
+}
+
+#[derive(Clone, Copy, Default, Debug, JsonSchema, Serialize, Deserialize)]
+struct Paired {
+    published: Moments,
+    repaired: Moments,
+    difference: Moments,
+}
+
+impl Table for RepairCost {
+    type Settings = Settings;
+    type Job = Job;
+    type Measured = Sums;
+    type Merged = Merged;
+
+    fn about(&self) -> About {
+        About {
+            id: "repair-cost",
+            shows: "the chain as published against the chain repaired on the same random layouts: mean team moves to 50 % \
+                    and 75 %, and runs that break a clause",
+            help: "What the chain's repairs cost in team moves, and what they prevent",
+            more: "",
+            examples: &["repair-cost", "repair-cost --layouts 10000 --format json"],
+            doing: "comparing",
+        }
+    }
+
+    fn parameters(&self) -> Vec<Parameter<Settings>> {
+        vec![
+            Parameter::one(
+                "layouts",
+                "COUNT",
+                "Random layouts at each density",
+                |all| shown(&all.layouts),
+                |all, texts| put(&mut all.layouts, texts, |text| within(text, &(1..=1_000_000_i64))),
+            ),
+            Parameter::one(
+                "seed",
+                "SEED",
+                "The seed of the first layout; the others have the seeds after it",
+                |all| shown(&all.seed),
+                |all, texts| put(&mut all.seed, texts, number),
+            ),
+        ]
+    }
+
+    fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
+        let Settings { layouts, seed } = *settings;
+        let of_one = layouts.div_ceil(MOST_JOBS);
+        let batches = |density| {
+            let batch = move |first: u32| Job {
+                density,
+                seed: seed.wrapping_add(first.into()),
+                layouts: of_one.min(layouts - first),
+            };
+            (0..layouts).step_by(of_one.max(1) as usize).map(batch)
+        };
+        Ok((0..DENSITIES.len()).flat_map(batches).collect())
+    }
+
+    fn parts(&self, job: &Job) -> u64 {
+        job.layouts.into()
+    }
+
+    fn measure(&self, _: &Settings, job: &Job, _: &dyn Observer) -> Result<Sums, Halt> {
+        let density = DENSITIES.get(job.density).copied().unwrap_or_default();
+        let generator: Generator =
+            format!("walls:15x15:{density}").parse().map_err(|problem| unfit(&problem))?;
+        let seeds = (0..job.layouts).map(|index| job.seed.wrapping_add(index.into()));
+        seeds.map(|seed| Sums::of(&generator, seed)).try_fold(Sums::default(), |sums, one| Ok(sums.and(one?)))
+    }
+
+    fn merge(&self, settings: &Settings, results: Vec<(Job, Sums)>) -> Result<Merged, Halt> {
+        let line = |density: usize| {
+            let batches = results.iter().filter(|(job, _)| job.density == density);
+            let sums = batches.fold(Sums::default(), |sums, &(_, batch)| sums.and(batch));
+            sums.line(DENSITIES[density], settings.layouts)
+        };
+        let densities = (0..DENSITIES.len()).map(line).collect();
+        Ok(Merged { robots: ROBOTS, seed: settings.seed, densities })
+    }
+
+    fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
+        let lines = &merged.densities;
+        let mut text = format!(
+            "{ROBOTS} robots in walls:15x15:DENSITY, {} at each density, seeds from {}\n",
+            counted(settings.layouts, "layout"),
+            settings.seed
+        );
+        for (place, milestone) in MILESTONES.iter().enumerate() {
+            let title = format!("Mean team moves to {} %, where both reach it", milestone.percent());
+            text.push_str(&compared(&title, lines, |line| &line.milestones[place].moves));
+        }
+        text.push_str(&compared("Mean team moves of whole runs", lines, |line| &line.moves));
+        text.push_str(&compared("Mean cells explored when a run ends", lines, |line| &line.explored));
+        let clauses = Breach::CHAIN.map(|_| Column::right(Width::Of(12)));
+        let mut columns = Columns::new([Column::left(Width::Of(8))].into_iter().chain(clauses));
+        columns.title("Runs that break a clause, published / repaired");
+        columns.row(["density"].into_iter().chain(Breach::CHAIN.map(Breach::clause)));
+        for line in lines {
+            let runs = line.violations.map(|runs| format!("{} / {}", runs.published, runs.repaired));
+            columns.row([line.density.to_owned()].into_iter().chain(runs));
+        }
+        Ok(text + &columns.text())
+    }
+
+    fn is_broken(&self, merged: &Merged) -> bool {
+        merged.densities.iter().any(|line| line.violations.iter().any(|runs| runs.repaired > 0))
+    }
+}
+
+/// A table of one number of both rules.
+fn compared<'a>(title: &str, lines: &'a [Line], number: impl Fn(&'a Line) -> &'a Comparison) -> String {
+    let numbers = [9, 9, 15, 7, 8].map(|width| Column::right(Width::Of(width)));
+    let mut columns = Columns::new([Column::left(Width::Of(7))].into_iter().chain(numbers));
+    columns.title(format!("{title}; the difference with its 95 % interval"));
+    columns.row(["density", "published", "repaired", "difference", "layouts", "left out"]);
+    for line in lines {
+        let Comparison { pairs, left_out, published, repaired, difference, margin } = number(line);
+        columns.row([
+            line.density.to_owned(),
+            format!("{published:.2}"),
+            format!("{repaired:.2}"),
+            format!("{difference:+.2} ± {margin:.2}"),
+            pairs.to_string(),
+            left_out.to_string(),
+        ]);
+    }
+    columns.text()
+}
+
+impl Sums {
+    fn of(generator: &Generator, seed: u64) -> Result<Self, Halt> {
+        let mut layout = generator.generate(seed).map_err(|problem| unfit(&problem))?;
+        let base = Setup::choose_base(&mut layout, None).map_err(|problem| unfit(&problem))?;
+        let run = |rule| {
+            let layout = layout.clone();
+            let setup = Setup { seed, ..Setup::new(&CHAIN, rule, ROBOTS, layout, base) };
+            explore(&setup, &mut |_| Ok(()))
+        };
+        let (published, repaired) = (run(RuleName::Published)?, run(RuleName::Repaired)?);
+        let breaks = |report: &Report| {
+            Breach::CHAIN
+                .map(|breach| u32::from(report.violations.iter().any(|violation| violation.clause == breach)))
+        };
+        Ok(Self {
+            milestones: MILESTONES.map(|milestone| {
+                match (published.reached(milestone), repaired.reached(milestone)) {
+                    (Some(published), Some(repaired)) => Paired::of(published, repaired),
+                    (Some(_) | None, _) => Paired::default(),
+                }
+            }),
+            moves: Paired::of(published.steps, repaired.steps),
+            explored: Paired::of(published.explored, repaired.explored),
+            violations: [breaks(&published), breaks(&repaired)],
+        })
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self {
+            milestones: std::array::from_fn(|place| self.milestones[place].and(other.milestones[place])),
+            moves: self.moves.and(other.moves),
+            explored: self.explored.and(other.explored),
+            violations: std::array::from_fn(|rule| {
+                std::array::from_fn(|breach| self.violations[rule][breach] + other.violations[rule][breach])
+            }),
+        }
+    }
+
+    fn line(&self, density: &'static str, layouts: u32) -> Line {
+        Line {
+            density,
+            layouts,
+            milestones: std::array::from_fn(|place| Reached {
+                percent: MILESTONES[place].percent(),
+                moves: self.milestones[place].comparison(layouts),
+            }),
+            moves: self.moves.comparison(layouts),
+            explored: self.explored.comparison(layouts),
+            violations: std::array::from_fn(|breach| Violations {
+                clause: Breach::CHAIN[breach].clause(),
+                published: self.violations[RuleName::Published as usize][breach],
+                repaired: self.violations[RuleName::Repaired as usize][breach],
+            }),
+        }
+    }
+}
+
+impl Paired {
+    fn of(published: u32, repaired: u32) -> Self {
+        let (published, repaired) = (i64::from(published), i64::from(repaired));
+        Self {
+            published: Moments::of(published),
+            repaired: Moments::of(repaired),
+            difference: Moments::of(repaired - published),
+        }
+    }
+
+    const fn and(self, other: Self) -> Self {
+        Self {
+            published: self.published.and(other.published),
+            repaired: self.repaired.and(other.repaired),
+            difference: self.difference.and(other.difference),
+        }
+    }
+
+    /// Without pairs everything is 0, and of one pair the margin.
+    fn comparison(self, layouts: u32) -> Comparison {
+        let mean = |moments: Moments| hundredths(moments.estimate().map_or(0.0, |estimate| estimate.mean));
+        let margin = self.difference.estimate().and_then(Estimate::margin);
+        Comparison {
+            pairs: self.difference.count(),
+            left_out: layouts - self.difference.count(),
+            published: mean(self.published),
+            repaired: mean(self.repaired),
+            difference: mean(self.difference),
+            margin: hundredths(margin.unwrap_or(0.0)),
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! The chain against its rivals [Kovács 2011, E]: Table I and Fig. 3, measured again. A run that does not get there is a result
+//! as well: beside every figure stands how many of the runs got there, and no mean is taken over those alone. Where not all
+//! did, the median counts the others as later than any.
+
+mod asked;
+mod claims;
+mod fig3;
+mod table1;
+
+use std::num::NonZeroU32;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use tautline_kernel::ground::Cell;
+
+use self::asked::Told;
+use super::unfit;
+use tautline_field::stats::{Estimate, rounded};
+use tautline_sim::explore::chain::CHAIN;
+use tautline_sim::explore::rivals::rival;
+use tautline_sim::explore::{Limits, Milestone, Report, RuleName, Setup, explore, run};
+use tautline_sim::fault::Halt;
+use tautline_sim::layout::{Generator, Layout};
+use tautline_sim::rivals::{Cells, Links, Search};
+
+pub use fig3::ChainFig3;
+pub use table1::ChainTable1;
+
+/// The team of the paper.
+const ROBOTS: u16 = 8;
+
+/// Its area without walls, (2N−1)² cells.
+const OPEN: &str = "open:15x15";
+
+/// Its buildings; the paper's are in a figure that we have not.
+const ROOMS: [&str; 2] = ["rooms-a", "rooms-b"];
+
+/// Who explores.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Who {
+    /// A chain of this rule.
+    Chain(RuleName),
+    /// A rival.
+    Rival { search: Search, links: Links, cells: Cells },
+}
+
+impl Who {
+    /// Full search with links of this kind.
+    const fn full(links: Links) -> Self {
+        Self::Rival { search: Search::Full, links, cells: Cells::Distinct }
+    }
+
+    /// The best of a pool, with links of this kind.
+    const fn pool(pool: u32, links: Links) -> Self {
+        Self::Rival { search: Search::Pool(pool), links, cells: Cells::Distinct }
+    }
+
+    /// The chain of both rules, and both rivals under both rules of links.
+    const fn all(pool: u32) -> [Self; 6] {
+        [
+            Self::Chain(RuleName::Published),
+            Self::Chain(RuleName::Repaired),
+            Self::full(Links::Safe),
+            Self::full(Links::Covered),
+            Self::pool(pool, Links::Safe),
+            Self::pool(pool, Links::Covered),
+        ]
+    }
+
+    /// Whether a run has anything that is left to chance besides its layout.
+    const fn is_chancy(self) -> bool {
+        match self {
+            Self::Chain(_) => false,
+            Self::Rival { .. } => true,
+        }
+    }
+
+    fn name(self) -> String {
+        match self {
+            Self::Chain(rule) => format!("chain, {rule}"),
+            Self::Rival { search, links, cells } => {
+                let search = match search {
+                    Search::Full => "Full search".to_owned(),
+                    Search::Pool(pool) => format!("pool of {pool}"),
+                };
+                let cells = match cells {
+                    Cells::Distinct => "",
+                    Cells::Shared => ", shared cells",
+                };
+                format!("{search}, {}{cells}", links.symbol())
+            }
+        }
+    }
+
+    /// A run in `layout`, the base in its middle.
+    fn run(self, told: &Told, layout: &Layout, seed: u64, limits: Limits) -> Result<Outcome, Halt> {
+        let mut layout = layout.clone();
+        let base: Cell = Setup::choose_base(&mut layout, None).map_err(|problem| unfit(&problem))?;
+        let report = match self {
+            Self::Chain(rule) => {
+                let setup = Setup { seed, limits, ..Setup::new(&CHAIN, rule, ROBOTS, layout, base) };
+                explore(&setup, &mut |_| Ok(()))?
+            }
+            Self::Rival { search, links, cells } => {
+                let mut team = rival(told.parameters(search, links, cells), ROBOTS, &layout, base, seed)?;
+                run(&mut *team, &layout, limits, &mut |_| Ok(()))?
+            }
+        };
+        Ok(Outcome::of(&report))
+    }
+}
+
+/// What comes of a run.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
+struct Outcome {
+    /// The team moves to each milestone that it reached.
+    milestones: [Option<u32>; Milestone::ALL.len()],
+    explored: u32,
+    cells: u32,
+}
+
+impl Outcome {
+    const fn of(report: &Report) -> Self {
+        Self { milestones: report.milestones, explored: report.explored, cells: report.cells }
+    }
+
+    const fn reached(&self, milestone: Milestone) -> Option<u32> {
+        self.milestones[milestone as usize]
+    }
+
+    /// In percent of the cells.
+    fn explored(&self) -> f64 {
+        100.0 * f64::from(self.explored) / f64::from(self.cells)
+    }
+}
+
+/// Team moves of some runs to a milestone.
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
+struct Times {
+    runs: u32,
+    /// Runs that get there.
+    reached: u32,
+    /// Their mean, if all runs get there.
+    mean: Option<Estimate>,
+    /// The median of all runs, one that never gets there being later than any; none if most do not.
+    median: Option<u32>,
+}
+
+impl Times {
+    fn of(outcomes: &[&Outcome], milestone: Milestone) -> Self {
+        let mut moves: Vec<u32> = outcomes.iter().filter_map(|outcome| outcome.reached(milestone)).collect();
+        moves.sort_unstable();
+        let values: Vec<f64> = moves.iter().map(|&moves| f64::from(moves)).collect();
+        let mean = Estimate::of_values(&values).filter(|_| moves.len() == outcomes.len());
+        Self {
+            runs: outcomes.len() as u32,
+            reached: moves.len() as u32,
+            mean: mean.map(|mean| rounded(mean, 100.0)),
+            median: moves.get(outcomes.len().saturating_sub(1) / 2).copied(),
+        }
+    }
+
+    /// The mean of all, or the median, or nothing; and how many get there.
+    fn text(&self) -> String {
+        let Self { runs, reached, .. } = self;
+        let moves = match (self.mean, self.median) {
+            (Some(mean), _) => mean.text(1),
+            (None, Some(median)) => format!("median {median}"),
+            (None, None) => "-".to_owned(),
+        };
+        format!("{moves} ({reached}/{runs})")
+    }
+
+    /// The mean if all get there, else the median.
+    fn middle(&self) -> Option<f64> {
+        self.mean.map(|mean| mean.mean).or(self.median.map(f64::from))
+    }
+}
+
+fn generated(description: &str, seed: u64) -> Result<Layout, Halt> {
+    let generator: Generator = description.parse().map_err(|problem| unfit(&problem))?;
+    Ok(generator.generate(seed).map_err(|problem| unfit(&problem))?)
+}
+
+/// Runs that stop when a robot has entered so many cells, as the paper's do.
+fn stopping(max_moves: u32) -> Limits {
+    Limits { max_moves: NonZeroU32::new(max_moves), ..Limits::default() }
+}

@@ -1,0 +1,109 @@
+//! A run in the Informal Trace Format of Apalache, for the viewers of model checkers: one state for the start, and one after each
+//! team move. Whole numbers are written as that format has them, as `#bigint`.
+
+use std::mem::replace;
+
+use serde_json::{Value, json};
+use tautline_kernel::ground::Cell;
+
+use tautline_sim::aside::{Aside, ITF_HEAD};
+use tautline_sim::explore::{ClauseId, Play, TeamMove};
+use tautline_sim::fault::Halt;
+use tautline_sim::trace::StoredMove;
+
+/// What a state has, with its type.
+const VARIABLES: [(&str, &str); 6] = [
+    ("blocked", "Seq(Bool)"),
+    ("broken", "Set(Str)"),
+    ("cells", "Seq(<<Int, Int>>)"),
+    ("kind", "Str"),
+    ("step", "Int"),
+    ("tried", "Str"),
+];
+
+fn int(number: impl std::fmt::Display) -> Value {
+    json!({ "#bigint": number.to_string() })
+}
+
+fn cell(cell: &Cell) -> Value {
+    json!({ "#tup": [int(cell.x), int(cell.y)] })
+}
+
+/// A state before it is written: what is broken by the end of a run is told of the last one.
+struct State {
+    step: u32,
+    kind: &'static str,
+    tried: String,
+    blocked: Vec<bool>,
+    cells: Vec<Cell>,
+    broken: Vec<ClauseId>,
+}
+
+impl State {
+    /// The start, in which nothing was tried.
+    fn start(cells: Vec<Cell>) -> Self {
+        let (tried, blocked) = (".".repeat(cells.len()), vec![false; cells.len()]);
+        Self { step: 0, kind: "start", tried, blocked, cells, broken: Vec::new() }
+    }
+
+    /// After a team move.
+    fn after(made: &TeamMove<'_>) -> Self {
+        let stored = StoredMove::new(made.step, made.frame);
+        Self {
+            step: made.step,
+            kind: stored.kind(),
+            tried: stored.tried().to_owned(),
+            blocked: made.frame.blocked.clone(),
+            cells: made.frame.cells.clone(),
+            broken: made.broken.to_vec(),
+        }
+    }
+
+    fn json(&self) -> Value {
+        let broken: Vec<&str> = self.broken.iter().map(|clause| clause.as_str()).collect();
+        json!({
+            "#meta": { "index": self.step },
+            "step": int(self.step),
+            "kind": self.kind,
+            "tried": self.tried,
+            "blocked": self.blocked,
+            "cells": self.cells.iter().map(cell).collect::<Vec<Value>>(),
+            "broken": { "#set": broken },
+        })
+    }
+}
+
+/// Writes `run` to `file`, a state a line.
+///
+/// # Errors
+/// [`Halt`] if the run cannot be made.
+pub fn write(file: &mut Aside, run: &dyn Play) -> Result<(), Halt> {
+    let stage = run.stage();
+    let types: serde_json::Map<String, Value> =
+        VARIABLES.iter().map(|&(name, kind)| (name.to_owned(), json!(kind))).collect();
+    let meta = json!({
+        "format": "ITF",
+        "format-description": "https://apalache-mc.org/docs/adr/015adr-trace.html",
+        "varTypes": types,
+        "scheme": stage.scheme,
+        "rule": stage.rule,
+        "layout": stage.layout.to_string(),
+    });
+    let names: Vec<&str> = VARIABLES.iter().map(|&(name, _)| name).collect();
+    file.append(ITF_HEAD);
+    file.append(meta.to_string().trim_start_matches('{'));
+    file.append(format!(",\n\"vars\":{},\n\"states\":[\n", json!(names)));
+    let mut last = State::start(stage.starts());
+    let report = run.play(&mut |made| {
+        let before = replace(&mut last, State::after(made));
+        file.append(format!("{},\n", before.json()));
+        Ok(())
+    })?;
+    for violation in report.violations.iter().filter(|violation| violation.step == last.step) {
+        if !last.broken.contains(&violation.clause) {
+            last.broken.push(violation.clause);
+        }
+    }
+    file.append(format!("{}\n]}}\n", last.json()));
+    Ok(())
+}
