@@ -42,11 +42,14 @@ impl Worded for Solver {
 pub const PARTICLES: usize = 30;
 
 /// A position, and another one that fits as well.
-pub(crate) type Solved = (Point, Option<Fix>);
+pub type Solved = (Point, Option<Fix>);
 
 impl Solver {
     /// The position that the distances tell. The closed form alone is restricted to three anchors; a swarm begins about the linear
     /// solution where there are more, or where the closed form divides by 0.
+    ///
+    /// # Errors
+    /// [`Refusal`] if the distances tell none.
     pub fn solve(
         self,
         rule: RuleName,
