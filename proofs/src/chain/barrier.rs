@@ -1,6 +1,7 @@
 //! Two robots at the barrier between team moves while bytes are lost, repeated and late (CHAIN-20): their bytes wait in
 //! the air, those of one robot in the order in which it sent them, and what happens to which of them next is open. Then
-//! nothing is lost any more, and both must go on.
+//! nothing is lost any more: the air must be empty soon while no robot repeats its own byte, and both robots must go on when
+//! they do.
 
 use std::collections::VecDeque;
 
@@ -10,7 +11,7 @@ use tautline_kernel::ground::Step;
 
 use crate::engine::{Outcome, Stop, require};
 
-/// How the robots read the two bits that count team moves.
+/// How the robots read the bits of a byte that carry no message.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Reading {
     /// As they were sent.
@@ -21,11 +22,16 @@ pub(super) enum Reading {
     OneBit,
     /// As they were sent, but nobody says a byte of the team move before again.
     Mute,
+    /// The two bits that count team moves as they were sent, and the third bit never.
+    NoAnswers,
 }
 
 /// The bits that count team moves, and the lower of them.
 const BITS: u8 = 0b11 << 5;
 const LOW_BIT: u8 = 1 << 5;
+
+/// The bit of an answer.
+const ANSWER_BIT: u8 = 1 << 7;
 
 /// Things that happen before nothing is lost any more.
 const EVENTS: u32 = 7;
@@ -50,6 +56,7 @@ fn message(place: usize, turn: u32) -> u8 {
 }
 
 /// The two robots, and the air.
+#[derive(Clone)]
 struct Pair {
     reading: Reading,
     barriers: [Barrier<3>; 2],
@@ -83,6 +90,7 @@ impl Pair {
         let turn = self.barriers[other].turn();
         let byte = match self.reading {
             Reading::True | Reading::Mute => byte,
+            Reading::NoAnswers => byte & !ANSWER_BIT,
             Reading::Present => byte & !BITS | self.bits(other),
             // The nearest team move with this bit, the present one or else the one before.
             Reading::OneBit if (byte ^ self.bits(other)) & LOW_BIT == 0 => byte & !BITS | self.bits(other),
@@ -111,10 +119,25 @@ impl Pair {
         require(one.abs_diff(two) <= 1, "no robot is more than one team move ahead")?;
         Ok(situation)
     }
+
+    /// Every byte in the air is heard, and no robot repeats its own: a byte causes at most one more, its answer.
+    fn falls_silent(mut self) -> Result<(), Stop> {
+        let sent: usize = self.air.iter().map(VecDeque::len).sum();
+        for _ in 0..2 * sent {
+            let Some(robot) = [0, 1].into_iter().find(|&robot| !self.air[robot].is_empty()) else { break };
+            if let Some(byte) = self.air[robot].pop_front() {
+                self.hear(robot, byte)?;
+            }
+        }
+        require(
+            self.air.iter().all(VecDeque::is_empty),
+            "a byte causes at most one answer, and an answer none",
+        )
+    }
 }
 
-/// CHAIN-20: whatever is lost, repeated and late, both robots go on with the same messages, and both go on once nothing is
-/// lost any more.
+/// CHAIN-20: whatever is lost, repeated and late, both robots go on with the same messages, both go on once nothing is
+/// lost any more, and no answer is answered.
 ///
 /// # Errors
 /// [`Stop::Violated`] if they do not.
@@ -137,6 +160,7 @@ pub(super) fn barrier(reading: &Reading, oracle: &mut dyn Oracle) -> Outcome {
             (0 | 4.., _) | (_, None) => return Err(Stop::Assumed),
         }
     }
+    pair.clone().falls_silent()?;
     let turns = pair.barriers.map(|barrier| barrier.turn());
     for _ in 0..4 {
         for robot in [0, 1] {

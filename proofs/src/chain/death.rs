@@ -1,11 +1,11 @@
 //! A robot of the chain dies, whichever and whenever, and the others go on with one fewer (CHAIN-21). Each unknown side is
 //! decided by the oracle when a robot first tries it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use tautline_kernel::chain::{Chain, Intent, Kind, Message, Outcome as Came, Reforming};
+use tautline_kernel::chain::{Chain, Damaged, Intent, Kind, Message, Outcome as Came, Reforming};
 use tautline_kernel::choice::{Oracle, one_of};
-use tautline_kernel::ground::{Cell, Edge, Grid, SmallGrid, Step};
+use tautline_kernel::ground::{Cell, Edge, Grid, Side, SmallGrid, Step};
 
 use super::breach::Breach;
 use super::environment::in_covered;
@@ -61,6 +61,8 @@ pub(super) enum Then {
     Crowd,
     /// They re-form, and never come home.
     StayOut,
+    /// They re-form, and count robots without the one that has died.
+    Renumber,
 }
 
 /// CHAIN-21 over all layouts with few walls.
@@ -109,9 +111,14 @@ pub(super) fn whatever_the_log(dying: &Dying, oracle: &mut dyn Oracle) -> Outcom
     let (robots, most) = MEETING;
     let (moves, mute) = (1 + oracle.pick(most), 1 + oracle.pick(robots as u32 - 1) as usize);
     let mut chain: Small = start(&dying.observed, robots, SmallGrid::new)?;
-    let mut log = Vec::new();
+    let (mut log, mut crossed) = (Vec::new(), BTreeSet::new());
     for _ in 0..moves {
+        let before = chain.cells().to_vec();
         goes_on(&mut chain, &mut log, &mut |_| true)?;
+        for (&from, &to) in before.iter().zip(chain.cells()) {
+            let side = Side::ALL.into_iter().find(|&side| from.beyond(side) == to);
+            crossed.extend(side.map(|side| key(Edge::new(from, side))));
+        }
     }
     let mut reforming = chain.reform(mute + 1, &log).map_err(|_| Stop::Violated("the others can re-form"))?;
     let taken_back = oracle.pick(2 * moves + 1);
@@ -119,13 +126,26 @@ pub(super) fn whatever_the_log(dying: &Dying, oracle: &mut dyn Oracle) -> Outcom
         // The latest first: those of the part ahead, then those of the part behind.
         let entry = (2 * moves - 1 - made) % moves;
         let part = if made < moves { mute + 1..robots } else { 1..mute };
+        let mut refused = None;
         for robot in part {
             let step = one_of(oracle, &Step::ALL);
+            // Where it is among the robots that are left.
+            let place = if robot < mute { robot } else { robot - 1 };
+            if let Step::Cross(side) = step.reverse()
+                && !crossed.contains(&key(Edge::new(reforming.cells()[place], side)))
+            {
+                refused = refused.or(Some(Damaged::OtherWorld { robot: robot + 1 }));
+            }
             log[entry as usize * (robots - 1) + robot - 1] =
                 Message { step, outcome: Came::Arrived }.encode();
         }
         // Steps over sides that nobody has crossed are refused.
-        let is_left = reforming.take_back(&log).map_err(|_| Stop::Assumed)?;
+        let taken = dying.take_back(&mut reforming, &log);
+        require(
+            taken.err() == refused,
+            "a log is refused that leads over a side that nobody has crossed, and the first robot named that it leads there",
+        )?;
+        let is_left = taken.map_err(|_| Stop::Assumed)?;
         require(is_left, "each part takes back as many team moves as the chain has made")?;
     }
     if !dying.is_formed(&reforming)? {
@@ -139,13 +159,26 @@ pub(super) fn whatever_the_log(dying: &Dying, oracle: &mut dyn Oracle) -> Outcom
 }
 
 impl Dying {
+    /// One more team move is taken back.
+    fn take_back(&self, reforming: &mut Reforming<SmallGrid, 8>, log: &[u8]) -> Result<bool, Damaged> {
+        let behind = reforming.behind();
+        match reforming.take_back(log) {
+            Err(Damaged::OtherWorld { robot }) if self.then == Then::Renumber && robot > behind => {
+                Err(Damaged::OtherWorld { robot: robot - 1 })
+            }
+            taken => taken,
+        }
+    }
+
     /// Whether the two parts are one chain again, by what they do; that is so as soon as it can be.
     fn is_formed(&self, reforming: &Reforming<SmallGrid, 8>) -> Result<bool, Stop> {
         let cells = reforming.cells();
         let in_contact = hold(&ways(cells, cells));
         let is_formed = match self.then {
             Then::Crowd => in_contact,
-            Then::Reform | Then::Wait | Then::Skip | Then::Beyond | Then::StayOut => reforming.is_formed(),
+            Then::Reform | Then::Wait | Then::Skip | Then::Beyond | Then::StayOut | Then::Renumber => {
+                reforming.is_formed()
+            }
         };
         require(
             is_formed == (in_contact && !Breach::Crowding.is_in(cells, cells)),
@@ -242,7 +275,7 @@ impl Death<'_> {
         let mut take_back =
             || reforming.take_back(log).map_err(|_| Stop::Violated("the log leads over crossed sides only"));
         let is_left = match self.dying.then {
-            Then::Reform | Then::Crowd | Then::StayOut => take_back()?,
+            Then::Reform | Then::Crowd | Then::StayOut | Then::Renumber => take_back()?,
             Then::Wait => false,
             Then::Skip => take_back()? | take_back()?,
             Then::Beyond => {

@@ -62,6 +62,7 @@ const BARRIER: Check<Reading> = Check::new(
         Named::new("team moves are not told apart", Reading::Present),
         Named::new("one bit counts team moves", Reading::OneBit),
         Named::new("nobody says a byte again", Reading::Mute),
+        Named::new("answers are answered", Reading::NoAnswers),
     ],
 );
 
@@ -92,7 +93,13 @@ const MEETING: Check<Dying> = Check::new(
         covers: &["one chain", "one chain, the part ahead home", "three robots in one cell", "two parts"],
     },
     Verdict::Holds,
-    &[Named::new("three robots go on in one cell", dying(Observed::REEL, Then::Crowd))],
+    &[
+        Named::new("three robots go on in one cell", dying(Observed::REEL, Then::Crowd)),
+        Named::new(
+            "a refused log names robots as they count without the dead one",
+            dying(Observed::REEL, Then::Renumber),
+        ),
+    ],
 );
 
 const DEATH_AT_RANDOM: Check<Dying> = Check::new(
@@ -112,7 +119,7 @@ const DEATH_AT_RANDOM: Check<Dying> = Check::new(
 
 /// A chain in a world in which walls appear.
 const fn shut(observed: Observed, world: World) -> Shut {
-    Shut { observed, world }
+    Shut { observed, world, plans_in: world }
 }
 
 const SHUT: Check<Shut> = Check::new(
@@ -123,7 +130,13 @@ const SHUT: Check<Shut> = Check::new(
         covers: &["a wall appears", "no wall appears"],
     },
     Verdict::Holds,
-    &[Named::new("crossed sides are not tried", shut(Observed::REEL, World::Lasting))],
+    &[
+        Named::new("crossed sides are not tried", shut(Observed::REEL, World::Lasting)),
+        Named::new(
+            "the history below a wall is kept",
+            Shut { plans_in: World::Lasting, ..shut(Observed::REEL, World::Changing) },
+        ),
+    ],
 );
 
 const SHUT_AT_RANDOM: Check<Shut> = Check::new(

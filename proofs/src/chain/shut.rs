@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use tautline_kernel::chain::{Chain, Intent, World};
 use tautline_kernel::choice::{Oracle, one_of};
-use tautline_kernel::ground::{Edge, SmallGrid, Step};
+use tautline_kernel::ground::{Cell, Edge, SmallGrid, Step};
 
 use super::breach::Breach;
 use super::environment::in_covered;
@@ -41,6 +41,8 @@ pub(super) fn random_layouts() -> String {
 pub(super) struct Shut {
     pub(super) observed: Observed,
     pub(super) world: World,
+    /// What it takes the world for while it plans.
+    pub(super) plans_in: World,
 }
 
 /// CHAIN-22 over all layouts with few walls.
@@ -84,10 +86,17 @@ fn runs(shut: &Shut, robots: usize, is_wall: &mut dyn FnMut(Known) -> bool) -> O
     let (mut log, mut walls) = (Vec::new(), BTreeMap::new());
     let mut situation = "no wall appears";
     for _ in 0..MANY {
-        let intent = chain.plan(&log).map_err(|_| NO_MESSAGE)?;
+        let mut planning = chain.in_world(shut.plans_in);
+        let intent = planning.plan(&log).map_err(|_| NO_MESSAGE)?;
+        chain = planning.in_world(shut.world);
         let Intent::Go(plan) = intent else { return Ok(situation) };
         require(!chain.is_refused(), "no plan is refused")?;
         let before = chain.cells().to_vec();
+        let is_met = |(&cell, &step): (&Cell, &Step)| matches!(step, Step::Cross(side) if walls.get(&key(Edge::new(cell, side))) == Some(&true));
+        require(
+            !before.iter().zip(plan.steps()).any(is_met),
+            "no robot is sent through a wall that the team has met",
+        )?;
         for (&cell, &step) in before.iter().zip(plan.steps()) {
             if let Step::Cross(side) = step {
                 let key = key(Edge::new(cell, side));

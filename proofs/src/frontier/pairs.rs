@@ -3,7 +3,7 @@
 
 use std::collections::VecDeque;
 
-use tautline_kernel::choice::Oracle;
+use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::frontier::{
     Condition, Map, Next, Other, Place, Reached, Robot, Rule, Scratch, Sight, Slot, Status, TinyMap, View,
 };
@@ -12,10 +12,10 @@ use tautline_kernel::ground::{Area, Cell, Side};
 use crate::engine::{Outcome, Stop, Tape, require};
 use crate::words::counted;
 
-/// Columns and rows.
-const SIZE: (i16, i16) = (3, 2);
+/// Columns and rows: on each map some cells are farther from the rim across than along it, on the other one the other way.
+const SIZES: [(i16, i16); 2] = [(3, 2), (2, 3)];
 
-const CELLS: usize = (SIZE.0 * SIZE.1) as usize;
+const CELLS: usize = 6;
 
 /// The most robots.
 const ROBOTS: usize = 3;
@@ -26,9 +26,8 @@ pub(super) const COVERS: [&str; 3] = ["a pair of its own", "all cells are the ot
 /// What [`goes`] looks at.
 pub(super) fn teams() -> String {
     format!(
-        "every map of {}×{} cells, all cells and claims of at most {}",
-        SIZE.0,
-        SIZE.1,
+        "every map of {} cells, all cells and claims of at most {}",
+        SIZES.map(|(columns, rows)| format!("{columns}×{rows}")).join(" and "),
         counted(ROBOTS as u64, "robot")
     )
 }
@@ -41,7 +40,8 @@ type Known = (Cell, Option<Cell>);
 /// # Errors
 /// [`Stop`] if the clause is broken.
 pub(super) fn goes(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
-    let area = Area::new(Cell::new(0, 0), Cell::new(SIZE.0 - 1, SIZE.1 - 1)).ok_or(Stop::Assumed)?;
+    let (columns, rows) = one_of(oracle, &SIZES);
+    let area = Area::new(Cell::new(0, 0), Cell::new(columns - 1, rows - 1)).ok_or(Stop::Assumed)?;
     let cells: Vec<Cell> = area.cells().collect();
     let robots = 1 + oracle.pick(ROBOTS as u32);
     let places: Vec<Cell> = (0..robots).map(|_| cells[oracle.pick(CELLS as u32) as usize]).collect();
@@ -114,7 +114,8 @@ fn expected(map: &TinyMap, team: &[Known]) -> (Option<Cell>, Option<Cell>) {
             let Some(distance) = ways(map, at, cell) else { continue };
             let beside = Side::ALL.map(|side| map.status(cell.beyond(side)));
             let unexplored = beside.into_iter().filter(|&status| status == Status::Unexplored).count();
-            let to_rim = cell.x.min(cell.y).min(SIZE.0 - 1 - cell.x).min(SIZE.1 - 1 - cell.y);
+            let last = map.area().last();
+            let to_rim = cell.x.min(cell.y).min(last.x - cell.x).min(last.y - cell.y);
             let order = (distance, aim != Some(cell), unexplored, to_rim, (at.y, at.x), (cell.y, cell.x));
             pairs.push((order, robot, cell));
         }
