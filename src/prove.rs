@@ -2,9 +2,11 @@
 
 use std::fmt::Write;
 use std::fs;
+use std::num::NonZeroU32;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
+use std::sync::Arc;
 use std::time::Instant;
 
 use clap::Args;
@@ -13,13 +15,13 @@ use serde::Serialize;
 use tautline_proofs::clause::Clause;
 use tautline_proofs::decide::Seen;
 use tautline_proofs::engine::states::Room;
-use tautline_proofs::ledger::{self, Heard, Row, table};
+use tautline_proofs::ledger::{self, Hear, Heard, Limits, PATIENCE_S, Row, table};
 
 use super::evidence::{self, Shown, shown};
 use super::findings::{self, Finding, Format, FormatArgs, Outcome};
 use super::hunt::keep;
 use super::output::Output;
-use super::{Exit, ForceArgs, progress};
+use super::{Exit, ForceArgs, positive, progress};
 use tautline_sim::aside::Replaceable;
 use tautline_sim::counterexample::{hunt, refutation};
 use tautline_sim::fault::{Fault, Halt};
@@ -50,6 +52,9 @@ impl FromStr for Bytes {
     }
 }
 
+/// Seconds that one step may take, unless the user says otherwise.
+const PATIENCE: NonZeroU32 = NonZeroU32::new(PATIENCE_S).expect("it is above 0");
+
 /// Decide the clauses of SPEC.md within their bounds, and print the ledger.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -64,6 +69,10 @@ pub(super) struct Prove {
     /// left open. Without it they take what they need.
     #[arg(long, value_name = "SIZE")]
     memory: Option<Bytes>,
+    /// Seconds that one step may take: a team move, a case, a step between states. Where one does not end by then and no other
+    /// check goes on, its check is left open.
+    #[arg(long, value_name = "SECONDS", value_parser = positive, default_value_t = PATIENCE)]
+    patience: NonZeroU32,
     #[command(flatten)]
     force: ForceArgs,
     #[command(flatten)]
@@ -76,6 +85,8 @@ pub(super) struct Ledger {
     as_registered: bool,
     /// Whether a search was cut off for want of memory.
     out_of_memory: bool,
+    /// Whether a step of a check did not end.
+    unended: bool,
 }
 
 #[derive(JsonSchema, Serialize)]
@@ -93,6 +104,9 @@ struct Line {
     /// Where it is stored, if it is.
     file: Option<String>,
     mutants: Mutants,
+    /// Why the check, or a mutant, was not decided, if a step did not end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    undecided: Option<String>,
     seconds: f64,
 }
 
@@ -119,22 +133,30 @@ impl Prove {
         }
         let checks = ledger::checks(&clauses);
         let threads = rayon::current_num_threads() as u64;
-        let room = self.memory.map(|Bytes(bytes)| Room::of(bytes, threads));
-        let room = room.as_ref().unwrap_or(Room::any());
+        let room = self.memory.map_or(Room::unbounded(), |Bytes(bytes)| Room::of(bytes, threads));
+        let limits = Limits { room: Arc::new(room), patience_s: self.patience.get() };
+        let room = &*limits.room;
         let bar = progress::bar("proving", 1);
         let start = Instant::now();
         let is_single = checks.len() == 1;
-        let hear = |heard: Heard<'_>| match heard {
-            Heard::Search(progress) if is_single => progress::show(&bar, progress),
+        let (seen, patience) = (bar.clone(), self.patience);
+        let hear: Hear = Arc::new(move |heard: Heard<'_>| match heard {
+            Heard::Search(progress) if is_single => progress::show(&seen, progress),
             Heard::Search(_) => ControlFlow::Continue(()),
             Heard::Done { clause, jobs, of } => {
-                bar.set_length(of as u64);
-                bar.set_position(jobs as u64);
-                bar.set_message(format!("{jobs} of {of}, the last of {clause}"));
+                seen.set_length(of as u64);
+                seen.set_position(jobs as u64);
+                seen.set_message(format!("{jobs} of {of}, the last of {clause}"));
                 ControlFlow::Continue(())
             }
-        };
-        let rows = ledger::decide(&checks, room, &hear)
+            Heard::Unended { clause } => {
+                tracing::warn!(
+                    "a step of {clause} has not ended within {patience} s; the other checks go on"
+                );
+                ControlFlow::Continue(())
+            }
+        });
+        let rows = ledger::decide(&checks, &limits, &hear)
             .map_err(|refused| Fault::usage(refused, "this is a bug in the registry: please report it"))?;
         bar.finish_and_clear();
         tracing::info!("{} checks in {:.1} s", rows.len(), start.elapsed().as_secs_f64());
@@ -147,11 +169,13 @@ impl Prove {
                 None => None,
             });
         }
+        let unfinished = unfinished(&rows, room);
         let as_registered = rows.iter().all(Row::is_as_registered);
         match self.format.format {
             Format::Json => {
                 let clauses = rows.iter().zip(&files).map(line).collect::<Result<_, Halt>>()?;
-                out.json(&Ledger { clauses, as_registered, out_of_memory: room.was_too_small() })?;
+                let (out_of_memory, unended) = (room.was_too_small(), rows.iter().any(is_undecided));
+                out.json(&Ledger { clauses, as_registered, out_of_memory, unended })?;
             }
             Format::Text => {
                 out.text(table(&rows))?;
@@ -159,20 +183,18 @@ impl Prove {
                     out.text(story(row, file.as_deref())?)?;
                 }
                 out.text(last_line(&rows))?;
-                if room.was_too_small() {
-                    out.text(too_small(room))?;
-                }
+                out.text(&unfinished)?;
             }
             Format::Github => {
-                let more = if room.was_too_small() { too_small(room) } else { String::new() };
-                out.text(findings::github(&findings(&rows, room)?, &(last_line(&rows) + &more)))?;
+                let last = last_line(&rows) + &unfinished;
+                out.text(findings::github(&findings(&rows, room)?, &last))?;
             }
             Format::Junit => out.text(findings::junit("prove", &findings(&rows, room)?)?)?,
         }
-        Ok(match (room.was_too_small(), as_registered) {
-            (true, _) => Exit::Unfinished,
-            (false, true) => Exit::Expected,
-            (false, false) => Exit::Violation,
+        Ok(match (unfinished.is_empty(), as_registered) {
+            (false, _) => Exit::Unfinished,
+            (true, true) => Exit::Expected,
+            (true, false) => Exit::Violation,
         })
     }
 
@@ -199,16 +221,31 @@ fn too_small(room: &Room) -> String {
     )
 }
 
+fn is_undecided(row: &Row) -> bool {
+    row.undecided.is_some()
+}
+
+/// Which rows were cut off, and what can be done about it; nothing if none were.
+fn unfinished(rows: &[Row], room: &Room) -> String {
+    let mut text = if room.was_too_small() { too_small(room) } else { String::new() };
+    if rows.iter().any(is_undecided) {
+        text += "A step did not end, so its check is open, or its mutant was not rejected: the code under test loops, or it \
+                 needs more time: give more with --patience.\n";
+    }
+    text
+}
+
 /// The rows as a CI shows them.
 fn findings(rows: &[Row], room: &Room) -> Result<Vec<Finding>, Halt> {
     let found = rows.iter().map(|row| {
         let Row { clause, check, ref decision, seconds, .. } = *row;
         let (verdict, registered) = (decision.verdict.word(), check.expected().word());
         let survived = decision.survived.iter().map(|mutant| format!("the mutant {mutant:?} survives\n"));
-        let outcome = match row.is_as_registered() {
-            true => Outcome::Expected,
-            false if room.was_too_small() => Outcome::Unfinished(too_small(room)),
-            false => Outcome::Broken(
+        let outcome = match (row.is_as_registered(), row.undecided) {
+            (true, _) => Outcome::Expected,
+            (false, Some(undecided)) => Outcome::Unfinished(format!("{undecided}\n")),
+            (false, None) if room.was_too_small() => Outcome::Unfinished(too_small(room)),
+            (false, None) => Outcome::Broken(
                 format!("{verdict}, registered as {registered}"),
                 survived.collect::<String>() + story(row, None)?.trim_start(),
             ),
@@ -224,7 +261,7 @@ fn findings(rows: &[Row], room: &Room) -> Result<Vec<Finding>, Halt> {
 }
 
 fn line((row, file): (&Row, &Option<String>)) -> Result<Line, Halt> {
-    let Row { clause, check, ref decision, seconds, .. } = *row;
+    let Row { clause, check, ref decision, undecided, seconds, .. } = *row;
     let evidence = decision.counterexample.as_ref();
     Ok(Line {
         id: clause.id,
@@ -242,6 +279,7 @@ fn line((row, file): (&Row, &Option<String>)) -> Result<Line, Halt> {
             of: decision.killed.len() + decision.survived.len(),
             survived: decision.survived.clone(),
         },
+        undecided: undecided.map(|undecided| undecided.to_string()),
         seconds,
     })
 }
@@ -281,6 +319,9 @@ fn last_line(rows: &[Row]) -> String {
         let (verdict, expected) = (row.decision.verdict.word(), row.check.expected().word());
         let _ =
             writeln!(text, "{} as {}: {verdict}, registered as {expected}", row.clause.id, row.check.rule());
+        if let Some(undecided) = row.undecided {
+            let _ = writeln!(text, "{}: {undecided}", row.clause.id);
+        }
         for mutant in &row.decision.survived {
             let _ = writeln!(text, "{}: the mutant {mutant:?} survives", row.clause.id);
         }

@@ -12,6 +12,7 @@ pub mod states;
 #[cfg(kani)]
 pub mod symbolic;
 pub mod tree;
+pub mod watchdog;
 
 pub use bodies::{
     Outcome, Replay, Seeded, Stop, Tally, Tape, assume, cover, exhaust, outcomes, require, sample,

@@ -10,7 +10,7 @@ use crate::decide::Verdict;
 use crate::{ants, bricks, chain, frontier, ground, kit, mrc, notice, pack, position, tan};
 
 pub use composition::{Theorem, theorems};
-pub use jobs::{Hear, Heard, decide, decide_all};
+pub use jobs::{Hear, Heard, Limits, PATIENCE_S, Undecided, decide, decide_all};
 
 /// The clauses of each room.
 pub static ROOMS: &[&[Clause]] = &[
@@ -70,14 +70,16 @@ pub struct Row {
     pub check: &'static dyn AnyCheck,
     /// What came of it.
     pub decision: Decision,
+    /// Why nothing came of the check, or of one of its mutants; then it is open, or the mutant is not rejected.
+    pub undecided: Option<Undecided>,
     /// The time that it took, with its mutants, added up over threads.
     pub seconds: f64,
 }
 
 impl Row {
-    /// Whether it came out as it is registered.
+    /// Whether it came out as it is registered. What was not decided is not, even if it is registered as open.
     pub fn is_as_registered(&self) -> bool {
-        self.decision.is_as_registered(self.check)
+        self.undecided.is_none() && self.decision.is_as_registered(self.check)
     }
 
     /// The bound, and how many of its cases were given up.

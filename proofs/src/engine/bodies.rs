@@ -7,6 +7,8 @@ use std::iter;
 use rayon::prelude::*;
 use tautline_kernel::choice::Oracle;
 
+use super::watchdog::{Steps, Task};
+
 /// Why a body stopped before its end.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Stop {
@@ -78,7 +80,9 @@ pub fn cover(covered: &mut Vec<&'static str>, situation: &'static str) {
 pub fn exhaust(mut body: impl FnMut(&mut dyn Oracle) -> Outcome) -> Tally {
     let mut tally = Tally::default();
     let mut odometer = Odometer::default();
+    let steps = Steps::begin();
     loop {
+        steps.next();
         let outcome = body(&mut odometer);
         let choices = odometer.answers();
         if tally.count(outcome, &choices) || !odometer.advance() {
@@ -94,13 +98,14 @@ const WAVE: u64 = 16;
 /// number of threads.
 pub fn sample(runs: u64, seed: u64, body: impl Fn(&mut dyn Oracle) -> Outcome + Sync) -> Tally {
     let mut tally = Tally::default();
-    let mut first = 0;
+    let (mut first, task) = (0, Task::current());
     while first < runs && tally.violation.is_none() {
         let wave = first..runs.min(first + WAVE);
         first = wave.end;
         let outcomes: Vec<_> = wave
             .into_par_iter()
             .map(|run| {
+                let (_working, _steps) = (task.enter(), Steps::begin());
                 let mut recorder = Recorder { oracle: Seeded::new(seed, run), choices: Vec::new() };
                 (body(&mut recorder), recorder.choices)
             })

@@ -11,6 +11,8 @@ use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 
+use super::watchdog::{Steps, Task};
+
 /// Lots that are looked at together.
 const WAVE: usize = 64;
 
@@ -145,7 +147,19 @@ fn looks<L: Lots>(
     wave: &[L::Lot],
     most_steps: u64,
 ) -> Result<Vec<L::Look>, L::Fault> {
-    wave.par_iter().map(|lot| lots.look(stage, lot, most_steps)).collect()
+    let task = Task::current();
+    wave.par_iter().map(|lot| look(lots, stage, lot, (most_steps, task))).collect()
+}
+
+/// Looks at a lot, as a step of `task`.
+fn look<L: Lots>(
+    lots: &L,
+    stage: L::Stage,
+    lot: &L::Lot,
+    (most_steps, task): (u64, Task),
+) -> Result<L::Look, L::Fault> {
+    let (_working, _steps) = (task.enter(), Steps::begin());
+    lots.look(stage, lot, most_steps)
 }
 
 /// Of each stage the shard of each lot: the heaviest lots first, each goes to the shard that has least until then.
@@ -235,8 +249,8 @@ impl<L: Lots> Shard<L> {
             (self.stages.get(self.looks.len().wrapping_sub(1)), self.looks.last_mut())
         {
             let wave: Vec<&L::Lot> = self.own.iter().skip(taken.len()).take(WAVE).collect();
-            let lots = &self.lots;
-            let new = wave.into_par_iter().map(|lot| lots.look(stage, lot, u64::MAX));
+            let (lots, task) = (&self.lots, Task::current());
+            let new = wave.into_par_iter().map(|lot| look(lots, stage, lot, (u64::MAX, task)));
             let new = new.collect::<Result<Vec<_>, _>>()?;
             self.left = self.left.saturating_sub(new.iter().map(Look::steps).sum());
             taken.extend(new);

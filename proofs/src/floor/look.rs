@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use crate::course::Course;
 use crate::decide::{Answer, Seen, Verdict};
 use crate::engine::states::{END, Found, Limits, Run, System, search};
+use crate::engine::watchdog::Task;
 use crate::engine::{Tally, Until, cover};
 
 /// What the states of small floors have shown.
@@ -77,7 +78,9 @@ fn search_each<S: System<Demand = &'static str> + Sync>(
     (limits, until): (Limits<'_>, Until),
 ) -> Vec<Found<&'static str>> {
     let last = AtomicUsize::new(usize::MAX);
+    let task = Task::current();
     let each = systems.par_iter().enumerate().with_max_len(1).map(|(place, system)| {
+        let _working = task.enter();
         if last.load(Ordering::Relaxed) < place {
             return None;
         }

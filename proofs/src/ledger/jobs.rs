@@ -1,12 +1,18 @@
 //! How checks are decided on all cores: what is a job of its own, and what becomes of the jobs. Rows do not depend on how
-//! many cores there are.
+//! many cores there are. Whoever wants the rows waits for them on a thread of their own, and looks once a second whether a step of
+//! a job still goes on: a job that does not come back from a step is left behind, with its thread.
 
+use std::any::Any;
 use std::cmp::Reverse;
+use std::fmt;
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::Instant;
+use std::panic::{self, AssertUnwindSafe};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::{Duration, Instant};
 
-use rayon::prelude::*;
+use rayon::Yield;
 
 use super::{Row, checks};
 use crate::clause::{Clause, Decision};
@@ -14,6 +20,7 @@ use crate::decide::{Answer, Desk, Memory, Refused, Verdict};
 use crate::engine::Until;
 use crate::engine::states::Room;
 use crate::engine::tree::Progress;
+use crate::engine::watchdog::{BETWEEN_LOOKS, Task, Watchdog};
 
 /// What is heard while checks are decided.
 #[derive(Clone, Copy, Debug)]
@@ -29,56 +36,271 @@ pub enum Heard<'a> {
         /// How many there are.
         of: usize,
     },
+    /// A step of a job has not ended for too long. The other jobs go on.
+    Unended {
+        /// The clause that the job is about.
+        clause: &'static str,
+    },
 }
 
 /// Hears how far the deciding is, from any thread, and may end a search: its check is left open then.
-pub type Hear<'a> = &'a (dyn Fn(Heard<'_>) -> ControlFlow<()> + Sync);
+pub type Hear = Arc<dyn Fn(Heard<'_>) -> ControlFlow<()> + Send + Sync>;
+
+/// What the deciding may take.
+#[derive(Clone, Debug)]
+pub struct Limits {
+    /// The memory that searches over states may take together.
+    pub room: Arc<Room>,
+    /// Seconds that one step may take: a team move, a case of a body, a step between states. They are far more than any step takes that
+    /// ends, on any machine.
+    pub patience_s: u32,
+}
+
+/// Seconds that one step may take, unless somebody wants otherwise.
+pub const PATIENCE_S: u32 = 60;
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { room: Arc::new(Room::unbounded()), patience_s: PATIENCE_S }
+    }
+}
+
+/// Why nothing came of a check, or of one of its mutants.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Undecided {
+    /// One of its steps did not end.
+    Unended {
+        /// The mutant whose step it was; none if it was a step of the rule.
+        mutant: Option<&'static str>,
+        /// How long the step was waited for.
+        seconds: u32,
+    },
+    /// A step of another check did not end, and no thread was left to go on.
+    Behind,
+}
+
+impl fmt::Display for Undecided {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unended { mutant: None, seconds } => {
+                write!(f, "a step of the rule did not end within {seconds} s")
+            }
+            Self::Unended { mutant: Some(mutant), seconds } => {
+                write!(f, "a step of the mutant {mutant:?} did not end within {seconds} s")
+            }
+            Self::Behind => f.write_str("not decided, since a step of another check did not end"),
+        }
+    }
+}
 
 /// Decides all checks of `clauses`, on all cores.
 ///
 /// # Errors
 /// [`Refused`] if a method cannot begin.
 pub fn decide_all(clauses: &[&'static Clause]) -> Result<Vec<Row>, Refused> {
-    decide(&checks(clauses), Room::any(), &|_| ControlFlow::Continue(()))
+    decide(
+        &checks(clauses),
+        &Limits::default(),
+        &(Arc::new(|_: Heard<'_>| ControlFlow::Continue(())) as Hear),
+    )
 }
 
 /// Decides `checks`, on all cores; the rows are in their order. Checks that share what is found are decided by one thread,
-/// which forgets it after the last of them. Searches over states together take the memory of `room`.
+/// which forgets it after the last of them. Where a step does not end, its check is left open, with those that wait for it; all
+/// others are decided. A thread that makes such a step is left behind: it ends with the process.
 ///
 /// # Errors
 /// [`Refused`] if a method cannot begin.
-pub fn decide(checks: &[(&'static Clause, usize)], room: &Room, hear: Hear<'_>) -> Result<Vec<Row>, Refused> {
-    let jobs = jobs(checks);
-    let (of, ended) = (jobs.len(), AtomicUsize::new(0));
-    let work = |job: &Job| {
-        let memory = &mut Memory::default();
-        let watch = &mut |progress: &Progress<'_>| hear(Heard::Search(progress));
-        let done = job.work(checks, &mut Desk { memory, watch, room });
-        let jobs = ended.fetch_add(1, Ordering::Relaxed) + 1;
-        // Nothing can be ended here.
-        let _ = hear(Heard::Done { clause: checks[job.place()].0.id, jobs, of });
-        done
-    };
-    let done: Vec<Vec<Done>> = jobs.par_iter().with_max_len(1).map(work).collect::<Result<_, _>>()?;
-    let mut done: Vec<Done> = done.into_iter().flatten().collect();
-    done.sort_by_key(|done| done.question);
-    let mut rows: Vec<Row> = Vec::new();
-    for Done { question: Question { place, .. }, seconds, came } in done {
-        let (clause, number) = checks[place];
-        match (came, rows.last_mut()) {
-            (Came::Own(answer), _) => {
-                let check = clause.checks[number];
-                rows.push(Row { clause, number, check, decision: Decision::of(answer), seconds });
+pub fn decide(
+    checks: &[(&'static Clause, usize)],
+    limits: &Limits,
+    hear: &Hear,
+) -> Result<Vec<Row>, Refused> {
+    let (jobs, (tell, told)) = (Arc::new(jobs(checks)), channel());
+    let tasks: Vec<Task> = Task::several(jobs.len()).collect();
+    let shared = Arc::new(Shared {
+        checks: checks.to_vec(),
+        limits: limits.clone(),
+        hear: Arc::clone(hear),
+        ended: AtomicUsize::new(0),
+        is_over: AtomicBool::new(false),
+    });
+    for (number, &task) in tasks.iter().enumerate() {
+        let (shared, jobs, tell) = (Arc::clone(&shared), Arc::clone(&jobs), tell.clone());
+        rayon::spawn_fifo(move || shared.work(&jobs, (number, task), &tell));
+    }
+    let waiting = Waiting { jobs: &jobs, tasks: &tasks, shared: &shared };
+    let came = waiting.wait(&told);
+    shared.is_over.store(true, Ordering::Relaxed);
+    // As long as this one could tell something, nobody is without news.
+    drop(tell);
+    let (done, unended) = came?;
+    Ok(waiting.rows(done, &unended))
+}
+
+/// What the threads share that decide.
+struct Shared {
+    checks: Vec<(&'static Clause, usize)>,
+    limits: Limits,
+    hear: Hear,
+    /// Jobs that are done.
+    ended: AtomicUsize,
+    /// Whether nobody waits any more.
+    is_over: AtomicBool,
+}
+
+/// What a thread tells whoever waits.
+enum Told {
+    Done(Done),
+    Refused(Refused),
+    /// A bug, which is the waiting thread's to raise.
+    Bug(Box<dyn Any + Send>),
+    /// A job has ended.
+    End,
+}
+
+impl Shared {
+    /// Does a job, and tells of each question when it is answered.
+    fn work(&self, jobs: &[Job], (number, task): (usize, Task), tell: &Sender<Told>) {
+        if self.is_over.load(Ordering::Relaxed) {
+            return;
+        }
+        let _working = task.enter();
+        // Who has gone wants to hear nothing.
+        let send = |told| drop(tell.send(told));
+        let work = || {
+            let job = &jobs[number];
+            let memory = &mut Memory::default();
+            let watch = &mut |progress: &Progress<'_>| (self.hear)(Heard::Search(progress));
+            let mut desk = Desk { memory, watch, room: &self.limits.room };
+            for &question in &job.questions {
+                match job.answer(question, &self.checks, &mut desk) {
+                    Ok(done) => send(Told::Done(done)),
+                    Err(refused) => return send(Told::Refused(refused)),
+                }
             }
-            (Came::Mutant(name, verdict), Some(row)) => {
-                row.decision.add(name, verdict);
-                row.seconds += seconds;
-            }
-            // A check comes before its mutants.
-            (Came::Mutant(..), None) => {}
+            let ended = self.ended.fetch_add(1, Ordering::Relaxed) + 1;
+            let clause = self.checks[job.place()].0.id;
+            // Nothing can be ended here.
+            let _ = (self.hear)(Heard::Done { clause, jobs: ended, of: jobs.len() });
+            send(Told::End);
+        };
+        if let Err(bug) = panic::catch_unwind(AssertUnwindSafe(work)) {
+            send(Told::Bug(bug));
         }
     }
-    Ok(rows)
+}
+
+/// Whoever waits for the answers.
+struct Waiting<'a> {
+    jobs: &'a [Job],
+    tasks: &'a [Task],
+    shared: &'a Shared,
+}
+
+impl Waiting<'_> {
+    /// All answers; or those that there are when a step does not end and no other job goes on, and the numbers of the jobs that have
+    /// such a step.
+    fn wait(&self, told: &Receiver<Told>) -> Result<(Vec<Done>, Vec<usize>), Refused> {
+        let (patience_s, mut watchdog) = (self.shared.limits.patience_s, Watchdog::new(self.tasks));
+        let (mut done, mut unended, mut left) = (Vec::new(), Vec::new(), self.jobs.len());
+        let mut next_look = Instant::now() + BETWEEN_LOOKS;
+        while left > 0 {
+            match next(told, next_look) {
+                Some(Told::Done(answer)) => done.push(answer),
+                Some(Told::Refused(refused)) => return Err(refused),
+                Some(Told::Bug(bug)) => panic::resume_unwind(bug),
+                Some(Told::End) => left -= 1,
+                None => {}
+            }
+            if Instant::now() < next_look {
+                continue;
+            }
+            watchdog.look();
+            next_look = Instant::now() + BETWEEN_LOOKS;
+            let number = |task: Task| self.tasks.iter().position(|one| *one == task);
+            let silent: Vec<usize> = watchdog.silent(patience_s).filter_map(number).collect();
+            for number in silent.iter().filter(|number| !unended.contains(*number)) {
+                let clause = self.shared.checks[self.jobs[*number].place()].0.id;
+                // Nothing can be ended here.
+                let _ = (self.shared.hear)(Heard::Unended { clause });
+            }
+            unended = silent;
+            if !unended.is_empty() && watchdog.is_all_silent(patience_s) {
+                break;
+            }
+        }
+        Ok((done, unended))
+    }
+
+    /// What stands for the questions without an answer.
+    fn missing(&self, done: &[Done], unended: &[usize]) -> Vec<Done> {
+        let mut missing = Vec::new();
+        for (number, job) in self.jobs.iter().enumerate() {
+            let is_answered = |question: &Question| done.iter().any(|done| done.question == *question);
+            // The thread of a job is at the first question without an answer.
+            let mut is_unended = unended.contains(&number);
+            for &question in job.questions.iter().filter(|question| !is_answered(question)) {
+                let mutant = question.mutant_name(&self.shared.checks);
+                let came = match mutant {
+                    None => Came::Own(Answer::new(None, false, Verdict::Open, 0)),
+                    Some(name) => Came::Mutant(name, Verdict::Open),
+                };
+                let undecided = if is_unended {
+                    Undecided::Unended { mutant, seconds: self.shared.limits.patience_s }
+                } else {
+                    Undecided::Behind
+                };
+                is_unended = false;
+                missing.push(Done { question, seconds: 0.0, came, undecided: Some(undecided) });
+            }
+        }
+        missing
+    }
+
+    /// The row of each check.
+    fn rows(&self, mut done: Vec<Done>, unended: &[usize]) -> Vec<Row> {
+        done.extend(self.missing(&done, unended));
+        done.sort_by_key(|done| done.question);
+        let mut rows: Vec<Row> = Vec::new();
+        for Done { question: Question { place, .. }, seconds, came, undecided } in done {
+            let (clause, number) = self.shared.checks[place];
+            match (came, rows.last_mut()) {
+                (Came::Own(answer), _) => {
+                    let (check, decision) = (clause.checks[number], Decision::of(answer));
+                    rows.push(Row { clause, number, check, decision, undecided, seconds });
+                }
+                (Came::Mutant(name, verdict), Some(row)) => {
+                    row.decision.add(name, verdict);
+                    row.undecided = [row.undecided, undecided].into_iter().flatten().min();
+                    row.seconds += seconds;
+                }
+                // A check comes before its mutants.
+                (Came::Mutant(..), None) => {}
+            }
+        }
+        rows
+    }
+}
+
+/// The time between two attempts to be of use to the other threads.
+const IDLE: Duration = Duration::from_millis(1);
+
+/// What is told next, if anything is before `until`. A thread that is itself one of those that do the work does some meanwhile:
+/// it may be the only one. A step that does not end is its end, too, then.
+fn next(told: &Receiver<Told>, until: Instant) -> Option<Told> {
+    loop {
+        let rest = until.saturating_duration_since(Instant::now());
+        let wait = match rayon::yield_now() {
+            None => rest,
+            Some(Yield::Idle) => rest.min(IDLE),
+            Some(Yield::Executed) => Duration::ZERO,
+        };
+        let told = told.recv_timeout(wait).ok();
+        if told.is_some() || rest.is_zero() {
+            return told;
+        }
+    }
 }
 
 /// Work that can be done beside other work: questions that share what is found, one after the other.
@@ -94,11 +316,21 @@ struct Question {
     mutant: Option<usize>,
 }
 
-/// A question that is answered.
+impl Question {
+    /// The name of the mutant that it is about, if it is about one.
+    fn mutant_name(self, checks: &[(&'static Clause, usize)]) -> Option<&'static str> {
+        let (clause, number) = checks[self.place];
+        let mutants = clause.checks[number].mutants();
+        self.mutant.map(|mutant| mutants.get(mutant).copied().unwrap_or_default())
+    }
+}
+
+/// A question that is answered, or given up.
 struct Done {
     question: Question,
     seconds: f64,
     came: Came,
+    undecided: Option<Undecided>,
 }
 
 /// What came of it.
@@ -153,25 +385,24 @@ impl Job {
         self.questions.first().map_or(0, |question| question.place)
     }
 
-    fn work(
+    /// Answers one of its questions.
+    fn answer(
         &self,
+        question: Question,
         checks: &[(&'static Clause, usize)],
         desk: &mut Desk<'_, '_>,
-    ) -> Result<Vec<Done>, Refused> {
-        let answered = |&question: &Question| {
-            let start = Instant::now();
-            let (clause, number) = checks[question.place];
-            let check = clause.checks[number];
-            let came = match question.mutant {
-                None => Came::Own(check.decide_own(desk)?),
-                Some(number) => {
-                    let name = check.mutants().get(number).copied().unwrap_or_default();
-                    Came::Mutant(name, check.decide_mutant(number, self.until, desk)?)
-                }
-            };
-            Ok(Done { question, seconds: start.elapsed().as_secs_f64(), came })
+    ) -> Result<Done, Refused> {
+        let start = Instant::now();
+        let (clause, number) = checks[question.place];
+        let check = clause.checks[number];
+        let came = match question.mutant {
+            None => Came::Own(check.decide_own(desk)?),
+            Some(mutant) => {
+                let name = question.mutant_name(checks).unwrap_or_default();
+                Came::Mutant(name, check.decide_mutant(mutant, self.until, desk)?)
+            }
         };
-        self.questions.iter().map(answered).collect()
+        Ok(Done { question, seconds: start.elapsed().as_secs_f64(), came, undecided: None })
     }
 }
 

@@ -7,6 +7,7 @@ use super::Observed;
 use super::spread::{Demand, Event, Links, Point, Spread, ones};
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
 use crate::engine::states::{Limits, Run, Step, System, search};
+use crate::engine::watchdog::Task;
 use crate::engine::{Choices, Script, Stop, Tally, Unfit, Until, cover};
 
 /// The largest network of which every state is looked at.
@@ -218,9 +219,11 @@ impl Networks {
 fn show(observed: &Observed) -> Vec<Shown> {
     let mut rules = Rules::EveryK.list(observed);
     rules.push(observed.rule(Scheme::Flooding));
-    let shapes = shapes();
+    let (shapes, task) = (shapes(), Task::current());
     let show = |rule: Rule| {
+        let _working = task.enter();
         let look = |&links: &Links<SMALL>| {
+            let _working = task.enter();
             search(&Case { links, rule, demands: &Demand::ALL }, [Spread::start(&links)], Limits::NONE)
         };
         let found: Vec<_> = shapes.par_iter().map(look).collect();

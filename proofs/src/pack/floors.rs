@@ -7,6 +7,7 @@ use tautline_kernel::pack::Rule;
 use super::gains::Gains;
 use super::played::{Demand, Floor, play, story};
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen, Verdict};
+use crate::engine::watchdog::Steps;
 use crate::engine::{Choices, Script, Unfit, Until, cover};
 use crate::words::counted;
 
@@ -111,10 +112,12 @@ impl Bounds {
     fn search(&self, rule: &Rule, until: Option<Demand>) -> Result<Found, Refused> {
         let rule = self.rule(rule)?;
         let mut found = Found { runs: 0, covered: Vec::new(), broken: [None; Demand::ALL.len()] };
+        let steps = Steps::begin();
         for number in 0..self.count() {
             let (area, sets) = self.layouts(number)?;
             for (set, obstacles) in sets.into_iter().enumerate() {
                 for (start, starts) in self.starts(area, obstacles).into_iter().enumerate() {
+                    steps.next();
                     let Some(played) = play(&rule, &Floor { area, obstacles, starts }, self.gains) else {
                         continue;
                     };

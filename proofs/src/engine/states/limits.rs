@@ -25,8 +25,7 @@ impl Limits<'static> {
 }
 
 /// Room for whatever there is.
-static ANY: Room =
-    Room { most: u64::MAX, small: u64::MAX, large: Mutex::new(()), was_too_small: AtomicBool::new(false) };
+static ANY: Room = Room::unbounded();
 
 /// The memory that searches beside each other may take together.
 #[derive(Debug)]
@@ -45,6 +44,11 @@ impl Room {
     /// As much as there is.
     pub const fn any() -> &'static Self {
         &ANY
+    }
+
+    /// As much as there is, for searches of one's own.
+    pub const fn unbounded() -> Self {
+        Self { most: u64::MAX, small: u64::MAX, large: Mutex::new(()), was_too_small: AtomicBool::new(false) }
     }
 
     /// `bytes` for at most `beside` searches at a time: three quarters of it for the large one, and the rest in equal

@@ -9,6 +9,7 @@ use super::limits::{Limits, Taken};
 use super::rounds::TooLarge;
 use super::{Bits, END, Ending, Found, Places, Run, Step, System};
 use crate::engine::cover;
+use crate::engine::watchdog::Steps;
 
 /// Searches all states that `system` gets to from `starts`, until enough is broken or one of the `limits` is reached.
 pub fn search<S: System>(
@@ -20,7 +21,10 @@ pub fn search<S: System>(
     for (start, state) in (0..).zip(starts) {
         search.meet_start(start, state);
     }
-    let mut stop = search.look_at_all(limits.most_steps).break_value();
+    let making = Steps::begin();
+    let mut stop = search.look_at_all(limits.most_steps, &making).break_value();
+    // What follows makes no step that was not made before, and may take its time.
+    making.leave();
     if let (None, Some(demand)) = (stop, system.broken_by_endless_runs()) {
         stop = search.look_for_rounds(demand).err().map(|TooLarge| Stop::TooMany);
     }
@@ -106,16 +110,18 @@ impl<'a, S: System> Search<'a, S> {
     }
 
     /// Makes all steps from all nodes.
-    fn look_at_all(&mut self, most_steps: u64) -> ControlFlow<Stop> {
+    fn look_at_all(&mut self, most_steps: u64, making: &Steps) -> ControlFlow<Stop> {
         while self.looked_at < self.known.len()
             && let Some(state) = self.state(self.looked_at)
         {
+            // A search may wait for memory that another one has.
+            making.leave();
             let is_due = self.looked_at.is_multiple_of(BETWEEN);
             if is_due && !self.taken.hold(self.known.bytes() + self.graph.bytes()) {
                 return ControlFlow::Break(Stop::TooMany);
             }
             let node = self.looked_at;
-            let flow = self.look(node, &state, most_steps);
+            let flow = self.look((node, &state), most_steps, making);
             self.shown = Some(state);
             flow?;
         }
@@ -123,12 +129,19 @@ impl<'a, S: System> Search<'a, S> {
     }
 
     /// Makes all steps from the next node, whose state it is.
-    fn look(&mut self, node: usize, state: &S::State, most_steps: u64) -> ControlFlow<Stop> {
+    fn look(
+        &mut self,
+        (node, state): (usize, &S::State),
+        most_steps: u64,
+        making: &Steps,
+    ) -> ControlFlow<Stop> {
+        making.next();
         let system = self.system;
         self.looked_at += 1;
         self.graph.go_on(|| system.owed(state));
         let (mut is_last, mut is_still) = (true, true);
         for (number, step) in (0..).zip(system.steps(state)) {
+            making.next();
             let Step { state: mut to, situation, acting, is_bound, breaks } = step;
             if self.steps == most_steps || self.graph.is_full() {
                 return ControlFlow::Break(Stop::TooMany);

@@ -13,6 +13,7 @@ use super::forecast::{self, Forecast};
 use super::lane::{Lane, Place};
 use super::search::{Position, Tree};
 use super::{Game, Level, Unsearchable, Waves};
+use crate::engine::watchdog::Steps;
 
 /// For each number of walls, from none on, the places where a search begins.
 pub(super) type Ways = Vec<Vec<Place>>;
@@ -118,10 +119,10 @@ impl<G: Game> Tree<G> {
     /// A level in parts, of which no more than `most` is left unless they cannot be divided; and how much is left of each.
     fn divided(&mut self, walls: usize, forecast: &Forecast, most: u64) -> Vec<(u64, Place)> {
         let mut parts = Vec::new();
-        let mut large = vec![Lane::whole(&self.game, walls as u32)];
+        let (mut large, steps) = (vec![Lane::whole(&self.game, walls as u32)], Steps::begin());
         while let Some(mut lane) = large.pop() {
             self.count.made = 0;
-            lane.search(&self.game, MOVES, u64::MAX, &mut self.count);
+            lane.search(&self.game, (MOVES, u64::MAX), &steps, &mut self.count);
             while lane.left(forecast) > most
                 && let Some(part) = lane.split()
             {

@@ -13,6 +13,7 @@ use super::forecast::Forecast;
 use super::share::Share;
 use super::{Broken, Game, Turn};
 use crate::engine::Unfit;
+use crate::engine::watchdog::Steps;
 
 /// One answer of the world.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -260,8 +261,15 @@ impl<G: Game> Lane<G> {
     }
 
     /// Searches on until `count` has `made` team moves, or `new` ones that are new.
-    pub(super) fn search(&mut self, game: &G, made: u64, new: u64, count: &mut Count<G::Demand>) {
+    pub(super) fn search(
+        &mut self,
+        game: &G,
+        (made, new): (u64, u64),
+        steps: &Steps,
+        count: &mut Count<G::Demand>,
+    ) {
         while count.made < made && count.moves < new {
+            steps.next();
             match self.next {
                 Next::Advance => {
                     let before = self.state;

@@ -12,6 +12,7 @@ use super::forecast::Forecast;
 use super::lane::{self, Lane, Place, Replayed};
 use super::share::Share;
 use super::{Counterexample, Found, Game, Level, Limits, Progress, Unsearchable, Watch};
+use crate::engine::watchdog::{Steps, Task};
 use crate::engine::{Unfit, Until};
 
 /// Where a search is. Read back, it goes on from here and comes out as if it had never been interrupted.
@@ -257,14 +258,15 @@ impl<G: Game> Tree<G> {
             shares.push(share);
             rest = others;
         }
-        let game = &self.game;
+        let (game, task) = (&self.game, Task::current());
         let counts: Vec<Count<_>> = shares
             .into_par_iter()
             .with_max_len(1)
             .map(|share| {
+                let (_working, steps) = (task.enter(), Steps::begin());
                 let mut count = Count::default();
                 for lane in share {
-                    lane.search(game, moves, budget, &mut count);
+                    lane.search(game, (moves, budget), &steps, &mut count);
                 }
                 count
             })

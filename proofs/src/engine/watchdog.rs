@@ -1,0 +1,298 @@
+//! The watchdog over steps. Code under test may loop for ever inside one step: a team move, a case of a body, the steps from a
+//! state, a look at a lot. No engine gets the control back then, and no thread can be ended by another one. So each thread counts the
+//! steps that it makes, and whoever waits for its work looks at the counts once a second. A task is *silent* while one of its
+//! threads is inside a step and none of them begins another one. A task that is silent for too long is given up, and its thread is
+//! left behind.
+//!
+//! Seconds are counted in looks: a process that was stopped, or a machine that slept, makes nobody impatient. A count is written by
+//! its own thread alone, on a cache line of its own, so that counting costs two plain memory accesses for each step.
+
+use std::cell::Cell;
+use std::collections::BTreeMap;
+use std::marker::PhantomData;
+use std::ops::Range;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::time::Duration;
+
+/// The time between two looks.
+pub const BETWEEN_LOOKS: Duration = Duration::from_secs(1);
+
+/// The steps that a thread makes. Lines of two caches are fetched together on some processors, so it takes two.
+#[repr(align(128))]
+struct Pulse {
+    /// The task that its thread works on.
+    task: AtomicU64,
+    /// Twice the steps that its thread has begun or left, and 1 more while it is inside of one.
+    beats: AtomicU64,
+}
+
+impl Pulse {
+    /// Whether its thread is inside a step.
+    fn is_inside(&self) -> bool {
+        self.beats.load(Ordering::Relaxed) & INSIDE != 0
+    }
+
+    /// Counts a step that begins. Nobody but its own thread writes it.
+    #[inline]
+    fn begin(&self) {
+        let beats = self.beats.load(Ordering::Relaxed);
+        self.beats.store((beats | INSIDE).wrapping_add(BEAT), Ordering::Relaxed);
+    }
+
+    /// Counts a step that is left.
+    #[inline]
+    fn leave(&self) {
+        let beats = self.beats.load(Ordering::Relaxed);
+        self.beats.store((beats & !INSIDE).wrapping_add(BEAT), Ordering::Relaxed);
+    }
+
+    /// Goes back to where its thread was before it took up other work.
+    fn go_back(&self, was_inside: bool) {
+        if was_inside { self.begin() } else { self.leave() }
+    }
+}
+
+const INSIDE: u64 = 1;
+const BEAT: u64 = 2;
+
+/// The pulses of all threads that ever made a step, as long as the threads live.
+static PULSES: Mutex<Vec<Weak<Pulse>>> = Mutex::new(Vec::new());
+
+/// The first task that no one has.
+static NEXT: AtomicU64 = AtomicU64::new(1);
+
+thread_local! {
+    static OWN: Arc<Pulse> = {
+        let pulse = Arc::new(Pulse { task: AtomicU64::new(0), beats: AtomicU64::new(0) });
+        PULSES.lock().unwrap_or_else(PoisonError::into_inner).push(Arc::downgrade(&pulse));
+        pulse
+    };
+}
+
+/// Work whose steps are counted together: a job of the ledger, say, on whatever threads.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct Task(u64);
+
+impl Task {
+    /// So many new tasks.
+    pub fn several(count: usize) -> impl ExactSizeIterator<Item = Self> {
+        let first = NEXT.fetch_add(count as u64, Ordering::Relaxed);
+        (0..count).map(move |number| Self(first + number as u64))
+    }
+
+    /// The task that this thread works on. What it shares out among other threads is theirs to enter.
+    pub fn current() -> Self {
+        Self(OWN.with(|pulse| pulse.task.load(Ordering::Relaxed)))
+    }
+
+    /// Lets this thread work on the task until what is returned is dropped. A thread that waits for others may take up other work
+    /// meanwhile: it is outside of its step then, and inside again when it comes back.
+    #[must_use]
+    pub fn enter(self) -> Working {
+        let pulse = OWN.with(Arc::clone);
+        let before = Self(pulse.task.load(Ordering::Relaxed));
+        let was_inside = pulse.is_inside();
+        pulse.leave();
+        pulse.task.store(self.0, Ordering::Relaxed);
+        Working { pulse, before, was_inside, of_this_thread: PhantomData }
+    }
+}
+
+/// The time in which a thread works on a task.
+pub struct Working {
+    pulse: Arc<Pulse>,
+    before: Task,
+    was_inside: bool,
+    of_this_thread: PhantomData<Cell<()>>,
+}
+
+impl Drop for Working {
+    fn drop(&mut self) {
+        self.pulse.task.store(self.before.0, Ordering::Relaxed);
+        self.pulse.go_back(self.was_inside);
+    }
+}
+
+/// The time in which a thread makes steps. It is inside a step until it leaves it, or this is dropped.
+pub struct Steps {
+    pulse: Arc<Pulse>,
+    was_inside: bool,
+    of_this_thread: PhantomData<Cell<()>>,
+}
+
+impl Steps {
+    /// This thread begins a step.
+    #[must_use]
+    pub fn begin() -> Self {
+        let pulse = OWN.with(Arc::clone);
+        let was_inside = pulse.is_inside();
+        pulse.begin();
+        Self { pulse, was_inside, of_this_thread: PhantomData }
+    }
+
+    /// The next step begins.
+    #[inline]
+    pub fn next(&self) {
+        self.pulse.begin();
+    }
+
+    /// The step has ended. Whatever is done before the next one may take its time.
+    #[inline]
+    pub fn leave(&self) {
+        self.pulse.leave();
+    }
+}
+
+impl Drop for Steps {
+    fn drop(&mut self) {
+        self.pulse.go_back(self.was_inside);
+    }
+}
+
+/// The threads that are inside a step of a task, each with its count.
+type Inside = Vec<(usize, u64)>;
+
+/// Looks at the tasks of a range, and tells how long each has been silent.
+pub struct Watchdog {
+    tasks: Range<u64>,
+    /// The tasks of which a thread is inside a step, as they were at the last look, and for how many looks they have been so.
+    known: BTreeMap<Task, (Inside, u32)>,
+    /// The counts of all threads at work on the tasks, at the last look, and for how many looks they have been so.
+    all: (Inside, u32),
+}
+
+impl Watchdog {
+    /// Watches these tasks, which follow one another.
+    pub fn new(tasks: &[Task]) -> Self {
+        let first = tasks.first().map_or(0, |task| task.0);
+        Self { tasks: first..first + tasks.len() as u64, known: BTreeMap::new(), all: (Vec::new(), 0) }
+    }
+
+    /// Looks at the counts, [`BETWEEN_LOOKS`] after the last time.
+    pub fn look(&mut self) {
+        let mut inside: BTreeMap<Task, Inside> = BTreeMap::new();
+        let mut all = Vec::new();
+        let mut pulses = PULSES.lock().unwrap_or_else(PoisonError::into_inner);
+        pulses.retain(|pulse| {
+            let Some(pulse) = pulse.upgrade() else { return false };
+            let task = pulse.task.load(Ordering::Relaxed);
+            if self.tasks.contains(&task) {
+                let count = (Arc::as_ptr(&pulse).addr(), pulse.beats.load(Ordering::Relaxed));
+                all.push(count);
+                if pulse.is_inside() {
+                    inside.entry(Task(task)).or_default().push(count);
+                }
+            }
+            true
+        });
+        drop(pulses);
+        let silent = |before: Option<&(Inside, u32)>, now: &Inside| match before {
+            Some((before, looks)) if before == now => looks.saturating_add(1),
+            Some(_) | None => 0,
+        };
+        let looks = silent(Some(&self.all), &all);
+        self.all = (all, looks);
+        let known = inside.into_iter().map(|(task, now)| {
+            let looks = silent(self.known.get(&task), &now);
+            (task, (now, looks))
+        });
+        self.known = known.collect();
+    }
+
+    /// The tasks that have been silent for at least so many seconds.
+    pub fn silent(&self, seconds: u32) -> impl Iterator<Item = Task> {
+        self.known.iter().filter(move |(_, (_, looks))| *looks >= seconds).map(|(&task, _)| task)
+    }
+
+    /// Whether no thread has begun a step of any of the tasks for at least so many seconds.
+    pub fn is_all_silent(&self, seconds: u32) -> bool {
+        self.all.1 >= seconds
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::channel;
+    use std::thread;
+
+    use super::*;
+
+    /// What a watchdog sees of a thread that does this, at two looks.
+    fn is_silent(work: impl FnOnce(Task, &dyn Fn()) + Send) -> bool {
+        let tasks: Vec<Task> = Task::several(1).collect();
+        let mut watchdog = Watchdog::new(&tasks);
+        let (told, heard) = channel();
+        let (let_go, may_go) = channel();
+        thread::scope(|scope| {
+            let task = tasks[0];
+            scope.spawn(move || {
+                let rest = || {
+                    told.send(()).expect("somebody looks");
+                    may_go.recv().expect("somebody looks");
+                };
+                work(task, &rest);
+            });
+            for _ in 0..2 {
+                heard.recv().expect("it rests twice");
+                watchdog.look();
+                let_go.send(()).expect("it rests");
+            }
+        });
+        watchdog.silent(1).eq(tasks)
+    }
+
+    #[test]
+    fn a_task_is_silent_while_its_step_goes_on() {
+        assert!(is_silent(|task, rest| {
+            let _working = task.enter();
+            let _steps = Steps::begin();
+            rest();
+            rest();
+        }));
+    }
+
+    #[test]
+    fn a_task_is_not_silent_that_makes_steps_or_is_outside_of_any() {
+        assert!(!is_silent(|task, rest| {
+            let _working = task.enter();
+            let steps = Steps::begin();
+            rest();
+            steps.next();
+            rest();
+        }));
+        assert!(!is_silent(|task, rest| {
+            let _working = task.enter();
+            let steps = Steps::begin();
+            steps.leave();
+            rest();
+            rest();
+        }));
+    }
+
+    #[test]
+    fn a_thread_that_takes_up_other_work_inside_a_step_makes_the_first_task_not_silent() {
+        assert!(!is_silent(|task, rest| {
+            let _working = task.enter();
+            let _steps = Steps::begin();
+            for other in Task::several(1) {
+                let _working = other.enter();
+                let _steps = Steps::begin();
+                rest();
+                rest();
+            }
+        }));
+    }
+
+    #[test]
+    fn a_step_within_a_step_leaves_the_outer_one_when_it_ends() {
+        assert!(is_silent(|task, rest| {
+            let _working = task.enter();
+            let _steps = Steps::begin();
+            drop(Steps::begin());
+            drop(task.enter());
+            rest();
+            rest();
+        }));
+    }
+}
