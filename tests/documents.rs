@@ -1,8 +1,6 @@
 //! SPEC.md, the README and the pages of docs/ say what the code says: the clauses' sentences, the ledger, the tables and
 //! the pictures. Their links lead somewhere, and their commands answer.
 
-mod commands;
-
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::iter;
@@ -11,7 +9,7 @@ use std::process::{Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use commands::documents;
+use crate::commands::documents;
 use insta::assert_snapshot;
 use tautline_proofs::ledger;
 
@@ -212,7 +210,7 @@ fn the_errors_of_positions_are_those_of_the_page() {
 }
 
 #[test]
-#[ignore = "minutes: cargo test --release --test documents take_minutes -- --ignored"]
+#[ignore = "minutes: cargo test --release --test all take_minutes -- --ignored"]
 fn the_tables_that_take_minutes_are_those_of_the_pages() {
     for (page, table) in [
         ("docs/reel.md", "reel"),
@@ -372,7 +370,7 @@ fn ended(folder: &Path, arguments: &[String]) -> Option<i32> {
 #[test]
 fn the_commands_of_the_pages_answer() {
     let (mut seen, mut answered) = (BTreeSet::new(), 0);
-    for block in commands::blocks().into_iter().filter(|block| block.is_shell) {
+    for block in crate::commands::blocks().into_iter().filter(|block| block.is_shell) {
         let folder = tempfile::tempdir().expect("a folder");
         fs::create_dir(folder.path().join("docs")).expect("a folder");
         for entry in fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs")).expect("a folder") {

@@ -285,7 +285,7 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
 
 /// Loads the page of 10,000 team moves on 512×512 cells and steps through parts of it; a step counts until its picture is there.
 #[test]
-#[ignore = "takes ten seconds: cargo test --release --test page -- --ignored --nocapture (790 kB, 0.5 s, a step 1 ms, 41 ms at most)"]
+#[ignore = "takes ten seconds: cargo test --release --test all page -- --ignored --nocapture (790 kB, 0.5 s, a step 1 ms, 41 ms at most)"]
 fn a_page_of_ten_thousand_team_moves_is_small_and_quick() {
     let folder = tempfile::tempdir().expect("a folder");
     let folder = &folder.path().canonicalize().expect("a folder");

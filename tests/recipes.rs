@@ -1,8 +1,6 @@
 //! The scripts that people copy: those of docs/recipes, and the steps of the action.
 #![cfg(unix)]
 
-mod commands;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -280,7 +278,7 @@ fn no_page_is_left_out_of_the_book() {
         targets.map(|target| target.split('#').next().unwrap_or_default().to_owned()).collect()
     };
     let chapters = links(&contents);
-    for page in commands::documents() {
+    for page in crate::commands::documents() {
         let name = page.strip_prefix(recipe("")).expect("a page of ours").display().to_string();
         assert_eq!(chapters.iter().filter(|chapter| **chapter == name).count(), 1, "{name}");
         let text = fs::read_to_string(source.join(&name)).expect("a page");
@@ -291,5 +289,5 @@ fn no_page_is_left_out_of_the_book() {
             assert!(place.is_file(), "{name}: {target} leads nowhere in the book");
         }
     }
-    assert_eq!(chapters.len(), commands::documents().len());
+    assert_eq!(chapters.len(), crate::commands::documents().len());
 }

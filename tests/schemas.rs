@@ -1,8 +1,6 @@
 //! What each command prints as JSON is as its schema in docs/schemas says. What tables print is looked at where all tables are
 //! measured, in `papers/tests/tables.rs`.
 
-mod schema;
-
 use std::path::Path;
 use std::process::Command;
 
@@ -107,7 +105,7 @@ fn what_each_command_prints_is_as_its_schema_says() {
     let others = [("show-environments", "show environments"), ("reproduce", "reproduce")];
     for (name, commands) in COMMANDS.into_iter().chain(others) {
         for command in commands.lines() {
-            schema::check(name, &printed(folder, command), command);
+            crate::schema::check(name, &printed(folder, command), command);
         }
     }
 }
@@ -119,7 +117,7 @@ fn stored_counterexamples_are_replayed_as_the_schema_says() {
         let path = file.expect("a file").path();
         if path.extension().is_some_and(|extension| extension == "jsonl") {
             let name = path.file_name().and_then(|name| name.to_str()).expect("a name");
-            schema::check("replay", &printed(&folder, &format!("replay {name}")), name);
+            crate::schema::check("replay", &printed(&folder, &format!("replay {name}")), name);
         }
     }
 }

@@ -9,8 +9,8 @@ mod solver;
 mod trials;
 
 pub use measured::{Found, Measured, Place, Power};
-pub use solver::{PARTICLES, Solved};
 pub use solver::Solver;
+pub use solver::{PARTICLES, Solved};
 pub use trials::distances;
 pub use trials::{Advice, Anchors, Errors, Quantiles, Report, Setting, Spot};
 

@@ -4,10 +4,7 @@ use tautline_kernel::chain::{Chain, Damaged, Intent, Kind, Message, Outcome, Rul
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, SmallGrid, Step};
 
-#[path = "support/numbers.rs"]
-mod numbers;
-
-use numbers::Drawn;
+use crate::numbers::Drawn;
 
 const BASE: Cell = Cell::new(3, 3);
 

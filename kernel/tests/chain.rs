@@ -4,10 +4,7 @@ use tautline_kernel::chain::{Barrier, Chain, Condition, Damaged, Heard, Intent, 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Circle, Edge, EdgeMark, Grid, Side, SmallGrid, Step};
 
-#[path = "support/numbers.rs"]
-mod numbers;
-
-use numbers::Drawn;
+use crate::numbers::Drawn;
 
 fn grid(columns: i16, rows: i16) -> SmallGrid {
     let area = Area::new(Cell::new(0, 0), Cell::new(columns - 1, rows - 1)).expect("cells");

@@ -10,10 +10,7 @@ use tautline_kernel::ground::{
     Step, Steps, TinyGrid,
 };
 
-#[path = "support/numbers.rs"]
-mod numbers;
-
-use numbers::Drawn;
+use crate::numbers::Drawn;
 
 const SIDES: Steps = Steps::ALL.without(Step::Stay);
 

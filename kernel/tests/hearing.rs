@@ -7,10 +7,7 @@ use tautline_kernel::chain::{Chain, Damaged, Intent, Kind, Message, Outcome, Pla
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, SmallGrid, Step};
 
-#[path = "support/numbers.rs"]
-mod numbers;
-
-use numbers::Drawn;
+use crate::numbers::Drawn;
 
 const ROBOTS: usize = 5;
 const BASE: Cell = Cell::new(3, 3);

@@ -8,10 +8,7 @@ use tautline_kernel::position::{
     check, check_meeting, closed_form, linear, locate, locate_from,
 };
 
-#[path = "support/numbers.rs"]
-mod numbers;
-
-use numbers::Drawn;
+use crate::numbers::Drawn;
 
 const RESIDUALS: [Residual; 2] = [Residual::Metres, Residual::Decibels];
 

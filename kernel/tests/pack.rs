@@ -9,13 +9,8 @@ use tautline_kernel::pack::{
     Condition, MAX_ROBOTS, Made, Past, Refused, Rule, Scratch, Status, Team, Unfit, is_connected,
 };
 
-#[path = "support/floors.rs"]
-mod floors;
-#[path = "support/numbers.rs"]
-mod numbers;
-
-use floors::{Map, area, free_cell, gain, is_within, obstacles, unknown};
-use numbers::Drawn;
+use crate::floors::{Map, area, free_cell, gain, is_within, obstacles, unknown};
+use crate::numbers::Drawn;
 
 /// A pack on a floor, with all that its caller keeps.
 struct World {

@@ -11,10 +11,7 @@ use tautline_kernel::perception::blob::{Blob, Colours, NoSample, Picture, Pixel,
 use tautline_kernel::perception::polar::{Angle, Round, Unplaced, distance_micrometres};
 use tautline_kernel::perception::time::{scan_milliseconds, step_milliseconds};
 
-#[path = "support/drawn.rs"]
-mod drawn;
-
-use drawn::{Drawn, FLOOR, rounded};
+use crate::drawn::{Drawn, FLOOR, rounded};
 
 fn drawn() -> impl Strategy<Value = Drawn> {
     (1..24_u16, 1..16_u16, prop_oneof![Just(0.1), Just(0.3), Just(0.5), Just(0.8)]).prop_flat_map(

@@ -10,10 +10,7 @@ use tautline_kernel::position::{
     bound, check, check_meeting, closed_form, linear, locate,
 };
 
-#[path = "support/numbers.rs"]
-mod numbers;
-
-use numbers::Drawn;
+use crate::numbers::Drawn;
 
 const SQUARE: [Point; 3] = [Point::new(0.0, 0.0), Point::new(20.0, 0.0), Point::new(0.0, 20.0)];
 

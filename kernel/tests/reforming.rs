@@ -4,10 +4,7 @@ use tautline_kernel::chain::{Chain, Damaged, Intent, Rule, Unformed};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, Side, SmallGrid};
 
-#[path = "support/numbers.rs"]
-mod numbers;
-
-use numbers::Drawn;
+use crate::numbers::Drawn;
 
 const BASE: Cell = Cell::new(4, 4);
 

@@ -7,13 +7,8 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Side};
 use tautline_kernel::pack::{Chart, Sight, Status, Window};
 
-#[path = "support/floors.rs"]
-mod floors;
-#[path = "support/numbers.rs"]
-mod numbers;
-
-use floors::{Map, area, free_cell, gain, is_clear, is_within, obstacles, unknown};
-use numbers::Drawn;
+use crate::floors::{Map, area, free_cell, gain, is_clear, is_within, obstacles, unknown};
+use crate::numbers::Drawn;
 
 #[test]
 fn a_robot_sees_the_cells_to_which_a_straight_way_is_free() {

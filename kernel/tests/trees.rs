@@ -9,10 +9,7 @@ use tautline_kernel::floor::COMPASS;
 use tautline_kernel::frontier::{Map, Status, TinyMap};
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
 
-#[path = "support/numbers.rs"]
-mod numbers;
-
-use numbers::Drawn;
+use crate::numbers::Drawn;
 
 const MIDDLE: Cell = Cell::new(1, 1);
 

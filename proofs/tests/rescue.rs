@@ -207,7 +207,7 @@ fn the_repaired_rule_holds_where_a_robot_lets_a_lease_go_that_is_over_and_not_wh
 }
 
 #[test]
-#[ignore = "deeper, two minutes and 2 GiB: cargo test -p tautline-proofs --test rescue -- --ignored"]
+#[ignore = "deeper, two minutes and 2 GiB: cargo test -p tautline-proofs --test all rescue -- --ignored"]
 fn the_repaired_rule_holds_for_two_robots_with_three_faults() {
     holds(&setting((2, 1), 2, 2, Faults::any(3)), 5_065_404, 25_763_012);
 }

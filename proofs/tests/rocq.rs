@@ -20,7 +20,7 @@ use std::fs;
 use std::path::Path;
 
 /// The command that writes the files anew.
-const RENEW: &str = "ROCQ_UPDATE=always cargo test -p tautline-proofs --test rocq";
+const RENEW: &str = "ROCQ_UPDATE=always cargo test -p tautline-proofs --test all rocq";
 
 /// The committed file says what the kernel says now.
 fn is_up_to_date(name: &str, terms: &str) {

@@ -1,8 +1,6 @@
 //! Runs of agents on sensor floors: without missed sensors every cell that they can get to is visited and every agent
 //! knows that it is done, in random layouts and on published maps; ants and robust agents explore everything.
 
-mod common;
-
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::{env, fs};

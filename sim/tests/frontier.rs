@@ -1,7 +1,5 @@
 //! Robots that go from frontier cell to frontier cell: hunts, their counterexamples as runs, and bad setups.
 
-mod common;
-
 use crate::common::Unwatched;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::Rule;
@@ -169,13 +167,13 @@ fn hungarian_assignment_anew_at_every_move_ends() {
 }
 
 #[test]
-#[ignore = "98 s of a core: cargo test --workspace --test frontier larger_layouts -- --ignored"]
+#[ignore = "98 s of a core: cargo test -p tautline-sim --test all larger_layouts -- --ignored"]
 fn hungarian_assignment_anew_at_every_move_ends_in_larger_layouts() {
     assert_eq!(end_of_runs_with_assignments_anew(500), 56_000);
 }
 
 #[test]
-#[ignore = "46 s of a core, and published maps: cargo test --workspace --release --test frontier published_maps -- --ignored --nocapture"]
+#[ignore = "46 s of a core, and published maps: cargo test -p tautline-sim --release --test all published_maps -- --ignored --nocapture"]
 fn eight_robots_explore_published_maps() {
     let folder = std::env::var_os("TAUTLINE_MAPS").expect("TAUTLINE_MAPS names the folder of published maps");
     for (map, expected) in [("random512-10-0", 36_795), ("Boston_0_512", 29_356)] {

@@ -1,8 +1,6 @@
 //! Robots that keep in touch, in random layouts: the repaired team breaks nothing, drives every path and knows it; the
 //! published one does not keep its promises; and teams that cannot start say why.
 
-mod common;
-
 use std::fs;
 use std::num::NonZeroU32;
 use std::path::Path;

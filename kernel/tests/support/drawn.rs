@@ -5,7 +5,7 @@
     missing_docs,
     unreachable_pub,
     clippy::missing_panics_doc,
-    reason = "two crates include it, each for its own tests"
+    reason = "two tests use it"
 )]
 
 use tautline_kernel::perception::blob::{Blob, Colours, Picture, Pixel, Set, Thresholds, TooManySets, find};

@@ -5,7 +5,7 @@
     missing_docs,
     unreachable_pub,
     clippy::missing_panics_doc,
-    reason = "several crates include it, each for its own tests"
+    reason = "several tests use it"
 )]
 
 use std::collections::BTreeSet;

@@ -1,6 +1,6 @@
 //! Numbers that are the same in every run.
 
-#![allow(missing_docs, unreachable_pub, reason = "several crates include it, each for its own tests")]
+#![allow(missing_docs, unreachable_pub, reason = "several tests use it")]
 
 use tautline_kernel::choice::Oracle;
 

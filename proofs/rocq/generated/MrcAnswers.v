@@ -1,4 +1,4 @@
-(** What the kernel answers, written by `ROCQ_UPDATE=always cargo test -p tautline-proofs --test rocq`. Do not edit. *)
+(** What the kernel answers, written by `ROCQ_UPDATE=always cargo test -p tautline-proofs --test all rocq`. Do not edit. *)
 From Coq Require Import ZArith NArith List.
 Import ListNotations.
 

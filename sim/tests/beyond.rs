@@ -290,7 +290,7 @@ fn nothing_is_broken_beyond_the_searched_bounds() {
 }
 
 #[test]
-#[ignore = "67 s: cargo test -p tautline-sim --test beyond two_thousand -- --ignored --nocapture"]
+#[ignore = "67 s: cargo test -p tautline-sim --test all two_thousand -- --ignored --nocapture"]
 fn nothing_is_broken_in_two_thousand_runs_of_each() {
     all_hold(2000);
 }

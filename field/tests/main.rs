@@ -1,0 +1,5 @@
+//! What happens in radio fields, tried as a whole.
+
+mod maps;
+mod position;
+mod tan;

@@ -1,0 +1,27 @@
+//! What the kernel does, tried as a whole.
+
+mod backtracks;
+mod chain;
+mod choice;
+mod corridors;
+#[path = "support/drawn.rs"]
+mod drawn;
+mod errors;
+#[path = "support/floors.rs"]
+mod floors;
+mod frontier;
+mod grids;
+mod hearing;
+mod kit;
+mod minima;
+mod notice;
+#[path = "support/numbers.rs"]
+mod numbers;
+mod pack;
+mod perception;
+mod position;
+mod reforming;
+mod sight;
+mod sizes;
+mod stored;
+mod trees;

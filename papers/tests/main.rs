@@ -1,0 +1,5 @@
+//! The papers' tables, tried as a whole.
+
+mod chart;
+mod radio;
+mod tables;

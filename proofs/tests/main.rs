@@ -1,0 +1,19 @@
+//! What the proofs do, tried as a whole.
+
+mod areas;
+mod charts;
+mod coverage;
+mod evidence;
+mod hostile;
+mod judge_and_rule;
+mod judge_of_agents;
+mod judge_of_chains;
+mod log;
+mod own_rule;
+mod plans;
+mod rescue;
+mod rocq;
+mod search;
+mod trap;
+mod trees;
+mod unended;

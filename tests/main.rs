@@ -1,0 +1,17 @@
+//! The program as users run it, and the documents beside it.
+
+mod cli;
+mod commands;
+mod documents;
+mod foreign;
+#[expect(unreachable_pub, reason = "the library of the fuzz targets is a module here")]
+mod fuzz_corpus;
+mod layouts;
+mod mcap;
+mod page;
+mod python;
+mod recipes;
+mod refutations;
+mod schema;
+mod schemas;
+mod tidy;
