@@ -16,4 +16,3 @@ mod rocq;
 mod search;
 mod trap;
 mod trees;
-mod unended;
