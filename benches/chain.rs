@@ -7,8 +7,8 @@ use criterion::{BenchmarkId, Criterion};
 use tautline_kernel::chain::{Chain, Intent, Rule};
 use tautline_kernel::ground::{Area, Cell, Grid, MediumGrid, SmallGrid};
 use tautline_proofs::chain::plain::{PlainChain, PlainIntent};
+use tautline_sim::heap_grid::HeapGrid;
 use tautline_sim::layout::{Generator, Layout};
-use tautline_sim::wide::WideGrid;
 
 use self::common::{Cost, group, measure};
 
@@ -115,7 +115,7 @@ fn open_areas(criterion: &mut Criterion) -> [(u16, Cost<Work>); 6] {
             let side = 2 * $robots - 1;
             let layout = Layout::open(side, side).expect("a layout");
             let id = BenchmarkId::from_parameter($robots);
-            ($robots, measure(&mut group, id, || run::<_, $robots>(&layout, WideGrid::new, u32::MAX)))
+            ($robots, measure(&mut group, id, || run::<_, $robots>(&layout, HeapGrid::new, u32::MAX)))
         }),*]};
     }
     each!(8, 16, 32, 64, 128, 256)
@@ -136,7 +136,7 @@ fn random_walls(criterion: &mut Criterion) -> Vec<(u16, f64, Cost<Work>)> {
                 costs.push(($robots, walls, cost));
             )*};
         }
-        each!(16 in medium, 24 in medium, 32 in medium, 64 in WideGrid::new);
+        each!(16 in medium, 24 in medium, 32 in medium, 64 in HeapGrid::new);
     }
     costs
 }
@@ -149,7 +149,7 @@ fn open_areas_by_reel(criterion: &mut Criterion) -> [(u16, Cost<Work>); 6] {
             let side = 2 * $robots - 1;
             let layout = Layout::open(side, side).expect("a layout");
             let id = BenchmarkId::from_parameter($robots);
-            ($robots, measure(&mut group, id, || run_reel::<_, $robots>(&layout, WideGrid::new, u32::MAX)))
+            ($robots, measure(&mut group, id, || run_reel::<_, $robots>(&layout, HeapGrid::new, u32::MAX)))
         }),*]};
     }
     each!(8, 16, 32, 64, 128, 256)
@@ -170,7 +170,7 @@ fn random_walls_by_reel(criterion: &mut Criterion) -> Vec<(u16, f64, Cost<Work>)
                 costs.push(($robots, walls, cost));
             )*};
         }
-        each!(8 in small, 16 in medium, 32 in medium, 64 in WideGrid::new);
+        each!(8 in small, 16 in medium, 32 in medium, 64 in HeapGrid::new);
     }
     costs
 }

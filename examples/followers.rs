@@ -13,7 +13,7 @@ use tautline_proofs::decide::Verdict::{Holds, Refuted};
 use tautline_proofs::ledger::{self, Row};
 use tautline_proofs::run::Run;
 use tautline_proofs::team::{Demand, Keeps, Layouts, Team};
-use tautline_sim::aside::Replaceable;
+use tautline_sim::atomic_file::Replaceable;
 use tautline_sim::counterexample::own::Found;
 
 /// Two robots, and all that they know. The last two fields are the rule.

@@ -10,8 +10,8 @@ use std::num::NonZeroU32;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::run::Frame;
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::{End, Limits, Milestone, Report, Team, run};
-use tautline_sim::fault::Halt;
 use tautline_sim::layout::{self, Layout};
 
 /// The robots, and how often the team has been in each cell or found it shut.
@@ -50,7 +50,7 @@ impl Team for Sweepers {
 
 /// Runs `robots` in `layout` until everything is explored, or one has entered so many cells.
 fn sweep(layout: &Layout, robots: usize, most: u32) -> Result<Report, Halt> {
-    let start = layout.default_base().map_err(|problem| Halt::Fault(problem.into()))?;
+    let start = layout.default_base().map_err(|problem| Halt::Diagnostic(problem.into()))?;
     let (until, max_moves) = (Some(Milestone::Whole), NonZeroU32::new(most));
     let limits = Limits { until, max_moves, ..Limits::default() };
     run(&mut Sweepers::new(start, robots), layout, limits, &mut |_| Ok(()))

@@ -4,15 +4,15 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_kernel::ground::Edge;
 use tautline_proofs::clause::{AnyCheck, Clause};
-use tautline_proofs::course::Course;
 use tautline_proofs::decide::{Evidence, Seen};
+use tautline_proofs::floor_trace::Course;
+use tautline_proofs::plural::counted;
 use tautline_proofs::run::Run;
-use tautline_proofs::words::counted;
 
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw;
 use tautline_sim::explore::{ClauseId, RuleName, Setup, catalogue, hunt};
-use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::words::Worded;
+use tautline_sim::named_values::NamedValues;
 
 /// A refutation as JSON.
 #[derive(JsonSchema, Serialize)]
@@ -48,7 +48,7 @@ pub(super) fn setup(check: &dyn AnyCheck, run: &Run) -> Result<Option<Setup>, Ha
     let (Some(rule), Some(scheme)) = (RuleName::of(check.rule()), catalogue::scheme(run.scheme)) else {
         return Ok(None);
     };
-    Ok(Some(hunt::setup(scheme, rule, run).map_err(Fault::from)?))
+    Ok(Some(hunt::setup(scheme, rule, run).map_err(Diagnostic::from)?))
 }
 
 /// What anyone sees that a run breaks.
@@ -58,7 +58,7 @@ pub(super) fn breach(run: &Run) -> Option<ClauseId> {
 
 /// A run of agents.
 fn drawn(course: &Course) -> Result<String, Halt> {
-    Ok(draw::story::of_course(course).map_err(Fault::from)?)
+    Ok(draw::story::of_course(course).map_err(Diagnostic::from)?)
 }
 
 /// What refutes a clause, as data.

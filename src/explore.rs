@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use clap::{Args, ValueEnum};
 use tautline_kernel::ground::Cell;
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::output::Output;
 use super::viewers::{self, ViewerArgs};
@@ -17,20 +17,20 @@ use super::{
     CellArg, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless, positive, probability, progress,
     whole,
 };
-use crate::chosen::{self, chosen};
-use tautline_sim::aside::Aside;
+use crate::value_parser::{self, chosen};
+use tautline_sim::atomic_file::AtomicFile;
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::page::Page;
 use tautline_sim::draw::svg;
 use tautline_sim::explore::floor::Component;
 use tautline_sim::explore::{
-    Asked, Knowledge, Limits, Milestone, Misfit, OnViolation, Play, Profile, Report, RuleId, Setup, Stage,
-    Stopped, Violation, Watcher, explore, team,
+    Asked, Knowledge, Limits, Milestone, OnViolation, Play, Profile, Report, RuleId, RunConfig, Setup,
+    SetupError, Stopped, Violation, Watcher, explore, team,
 };
-use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::faults::{Appearing, Failure, Faults, Going};
+use tautline_sim::failures::{Appearing, Failure, Failures, Going};
 use tautline_sim::layout::generate::Probability;
-use tautline_sim::reading::real;
 use tautline_sim::trace::Summary;
+use tautline_sim::value_parser::real;
 use tautline_sim::{draw, trace};
 
 const EXAMPLES: &str = "\
@@ -48,10 +48,10 @@ pub(super) struct Explore {
     #[command(flatten)]
     layout: LayoutArgs,
     /// How the team explores.
-    #[arg(long, value_parser = chosen::scheme(), default_value = "chain")]
+    #[arg(long, value_parser = value_parser::scheme(), default_value = "chain")]
     scheme: &'static Profile,
     /// The scheme as published, or repaired.
-    #[arg(long, value_parser = chosen::rule(), default_value = "repaired")]
+    #[arg(long, value_parser = value_parser::rule(), default_value = "repaired")]
     rule: RuleId,
     /// Robots or agents; for the chain the base is one of them. Without it the layout says, or there are 8.
     #[arg(long, value_name = "N", value_parser = whole::<u64>)]
@@ -144,7 +144,7 @@ impl Explore {
             svg::check_size(team(&setup)?.area(&setup.layout))?;
         }
         let writer = trace.map(|aside| trace::Writer::new(aside, &setup.stage(), None));
-        let mut writer = writer.transpose().map_err(Fault::from)?;
+        let mut writer = writer.transpose().map_err(Diagnostic::from)?;
         let (bar, start) = (progress::spinner("exploring"), Instant::now());
         let report = explore(&setup, &mut |made| {
             bar.set_message(format!("team move {}", made.step));
@@ -182,19 +182,19 @@ impl Explore {
         Ok(if report.violations.is_empty() { Exit::Expected } else { Exit::Violation })
     }
 
-    fn setup(&self) -> Result<Setup, Fault> {
+    fn setup(&self) -> Result<Setup, Diagnostic> {
         let asked = self.asked();
         asked.check()?;
         if let [one, other, ..] = self.fail[..] {
             let what = format!("two robots die in one run, {one} and {other}: a chain re-forms behind one");
-            return Err(Fault::usage(what, "give `--fail` once"));
+            return Err(Diagnostic::usage(what, "give `--fail` once"));
         }
         if self.draw.is_some() && self.format.format == Format::Json && self.svg.is_none() {
             return Err(needless("--draw", "JSON has no drawing, and no picture is stored"));
         }
         let setup = asked.setup(self.layout.load()?)?;
         if self.layout.has_other_seed() && !setup.scheme.draws(&setup.stage()) {
-            return Err(Misfit::Seed(setup.scheme).into());
+            return Err(SetupError::Seed(setup.scheme).into());
         }
         Ok(setup)
     }
@@ -241,12 +241,12 @@ impl Explore {
 const MAX_PANELS: u32 = 200;
 
 /// Checks that a picture can hold a panel for each of `moves`.
-pub(super) fn check_panels(moves: &RangeInclusive<u32>) -> Result<(), Fault> {
+pub(super) fn check_panels(moves: &RangeInclusive<u32>) -> Result<(), Diagnostic> {
     if moves.end().saturating_sub(*moves.start()) < MAX_PANELS {
         return Ok(());
     }
     let what = format!("a picture of more than {MAX_PANELS} team moves");
-    Err(Fault::usage(
+    Err(Diagnostic::usage(
         what,
         format_args!("store a trace, and draw at most {MAX_PANELS} with `tautline replay --moves`"),
     ))
@@ -264,7 +264,7 @@ pub(super) fn panels(run: &dyn Play, report: &Report, moves: &RangeInclusive<u32
         bytes += panel.bytes();
         if bytes > MAX_PANEL_BYTES {
             let what = format!("a picture of more than {} MiB", MAX_PANEL_BYTES >> 20);
-            return Err(Fault::usage(what, "draw fewer team moves").into());
+            return Err(Diagnostic::usage(what, "draw fewer team moves").into());
         }
         panels.push(panel);
         Ok(())
@@ -274,7 +274,7 @@ pub(super) fn panels(run: &dyn Play, report: &Report, moves: &RangeInclusive<u32
 
 /// Stores a page that plays the team moves in `moves`.
 pub(super) fn play(
-    mut file: Aside,
+    mut file: AtomicFile,
     run: &dyn Play,
     report: &Report,
     moves: &RangeInclusive<u32>,
@@ -398,8 +398,8 @@ pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
 }
 
 /// What has failed, in a line or two.
-fn failed(faults: &Faults) -> String {
-    let Faults { lost_bytes, rounds, died, taken_back, home } = *faults;
+fn failed(faults: &Failures) -> String {
+    let Failures { lost_bytes, rounds, died, taken_back, home } = *faults;
     let mut text = String::new();
     // Writing to a string cannot fail.
     if rounds > 0 {
@@ -421,7 +421,7 @@ fn failed(faults: &Faults) -> String {
 }
 
 /// Where the robots start.
-fn place(stage: &Stage<'_>) -> String {
+fn place(stage: &RunConfig<'_>) -> String {
     match (stage.look.has_base(), stage.starts) {
         (true, _) => format!("base {}", stage.base),
         (false, None) => format!("start {}", stage.base),

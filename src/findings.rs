@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use clap::{Args, ValueEnum};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
-use tautline_sim::fault::Fault;
+use tautline_sim::diagnostic::Diagnostic;
 
 /// What stdout gets of a command that decides something.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
@@ -24,14 +24,14 @@ impl Format {
     /// The same where nothing is decided.
     ///
     /// # Errors
-    /// A [`Fault`] if only a decision has this format.
-    pub(super) fn plain(self) -> Result<super::Format, Fault> {
+    /// A [`Diagnostic`] if only a decision has this format.
+    pub(super) fn plain(self) -> Result<super::Format, Diagnostic> {
         match self {
             Self::Text => Ok(super::Format::Text),
             Self::Json => Ok(super::Format::Json),
             Self::Github | Self::Junit => {
                 let remedy = "give --format text or json here, and this one where the verdict is";
-                Err(Fault::usage("nothing is decided here that a CI could show", remedy))
+                Err(Diagnostic::usage("nothing is decided here that a CI could show", remedy))
             }
         }
     }
@@ -45,7 +45,7 @@ pub(super) struct FormatArgs {
 }
 
 /// One thing that was decided.
-pub(super) struct Finding {
+pub(super) struct Case {
     /// What it is of: a family of clauses, or a scheme.
     pub(super) class: String,
     /// What was decided.
@@ -66,9 +66,9 @@ pub(super) enum Outcome {
 }
 
 /// As annotations: an error for what is not as expected, a warning for what was ended, and `summary` as a notice.
-pub(super) fn github(findings: &[Finding], summary: &str) -> String {
+pub(super) fn github(findings: &[Case], summary: &str) -> String {
     let mut text = String::new();
-    for Finding { name, outcome, .. } in findings {
+    for Case { name, outcome, .. } in findings {
         // Writing to a string cannot fail.
         let _ = match outcome {
             Outcome::Expected => Ok(()),
@@ -98,10 +98,10 @@ fn property(text: &str) -> String {
 /// As a JUnit file, `command` being the name of its suite.
 ///
 /// # Errors
-/// A [`Fault`] if it cannot be written.
-pub(super) fn junit(command: &str, findings: &[Finding]) -> Result<String, Fault> {
+/// A [`Diagnostic`] if it cannot be written.
+pub(super) fn junit(command: &str, findings: &[Case]) -> Result<String, Diagnostic> {
     let mut suite = TestSuite::new(format!("tautline {command}"));
-    suite.add_test_cases(findings.iter().map(|Finding { class, name, outcome, seconds }| {
+    suite.add_test_cases(findings.iter().map(|Case { class, name, outcome, seconds }| {
         let status = match outcome {
             Outcome::Expected => TestCaseStatus::success(),
             Outcome::Unfinished(why) => {
@@ -126,5 +126,5 @@ pub(super) fn junit(command: &str, findings: &[Finding]) -> Result<String, Fault
     let mut report = Report::new("tautline");
     report.add_test_suite(suite);
     let text = report.to_string();
-    text.map_err(|error| Fault::usage(error, "report it: this is a bug of tautline"))
+    text.map_err(|error| Diagnostic::usage(error, "report it: this is a bug of tautline"))
 }

@@ -11,19 +11,19 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_proofs::decide::Verdict;
 
-use super::findings::{self, Finding, Format, FormatArgs, Outcome};
+use super::findings::{self, Case, Format, FormatArgs, Outcome};
 use super::output::Output;
 use super::shards::{ShardArgs, Wanted};
 use super::{Exit, ForceArgs, SizeArg, interrupt, number, progress, whole};
-use crate::{chosen, report, shards};
-use tautline_sim::aside::{Aside, Replaceable};
+use crate::{report, shards, value_parser};
+use tautline_sim::atomic_file::{AtomicFile, Replaceable};
 use tautline_sim::counterexample::hunt::store;
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::story;
-use tautline_sim::explore::hunt::{Asked, Done, Facts, Far, Hunted, Hunter, Quarry, RunSize, Shown};
-use tautline_sim::explore::{Misfit, Profile, RuleId, Senses};
-use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::reading::real;
+use tautline_sim::explore::hunt::{Asked, Done, Facts, Far, Finding, HuntReport, Hunter, RunSize, Shown};
+use tautline_sim::explore::{Profile, RuleId, Senses, SetupError};
 use tautline_sim::shards::{Plan, deal_hunt, hunt_part};
+use tautline_sim::value_parser::real;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -48,10 +48,10 @@ Examples:
 #[command(after_help = EXAMPLES)]
 pub(super) struct Hunt {
     /// How the team explores.
-    #[arg(long, value_parser = chosen::scheme(), default_value = "chain")]
+    #[arg(long, value_parser = value_parser::scheme(), default_value = "chain")]
     scheme: &'static Profile,
     /// The scheme as published, or repaired.
-    #[arg(long, value_parser = chosen::rule(), default_value = "repaired")]
+    #[arg(long, value_parser = value_parser::rule(), default_value = "repaired")]
     rule: RuleId,
     /// Robots: 4 in a chain, the base counted, or 1 agent, unless this says otherwise. Agents act in turn here; `prove`
     /// looks at every order.
@@ -98,7 +98,7 @@ pub(super) struct Hunt {
 /// What came of a hunt, and where its counterexamples stand.
 struct Told<'a> {
     asked: &'a Asked<'a>,
-    hunted: &'a Hunted,
+    hunted: &'a HuntReport,
     verdict: Verdict,
     /// The file of each; none for a run without end, nor for one that was left out.
     files: Vec<Option<String>>,
@@ -149,11 +149,11 @@ impl Hunter for Watcher<'_> {
         }
     }
 
-    fn is_not_kept(&mut self, fault: &Fault) {
+    fn is_not_kept(&mut self, fault: &Diagnostic) {
         tracing::warn!("{}", report::with_flags(&fault.to_string()));
     }
 
-    fn is_left_out(&mut self, fault: &Fault) {
+    fn is_left_out(&mut self, fault: &Diagnostic) {
         self.out.leave_out(fault);
     }
 }
@@ -188,10 +188,10 @@ impl Hunt {
 
     fn hunt(&self, out: &mut Output) -> Result<Exit, Halt> {
         let (scheme, rule) = (self.scheme, self.rule);
-        let rule = scheme.rule(rule).ok_or(Misfit::Rule { scheme, rule }).map_err(Fault::from)?;
+        let rule = scheme.rule(rule).ok_or(SetupError::Rule { scheme, rule }).map_err(Diagnostic::from)?;
         let Some(hunt) = rule.hunt else {
             let what = format!("nothing is hunted of {}", self.scheme.name);
-            return Err(Fault::usage(what, "hunt another scheme").into());
+            return Err(Diagnostic::usage(what, "hunt another scheme").into());
         };
         let asked = self.asked();
         asked.check(hunt)?;
@@ -232,7 +232,7 @@ impl Hunt {
 /// What a hunt has found, and the folder where it is to be stored.
 pub(super) struct Found<'a> {
     pub(super) asked: &'a Asked<'a>,
-    pub(super) hunted: &'a Hunted,
+    pub(super) hunted: &'a HuntReport,
     pub(super) folder: &'a Path,
 }
 
@@ -245,7 +245,7 @@ impl Found<'_> {
         out: &mut Output,
     ) -> Result<Exit, Halt> {
         let &Self { asked, hunted, folder } = self;
-        let store = |quarry: &Quarry| stored(quarry, folder, replaceable, out);
+        let store = |quarry: &Finding| stored(quarry, folder, replaceable, out);
         let files = hunted.found.iter().map(store).collect::<Result<_, _>>()?;
         let verdict = match (hunted.found.is_empty(), hunted.is_complete) {
             (false, _) => Verdict::Refuted,
@@ -269,7 +269,7 @@ impl Found<'_> {
 
 /// Stores a counterexample in `folder`, if it is one that a file tells; where it stands then.
 fn stored(
-    quarry: &Quarry,
+    quarry: &Finding,
     folder: &Path,
     replaceable: &Replaceable,
     out: &mut Output,
@@ -292,7 +292,7 @@ impl Told<'_> {
     fn printed(&self) -> Printed<'_> {
         let Self { asked, hunted, verdict, files } = self;
         let stored = |(quarry, file)| {
-            let &Quarry { clause, facts: size, .. } = quarry;
+            let &Finding { clause, facts: size, .. } = quarry;
             Stored { clause, size, file }
         };
         Printed {
@@ -311,12 +311,12 @@ impl Told<'_> {
     /// What was searched, and what follows from it.
     fn headline(&self) -> String {
         let Asked { scheme, rule, .. } = self.asked;
-        let Hunted { title, outcome, .. } = self.hunted;
+        let HuntReport { title, outcome, .. } = self.hunted;
         format!("{} ({rule}), {title}\n{outcome}\n", scheme.name)
     }
 
     /// The clauses that are broken, as a CI shows them; if none is, that.
-    fn findings(&self) -> Result<Vec<Finding>, Halt> {
+    fn findings(&self) -> Result<Vec<Case>, Halt> {
         let Asked { scheme, rule, .. } = self.asked;
         let class = scheme.name.to_owned();
         let broken = self.hunted.found.iter().zip(&self.files).map(|(quarry, file)| {
@@ -327,7 +327,7 @@ impl Told<'_> {
             }
             let name = format!("{} by {} ({rule})", quarry.clause, scheme.name);
             let outcome = Outcome::Broken(quarry.title.clone(), story);
-            Ok(Finding { class: class.clone(), name, outcome, seconds: None })
+            Ok(Case { class: class.clone(), name, outcome, seconds: None })
         });
         let mut findings = broken.collect::<Result<Vec<_>, Halt>>()?;
         if !self.hunted.is_complete || findings.is_empty() {
@@ -337,7 +337,7 @@ impl Told<'_> {
                 Outcome::Unfinished("the hunt was ended before its bound".to_owned())
             };
             let name = format!("every clause by {} ({rule})", scheme.name);
-            findings.push(Finding { class, name, outcome, seconds: None });
+            findings.push(Case { class, name, outcome, seconds: None });
         }
         Ok(findings)
     }
@@ -360,7 +360,7 @@ impl Told<'_> {
 }
 
 /// A counterexample as a person sees it.
-fn picture(quarry: &Quarry) -> Result<String, Halt> {
+fn picture(quarry: &Finding) -> Result<String, Halt> {
     let setup = &quarry.setup;
     match (&quarry.shown, setup.scheme.senses) {
         (Shown::Run(_), Senses::Bumps) => story::last_move(setup),
@@ -371,16 +371,16 @@ fn picture(quarry: &Quarry) -> Result<String, Halt> {
 }
 
 /// Checks that --out names a folder.
-pub(super) fn check_folder(out: &Path) -> Result<(), Fault> {
+pub(super) fn check_folder(out: &Path) -> Result<(), Diagnostic> {
     if out.is_dir() {
         return Ok(());
     }
     let what = if out.exists() { "this is no folder" } else { "there is no such folder" };
-    Err(Fault::in_file(out, what, "give --out a folder that is there"))
+    Err(Diagnostic::in_file(out, what, "give --out a folder that is there"))
 }
 
 /// Puts the file of a counterexample in its place; where it stands then.
-pub(super) fn keep(file: Aside, out: &mut Output) -> Option<String> {
+pub(super) fn keep(file: AtomicFile, out: &mut Output) -> Option<String> {
     let path = file.path().to_owned();
     out.keep(file).then(|| shown(&path))
 }

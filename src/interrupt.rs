@@ -7,7 +7,7 @@ use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::Exit;
-use tautline_sim::aside;
+use tautline_sim::atomic_file;
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 static DEFERRED: AtomicBool = AtomicBool::new(false);
@@ -24,7 +24,7 @@ fn heard() {
     if is_first && DEFERRED.load(Ordering::Relaxed) {
         return;
     }
-    aside::abandon();
+    atomic_file::abandon();
     if is_first {
         // A bar may stand on the line; and who reads may have gone, which is what the signal may have told.
         let line = if io::stderr().is_terminal() { "\n" } else { "" };

@@ -12,16 +12,16 @@ use tautline_field::position::{
 };
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{Point, Signal};
-use tautline_proofs::words::counted;
-use tautline_sim::columns::{Column, Columns, Width};
+use tautline_proofs::plural::counted;
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::RuleName;
-use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::reading::{Metres, within};
-use tautline_sim::words::Worded;
+use tautline_sim::named_values::NamedValues;
+use tautline_sim::text_table::{Column, TextTable, Width};
+use tautline_sim::value_parser::{Metres, within};
 
 use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, needless, number, progress};
-use crate::chosen::chosen;
+use crate::value_parser::chosen;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -139,7 +139,7 @@ pub(super) struct Fixes<'a> {
 impl Locate {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         let signal = Signal::new(self.exponent, self.noise_db)
-            .ok_or_else(|| Fault::usage("there is no such noise", "write decibels from 0 to 100"))?;
+            .ok_or_else(|| Diagnostic::usage("there is no such noise", "write decibels from 0 to 100"))?;
         if self.rule.is_some() && self.solver != Solver::Pso {
             return Err(needless("--rule", &format!("{} has no order of updates", self.solver.word())).into());
         }
@@ -240,7 +240,7 @@ fn text(setting: &Setting, report: &Report) -> String {
         |[x_m, y_m]| format!("a robot at {x_m},{y_m}"),
     );
     let mut columns =
-        Columns::new([Column::left(Width::Fit)].into_iter().chain([Column::left(Width::Fit); 3]));
+        TextTable::new([Column::left(Width::Fit)].into_iter().chain([Column::left(Width::Fit); 3]));
     columns.row(["metres", "median", "95th percentile", "root mean square"]);
     let row = |name: &str, errors: &Errors| {
         let Errors { of, interval } = errors;
@@ -290,7 +290,7 @@ fn advice(advice: &Advice) -> String {
 }
 
 fn positions(found: &[Found]) -> String {
-    let mut columns = Columns::new(
+    let mut columns = TextTable::new(
         [Column::left(Width::Fit)]
             .into_iter()
             .chain([Column::right(Width::Fit); 5])

@@ -2,9 +2,8 @@
 //! logs to stderr. A fault ends a command with code 2, an interruption with 3, a panic, which is a bug of ours,
 //! with 70. A file that cannot be stored is left out: the rest is given all the same, and the code is 2.
 
-mod chosen;
 #[cfg(test)]
-mod documented;
+mod docs_test;
 mod evidence;
 mod explore;
 mod findings;
@@ -26,6 +25,7 @@ mod schemas;
 mod shards;
 mod show;
 mod threads;
+mod value_parser;
 mod viewers;
 
 use std::io::{self, IsTerminal, Write};
@@ -42,13 +42,13 @@ use tautline_kernel::ground::Cell;
 
 use crate::report::{Colour, render};
 use output::Output;
-use tautline_sim::aside::{Aside, Foreign, Replaceable};
+use tautline_sim::atomic_file::{AtomicFile, Foreign, Replaceable};
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::ClauseId;
 use tautline_sim::explore::catalogue::{self, NoClause};
-use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::layout::{self, Generator, Layout, Problem, Size};
-use tautline_sim::reading::{number, real, whole};
+use tautline_sim::value_parser::{number, real, whole};
 
 /// How a command ended. Where several are so, the last of them in this order is told.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -62,7 +62,7 @@ enum Exit {
     /// A merge has gaps.
     Gaps,
     /// Wrong usage or bad input, or a file could not be stored.
-    Fault,
+    Diagnostic,
     /// A bug of ours.
     Bug,
 }
@@ -73,7 +73,7 @@ impl Exit {
         match self {
             Self::Expected => 0,
             Self::Violation => 1,
-            Self::Fault => 2,
+            Self::Diagnostic => 2,
             Self::Unfinished => 3,
             Self::Gaps => 4,
             Self::Bug => 70,
@@ -182,7 +182,7 @@ impl LayoutArgs {
     }
 
     /// The layout.
-    fn load(&self) -> Result<Layout, Fault> {
+    fn load(&self) -> Result<Layout, Diagnostic> {
         layout::load(&self.layout, self.seed(), self.image.as_deref())
     }
 
@@ -194,8 +194,8 @@ impl LayoutArgs {
 }
 
 /// An option that can have no effect.
-fn needless(option: &str, why: &str) -> Fault {
-    Fault::usage(format_args!("{option} has no effect: {why}"), format_args!("leave {option} out"))
+fn needless(option: &str, why: &str) -> Diagnostic {
+    Diagnostic::usage(format_args!("{option} has no effect: {why}"), format_args!("leave {option} out"))
 }
 
 /// What is done about files that stand where others are to be stored.
@@ -215,33 +215,33 @@ impl ForceArgs {
     /// The files that a command stores, where they have a place, if it reads these.
     ///
     /// # Errors
-    /// A [`Fault`] if one of them has none, or there is nothing to force.
+    /// A [`Diagnostic`] if one of them has none, or there is nothing to force.
     fn files<const N: usize>(
         &self,
         paths: [&Option<PathBuf>; N],
         inputs: impl IntoIterator<Item = PathBuf>,
-    ) -> Result<[Option<Aside>; N], Fault> {
+    ) -> Result<[Option<AtomicFile>; N], Diagnostic> {
         self.has_effect(paths.iter().any(|path| path.is_some()))?;
-        Aside::several(paths.map(Option::as_deref), &self.replaceable(inputs))
+        AtomicFile::several(paths.map(Option::as_deref), &self.replaceable(inputs))
     }
 
     /// The same of as many files as there may be, of a command that reads none.
     ///
     /// # Errors
     /// As of [`ForceArgs::files`].
-    fn each(&self, paths: &[Option<PathBuf>]) -> Result<Vec<Option<Aside>>, Fault> {
+    fn each(&self, paths: &[Option<PathBuf>]) -> Result<Vec<Option<AtomicFile>>, Diagnostic> {
         self.has_effect(paths.iter().any(Option::is_some))?;
         let replaceable = self.replaceable([]);
-        let mut files: Vec<Option<Aside>> = Vec::new();
+        let mut files: Vec<Option<AtomicFile>> = Vec::new();
         for path in paths {
-            let beside = |path: &PathBuf| Aside::beside(path, files.iter().flatten(), &replaceable);
+            let beside = |path: &PathBuf| AtomicFile::beside(path, files.iter().flatten(), &replaceable);
             let file = path.as_ref().map(beside).transpose()?;
             files.push(file);
         }
         Ok(files)
     }
 
-    fn has_effect(&self, is_any_stored: bool) -> Result<(), Fault> {
+    fn has_effect(&self, is_any_stored: bool) -> Result<(), Diagnostic> {
         if self.force && !is_any_stored {
             return Err(needless("--force", "no file is to be stored"));
         }
@@ -351,12 +351,12 @@ fn command(cli: &Cli, name: &str) -> Exit {
         Ok(exit)
     });
     let exit = match result {
-        Ok(exit) if out.has_left_out() => exit.max(Exit::Fault),
+        Ok(exit) if out.has_left_out() => exit.max(Exit::Diagnostic),
         Ok(Exit::Violation) if cli.exit_zero => Exit::Expected,
         Ok(exit) => exit,
-        Err(Halt::Fault(fault)) => {
+        Err(Halt::Diagnostic(fault)) => {
             complain(&fault);
-            Exit::Fault
+            Exit::Diagnostic
         }
         Err(Halt::Interrupted) => Exit::Unfinished,
     };
@@ -365,7 +365,7 @@ fn command(cli: &Cli, name: &str) -> Exit {
 }
 
 /// Tells on stderr what went wrong, if anybody is there to read it.
-fn complain(fault: &Fault) {
+fn complain(fault: &Diagnostic) {
     let _ = write!(io::stderr(), "{}", render(fault, colour()));
 }
 

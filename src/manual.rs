@@ -8,8 +8,8 @@ use clap_mangen::roff::{Roff, roman};
 
 use super::output::{self, Output};
 use super::{EXIT_CODES, Exit, ForceArgs, hunt, needless, program};
-use tautline_sim::aside::{Aside, MAN_HEAD};
-use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::atomic_file::{AtomicFile, MAN_HEAD};
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -43,7 +43,7 @@ impl Manual {
             let replaceable = self.force.replaceable([]);
             for command in all(&program) {
                 let man = Man::new(command.clone());
-                let mut file = Aside::late(&folder.join(man.get_filename()), &replaceable);
+                let mut file = AtomicFile::late(&folder.join(man.get_filename()), &replaceable);
                 file.append(page(&man)?);
                 out.keep(file);
             }
@@ -65,7 +65,7 @@ fn all(command: &Command) -> Vec<&Command> {
     all
 }
 
-fn page(man: &Man) -> Result<Vec<u8>, Fault> {
+fn page(man: &Man) -> Result<Vec<u8>, Diagnostic> {
     let mut page = MAN_HEAD.as_bytes().to_vec();
     let mut exit_status = Roff::new();
     exit_status.control("SH", ["EXIT STATUS"]).text([roman(EXIT_CODES)]);
@@ -74,11 +74,11 @@ fn page(man: &Man) -> Result<Vec<u8>, Fault> {
     Ok(page)
 }
 
-fn unknown(command: &Command, name: &str) -> Fault {
+fn unknown(command: &Command, name: &str) -> Diagnostic {
     let what = format!("there is no command {name:?}");
     let names: Vec<&str> = command.get_subcommands().map(Command::get_name).collect();
     if names.is_empty() {
-        return Fault::usage(what, format_args!("{} has no commands of its own", command.get_name()));
+        return Diagnostic::usage(what, format_args!("{} has no commands of its own", command.get_name()));
     }
-    Fault::usage(what, format_args!("the commands are {}", names.join(", ")))
+    Diagnostic::usage(what, format_args!("the commands are {}", names.join(", ")))
 }

@@ -6,15 +6,15 @@ use std::path::PathBuf;
 use clap::Args;
 use schemars::JsonSchema;
 use serde::Serialize;
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::output::Output;
 use super::replay::draw;
 use super::{Exit, ForceArgs, Format, FormatArgs, clause, hunt, progress};
 use tautline_sim::counterexample::hunt::store;
 use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, minimise};
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::{ClauseId, Profile, Report, RuleId};
-use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::trace::Trace;
 
 const EXAMPLES: &str = "\
@@ -78,7 +78,7 @@ impl Minimise {
         });
         bar.finish_and_clear();
         let minimal = minimal.map_err(|failure| match failure {
-            Failure::Refused(refused) => Fault::in_file(&self.file, &refused, refused.remedy()).into(),
+            Failure::Refused(refused) => Diagnostic::in_file(&self.file, &refused, refused.remedy()).into(),
             Failure::Halted(halt) => halt,
         })?;
         tracing::info!("minimised in {}", counted(minimal.runs, "run"));

@@ -10,8 +10,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{SCHEMA_VERSION, complain};
-use tautline_sim::aside::{self, Aside, Finished};
-use tautline_sim::fault::Fault;
+use tautline_sim::atomic_file::{self, AtomicFile, Finished};
+use tautline_sim::diagnostic::Diagnostic;
 
 pub(super) struct Output {
     /// Unless its reader has gone away.
@@ -35,20 +35,20 @@ impl Output {
     }
 
     /// Keeps a file until the command ends. Whether it will stand in its place; otherwise it is left out.
-    pub(super) fn keep(&mut self, file: Aside) -> bool {
+    pub(super) fn keep(&mut self, file: AtomicFile) -> bool {
         let finished = file.finish().map_err(|fault| self.leave_out(&fault));
         finished.map(|file| self.files.push(file)).is_ok()
     }
 
     /// Puts all files that were kept in their places.
     pub(super) fn place(&mut self) {
-        for fault in aside::place(mem::take(&mut self.files)) {
+        for fault in atomic_file::place(mem::take(&mut self.files)) {
             self.leave_out(&fault);
         }
     }
 
     /// Tells why a file is left out. The command goes on, and ends as one with a fault.
-    pub(super) fn leave_out(&mut self, fault: &Fault) {
+    pub(super) fn leave_out(&mut self, fault: &Diagnostic) {
         complain(fault);
         self.has_left_out = true;
     }
@@ -64,17 +64,17 @@ impl Output {
     }
 
     /// Prints `text` as it is.
-    pub(super) fn text(&mut self, text: impl fmt::Display) -> Result<(), Fault> {
+    pub(super) fn text(&mut self, text: impl fmt::Display) -> Result<(), Diagnostic> {
         write!(self, "{text}").map_err(|error| unwritable(&error))
     }
 
     /// Prints bytes as they are.
-    pub(super) fn bytes(&mut self, bytes: &[u8]) -> Result<(), Fault> {
+    pub(super) fn bytes(&mut self, bytes: &[u8]) -> Result<(), Diagnostic> {
         self.write_all(bytes).map_err(|error| unwritable(&error))
     }
 
     /// Prints `content` as one JSON object on one line.
-    pub(super) fn json(&mut self, content: &impl Serialize) -> Result<(), Fault> {
+    pub(super) fn json(&mut self, content: &impl Serialize) -> Result<(), Diagnostic> {
         let versioned = Versioned { schema_version: SCHEMA_VERSION, content };
         let written = serde_json::to_writer(&mut *self, &versioned).map_err(io::Error::from);
         written.and_then(|()| writeln!(self)).map_err(|error| unwritable(&error))
@@ -109,6 +109,6 @@ impl Write for Output {
     }
 }
 
-pub(super) fn unwritable(error: &io::Error) -> Fault {
-    Fault::in_file("standard output", error, "make room, or send it elsewhere")
+pub(super) fn unwritable(error: &io::Error) -> Diagnostic {
+    Diagnostic::in_file("standard output", error, "make room, or send it elsewhere")
 }

@@ -7,7 +7,7 @@ use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressDrawTarget, Prog
 use tautline_proofs::engine::tree::Progress;
 
 use super::interrupt;
-use tautline_sim::fault::{Halt, Watch};
+use tautline_sim::diagnostic::{Halt, Watch};
 
 const STYLE: &str = "{prefix} {wide_bar} {percent} % {msg}";
 

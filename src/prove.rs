@@ -18,13 +18,13 @@ use tautline_proofs::engine::states::Room;
 use tautline_proofs::ledger::{self, Hear, Heard, Limits, PATIENCE_S, Row, table};
 
 use super::evidence::{self, Shown, shown};
-use super::findings::{self, Finding, Format, FormatArgs, Outcome};
+use super::findings::{self, Case, Format, FormatArgs, Outcome};
 use super::hunt::keep;
 use super::output::Output;
 use super::{Exit, ForceArgs, positive, progress};
-use tautline_sim::aside::Replaceable;
+use tautline_sim::atomic_file::Replaceable;
 use tautline_sim::counterexample::{hunt, refutation};
-use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -123,12 +123,12 @@ impl Prove {
         let replaceable = self.force.replaceable([]);
         if self.force.force && self.out.is_none() {
             let what = "--force without a file to store";
-            return Err(Fault::usage(what, "give --out, or leave out --force").into());
+            return Err(Diagnostic::usage(what, "give --out, or leave out --force").into());
         }
         if let Some(folder) = &self.out {
             fs::create_dir_all(folder).map_err(|error| {
                 let what = format!("the folder cannot be made: {error}");
-                Fault::in_file(folder, what, "name a folder, or a place where one can be made")
+                Diagnostic::in_file(folder, what, "name a folder, or a place where one can be made")
             })?;
         }
         let checks = ledger::checks(&clauses);
@@ -156,8 +156,9 @@ impl Prove {
                 ControlFlow::Continue(())
             }
         });
-        let rows = ledger::decide(&checks, &limits, &hear)
-            .map_err(|refused| Fault::usage(refused, "this is a bug in the registry: please report it"))?;
+        let rows = ledger::decide(&checks, &limits, &hear).map_err(|refused| {
+            Diagnostic::usage(refused, "this is a bug in the registry: please report it")
+        })?;
         bar.finish_and_clear();
         tracing::info!("{} checks in {:.1} s", rows.len(), start.elapsed().as_secs_f64());
         let mut files = Vec::new();
@@ -198,7 +199,7 @@ impl Prove {
         })
     }
 
-    fn chosen(&self) -> Result<Vec<&'static Clause>, Fault> {
+    fn chosen(&self) -> Result<Vec<&'static Clause>, Diagnostic> {
         if self.clauses.is_empty() {
             return Ok(ledger::clauses().collect());
         }
@@ -206,7 +207,7 @@ impl Prove {
             ledger::clauses().find(|clause| clause.id.eq_ignore_ascii_case(id)).ok_or_else(|| {
                 let known: Vec<&str> = ledger::clauses().map(|clause| clause.id).collect();
                 let remedy = format!("the clauses are {}", known.join(", "));
-                Fault::usage(format_args!("there is no clause {id:?}"), remedy)
+                Diagnostic::usage(format_args!("there is no clause {id:?}"), remedy)
             })
         };
         self.clauses.iter().map(find).collect()
@@ -236,7 +237,7 @@ fn unfinished(rows: &[Row], room: &Room) -> String {
 }
 
 /// The rows as a CI shows them.
-fn findings(rows: &[Row], room: &Room) -> Result<Vec<Finding>, Halt> {
+fn findings(rows: &[Row], room: &Room) -> Result<Vec<Case>, Halt> {
     let found = rows.iter().map(|row| {
         let Row { clause, check, ref decision, seconds, .. } = *row;
         let (verdict, registered) = (decision.verdict.word(), check.expected().word());
@@ -250,7 +251,7 @@ fn findings(rows: &[Row], room: &Room) -> Result<Vec<Finding>, Halt> {
                 survived.collect::<String>() + story(row, None)?.trim_start(),
             ),
         };
-        Ok(Finding {
+        Ok(Case {
             class: clause.id.split('-').next().unwrap_or(clause.id).to_owned(),
             name: format!("{} as {}, {}: {}", clause.id, check.rule(), check.engine(), check.bound()),
             outcome,

@@ -23,14 +23,14 @@ use super::rescue::{Files, tell};
 use super::viewers::{self, ViewerArgs, ViewerFiles};
 use super::{Exit, ForceArgs, Format, FormatArgs};
 use tautline_field::rescue;
-use tautline_sim::aside::Aside;
-use tautline_sim::counterexample::exhibit::{exhibit, of_agent, of_course, written_down};
+use tautline_sim::atomic_file::AtomicFile;
+use tautline_sim::counterexample::judge_input::{exhibit, of_agent, of_course, written_down};
 use tautline_sim::counterexample::refutation::{self, Refutation};
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw;
 use tautline_sim::draw::page::in_words;
 use tautline_sim::draw::svg;
-use tautline_sim::explore::{ClauseId, Judge, Play, Report, Stage, team};
-use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::explore::{ClauseId, Judge, Play, Report, RunConfig, team};
 use tautline_sim::trace::{self, Recorded, Stored, StoredMove, Summary, Trace, lines};
 
 const EXAMPLES: &str = "\
@@ -65,8 +65,8 @@ pub(super) struct Replay {
 
 /// What is stored of a run.
 struct Stores {
-    page: Option<Aside>,
-    picture: Option<Aside>,
+    page: Option<AtomicFile>,
+    picture: Option<AtomicFile>,
     viewers: ViewerFiles,
 }
 
@@ -164,7 +164,7 @@ impl Replay {
                 self.run_stored(trace::open(&self.file)?, Stores { page, picture, viewers }, out)
             }
             Some(_) | None => {
-                let foreign = |fault: Fault| fault.with_remedy(REPLAYABLE);
+                let foreign = |fault: Diagnostic| fault.with_remedy(REPLAYABLE);
                 self.run_stored(
                     trace::open(&self.file).map_err(foreign)?,
                     Stores { page, picture, viewers },
@@ -207,7 +207,7 @@ impl Replay {
                 return Ok(());
             }
             let what = format!("the judge reads no more than {MAX_JUDGED} robots in all team moves");
-            Err(Fault::in_file(&self.file, what, "shrink the run with `tautline minimise`").into())
+            Err(Diagnostic::in_file(&self.file, what, "shrink the run with `tautline minimise`").into())
         })?;
         let is_judged = match (chain, agent.zip(clause)) {
             (Some(exhibit), _) => self.judge_chain(&exhibit)?,
@@ -220,7 +220,7 @@ impl Replay {
 
     /// A run of a scheme that this program does not know, as it was written.
     fn run_recorded(&self, run: &Recorded, files: Stores, out: &mut Output) -> Result<Exit, Halt> {
-        let Stage { scheme, rule, layout, .. } = run.stage();
+        let RunConfig { scheme, rule, layout, .. } = run.stage();
         self.check_drawing(layout.size().area(), &files)?;
         let report = run.play(&mut |_| Ok(()))?;
         let said = format!(
@@ -241,7 +241,7 @@ impl Replay {
     }
 
     /// Checks that a page and a picture can hold what they are to show of `area`.
-    fn check_drawing(&self, area: Area, files: &Stores) -> Result<(), Fault> {
+    fn check_drawing(&self, area: Area, files: &Stores) -> Result<(), Diagnostic> {
         let Stores { page, picture, .. } = files;
         if page.is_some() || picture.is_some() {
             svg::check_size(area)?;
@@ -302,18 +302,18 @@ impl Replay {
     fn run_rescue(&self, files: Files, out: &mut Output) -> Result<Exit, Halt> {
         if self.moves.is_some() {
             let what = "a rescue has no team moves";
-            return Err(Fault::usage(what, "leave out --moves, or name a run of a team").into());
+            return Err(Diagnostic::usage(what, "leave out --moves, or name a run of a team").into());
         }
         let (setting, seed, report) = rescue::trace::replay(&self.file)?;
         tell(out, self.format.format, (&setting, seed, &report), files)
     }
 
-    fn run_refutation(&self, page: Option<Aside>, out: &mut Output) -> Result<Exit, Halt> {
+    fn run_refutation(&self, page: Option<AtomicFile>, out: &mut Output) -> Result<Exit, Halt> {
         if self.moves.is_some() || self.svg.is_some() {
             let what = "a refutation has no team moves to choose from, and no picture";
             let remedy =
                 "leave out --moves and --svg, or name a run of a team; a refutation has a page, with --html";
-            return Err(Fault::usage(what, remedy).into());
+            return Err(Diagnostic::usage(what, remedy).into());
         }
         let Refutation { clause, check, evidence } = refutation::replay(&self.file)?;
         let is_judged = self.is_judged(clause, check, &evidence)?;
@@ -375,9 +375,9 @@ impl Replay {
     }
 
     /// The judge has an objection.
-    fn rejected(&self, objection: &dyn Display) -> Fault {
+    fn rejected(&self, objection: &dyn Display) -> Diagnostic {
         let what = format!("the judge rejects this counterexample: {objection}");
-        Fault::in_file(&self.file, what, "make it again with `tautline hunt` or `tautline prove --out`")
+        Diagnostic::in_file(&self.file, what, "make it again with `tautline hunt` or `tautline prove --out`")
     }
 
     fn moves(&self, report: &Report) -> RangeInclusive<u32> {
@@ -390,7 +390,7 @@ impl Replay {
 
 /// Stores the page of a refutation: it plays the run that breaks the clause if the program can make it, and else tells the story.
 fn store_page(
-    mut page: Aside,
+    mut page: AtomicFile,
     clause: &Clause,
     check: &dyn AnyCheck,
     evidence: &Evidence,

@@ -1,7 +1,7 @@
 //! A fault as a person sees it: one line, or the spot drawn.
 
 use ariadne::{Color, Config, Fmt, IndexType, Label, Report, ReportKind, Source};
-use tautline_sim::fault::{Excerpt, Fault, Place};
+use tautline_sim::diagnostic::{Diagnostic, Excerpt, Place};
 
 /// Beyond this line the spot is not drawn: the drawing counts lines from the first.
 const MAX_DRAWN_LINE: usize = 1 << 20;
@@ -61,7 +61,7 @@ pub(crate) fn with_flags(words: &str) -> String {
 }
 
 /// What is wrong. Only where it is asked for something are the words our own; elsewhere they may quote a file.
-fn what(fault: &Fault) -> String {
+fn what(fault: &Diagnostic) -> String {
     match fault.place() {
         Place::Request { .. } => with_flags(fault.what()),
         Place::File(_) | Place::Spot { .. } => fault.what().to_owned(),
@@ -69,7 +69,7 @@ fn what(fault: &Fault) -> String {
 }
 
 /// The fault over several lines, with the spot drawn where there is one. Ends with a newline.
-pub(crate) fn render(fault: &Fault, colour: Colour) -> String {
+pub(crate) fn render(fault: &Diagnostic, colour: Colour) -> String {
     match fault.place() {
         Place::Spot { file, line, column, excerpt } if *line <= MAX_DRAWN_LINE => {
             draw(fault, file, (*line, *column), excerpt, colour).unwrap_or_else(|| headline(fault, colour))
@@ -78,7 +78,7 @@ pub(crate) fn render(fault: &Fault, colour: Colour) -> String {
     }
 }
 
-fn headline(fault: &Fault, colour: Colour) -> String {
+fn headline(fault: &Diagnostic, colour: Colour) -> String {
     let (error, help) = match colour {
         Colour::Ansi => ("Error:".fg(Color::Red).to_string(), "Help:".fg(Color::Fixed(115)).to_string()),
         Colour::Plain => ("Error:".to_owned(), "Help:".to_owned()),
@@ -89,7 +89,7 @@ fn headline(fault: &Fault, colour: Colour) -> String {
 /// Empty lines stand for those before the excerpt, so that the margin numbers are those of the file. The heading counts
 /// columns in the clipped line, hence the replacement.
 fn draw(
-    fault: &Fault,
+    fault: &Diagnostic,
     file: &str,
     (line, column): (usize, usize),
     excerpt: &Excerpt,

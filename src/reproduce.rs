@@ -14,9 +14,9 @@ use tautline_papers::shards::{deal_table, restored, table_part};
 use tautline_papers::tables::parameter::{Given, Values};
 use tautline_papers::tables::{About, Asked, Entry, Made, Observer, TABLES, find};
 use tautline_proofs::engine::tree::Progress;
-use tautline_proofs::words::counted;
-use tautline_sim::aside::Aside;
-use tautline_sim::fault::{Fault, Halt};
+use tautline_proofs::plural::counted;
+use tautline_sim::atomic_file::AtomicFile;
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::shards::Plan;
 
 use super::output::Output;
@@ -121,7 +121,7 @@ impl Wanted {
     fn deal(&self, asked: &dyn Asked, path: &Path, shards: u32, out: &mut Output) -> Result<Exit, Halt> {
         if self.csv.is_some() || self.pictures.1.iter().any(Option::is_some) {
             let remedy = "leave them out, and give tautline merge a --picture and --csv";
-            return Err(Fault::usage("a plan has no pictures and no values", remedy).into());
+            return Err(Diagnostic::usage("a plan has no pictures and no values", remedy).into());
         }
         Plan::check(shards)?;
         let (of, deal, jobs) = deal_table(self.table.about().id, asked)?;
@@ -140,21 +140,21 @@ pub(super) struct Planned {
 /// The files that a table is stored in, begun.
 pub(super) struct Files {
     /// By the name of a picture.
-    pictures: Vec<(String, Aside)>,
-    csv: Option<Aside>,
+    pictures: Vec<(String, AtomicFile)>,
+    csv: Option<AtomicFile>,
 }
 
 impl Files {
     /// The pictures of these names, where they have a place, and the values.
     ///
     /// # Errors
-    /// A [`Fault`] if one of them has none, or there is nothing to force.
+    /// A [`Diagnostic`] if one of them has none, or there is nothing to force.
     pub(super) fn of(
         names: &[impl ToString],
         paths: &[Option<PathBuf>],
         csv: Option<&Path>,
         force: &ForceArgs,
-    ) -> Result<Self, Fault> {
+    ) -> Result<Self, Diagnostic> {
         let paths: Vec<_> = paths.iter().cloned().chain([csv.map(Path::to_owned)]).collect();
         let mut files = force.each(&paths)?;
         let csv = files.pop().flatten();

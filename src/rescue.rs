@@ -10,11 +10,11 @@ use clap::Args;
 use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_proofs::mrc::Demand;
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, needless, progress, real, viewers, whole};
-use crate::chosen::chosen;
+use crate::value_parser::chosen;
 use tautline_field::draw::{self, field::picture};
 use tautline_field::radio::{ChannelName, FREE_SPACE};
 use tautline_field::rescue::{
@@ -22,12 +22,12 @@ use tautline_field::rescue::{
     rescue, seconds, trace,
 };
 use tautline_field::stats::Estimate;
-use tautline_sim::aside::Aside;
-use tautline_sim::columns::{Column, Columns, Width};
+use tautline_sim::atomic_file::AtomicFile;
+use tautline_sim::diagnostic::{Diagnostic, Halt, Watch};
 use tautline_sim::explore::RuleName;
-use tautline_sim::fault::{Fault, Halt, Watch};
-use tautline_sim::reading::Metres;
-use tautline_sim::words::Worded;
+use tautline_sim::named_values::NamedValues;
+use tautline_sim::text_table::{Column, TextTable, Width};
+use tautline_sim::value_parser::Metres;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -220,7 +220,7 @@ impl Rescue {
         if let Some(seed) = self.seeds.one() {
             let files = [&self.trace, &self.replay, &self.svg, &self.mcap];
             let [trace, page, map, recording] = self.force.files(files, [])?;
-            let report = rescue(&setting, seed).map_err(Fault::from)?;
+            let report = rescue(&setting, seed).map_err(Diagnostic::from)?;
             tracing::info!("the rescue with seed {seed} has {}", counted(report.log.len(), "event"));
             let files = Files { trace, page, map, recording };
             return tell(out, self.format.format, (&setting, seed, &report), files);
@@ -228,7 +228,7 @@ impl Rescue {
         if [&self.trace, &self.replay, &self.svg, &self.mcap].into_iter().any(Option::is_some) {
             let first = seeds.start();
             let remedy = format!("give one seed, for example --seeds {first}");
-            return Err(Fault::usage("several rescues do not fit into one file", remedy).into());
+            return Err(Diagnostic::usage("several rescues do not fit into one file", remedy).into());
         }
         let measure = |watch: &Watch<'_>| Summary::measure(&setting, seeds.clone(), watch);
         let summary = progress::during("rescuing", count(seeds), measure)?;
@@ -264,13 +264,13 @@ impl Rescue {
 /// What is stored of a rescue.
 pub(super) struct Files {
     /// Itself.
-    pub(super) trace: Option<Aside>,
+    pub(super) trace: Option<AtomicFile>,
     /// The page that plays it.
-    pub(super) page: Option<Aside>,
+    pub(super) page: Option<AtomicFile>,
     /// The map.
-    pub(super) map: Option<Aside>,
+    pub(super) map: Option<AtomicFile>,
     /// The recording.
-    pub(super) recording: Option<Aside>,
+    pub(super) recording: Option<AtomicFile>,
 }
 
 /// Prints what came of one rescue, and stores it and the drawings of it.
@@ -433,7 +433,7 @@ fn table(setting: &Setting, summary: &Summary) -> String {
         "seconds from the first call to the robot".to_owned(),
         Estimate::text_or_dash(summary.wait_s, 1),
     ));
-    let mut columns = Columns::new([Column::left(Width::Fit), Column::left(Width::Fit)]);
+    let mut columns = TextTable::new([Column::left(Width::Fit), Column::left(Width::Fit)]);
     for (name, value) in rows {
         columns.row([name, value]);
     }

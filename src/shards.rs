@@ -9,9 +9,9 @@ use serde::Serialize;
 use serde_json::value::RawValue;
 #[cfg(feature = "papers")]
 use tautline_papers::shards::{merge_table, restored};
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::hunt::Asked;
-use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::part::{Facts, KEEP_EVERY, Part};
+use tautline_sim::resumable::{Facts, KEEP_EVERY, Resumable};
 use tautline_sim::shards::{Gap, Keeper, Of, Plan, merge_hunt};
 
 use super::findings::FormatArgs;
@@ -56,8 +56,8 @@ impl ShardArgs {
     /// What is asked.
     ///
     /// # Errors
-    /// A [`Fault`] if a plan alone is given.
-    pub(super) fn wanted(&self) -> Result<Wanted<'_>, Fault> {
+    /// A [`Diagnostic`] if a plan alone is given.
+    pub(super) fn wanted(&self) -> Result<Wanted<'_>, Diagnostic> {
         match (&self.plan, self.shards, self.shard) {
             (None, ..) => Ok(Wanted::All),
             (Some(plan), Some(shards), _) => Ok(Wanted::Plan(plan, shards)),
@@ -65,7 +65,7 @@ impl ShardArgs {
             (Some(_), None, None) => {
                 let remedy =
                     "give --shards to make the plan, --shard to run a shard of it, or tautline merge it";
-                Err(Fault::usage("--plan alone asks for nothing", remedy))
+                Err(Diagnostic::usage("--plan alone asks for nothing", remedy))
             }
         }
     }
@@ -120,12 +120,12 @@ pub(super) fn run<'p>(
     shard: u32,
     format: Format,
     out: &mut Output,
-    part: impl FnOnce(Option<&RawValue>) -> Result<Box<dyn Part + 'p>, Halt>,
+    part: impl FnOnce(Option<&RawValue>) -> Result<Box<dyn Resumable + 'p>, Halt>,
 ) -> Result<Exit, Halt> {
     let path = plan.shard_path(shard);
     let (mut keeper, far) = Keeper::open(plan, shard, &path)?;
     let mut part = part(far.as_deref()).map_err(|halt| match halt {
-        Halt::Fault(fault) if far.is_some() => fault.found_in(&path).into(),
+        Halt::Diagnostic(fault) if far.is_some() => fault.found_in(&path).into(),
         halt => halt,
     })?;
     interrupt::defer();
@@ -207,7 +207,7 @@ fn refuse(plan: &Plan, gaps: &[Gap]) {
         named.push(format!("and {} more", gaps.len() - MOST_NAMED));
     }
     let what = format!("{} of {} shards are not there: {}", gaps.len(), plan.shards, named.join(", "));
-    complain(&Fault::in_file(plan.path(), what, "run them, and merge again"));
+    complain(&Diagnostic::in_file(plan.path(), what, "run them, and merge again"));
 }
 
 impl Merge {
@@ -229,7 +229,9 @@ impl Merge {
         match plan.of {
             Of::Hunt { scheme, rule } => {
                 if self.csv.is_some() || !self.pictures.is_empty() {
-                    return Err(Fault::usage("a hunt has no --picture and no --csv", "leave them out").into());
+                    return Err(
+                        Diagnostic::usage("a hunt has no --picture and no --csv", "leave them out").into()
+                    );
                 }
                 check_folder(&self.out)?;
                 let asked = Asked::new(scheme, rule);
@@ -243,7 +245,7 @@ impl Merge {
             #[cfg(not(feature = "papers"))]
             Of::Table { .. } => {
                 let remedy = "build it with the feature `papers`";
-                Err(Fault::usage("this program was built without tables", remedy).into())
+                Err(Diagnostic::usage("this program was built without tables", remedy).into())
             }
             #[cfg(feature = "papers")]
             Of::Table { .. } => {

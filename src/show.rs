@@ -9,10 +9,10 @@ use tautline_kernel::ground::Cell;
 
 use super::output::Output;
 use super::{Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless};
-use tautline_sim::aside::Aside;
+use tautline_sim::atomic_file::AtomicFile;
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::svg::{self, Panel};
 use tautline_sim::draw::{self, Environment};
-use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::schema::CellWritten;
 
 const EXAMPLES: &str = "\
@@ -101,7 +101,7 @@ impl Show {
                 height: layout.height(),
                 free_cells: layout.free_cells(),
                 walls: layout.walls().count(),
-                base: layout.base().map_or_else(|| layout.default_base(), Ok).map_err(Fault::from)?,
+                base: layout.base().map_or_else(|| layout.default_base(), Ok).map_err(Diagnostic::from)?,
                 robots: layout.robots(),
                 drawing,
             })?,
@@ -111,7 +111,7 @@ impl Show {
 }
 
 /// Stores a picture of `panels` where the user wants one.
-fn store(out: &mut Output, file: Option<Aside>, title: &str, panels: &[Panel]) {
+fn store(out: &mut Output, file: Option<AtomicFile>, title: &str, panels: &[Panel]) {
     if let Some(mut file) = file {
         file.append(svg::picture(title, panels));
         out.keep(file);

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use tautline_field::rescue::{Report, Setting};
-use tautline_sim::aside::Aside;
+use tautline_sim::atomic_file::AtomicFile;
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::Play;
-use tautline_sim::fault::{Fault, Halt};
 #[cfg(feature = "viewers")]
 use tautline_viewers::{itf, mcap, rescue};
 
@@ -26,7 +26,7 @@ pub(super) struct ViewerArgs {
 }
 
 /// Those files, begun.
-pub(super) type ViewerFiles = [Option<Aside>; 2];
+pub(super) type ViewerFiles = [Option<AtomicFile>; 2];
 
 impl ViewerArgs {
     /// Where they are to stand.
@@ -38,19 +38,23 @@ impl ViewerArgs {
 /// Refuses a file in the format `option` where there is no run of a team: in the file at `path` there is `what` instead.
 ///
 /// # Errors
-/// A [`Fault`] if it is asked for.
-pub(super) fn refuse(asked: Option<&Aside>, (option, what): (&str, &str), path: &Path) -> Result<(), Fault> {
+/// A [`Diagnostic`] if it is asked for.
+pub(super) fn refuse(
+    asked: Option<&AtomicFile>,
+    (option, what): (&str, &str),
+    path: &Path,
+) -> Result<(), Diagnostic> {
     if asked.is_none() {
         return Ok(());
     }
     let what = format!("{what} has no team moves for {option}");
-    Err(Fault::in_file(path, what, format_args!("leave {option} out, or name a run of a team")))
+    Err(Diagnostic::in_file(path, what, format_args!("leave {option} out, or name a run of a team")))
 }
 
 /// Writes `run` to these files.
 #[cfg(feature = "viewers")]
 pub(super) fn store([itf, mcap]: ViewerFiles, run: &dyn Play, out: &mut Output) -> Result<(), Halt> {
-    type Write = fn(&mut Aside, &dyn Play) -> Result<(), Halt>;
+    type Write = fn(&mut AtomicFile, &dyn Play) -> Result<(), Halt>;
     for (file, write) in [(itf, itf::write as Write), (mcap, mcap::write)] {
         if let Some(mut file) = file {
             write(&mut file, run)?;
@@ -68,12 +72,17 @@ pub(super) fn store(_: ViewerFiles, _: &dyn Play, _: &mut Output) -> Result<(), 
 
 /// Writes a rescue as a recording of ROS 2.
 #[cfg(feature = "viewers")]
-pub(super) fn record(file: &mut Aside, setting: &Setting, seed: u64, report: &Report) -> Result<(), Fault> {
+pub(super) fn record(
+    file: &mut AtomicFile,
+    setting: &Setting,
+    seed: u64,
+    report: &Report,
+) -> Result<(), Diagnostic> {
     rescue::write(file, setting, seed, report)
 }
 
 /// Writes nothing: this program was built without viewers, and has no option that names such a file.
 #[cfg(not(feature = "viewers"))]
-pub(super) fn record(_: &mut Aside, _: &Setting, _: u64, _: &Report) -> Result<(), Fault> {
+pub(super) fn record(_: &mut AtomicFile, _: &Setting, _: u64, _: &Report) -> Result<(), Diagnostic> {
     Ok(())
 }

@@ -13,7 +13,7 @@ use tempfile::TempDir;
 #[path = "cli/areas.rs"]
 mod areas;
 #[path = "cli/faults.rs"]
-mod faults;
+mod failures;
 #[path = "cli/files.rs"]
 mod files;
 #[path = "cli/frontier.rs"]

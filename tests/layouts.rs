@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use insta::{allow_duplicates, assert_snapshot};
 use proptest::prelude::*;
 use tautline_kernel::ground::{Cell, Edge, Side};
-use tautline_sim::fault::Fault;
+use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::layout::{self, Generator, Layout, Problem, movingai, ros};
 
 #[path = "../src/report.rs"]
@@ -70,12 +70,12 @@ fn refused(name: &str, content: impl AsRef<[u8]>) -> String {
     plain(&layout::load(file.to_str().expect("a name"), 0, None).expect_err("a fault"), folder.path())
 }
 
-fn plain(fault: &Fault, folder: &Path) -> String {
+fn plain(fault: &Diagnostic, folder: &Path) -> String {
     with_flags(&fault.to_string()).replace(&format!("{}/", folder.display()), "")
 }
 
 /// The drawing of a fault without the blanks at the ends of its lines.
-fn shown(fault: &Fault) -> String {
+fn shown(fault: &Diagnostic) -> String {
     render(fault, Colour::Plain).lines().map(str::trim_end).collect::<Vec<_>>().join("\n")
 }
 
@@ -186,7 +186,7 @@ proptest! {
         let _ = text.parse::<Layout>();
         let _ = movingai::read(&text);
         let _ = ros::describe(&text);
-        let fault = Fault::at("a.txt", &text, start..start + length, "wrong", "right");
+        let fault = Diagnostic::at("a.txt", &text, start..start + length, "wrong", "right");
         prop_assert!(render(&fault, Colour::Plain).contains("wrong"));
     }
 
@@ -610,7 +610,8 @@ fn buildings_are_connected() {
 fn a_fault_shows_its_spot() {
     let source = DRAWING.replace("##", "#é");
     let at = source.find("#é").expect("the spot");
-    let fault = Fault::at("arena.txt", &source, at..at + 3, "the symbol \"#é\" is unknown", "write `##`");
+    let fault =
+        Diagnostic::at("arena.txt", &source, at..at + 3, "the symbol \"#é\" is unknown", "write `##`");
     assert_snapshot!(shown(&fault), @r##"
     Error: the symbol "#é" is unknown
        ╭─[ arena.txt:6:8 ]
@@ -624,11 +625,11 @@ fn a_fault_shows_its_spot() {
     "##);
     assert!(!render(&fault, Colour::Plain).contains('\u{1b}'));
     assert!(render(&fault, Colour::Ansi).contains('\u{1b}'));
-    assert_snapshot!(shown(&Fault::usage("too many robots", "give at most 9")), @r"
+    assert_snapshot!(shown(&Diagnostic::usage("too many robots", "give at most 9")), @r"
     Error: too many robots
      Help: give at most 9
     ");
-    assert_snapshot!(shown(&Fault::in_file("a.txt", "empty", "fill it")), @r"
+    assert_snapshot!(shown(&Diagnostic::in_file("a.txt", "empty", "fill it")), @r"
     Error: a.txt: empty
      Help: fill it
     ");
@@ -638,7 +639,7 @@ fn a_fault_shows_its_spot() {
 fn a_fault_in_a_large_text_keeps_its_neighbourhood_only() {
     let line = "0123456789".repeat(1_000_000);
     let source = format!("{}{line}", "\n".repeat(99_999));
-    let fault = Fault::at("trace.jsonl", &source, 5_099_999..5_100_000, "wrong", "right");
+    let fault = Diagnostic::at("trace.jsonl", &source, 5_099_999..5_100_000, "wrong", "right");
     assert_snapshot!(shown(&fault), @r"
     Error: wrong
             ╭─[ trace.jsonl:100000:5000001 ]
@@ -651,7 +652,7 @@ fn a_fault_in_a_large_text_keeps_its_neighbourhood_only() {
     ────────╯
     ");
     assert!(format!("{fault:?}").len() < 1_000);
-    let end = Fault::at("trace.jsonl", "{}\n", 3..3, "the trace ends here", "give it whole");
+    let end = Diagnostic::at("trace.jsonl", "{}\n", 3..3, "the trace ends here", "give it whole");
     assert_snapshot!(shown(&end), @r"
     Error: the trace ends here
        ╭─[ trace.jsonl:2:1 ]

@@ -8,7 +8,7 @@ use tautline_proofs::clause::Clause;
 use tautline_proofs::decide::{Evidence, Memory, Verdict};
 use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::ledger;
-use tautline_sim::aside::Replaceable;
+use tautline_sim::atomic_file::Replaceable;
 use tautline_sim::counterexample::refutation::{self, path, replay};
 
 /// What refutes the checks that are registered as refuted, but for those that take long to decide: the clause, the number of

@@ -21,7 +21,7 @@ const KNOWN_TO: &str = "
     kernel choice conditions floor ground net: *
     kernel ants: bricks
     kernel bricks chain frontier kit mrc notice pack perception position tan:
-    proofs clause course decide engine run step_check team words: *
+    proofs clause decide engine floor_trace plural run step_check team: *
     proofs judge ledger:
     proofs floor: ants bricks
     proofs ground: ledger chain
@@ -35,9 +35,9 @@ const KNOWN_TO: &str = "
 
 /// By crate and rooms: the only rooms that they may import.
 const KNOWS: &str = "
-    proofs engine: words
-    proofs judge words:
-    sim fault words: fault words
+    proofs engine: plural
+    proofs judge plural:
+    sim diagnostic named_values: diagnostic named_values
     field radio: radio
     field tan: radio
     field stats: stats";
@@ -183,12 +183,12 @@ fn a_forbidden_arrow_is_found_however_it_is_written() {
         ["chain", "run"]
     );
     assert_eq!(
-        found("run.rs", "use crate::{\n    chain::{Rule, plan},\n    words,\n};\nuse std::fs;"),
-        ["chain", "words"]
+        found("run.rs", "use crate::{\n    chain::{Rule, plan},\n    plural,\n};\nuse std::fs;"),
+        ["chain", "plural"]
     );
     assert_eq!(
-        found("run.rs", "use super::{chain, words::{self, one}};\nuse crate::*;"),
-        ["*", "chain", "words"]
+        found("run.rs", "use super::{chain, plural::{self, one}};\nuse crate::*;"),
+        ["*", "chain", "plural"]
     );
     let inner = "use super::super::tan;\nmod tests {\n    use super::super::log;\n}\nuse super::super::mrc;";
     assert_eq!(found("run/log.rs", inner), ["mrc", "tan"]);
@@ -200,16 +200,16 @@ fn a_forbidden_arrow_is_found_however_it_is_written() {
         ("proofs", "engine/tree.rs", "use crate::run::Run;"),
         ("proofs", "decide.rs", "use crate::{run, chain};"),
         ("proofs", "mrc/space.rs", "use super::super::ledger;"),
-        ("proofs", "judge/chain.rs", "use crate::words::counted;"),
+        ("proofs", "judge/chain.rs", "use crate::plural::counted;"),
         ("sim", "draw/svg.rs", "use tautline_papers::tables::optimum;"),
         ("field", "tan/tree.rs", "use crate::rescue::Report;"),
-        ("sim", "fault.rs", "use crate::layout::Layout;"),
+        ("sim", "diagnostic.rs", "use crate::layout::Layout;"),
     ] {
         assert_eq!(forbidden(part, file, text).len(), 1, "{part}/src/{file}: {text}");
     }
     for (part, file, text) in [
         ("kernel", "mrc/robot.rs", "use crate::net::Notice;"),
-        ("proofs", "engine/tree.rs", "use super::states;\nuse crate::words::counted;"),
+        ("proofs", "engine/tree.rs", "use super::states;\nuse crate::plural::counted;"),
         ("proofs", "ledger.rs", "use crate::{ants, chain, mrc};"),
         ("papers", "tables/optimum.rs", "use tautline_field::stats::mean;\nuse tautline_proofs::chain;"),
         ("papers", "lib.rs", "pub use crate::tables::all;"),

@@ -16,9 +16,9 @@ pub use trials::{Advice, Anchors, Errors, Quantiles, Report, Setting, Spot};
 
 use tautline_kernel::position::Refusal;
 
-use tautline_sim::fault::Fault;
+use tautline_sim::diagnostic::Diagnostic;
 
 /// What is wrong where the kernel refuses, for a person.
-pub fn refused(refusal: Refusal) -> Fault {
-    Fault::usage(refusal, refusal.remedy())
+pub fn refused(refusal: Refusal) -> Diagnostic {
+    Diagnostic::usage(refusal, refusal.remedy())
 }

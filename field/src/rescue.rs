@@ -6,10 +6,10 @@
 //! Everything left to chance is asked of an `Oracle`: the same [`Setting`] and seed make the same rescue on every machine.
 //! While it runs, what the clauses MRC-1 to MRC-9 demand is looked at after every turn.
 
+mod acks;
 mod agenda;
 mod event;
 mod judge;
-mod letters;
 mod pace;
 mod problem;
 mod report;

@@ -30,13 +30,13 @@ use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::engine::{Seeded, Tape};
 use tautline_proofs::judge::chain::{Exhibit, judge as judged};
 use tautline_proofs::run::Frame;
-use tautline_sim::counterexample::exhibit::exhibit;
+use tautline_sim::counterexample::judge_input::exhibit;
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::chain::{CHAIN, Saved, hunt};
 use tautline_sim::explore::{RuleName, Setup};
-use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::heap_grid::HeapGrid;
 use tautline_sim::layout::{Layout, Misread, Size, movingai, ros, text};
 use tautline_sim::trace::Trace;
-use tautline_sim::wide::WideGrid;
 
 pub use floor::floor;
 pub use frontier::frontier;
@@ -90,7 +90,7 @@ pub fn chain(bytes: &[u8]) {
         let chain = Chain::<_, 8>::new(rule, robots, base, grid).expect("it fits");
         follow(chain, 20_000, |_| is_open(&mut oracle), |before, frame| check(kept, before, frame))
     } else {
-        let chain = Chain::<_, 32>::new(rule, robots, base, WideGrid::new(area)).expect("it fits");
+        let chain = Chain::<_, 32>::new(rule, robots, base, HeapGrid::new(area)).expect("it fits");
         follow(chain, 500, |_| is_open(&mut oracle), |before, frame| check(kept, before, frame))
     };
     assert!(robots > 8 || last == Last::Ended, "a chain of {robots} is still under way");
@@ -261,7 +261,7 @@ fn plan(bytes: &[u8], teams: [usize; 4], moves: fn(usize) -> usize) {
     let mut random = Seeded::new(oracle.pick(256).into(), oracle.pick(256).into());
     let range = robots as i16 - 1;
     let area = Area::new(Cell::new(0, 0), Cell::new(2 * range, 2 * range)).expect("it has cells");
-    let grid = WideGrid::new(area);
+    let grid = HeapGrid::new(area);
     let mut chain = Chain::<_, 64>::new(rule, robots, Cell::new(range, range), grid).expect("it fits");
     let mut bits = answers.iter().flat_map(|byte| (0..8).map(move |bit| byte >> bit & 1 == 0));
     let mut log = Vec::new();
@@ -366,7 +366,7 @@ pub fn layout_ros(bytes: &[u8]) {
     match ros::describe(oracle) {
         Ok(description) => match ros::read(&description, image.get(1..).unwrap_or_default()) {
             Ok(layout) => read_back(oracle, Ok(layout)),
-            Err(problem) => told(&Fault::in_file(Path::new("map.pgm"), &problem, problem.remedy())),
+            Err(problem) => told(&Diagnostic::in_file(Path::new("map.pgm"), &problem, problem.remedy())),
         },
         Err(misread) => read_back(oracle, Err(misread)),
     }
@@ -377,7 +377,7 @@ pub fn trace(bytes: &[u8]) {
     let mut file = tempfile::NamedTempFile::new().expect("a file");
     file.write_all(bytes).expect("it can be written");
     let mut left = 100;
-    let replayed = Trace::open(file.path()).map_err(Halt::Fault).and_then(|trace| {
+    let replayed = Trace::open(file.path()).map_err(Halt::Diagnostic).and_then(|trace| {
         trace.replay(&mut |_| {
             left -= 1;
             if left == 0 { Err(Halt::Interrupted) } else { Ok(()) }
@@ -385,7 +385,7 @@ pub fn trace(bytes: &[u8]) {
     });
     match replayed {
         Ok(_) | Err(Halt::Interrupted) => {}
-        Err(Halt::Fault(fault)) => told(&fault),
+        Err(Halt::Diagnostic(fault)) => told(&fault),
     }
 }
 
@@ -400,12 +400,12 @@ fn read_back(oracle: &str, layout: Result<Layout, Misread>) {
         }
         Err(Misread { at, problem }) => {
             let remedy = problem.remedy();
-            told(&Fault::at(Path::new("layout"), oracle, at, &problem, remedy));
+            told(&Diagnostic::at(Path::new("layout"), oracle, at, &problem, remedy));
         }
     }
 }
 
-fn told(fault: &Fault) {
+fn told(fault: &Diagnostic) {
     let line = fault.to_string();
     assert!(!line.is_empty() && !line.contains('\n'), "{line}");
     assert!(!report::render(fault, report::Colour::Plain).is_empty());

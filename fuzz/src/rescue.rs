@@ -8,9 +8,9 @@ use tautline_field::rescue::{CallTimes, Fate, SchemeName, Setting, rescue as run
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_proofs::engine::Tape;
 use tautline_proofs::mrc::Demand;
-use tautline_sim::aside::{Aside, Foreign, Replaceable};
+use tautline_sim::atomic_file::{AtomicFile, Foreign, Replaceable};
+use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::RuleName;
-use tautline_sim::fault::Fault;
 
 use super::{numbers, told};
 
@@ -61,7 +61,7 @@ pub fn rescue(bytes: &[u8]) {
     let (setting, seed) = setting(&mut Tape(&numbers));
     let report = match run(&setting, seed) {
         Ok(report) => report,
-        Err(problem) => return told(&Fault::from(problem)),
+        Err(problem) => return told(&Diagnostic::from(problem)),
     };
     assert!(report.log.is_sorted_by_key(|logged| logged.at_ns));
     assert!(report.log.iter().all(|logged| !logged.event.to_string().is_empty()));
@@ -89,7 +89,7 @@ pub fn rescue_trace(bytes: &[u8]) {
     let (setting, seed) = setting(&mut bytes);
     let Ok(report) = run(&setting, seed) else { return };
     let replaceable = Replaceable::new(Foreign::Replace, []);
-    let mut aside = Aside::new(file.path(), &replaceable).expect("a place");
+    let mut aside = AtomicFile::new(file.path(), &replaceable).expect("a place");
     trace::write(&mut aside, &setting, seed, &report);
     aside.keep().expect("a place");
     let mut stored = fs::read(file.path()).expect("a rescue");

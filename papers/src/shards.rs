@@ -3,11 +3,11 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use crate::tables::{Asked, find};
-use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::part::{Facts, Part, written};
+use tautline_sim::diagnostic::{Diagnostic, Halt};
+use tautline_sim::resumable::{Facts, Resumable, written};
 use tautline_sim::shards::{Done, Of, Plan};
 
 /// Jobs for each thread that are measured before the results are kept.
@@ -35,12 +35,14 @@ struct Jobs<'a> {
     results: Vec<Box<RawValue>>,
 }
 
-fn raw(text: String) -> Result<Box<RawValue>, Fault> {
-    RawValue::from_string(text).map_err(|error| Fault::usage(error, "report it: this is a bug of tautline"))
+fn raw(text: String) -> Result<Box<RawValue>, Diagnostic> {
+    RawValue::from_string(text)
+        .map_err(|error| Diagnostic::usage(error, "report it: this is a bug of tautline"))
 }
 
-fn read<'a, T: Deserialize<'a>>(value: &'a RawValue) -> Result<T, Fault> {
-    serde_json::from_str(value.get()).map_err(|error| Fault::usage(error, "take it as tautline wrote it"))
+fn read<'a, T: Deserialize<'a>>(value: &'a RawValue) -> Result<T, Diagnostic> {
+    serde_json::from_str(value.get())
+        .map_err(|error| Diagnostic::usage(error, "take it as tautline wrote it"))
 }
 
 /// Deals the jobs of a table out.
@@ -55,9 +57,10 @@ pub fn deal_table(id: &str, asked: &dyn Asked) -> Result<(Of, Box<RawValue>, usi
 /// The table that a plan deals out.
 ///
 /// # Errors
-/// A [`Fault`] if it is none of a table.
-pub fn restored(plan: &Plan) -> Result<Box<dyn Asked>, Fault> {
-    let none = || Fault::usage("this plan is none of a table", "run it with the command that planned it");
+/// A [`Diagnostic`] if it is none of a table.
+pub fn restored(plan: &Plan) -> Result<Box<dyn Asked>, Diagnostic> {
+    let none =
+        || Diagnostic::usage("this plan is none of a table", "run it with the command that planned it");
     let Of::Table { id } = &plan.of else { return Err(none()) };
     let deal: Deal = read(&plan.deal)?;
     find(id).ok_or_else(none)?.restored(deal.settings.get())
@@ -72,14 +75,14 @@ pub fn table_part<'a>(
     asked: &'a dyn Asked,
     shard: u32,
     far: Option<&RawValue>,
-) -> Result<Box<dyn Part + 'a>, Halt> {
+) -> Result<Box<dyn Resumable + 'a>, Halt> {
     plan.check_shard(shard)?;
     let (first, of) = (shard as usize - 1, plan.shards as usize);
     let jobs: Vec<String> = asked.jobs()?.into_iter().skip(first).step_by(of).collect();
     let results = far.map(read::<Far>).transpose()?.map_or(Vec::new(), |far| far.results);
     if results.len() > jobs.len() {
         let what = format!("shard {shard} has {}, and kept are more", counted(jobs.len(), "job"));
-        return Err(Fault::usage(what, "remove its file, and run it again").into());
+        return Err(Diagnostic::usage(what, "remove its file, and run it again").into());
     }
     Ok(Box::new(Jobs { asked, all: jobs, results }))
 }
@@ -99,13 +102,13 @@ pub fn merge_table(plan: &Plan, asked: &dyn Asked, shards: &[Done]) -> Result<Ve
     let next = |job: usize| {
         let result = shards.get_mut(job % of).and_then(Iterator::next);
         let missing =
-            || Fault::usage(format_args!("the result of job {job} is missing"), "run its shard again");
+            || Diagnostic::usage(format_args!("the result of job {job} is missing"), "run its shard again");
         Ok(result.ok_or_else(missing)?.get().to_owned())
     };
     (0..deal.jobs).map(next).collect()
 }
 
-impl Part for Jobs<'_> {
+impl Resumable for Jobs<'_> {
     fn step(&mut self) -> Result<bool, Halt> {
         let at_once = JOBS_AT_ONCE * rayon::current_num_threads();
         let next = self.all.iter().skip(self.results.len()).take(at_once);
@@ -116,7 +119,7 @@ impl Part for Jobs<'_> {
         Ok(!self.is_done())
     }
 
-    fn far(&self) -> Result<Box<RawValue>, Fault> {
+    fn far(&self) -> Result<Box<RawValue>, Diagnostic> {
         written(&Far { results: self.results.clone() })
     }
 

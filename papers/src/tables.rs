@@ -37,7 +37,7 @@ use self::parameter::Parameter;
 use crate::chart::Point;
 use tautline_field::radio::Problem;
 use tautline_field::stats::Estimate;
-use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 
 /// Every table, in the order in which they are listed.
 pub const TABLES: &[&dyn Entry] = &[
@@ -241,12 +241,12 @@ pub fn find(id: &str) -> Option<&'static dyn Entry> {
 
 /// What is wrong with a radio field that was asked for.
 fn usage(problem: Problem) -> Halt {
-    Fault::usage(problem, problem.remedy()).into()
+    Diagnostic::usage(problem, problem.remedy()).into()
 }
 
 /// What is wrong with a layout that was asked for.
-fn unfit(problem: &tautline_sim::layout::Problem) -> Fault {
-    Fault::usage(problem, problem.remedy())
+fn unfit(problem: &tautline_sim::layout::Problem) -> Diagnostic {
+    Diagnostic::usage(problem, problem.remedy())
 }
 
 /// A mean or a share with its interval, at `x` in a chart.

@@ -6,10 +6,10 @@ use std::fmt;
 
 use tautline_kernel::choice::Oracle;
 
-use crate::course::Course;
 use crate::engine::states::{self, Limits, Room, System};
 use crate::engine::tree::Watch;
 use crate::engine::{self, Choices, Outcome, Replay, Script, Stop, Tally, Unfit, Until};
+use crate::floor_trace::Course;
 use crate::run::Run;
 
 /// What a check found.

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use tautline_kernel::ground::Cell;
-use tautline_proofs::course::Course;
 use tautline_proofs::decide::{Memory, Seen, Verdict};
 use tautline_proofs::engine::tree::unwatched;
+use tautline_proofs::floor_trace::Course;
 use tautline_proofs::judge::floor::{Exhibit, Judgement, Objection, Place, Turn, judge};
 use tautline_proofs::ledger;
 
@@ -14,7 +14,7 @@ fn place(cell: Cell) -> Place {
 }
 
 fn written_down(clause: &str, course: &Course) -> Exhibit {
-    let turn = |turn: &tautline_proofs::course::Turn| Turn {
+    let turn = |turn: &tautline_proofs::floor_trace::Turn| Turn {
         agent: turn.agent,
         to: place(turn.before.cells[turn.agent].after(turn.step)),
         is_done: turn.is_done,

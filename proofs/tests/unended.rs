@@ -167,7 +167,7 @@ impl Lots for Counting {
     type Lot = ();
     type Look = Seen;
     type Found = u64;
-    type Fault = Infallible;
+    type Diagnostic = Infallible;
 
     fn stages(&self) -> Vec<()> {
         vec![()]

@@ -7,11 +7,11 @@ from ._rule import Rule
 __all__ = [
     "Counterexample",
     "Estimate",
-    "Hunted",
+    "HuntReport",
     "Layout",
     "Moved",
     "OwnCounterexample",
-    "OwnHunted",
+    "OwnHuntReport",
     "Run",
     "Sweep",
     "estimate",
@@ -104,7 +104,7 @@ class Run:
     def _repr_html_(self) -> str: ...
 
 @final
-class Hunted:
+class HuntReport:
     @property
     def scheme(self) -> str: ...
     @property
@@ -151,7 +151,7 @@ class Moved:
     def blocked(self) -> tuple[bool, ...]: ...
 
 @final
-class OwnHunted:
+class OwnHuntReport:
     @property
     def scheme(self) -> str: ...
     @property
@@ -238,8 +238,8 @@ def hunt(
     max_losses: int | None = None,
     error: float | None = None,
     budget: int | None = None,
-) -> Hunted: ...
-def hunt_rule(rule: Rule, *, budget: int | None = None, patience_s: float = 10.0) -> OwnHunted: ...
+) -> HuntReport: ...
+def hunt_rule(rule: Rule, *, budget: int | None = None, patience_s: float = 10.0) -> OwnHuntReport: ...
 def sweep(
     layouts: Sequence[str],
     scheme: str = "chain",

@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyMemoryView, PyTuple};
 
-use crate::fault::{Kind, error};
+use crate::diagnostic::{Kind, error};
 
 const WANTED: &str = "give an array of two dimensions, rows by columns, of booleans or of 8-bit numbers";
 

@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use tautline_field::stats;
 
-use crate::fault::{Kind, error};
+use crate::diagnostic::{Kind, error};
 
 /// A mean or a share, and where 95 % of such intervals have the true one.
 #[pyclass(frozen, module = "pytautline", get_all)]

@@ -6,11 +6,11 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use tautline_kernel::chain;
-use tautline_sim::explore::{Asked, Limits, Milestone, Misfit, OnViolation, Profile, RuleId, catalogue};
+use tautline_sim::explore::{Asked, Limits, Milestone, OnViolation, Profile, RuleId, SetupError, catalogue};
 use tautline_sim::layout::generate::Probability;
-use tautline_sim::words::Worded;
+use tautline_sim::named_values::NamedValues;
 
-use crate::fault::{Kind, error, raised};
+use crate::diagnostic::{Kind, error, raised};
 use crate::layout::{Given, Pair};
 use crate::run::{Run, cell};
 
@@ -31,7 +31,7 @@ pub(crate) fn scheme(py: Python<'_>, name: &str) -> PyResult<&'static Profile> {
 pub(crate) fn rule(py: Python<'_>, scheme: &'static Profile, name: &str) -> PyResult<RuleId> {
     let known = scheme.rules.iter().find(|rule| rule.name.as_str() == name);
     known.map(|rule| rule.name).ok_or_else(|| {
-        let remedy = Misfit::Rule { scheme, rule: RuleId::REPAIRED }.remedy();
+        let remedy = SetupError::Rule { scheme, rule: RuleId::REPAIRED }.remedy();
         error(py, Kind::Input, format_args!("{} has no rule {name:?}", scheme.name), remedy)
     })
 }
@@ -53,7 +53,7 @@ fn probability(py: Python<'_>, name: &str, value: Option<f64>) -> PyResult<Optio
 /// When a run is stopped.
 pub(crate) fn limits(py: Python<'_>, until: Option<u32>, max_moves: Option<NonZeroU32>) -> PyResult<Limits> {
     let read = |percent: u32| {
-        <Milestone as Worded>::of(&percent.to_string()).ok_or_else(|| {
+        <Milestone as NamedValues>::of(&percent.to_string()).ok_or_else(|| {
             error(py, Kind::Input, format_args!("until is {percent}"), "give until 50, 75 or 100")
         })
     };

@@ -6,19 +6,19 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use serde::Serialize;
-use tautline_sim::explore::hunt::{Asked, Far, Hunter, Quarry, Shown};
-use tautline_sim::fault::Fault;
+use tautline_sim::diagnostic::Diagnostic;
+use tautline_sim::explore::hunt::{Asked, Far, Finding, Hunter, Shown};
 use tautline_sim::layout::Size;
 
+use crate::diagnostic::{Kind, raised};
 use crate::explore::{rule, scheme};
-use crate::fault::{Kind, raised};
 use crate::layout::Layout;
 use crate::run::Run;
 use crate::wait::wait_for;
 
 /// What came of a hunt.
 #[pyclass(frozen, module = "pytautline", get_all)]
-pub(crate) struct Hunted {
+pub(crate) struct HuntReport {
     /// The name of the scheme.
     scheme: &'static str,
     /// The name of its rule.
@@ -53,10 +53,10 @@ pub(crate) struct Counterexample {
 }
 
 #[pymethods]
-impl Hunted {
+impl HuntReport {
     fn __repr__(&self) -> String {
         let Self { scheme, rule, verdict, outcome, .. } = self;
-        format!("<pytautline.Hunted {scheme} ({rule}): {verdict}. {outcome}>")
+        format!("<pytautline.HuntReport {scheme} ({rule}): {verdict}. {outcome}>")
     }
 }
 
@@ -75,9 +75,9 @@ impl Hunter for Stopped<'_> {
         if self.0.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 
-    fn is_not_kept(&mut self, _: &Fault) {}
+    fn is_not_kept(&mut self, _: &Diagnostic) {}
 
-    fn is_left_out(&mut self, _: &Fault) {}
+    fn is_left_out(&mut self, _: &Diagnostic) {}
 }
 
 /// Searches all layouts with few walls for runs that break a clause: see `tautline hunt --help`.
@@ -99,11 +99,11 @@ pub(crate) fn hunt(
     max_losses: Option<u8>,
     error: Option<f64>,
     budget: Option<u64>,
-) -> PyResult<Hunted> {
+) -> PyResult<HuntReport> {
     let scheme = self::scheme(py, scheme)?;
     let rule = self::rule(py, scheme, rule)?;
     let hunt = scheme.rule(rule).and_then(|rule| rule.hunt).ok_or_else(|| {
-        crate::fault::error(
+        crate::diagnostic::error(
             py,
             Kind::Input,
             format_args!("nothing is hunted of {}", scheme.name),
@@ -111,7 +111,7 @@ pub(crate) fn hunt(
         )
     })?;
     let size = size.map(|(width, height)| {
-        Size::new(width, height).map_err(|problem| raised(py, &Fault::usage(&problem, problem.remedy())))
+        Size::new(width, height).map_err(|problem| raised(py, &Diagnostic::usage(&problem, problem.remedy())))
     });
     let size = size.transpose()?;
     let (error_cells, resume) = (error, None);
@@ -132,10 +132,10 @@ pub(crate) fn hunt(
         asked.check(hunt)?;
         hunt.hunt(&asked, &mut Stopped(is_stopped))
     })?;
-    let found = found.map_err(|fault: Fault| raised(py, &fault))?;
+    let found = found.map_err(|fault: Diagnostic| raised(py, &fault))?;
     let (verdict, complete) = (verdict(found.found.is_empty(), found.is_complete), found.is_complete);
-    let told = |quarry: &Quarry| told(py, quarry);
-    Ok(Hunted {
+    let told = |quarry: &Finding| told(py, quarry);
+    Ok(HuntReport {
         scheme: scheme.name,
         rule: rule.as_str(),
         robots: found.robots,
@@ -162,7 +162,7 @@ fn facts(py: Python<'_>, facts: &impl Serialize) -> PyResult<Py<PyAny>> {
     Ok(py.import("json")?.call_method1("loads", (text,))?.unbind())
 }
 
-fn told(py: Python<'_>, quarry: &Quarry) -> PyResult<Py<Counterexample>> {
+fn told(py: Python<'_>, quarry: &Finding) -> PyResult<Py<Counterexample>> {
     let name = quarry.clause.to_owned();
     let run = match &quarry.shown {
         Shown::Run(clause) | Shown::Story(clause, _) => {

@@ -2,9 +2,9 @@
 //! folder `pytautline`, has the classes that a person derives from, the errors, and the type stubs.
 
 mod arrays;
+mod diagnostic;
 mod estimate;
 mod explore;
-mod fault;
 mod hunt;
 mod layout;
 mod rule;
@@ -20,13 +20,13 @@ mod _native {
     #[pymodule_export]
     use crate::explore::{explore, in_contact, replay, schemes};
     #[pymodule_export]
-    use crate::hunt::{Counterexample, Hunted, hunt};
+    use crate::hunt::{Counterexample, HuntReport, hunt};
     #[pymodule_export]
     use crate::layout::Layout;
     #[pymodule_export]
     use crate::rule::moved::Moved;
     #[pymodule_export]
-    use crate::rule::{OwnCounterexample, OwnHunted, hunt_rule};
+    use crate::rule::{OwnCounterexample, OwnHuntReport, hunt_rule};
     #[pymodule_export]
     use crate::run::Run;
     #[pymodule_export]

@@ -17,24 +17,24 @@ use tautline_proofs::engine::Until;
 use tautline_proofs::engine::tree::{self, Limits as Bounds, Tree, Waves};
 use tautline_proofs::run::{Frame, Run as Found, walls};
 use tautline_proofs::team::Promise;
-use tautline_sim::aside::{Aside, Replaceable};
+use tautline_sim::atomic_file::{AtomicFile, Replaceable};
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::hunt::layout as layout_of;
-use tautline_sim::explore::{Limits, Report, Stage, run};
-use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::explore::{Limits, Report, RunConfig, run};
 use tautline_sim::layout::Layout;
 use tautline_sim::trace::{self, Stored, Writer};
 
 use self::game::InRule;
 use self::player::Player;
 use self::written::{Demand, When, Written};
-use crate::fault::{Kind, error, halted};
+use crate::diagnostic::{Kind, error, halted};
 use crate::hunt::verdict;
 use crate::run::{Made, Run};
 use crate::wait::wait;
 
 /// What came of a hunt of a rule written in Python.
 #[pyclass(frozen, module = "pytautline", get_all)]
-pub(crate) struct OwnHunted {
+pub(crate) struct OwnHuntReport {
     /// The name of the scheme.
     scheme: String,
     /// The name of the rule.
@@ -75,10 +75,10 @@ pub(crate) struct OwnCounterexample {
 }
 
 #[pymethods]
-impl OwnHunted {
+impl OwnHuntReport {
     fn __repr__(&self) -> String {
         let Self { scheme, rule, verdict, runs, moves, .. } = self;
-        format!("<pytautline.OwnHunted {scheme} ({rule}): {verdict}; {runs} runs, {moves} team moves>")
+        format!("<pytautline.OwnHuntReport {scheme} ({rule}): {verdict}; {runs} runs, {moves} team moves>")
     }
 }
 
@@ -110,7 +110,7 @@ pub(crate) fn hunt_rule(
     rule: Bound<'_, PyAny>,
     budget: Option<u64>,
     patience_s: f64,
-) -> PyResult<OwnHunted> {
+) -> PyResult<OwnHuntReport> {
     let written = Arc::new(Written::read(&rule)?);
     let mut patience = written.patience(patience_s)?;
     let worker = Arc::clone(&written);
@@ -119,7 +119,7 @@ pub(crate) fn hunt_rule(
         &written.is_stopped,
         || {
             let pool = ThreadPoolBuilder::new().num_threads(1).build().map_err(|error| {
-                Python::attach(|py| crate::fault::error(py, Kind::Input, error, "end other programs"))
+                Python::attach(|py| crate::diagnostic::error(py, Kind::Input, error, "end other programs"))
             })?;
             pool.install(|| Python::attach(|py| found(py, &worker, budget)))
         },
@@ -132,7 +132,7 @@ pub(crate) fn hunt_rule(
         Py::new(py, OwnCounterexample { clause, words, runs, run: Py::new(py, plain.run)? })
     };
     let is_whole = found.complete && found.given_up == 0 && found.covered.len() == written.covers.len();
-    Ok(OwnHunted {
+    Ok(OwnHuntReport {
         scheme: written.scheme.to_owned(),
         rule: written.name.to_owned(),
         runs: found.runs,
@@ -180,8 +180,8 @@ fn found(py: Python<'_>, written: &Arc<Written>, budget: Option<u64>) -> PyResul
         };
         let run = Found { area: written.area(py)?, ..run };
         let halted = |halt: Halt| written.failure(py).unwrap_or_else(|| halted(py, &halt));
-        let (layout, _) =
-            layout_of(&run).map_err(|problem| halted(Fault::usage(&problem, problem.remedy()).into()))?;
+        let (layout, _) = layout_of(&run)
+            .map_err(|problem| halted(Diagnostic::usage(&problem, problem.remedy()).into()))?;
         let (made, report) = stored(written, &layout, demand).map_err(halted)?;
         if report.violations.is_empty() {
             return Err(written.not_pure(py));
@@ -194,13 +194,15 @@ fn found(py: Python<'_>, written: &Arc<Written>, budget: Option<u64>) -> PyResul
 
 /// The run of the rule in `layout`, as far as it breaks the demand with this number, written to a file and read again.
 fn stored(written: &Written, layout: &Layout, demand: usize) -> Result<(Made, Report), Halt> {
-    let folder = tempfile::tempdir().map_err(|error| Fault::usage(error, "make room for temporary files"))?;
+    let folder =
+        tempfile::tempdir().map_err(|error| Diagnostic::usage(error, "make room for temporary files"))?;
     let path = folder.path().join("run.jsonl");
     let clause = written.demands[demand].clause;
     let limits = Limits::stopping_at(Some(clause));
-    let stage = Stage { limits, ..Stage::new(written.scheme, written.name, layout, written.starts()) };
-    let aside = Aside::new(&path, &Replaceable::default())?;
-    let mut writer = Writer::new(aside, &stage, Some(clause)).map_err(Fault::from)?;
+    let stage =
+        RunConfig { limits, ..RunConfig::new(written.scheme, written.name, layout, written.starts()) };
+    let aside = AtomicFile::new(&path, &Replaceable::default())?;
+    let mut writer = Writer::new(aside, &stage, Some(clause)).map_err(Diagnostic::from)?;
     let mut left = written.longest_run;
     let report = run(&mut Player::new(written, demand..demand + 1), layout, limits, &mut |made| {
         left = left.saturating_sub(1);
@@ -212,13 +214,13 @@ fn stored(written: &Written, layout: &Layout, demand: usize) -> Result<(Made, Re
         return Err(Halt::Interrupted);
     }
     writer.end(&report).keep()?;
-    let unread = |error| Fault::in_file(&path, error, "make room for temporary files");
+    let unread = |error| Diagnostic::in_file(&path, error, "make room for temporary files");
     let text = fs::read_to_string(&path).map_err(unread)?;
     match trace::open(&path)? {
         Stored::Foreign(recorded) => Ok((Made::Recorded(Box::new(recorded), text), report)),
         Stored::Known(_) => {
             let what = format!("{} is a scheme of tautline", written.scheme);
-            Err(Fault::usage(what, "give the rule's scheme another name").into())
+            Err(Diagnostic::usage(what, "give the rule's scheme another name").into())
         }
     }
 }

@@ -11,16 +11,16 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use serde::Serialize;
 use tautline_kernel::ground::Cell;
-use tautline_sim::aside::{Aside, Foreign, Replaceable};
+use tautline_sim::atomic_file::{AtomicFile, Foreign, Replaceable};
 use tautline_sim::counterexample::minimise::minimise;
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::page::Page;
 use tautline_sim::draw::{story, svg, title_of};
 use tautline_sim::explore::{ClauseId, Milestone, Play, Report, Setup, TeamMove, catalogue};
-use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::trace::{self, Recorded, Stored, Summary, Writer};
 
 use crate::arrays::view;
-use crate::fault::{Kind, error, failed, halted, raised};
+use crate::diagnostic::{Kind, error, failed, halted, raised};
 use crate::layout::{Layout, Pair};
 use crate::wait::wait_for;
 
@@ -92,7 +92,7 @@ impl Run {
             }
             Stored::Foreign(run) => {
                 let unread =
-                    |_| raised(py, &Fault::in_file(path, "it was there, and is gone", "store it again"));
+                    |_| raised(py, &Diagnostic::in_file(path, "it was there, and is gone", "store it again"));
                 let text = fs::read_to_string(path).map_err(unread)?;
                 let report = run.play(&mut |_| Ok(())).map_err(|halt| halted(py, &halt))?;
                 let clause = run.clause;
@@ -123,20 +123,20 @@ impl Run {
         py: Python<'_>,
         path: &Path,
         replaceable: &Replaceable,
-        put: impl FnOnce(Aside) -> Result<Aside, Halt> + Send,
+        put: impl FnOnce(AtomicFile) -> Result<AtomicFile, Halt> + Send,
     ) -> PyResult<()> {
         let write = || {
-            let aside = put(Aside::new(path, replaceable)?)?;
+            let aside = put(AtomicFile::new(path, replaceable)?)?;
             Ok(aside.keep()?)
         };
         py.detach(write).map_err(|halt: Halt| halted(py, &halt))
     }
 
     /// Writes the trace.
-    fn traced(&self, aside: Aside) -> Result<Aside, Halt> {
+    fn traced(&self, aside: AtomicFile) -> Result<AtomicFile, Halt> {
         match &self.made {
             Made::Known(setup) => {
-                let mut writer = Writer::new(aside, &setup.stage(), self.clause).map_err(Fault::from)?;
+                let mut writer = Writer::new(aside, &setup.stage(), self.clause).map_err(Diagnostic::from)?;
                 let report = setup.play(&mut |made| {
                     writer.add(made);
                     Ok(())
@@ -151,7 +151,7 @@ impl Run {
         }
     }
 
-    fn paged(&self, mut aside: Aside) -> Result<Aside, Halt> {
+    fn paged(&self, mut aside: AtomicFile) -> Result<AtomicFile, Halt> {
         let run = self.play();
         svg::check_size(self.report.chart.area())?;
         let mut page = Page::new(&mut aside, run, &self.report, &(1..=self.report.steps));
@@ -167,7 +167,7 @@ impl Run {
     fn bytes(
         &self,
         py: Python<'_>,
-        put: impl FnOnce(&Self, Aside) -> Result<Aside, Halt> + Send,
+        put: impl FnOnce(&Self, AtomicFile) -> Result<AtomicFile, Halt> + Send,
     ) -> PyResult<Vec<u8>> {
         let folder = tempfile::tempdir()?;
         let path = folder.path().join("bytes");
@@ -179,7 +179,7 @@ impl Run {
     fn text(
         &self,
         py: Python<'_>,
-        put: impl FnOnce(&Self, Aside) -> Result<Aside, Halt> + Send,
+        put: impl FnOnce(&Self, AtomicFile) -> Result<AtomicFile, Halt> + Send,
     ) -> PyResult<String> {
         Ok(String::from_utf8(self.bytes(py, put)?)?)
     }

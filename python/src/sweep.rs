@@ -13,12 +13,12 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyList};
 use rayon::prelude::*;
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::{Asked, Limits, Milestone, Profile, Report, RuleId, explore};
-use tautline_sim::fault::Halt;
 use tautline_sim::layout;
 
+use crate::diagnostic::halted;
 use crate::explore::{limits, rule, scheme};
-use crate::fault::halted;
 use crate::run::stopped;
 use crate::wait::wait_for;
 

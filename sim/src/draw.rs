@@ -12,10 +12,10 @@ use std::mem;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Area, Cell, Circle, Edge, Side, Step, neighbours};
-use tautline_proofs::course::{Scene, Turn};
-use tautline_proofs::words::counted;
+use tautline_proofs::floor_trace::{Scene, Turn};
+use tautline_proofs::plural::counted;
 
-use crate::explore::{Look, Play, Stage, Survey, TeamMove};
+use crate::explore::{Look, Play, RunConfig, Survey, TeamMove};
 use crate::layout::Layout;
 
 /// Drawings beside each other take up at most so many columns.
@@ -45,7 +45,7 @@ pub const fn legend(look: Look) -> &'static str {
 
 /// What a picture of a run is called.
 pub fn title_of(run: &dyn Play) -> String {
-    let Stage { scheme, rule, robots, look, .. } = run.stage();
+    let RunConfig { scheme, rule, robots, look, .. } = run.stage();
     format!("{scheme} ({rule}), {}", counted(robots, look.robot()))
 }
 
@@ -187,7 +187,7 @@ pub fn team_move(run: &dyn Play, chart: &Survey, made: &TeamMove<'_>, pose: Pose
 /// The team moves of a run, drawn one by one.
 #[derive(Debug)]
 pub struct TeamMoves<'a> {
-    stage: Stage<'a>,
+    stage: RunConfig<'a>,
     chart: &'a Survey,
     is_bare: bool,
 }
@@ -358,7 +358,7 @@ const fn arrow(step: Step) -> &'static str {
 const SYMBOLS: &str = "123456789abcdefghijklmnopqrstuvwxyz";
 
 /// Whether one character for each cell is enough to draw the run: nothing is in the way.
-fn is_bare(stage: &Stage<'_>, area: Area) -> bool {
+fn is_bare(stage: &RunConfig<'_>, area: Area) -> bool {
     usize::from(stage.robots) <= SYMBOLS.len() && area.edges().all(|edge| stage.layout.is_open(edge))
 }
 
@@ -388,7 +388,7 @@ fn bare(look: Look, area: Area, team: &[Cell], mark: impl Fn(Cell) -> Mark) -> V
 
 /// The order of exploration: in each cell the team move in which it was explored.
 pub fn order(run: &dyn Play, chart: &Survey) -> String {
-    let Stage { layout, look, .. } = run.stage();
+    let RunConfig { layout, look, .. } = run.stage();
     let label = |cell| match (chart.step(cell), look) {
         (Some(0), Look::Linked { .. } | Look::Tree { .. }) => "B".to_owned(),
         (Some(step), _) => step.to_string(),
@@ -400,7 +400,7 @@ pub fn order(run: &dyn Play, chart: &Survey) -> String {
 
 /// What was explored, and where the team is in the end.
 pub fn outcome(run: &dyn Play, chart: &Survey, team: &[Cell]) -> String {
-    let Stage { layout, look, .. } = run.stage();
+    let RunConfig { layout, look, .. } = run.stage();
     let labels = Labels { look, cells: team, steps: None, unseen: &[] };
     let label = |cell| labels.label(cell, chart.mark(cell, u32::MAX));
     grid(layout, chart.area(), labels.width(), label, |_| false).join("\n") + "\n"

@@ -14,44 +14,44 @@ mod each;
 pub mod floor;
 pub mod frontier;
 pub mod hunt;
+mod hunt_runs;
+mod hunt_states;
 pub mod kit;
-mod misfit;
 mod own;
 pub mod pack;
 pub mod rivals;
 mod rule;
 mod run;
+mod run_config;
 mod scene;
 mod setup;
-mod stage;
+mod setup_error;
 mod survey;
-mod traps;
 pub mod trees;
-mod tries;
 mod watched;
 
 pub use self::asked::Asked;
 pub use self::clause::ClauseId;
-pub use self::misfit::Misfit;
 pub use self::own::Own;
 pub use self::rule::{RuleId, RuleName};
 pub use self::run::{
     End, Limits, Milestone, OnViolation, Report, Stopped, Team, TeamMove, Violation, Watcher, run,
 };
+pub use self::run_config::{Knowledge, Look, Play, RunConfig};
 pub use self::scene::{Change, Hearers, Ink, Joins, Kind, Layer, Place, Scene, Shape, Value, Zone};
 pub use self::setup::{By, Clause, Drawn, Extra, Judge, Profile, Rule, Senses, Setup, Start, Starts};
-pub use self::stage::{Knowledge, Look, Play, Stage};
+pub use self::setup_error::SetupError;
 pub use self::survey::Survey;
 
 use tautline_kernel::ground::Cell;
 
-use crate::fault::{Fault, Halt};
+use crate::diagnostic::{Diagnostic, Halt};
 
 /// The team of `setup` at its start.
 ///
 /// # Errors
-/// A [`Fault`] if the setup does not fit its scheme.
-pub fn team(setup: &Setup) -> Result<Box<dyn Team>, Fault> {
+/// A [`Diagnostic`] if the setup does not fit its scheme.
+pub fn team(setup: &Setup) -> Result<Box<dyn Team>, Diagnostic> {
     (setup.check()?.start)(setup)
 }
 
@@ -64,7 +64,7 @@ pub fn explore(setup: &Setup, watch: &mut Watcher<'_>) -> Result<Report, Halt> {
 }
 
 impl Play for Setup {
-    fn stage(&self) -> Stage<'_> {
+    fn stage(&self) -> RunConfig<'_> {
         self.stage()
     }
 

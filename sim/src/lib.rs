@@ -1,25 +1,25 @@
 //! Robot teams in layouts: the runs of the kernel's rules, their traces and counterexamples, and how they are drawn. What a person types, and how an error is printed, is the program's business.
 
-pub mod aside;
-pub mod columns;
+pub mod atomic_file;
+mod checkpoint;
 pub mod counterexample;
+pub mod diagnostic;
 pub mod draw;
 pub mod explore;
-pub mod fault;
-pub mod faults;
+pub mod failures;
 pub mod frontier;
-mod kept;
+pub mod heap_grid;
 pub mod kit;
 pub mod layout;
+pub mod named_values;
 pub mod noise;
-pub mod part;
-pub mod reading;
+pub mod resumable;
 pub mod rivals;
 pub mod schema;
 pub mod shards;
+pub mod text_table;
 pub mod trace;
-pub mod wide;
-pub mod words;
+pub mod value_parser;
 
 /// The code of the page on embedding, compiled and run.
 #[cfg(doctest)]

@@ -18,8 +18,8 @@ use std::path::Path;
 
 use serde::Deserialize;
 
+use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::{ClauseId, Limits, Play, Profile, Report, RuleId, Setup, Watcher, catalogue};
-use crate::fault::{Fault, Halt};
 use crate::layout::MAX_FILE_BYTES;
 use format::{AGAIN, Header, Line, VERSION, drawn};
 use lines::Lines;
@@ -43,8 +43,8 @@ pub enum Stored {
 /// Reads the header of the run at `path`, and all of a run that cannot be made again.
 ///
 /// # Errors
-/// A [`Fault`] that names the line and column.
-pub fn open(path: &Path) -> Result<Stored, Fault> {
+/// A [`Diagnostic`] that names the line and column.
+pub fn open(path: &Path) -> Result<Stored, Diagnostic> {
     /// What tells whether the scheme is known.
     #[derive(Deserialize)]
     struct Named {
@@ -77,8 +77,8 @@ impl Trace {
     /// Reads the header of the trace at `path`.
     ///
     /// # Errors
-    /// A [`Fault`] that names the line and column, also if this program does not know the scheme.
-    pub fn open(path: &Path) -> Result<Self, Fault> {
+    /// A [`Diagnostic`] that names the line and column, also if this program does not know the scheme.
+    pub fn open(path: &Path) -> Result<Self, Diagnostic> {
         match open(path)? {
             Stored::Known(trace) => Ok(trace),
             Stored::Foreign(run) => {
@@ -86,13 +86,13 @@ impl Trace {
                 let what =
                     format!("this program does not know the scheme {scheme}: it cannot make the run again");
                 let names: Vec<&str> = catalogue::SCHEMES.iter().map(|scheme| scheme.name).collect();
-                Err(Fault::in_file(path, what, format_args!("name a run of {}", names.join(", "))))
+                Err(Diagnostic::in_file(path, what, format_args!("name a run of {}", names.join(", "))))
             }
         }
     }
 
     /// The setup of a header.
-    fn check(lines: Lines, text: &str, header: Known) -> Result<Self, Fault> {
+    fn check(lines: Lines, text: &str, header: Known) -> Result<Self, Diagnostic> {
         let Header {
             scheme, rule, robots, seed, base, starts, missed, choices, limits, clause, layout, ..
         } = header;
@@ -125,7 +125,7 @@ impl Trace {
     /// Makes the run again and compares every line. `watch` sees the team moves that are as stored.
     ///
     /// # Errors
-    /// [`Halt`] with a [`Fault`] at the first line that is not as the run makes it, or what `watch` returned.
+    /// [`Halt`] with a [`Diagnostic`] at the first line that is not as the run makes it, or what `watch` returned.
     pub fn replay(mut self, watch: &mut Watcher<'_>) -> Result<Report, Halt> {
         let lines = &mut self.lines;
         let report = self.setup.play(&mut |made| {
@@ -137,7 +137,7 @@ impl Trace {
             && !report.violations.iter().any(|violation| violation.clause == clause)
         {
             let what = format!("the header promises that {clause} is broken, but it is not");
-            return Err(Fault::in_file(lines.path(), what, AGAIN).into());
+            return Err(Diagnostic::in_file(lines.path(), what, AGAIN).into());
         }
         lines.end()?;
         Ok(report)

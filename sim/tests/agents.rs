@@ -12,13 +12,13 @@ use tautline_kernel::bricks::Rule;
 use tautline_kernel::bricks::tree::Label;
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
-use tautline_proofs::course::{Course, Scene, Turn};
+use tautline_proofs::floor_trace::{Course, Scene, Turn};
 use tautline_sim::draw::story;
 use tautline_sim::explore::agents::{Agents, Crew, PREMATURE, Way};
 use tautline_sim::explore::ants::ANTS;
 use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};
 use tautline_sim::explore::depth_first::{HELPERS, MDFS};
-use tautline_sim::explore::hunt::{Asked, Hunted, Shown};
+use tautline_sim::explore::hunt::{Asked, HuntReport, Shown};
 use tautline_sim::explore::trees::{HELPERS_ROBUST, HELPERS_TRUSTING, TREE};
 use tautline_sim::explore::{Profile, Report, RuleId, RuleName, Setup, Stopped, explore, team};
 use tautline_sim::layout::generate::Probability;
@@ -261,7 +261,7 @@ fn no_layout_has_more_cells_than_there_are_labels_or_depths() {
     assert!(Size::new(4096, 4096).is_ok() && Size::new(4096, 4097).is_err());
 }
 
-fn hunted(scheme: &'static Profile, rule: RuleId, (robots, max_misses): (u64, u8), side: u64) -> Hunted {
+fn hunted(scheme: &'static Profile, rule: RuleId, (robots, max_misses): (u64, u8), side: u64) -> HuntReport {
     let asked = Asked {
         scheme,
         rule,

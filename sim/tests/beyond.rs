@@ -16,7 +16,7 @@ use tautline_proofs::engine::Seeded;
 use tautline_sim::explore::chain::{CHAIN, REEL};
 use tautline_sim::explore::pack::PACK;
 use tautline_sim::explore::{Asked, RuleId, Setup, Stopped, explore};
-use tautline_sim::faults::{Appearing, Compass, Failure, Going};
+use tautline_sim::failures::{Appearing, Compass, Failure, Going};
 use tautline_sim::frontier::{Explorers, Options};
 use tautline_sim::kit::{self, Pace};
 use tautline_sim::layout::{Generator, Layout};

@@ -9,12 +9,12 @@ use proptest::prelude::*;
 use tautline_kernel::ground::{Cell, Edge, Step};
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::run::Frame;
-use tautline_sim::aside::{Aside, Replaceable};
+use tautline_sim::atomic_file::{AtomicFile, Replaceable};
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::chain::{CHAIN, REEL, UNHELD};
 use tautline_sim::explore::{
     ClauseId, Limits, Milestone, OnViolation, Report, RuleName, Setup, Stopped, TeamMove, explore,
 };
-use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::layout::{self, Generator, Layout};
 use tautline_sim::trace::{Trace, Writer};
 
@@ -88,7 +88,7 @@ fn is_possible(setup: &Setup, made: &TeamMove<'_>, robot: usize) -> bool {
 }
 
 fn stored(setup: &Setup, clause: Option<ClauseId>, path: &Path) -> Report {
-    let aside = Aside::new(path, &Replaceable::default()).expect("a place");
+    let aside = AtomicFile::new(path, &Replaceable::default()).expect("a place");
     let mut writer = Writer::new(aside, &setup.stage(), clause).expect("a free base");
     let report = explore(setup, &mut |made| {
         writer.add(made);
@@ -99,9 +99,9 @@ fn stored(setup: &Setup, clause: Option<ClauseId>, path: &Path) -> Report {
     report
 }
 
-fn replayed(path: &Path) -> Result<(Report, Vec<Frame>), Fault> {
+fn replayed(path: &Path) -> Result<(Report, Vec<Frame>), Diagnostic> {
     let mut frames = Vec::new();
-    let replayed = Trace::open(path).map_err(Halt::Fault).and_then(|trace| {
+    let replayed = Trace::open(path).map_err(Halt::Diagnostic).and_then(|trace| {
         trace.replay(&mut |made| {
             frames.push(made.frame.clone());
             Ok(())
@@ -109,7 +109,7 @@ fn replayed(path: &Path) -> Result<(Report, Vec<Frame>), Fault> {
     });
     match replayed {
         Ok(report) => Ok((report, frames)),
-        Err(Halt::Fault(fault)) => Err(fault),
+        Err(Halt::Diagnostic(fault)) => Err(fault),
         Err(Halt::Interrupted) => unreachable!("nobody interrupts"),
     }
 }

@@ -6,8 +6,8 @@ use tautline_kernel::frontier::Rule;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::engine::Seeded;
 use tautline_sim::explore::frontier::FRONTIER;
-use tautline_sim::explore::hunt::{Asked, Hunted, Shown};
-use tautline_sim::explore::{Misfit, RuleId, Setup, Stopped, explore};
+use tautline_sim::explore::hunt::{Asked, HuntReport, Shown};
+use tautline_sim::explore::{RuleId, Setup, SetupError, Stopped, explore};
 use tautline_sim::frontier::{Assigned, Assignment, Ended, Explorers, Options};
 use tautline_sim::layout::{Generator, Layout, Size};
 
@@ -27,7 +27,7 @@ fn asked(rule: &'static str, robots: u64, (width, height): (u64, u64), max_losse
     }
 }
 
-fn hunted(rule: &'static str, robots: u64, size: (u64, u64), max_losses: u8) -> Hunted {
+fn hunted(rule: &'static str, robots: u64, size: (u64, u64), max_losses: u8) -> HuntReport {
     let asked = asked(rule, robots, size, max_losses);
     let hunt = FRONTIER.rule(asked.rule).and_then(|rule| rule.hunt).expect("it is hunted");
     asked.check(hunt).expect("it takes that");
@@ -91,16 +91,16 @@ fn a_repaired_team_explores_an_open_area_and_knows_it() {
 
 #[test]
 fn what_does_not_fit_is_refused() {
-    assert_eq!(setup(5, (2, 2)).check().err(), Some(Misfit::Full { robots: 5, cells: 4 }));
+    assert_eq!(setup(5, (2, 2)).check().err(), Some(SetupError::Full { robots: 5, cells: 4 }));
     let with = |options| Setup { options, ..setup(2, (3, 3)) }.check().err();
     let usual = Options::default();
     assert_eq!(with(usual), None);
-    assert_eq!(with(Options { threshold: 1.5, ..usual }), Some(Misfit::Threshold));
-    assert_eq!(with(Options { threshold: f64::NAN, ..usual }), Some(Misfit::Threshold));
-    assert_eq!(with(Options { noise_db: -1.0, ..usual }), Some(Misfit::Noise));
+    assert_eq!(with(Options { threshold: 1.5, ..usual }), Some(SetupError::Threshold));
+    assert_eq!(with(Options { threshold: f64::NAN, ..usual }), Some(SetupError::Threshold));
+    assert_eq!(with(Options { noise_db: -1.0, ..usual }), Some(SetupError::Noise));
     let cell = Cell::new(0, 0);
     let together = Setup { starts: Some(vec![cell, cell]), ..setup(2, (3, 3)) };
-    assert_eq!(together.check().err(), Some(Misfit::Together(cell)));
+    assert_eq!(together.check().err(), Some(SetupError::Together(cell)));
 }
 
 #[test]

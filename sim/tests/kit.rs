@@ -9,10 +9,10 @@ use crate::common::Unwatched;
 use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule;
 use tautline_sim::counterexample::refutation;
-use tautline_sim::explore::hunt::{Asked, Hunted, Quarry, RunSize, Shown};
+use tautline_sim::diagnostic::Diagnostic;
+use tautline_sim::explore::hunt::{Asked, Finding, HuntReport, RunSize, Shown};
 use tautline_sim::explore::kit::{APART, CONNECTED, CONTACT, ENDS, KIT};
 use tautline_sim::explore::{Report, RuleName, Setup, Stopped, explore};
-use tautline_sim::fault::Fault;
 use tautline_sim::frontier::Options;
 use tautline_sim::kit::{self, Drive, Pace, REACH_MILLIMETRES};
 use tautline_sim::layout::{Generator, Layout, Size};
@@ -245,15 +245,15 @@ fn asked(rule: RuleName, robots: u64, (columns, rows): (u64, u64)) -> Asked<'sta
     }
 }
 
-fn hunted(asked: &Asked<'_>) -> Result<Hunted, Fault> {
+fn hunted(asked: &Asked<'_>) -> Result<HuntReport, Diagnostic> {
     let hunt = KIT.rule(asked.rule).and_then(|rule| rule.hunt).expect("it is hunted");
     asked.check(hunt)?;
     hunt.hunt(asked, &mut Unwatched)
 }
 
 /// The clauses that are broken, each with its columns, rows, walls and drives.
-fn broken(hunted: &Hunted) -> Vec<(&'static str, [usize; 4])> {
-    let size = |quarry: &Quarry| match quarry.facts {
+fn broken(hunted: &HuntReport) -> Vec<(&'static str, [usize; 4])> {
+    let size = |quarry: &Finding| match quarry.facts {
         RunSize::Area { columns, rows, walls, steps } => [columns, rows, walls, steps],
         RunSize::Chain { .. } | RunSize::Floor { .. } => panic!("an area"),
     };
@@ -261,7 +261,7 @@ fn broken(hunted: &Hunted) -> Vec<(&'static str, [usize; 4])> {
 }
 
 /// Runs each counterexample that a file tells again: it breaks its clause.
-fn run_again(hunted: &Hunted) -> usize {
+fn run_again(hunted: &HuntReport) -> usize {
     let stored = hunted.found.iter().filter_map(|quarry| match quarry.shown {
         Shown::Run(clause) | Shown::Story(clause, _) => Some((clause, quarry)),
         Shown::Endless | Shown::Told(_) => None,
@@ -284,7 +284,7 @@ fn the_smallest_runs_that_break_the_published_rule() {
     for expected in [("KIT-1", [5, 1, 0, 5]), ("KIT-3", [3, 1, 0, 3]), ("KIT-6", [3, 1, 0, 1])] {
         assert!(found.contains(&expected), "{expected:?} in {found:?}");
     }
-    let is_endless = |quarry: &&Quarry| quarry.clause == ENDS.as_str();
+    let is_endless = |quarry: &&Finding| quarry.clause == ENDS.as_str();
     let endless = hunted.found.iter().find(is_endless).expect("a run that goes on for ever");
     assert_eq!(run(&endless.setup).stopped, Stopped::Endless);
     // Before the robots are where they were, nothing is known of it.

@@ -9,16 +9,16 @@ use std::path::Path;
 use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::judge::chain::judge;
-use tautline_sim::aside::Replaceable;
-use tautline_sim::counterexample::exhibit::exhibit;
+use tautline_sim::atomic_file::Replaceable;
 use tautline_sim::counterexample::hunt::store;
+use tautline_sim::counterexample::judge_input::exhibit;
 use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, Refused, minimise};
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::kit::KIT;
 use tautline_sim::explore::{
     Asked, ClauseId, Limits, OnViolation, RuleId, RuleName, Setup, Stopped, explore,
 };
-use tautline_sim::fault::Halt;
 use tautline_sim::layout::{self, Generator, Layout};
 use tautline_sim::trace::Trace;
 

@@ -9,14 +9,14 @@ use insta::assert_snapshot;
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::run::Frame;
-use tautline_sim::aside::{Aside, Replaceable};
+use tautline_sim::atomic_file::{AtomicFile, Replaceable};
 use tautline_sim::counterexample::minimise::{Broken, Case, Met, minimise, shrink};
+use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::draw::{story, svg};
 use tautline_sim::explore::{
-    Clause, ClauseId, End, Limits, Look, OnViolation, Play, Profile, Report, Rule, RuleId, Senses, Setup,
-    Stage, Starts, Stopped, Team, run,
+    Clause, ClauseId, End, Limits, Look, OnViolation, Play, Profile, Report, Rule, RuleId, RunConfig, Senses,
+    Setup, Starts, Stopped, Team, run,
 };
-use tautline_sim::fault::Fault;
 use tautline_sim::layout::{self, Layout};
 use tautline_sim::trace::{self, Stored, Writer};
 
@@ -105,10 +105,10 @@ static PAIR: Profile = Profile {
 /// Runs the pair in `layout` until it breaks its clause, and stores the run at `path`.
 fn store(path: &Path, layout: &Layout, start: Cell, limits: Limits) -> Report {
     let starts = [start; 2];
-    let aside = Aside::new(path, &Replaceable::default()).expect("a place");
+    let aside = AtomicFile::new(path, &Replaceable::default()).expect("a place");
     let clause = (limits.violation == OnViolation::Stop).then_some(ALONE);
     let mut writer =
-        Writer::new(aside, &Stage::new("pair", "eager", layout, &starts), clause).expect("a free cell");
+        Writer::new(aside, &RunConfig::new("pair", "eager", layout, &starts), clause).expect("a free cell");
     let report = run(&mut Pair::new(layout, start), layout, limits, &mut |made| {
         writer.add(made);
         Ok(())
@@ -126,7 +126,7 @@ fn loaded(name: &str) -> (Layout, Cell) {
 
 const STOP: Limits = Limits { until: None, max_moves: None, violation: OnViolation::Stop };
 
-fn foreign(path: &Path) -> Result<trace::Recorded, Fault> {
+fn foreign(path: &Path) -> Result<trace::Recorded, Diagnostic> {
     match trace::open(path)? {
         Stored::Foreign(run) => Ok(run),
         Stored::Known(trace) => panic!("{trace:?}"),

@@ -1,9 +1,9 @@
 //! Packs in whole layouts: what the repaired rule promises holds, and what is no pack is refused with a remedy.
 
 use tautline_kernel::ground::Cell;
+use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::pack::PACK;
 use tautline_sim::explore::{Asked, Report, RuleId, Stopped, explore};
-use tautline_sim::fault::Fault;
 use tautline_sim::layout::Generator;
 
 fn asked(rule: RuleId, sight_cells: u16, range_cells: u16) -> Asked {
@@ -15,7 +15,7 @@ fn asked(rule: RuleId, sight_cells: u16, range_cells: u16) -> Asked {
     }
 }
 
-fn ran(asked: Asked, ground: &str, seed: u64) -> Result<Report, Fault> {
+fn ran(asked: Asked, ground: &str, seed: u64) -> Result<Report, Diagnostic> {
     let layout = ground.parse::<Generator>().expect("a generator").generate(seed).expect("a layout");
     let setup = asked.setup(layout)?;
     Ok(explore(&setup, &mut |_| Ok(())).map_err(|_| ()).expect("a run"))

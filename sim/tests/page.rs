@@ -9,11 +9,11 @@ use serde_json::Value;
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::run::Frame;
-use tautline_sim::aside::{Aside, Replaceable};
+use tautline_sim::atomic_file::{AtomicFile, Replaceable};
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::draw::page::Page;
 use tautline_sim::explore::catalogue::SCHEMES;
 use tautline_sim::explore::{Report, Setup, explore};
-use tautline_sim::fault::Halt;
 use tautline_sim::layout::Generator;
 use tautline_sim::layout::generate::Probability;
 
@@ -130,7 +130,7 @@ fn page(setup: &Setup, moves: &RangeInclusive<u32>) -> (String, Report, Vec<Fram
         Ok(())
     });
     let report = report.expect("a run");
-    let mut aside = Aside::new(&path, &Replaceable::default()).expect("a place");
+    let mut aside = AtomicFile::new(&path, &Replaceable::default()).expect("a place");
     let mut page = Page::new(&mut aside, setup, &report, moves);
     let made = explore(setup, &mut |made| {
         page.add(made);

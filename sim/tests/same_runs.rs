@@ -9,7 +9,7 @@ use insta::assert_snapshot;
 use tautline_kernel::ground::Cell;
 use tautline_sim::explore::catalogue::SCHEMES;
 use tautline_sim::explore::{Asked, Extra, Limits, Profile, Rule, Scene, Senses, Stopped, explore};
-use tautline_sim::faults::{Appearing, Compass, Failure};
+use tautline_sim::failures::{Appearing, Compass, Failure};
 use tautline_sim::layout::Generator;
 use tautline_sim::layout::generate::Probability;
 

@@ -5,7 +5,7 @@ use std::num::NonZeroU32;
 
 use tautline_sim::explore::catalogue::SCHEMES;
 use tautline_sim::explore::{Asked, By, Drawn, Extra, Limits, Profile, Rule, explore};
-use tautline_sim::faults::{Appearing, Failure, Going};
+use tautline_sim::failures::{Appearing, Failure, Going};
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::layout::{Generator, Layout};
 

@@ -6,9 +6,9 @@ use std::mem::replace;
 use serde_json::{Value, json};
 use tautline_kernel::ground::Cell;
 
-use tautline_sim::aside::{Aside, ITF_HEAD};
+use tautline_sim::atomic_file::{AtomicFile, ITF_HEAD};
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::{ClauseId, Play, TeamMove};
-use tautline_sim::fault::Halt;
 use tautline_sim::trace::StoredMove;
 
 /// What a state has, with its type.
@@ -77,7 +77,7 @@ impl State {
 ///
 /// # Errors
 /// [`Halt`] if the run cannot be made.
-pub fn write(file: &mut Aside, run: &dyn Play) -> Result<(), Halt> {
+pub fn write(file: &mut AtomicFile, run: &dyn Play) -> Result<(), Halt> {
     let stage = run.stage();
     let types: serde_json::Map<String, Value> =
         VARIABLES.iter().map(|&(name, kind)| (name.to_owned(), json!(kind))).collect();

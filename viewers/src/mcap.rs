@@ -12,9 +12,9 @@ use tautline_kernel::ground::{Cell, Side, Step};
 
 use self::file::{BLUE, Drawing, File, Ink, ORANGE, PURPLE, headed, stamp};
 use self::points::{Points, Rectangle};
-use tautline_sim::aside::Aside;
-use tautline_sim::explore::{Joins, Layer, Play, Report, Scene, Shape, Stage, TeamMove, Zone};
-use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::atomic_file::AtomicFile;
+use tautline_sim::diagnostic::{Diagnostic, Halt};
+use tautline_sim::explore::{Joins, Layer, Play, Report, RunConfig, Scene, Shape, TeamMove, Zone};
 use tautline_sim::trace::StoredMove;
 
 /// The points of a map are so many metres wide, of cells of one metre. The first is a post, whose middle is at 0, 0.
@@ -37,7 +37,7 @@ const fn at_ns(step: u32) -> u64 {
 ///
 /// # Errors
 /// [`Halt`] if the run cannot be made, or has more messages than the format can count.
-pub fn write(file: &mut Aside, run: &dyn Play) -> Result<(), Halt> {
+pub fn write(file: &mut AtomicFile, run: &dyn Play) -> Result<(), Halt> {
     let stage = run.stage();
     let mut recording = Recording::begin(file, &stage)?;
     let report = run.play(&mut |made| Ok(recording.add(made)?))?;
@@ -56,7 +56,7 @@ struct Recording<'f> {
 
 impl<'f> Recording<'f> {
     /// What stands still, and the start.
-    fn begin(file: &'f mut Aside, stage: &Stage<'_>) -> Result<Self, Fault> {
+    fn begin(file: &'f mut AtomicFile, stage: &RunConfig<'_>) -> Result<Self, Diagnostic> {
         let facts = [
             ("scheme", stage.scheme.to_owned()),
             ("rule", stage.rule.to_owned()),
@@ -75,12 +75,12 @@ impl<'f> Recording<'f> {
         Ok(recording)
     }
 
-    fn send(&mut self, topic: &'static str, kind: &str, step: u32, message: &[u8]) -> Result<(), Fault> {
+    fn send(&mut self, topic: &'static str, kind: &str, step: u32, message: &[u8]) -> Result<(), Diagnostic> {
         self.file.send(topic, kind, at_ns(step), message)
     }
 
     /// A team move, and what the team knows after it.
-    fn add(&mut self, made: &TeamMove<'_>) -> Result<(), Fault> {
+    fn add(&mut self, made: &TeamMove<'_>) -> Result<(), Diagnostic> {
         let mut scene = Scene::default();
         made.team.show(made.before, &mut scene);
         if made.step == 1 {
@@ -121,14 +121,14 @@ impl<'f> Recording<'f> {
     }
 
     /// The whole of what the team knows.
-    fn map(&mut self, step: u32) -> Result<(), Fault> {
+    fn map(&mut self, step: u32) -> Result<(), Diagnostic> {
         self.sent = 0;
         let message = grid(&self.known, step);
         self.send("/map", "nav_msgs/OccupancyGrid", step, &message)
     }
 
     /// What has changed in it.
-    fn update(&mut self, step: u32, part: Rectangle) -> Result<(), Fault> {
+    fn update(&mut self, step: u32, part: Rectangle) -> Result<(), Diagnostic> {
         let mut message = headed(at_ns(step));
         message.i32(part.x as i32);
         message.i32(part.y as i32);
@@ -141,7 +141,7 @@ impl<'f> Recording<'f> {
     }
 
     /// Where the robots are, turned to where they tried to go; one that stays looks east.
-    fn poses(&mut self, step: u32, faces: &[(Cell, Option<Side>)]) -> Result<(), Fault> {
+    fn poses(&mut self, step: u32, faces: &[(Cell, Option<Side>)]) -> Result<(), Diagnostic> {
         let poses = faces.iter().map(|&(cell, side)| {
             let way = match side {
                 None | Some(Side::East) => [1.0, 0.0],
@@ -156,7 +156,7 @@ impl<'f> Recording<'f> {
     }
 
     /// The links of robots in these cells, where the scheme has links.
-    fn links(&mut self, step: u32, cells: &[Cell]) -> Result<(), Fault> {
+    fn links(&mut self, step: u32, cells: &[Cell]) -> Result<(), Diagnostic> {
         let Some((joins, zones)) = self.links else { return Ok(()) };
         let ends = joined(joins, zones, cells).into_iter().flat_map(|(one, other, zone)| {
             let ink = zone.map_or(LOST_INK, |zone| ZONE_INKS[zone % ZONE_INKS.len()]);
@@ -168,7 +168,7 @@ impl<'f> Recording<'f> {
     }
 
     /// What came of the run.
-    fn end(mut self, report: &Report) -> Result<(), Fault> {
+    fn end(mut self, report: &Report) -> Result<(), Diagnostic> {
         let mut message = headed(at_ns(report.steps));
         // The word that the trace has for it.
         let stopped = serde_json::to_value(report.stopped).unwrap_or_default();

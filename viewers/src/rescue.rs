@@ -6,8 +6,8 @@ use crate::mcap::file::{BLUE, Drawing, File, ORANGE, PURPLE, Shape, headed};
 use tautline_field::radio::Point;
 use tautline_field::rescue::trace::Last;
 use tautline_field::rescue::{Fix, Report, Setting, seconds};
-use tautline_sim::aside::Aside;
-use tautline_sim::fault::Fault;
+use tautline_sim::atomic_file::AtomicFile;
+use tautline_sim::diagnostic::Diagnostic;
 
 const SECOND_NS: u64 = 1_000_000_000;
 
@@ -57,8 +57,8 @@ fn line(at_ns: u64, line: &impl Serialize) -> Vec<u8> {
 /// Writes a rescue to `file`.
 ///
 /// # Errors
-/// A [`Fault`] if it has more messages than the format can count.
-pub fn write(file: &mut Aside, setting: &Setting, seed: u64, report: &Report) -> Result<(), Fault> {
+/// A [`Diagnostic`] if it has more messages than the format can count.
+pub fn write(file: &mut AtomicFile, setting: &Setting, seed: u64, report: &Report) -> Result<(), Diagnostic> {
     let height_m = report.field.area().height_m();
     let setting = serde_json::to_string(setting).unwrap_or_default();
     let mut file = File::begin(file, &[("seed", seed.to_string()), ("setting", setting)])?;

@@ -8,13 +8,13 @@ use serde::Serialize;
 use super::field::{Map, Terminus, Trail};
 use crate::radio::Point;
 use crate::rescue::{Event, Fix, Journey, Logged, Ordinal, Report, SchemeName, Setting, seconds};
+use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::draw::page::film::{self, Again, Board, Film, Share};
 use tautline_sim::draw::page::line::{base36, word};
 use tautline_sim::draw::page::{is_too_large, too_large};
 use tautline_sim::draw::story;
 use tautline_sim::explore::{ClauseId, Kind, Layer, Shape};
-use tautline_sim::fault::Fault;
-use tautline_sim::words::Worded;
+use tautline_sim::named_values::NamedValues;
 
 /// The map of a rescue: the nodes, the WFRs, and where each robot went. The place where one failed is marked.
 pub fn map(caption: String, report: &Report) -> Map<'_> {
@@ -50,13 +50,13 @@ const KINDS: &[Kind] = &[
 /// The page that plays a rescue by `setting` with this seed.
 ///
 /// # Errors
-/// A [`Fault`] if it would be too large to stand at `path`.
+/// A [`Diagnostic`] if it would be too large to stand at `path`.
 pub fn page(
     path: &Path,
     (setting, seed): (&Setting, u64),
     [title, outcome]: [&str; 2],
     report: &Report,
-) -> Result<String, Fault> {
+) -> Result<String, Diagnostic> {
     let film = film(setting, seed, [title, outcome], report);
     let page = film::head(title) + &lines(report) + &film::foot(&film);
     if is_too_large(page.len()) {

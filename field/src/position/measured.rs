@@ -11,14 +11,14 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_kernel::position::{Estimate, Fix, Point, Range, Refusal, Signal};
 use tautline_proofs::engine::Seeded;
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::Solver;
 use super::analysis::{Ellipse, ellipse, matrix};
 use super::meeting::check_meeting;
 use crate::stats::decimals;
+use tautline_sim::diagnostic::{BOM, Diagnostic};
 use tautline_sim::explore::RuleName;
-use tautline_sim::fault::{BOM, Fault};
 
 /// The columns that a file of distances must have, in any order.
 const COLUMNS: [&str; 4] = ["fix", "x_m", "y_m", RANGE];
@@ -101,31 +101,35 @@ impl Measured {
     /// Reads a file of distances, or of levels where `power` says what these are at one metre; `signal` says how fast they fall.
     ///
     /// # Errors
-    /// A [`Fault`] if it cannot be read, a column is missing, or a value is no number or no level.
-    pub fn read(file: &Path, signal: &Signal, power: Option<Power>) -> Result<Self, Fault> {
+    /// A [`Diagnostic`] if it cannot be read, a column is missing, or a value is no number or no level.
+    pub fn read(file: &Path, signal: &Signal, power: Option<Power>) -> Result<Self, Diagnostic> {
         let mut text = String::new();
         let read = File::open(file).and_then(|opened| opened.take(MAX_BYTES + 1).read_to_string(&mut text));
         read.map_err(|error| match error.kind() {
             ErrorKind::NotFound => {
-                Fault::in_file(file, "there is no such file", "give the path of a file of measurements")
+                Diagnostic::in_file(file, "there is no such file", "give the path of a file of measurements")
             }
-            ErrorKind::InvalidData => Fault::in_file(
+            ErrorKind::InvalidData => Diagnostic::in_file(
                 file,
                 "this is not UTF-8 text",
                 format_args!("begin with the line {}", COLUMNS.join(",")),
             ),
-            _ => Fault::in_file(file, error, "give the path of a file of measurements"),
+            _ => Diagnostic::in_file(file, error, "give the path of a file of measurements"),
         })?;
         if text.len() as u64 > MAX_BYTES {
             let most = MAX_BYTES >> 20;
-            return Err(Fault::in_file(file, format_args!("the file has more than {most} MiB"), "split it"));
+            return Err(Diagnostic::in_file(
+                file,
+                format_args!("the file has more than {most} MiB"),
+                "split it",
+            ));
         }
         let mut measured = Self { file: file.to_owned(), text: String::new(), fixes: Vec::new() };
         measured.take(&text, signal, power)?;
         Ok(Self { text, ..measured })
     }
 
-    fn take(&mut self, text: &str, signal: &Signal, power: Option<Power>) -> Result<(), Fault> {
+    fn take(&mut self, text: &str, signal: &Signal, power: Option<Power>) -> Result<(), Diagnostic> {
         let columns = if power.is_some() { COLUMNS_OF_LEVELS } else { COLUMNS };
         let begin = text.len() - text.strip_prefix(BOM).unwrap_or(text).len();
         let mut lines = text[begin..].split_inclusive('\n').scan(begin, |next, line| {
@@ -212,21 +216,21 @@ impl Measured {
         at: Bytes<usize>,
         what: impl std::fmt::Display,
         remedy: impl std::fmt::Display,
-    ) -> Fault {
-        Fault::at(&self.file, text, at, what, remedy)
+    ) -> Diagnostic {
+        Diagnostic::at(&self.file, text, at, what, remedy)
     }
 
     /// The position of each fix, in the order of the file.
     ///
     /// # Errors
-    /// A [`Fault`] that shows the line of a distance, if distances are refused, or contradict each other.
+    /// A [`Diagnostic`] that shows the line of a distance, if distances are refused, or contradict each other.
     pub fn locate(
         &self,
         solver: Solver,
         rule: RuleName,
         signal: &Signal,
         seed: u64,
-    ) -> Result<Vec<Found>, Fault> {
+    ) -> Result<Vec<Found>, Diagnostic> {
         let fixes = (0..).zip(&self.fixes);
         let found = |(number, readings): (u64, &Readings)| {
             let ranges = &readings.ranges;
@@ -244,7 +248,7 @@ impl Measured {
     }
 
     /// What is wrong with a fix, at the line of the anchor that it is about, or at its last one.
-    fn refused(&self, readings: &Readings, refusal: Refusal) -> Fault {
+    fn refused(&self, readings: &Readings, refusal: Refusal) -> Diagnostic {
         let about = match refusal {
             Refusal::NotFinite { anchor } | Refusal::Negative { anchor } | Refusal::Zero { anchor } => {
                 Some(anchor)

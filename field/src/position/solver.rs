@@ -9,7 +9,7 @@ use tautline_kernel::position::{
 };
 
 use tautline_sim::explore::RuleName;
-use tautline_sim::words::Worded;
+use tautline_sim::named_values::NamedValues;
 
 /// A way from distances to a position.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
@@ -25,7 +25,7 @@ pub enum Solver {
     Decibel,
 }
 
-impl Worded for Solver {
+impl NamedValues for Solver {
     const WORDS: &'static [(Self, &'static str, &'static str)] = &[
         (Self::ClosedForm, "closed-form", "The closed form of the paper, for three anchors"),
         (Self::Pso, "pso", "Particle swarm optimisation about the closed form, as in the paper"),

@@ -13,8 +13,8 @@ use super::Solver;
 use super::analysis::{Ellipse, bound, ellipse, scatter, spread_m};
 use super::solver::Solved;
 use crate::stats::{Estimate, decimals, quantile};
+use tautline_sim::diagnostic::{Halt, Watch};
 use tautline_sim::explore::RuleName;
-use tautline_sim::fault::{Halt, Watch};
 use tautline_sim::noise::deviation_db;
 
 /// Anchors that tell a position, and the rectangle that they span.

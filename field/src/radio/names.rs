@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use tautline_sim::words::Worded;
+use tautline_sim::named_values::NamedValues;
 
 use super::{Channel, Shared};
 
@@ -16,7 +16,7 @@ pub enum ChannelName {
     Shared,
 }
 
-impl Worded for ChannelName {
+impl NamedValues for ChannelName {
     const WORDS: &'static [(Self, &'static str, &'static str)] = &[
         (Self::Ideal, "ideal", "Whoever is in range hears at once"),
         (Self::Shared, "shared", "Messages take time and collide; nodes listen before they send"),

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::Problem;
 use crate::radio::{self, ChannelName, FREE_SPACE, Model, checked_deviation};
 use tautline_sim::explore::RuleName;
-use tautline_sim::words::Worded;
+use tautline_sim::named_values::NamedValues;
 
 /// The most robots: what a WFR and a path node remember is sized by it.
 pub const MAX_ROBOTS: usize = 16;
@@ -33,7 +33,7 @@ pub enum SchemeName {
     Sba,
 }
 
-impl Worded for SchemeName {
+impl NamedValues for SchemeName {
     const WORDS: &'static [(Self, &'static str, &'static str)] = &[
         (Self::KFnf, "k-fnf", "k-farthest-node forwarding"),
         (Self::Flooding, "flooding", "Everybody forwards"),
@@ -53,7 +53,7 @@ pub enum CallTimes {
     Spread,
 }
 
-impl Worded for CallTimes {
+impl NamedValues for CallTimes {
     const WORDS: &'static [(Self, &'static str, &'static str)] = &[
         (Self::Together, "together", "At all in the beginning"),
         (Self::Spread, "spread", "At each at a random time of the first ten minutes"),

@@ -12,7 +12,7 @@ use tautline_proofs::mrc::Demand;
 
 use super::{Event, Fate, Logged, Ordinal, Report, Setting, Violation, rescue};
 use crate::stats::{Estimate, rounded};
-use tautline_sim::fault::{Fault, Halt, Watch};
+use tautline_sim::diagnostic::{Diagnostic, Halt, Watch};
 
 /// What came of many rescues.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
@@ -147,9 +147,9 @@ impl Summary {
     /// [`Halt`], as `watch` returned it, or if the setting makes no rescue.
     pub fn measure(setting: &Setting, seeds: RangeInclusive<u64>, watch: &Watch<'_>) -> Result<Self, Halt> {
         // What is wrong with all is to be the same fault each time, not that of whichever thread is first.
-        setting.lay_out(&mut Seeded::new(*seeds.start(), 0)).map_err(Fault::from)?;
+        setting.lay_out(&mut Seeded::new(*seeds.start(), 0)).map_err(Diagnostic::from)?;
         let one = |seed: u64| {
-            let report = rescue(setting, seed).map_err(Fault::from)?;
+            let report = rescue(setting, seed).map_err(Diagnostic::from)?;
             watch()?;
             Ok(Kept::of(seed, setting.nodes, &report))
         };

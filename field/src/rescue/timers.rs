@@ -10,7 +10,7 @@
 use tautline_kernel::mrc::WfrTimer;
 use tautline_kernel::net::Epoch;
 
-use super::letters::{ANSWER_WAIT_NS, TRIES};
+use super::acks::{ANSWER_WAIT_NS, TRIES};
 use crate::radio::LONGEST_WAIT_NS;
 
 /// A message takes at most so long for a hop: a letter and all its repetitions. Over the shared channel nothing bounds how

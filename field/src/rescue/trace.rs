@@ -12,8 +12,8 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::{Fate, Report, Setting, rescue};
-use tautline_sim::aside::Aside;
-use tautline_sim::fault::Fault;
+use tautline_sim::atomic_file::AtomicFile;
+use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::trace::lines::{Lines, line_of};
 
 /// The format of the header.
@@ -64,7 +64,7 @@ impl Last {
 }
 
 /// Writes a rescue.
-pub fn write(aside: &mut Aside, setting: &Setting, seed: u64, report: &Report) {
+pub fn write(aside: &mut AtomicFile, setting: &Setting, seed: u64, report: &Report) {
     let header = Header { format: FORMAT.to_owned(), version: VERSION, seed, setting: setting.clone() };
     aside.append(line_of(&header));
     for logged in &report.log {
@@ -76,8 +76,8 @@ pub fn write(aside: &mut Aside, setting: &Setting, seed: u64, report: &Report) {
 /// Does the rescue that is stored at `path` again, and compares every line.
 ///
 /// # Errors
-/// A [`Fault`] with the first line that is not as the rescue makes it.
-pub fn replay(path: &Path) -> Result<(Setting, u64, Report), Fault> {
+/// A [`Diagnostic`] with the first line that is not as the rescue makes it.
+pub fn replay(path: &Path) -> Result<(Setting, u64, Report), Diagnostic> {
     let mut lines = Lines::open(path, AGAIN)?;
     let text = lines.header(FORMAT, VERSION, MAX_HEADER_BYTES)?;
     let Header { seed, setting, .. } = lines.parse(&text, AGAIN)?;

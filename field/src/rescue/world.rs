@@ -12,10 +12,10 @@ use tautline_kernel::net::{Call, Epoch, Heard, NodeId, RobotId};
 use tautline_kernel::tan::{Guide, Nav, ReqNav, Stage as Leg};
 use tautline_proofs::engine::Seeded;
 
+use super::acks::{ANSWER_WAIT_NS, Letter, Letters};
 use super::agenda::Agenda;
 use super::event::millimetres;
 use super::judge::{Judge, Seen};
-use super::letters::{ANSWER_WAIT_NS, Letter, Letters};
 use super::pace;
 use super::rover::Rover;
 use super::scenario::Scenario;

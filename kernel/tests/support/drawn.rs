@@ -1,12 +1,6 @@
 //! Pictures of LEDs, and their blobs by another way: a flood fill over the whole picture.
 
-#![allow(
-    dead_code,
-    missing_docs,
-    unreachable_pub,
-    clippy::missing_panics_doc,
-    reason = "two tests use it"
-)]
+#![allow(dead_code, missing_docs, unreachable_pub, clippy::missing_panics_doc, reason = "two tests use it")]
 
 use tautline_kernel::perception::blob::{Blob, Colours, Picture, Pixel, Set, Thresholds, TooManySets, find};
 

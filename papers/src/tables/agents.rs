@@ -18,16 +18,16 @@ use self::printed::Printed;
 use super::parameter::{Parameter, put, shown};
 use super::{About, Chart, Observer, Table, unfit};
 use tautline_field::stats::Estimate;
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::agents::{self as explore, Crew, Way};
 use tautline_sim::explore::ants::ANTS;
 use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};
 use tautline_sim::explore::depth_first::{HELPERS, MDFS};
 use tautline_sim::explore::trees::{HELPERS_ROBUST, TREE};
 use tautline_sim::explore::{Profile, RuleId};
-use tautline_sim::fault::Halt;
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::layout::{Generator, Layout};
-use tautline_sim::reading::{number, within};
+use tautline_sim::value_parser::{number, within};
 
 /// A scheme under one of its rules.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]

@@ -16,9 +16,9 @@ use crate::chart::{Axis, LineChart, Point as Mark, Series, Stroke};
 use tautline_field::radio::{Area, Field, MAX_RANGE_M, Model, Point, Problem, Radio};
 use tautline_field::stats::{Estimate, rounded};
 use tautline_field::tan::{Antenna, Ear, NEAREST_M, Signal};
-use tautline_sim::columns::{Column, Columns, Width};
-use tautline_sim::fault::Halt;
-use tautline_sim::reading::{number, real, within};
+use tautline_sim::diagnostic::Halt;
+use tautline_sim::text_table::{Column, TextTable, Width};
+use tautline_sim::value_parser::{number, real, within};
 
 /// The paper's distance, in metres.
 const DISTANCE_M: f64 = 20.0;
@@ -253,12 +253,12 @@ impl Table for AntennaFig4 {
     }
 
     fn text(&self, _: &Settings, merged: &Merged) -> Result<String, Halt> {
-        let mut pattern = Columns::new([5, 8].map(|width| Column::right(Width::Of(width))));
+        let mut pattern = TextTable::new([5, 8].map(|width| Column::right(Width::Of(width))));
         for angle in merged.pattern.iter().filter(|angle| angle.degrees >= 0) {
             let level = angle.level_db.map_or("nothing".to_owned(), |level_db| format!("{level_db:.2}"));
             pattern.row([format!("{}°", angle.degrees), level]);
         }
-        let mut noises = Columns::new([9, 23, 23, 14].map(|width| Column::right(Width::Of(width))));
+        let mut noises = TextTable::new([9, 23, 23, 14].map(|width| Column::right(Width::Of(width))));
         noises.row(["noise, dB", "right, %", "one beside, %", "off, degrees"]);
         let percent = |estimate: Estimate| estimate.times(100.0).text(2);
         for Noise { noise_db, right, beside, degrees_off } in &merged.noises {

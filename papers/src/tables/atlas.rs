@@ -9,16 +9,16 @@ use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::chain::invariant::Invariant;
 use tautline_proofs::chain::search::{Bounds, Counterexample};
+use tautline_proofs::plural::counted;
 use tautline_proofs::run::walls;
-use tautline_proofs::words::counted;
 
 use super::parameter::Parameter;
 use super::{About, Observer, Table, Threads};
-use tautline_sim::columns::{Column, Columns, Width};
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::RuleName;
 use tautline_sim::explore::chain::hunt::start;
-use tautline_sim::fault::Halt;
 use tautline_sim::schema::CellWritten;
+use tautline_sim::text_table::{Column, TextTable, Width};
 
 /// The atlas.
 #[derive(Clone, Copy, Debug)]
@@ -260,7 +260,7 @@ impl Table for Atlas {
     fn text(&self, _: &Settings, merged: &Merged) -> Result<String, Halt> {
         let heads = ["N", "walls", "rule", "layouts", "runs", "team moves", "longest"];
         let heads = heads.into_iter().chain(CLAUSES);
-        let mut columns = Columns::new(heads.clone().map(|_| Column::right(Width::Fit)));
+        let mut columns = TextTable::new(heads.clone().map(|_| Column::right(Width::Fit)));
         columns.row(heads);
         for line in &merged.lines {
             columns.row(line.cells());

@@ -5,18 +5,18 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::{Area, Cell};
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::parameter::Parameter;
 use super::{About, Chart, Observer, Table, unfit};
-use crate::tribot::{Body, Odometer};
-use tautline_sim::columns::{Column, Columns, Width};
+use crate::nxt::{Body, Odometer};
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::svg;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::{RuleName, Setup, explore, team};
-use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::layout::Layout;
 use tautline_sim::schema::CellWritten;
+use tautline_sim::text_table::{Column, TextTable, Width};
 
 /// Fig. 4.
 #[derive(Clone, Copy, Debug)]
@@ -198,7 +198,7 @@ impl Table for ChainFig4 {
             cell_mm / 1000
         );
         let numbers = [Column::right(Width::Fit); 9];
-        let mut columns = Columns::new([Column::left(Width::Fit)].into_iter().chain(numbers));
+        let mut columns = TextTable::new([Column::left(Width::Fit)].into_iter().chain(numbers));
         columns.row([
             "area",
             "rule",
@@ -255,7 +255,7 @@ fn picture(merged: &Merged, place: Place) -> Result<String, Halt> {
     let rule = RuleName::Published;
     let setup = place.setup(rule)?;
     let run = merged.runs.iter().find(|run| run.place == place && run.rule == rule);
-    let run = run.ok_or_else(|| Fault::usage("there is no such run", "measure it"))?;
+    let run = run.ok_or_else(|| Diagnostic::usage("there is no such run", "measure it"))?;
     let area: Area = team(&setup)?.area(&setup.layout);
     let caption = format!("{}: {}", place.words(), counted(run.team_moves, "team move"));
     let title = format!("The ways of robots 2 to {ROBOTS}, {rule}");

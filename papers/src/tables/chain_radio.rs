@@ -11,18 +11,18 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::chain::{Message, Outcome};
 use tautline_kernel::ground::Circle;
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::parameter::{Parameter, put, shown};
 use super::{About, Observer, Table, unfit};
-use crate::tribot::{Body, Odometer};
+use crate::nxt::{Body, Odometer};
 use tautline_field::stats::{Estimate, rounded};
-use tautline_sim::columns::{Column, Columns, Width};
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::{RuleName, Setup, explore};
-use tautline_sim::fault::Halt;
 use tautline_sim::layout::{Layout, generate};
-use tautline_sim::reading::{number, within};
+use tautline_sim::text_table::{Column, TextTable, Width};
+use tautline_sim::value_parser::{number, within};
 
 /// The radio chain.
 #[derive(Clone, Copy, Debug)]
@@ -181,7 +181,7 @@ impl Table for ChainRadio {
             settings.hop_ms,
             counted(settings.runs, "run")
         );
-        let mut columns = Columns::new([Column::right(Width::Fit); 10]);
+        let mut columns = TextTable::new([Column::right(Width::Fit); 10]);
         columns.row([
             "robots",
             "moves",
@@ -226,7 +226,7 @@ impl Table for ChainRadio {
                 format!("at most {most:.0} % of the time"),
             ),
         ];
-        let mut columns = Columns::new([Width::Fit, Width::Fit, Width::Fit].map(Column::left));
+        let mut columns = TextTable::new([Width::Fit, Width::Fit, Width::Fit].map(Column::left));
         for (sentence, holds, measured) in judged {
             columns.row([if holds { "holds" } else { "fails" }.to_owned(), sentence.to_owned(), measured]);
         }

@@ -9,8 +9,8 @@ use std::fmt;
 
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 
-use tautline_sim::aside::CSV_HEAD;
-use tautline_sim::fault::Fault;
+use tautline_sim::atomic_file::CSV_HEAD;
+use tautline_sim::diagnostic::Diagnostic;
 
 /// A value of JSON, with the members of an object in their order.
 enum Node {
@@ -155,10 +155,10 @@ fn field(text: &str) -> String {
 /// The file of a table that is told by this JSON.
 ///
 /// # Errors
-/// A [`Fault`] if it is none.
-pub(super) fn csv(json: &str) -> Result<String, Fault> {
-    let node: Node =
-        serde_json::from_str(json).map_err(|error| Fault::usage(error, "take it as tautline wrote it"))?;
+/// A [`Diagnostic`] if it is none.
+pub(super) fn csv(json: &str) -> Result<String, Diagnostic> {
+    let node: Node = serde_json::from_str(json)
+        .map_err(|error| Diagnostic::usage(error, "take it as tautline wrote it"))?;
     let (mut before, mut found) = (Vec::new(), Vec::new());
     plain("", &node, &mut before);
     rows("", &node, &before, &mut found);

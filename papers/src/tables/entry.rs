@@ -10,7 +10,7 @@ use serde::de::DeserializeOwned;
 use super::csv::csv;
 use super::parameter::Given;
 use super::{About, Observer, Table, measure};
-use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::schema;
 
 /// A table of any types.
@@ -36,14 +36,14 @@ pub trait Entry: fmt::Debug + Sync {
     /// The table with the settings of these options and their values.
     ///
     /// # Errors
-    /// A [`Fault`] if a value is wrong.
-    fn asked<'a>(&'a self, given: &[(String, Vec<String>)]) -> Result<Box<dyn Asked + 'a>, Fault>;
+    /// A [`Diagnostic`] if a value is wrong.
+    fn asked<'a>(&'a self, given: &[(String, Vec<String>)]) -> Result<Box<dyn Asked + 'a>, Diagnostic>;
 
     /// The table with settings as [`Asked::settings`] gave them.
     ///
     /// # Errors
-    /// A [`Fault`] if they are none.
-    fn restored<'a>(&'a self, settings: &str) -> Result<Box<dyn Asked + 'a>, Fault>;
+    /// A [`Diagnostic`] if they are none.
+    fn restored<'a>(&'a self, settings: &str) -> Result<Box<dyn Asked + 'a>, Diagnostic>;
 }
 
 /// A table with its settings.
@@ -51,8 +51,8 @@ pub trait Asked: Sync {
     /// Its settings as JSON.
     ///
     /// # Errors
-    /// A [`Fault`] if they cannot be written.
-    fn settings(&self) -> Result<String, Fault>;
+    /// A [`Diagnostic`] if they cannot be written.
+    fn settings(&self) -> Result<String, Diagnostic>;
 
     /// Its jobs as JSON, in their order.
     ///
@@ -90,14 +90,14 @@ pub trait Made {
     /// For programs: one JSON object.
     ///
     /// # Errors
-    /// A [`Fault`] if it cannot be written.
-    fn json(&self, schema_version: u32) -> Result<String, Fault>;
+    /// A [`Diagnostic`] if it cannot be written.
+    fn json(&self, schema_version: u32) -> Result<String, Diagnostic>;
 
     /// For spreadsheets and data frames: comma-separated values, a row for each element of each of its lists.
     ///
     /// # Errors
-    /// A [`Fault`] as of [`Made::json`].
-    fn csv(&self, schema_version: u32) -> Result<String, Fault> {
+    /// A [`Diagnostic`] as of [`Made::json`].
+    fn csv(&self, schema_version: u32) -> Result<String, Diagnostic> {
         csv(&self.json(schema_version)?)
     }
 
@@ -135,20 +135,20 @@ impl<T: Table> Entry for T {
         schema::of::<Document<'_, T::Merged>>(&format!("tautline reproduce {}", Table::about(self).id))
     }
 
-    fn asked<'a>(&'a self, given: &[(String, Vec<String>)]) -> Result<Box<dyn Asked + 'a>, Fault> {
+    fn asked<'a>(&'a self, given: &[(String, Vec<String>)]) -> Result<Box<dyn Asked + 'a>, Diagnostic> {
         let mut settings = T::Settings::default();
         for parameter in self.parameters() {
             let name = parameter.option.name;
             if let Some((_, texts)) = given.iter().find(|(given, _)| given == name) {
                 let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
                 (parameter.read)(&mut settings, &texts)
-                    .map_err(|remedy| Fault::usage(format_args!("--{name} is wrong"), remedy))?;
+                    .map_err(|remedy| Diagnostic::usage(format_args!("--{name} is wrong"), remedy))?;
             }
         }
         Ok(Box::new(With { table: self, settings }))
     }
 
-    fn restored<'a>(&'a self, settings: &str) -> Result<Box<dyn Asked + 'a>, Fault> {
+    fn restored<'a>(&'a self, settings: &str) -> Result<Box<dyn Asked + 'a>, Diagnostic> {
         Ok(Box::new(With { table: self, settings: read(settings)? }))
     }
 }
@@ -172,17 +172,17 @@ struct Document<'a, M> {
     merged: &'a M,
 }
 
-fn written(value: &impl Serialize) -> Result<String, Fault> {
-    let unwritten = |error| Fault::usage(error, "report it: this is a bug of tautline");
+fn written(value: &impl Serialize) -> Result<String, Diagnostic> {
+    let unwritten = |error| Diagnostic::usage(error, "report it: this is a bug of tautline");
     serde_json::to_string(value).map_err(unwritten)
 }
 
-fn read<V: DeserializeOwned>(text: &str) -> Result<V, Fault> {
-    serde_json::from_str(text).map_err(|error| Fault::usage(error, "take it as tautline wrote it"))
+fn read<V: DeserializeOwned>(text: &str) -> Result<V, Diagnostic> {
+    serde_json::from_str(text).map_err(|error| Diagnostic::usage(error, "take it as tautline wrote it"))
 }
 
 impl<T: Table> Asked for With<'_, T> {
-    fn settings(&self) -> Result<String, Fault> {
+    fn settings(&self) -> Result<String, Diagnostic> {
         written(&self.settings)
     }
 
@@ -199,7 +199,7 @@ impl<T: Table> Asked for With<'_, T> {
         let jobs = self.table.jobs(&self.settings)?;
         if jobs.len() != results.len() {
             let what = format!("{} results of {} jobs", results.len(), jobs.len());
-            return Err(Fault::usage(what, "give the results of all jobs, in their order").into());
+            return Err(Diagnostic::usage(what, "give the results of all jobs, in their order").into());
         }
         let results = results.iter().map(|result| read(result)).collect::<Result<Vec<_>, _>>()?;
         let merged = self.table.merge(&self.settings, jobs.into_iter().zip(results).collect())?;
@@ -217,7 +217,7 @@ impl<T: Table> Made for Whole<'_, T> {
         self.asked.table.text(&self.asked.settings, &self.merged)
     }
 
-    fn json(&self, schema_version: u32) -> Result<String, Fault> {
+    fn json(&self, schema_version: u32) -> Result<String, Diagnostic> {
         let id = Table::about(self.asked.table).id;
         written(&Document { schema_version, id, merged: &self.merged })
     }
@@ -227,7 +227,10 @@ impl<T: Table> Made for Whole<'_, T> {
         let chart = table.charts().into_iter().find(|chart| chart.name == name);
         let chart = chart.ok_or_else(|| {
             let names: Vec<&str> = table.charts().iter().map(|chart| chart.name).collect();
-            Fault::usage(format_args!("there is no picture {name}"), format_args!("ask for one of {names:?}"))
+            Diagnostic::usage(
+                format_args!("there is no picture {name}"),
+                format_args!("ask for one of {names:?}"),
+            )
         })?;
         (chart.draw)(table, settings, &self.merged)
     }

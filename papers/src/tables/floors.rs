@@ -11,11 +11,11 @@ use super::parameter::{Given, Parameter, Values, all_shown, put, put_all, shown}
 use super::{About, Chart, Observer, Table, point};
 use crate::chart::{Axis, LineChart, Point, Series, Stroke};
 use tautline_field::stats::Estimate;
-use tautline_sim::columns::{Column, Columns, Width};
-use tautline_sim::fault::Halt;
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::layout::generate::{self, Probability};
 use tautline_sim::layout::{self, Layout};
-use tautline_sim::reading::{number, real, within};
+use tautline_sim::text_table::{Column, TextTable, Width};
+use tautline_sim::value_parser::{number, real, within};
 
 /// The price of a floor.
 #[derive(Clone, Copy, Debug)]
@@ -301,7 +301,7 @@ fn text(merged: &Merged) -> String {
         Column::right(Width::Fit).after(2),
         Column::left(Width::Fit).after(2),
     ];
-    let mut columns = Columns::new(names.into_iter().chain(numbers));
+    let mut columns = TextTable::new(names.into_iter().chain(numbers));
     columns.row(["layout", "cells", "agents", "team", "until explored", "until known", "early", "ended"]);
     for line in &merged.lines {
         columns.row([

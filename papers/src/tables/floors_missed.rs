@@ -11,11 +11,11 @@ use super::floors::{largest_part, loaded, points, probability, start};
 use super::parameter::{Given, Parameter, Values, all_shown, put, put_all, shown};
 use super::{About, Observer, Table};
 use tautline_field::stats::Estimate;
-use tautline_sim::columns::{Column, Columns, Width};
-use tautline_sim::fault::Halt;
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::layout;
 use tautline_sim::layout::generate::Probability;
-use tautline_sim::reading::{number, within};
+use tautline_sim::text_table::{Column, TextTable, Width};
+use tautline_sim::value_parser::{number, within};
 
 /// Who is compared: what is robust by going over the floor again, what is robust by looking underfoot, and what doubts.
 const TEAMS: [(&str, Explorer); 6] = [
@@ -238,7 +238,7 @@ fn text(merged: &Merged) -> String {
     let names =
         [Column::left(Width::Fit), Column::right(Width::Fit).after(2), Column::left(Width::Fit).after(2)];
     let numbers = [Column::right(Width::Fit); 4].map(|column| column.after(2));
-    let mut columns = Columns::new(names.into_iter().chain(numbers));
+    let mut columns = TextTable::new(names.into_iter().chain(numbers));
     columns.row(["layout", "agents", "team", "until explored", "until known", "% early", "% ended"]);
     let percent = |share: Option<Estimate>| Estimate::text_or_dash(share.map(|share| share.times(100.0)), 1);
     for line in &merged.lines {

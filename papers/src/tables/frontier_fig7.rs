@@ -16,12 +16,12 @@ use super::parameter::{Parameter, put, shown};
 use super::{About, Chart, Observer, Table, point, unfit};
 use crate::chart::{Axis, LineChart, Series, Stroke};
 use tautline_field::stats::Estimate;
-use tautline_sim::columns::{Column, Columns, Width};
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::frontier::{ALONE, FRONTIER, reachable};
 use tautline_sim::explore::{Limits, Milestone, RuleId, Setup, explore};
-use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::layout::{Layout, generate};
-use tautline_sim::reading::{number, within};
+use tautline_sim::text_table::{Column, TextTable, Width};
+use tautline_sim::value_parser::{number, within};
 
 /// Team sizes that the paper compares.
 pub const TEAMS: [u16; 5] = [1, 2, 4, 6, 8];
@@ -40,7 +40,7 @@ pub struct Settings {
     pub layouts: u32,
     /// The seed of the first one.
     pub seed: u64,
-    /// Columns.
+    /// TextTable.
     pub columns: u16,
     /// Rows.
     pub rows: u16,
@@ -149,7 +149,7 @@ impl Table for FrontierFig7 {
             Parameter::one(
                 "columns",
                 "COLUMNS",
-                "Columns of each layout",
+                "TextTable of each layout",
                 |all| shown(&all.columns),
                 |all, texts| put(&mut all.columns, texts, |text| within(text, &(1..=32_i64))),
             ),
@@ -184,7 +184,7 @@ impl Table for FrontierFig7 {
         let most = TEAMS.into_iter().max().unwrap_or(0);
         if blocked + most > cells {
             let what = format!("{blocked} blocked of {cells} cells leave no room for {most} robots");
-            return Err(Fault::usage(what, "give fewer blocked cells, or more columns and rows").into());
+            return Err(Diagnostic::usage(what, "give fewer blocked cells, or more columns and rows").into());
         }
         Ok((0..u64::from(layouts)).map(|index| Job { seed: seed.wrapping_add(index) }).collect())
     }
@@ -248,7 +248,7 @@ fn drawn(settings: &Settings, seed: u64) -> Result<(Layout, Vec<Cell>), Halt> {
         return Ok((layout, starts.collect()));
     }
     let what = format!("of {MOST_DRAWN} layouts with {blocked} blocked cells none is connected");
-    Err(Fault::usage(what, "give fewer blocked cells").into())
+    Err(Diagnostic::usage(what, "give fewer blocked cells").into())
 }
 
 /// Layouts that are drawn until one is connected.
@@ -332,7 +332,7 @@ fn judged(lines: &[Line]) -> Vec<Judged> {
 fn text(settings: &Settings, merged: &Merged) -> String {
     let Settings { layouts, columns, rows, blocked, .. } = settings;
     let widths = TEAMS.map(|_| Column::right(Width::Of(15)));
-    let mut table = Columns::new([Column::left(Width::Of(15))].into_iter().chain(widths));
+    let mut table = TextTable::new([Column::left(Width::Of(15))].into_iter().chain(widths));
     let heads =
         TEAMS.map(|robots| if robots == 1 { "1 robot".to_owned() } else { format!("{robots} robots") });
     let mut part = |title: String, of: fn(&Line) -> Option<Estimate>| {

@@ -23,8 +23,8 @@ use self::world::World;
 use super::notice_fig5::{NODES, RANGE_M, SIDE_M};
 use super::parameter::{Given, Parameter, Senders, Values, all_shown, put, put_all, shown};
 use super::{About, Chart, Observer, Table, usage};
-use tautline_sim::fault::Halt;
-use tautline_sim::reading::{Metres, number, real, whole, within};
+use tautline_sim::diagnostic::Halt;
+use tautline_sim::value_parser::{Metres, number, real, whole, within};
 
 /// Figure 6.
 pub const RESCUE_FIG6: Journeys = Journeys {

@@ -22,11 +22,11 @@ use self::lattice::FAMILIES;
 use super::parameter::{Parameter, put, shown};
 use super::{About, Chart, Observer, Table, unfit};
 use tautline_field::stats::Estimate;
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::RuleName;
-use tautline_sim::fault::Halt;
 use tautline_sim::kit::{self, Pace, REACH_MILLIMETRES};
 use tautline_sim::layout::Layout;
-use tautline_sim::reading::{number, within};
+use tautline_sim::value_parser::{number, within};
 
 /// Paths of every layout, and how many of them are explored at the paper's 88 %.
 pub const PATHS: usize = 26;

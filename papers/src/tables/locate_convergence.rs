@@ -15,9 +15,9 @@ use super::{About, Chart, Observer, Table};
 use crate::chart::{Axis, LineChart, Point as Mark, Series, Stroke};
 use tautline_field::position::{Anchors, PARTICLES, distances, refused};
 use tautline_field::stats::{Estimate, decimals, quantile, rounded};
-use tautline_sim::columns::{Column, Columns, Figures, Width};
-use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::reading::{number, real, within};
+use tautline_sim::diagnostic::{Diagnostic, Halt};
+use tautline_sim::text_table::{Column, Figures, TextTable, Width};
+use tautline_sim::value_parser::{number, real, within};
 
 /// The anchors, as in `tautline locate`.
 const SQUARE: [Point; 3] = [Point::new(0.0, 0.0), Point::new(20.0, 0.0), Point::new(0.0, 20.0)];
@@ -101,13 +101,13 @@ pub(super) fn parameters(tried: &'static str) -> Vec<Parameter<Field>> {
 /// The anchors of a field, and how they are heard.
 pub(super) fn field(settings: &Field) -> Result<(Anchors, Signal), Halt> {
     let propagation = Propagation::new(settings.exponent).ok_or_else(|| {
-        Fault::usage(
+        Diagnostic::usage(
             format_args!("the exponent {} is none", settings.exponent),
             "give an exponent from 2 to 5",
         )
     })?;
     let signal = Signal::new(propagation, settings.noise_db).ok_or_else(|| {
-        Fault::usage(
+        Diagnostic::usage(
             format_args!("a noise of {} dB is none", settings.noise_db),
             "give decibels from 0 to 100",
         )
@@ -198,7 +198,7 @@ impl Table for LocateConvergence {
 
     fn measure(&self, settings: &Field, job: &Job, _: &dyn Observer) -> Result<Course, Halt> {
         let (anchors, signal) = field(settings)?;
-        let unknown = || Fault::usage("there is no such reading", "take the job as tautline wrote it");
+        let unknown = || Diagnostic::usage("there is no such reading", "take the job as tautline wrote it");
         let &(_, order, draws, parameters) = VARIANTS.get(job.variant).ok_or_else(unknown)?;
         let after = |iterations: u32| {
             let parameters = Parameters { order, draws, iterations, ..parameters };
@@ -245,7 +245,7 @@ impl Table for LocateConvergence {
 /// The paper's numbers beside ours.
 fn compared(merged: &Merged) -> String {
     let mut columns =
-        Columns::new([Column::left(Width::Fit)].into_iter().chain([Column::right(Width::Fit); 3]));
+        TextTable::new([Column::left(Width::Fit)].into_iter().chain([Column::right(Width::Fit); 3]));
     columns.row(["metres", "paper", "ours", "difference"]);
     let last = ITERATIONS.len() - 1;
     // The place of 20 among the iterations.

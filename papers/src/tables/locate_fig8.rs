@@ -13,10 +13,10 @@ use super::{About, Chart, Observer, Table, point};
 use crate::chart::{Axis, LineChart, Series, Stroke};
 use tautline_field::position::{Anchors, Solver, distances, refused};
 use tautline_field::stats::{Estimate, rounded};
-use tautline_sim::columns::{Column, Columns, Figures, Width};
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::RuleName;
-use tautline_sim::fault::Halt;
-use tautline_sim::words::Worded;
+use tautline_sim::named_values::NamedValues;
+use tautline_sim::text_table::{Column, Figures, TextTable, Width};
 
 /// The numbers of robots of the paper.
 const ROBOTS: [usize; 5] = [1, 2, 4, 6, 8];
@@ -196,7 +196,7 @@ impl Table for LocateFig8 {
                 });
             }
         }
-        let mut sentences = Columns::new([Column::left(Width::Fit); 3]);
+        let mut sentences = TextTable::new([Column::left(Width::Fit); 3]);
         sentences.row(["paper", "ours: difference, m", "so?"]);
         for Sentence { paper, difference_m, is_so } in &merged.sentences {
             sentences.row([*paper, &difference_m.text(3), if *is_so { "yes" } else { "no" }]);

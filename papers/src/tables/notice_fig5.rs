@@ -8,7 +8,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::NodeId;
 use tautline_kernel::notice::{Count, Rule, Scheme};
 use tautline_proofs::engine::Seeded;
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::parameter::{Given, Parameter, Senders, Values, all_shown, put, put_all, shown};
 use super::{About, Chart, Observer, Table, point, usage};
@@ -17,10 +17,10 @@ use tautline_field::radio::{
     Area, ChannelName, Faults, Field, LONGEST_WAIT_NS, Model, Network, Problem, Radio, broadcast,
 };
 use tautline_field::stats::{Estimate, decimals, rounded};
-use tautline_sim::columns::Figures;
-use tautline_sim::fault::Halt;
-use tautline_sim::reading::{number, real, whole, within};
-use tautline_sim::words::Worded;
+use tautline_sim::diagnostic::Halt;
+use tautline_sim::named_values::NamedValues;
+use tautline_sim::text_table::Figures;
+use tautline_sim::value_parser::{number, real, whole, within};
 
 /// The numbers of nodes of the paper.
 pub const NODES: [usize; 5] = [300, 500, 700, 900, 1100];

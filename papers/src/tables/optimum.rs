@@ -14,12 +14,12 @@ use self::area::{Area, WallSet, solve};
 use self::sums::Sums;
 use super::parameter::{Parameter, put, shown};
 use super::{About, Observer, Table};
-use tautline_sim::columns::{Column, Columns, Width};
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::draw::{self, Block};
 use tautline_sim::explore::{RuleName, Setup, Survey, explore};
-use tautline_sim::fault::Halt;
 use tautline_sim::layout::Layout;
-use tautline_sim::reading::within;
+use tautline_sim::text_table::{Column, TextTable, Width};
+use tautline_sim::value_parser::within;
 
 /// The table.
 #[derive(Clone, Copy, Debug)]
@@ -220,12 +220,12 @@ impl Table for Optimum {
     }
 }
 
-fn columns(lines: &[Line]) -> Columns {
+fn columns(lines: &[Line]) -> TextTable {
     // The head of the rules is as wide as the longer of them; the shorter one pulls on what follows it.
     let words = [6, 5, 0].map(|width| Column::left(Width::Of(width)));
     let numbers = [7, 9, 6, 6, 5, 7, 4].map(|width| Column::right(Width::Of(width)));
     let worst = Column::left(Width::Fit);
-    let mut columns = Columns::new(words.into_iter().chain(numbers).chain([worst]));
+    let mut columns = TextTable::new(words.into_iter().chain(numbers).chain([worst]));
     let layouts = ["layouts", "walled in", "missed", "beyond", "below", "optimal"];
     columns.row(["robots", "walls", "rule     "].into_iter().chain(layouts).chain(["mean", "worst"]));
     for line in lines {

@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::notice::Count;
 
-use tautline_sim::reading;
-use tautline_sim::words::Worded;
+use tautline_sim::named_values::NamedValues;
+use tautline_sim::value_parser;
 
 /// A setting of a table, among its settings of type `S`.
 #[derive(Debug)]
@@ -89,7 +89,7 @@ impl<S> Parameter<S> {
 
 impl Values {
     /// The words of `T`.
-    pub fn words<T: Worded>() -> Self {
+    pub fn words<T: NamedValues>() -> Self {
         Self::Word(T::WORDS.iter().map(|&(_, word, about)| (word, about)).collect())
     }
 }
@@ -141,7 +141,7 @@ impl TryFrom<u8> for Senders {
     type Error = String;
 
     fn try_from(count: u8) -> Result<Self, Self::Error> {
-        reading::count(&count.to_string()).map(Self)
+        value_parser::count(&count.to_string()).map(Self)
     }
 }
 
@@ -160,6 +160,6 @@ impl Senders {
     /// # Errors
     /// What to write.
     pub fn read(text: &str) -> Result<Self, String> {
-        reading::count(text).map(Self)
+        value_parser::count(text).map(Self)
     }
 }

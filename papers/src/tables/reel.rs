@@ -6,17 +6,17 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::links::within_reach;
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::parameter::{Parameter, put, shown};
 use super::{About, Observer, Table, unfit};
 use tautline_field::stats::{Estimate, Moments, hundredths};
-use tautline_sim::columns::{Column, Columns, Width};
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::chain::{CHAIN, REEL, UNHELD};
 use tautline_sim::explore::{Milestone, Report, RuleId, Setup, explore};
-use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::layout::Generator;
-use tautline_sim::reading::{number, within};
+use tautline_sim::text_table::{Column, TextTable, Width};
+use tautline_sim::value_parser::{number, within};
 
 /// The team of the paper.
 const ROBOTS: u16 = 8;
@@ -201,7 +201,7 @@ impl Table for Reel {
                 let broken = format_args!("the rule {rule} breaks {} in {ground}", violation.clause);
                 let remedy =
                     format!("look at it with `tautline explore {ground} --rule {rule} --seed {}`", job.seed);
-                return Err(Fault::of_field("reel", broken, remedy).into());
+                return Err(Diagnostic::of_field("reel", broken, remedy).into());
             }
             let due = within_reach(report.chart.area(), base, ROBOTS.into(), |edge| layout.is_open(edge));
             *outcome = Outcome { moves: reached(&report, &due), explored: report.explored };
@@ -239,7 +239,7 @@ impl Table for Reel {
         );
         for goal in GOALS {
             let numbers = [9, 9, 15, 7, 9, 15, 7, 15].map(|width| Column::right(Width::Of(width)));
-            let mut columns = Columns::new([Column::left(Width::Of(17))].into_iter().chain(numbers));
+            let mut columns = TextTable::new([Column::left(Width::Of(17))].into_iter().chain(numbers));
             columns.title(format!(
                 "Mean team moves to {goal}; ratios to the repaired rule with their 95 % intervals; layouts in which \
                  a rule is slower"
@@ -274,7 +274,7 @@ impl Table for Reel {
 /// The cells that runs explore, for people.
 fn cells(cells: &[Cells]) -> String {
     let numbers = [9, 9, 16, 7, 6, 9, 16, 7, 6].map(|width| Column::right(Width::Of(width)));
-    let mut columns = Columns::new([Column::left(Width::Of(17))].into_iter().chain(numbers));
+    let mut columns = TextTable::new([Column::left(Width::Of(17))].into_iter().chain(numbers));
     columns.title(
         "Mean cells explored; in % of those of the repaired rule with their 95 % intervals; layouts in which a rule explores \
          fewer cells, and more"

@@ -6,17 +6,17 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_proofs::chain::breach::Breach;
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::parameter::{Parameter, put, shown};
 use super::{About, Observer, Table, unfit};
 use tautline_field::stats::{Estimate, Moments, hundredths};
-use tautline_sim::columns::{Column, Columns, Width};
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::{Milestone, Report, RuleName, Setup, explore};
-use tautline_sim::fault::Halt;
 use tautline_sim::layout::Generator;
-use tautline_sim::reading::{number, within};
+use tautline_sim::text_table::{Column, TextTable, Width};
+use tautline_sim::value_parser::{number, within};
 
 /// The team of the paper.
 pub const ROBOTS: u16 = 8;
@@ -227,7 +227,7 @@ impl Table for RepairCost {
         text.push_str(&compared("Mean team moves of whole runs", lines, |line| &line.moves));
         text.push_str(&compared("Mean cells explored when a run ends", lines, |line| &line.explored));
         let clauses = Breach::CHAIN.map(|_| Column::right(Width::Of(12)));
-        let mut columns = Columns::new([Column::left(Width::Of(8))].into_iter().chain(clauses));
+        let mut columns = TextTable::new([Column::left(Width::Of(8))].into_iter().chain(clauses));
         columns.title("Runs that break a clause, published / repaired");
         columns.row(["density"].into_iter().chain(Breach::CHAIN.map(Breach::clause)));
         for line in lines {
@@ -245,7 +245,7 @@ impl Table for RepairCost {
 /// A table of one number of both rules.
 fn compared<'a>(title: &str, lines: &'a [Line], number: impl Fn(&'a Line) -> &'a Comparison) -> String {
     let numbers = [9, 9, 15, 7, 8].map(|width| Column::right(Width::Of(width)));
-    let mut columns = Columns::new([Column::left(Width::Of(7))].into_iter().chain(numbers));
+    let mut columns = TextTable::new([Column::left(Width::Of(7))].into_iter().chain(numbers));
     columns.title(format!("{title}; the difference with its 95 % interval"));
     columns.row(["density", "published", "repaired", "difference", "layouts", "left out"]);
     for line in lines {

@@ -5,7 +5,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::notice_fig5::{RANGE_M, SIDE_M};
 use super::parameter::{Parameter, Senders, put, shown};
@@ -16,10 +16,10 @@ use tautline_field::radio::{ChannelName, FREE_SPACE, Point};
 use tautline_field::rescue::{CallTimes, Fate, Problem, Report, SchemeName, rescue};
 use tautline_field::stats::{Estimate, decimals, rounded};
 use tautline_field::tan::shortest_m;
-use tautline_sim::columns::Figures;
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::RuleName;
-use tautline_sim::fault::{Fault, Halt};
-use tautline_sim::reading::{number, whole, within};
+use tautline_sim::text_table::Figures;
+use tautline_sim::value_parser::{number, whole, within};
 
 /// The robots of the figure.
 const ROBOTS: usize = 3;
@@ -166,7 +166,7 @@ impl Settings {
     fn picture(&self) -> Result<String, Halt> {
         let mut drawn = None;
         for seed in self.seeds() {
-            let report = self.rescue(RuleName::Repaired, seed).map_err(Fault::from)?;
+            let report = self.rescue(RuleName::Repaired, seed).map_err(Diagnostic::from)?;
             let is_fit = Sample::of(&report).assigned_m.is_some();
             if is_fit || drawn.is_none() {
                 drawn = Some((seed, report));
@@ -259,13 +259,13 @@ impl Table for RescueFig8 {
     }
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
-        settings.rescue(RuleName::Published, settings.seed).map_err(Fault::from)?;
+        settings.rescue(RuleName::Published, settings.seed).map_err(Diagnostic::from)?;
         let seeds = |rule| settings.seeds().map(move |seed| Job { rule, seed });
         Ok(RuleName::ALL.into_iter().flat_map(seeds).collect())
     }
 
     fn measure(&self, settings: &Settings, job: &Job, _: &dyn Observer) -> Result<Sample, Halt> {
-        Ok(Sample::of(&settings.rescue(job.rule, job.seed).map_err(Fault::from)?))
+        Ok(Sample::of(&settings.rescue(job.rule, job.seed).map_err(Diagnostic::from)?))
     }
 
     fn merge(&self, settings: &Settings, results: Vec<(Job, Sample)>) -> Result<Merged, Halt> {

@@ -7,11 +7,11 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Floor, Mark, Scan};
 use tautline_kernel::ground::{Cell, Step};
 
-use crate::course::{Course, Scene, Turn};
 use crate::engine::outcomes;
 use crate::engine::states::{self, Bits, Places, Run, System};
 use crate::floor::plans::FloorPlan;
 use crate::floor::small::{self, Misses, Part, Small, Stored, marked, shut};
+use crate::floor_trace::{Course, Scene, Turn};
 
 /// What two agents may do at once.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -27,7 +27,7 @@ pub trait Lots: Sync {
     /// What all looks together have found.
     type Found: Default;
     /// Why a lot cannot be looked at.
-    type Fault: Send;
+    type Diagnostic: Send;
 
     /// All stages, in their order.
     fn stages(&self) -> Vec<Self::Stage>;
@@ -36,7 +36,7 @@ pub trait Lots: Sync {
     ///
     /// # Errors
     /// Its fault, if one of them cannot be made.
-    fn lots(&self, stage: Self::Stage) -> Result<Vec<Self::Lot>, Self::Fault>;
+    fn lots(&self, stage: Self::Stage) -> Result<Vec<Self::Lot>, Self::Diagnostic>;
 
     /// About how many steps a look at a lot takes; only how they compare matters.
     fn weight(&self, stage: Self::Stage, lot: &Self::Lot) -> u64;
@@ -45,13 +45,19 @@ pub trait Lots: Sync {
     ///
     /// # Errors
     /// Its fault, if it cannot be looked at.
-    fn look(&self, stage: Self::Stage, lot: &Self::Lot, most_steps: u64) -> Result<Self::Look, Self::Fault>;
+    fn look(
+        &self,
+        stage: Self::Stage,
+        lot: &Self::Lot,
+        most_steps: u64,
+    ) -> Result<Self::Look, Self::Diagnostic>;
 
     /// Adds a look to what was found in the lots before.
     ///
     /// # Errors
     /// Its fault, if what was seen cannot be told.
-    fn add(&self, found: &mut Self::Found, lot: &Self::Lot, look: Self::Look) -> Result<(), Self::Fault>;
+    fn add(&self, found: &mut Self::Found, lot: &Self::Lot, look: Self::Look)
+    -> Result<(), Self::Diagnostic>;
 
     /// All lots of a stage were looked at, and a later one may follow.
     fn cover(&self, found: &mut Self::Found, stage: Self::Stage);
@@ -78,7 +84,7 @@ pub fn search<L: Lots>(
     lots: &L,
     budget_steps: Option<u64>,
     watch: &mut dyn FnMut(&L::Found) -> ControlFlow<()>,
-) -> Result<(L::Found, bool), L::Fault> {
+) -> Result<(L::Found, bool), L::Diagnostic> {
     gather(lots, budget_steps, |_, stage, wave, most_steps| looks(lots, stage, wave, most_steps), watch)
 }
 
@@ -86,7 +92,7 @@ pub fn search<L: Lots>(
 ///
 /// # Errors
 /// The fault of a lot.
-pub fn merged<L: Lots>(lots: &L, shards: Vec<Vec<Vec<L::Look>>>) -> Result<(L::Found, bool), L::Fault> {
+pub fn merged<L: Lots>(lots: &L, shards: Vec<Vec<Vec<L::Look>>>) -> Result<(L::Found, bool), L::Diagnostic> {
     let owners = deal(lots, shards.len())?;
     let mut shards: Vec<Vec<_>> =
         shards.into_iter().map(|stages| stages.into_iter().map(Vec::into_iter).collect()).collect();
@@ -111,9 +117,9 @@ pub fn merged<L: Lots>(lots: &L, shards: Vec<Vec<Vec<L::Look>>>) -> Result<(L::F
 fn gather<L: Lots>(
     lots: &L,
     budget_steps: Option<u64>,
-    mut take: impl FnMut(usize, L::Stage, &[L::Lot], u64) -> Result<Vec<L::Look>, L::Fault>,
+    mut take: impl FnMut(usize, L::Stage, &[L::Lot], u64) -> Result<Vec<L::Look>, L::Diagnostic>,
     watch: &mut dyn FnMut(&L::Found) -> ControlFlow<()>,
-) -> Result<(L::Found, bool), L::Fault> {
+) -> Result<(L::Found, bool), L::Diagnostic> {
     let (mut found, mut left) = (L::Found::default(), budget_steps.unwrap_or(u64::MAX));
     for (number, stage) in lots.stages().into_iter().enumerate() {
         let mut is_enough = false;
@@ -146,7 +152,7 @@ fn looks<L: Lots>(
     stage: L::Stage,
     wave: &[L::Lot],
     most_steps: u64,
-) -> Result<Vec<L::Look>, L::Fault> {
+) -> Result<Vec<L::Look>, L::Diagnostic> {
     let task = Task::current();
     wave.par_iter().map(|lot| look(lots, stage, lot, (most_steps, task))).collect()
 }
@@ -157,13 +163,13 @@ fn look<L: Lots>(
     stage: L::Stage,
     lot: &L::Lot,
     (most_steps, task): (u64, Task),
-) -> Result<L::Look, L::Fault> {
+) -> Result<L::Look, L::Diagnostic> {
     let (_working, _steps) = (task.enter(), Steps::begin());
     lots.look(stage, lot, most_steps)
 }
 
 /// Of each stage the shard of each lot: the heaviest lots first, each goes to the shard that has least until then.
-fn deal<L: Lots>(lots: &L, shards: usize) -> Result<Vec<Vec<usize>>, L::Fault> {
+fn deal<L: Lots>(lots: &L, shards: usize) -> Result<Vec<Vec<usize>>, L::Diagnostic> {
     let mut loads: BinaryHeap<Reverse<(u64, usize)>> = (0..shards).map(|shard| Reverse((0, shard))).collect();
     let deal_stage = |stage: L::Stage| {
         let all = lots.lots(stage)?;
@@ -185,7 +191,7 @@ fn deal<L: Lots>(lots: &L, shards: usize) -> Result<Vec<Vec<usize>>, L::Fault> {
 ///
 /// # Errors
 /// The fault of a lot.
-pub fn dealt<L: Lots>(lots: &L, shards: usize) -> Result<Vec<u64>, L::Fault> {
+pub fn dealt<L: Lots>(lots: &L, shards: usize) -> Result<Vec<u64>, L::Diagnostic> {
     let mut left = vec![0; shards];
     for owner in deal(lots, shards)?.into_iter().flatten() {
         left[owner] += 1;
@@ -218,7 +224,7 @@ impl<L: Lots> Shard<L> {
         (number, of): (usize, usize),
         mut looks: Vec<Vec<L::Look>>,
         budget_steps: Option<u64>,
-    ) -> Result<Self, L::Fault> {
+    ) -> Result<Self, L::Diagnostic> {
         let (stages, owners) = (lots.stages(), deal(&lots, of)?);
         looks.truncate(stages.len());
         let left = budget_steps.unwrap_or(u64::MAX);
@@ -241,7 +247,7 @@ impl<L: Lots> Shard<L> {
     ///
     /// # Errors
     /// The fault of a lot.
-    pub fn wave(&mut self) -> Result<bool, L::Fault> {
+    pub fn wave(&mut self) -> Result<bool, L::Diagnostic> {
         if self.is_done() || self.left == 0 {
             return Ok(false);
         }
@@ -287,14 +293,14 @@ impl<L: Lots> Shard<L> {
     }
 
     /// Begins the next stage with a lot of its own.
-    fn go_on(&mut self) -> Result<(), L::Fault> {
+    fn go_on(&mut self) -> Result<(), L::Diagnostic> {
         while self.is_at_end() && !self.is_done() {
             self.begin()?;
         }
         Ok(())
     }
 
-    fn begin(&mut self) -> Result<(), L::Fault> {
+    fn begin(&mut self) -> Result<(), L::Diagnostic> {
         if self.looks.len() < self.stages.len() {
             self.looks.push(Vec::new());
             self.own = self.own_lots()?;
@@ -302,7 +308,7 @@ impl<L: Lots> Shard<L> {
         Ok(())
     }
 
-    fn own_lots(&self) -> Result<Vec<L::Lot>, L::Fault> {
+    fn own_lots(&self) -> Result<Vec<L::Lot>, L::Diagnostic> {
         let begun = self.looks.len().wrapping_sub(1);
         let (Some(&stage), Some(owners)) = (self.stages.get(begun), self.owners.get(begun)) else {
             return Ok(Vec::new());
@@ -351,7 +357,7 @@ mod tests {
         type Look = Seen;
         /// The lots in the order in which they were added, and the stages that were covered.
         type Found = (Vec<(u64, u64)>, Vec<u64>);
-        type Fault = Infallible;
+        type Diagnostic = Infallible;
 
         fn stages(&self) -> Vec<(u64, u64)> {
             (0..).zip(self.stages.iter().copied()).collect()

@@ -33,7 +33,7 @@ use tautline_kernel::choice::Oracle;
 pub use self::deal::Deal;
 pub use self::search::{Position, Tree, Waves, search};
 use super::Until;
-use crate::words::counted;
+use crate::plural::counted;
 
 /// One team move between its states.
 pub struct Turn<'a, G: Game + ?Sized> {

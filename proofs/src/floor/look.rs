@@ -4,11 +4,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use crate::course::Course;
 use crate::decide::{Answer, Seen, Verdict};
 use crate::engine::states::{END, Found, Limits, Run, System, search};
 use crate::engine::watchdog::Task;
 use crate::engine::{Tally, Until, cover};
+use crate::floor_trace::Course;
 
 /// What the states of small floors have shown.
 #[derive(Clone, PartialEq, Eq, Debug)]

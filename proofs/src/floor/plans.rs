@@ -5,7 +5,7 @@ use std::fmt;
 
 use tautline_kernel::ground::{Cell, Edge, Side};
 
-use crate::course::{Course, Scene, Turn};
+use crate::floor_trace::{Course, Scene, Turn};
 
 /// The most cells of a small floor.
 pub(crate) const CELLS: usize = 16;

@@ -8,7 +8,7 @@ use super::world::{Demand, Event, Setting, World};
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
 use crate::engine::states::{Limits, Run, search};
 use crate::engine::{Choices, Script, Unfit, Until, cover};
-use crate::words::counted;
+use crate::plural::counted;
 
 /// Columns and rows.
 pub type Size = (i16, i16);

@@ -10,7 +10,7 @@ use tautline_kernel::frontier::{
 use tautline_kernel::ground::{Area, Cell, Side};
 
 use crate::engine::{Outcome, Stop, Tape, require};
-use crate::words::counted;
+use crate::plural::counted;
 
 /// Columns and rows: on each map some cells are farther from the rim across than along it, on the other one the other way.
 const SIZES: [(i16, i16); 2] = [(3, 2), (2, 3)];

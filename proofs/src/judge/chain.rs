@@ -5,13 +5,13 @@
 mod broken;
 mod court;
 mod duty;
-mod exhibit;
+mod judge_input;
 mod place;
 
 use broken::{Broken, broken};
 use court::Court;
 use duty::{Duty, MOST_LED};
-pub use exhibit::{Exhibit, Move, Objection, Repairs};
+pub use judge_input::{Exhibit, Move, Objection, Repairs};
 pub use place::Place;
 
 /// Judges an exhibit: whether its moves are possible in its layout and admitted by its rule; whether in each of them the

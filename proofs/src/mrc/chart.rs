@@ -7,7 +7,7 @@ use tautline_kernel::mrc::{Phase, Task, Upward, WfrTimer, Word};
 
 use super::space::{Broken, Ending};
 use super::state::{Action, Actor, Message, Setting, State, place};
-use crate::words::counted;
+use crate::plural::counted;
 
 /// Columns of text between two lifelines.
 const GAP: usize = 18;

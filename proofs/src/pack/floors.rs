@@ -9,7 +9,7 @@ use super::played::{Demand, Floor, play, story};
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen, Verdict};
 use crate::engine::watchdog::Steps;
 use crate::engine::{Choices, Script, Unfit, Until, cover};
-use crate::words::counted;
+use crate::plural::counted;
 
 /// Columns and rows.
 pub(super) type Size = (i16, i16);

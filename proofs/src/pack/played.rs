@@ -6,7 +6,7 @@ use tautline_kernel::ground::{Area, Cell, Circle, Side, Step, neighbours};
 use tautline_kernel::pack::{Chart, MAX_ROBOTS, Made, Past, Rule, Scratch, Team};
 
 use super::gains::{Gains, are_best};
-use crate::words::counted;
+use crate::plural::counted;
 
 /// Team moves at which a run on a small floor counts as endless.
 pub(super) const MOST_MOVES: usize = 1000;

@@ -14,7 +14,7 @@ use tautline_kernel::ground::{Area, Cell, Side, SmallGrid, Step};
 use tautline_sim::explore::{ClauseId, catalogue};
 
 use super::moved::Moved;
-use crate::fault::{Kind, error};
+use crate::diagnostic::{Kind, error};
 use crate::layout::{Pair, side};
 use crate::run::cell;
 

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::aside::{Aside, Replaceable};
+use crate::atomic_file::{AtomicFile, Replaceable};
+use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::{ClauseId, Report, Setup, explore};
-use crate::fault::{Fault, Halt};
 use crate::trace;
 
 /// The place in `folder` of a run of `setup` that breaks `clause`. The scheme is in its name unless the clause tells it.
@@ -26,7 +26,7 @@ pub fn store(
     setup: &Setup,
     clause: ClauseId,
     replaceable: &Replaceable,
-) -> Result<(Aside, Report), Halt> {
+) -> Result<(AtomicFile, Report), Halt> {
     store_at(&path(folder, setup, clause), setup, clause, replaceable)
 }
 
@@ -39,9 +39,9 @@ pub fn store_at(
     setup: &Setup,
     clause: ClauseId,
     replaceable: &Replaceable,
-) -> Result<(Aside, Report), Halt> {
-    let aside = Aside::late(path, replaceable);
-    let mut writer = trace::Writer::new(aside, &setup.stage(), Some(clause)).map_err(Fault::from)?;
+) -> Result<(AtomicFile, Report), Halt> {
+    let aside = AtomicFile::late(path, replaceable);
+    let mut writer = trace::Writer::new(aside, &setup.stage(), Some(clause)).map_err(Diagnostic::from)?;
     let report = explore(setup, &mut |made| {
         writer.add(made);
         Ok(())

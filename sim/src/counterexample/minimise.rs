@@ -28,11 +28,11 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
 
+use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::catalogue::sensing;
 use crate::explore::{
     ClauseId, Limits, OnViolation, Report, Senses, Setup, TeamMove, Violation, explore, run, team,
 };
-use crate::fault::{Fault, Halt};
 use crate::layout::{Layout, Problem};
 
 /// A run in which nothing can go.
@@ -453,7 +453,7 @@ impl Shrinking<'_, '_> {
 
     /// Leaves out those of `part` in `range`; whether the clause is broken without them.
     fn leave_out(&mut self, part: Part, range: &Range<usize>) -> Result<bool, Halt> {
-        for candidate in part.without(&self.smallest, range).map_err(Fault::from)? {
+        for candidate in part.without(&self.smallest, range).map_err(Diagnostic::from)? {
             if self.attempt(&candidate)? {
                 return Ok(true);
             }
@@ -467,7 +467,7 @@ impl Shrinking<'_, '_> {
         let Some(Broken { mut steps, met }) = self.run(candidate)? else { return Ok(false) };
         self.smallest = candidate.clone();
         if let Some(met) = met {
-            let cut = cut_down(candidate, &met).map_err(Fault::from)?;
+            let cut = cut_down(candidate, &met).map_err(Diagnostic::from)?;
             if cut.layout != candidate.layout
                 && let Some(again) = self.run(&cut)?
             {

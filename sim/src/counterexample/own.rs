@@ -6,10 +6,10 @@ use std::path::Path;
 use tautline_proofs::run::Run;
 use tautline_proofs::team::{self, Layouts};
 
-use crate::aside::{Aside, Replaceable};
+use crate::atomic_file::{AtomicFile, Replaceable};
+use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::hunt::layout as layout_of;
-use crate::explore::{ClauseId, Limits, Own, Report, Stage, run};
-use crate::fault::{Fault, Halt};
+use crate::explore::{ClauseId, Limits, Own, Report, RunConfig, run};
 use crate::trace::Writer;
 
 /// A rule of one's own, in the layout of a run that was found.
@@ -28,13 +28,14 @@ impl<R, T: team::Team<ROBOTS>, const ROBOTS: usize> Found<'_, R, T, ROBOTS> {
     ///
     /// # Errors
     /// [`Halt`] if the area is too large for a layout, or a robot starts in a blocked cell.
-    pub fn store(&self, path: &Path, replaceable: &Replaceable) -> Result<(Aside, Report), Halt> {
+    pub fn store(&self, path: &Path, replaceable: &Replaceable) -> Result<(AtomicFile, Report), Halt> {
         let clause = self.run.breaks.map(ClauseId::new);
         let limits = Limits::stopping_at(clause);
-        let (layout, starts) = layout_of(self.run).map_err(Fault::from)?;
-        let stage = Stage { limits, ..Stage::new(self.layouts.scheme, self.rule.0, &layout, &starts) };
-        let aside = Aside::new(path, replaceable)?;
-        let mut writer = Writer::new(aside, &stage, clause).map_err(Fault::from)?;
+        let (layout, starts) = layout_of(self.run).map_err(Diagnostic::from)?;
+        let stage =
+            RunConfig { limits, ..RunConfig::new(self.layouts.scheme, self.rule.0, &layout, &starts) };
+        let aside = AtomicFile::new(path, replaceable)?;
+        let mut writer = Writer::new(aside, &stage, clause).map_err(Diagnostic::from)?;
         let (team, cells) = (self.layouts.start)(self.rule.1);
         let report = run(&mut Own::new(team, cells, self.layouts.demands), &layout, limits, &mut |made| {
             writer.add(made);

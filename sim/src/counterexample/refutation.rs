@@ -20,8 +20,8 @@ use tautline_proofs::decide::{Evidence, Played};
 use tautline_proofs::engine::{Choices, Unfit};
 use tautline_proofs::ledger;
 
-use crate::aside::{Aside, Replaceable};
-use crate::fault::Fault;
+use crate::atomic_file::{AtomicFile, Replaceable};
+use crate::diagnostic::Diagnostic;
 use crate::trace::lines::{Lines, line_of};
 
 /// The format of the header.
@@ -89,18 +89,18 @@ pub fn path(folder: &Path, clause: &Clause, check: usize) -> PathBuf {
 /// Writes what refutes `clause` by `check` to a file at `path`. The file has yet to be put in its place.
 ///
 /// # Errors
-/// A [`Fault`] if it does not lead where it is said to lead.
+/// A [`Diagnostic`] if it does not lead where it is said to lead.
 pub fn store(
     path: &Path,
     clause: &Clause,
     check: &dyn AnyCheck,
     evidence: &Evidence,
     replaceable: &Replaceable,
-) -> Result<Aside, Fault> {
+) -> Result<AtomicFile, Diagnostic> {
     let choices = &evidence.choices;
     let Played { of, .. } = check.replay(choices).map_err(|unfit| {
         let what = format!("what refutes {} cannot be played again: {unfit}", clause.id);
-        Fault::in_file(path, what, "this is a bug of tautline: please report it")
+        Diagnostic::in_file(path, what, "this is a bug of tautline: please report it")
     })?;
     let mut text = line_of(&Header {
         format: FORMAT.to_owned(),
@@ -119,7 +119,7 @@ pub fn store(
     }
     let crc32 = crc32fast::hash(text.as_bytes());
     text += &line_of(&Line::End(End { choices: once.len(), again: again.len(), crc32 }));
-    let mut file = Aside::late(path, replaceable);
+    let mut file = AtomicFile::late(path, replaceable);
     file.append(text);
     Ok(file)
 }
@@ -138,8 +138,8 @@ pub struct Refutation {
 /// Reads the refutation at `path`, and plays it again.
 ///
 /// # Errors
-/// A [`Fault`] that names the line and what is wrong.
-pub fn replay(path: &Path) -> Result<Refutation, Fault> {
+/// A [`Diagnostic`] that names the line and what is wrong.
+pub fn replay(path: &Path) -> Result<Refutation, Diagnostic> {
     let mut lines = Lines::open(path, AGAIN)?;
     let first = lines.header(FORMAT, VERSION, MAX_LINE_BYTES)?;
     let header: Header = lines.parse(&first, AGAIN)?;
@@ -149,7 +149,7 @@ pub fn replay(path: &Path) -> Result<Refutation, Fault> {
     let (mut choices, mut of) = (Choices::default(), Vec::new());
     let end = loop {
         let Some(text) = lines.next(MAX_LINE_BYTES)? else {
-            return Err(Fault::in_file(
+            return Err(Diagnostic::in_file(
                 path,
                 format_args!("the file ends after line {}", 1 + of.len()),
                 AGAIN,
@@ -182,15 +182,15 @@ pub fn replay(path: &Path) -> Result<Refutation, Fault> {
     let (check, evidence) = played;
     if evidence.demand != header.demand {
         let what = format!("the demand that is broken is another: {:?}", evidence.demand);
-        return Err(Fault::in_line(path, 1, &first, spot(&first, "demand"), what, AGAIN));
+        return Err(Diagnostic::in_line(path, 1, &first, spot(&first, "demand"), what, AGAIN));
     }
     if (end.choices, end.again) != (choices.once.len(), choices.again.len()) {
         let what = format!("there are {} choices and {} again", choices.once.len(), choices.again.len());
-        return Err(Fault::in_line(path, 2 + of.len(), &text, spot(&text, "choices"), what, AGAIN));
+        return Err(Diagnostic::in_line(path, 2 + of.len(), &text, spot(&text, "choices"), what, AGAIN));
     }
     if end.crc32 != seal.finalize() {
         let what = "the lines above are not those that were written: their checksum is another";
-        return Err(Fault::in_line(path, 2 + of.len(), &text, spot(&text, "crc32"), what, AGAIN));
+        return Err(Diagnostic::in_line(path, 2 + of.len(), &text, spot(&text, "crc32"), what, AGAIN));
     }
     Ok(Refutation { clause, check, evidence })
 }
@@ -206,7 +206,7 @@ fn find(
     lines: &Lines,
     text: &str,
     header: &Header,
-) -> Result<(&'static Clause, Vec<&'static dyn AnyCheck>), Fault> {
+) -> Result<(&'static Clause, Vec<&'static dyn AnyCheck>), Diagnostic> {
     let Some(clause) = ledger::clauses().find(|clause| clause.id == header.clause) else {
         let known: Vec<&str> = ledger::clauses().map(|clause| clause.id).collect();
         let remedy = format!("the clauses are {}", known.join(", "));
@@ -237,7 +237,7 @@ fn play(
     checks: &[&'static dyn AnyCheck],
     choices: &Choices,
     of: &[u32],
-) -> Result<(&'static dyn AnyCheck, Evidence), Fault> {
+) -> Result<(&'static dyn AnyCheck, Evidence), Diagnostic> {
     let at = |at: usize, what: &str| {
         let all = choices.once.iter().chain(&choices.again);
         let text = all.zip(of).nth(at).map(|(&taken, &of)| {
@@ -246,11 +246,11 @@ fn play(
         });
         let text = text.unwrap_or_default();
         let text = text.trim_end();
-        Fault::in_line(path, 2 + at, text, 0..text.len(), what, AGAIN)
+        Diagnostic::in_line(path, 2 + at, text, 0..text.len(), what, AGAIN)
     };
     let refused = |unfit: Unfit| match unfit.at() {
         Some(place) => at(place, &unfit.to_string()),
-        None => Fault::in_file(path, format_args!("this refutes nothing: {unfit}"), AGAIN),
+        None => Diagnostic::in_file(path, format_args!("this refutes nothing: {unfit}"), AGAIN),
     };
     let mut first = None;
     for &check in checks {

@@ -10,15 +10,15 @@ use std::fmt::Write;
 use std::ops::RangeInclusive;
 
 use tautline_kernel::ground::Cell;
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 pub use self::film::in_words;
 use self::film::{Again, Board, Ended, Film, Share};
 use self::line::Line;
 use super::story;
-use crate::aside::Aside;
-use crate::explore::{Layer, Look, Milestone, Play, Report, Scene, Stage, Starts, TeamMove, catalogue};
-use crate::fault::Fault;
+use crate::atomic_file::AtomicFile;
+use crate::diagnostic::Diagnostic;
+use crate::explore::{Layer, Look, Milestone, Play, Report, RunConfig, Scene, Starts, TeamMove, catalogue};
 use crate::frontier::Options;
 
 /// Bytes of a page. Larger ones take a browser too long.
@@ -30,7 +30,7 @@ const MOST_PRINTED: usize = 64 * 64;
 /// A page in the making. One that grows too large is left out.
 #[derive(Debug)]
 pub struct Page<'a> {
-    file: &'a mut Aside,
+    file: &'a mut AtomicFile,
     run: &'a dyn Play,
     report: &'a Report,
     moves: RangeInclusive<u32>,
@@ -49,7 +49,7 @@ impl<'a> Page<'a> {
     /// The page in `file` that plays these team moves of a run that came out as `report`. All team moves up to the last one
     /// are to be added.
     pub fn new(
-        file: &'a mut Aside,
+        file: &'a mut AtomicFile,
         run: &'a dyn Play,
         report: &'a Report,
         moves: &RangeInclusive<u32>,
@@ -181,9 +181,9 @@ impl<'a> Page<'a> {
 }
 
 /// The fault of a page that is too large.
-pub fn too_large(path: &std::path::Path, remedy: &str) -> Fault {
+pub fn too_large(path: &std::path::Path, remedy: &str) -> Diagnostic {
     let what = format!("a page of more than {} MB is left out", MAX_BYTES / 1_000_000);
-    Fault::in_file(path, what, remedy)
+    Diagnostic::in_file(path, what, remedy)
 }
 
 /// Whether a page of so many bytes is too large.
@@ -220,9 +220,10 @@ fn notes(report: &Report) -> Vec<(u32, String)> {
 }
 
 /// How to make the run again, and others.
-fn again(stage: &Stage<'_>) -> Again {
-    let Stage { scheme, rule, robots, seed, base, starts, miss, missed, options, choices, limits, .. } =
-        *stage;
+fn again(stage: &RunConfig<'_>) -> Again {
+    let RunConfig {
+        scheme, rule, robots, seed, base, starts, miss, missed, options, choices, limits, ..
+    } = *stage;
     let is_small = stage.layout.size().area().cells().nth(MOST_PRINTED).is_none();
     let layout = is_small.then(|| {
         let mut layout = stage.layout.clone();

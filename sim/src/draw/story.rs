@@ -4,14 +4,14 @@ use std::fmt::Write;
 
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Side, Step};
-use tautline_proofs::course::Course;
+use tautline_proofs::floor_trace::Course;
 use tautline_proofs::ledger;
+use tautline_proofs::plural::counted;
 use tautline_proofs::run::Run;
-use tautline_proofs::words::counted;
 
 use super::{Block, Pose, agents, beside, first_drawn, legend, outcome, team_move};
+use crate::diagnostic::Halt;
 use crate::explore::{ClauseId, Look, Play, Report, Survey, TeamMove, Violation};
-use crate::fault::Halt;
 use crate::layout::{Layout, Problem};
 
 /// The sentence of the clause `id`, if it is one of this program.

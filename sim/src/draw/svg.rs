@@ -7,9 +7,9 @@ use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
 
 use super::{Environment, REACH, first_drawn};
-use crate::aside::SVG_HEAD;
-use crate::explore::{Look, Play, Stage, Survey, TeamMove};
-use crate::fault::Fault;
+use crate::atomic_file::SVG_HEAD;
+use crate::diagnostic::Diagnostic;
+use crate::explore::{Look, Play, RunConfig, Survey, TeamMove};
 use crate::layout::Layout;
 
 /// The side of a cell.
@@ -42,14 +42,14 @@ const MAX_CELLS: usize = 1 << 19;
 /// Checks that `area` is not too large to be drawn.
 ///
 /// # Errors
-/// A [`Fault`] of the command line.
-pub fn check_size(area: Area) -> Result<(), Fault> {
+/// A [`Diagnostic`] of the command line.
+pub fn check_size(area: Area) -> Result<(), Diagnostic> {
     let (columns, rows) = (area.width(), area.height());
     if columns * rows <= MAX_CELLS {
         return Ok(());
     }
     let what = format!("an area of {columns}x{rows} cells is too large to be drawn");
-    Err(Fault::usage(
+    Err(Diagnostic::usage(
         what,
         format_args!("leave out the picture and the page, or take at most {MAX_CELLS} cells"),
     ))
@@ -145,7 +145,7 @@ pub fn layout(layout: &Layout) -> Panel {
 
 /// The order of exploration.
 pub fn order(run: &dyn Play, chart: &Survey) -> Panel {
-    let Stage { layout, base, look, .. } = run.stage();
+    let RunConfig { layout, base, look, .. } = run.stage();
     let area = chart.area();
     let frame = Frame(area);
     let last = area.cells().filter_map(|cell| chart.step(cell)).max().unwrap_or(0).max(1);
@@ -172,7 +172,7 @@ pub fn order(run: &dyn Play, chart: &Survey) -> Panel {
 pub fn team_move(run: &dyn Play, chart: &Survey, made: &TeamMove<'_>) -> Panel {
     let area = chart.area();
     let frame = Frame(area);
-    let Stage { layout, look, .. } = run.stage();
+    let RunConfig { layout, look, .. } = run.stage();
     let mut body = ground(layout, area);
     for cell in area.cells() {
         body.push_str(&marked_cell(frame, cell, chart.mark(cell, made.step)));

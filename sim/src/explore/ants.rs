@@ -4,9 +4,9 @@ use tautline_kernel::ants::Rule as Ants;
 use tautline_proofs::floor::trap::Way;
 
 use super::agents::{AGENTS, start};
+use super::hunt_states::Traps;
+use super::run_config::Knowledge;
 use super::setup::{Profile, Rule};
-use super::stage::Knowledge;
-use super::traps::Traps;
 
 const PUBLISHED: Way = Way::Ants(Ants::Published);
 const REPAIRED: Way = Way::Ants(Ants::Repaired);

@@ -2,12 +2,12 @@
 
 use tautline_kernel::ground::Cell;
 
-use super::misfit::Misfit;
 use super::rule::RuleId;
 use super::run::Limits;
 use super::setup::{Profile, Senses, Setup, Starts};
-use crate::fault::Fault;
-use crate::faults::{Appearing, Failure, Going};
+use super::setup_error::SetupError;
+use crate::diagnostic::Diagnostic;
+use crate::failures::{Appearing, Failure, Going};
 use crate::frontier::Options;
 use crate::layout::Layout;
 use crate::layout::generate::Probability;
@@ -84,10 +84,10 @@ impl Asked {
     /// Refuses what fits no layout.
     ///
     /// # Errors
-    /// A [`Fault`] that says why.
-    pub fn check(&self) -> Result<(), Fault> {
+    /// A [`Diagnostic`] that says why.
+    pub fn check(&self) -> Result<(), Diagnostic> {
         if self.scheme.senses == Senses::Bumps && self.miss.is_some() {
-            return Err(Misfit::Miss(self.scheme).into());
+            return Err(SetupError::Miss(self.scheme).into());
         }
         Ok(())
     }
@@ -95,8 +95,8 @@ impl Asked {
     /// The run in `layout`, before its start.
     ///
     /// # Errors
-    /// A [`Fault`] if it does not fit its scheme or its layout.
-    pub fn setup(self, mut layout: Layout) -> Result<Setup, Fault> {
+    /// A [`Diagnostic`] if it does not fit its scheme or its layout.
+    pub fn setup(self, mut layout: Layout) -> Result<Setup, Diagnostic> {
         self.check()?;
         let Self { scheme, rule, seed, starts, limits, .. } = self;
         let robots = self.robots.unwrap_or_else(|| layout.robots().unwrap_or(DEFAULT_ROBOTS).into());

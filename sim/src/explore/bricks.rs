@@ -5,17 +5,17 @@ use tautline_kernel::bricks::Rule as Bricks;
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::floor::trap::Way;
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::agents::{AGENTS, PREMATURE, UNVISITED, missed, start};
+use super::hunt_runs::Tries;
+use super::hunt_states::Traps;
 use super::rule::RuleId;
 use super::run::TeamMove;
+use super::run_config::Knowledge;
 use super::setup::{Clause, Judge, Profile, Rule, Setup};
-use super::stage::Knowledge;
 use super::survey::Survey;
-use super::traps::Traps;
 use super::trees::TREE;
-use super::tries::Tries;
 
 const PUBLISHED: Way = Way::Bricks(Bricks::PUBLISHED);
 const REPAIRED: Way = Way::Bricks(Bricks::REPAIRED);

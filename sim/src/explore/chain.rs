@@ -2,9 +2,9 @@
 //! history from, and the smallest grid that holds its area.
 
 mod areas;
+mod checkpoint;
 mod faulty;
 pub mod hunt;
-mod saved;
 mod shown;
 
 use tautline_kernel::chain::{self, Chain, Intent, MAX_ROBOTS, Plan, Refused};
@@ -12,24 +12,24 @@ use tautline_kernel::ground::{Area, Cell, Edge, Grid, MediumGrid, SmallGrid};
 use tautline_proofs::chain::Observed;
 use tautline_proofs::chain::breach::{Breach, CHEAP_LOOKS, frame};
 use tautline_proofs::chain::links::within_reach;
+use tautline_proofs::plural::counted;
 use tautline_proofs::run::Frame;
-use tautline_proofs::words::counted;
 
+pub use self::checkpoint::Saved;
 use self::faulty::Faulty;
 pub use self::faulty::{ANY_ORDER, DEATH};
 use self::hunt::Walls;
-pub use self::saved::Saved;
 use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::{End, Team, TeamMove};
+use super::run_config::Look;
 use super::scene::{Layer, Scene};
 use super::setup::{By, Clause, Drawn, Extra, Judge, Profile, Rule, Senses, Setup, Starts};
-use super::stage::Look;
 use super::survey::Survey;
-use crate::fault::Fault;
+use crate::diagnostic::Diagnostic;
 use crate::frontier::Options;
+use crate::heap_grid::HeapGrid;
 use crate::layout::Layout;
-use crate::wide::WideGrid;
 
 /// The rule that reels the chain in and out instead of backtracking, and holds contact whoever fails.
 pub const REEL: RuleId = RuleId::new("reel");
@@ -104,11 +104,11 @@ struct ChainTeam<G, const ROBOTS: usize> {
 }
 
 /// The chain of `setup`, all robots at the base.
-fn start(setup: &Setup, rule: chain::Rule) -> Result<Box<dyn Team>, Fault> {
+fn start(setup: &Setup, rule: chain::Rule) -> Result<Box<dyn Team>, Diagnostic> {
     match setup.robots {
         0..=8 => begin::<_, 8>(setup, rule, SmallGrid::new),
         9..=32 => begin::<_, 32>(setup, rule, MediumGrid::new),
-        _ => begin::<_, MAX_ROBOTS>(setup, rule, |area| Some(WideGrid::new(area))),
+        _ => begin::<_, MAX_ROBOTS>(setup, rule, |area| Some(HeapGrid::new(area))),
     }
     .map_err(fault)
 }
@@ -130,14 +130,14 @@ fn begin<G: Grid + 'static, const ROBOTS: usize>(
 }
 
 /// The fault of a chain that is refused.
-fn fault(refused: Refused) -> Fault {
+fn fault(refused: Refused) -> Diagnostic {
     match refused {
         Refused::TooFewRobots { .. } | Refused::TooManyRobots { .. } => {
             let remedy = format!("give `robots` a number from 2 to {MAX_ROBOTS}");
-            Fault::of_field("robots", refused, remedy)
+            Diagnostic::of_field("robots", refused, remedy)
         }
         Refused::BaseOutside { .. } => {
-            Fault::of_field("base", refused, "give `base` a free cell of the layout")
+            Diagnostic::of_field("base", refused, "give `base` a free cell of the layout")
         }
     }
 }

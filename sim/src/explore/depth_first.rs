@@ -5,10 +5,10 @@ use tautline_proofs::bricks::tree::Way;
 
 use super::agents::start;
 use super::bricks::MARKING;
+use super::hunt_runs::Tries;
 use super::rule::RuleId;
 use super::setup::{Profile, Rule};
 use super::trees::{HELPERS_DOUBTING, HELPERS_ROBUST, HELPERS_TRUSTING};
-use super::tries::Tries;
 
 /// Multiple depth first search.
 pub static MDFS: Profile = Profile {

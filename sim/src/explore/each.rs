@@ -6,17 +6,17 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use tautline_proofs::engine::lots::{self, Look, Lots, Shard};
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
-use super::hunt::{Asked, Bound, Deals, Dealt, Far, Hunt, Hunted, Hunter};
-use crate::fault::{Fault, Halt};
+use super::hunt::{Asked, Bound, Deals, Dealt, Far, Hunt, HuntReport, Hunter};
+use crate::diagnostic::{Diagnostic, Halt};
 use crate::layout::Size;
-use crate::part::{Facts, Part, written};
+use crate::resumable::{Facts, Resumable, written};
 
 /// A hunt that looks at each layout by itself.
 pub(super) trait Each: fmt::Debug + Sync {
     /// The layouts.
-    type Layouts: Lots<Look: Serialize + DeserializeOwned, Fault: Into<Fault>>;
+    type Layouts: Lots<Look: Serialize + DeserializeOwned, Diagnostic: Into<Diagnostic>>;
 
     /// The bounds that it takes, as of a [`Hunt`].
     const TAKES: &'static [Bound];
@@ -29,8 +29,8 @@ pub(super) trait Each: fmt::Debug + Sync {
     /// All layouts within what is asked.
     ///
     /// # Errors
-    /// A [`Fault`] if they are too many, or none.
-    fn layouts(&self, asked: &Asked<'_>) -> Result<Self::Layouts, Fault>;
+    /// A [`Diagnostic`] if they are too many, or none.
+    fn layouts(&self, asked: &Asked<'_>) -> Result<Self::Layouts, Diagnostic>;
 
     /// How far a hunt is, in words.
     fn so_far(&self, asked: &Asked<'_>, found: &FoundBy<Self>) -> String;
@@ -38,8 +38,13 @@ pub(super) trait Each: fmt::Debug + Sync {
     /// What is told of a hunt that came to its end, or did not.
     ///
     /// # Errors
-    /// A [`Fault`] if what was found cannot be told.
-    fn told(&self, asked: &Asked<'_>, found: FoundBy<Self>, is_complete: bool) -> Result<Hunted, Fault>;
+    /// A [`Diagnostic`] if what was found cannot be told.
+    fn told(
+        &self,
+        asked: &Asked<'_>,
+        found: FoundBy<Self>,
+        is_complete: bool,
+    ) -> Result<HuntReport, Diagnostic>;
 }
 
 /// What a hunt has found.
@@ -54,7 +59,7 @@ impl<E: Each> Hunt for E {
         Each::refusal(self, bound).unwrap_or_else(|| bound.refused_by(E::TAKES))
     }
 
-    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault> {
+    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
         let layouts = self.layouts(asked)?;
         let mut hears = |found: &FoundBy<E>| hunter.hears(Far::Words(self.so_far(asked, found)));
         let searched = lots::search(&layouts, asked.budget, &mut hears);
@@ -88,24 +93,24 @@ impl Deal {
     }
 
     /// What it is a deal of: the scheme, the rule and the budget stand in `asked`.
-    fn read<'a>(text: &RawValue, asked: &Asked<'a>) -> Result<(Asked<'a>, usize), Fault> {
+    fn read<'a>(text: &RawValue, asked: &Asked<'a>) -> Result<(Asked<'a>, usize), Diagnostic> {
         let deal: Self =
-            serde_json::from_str(text.get()).map_err(|error| Fault::usage(error, "plan anew"))?;
+            serde_json::from_str(text.get()).map_err(|error| Diagnostic::usage(error, "plan anew"))?;
         let Self { robots, size, max_walls, max_misses, max_losses, error_cells, shards } = deal;
         let size = size.map(|(width, height)| Size::new(width as u64, height as u64)).transpose();
-        let size = size.map_err(|problem| Fault::usage(problem, "plan anew"))?;
+        let size = size.map_err(|problem| Diagnostic::usage(problem, "plan anew"))?;
         let asked = Asked { robots, size, max_walls, max_misses, max_losses, error_cells, ..*asked };
         Ok((asked, shards))
     }
 }
 
 /// The looks that a shard has taken, stage by stage.
-fn taken<L: DeserializeOwned>(far: &RawValue) -> Result<Vec<Vec<L>>, Fault> {
-    serde_json::from_str(far.get()).map_err(|error| Fault::usage(error, "run the shard again"))
+fn taken<L: DeserializeOwned>(far: &RawValue) -> Result<Vec<Vec<L>>, Diagnostic> {
+    serde_json::from_str(far.get()).map_err(|error| Diagnostic::usage(error, "run the shard again"))
 }
 
 impl<E: Each> Deals for E {
-    fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Fault> {
+    fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Diagnostic> {
         let left = lots::dealt(&self.layouts(asked)?, shards).map_err(Into::into)?;
         Ok(Dealt { deal: written(&Deal::of(asked, shards))?, left, of: "layout", moves: 0 })
     }
@@ -116,19 +121,24 @@ impl<E: Each> Deals for E {
         deal: &RawValue,
         shard: usize,
         far: Option<&RawValue>,
-    ) -> Result<Box<dyn Part + 'a>, Fault> {
+    ) -> Result<Box<dyn Resumable + 'a>, Diagnostic> {
         let (asked, shards) = Deal::read(deal, asked)?;
         let looks = far.map(taken).transpose()?.unwrap_or_default();
         let shard = Shard::new(self.layouts(&asked)?, (shard, shards), looks, asked.budget);
         let shard = shard.map_err(Into::into)?;
         if !shard.is_in_order() {
             let what = "this shard has not done what the plan dealt it before it went on";
-            return Err(Fault::usage(what, "run the shard again"));
+            return Err(Diagnostic::usage(what, "run the shard again"));
         }
         Ok(Box::new(Looks(shard)))
     }
 
-    fn merge(&self, asked: &Asked<'_>, deal: &RawValue, shards: &[&RawValue]) -> Result<Hunted, Fault> {
+    fn merge(
+        &self,
+        asked: &Asked<'_>,
+        deal: &RawValue,
+        shards: &[&RawValue],
+    ) -> Result<HuntReport, Diagnostic> {
         let (asked, _) = Deal::read(deal, asked)?;
         let looks = shards.iter().map(|far| taken(far)).collect::<Result<Vec<_>, _>>()?;
         let (found, is_complete) = lots::merged(&self.layouts(&asked)?, looks).map_err(Into::into)?;
@@ -146,12 +156,12 @@ impl<L: Lots> Looks<L> {
     }
 }
 
-impl<L: Lots<Look: Serialize, Fault: Into<Fault>>> Part for Looks<L> {
+impl<L: Lots<Look: Serialize, Diagnostic: Into<Diagnostic>>> Resumable for Looks<L> {
     fn step(&mut self) -> Result<bool, Halt> {
         self.0.wave().map_err(|fault| fault.into().into())
     }
 
-    fn far(&self) -> Result<Box<RawValue>, Fault> {
+    fn far(&self) -> Result<Box<RawValue>, Diagnostic> {
         written(&self.0.looks())
     }
 

@@ -15,11 +15,11 @@ use self::hunt::{Searched, Simulated};
 use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::{End, Team};
+use super::run_config::Look;
 use super::scene::{Layer, Scene};
 use super::setup::{By, Clause, Drawn, Extra, Profile, Rule, Senses, Setup, Starts};
-use super::stage::Look;
 use super::survey::Survey;
-use crate::fault::Fault;
+use crate::diagnostic::Diagnostic;
 use crate::frontier::{Assigned, Assignment, Ended, Explorers, Options};
 use crate::layout::Layout;
 
@@ -123,7 +123,7 @@ struct FrontierTeam {
 }
 
 /// The team of `setup`, each robot at its start.
-fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Fault> {
+fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Diagnostic> {
     check(setup)?;
     if !setup.choices.is_empty() {
         return scripted::start(setup, rule);
@@ -133,11 +133,11 @@ fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Fault> {
 }
 
 /// The team of `setup` whose cells are assigned.
-fn start_assigned(setup: &Setup, assignment: Assignment) -> Result<Box<dyn Team>, Fault> {
+fn start_assigned(setup: &Setup, assignment: Assignment) -> Result<Box<dyn Team>, Diagnostic> {
     check(setup)?;
     if setup.options != Options::default() || !setup.choices.is_empty() {
         let what = format!("the rule {} knows neither radio nor positions", setup.rule);
-        return Err(Fault::usage(
+        return Err(Diagnostic::usage(
             what,
             "leave `range`, `loss`, `noise-db` and `threshold` out, or take `rule` repaired",
         ));
@@ -154,10 +154,10 @@ fn team(setup: &Setup, who: Who) -> Box<dyn Team> {
 }
 
 /// Refuses walls between cells: an obstacle fills a cell.
-fn check(setup: &Setup) -> Result<(), Fault> {
+fn check(setup: &Setup) -> Result<(), Diagnostic> {
     if setup.layout.walls().next().is_some() {
         let what = "this layout has walls between cells: for frontier cells an obstacle fills a cell";
-        return Err(Fault::of_field(
+        return Err(Diagnostic::of_field(
             "layout",
             what,
             "take a layout with blocked cells, such as cells:6x7:0.1",

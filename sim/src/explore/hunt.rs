@@ -10,16 +10,16 @@ use serde::Serialize;
 use serde_json::value::RawValue;
 use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::engine::tree::Progress;
+use tautline_proofs::plural::counted;
 use tautline_proofs::run::Run;
-use tautline_proofs::words::counted;
 
 use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::Limits;
 use super::setup::{Profile, Setup};
-use crate::fault::Fault;
+use crate::diagnostic::Diagnostic;
 use crate::layout::{Layout, Problem, Size};
-use crate::part::Part;
+use crate::resumable::Resumable;
 
 /// A search of all layouts within bounds for runs that break a clause.
 pub trait Hunt: fmt::Debug + Sync {
@@ -34,8 +34,8 @@ pub trait Hunt: fmt::Debug + Sync {
     /// Searches within what is `asked`, until everything is searched or `hunter` ends the search.
     ///
     /// # Errors
-    /// A [`Fault`] if it cannot be searched so.
-    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault>;
+    /// A [`Diagnostic`] if it cannot be searched so.
+    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic>;
 
     /// The same hunt dealt out among shards, if that is possible.
     fn deals(&self) -> Option<&dyn Deals> {
@@ -48,26 +48,31 @@ pub trait Deals {
     /// Deals out what is `asked` among so many shards.
     ///
     /// # Errors
-    /// A [`Fault`] if it cannot be searched so.
-    fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Fault>;
+    /// A [`Diagnostic`] if it cannot be searched so.
+    fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Diagnostic>;
 
     /// One shard of a deal, the first being 0, where it was. The scheme, the rule and the budget are `asked`, all else the deal has.
     ///
     /// # Errors
-    /// A [`Fault`] if there is no such deal, or the shard was never there.
+    /// A [`Diagnostic`] if there is no such deal, or the shard was never there.
     fn part<'a>(
         &'a self,
         asked: &Asked<'_>,
         deal: &RawValue,
         shard: usize,
         far: Option<&RawValue>,
-    ) -> Result<Box<dyn Part + 'a>, Fault>;
+    ) -> Result<Box<dyn Resumable + 'a>, Diagnostic>;
 
     /// What all shards have found. The scheme and the rule are `asked`.
     ///
     /// # Errors
-    /// A [`Fault`] if they do not fit their deal.
-    fn merge(&self, asked: &Asked<'_>, deal: &RawValue, shards: &[&RawValue]) -> Result<Hunted, Fault>;
+    /// A [`Diagnostic`] if they do not fit their deal.
+    fn merge(
+        &self,
+        asked: &Asked<'_>,
+        deal: &RawValue,
+        shards: &[&RawValue],
+    ) -> Result<HuntReport, Diagnostic>;
 }
 
 /// A hunt that is dealt out.
@@ -173,8 +178,8 @@ impl Asked<'_> {
     /// Refuses a bound that is given and that `hunt` does not take.
     ///
     /// # Errors
-    /// A [`Fault`] that says why.
-    pub fn check(&self, hunt: &dyn Hunt) -> Result<(), Fault> {
+    /// A [`Diagnostic`] that says why.
+    pub fn check(&self, hunt: &dyn Hunt) -> Result<(), Diagnostic> {
         let given = [
             (Bound::Walls, self.max_walls.is_some()),
             (Bound::Cells, self.max_cells.is_some()),
@@ -186,7 +191,7 @@ impl Asked<'_> {
         let refused = given.into_iter().find(|(bound, is_given)| *is_given && !hunt.takes().contains(bound));
         refused.map_or(Ok(()), |(bound, _)| {
             let (what, remedy) = hunt.refusal(bound);
-            Err(Fault::usage(what, remedy))
+            Err(Diagnostic::usage(what, remedy))
         })
     }
 }
@@ -210,10 +215,10 @@ pub trait Hunter {
     fn hears(&mut self, far: Far<'_>) -> ControlFlow<()>;
 
     /// The file in which the hunt is kept could not be written now; it is tried again later.
-    fn is_not_kept(&mut self, fault: &Fault);
+    fn is_not_kept(&mut self, fault: &Diagnostic);
 
     /// The same at the end: it is not tried again.
-    fn is_left_out(&mut self, fault: &Fault);
+    fn is_left_out(&mut self, fault: &Diagnostic);
 }
 
 /// How far a hunt is.
@@ -298,7 +303,7 @@ pub enum RunSize {
 
 /// What came of a hunt.
 #[derive(Clone, Debug)]
-pub struct Hunted {
+pub struct HuntReport {
     /// Robots.
     pub robots: u64,
     /// How much was searched, and within which bounds.
@@ -314,12 +319,12 @@ pub struct Hunted {
     /// What follows from it: the second line for people.
     pub outcome: String,
     /// The smallest run that breaks each clause.
-    pub found: Vec<Quarry>,
+    pub found: Vec<Finding>,
 }
 
 /// A run that breaks a clause.
 #[derive(Clone, Debug)]
-pub struct Quarry {
+pub struct Finding {
     /// The clause.
     pub clause: &'static str,
     /// How large the run is.
@@ -347,7 +352,7 @@ pub enum Shown {
 
 /// What follows from what a hunt has found: within its whole bound, or, where it was ended before, among the layouts that it
 /// had `covered` by then, if any.
-pub(super) fn outcome(found: &[Quarry], is_whole: bool, covered: Option<String>) -> String {
+pub(super) fn outcome(found: &[Finding], is_whole: bool, covered: Option<String>) -> String {
     let bound = match (is_whole, covered) {
         (true, _) => "in any layout within this bound".to_owned(),
         (false, Some(covered)) => {

@@ -20,11 +20,11 @@ use self::hunt::Searched;
 
 use super::clause::ClauseId;
 use super::run::{End, Team};
+use super::run_config::Look;
 use super::scene::{Layer, Scene};
 use super::setup::{By, Clause, Drawn, Extra, Profile, Rule, Senses, Setup, Starts};
-use super::stage::Look;
 use super::survey::Survey;
-use crate::fault::Fault;
+use crate::diagnostic::Diagnostic;
 use crate::kit::{Course, Drive, MOST_ROBOTS, Pace, course, paths};
 use crate::layout::Layout;
 
@@ -110,10 +110,10 @@ struct KitTeam {
 }
 
 /// The team of `setup`, each robot at its start.
-fn start(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Fault> {
+fn start(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Diagnostic> {
     if setup.layout.free_cells() < 2 {
         let what = "this layout has one node, and no path to drive";
-        return Err(Fault::of_field("layout", what, "take a layout of at least two free cells"));
+        return Err(Diagnostic::of_field("layout", what, "take a layout of at least two free cells"));
     }
     if !setup.choices.is_empty() {
         return scripted::start(setup, rule);
@@ -127,7 +127,7 @@ fn start(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Fault> {
 }
 
 /// How far the robots of `setup` hear each other.
-fn reach(setup: &Setup) -> Result<Reach, Fault> {
+fn reach(setup: &Setup) -> Result<Reach, Diagnostic> {
     let Some(paths) = setup.options.range_cells else { return Ok(Reach::PAPER) };
     Reach::of_paths(paths).ok_or_else(|| {
         let what = match paths {
@@ -135,7 +135,7 @@ fn reach(setup: &Setup) -> Result<Reach, Fault> {
             1 => "within 1 cell no robot can drive while another one stays in range".to_owned(),
             paths => format!("a range of {paths} cells is more than the 10 m that robots plan for"),
         };
-        Fault::of_field(
+        Diagnostic::of_field(
             "range",
             what,
             "give `range` 2 or 3 cells, or leave it out for 10 m, which are 3.33 cells",
@@ -152,7 +152,7 @@ fn pace(setup: &Setup) -> Pace {
 }
 
 /// The fault of a team that is refused.
-fn fault(refused: Refused) -> Fault {
+fn fault(refused: Refused) -> Diagnostic {
     let (field, remedy) = match refused {
         Refused::Robots(_) => ("robots", format!("give `robots` a number from 1 to {MOST_ROBOTS}")),
         Refused::TooManyNodes { .. } => ("layout", "take a layout of at most 64 columns and rows".to_owned()),
@@ -161,7 +161,7 @@ fn fault(refused: Refused) -> Fault {
             ("starts", "give each robot a start beside another one's".to_owned())
         }
     };
-    Fault::of_field(field, refused, remedy)
+    Diagnostic::of_field(field, refused, remedy)
 }
 
 impl KitTeam {

@@ -17,11 +17,11 @@ use tautline_proofs::run::Frame;
 use super::clause::ClauseId;
 use super::frontier::reachable;
 use super::run::{End, Team};
+use super::run_config::Look;
 use super::scene::{Layer, Scene};
 use super::setup::{Clause, Extra, Profile, Rule, Senses, Setup, Starts};
-use super::stage::Look;
 use super::survey::Survey;
-use crate::fault::Fault;
+use crate::diagnostic::Diagnostic;
 use crate::layout::Layout;
 
 /// The team is not connected after a team move.
@@ -113,11 +113,11 @@ struct PackTeam {
 }
 
 /// The pack of `setup`, each robot at its start.
-fn start(setup: &Setup, rule: Pack) -> Result<Box<dyn Team>, Fault> {
+fn start(setup: &Setup, rule: Pack) -> Result<Box<dyn Team>, Diagnostic> {
     let layout = &setup.layout;
     if layout.walls().next().is_some() {
         let what = "this layout has walls between cells: for a pack an obstacle fills a cell";
-        return Err(Fault::of_field(
+        return Err(Diagnostic::of_field(
             "layout",
             what,
             "take a layout with blocked cells, such as cells:64x64:0.1",
@@ -150,14 +150,14 @@ fn start(setup: &Setup, rule: Pack) -> Result<Box<dyn Team>, Fault> {
     Ok(Box::new(team))
 }
 
-fn unfit(unfit: Unfit) -> Fault {
+fn unfit(unfit: Unfit) -> Diagnostic {
     match unfit {
-        Unfit::Sight => Fault::of_field("sight", unfit, "give `sight` a number of cells from 1 to 31"),
-        Unfit::Range => Fault::of_field("range", unfit, "give `range` a number of cells from 3 on"),
+        Unfit::Sight => Diagnostic::of_field("sight", unfit, "give `sight` a number of cells from 1 to 31"),
+        Unfit::Range => Diagnostic::of_field("range", unfit, "give `range` a number of cells from 3 on"),
     }
 }
 
-fn refused(refused: Refused) -> Fault {
+fn refused(refused: Refused) -> Diagnostic {
     let (field, remedy) = match refused {
         Refused::Robots(_) => ("robots", format!("give `robots` a number from 1 to {MAX_ROBOTS}")),
         Refused::Together(_) => ("starts", "give each robot a start of its own".to_owned()),
@@ -165,7 +165,7 @@ fn refused(refused: Refused) -> Fault {
             ("starts", "start the robots nearer to each other, or give a greater `range`".to_owned())
         }
     };
-    Fault::of_field(field, refused, remedy)
+    Diagnostic::of_field(field, refused, remedy)
 }
 
 impl PackTeam {

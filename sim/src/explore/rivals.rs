@@ -7,10 +7,10 @@ use tautline_proofs::run::Frame;
 
 use super::rule::RuleId;
 use super::run::{End, Team};
+use super::run_config::Look;
 use super::scene::{Joins, Layer, Shape, Zone};
 use super::setup::{By, Drawn, Profile, Rule, Senses, Setup, Starts};
-use super::stage::Look;
-use crate::fault::Fault;
+use crate::diagnostic::Diagnostic;
 use crate::layout::{Layout, Problem};
 use crate::rivals::{self, Cells, Deadlock, Links, Moves, Over, Parameters, Unfit};
 
@@ -103,7 +103,7 @@ pub static ROOKER_BIRK: Profile = rival!(
 struct Rivals(rivals::Team);
 
 /// The team of `setup`, all robots at the base.
-fn start(setup: &Setup, parameters: Parameters) -> Result<Box<dyn Team>, Fault> {
+fn start(setup: &Setup, parameters: Parameters) -> Result<Box<dyn Team>, Diagnostic> {
     rival(parameters, setup.robots, &setup.layout, setup.base, setup.seed)
 }
 
@@ -111,26 +111,26 @@ fn start(setup: &Setup, parameters: Parameters) -> Result<Box<dyn Team>, Fault> 
 /// applied for all of the tested algorithms” (D).
 ///
 /// # Errors
-/// A [`Fault`] if the parameters do not fit, or the base is outside.
+/// A [`Diagnostic`] if the parameters do not fit, or the base is outside.
 pub fn rival(
     parameters: Parameters,
     robots: u16,
     layout: &Layout,
     base: Cell,
     seed: u64,
-) -> Result<Box<dyn Team>, Fault> {
+) -> Result<Box<dyn Team>, Diagnostic> {
     let robots = usize::from(robots);
     let area = chain::area(layout.size().area(), base, robots).ok_or_else(|| {
         let outside = Problem::BaseOutside { base, size: layout.size() };
-        Fault::of_field("base", &outside, outside.remedy())
+        Diagnostic::of_field("base", &outside, outside.remedy())
     })?;
     let team = rivals::Team::new(parameters, robots, base, area, seed).map_err(|unfit| fault(&unfit))?;
     Ok(Box::new(Rivals(team)))
 }
 
 /// The fault of a team that does not fit.
-pub fn fault(unfit: &Unfit) -> Fault {
-    Fault::of_field(unfit.field(), unfit, unfit.remedy())
+pub fn fault(unfit: &Unfit) -> Diagnostic {
+    Diagnostic::of_field(unfit.field(), unfit, unfit.remedy())
 }
 
 impl Team for Rivals {

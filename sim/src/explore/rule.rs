@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use tautline_kernel::chain::Rule;
 use tautline_proofs::chain::Observed;
 
-use crate::words::Worded;
+use crate::named_values::NamedValues;
 
 /// Whether a scheme is taken as its paper has it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, JsonSchema, Serialize, Deserialize)]
@@ -19,7 +19,7 @@ pub enum RuleName {
     Repaired,
 }
 
-impl Worded for RuleName {
+impl NamedValues for RuleName {
     const WORDS: &'static [(Self, &'static str, &'static str)] = &[
         (Self::Published, "published", "As the paper publishes it"),
         (Self::Repaired, "repaired", "With the repairs of its refuted claims"),

@@ -14,10 +14,10 @@ use super::clause::ClauseId;
 use super::floor::Component;
 use super::scene::{Layer, Scene};
 use super::survey::Survey;
-use crate::fault::Halt;
-use crate::faults::Faults;
+use crate::diagnostic::Halt;
+use crate::failures::Failures;
 use crate::layout::Layout;
-use crate::words::Worded;
+use crate::named_values::NamedValues;
 
 /// What a run asks of a team. Only where its robots are and how they make a team move is required.
 pub trait Team {
@@ -86,7 +86,7 @@ pub trait Team {
     }
 
     /// What has failed so far, in a run in which something is to fail.
-    fn faults(&self) -> Option<Faults> {
+    fn faults(&self) -> Option<Failures> {
         None
     }
 
@@ -165,7 +165,7 @@ pub enum Milestone {
     Whole,
 }
 
-impl Worded for Milestone {
+impl NamedValues for Milestone {
     const WORDS: &'static [(Self, &'static str, &'static str)] =
         &[(Self::Half, "50", "50 %"), (Self::ThreeQuarters, "75", "75 %"), (Self::Whole, "100", "100 %")];
 }
@@ -290,7 +290,7 @@ pub struct Report {
     /// How long the run took its slowest robot, where that is known.
     pub milliseconds: Option<u64>,
     /// What has failed, in a run in which something was to fail.
-    pub faults: Option<Faults>,
+    pub faults: Option<Failures>,
 }
 
 impl Report {

@@ -10,9 +10,9 @@ use super::clause::ClauseId;
 use super::hunt::Hunt;
 use super::rule::RuleId;
 use super::run::{Limits, Team, TeamMove};
-use super::stage::{Knowledge, Look, Stage};
+use super::run_config::{Knowledge, Look, RunConfig};
 use super::survey::Survey;
-use crate::fault::Fault;
+use crate::diagnostic::Diagnostic;
 use crate::frontier::Options;
 use crate::kit;
 use crate::layout::generate::Probability;
@@ -60,7 +60,7 @@ pub struct Rule {
 }
 
 /// The team of a setup at its start.
-pub type Start = fn(&Setup) -> Result<Box<dyn Team>, Fault>;
+pub type Start = fn(&Setup) -> Result<Box<dyn Team>, Diagnostic>;
 
 impl Rule {
     /// As the paper publishes it.
@@ -187,7 +187,7 @@ pub enum By {
 
 impl Drawn {
     /// Whether it is drawn in a run.
-    fn is_in(&self, stage: &Stage<'_>) -> bool {
+    fn is_in(&self, stage: &RunConfig<'_>) -> bool {
         match self.by {
             By::Every => true,
             By::Miss => !stage.miss.is_never(),
@@ -255,7 +255,7 @@ impl Profile {
     }
 
     /// Whether a run of it draws anything: whether its seed has an effect.
-    pub fn draws(&self, stage: &Stage<'_>) -> bool {
+    pub fn draws(&self, stage: &RunConfig<'_>) -> bool {
         self.drawn.iter().any(|drawn| drawn.is_in(stage))
     }
 
@@ -358,8 +358,8 @@ impl Setup {
     }
 
     /// What stands still in the run.
-    pub fn stage(&self) -> Stage<'_> {
-        Stage {
+    pub fn stage(&self) -> RunConfig<'_> {
+        RunConfig {
             scheme: self.scheme.name,
             rule: self.rule.as_str(),
             robots: self.robots,

@@ -10,7 +10,7 @@ use tautline_kernel::ground::{Area, Cell};
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{self, Point, Range, Residual, Signal, locate};
 
-use crate::faults::{Appearing, Failure, Going};
+use crate::failures::{Appearing, Failure, Going};
 use crate::layout::generate::{self, Probability};
 use crate::noise::deviation_db;
 

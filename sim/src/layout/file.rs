@@ -4,20 +4,20 @@ use std::ffi::OsString;
 use std::iter;
 use std::path::{Path, PathBuf};
 
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::generate::Form;
 use super::read::{at, in_file, read_text};
 use super::{Generator, Layout, Misread, Problem, movingai, ros, text};
-use crate::fault::Fault;
+use crate::diagnostic::Diagnostic;
 
 /// The layout that `description` names: a generator's, for `seed`, or else that of a file: a `MovingAI` map
 /// (`.map`), a ROS map (`.yaml`, `.yml`), or a drawing of ours. `image` takes the place of the image that a
 /// ROS map names. A yaw of a ROS map is logged as a warning, as the cells are those of the image.
 ///
 /// # Errors
-/// A [`Fault`] that names the file, the line and the column, or what is wrong with the description.
-pub fn load(description: &str, seed: u64, image: Option<&Path>) -> Result<Layout, Fault> {
+/// A [`Diagnostic`] that names the file, the line and the column, or what is wrong with the description.
+pub fn load(description: &str, seed: u64, image: Option<&Path>) -> Result<Layout, Diagnostic> {
     let layout = make(description, seed, image)?;
     let (size, free, walls) = (layout.size(), layout.free_cells(), layout.walls().count());
     tracing::info!(
@@ -27,11 +27,11 @@ pub fn load(description: &str, seed: u64, image: Option<&Path>) -> Result<Layout
     Ok(layout)
 }
 
-fn make(description: &str, seed: u64, image: Option<&Path>) -> Result<Layout, Fault> {
+fn make(description: &str, seed: u64, image: Option<&Path>) -> Result<Layout, Diagnostic> {
     let file = Path::new(description);
     match description.parse::<Generator>() {
         Ok(_) if image.is_some() => Err(Problem::NeedlessImage.into()),
-        Ok(generator) => generator.generate(seed).map_err(Fault::from),
+        Ok(generator) => generator.generate(seed).map_err(Diagnostic::from),
         Err(problem) if means_generator(description) && !file.exists() => Err(problem.into()),
         Err(_) => load_file(file, image),
     }
@@ -63,7 +63,7 @@ fn means_generator(description: &str) -> bool {
     Form::of(description).is_some() || description.contains(':') && !description.contains(['/', '\\'])
 }
 
-fn load_file(file: &Path, image: Option<&Path>) -> Result<Layout, Fault> {
+fn load_file(file: &Path, image: Option<&Path>) -> Result<Layout, Diagnostic> {
     if is_ros(file) {
         let (layout, frame) = ros::load(file, image)?;
         if frame.yaw_rad != 0.0 {

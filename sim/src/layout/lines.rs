@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::{Misread, Problem};
-use crate::fault::BOM;
+use crate::diagnostic::BOM;
 
 /// A line without its end (`\n` or `\r\n`), and the byte at which it starts.
 #[derive(Clone, Copy)]

@@ -6,11 +6,11 @@ use std::ops::Range;
 
 use tautline_kernel::chain::MAX_ROBOTS;
 use tautline_kernel::ground::Cell;
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::generate::{FORMS, Form};
 use super::{MAX_CELLS, MAX_FILE_BYTES, MAX_SIDE_CELLS, Size};
-use crate::fault::Fault;
+use crate::diagnostic::Diagnostic;
 
 /// A problem in the bytes `at` of a text.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -235,7 +235,7 @@ fn examples() -> String {
 
 impl std::error::Error for Problem {}
 
-impl From<Problem> for Fault {
+impl From<Problem> for Diagnostic {
     fn from(problem: Problem) -> Self {
         let remedy = problem.remedy();
         match problem {

@@ -4,16 +4,16 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::{Misread, Problem};
-use crate::fault::Fault;
+use crate::diagnostic::Diagnostic;
 
 /// Larger files are refused before they are read. The drawing of the largest layout is smaller.
 pub const MAX_FILE_BYTES: u64 = 128 << 20;
 
 /// The text of `file`.
-pub(super) fn read_text(file: &Path) -> Result<String, Fault> {
+pub(super) fn read_text(file: &Path) -> Result<String, Diagnostic> {
     let bytes = read_bytes(file).map_err(|problem| in_file(file, &problem))?;
     let not_text = |byte| in_file(file, &Problem::NotText { byte });
     String::from_utf8(bytes).map_err(|error| not_text(error.utf8_error().valid_up_to()))
@@ -50,11 +50,11 @@ fn unreadable(error: &io::Error) -> Problem {
 }
 
 /// The fault of a problem in a text.
-pub(super) fn at(file: &Path, source: &str, misread: &Misread) -> Fault {
-    Fault::at(file, source, misread.at.clone(), &misread.problem, misread.problem.remedy())
+pub(super) fn at(file: &Path, source: &str, misread: &Misread) -> Diagnostic {
+    Diagnostic::at(file, source, misread.at.clone(), &misread.problem, misread.problem.remedy())
 }
 
 /// The fault of a problem with a file as a whole.
-pub(super) fn in_file(file: &Path, problem: &Problem) -> Fault {
-    Fault::in_file(file, problem, problem.remedy())
+pub(super) fn in_file(file: &Path, problem: &Problem) -> Diagnostic {
+    Diagnostic::in_file(file, problem, problem.remedy())
 }

@@ -17,7 +17,7 @@ use tautline_kernel::ground::Cell;
 
 use super::read::{at, in_file, read_bytes, read_text};
 use super::{Layout, MAX_CELLS, MAX_SIDE_CELLS, Misread, Problem};
-use crate::fault::{BOM, Fault};
+use crate::diagnostic::{BOM, Diagnostic};
 
 /// Where the cells of a map lie in the world.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -76,8 +76,8 @@ enum Negate {
 /// relative to the folder of `file`.
 ///
 /// # Errors
-/// A [`Fault`] in `file` or in the image; a missing image names the path that was tried.
-pub fn load(file: &Path, image: Option<&Path>) -> Result<(Layout, Frame), Fault> {
+/// A [`Diagnostic`] in `file` or in the image; a missing image names the path that was tried.
+pub fn load(file: &Path, image: Option<&Path>) -> Result<(Layout, Frame), Diagnostic> {
     let source = read_text(file)?;
     let description = describe(&source).map_err(|misread| at(file, &source, &misread))?;
     let beside = file.with_file_name(&description.image);

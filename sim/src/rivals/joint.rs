@@ -30,7 +30,7 @@ pub struct Joint {
     pub cells: Cells,
 }
 
-/// How good a joint move is: the less, the better. Faults come first.
+/// How good a joint move is: the less, the better. Failures come first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct Score {
     /// Robots that no links join to the base, and robots in a cell that another one has already, if that counts.

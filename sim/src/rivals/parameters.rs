@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 use tautline_kernel::chain::MAX_ROBOTS;
 use tautline_kernel::ground::Circle;
 
-use crate::words::Worded;
+use crate::named_values::NamedValues;
 
 /// Which two robots have a link.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
@@ -58,7 +58,7 @@ pub enum Cells {
     Shared,
 }
 
-impl Worded for Cells {
+impl NamedValues for Cells {
     const WORDS: &'static [(Self, &'static str, &'static str)] = &[
         (Self::Distinct, "distinct", "Robots plan to be in cells of their own, the base excepted"),
         (Self::Shared, "shared", "Robots may plan to share a cell"),

@@ -8,11 +8,11 @@ use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use sha2::{Digest, Sha256};
 
-use crate::aside::{Aside, Replaceable};
+use crate::atomic_file::{AtomicFile, Replaceable};
+use crate::checkpoint::{self, Checkpoint, Header, Lines};
+use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::{Profile, RuleId};
-use crate::fault::{Fault, Halt};
-use crate::kept::{self, Header, Kept, Lines};
-use crate::part::Part;
+use crate::resumable::Resumable;
 
 /// The most shards: more than there are machines.
 const MAX_SHARDS: u32 = 100_000;
@@ -104,14 +104,16 @@ impl Done {
     ///
     /// # Errors
     /// [`Halt`] if it has not, or `part` cannot be had.
-    pub fn check(&self, part: Result<Box<dyn Part + '_>, Halt>) -> Result<(), Halt> {
+    pub fn check(&self, part: Result<Box<dyn Resumable + '_>, Halt>) -> Result<(), Halt> {
         match part {
             Ok(part) if part.is_done() => Ok(()),
             Ok(part) => {
                 let what = format!("this shard has done less than the plan dealt it: {}", part.words());
-                Err(Fault::in_file(&self.path, what, Sharded::AGAIN).into())
+                Err(Diagnostic::in_file(&self.path, what, Sharded::AGAIN).into())
             }
-            Err(Halt::Fault(fault)) => Err(fault.with_remedy(Sharded::AGAIN).found_in(&self.path).into()),
+            Err(Halt::Diagnostic(fault)) => {
+                Err(fault.with_remedy(Sharded::AGAIN).found_in(&self.path).into())
+            }
             Err(halt @ Halt::Interrupted) => Err(halt),
         }
     }
@@ -130,45 +132,45 @@ impl Plan {
     /// Stores a plan. Its file has yet to be put in its place.
     ///
     /// # Errors
-    /// A [`Fault`] if nothing can be written there, or this program cannot be read.
+    /// A [`Diagnostic`] if nothing can be written there, or this program cannot be read.
     pub fn store(
         path: &Path,
         of: Of,
         shards: u32,
         deal: &RawValue,
         replaceable: &Replaceable,
-    ) -> Result<Aside, Fault> {
+    ) -> Result<AtomicFile, Diagnostic> {
         let header = Planned {
             format: Planned::FORMAT.to_owned(),
-            version: kept::VERSION,
+            version: checkpoint::VERSION,
             of,
             shards,
             program: program()?,
         };
-        let mut aside = Aside::new(path, replaceable)?;
-        aside.append(kept::text(&header, &deal));
+        let mut aside = AtomicFile::new(path, replaceable)?;
+        aside.append(checkpoint::text(&header, &deal));
         Ok(aside)
     }
 
     /// Checks that so many shards can be planned.
     ///
     /// # Errors
-    /// A [`Fault`] if they are none, or too many.
-    pub fn check(shards: u32) -> Result<(), Fault> {
+    /// A [`Diagnostic`] if they are none, or too many.
+    pub fn check(shards: u32) -> Result<(), Diagnostic> {
         if (1..=MAX_SHARDS).contains(&shards) {
             return Ok(());
         }
         let remedy = format!("give `shards` a number from 1 to {MAX_SHARDS}");
-        Err(Fault::of_field("shards", format_args!("nothing is dealt out among {shards}"), remedy))
+        Err(Diagnostic::of_field("shards", format_args!("nothing is dealt out among {shards}"), remedy))
     }
 
     /// The plan that stands at `path`.
     ///
     /// # Errors
-    /// A [`Fault`] if there is none, it is damaged, or another program made it.
-    pub fn read(path: &Path) -> Result<Self, Fault> {
-        let Some(file) = kept::open::<Planned>(path)? else {
-            return Err(Fault::in_file(path, "there is no such file", Planned::AGAIN));
+    /// A [`Diagnostic`] if there is none, it is damaged, or another program made it.
+    pub fn read(path: &Path) -> Result<Self, Diagnostic> {
+        let Some(file) = checkpoint::open::<Planned>(path)? else {
+            return Err(Diagnostic::in_file(path, "there is no such file", Planned::AGAIN));
         };
         let lines = Lines::<Planned>::read(path, &file)?;
         let Planned { of, shards, program: planned, .. } = lines.header().clone();
@@ -193,13 +195,13 @@ impl Plan {
     /// Checks that it has this shard.
     ///
     /// # Errors
-    /// A [`Fault`] if it has not.
-    pub fn check_shard(&self, shard: u32) -> Result<(), Fault> {
+    /// A [`Diagnostic`] if it has not.
+    pub fn check_shard(&self, shard: u32) -> Result<(), Diagnostic> {
         if (1..=self.shards).contains(&shard) {
             return Ok(());
         }
         let what = format!("there is no shard {shard} of {}", self.shards);
-        Err(Fault::of_field("shard", what, format!("give `shard` a number from 1 to {}", self.shards)))
+        Err(Diagnostic::of_field("shard", what, format!("give `shard` a number from 1 to {}", self.shards)))
     }
 
     /// Where the file of a shard stands unless it is said otherwise: beside the plan, with its number at the end of the name.
@@ -210,19 +212,19 @@ impl Plan {
     }
 
     fn header(&self, shard: u32) -> Sharded {
-        let (format, version) = (Sharded::FORMAT.to_owned(), kept::VERSION);
+        let (format, version) = (Sharded::FORMAT.to_owned(), checkpoint::VERSION);
         Sharded { format, version, plan: self.digest.clone(), shard, done: false }
     }
 
     /// How far each shard is that `files` tell of, and which of them does, in the order of the shards; or what is missing.
     ///
     /// # Errors
-    /// A [`Fault`] if a file is no shard of this plan, or two are the same shard.
-    pub fn results(&self, files: &[PathBuf]) -> Result<Result<Vec<Done>, Vec<Gap>>, Fault> {
+    /// A [`Diagnostic`] if a file is no shard of this plan, or two are the same shard.
+    pub fn results(&self, files: &[PathBuf]) -> Result<Result<Vec<Done>, Vec<Gap>>, Diagnostic> {
         let mut found: Vec<Option<(bool, Done)>> = (0..self.shards).map(|_| None).collect();
         for path in files {
-            let Some(file) = kept::open::<Sharded>(path)? else {
-                return Err(Fault::in_file(path, "there is no such file", "give the files of shards"));
+            let Some(file) = checkpoint::open::<Sharded>(path)? else {
+                return Err(Diagnostic::in_file(path, "there is no such file", "give the files of shards"));
             };
             let lines = Lines::<Sharded>::read(path, &file)?;
             let &Sharded { shard, done, .. } = lines.header();
@@ -253,16 +255,20 @@ impl Plan {
 /// Keeps how far a shard is.
 #[derive(Debug)]
 pub struct Keeper<'a> {
-    kept: Kept<'a, Sharded>,
+    kept: Checkpoint<'a, Sharded>,
 }
 
 impl<'a> Keeper<'a> {
     /// The keeper of a shard of `plan`, whose file stands at `path`; and how far that shard is, if there is such a file.
     ///
     /// # Errors
-    /// A [`Fault`] if the file is damaged, of another shard or in use.
-    pub fn open(plan: &Plan, shard: u32, path: &'a Path) -> Result<(Self, Option<Box<RawValue>>), Fault> {
-        let mut kept = Kept::new(path, plan.header(shard));
+    /// A [`Diagnostic`] if the file is damaged, of another shard or in use.
+    pub fn open(
+        plan: &Plan,
+        shard: u32,
+        path: &'a Path,
+    ) -> Result<(Self, Option<Box<RawValue>>), Diagnostic> {
+        let mut kept = Checkpoint::new(path, plan.header(shard));
         let far = kept.read()?;
         Ok((Self { kept }, far))
     }
@@ -271,18 +277,18 @@ impl<'a> Keeper<'a> {
     ///
     /// # Errors
     /// [`Halt`] if that cannot be written.
-    pub fn keep(&mut self, part: &dyn Part) -> Result<(), Halt> {
+    pub fn keep(&mut self, part: &dyn Resumable) -> Result<(), Halt> {
         self.kept.header_mut().done = part.is_done();
         Ok(self.kept.write(&part.far()?)?)
     }
 }
 
 /// The SHA-256 of this program.
-fn program() -> Result<String, Fault> {
+fn program() -> Result<String, Diagnostic> {
     let read = || Ok(hex(&Sha256::digest(fs::read(env::current_exe()?)?)));
     read().map_err(|error: io::Error| {
         let what = format_args!("the file of this program cannot be read: {error}");
-        Fault::usage(what, "run it from a file that it may read: a plan says which program made it")
+        Diagnostic::usage(what, "run it from a file that it may read: a plan says which program made it")
     })
 }
 

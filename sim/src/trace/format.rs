@@ -9,9 +9,9 @@ use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::run::Frame;
 
 use super::lines::{Lines, line_of};
-use crate::aside::Aside;
-use crate::explore::{ClauseId, Report, Stage, Stopped, TeamMove, Violation};
-use crate::fault::Fault;
+use crate::atomic_file::AtomicFile;
+use crate::diagnostic::Diagnostic;
+use crate::explore::{ClauseId, Report, RunConfig, Stopped, TeamMove, Violation};
 use crate::frontier::Options;
 use crate::layout::generate::Probability;
 use crate::layout::{Layout, Problem};
@@ -219,14 +219,18 @@ impl From<&Report> for StoredEnd {
 
 /// A trace in the making.
 #[derive(Debug)]
-pub struct Writer(Aside);
+pub struct Writer(AtomicFile);
 
 impl Writer {
     /// The trace of a run on `stage` in `aside`, of any team. A counterexample names the clause that it breaks.
     ///
     /// # Errors
     /// [`Problem`] if the base is not a free cell.
-    pub fn new(mut aside: Aside, stage: &Stage<'_>, clause: Option<ClauseId>) -> Result<Self, Problem> {
+    pub fn new(
+        mut aside: AtomicFile,
+        stage: &RunConfig<'_>,
+        clause: Option<ClauseId>,
+    ) -> Result<Self, Problem> {
         let mut layout = Cow::Borrowed(stage.layout);
         if layout.base() != Some(stage.base) {
             layout.to_mut().place_base(stage.base)?;
@@ -257,7 +261,7 @@ impl Writer {
     }
 
     /// Adds the end. The file has yet to be put in its place.
-    pub fn end(mut self, report: &Report) -> Aside {
+    pub fn end(mut self, report: &Report) -> AtomicFile {
         self.0.append(line_of(&Line::End(report.into())));
         self.0
     }
@@ -270,7 +274,7 @@ pub(super) fn drawn(
     layout: &str,
     base: Cell,
     again: &str,
-) -> Result<Layout, Fault> {
+) -> Result<Layout, Diagnostic> {
     let layout: Layout = layout.parse().map_err(|problem| lines.fault(text, "\"layout\"", problem, again))?;
     if layout.base() != Some(base) {
         let what = format!("the base {base} is not where the layout draws it");

@@ -9,9 +9,9 @@ use std::path::{Path, PathBuf};
 
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
-use crate::fault::{BOM, Fault};
+use crate::diagnostic::{BOM, Diagnostic};
 use crate::layout::MAX_FILE_BYTES;
 
 /// Longer lines than those of the longest chain are refused; the header with its drawing may be longer.
@@ -54,10 +54,11 @@ impl Lines {
     /// The lines of the file at `path`; `again` says how to make such a file.
     ///
     /// # Errors
-    /// A [`Fault`] if it cannot be opened.
-    pub fn open(path: &Path, again: &'static str) -> Result<Self, Fault> {
-        let unreadable =
-            |what: String| Fault::in_file(path, what, "name a file that `trace` or `tautline hunt` wrote");
+    /// A [`Diagnostic`] if it cannot be opened.
+    pub fn open(path: &Path, again: &'static str) -> Result<Self, Diagnostic> {
+        let unreadable = |what: String| {
+            Diagnostic::in_file(path, what, "name a file that `trace` or `tautline hunt` wrote")
+        };
         if path.is_dir() {
             return Err(unreadable("this is a folder".to_owned()));
         }
@@ -84,11 +85,11 @@ impl Lines {
     /// The first line, of at most `most` bytes, if it is the header of a `format` of this `version`.
     ///
     /// # Errors
-    /// A [`Fault`] that says what it is instead.
-    pub fn header(&mut self, format: &str, version: u32, most: u64) -> Result<String, Fault> {
+    /// A [`Diagnostic`] that says what it is instead.
+    pub fn header(&mut self, format: &str, version: u32, most: u64) -> Result<String, Diagnostic> {
         let text = self.next(most)?.ok_or_else(|| {
             let remedy = format!("a trace begins with its header; {}", self.again);
-            Fault::in_file(&self.path, "the file is empty", remedy)
+            Diagnostic::in_file(&self.path, "the file is empty", remedy)
         })?;
         let magic: Magic =
             self.parse(&text, "a trace begins with its header; name a file that `trace` wrote")?;
@@ -106,15 +107,19 @@ impl Lines {
     /// The next line without its end, at most `most` bytes; `None` after the last.
     ///
     /// # Errors
-    /// A [`Fault`] if it cannot be read, is longer, or no text.
-    pub(crate) fn next(&mut self, most: u64) -> Result<Option<String>, Fault> {
+    /// A [`Diagnostic`] if it cannot be read, is longer, or no text.
+    pub(crate) fn next(&mut self, most: u64) -> Result<Option<String>, Diagnostic> {
         if self.count == 0 {
             self.skip_bom();
         }
         let mut bytes = Vec::new();
         let read = self.input.by_ref().take(most + 1).read_until(b'\n', &mut bytes);
         let read = read.map_err(|error| {
-            Fault::in_file(&self.path, format_args!("the file cannot be read: {error}"), "make it readable")
+            Diagnostic::in_file(
+                &self.path,
+                format_args!("the file cannot be read: {error}"),
+                "make it readable",
+            )
         })?;
         if read == 0 {
             return Ok(None);
@@ -124,7 +129,14 @@ impl Lines {
         let not_text = |bytes: &[u8]| {
             let line = String::from_utf8_lossy(bytes);
             let at = line.find(char::REPLACEMENT_CHARACTER).unwrap_or_default();
-            Fault::in_line(&self.path, self.count, &line, at..at + 1, "this is not UTF-8 text", self.again)
+            Diagnostic::in_line(
+                &self.path,
+                self.count,
+                &line,
+                at..at + 1,
+                "this is not UTF-8 text",
+                self.again,
+            )
         };
         let mut text = String::from_utf8(bytes).map_err(|error| not_text(error.as_bytes()))?;
         if is_long {
@@ -146,8 +158,8 @@ impl Lines {
     /// Checks that the next line is `expected`.
     ///
     /// # Errors
-    /// A [`Fault`] where it first differs.
-    pub fn expect<T>(&mut self, expected: &T) -> Result<(), Fault>
+    /// A [`Diagnostic`] where it first differs.
+    pub fn expect<T>(&mut self, expected: &T) -> Result<(), Diagnostic>
     where
         T: Serialize + PartialEq + for<'a> Deserialize<'a>,
     {
@@ -155,7 +167,7 @@ impl Lines {
         let Some(text) = self.next(MAX_LINE_BYTES)? else {
             let what =
                 format!("the trace ends after line {}; here the run has {}", self.count, wanted.trim_end());
-            return Err(Fault::in_file(&self.path, what, self.again));
+            return Err(Diagnostic::in_file(&self.path, what, self.again));
         };
         let found: T = self.parse(&text, self.again)?;
         if found == *expected {
@@ -165,7 +177,7 @@ impl Lines {
     }
 
     /// A fault where the line begins to differ from `expected`, which stands behind `what`.
-    pub(crate) fn differs(&self, text: &str, expected: &impl Serialize, what: &str) -> Fault {
+    pub(crate) fn differs(&self, text: &str, expected: &impl Serialize, what: &str) -> Diagnostic {
         let wanted = line_of(expected);
         let same = text.bytes().zip(wanted.bytes()).take_while(|(one, other)| one == other).count();
         self.at(text, same..same + 1, format_args!("{what} {}", wanted.trim_end()), self.again)
@@ -174,8 +186,8 @@ impl Lines {
     /// Checks that there is no line left.
     ///
     /// # Errors
-    /// A [`Fault`] if there is one.
-    pub fn end(&mut self) -> Result<(), Fault> {
+    /// A [`Diagnostic`] if there is one.
+    pub fn end(&mut self) -> Result<(), Diagnostic> {
         match self.next(MAX_LINE_BYTES)? {
             Some(text) if !text.trim().is_empty() => {
                 Err(self.whole(&text, "a line after the end", "leave it out"))
@@ -187,8 +199,8 @@ impl Lines {
     /// What the line says.
     ///
     /// # Errors
-    /// A [`Fault`] where it is no such thing.
-    pub fn parse<'a, T: Deserialize<'a>>(&self, text: &'a str, remedy: &str) -> Result<T, Fault> {
+    /// A [`Diagnostic`] where it is no such thing.
+    pub fn parse<'a, T: Deserialize<'a>>(&self, text: &'a str, remedy: &str) -> Result<T, Diagnostic> {
         serde_json::from_str(text).map_err(|error| {
             let message = error.to_string();
             let message = message.split(" at line ").next().unwrap_or_default();
@@ -199,13 +211,19 @@ impl Lines {
     }
 
     /// A fault where `key` stands in the line.
-    pub(crate) fn fault(&self, text: &str, key: &str, what: impl Display, remedy: impl Display) -> Fault {
+    pub(crate) fn fault(
+        &self,
+        text: &str,
+        key: &str,
+        what: impl Display,
+        remedy: impl Display,
+    ) -> Diagnostic {
         let start = text.find(key).unwrap_or_default();
         self.at(text, start..start + key.len(), what, remedy)
     }
 
     /// A fault in the value that `key` has in the line.
-    pub fn fault_in(&self, text: &str, key: &str, what: impl Display, remedy: impl Display) -> Fault {
+    pub fn fault_in(&self, text: &str, key: &str, what: impl Display, remedy: impl Display) -> Diagnostic {
         let name = format!("\"{key}\"");
         let rest = text.find(&name).map_or(text, |start| &text[start + name.len()..]);
         let start = text.len() - rest.trim_start_matches([' ', ':']).len();
@@ -214,11 +232,11 @@ impl Lines {
         self.at(text, start..start + values.byte_offset(), what, remedy)
     }
 
-    fn whole(&self, text: &str, what: impl Display, remedy: impl Display) -> Fault {
+    fn whole(&self, text: &str, what: impl Display, remedy: impl Display) -> Diagnostic {
         self.at(text, 0..text.len(), what, remedy)
     }
 
-    fn at(&self, text: &str, range: Range<usize>, what: impl Display, remedy: impl Display) -> Fault {
-        Fault::in_line(&self.path, self.count, text, range, what, remedy)
+    fn at(&self, text: &str, range: Range<usize>, what: impl Display, remedy: impl Display) -> Diagnostic {
+        Diagnostic::in_line(&self.path, self.count, text, range, what, remedy)
     }
 }

@@ -8,10 +8,10 @@ use tautline_proofs::run::Frame;
 
 use super::format::{Header, Line, StoredEnd, StoredViolation, drawn};
 use super::lines::{Lines, MAX_LINE_BYTES};
+use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::{
-    ClauseId, End, Limits, Look, Play, Report, Stage, Survey, Team, Violation, Watcher, run,
+    ClauseId, End, Limits, Look, Play, Report, RunConfig, Survey, Team, Violation, Watcher, run,
 };
-use crate::fault::{Fault, Halt};
 use crate::layout::Layout;
 
 const AGAIN: &str = "store the run again with the program that wrote it";
@@ -45,7 +45,7 @@ type Named = Header<String, String, IgnoredAny>;
 
 impl Recorded {
     /// Reads the lines of a run behind its header, which is `text`.
-    pub(super) fn read(lines: Lines, text: &str) -> Result<Self, Fault> {
+    pub(super) fn read(lines: Lines, text: &str) -> Result<Self, Diagnostic> {
         let mut lines = lines.made_by(AGAIN);
         let header: Named = lines.parse(text, AGAIN)?;
         let layout = drawn(&lines, text, &header.layout, header.base, AGAIN)?;
@@ -78,7 +78,7 @@ impl Recorded {
     }
 
     /// Checks that the end follows from the team moves.
-    fn check(&self, lines: &Lines, text: &str) -> Result<(), Fault> {
+    fn check(&self, lines: &Lines, text: &str) -> Result<(), Diagnostic> {
         let report = self.run(&mut |_| Ok(()));
         let made = report.map_or_else(|_| self.end.clone(), |report| StoredEnd::from(&report));
         if made != self.end {
@@ -100,10 +100,10 @@ impl Recorded {
 }
 
 impl Play for Recorded {
-    fn stage(&self) -> Stage<'_> {
+    fn stage(&self) -> RunConfig<'_> {
         let Header { scheme, rule, robots, seed, base, starts, miss, missed, options, choices, .. } =
             &self.header;
-        Stage {
+        RunConfig {
             scheme,
             rule,
             robots: *robots,
@@ -158,13 +158,13 @@ fn read_moves(
     lines: &mut Lines,
     mut team: Vec<Cell>,
     layout: &Layout,
-) -> Result<(Vec<Frame>, String, StoredEnd), Fault> {
+) -> Result<(Vec<Frame>, String, StoredEnd), Diagnostic> {
     let mut frames: Vec<Frame> = Vec::new();
     loop {
         let number = frames.len() + 1;
         let Some(text) = lines.next(MAX_LINE_BYTES)? else {
             let what = format!("the trace ends after line {number}; a stored run has an end");
-            return Err(Fault::in_file(lines.path(), what, AGAIN));
+            return Err(Diagnostic::in_file(lines.path(), what, AGAIN));
         };
         let made = match lines.parse(&text, AGAIN)? {
             Line::Move(made) => made,
@@ -179,7 +179,7 @@ fn read_moves(
         frames.push(frame);
         if number * team.len() > MAX_HELD {
             let what = format!("more than {MAX_HELD} robots in all team moves");
-            return Err(Fault::in_file(lines.path(), what, "store a shorter run"));
+            return Err(Diagnostic::in_file(lines.path(), what, "store a shorter run"));
         }
     }
 }

@@ -8,8 +8,8 @@ use tautline_kernel::ground::Cell;
 
 use super::StoredViolation;
 use crate::explore::floor::Component;
-use crate::explore::{Knowledge, Milestone, Play, Report, Stage, Stopped, Violation};
-use crate::faults::Faults;
+use crate::explore::{Knowledge, Milestone, Play, Report, RunConfig, Stopped, Violation};
+use crate::failures::Failures;
 use crate::layout::generate::Probability;
 use crate::schema::CellWritten;
 
@@ -33,7 +33,7 @@ pub struct Summary<'a> {
     stopped: Stopped,
     /// What has failed, where something was to fail.
     #[serde(skip_serializing_if = "Option::is_none")]
-    faults: Option<Faults>,
+    faults: Option<Failures>,
     violations: Vec<StoredViolation>,
 }
 
@@ -88,7 +88,7 @@ impl Marked {
 }
 
 impl<'a> FloorSummary<'a> {
-    fn of(knowledge: Knowledge, stage: &Stage<'a>, report: &Report) -> Self {
+    fn of(knowledge: Knowledge, stage: &RunConfig<'a>, report: &Report) -> Self {
         let part = |component: &Component| {
             let Component { robots, cells, explored, .. } = *component;
             Part { robots, cells, explored, marked: Marked::of(knowledge, component) }

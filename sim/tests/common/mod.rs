@@ -2,8 +2,8 @@
 
 use std::ops::ControlFlow;
 
+use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::hunt::{Far, Hunter};
-use tautline_sim::fault::Fault;
 
 /// Nobody watches; the hunts of these tests keep no file.
 pub(crate) struct Unwatched;
@@ -13,11 +13,11 @@ impl Hunter for Unwatched {
         ControlFlow::Continue(())
     }
 
-    fn is_not_kept(&mut self, fault: &Fault) {
+    fn is_not_kept(&mut self, fault: &Diagnostic) {
         panic!("{fault}");
     }
 
-    fn is_left_out(&mut self, fault: &Fault) {
+    fn is_left_out(&mut self, fault: &Diagnostic) {
         panic!("{fault}");
     }
 }

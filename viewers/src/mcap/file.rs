@@ -8,8 +8,8 @@ use ::mcap::{McapError, WriteOptions, Writer};
 
 use super::cdr::Cdr;
 use super::definition::definition;
-use tautline_sim::aside::{Aside, MCAP_LIBRARY, MCAP_PROFILE};
-use tautline_sim::fault::Fault;
+use tautline_sim::atomic_file::{AtomicFile, MCAP_LIBRARY, MCAP_PROFILE};
+use tautline_sim::diagnostic::Diagnostic;
 
 /// The frame of all places: x goes east, y goes north.
 const FRAME: &str = "map";
@@ -27,13 +27,13 @@ pub(crate) const ORANGE: Ink = [0.9, 0.6, 0.0];
 pub(crate) const PURPLE: Ink = [0.8, 0.4, 0.7];
 
 #[expect(clippy::needless_pass_by_value, reason = "it is given to `map_err`")]
-fn unwritten(error: McapError) -> Fault {
-    Fault::usage(format_args!("the MCAP file cannot be written: {error}"), "store a shorter run")
+fn unwritten(error: McapError) -> Diagnostic {
+    Diagnostic::usage(format_args!("the MCAP file cannot be written: {error}"), "store a shorter run")
 }
 
 /// A file in the making.
 pub(crate) struct File<'f> {
-    writer: Writer<NoSeek<&'f mut Aside>>,
+    writer: Writer<NoSeek<&'f mut AtomicFile>>,
     /// By topic: its channel, and how many messages it has.
     channels: BTreeMap<&'static str, (u16, u32)>,
 }
@@ -42,8 +42,8 @@ impl<'f> File<'f> {
     /// A file that says this of itself.
     ///
     /// # Errors
-    /// A [`Fault`], as of all that writes to it, if the format has no room for it.
-    pub(crate) fn begin(file: &'f mut Aside, facts: &[(&str, String)]) -> Result<Self, Fault> {
+    /// A [`Diagnostic`], as of all that writes to it, if the format has no room for it.
+    pub(crate) fn begin(file: &'f mut AtomicFile, facts: &[(&str, String)]) -> Result<Self, Diagnostic> {
         let options = WriteOptions::new().profile(MCAP_PROFILE).library(MCAP_LIBRARY);
         let options = options.compression(None).disable_seeking(true);
         let mut writer = options.create(NoSeek::new(file)).map_err(unwritten)?;
@@ -59,7 +59,7 @@ impl<'f> File<'f> {
         kind: &str,
         at_ns: u64,
         message: &[u8],
-    ) -> Result<(), Fault> {
+    ) -> Result<(), Diagnostic> {
         let (channel_id, sequence) = match self.channels.get(topic) {
             Some(&known) => known,
             None => (self.open(topic, kind).map_err(unwritten)?, 0),
@@ -82,7 +82,7 @@ impl<'f> File<'f> {
         topic: &'static str,
         at_ns: u64,
         poses: &[([f64; 2], [f64; 2])],
-    ) -> Result<(), Fault> {
+    ) -> Result<(), Diagnostic> {
         let mut message = headed(at_ns);
         message.list(poses, |cdr, &([x, y], [east, north])| {
             // Half of the angle from the east, without its sine and cosine: those differ from library to library.
@@ -99,7 +99,7 @@ impl<'f> File<'f> {
         at_ns: u64,
         drawing: &Drawing<'_>,
         points: &[([f64; 2], Ink)],
-    ) -> Result<(), Fault> {
+    ) -> Result<(), Diagnostic> {
         let mut message = headed(at_ns);
         message.string(drawing.name);
         for number in [0, drawing.shape as i32, if points.is_empty() { DELETE } else { ADD }] {
@@ -129,7 +129,7 @@ impl<'f> File<'f> {
     }
 
     /// Writes what is left.
-    pub(crate) fn end(mut self) -> Result<(), Fault> {
+    pub(crate) fn end(mut self) -> Result<(), Diagnostic> {
         self.writer.finish().map(|_| ()).map_err(unwritten)
     }
 }

@@ -7,7 +7,7 @@ use tautline_kernel::tan::Stage as Leg;
 
 use super::{Duty, Happening, Message, World};
 use crate::radio::Reach;
-use crate::rescue::letters::Content;
+use crate::rescue::acks::Content;
 use crate::rescue::rover::Rover;
 use crate::rescue::{Event, Logged, MAX_ROBOTS, MAX_WFRS, Ordinal, Spread};
 

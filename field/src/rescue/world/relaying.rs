@@ -9,7 +9,7 @@ use tautline_kernel::tan::{Conduct, Guide, Nav, ReqNav};
 
 use super::{Duty, Message, World};
 use crate::radio::Protocol;
-use crate::rescue::letters::{ANSWER_WAIT_NS, Content, Letter};
+use crate::rescue::acks::{ANSWER_WAIT_NS, Content, Letter};
 use crate::rescue::pace::SIGNAL_NS;
 
 impl World<'_> {

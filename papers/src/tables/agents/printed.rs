@@ -2,11 +2,11 @@
 
 use schemars::JsonSchema;
 use serde::Serialize;
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::{Duration, Figure, Line, Merged, TEAMS, Team};
 use tautline_field::stats::Estimate;
-use tautline_sim::columns::{Column, Columns, Width};
+use tautline_sim::text_table::{Column, TextTable, Width};
 
 /// A figure that the paper prints, and ours.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
@@ -64,7 +64,7 @@ fn moves(merged: &Merged) -> String {
     let numbers = [15, 15, 26, 26, 5].map(|width| Column::right(Width::Of(width)).after(1));
     let point =
         [Column::left(Width::Of(7)), Column::right(Width::Of(6)).after(1), Column::left(Width::Of(16))];
-    let mut columns = Columns::new(point.into_iter().chain(numbers));
+    let mut columns = TextTable::new(point.into_iter().chain(numbers));
     let heads = ["area", "agents", "team", "% explored", "% visited"];
     columns.row(heads.into_iter().chain(["moves until explored", "moves until done", "ended"]));
     for line in &merged.lines {
@@ -86,7 +86,7 @@ fn moves(merged: &Merged) -> String {
 fn seconds(merged: &Merged) -> String {
     let times = [20, 20].map(|width| Column::right(Width::Of(width)).after(1));
     let team = [Column::right(Width::Of(6)), Column::left(Width::Of(16))];
-    let mut columns = Columns::new(team.into_iter().chain(times));
+    let mut columns = TextTable::new(team.into_iter().chain(times));
     columns.title("Hours of the slowest agent");
     columns.row(["agents", "team", "until explored", "until done"]);
     for line in &merged.lines {
@@ -100,7 +100,7 @@ fn seconds(merged: &Merged) -> String {
 
 fn paper(printed: &[Printed]) -> String {
     let numbers = [5, 13, 10].map(|width| Column::right(Width::Of(width)));
-    let mut columns = Columns::new([Column::left(Width::Of(40))].into_iter().chain(numbers));
+    let mut columns = TextTable::new([Column::left(Width::Of(40))].into_iter().chain(numbers));
     columns.row(["", "paper", "ours", "difference"]);
     for Printed { what, paper, ours, difference } in printed {
         let (paper, difference) = (format!("{paper:.1}"), format!("{difference:+.1}"));

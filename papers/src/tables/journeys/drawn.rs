@@ -9,14 +9,14 @@ use super::{Settings, Way};
 use crate::chart::{Axis, LineChart, Series, Stroke};
 use tautline_field::draw::field::{self, Map, Terminus, Trail};
 use tautline_field::tan::End;
-use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 
 /// The journeys by some ways in the topology in which the shortest is the longest.
 pub(super) fn picture(settings: &Settings, ways: &[Way], densities: &[Density]) -> Result<String, Halt> {
     let drawn = densities.iter().find_map(|density| Some((density.nodes, density.longest?)));
     let (nodes, topology) = drawn.ok_or_else(|| {
         let remedy = "take more topologies or nodes";
-        Fault::usage("there is no topology to draw in which all arrive", remedy)
+        Diagnostic::usage("there is no topology to draw in which all arrive", remedy)
     })?;
     let world = World::new(settings, nodes, topology).map_err(usage)?;
     let tree = world.tree().map_err(usage)?;

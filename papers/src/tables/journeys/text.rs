@@ -1,12 +1,12 @@
 //! The figures of journeys as text.
 
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::claims::{CLOSE, Claim};
 use super::density::Density;
 use super::{Settings, Way};
 use tautline_field::stats::Estimate;
-use tautline_sim::columns::Figures;
+use tautline_sim::text_table::Figures;
 
 /// The figure for people.
 pub(super) fn text(settings: &Settings, densities: &[Density]) -> String {

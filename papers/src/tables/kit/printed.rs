@@ -2,11 +2,11 @@
 
 use schemars::JsonSchema;
 use serde::Serialize;
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::{EXPLORED, Figure, Line, Merged, PATHS, Race, Settings, TEAMS, TWO, Team};
 use tautline_field::stats::Estimate;
-use tautline_sim::columns::{Column, Columns, Width};
+use tautline_sim::text_table::{Column, TextTable, Width};
 
 /// A figure that the paper prints, and ours.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
@@ -74,7 +74,7 @@ fn named(merged: &Merged) -> impl Iterator<Item = (&'static str, &Line)> {
 }
 
 fn times(merged: &Merged) -> String {
-    let mut columns = Columns::new([
+    let mut columns = TextTable::new([
         Column::left(Width::Of(11)),
         Column::left(Width::Of(20)),
         Column::right(Width::Of(13)),
@@ -93,7 +93,7 @@ fn times(merged: &Merged) -> String {
             line.ended.to_string(),
         ]);
     }
-    let mut races = Columns::new([
+    let mut races = TextTable::new([
         Column::left(Width::Of(11)),
         Column::right(Width::Of(15)),
         Column::right(Width::Of(18)),
@@ -115,7 +115,7 @@ fn times(merged: &Merged) -> String {
 fn overlaps(merged: &Merged) -> String {
     let widths = [13, 13, 13, 18, 6].map(|width| Column::right(Width::Of(width)));
     let left = [Column::left(Width::Of(11)), Column::left(Width::Of(20))];
-    let mut columns = Columns::new(left.into_iter().chain(widths));
+    let mut columns = TextTable::new(left.into_iter().chain(widths));
     columns.title(format!(
         "When {EXPLORED} paths are explored: % of them driven by one robot alone, and seconds; seconds until all are"
     ));
@@ -136,7 +136,7 @@ fn overlaps(merged: &Merged) -> String {
 
 fn paper(printed: &[Printed]) -> String {
     let numbers = [7, 15, 11].map(|width| Column::right(Width::Of(width)));
-    let mut columns = Columns::new([Column::left(Width::Of(38))].into_iter().chain(numbers));
+    let mut columns = TextTable::new([Column::left(Width::Of(38))].into_iter().chain(numbers));
     columns.row(["", "paper", "ours", "difference"]);
     for Printed { what, paper, ours, difference } in printed {
         columns.row([what.clone(), format!("{paper:.0}"), ours.text(1), format!("{difference:+.1}")]);

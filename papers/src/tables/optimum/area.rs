@@ -6,9 +6,9 @@ use tautline_proofs::chain::optimum::{Guide, Optimum, explore_all};
 use tautline_proofs::chain::reach::{CellSet, Ground};
 
 use super::super::unfit;
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::{RuleName, Setup};
-use tautline_sim::fault::{Fault, Halt};
 use tautline_sim::layout::{Layout, Size};
 
 /// The rule of a team that knows the layout. Every edge is known to it and every robot arrives, so that *UnsureAhead*
@@ -21,7 +21,7 @@ pub(super) const MOST_STATES: usize = 10_000_000;
 
 pub(super) fn solve(ground: &Ground, goals: &CellSet) -> Result<Optimum, Halt> {
     let optimum = explore_all(ground, &KNOWING, goals, Guide::Distances, MOST_STATES);
-    Ok(optimum.map_err(|unsolved| Fault::usage(unsolved, "give fewer --max-walls"))?)
+    Ok(optimum.map_err(|unsolved| Diagnostic::usage(unsolved, "give fewer --max-walls"))?)
 }
 
 /// Walls of a layout, one bit for each edge in the order of [`Layout::edges`].
@@ -105,11 +105,11 @@ impl Area {
     /// What a team that knows the `layout` has to explore.
     pub(super) fn goals(&self, layout: &Layout) -> Result<(Ground, CellSet), Halt> {
         let is_open = |edge| layout.is_open(edge);
-        let outside = || Fault::usage("the base is outside the layout", "place it on a free cell");
+        let outside = || Diagnostic::usage("the base is outside the layout", "place it on a free cell");
         let ground = Ground::new(layout.size().area(), self.base, self.robots.into(), is_open);
         let ground = ground.ok_or_else(outside)?;
         let goals = ground.reachable(&KNOWING);
-        let goals = goals.map_err(|too_large| Fault::usage(too_large, "measure fewer robots"))?;
+        let goals = goals.map_err(|too_large| Diagnostic::usage(too_large, "measure fewer robots"))?;
         Ok((ground, goals))
     }
 }

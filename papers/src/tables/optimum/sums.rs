@@ -9,8 +9,8 @@ use tautline_proofs::chain::reach::CellSet;
 use super::area::{Area, WallSet, solve};
 use super::{Line, Worst};
 use tautline_field::stats::hundredths;
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::{RuleName, Survey, explore};
-use tautline_sim::fault::Halt;
 
 /// Sums over layouts.
 #[derive(Clone, Default, Debug, Serialize, Deserialize)]

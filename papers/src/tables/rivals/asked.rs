@@ -4,10 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::super::parameter::{Parameter, put, shown};
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::rivals::fault;
-use tautline_sim::fault::Halt;
-use tautline_sim::reading::{number, real};
 use tautline_sim::rivals::{Cells, Deadlock, Links, Parameters, Search, Weights};
+use tautline_sim::value_parser::{number, real};
 
 /// What the rivals are told, but for what the tables vary.
 #[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use tautline_field::stats::Estimate;
-use tautline_sim::columns::{Column, Columns, Width};
+use tautline_sim::text_table::{Column, TextTable, Width};
 
 /// What has come of a sentence.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
@@ -102,7 +102,7 @@ impl Race {
 /// The sentences for people, each named once.
 pub(super) fn text(judged: &[Judged]) -> String {
     let widths = [Width::Fit, Width::Fit, Width::Fit].map(Column::left);
-    let mut columns = Columns::new(widths);
+    let mut columns = TextTable::new(widths);
     let mut last = "";
     for Judged { sentence, of, measured, verdict } in judged {
         if *sentence != last {

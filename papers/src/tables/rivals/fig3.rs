@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::super::parameter::{Parameter, put, shown};
 use super::super::{About, Chart, Observer, Table};
@@ -10,11 +10,11 @@ use super::asked::{Told, parameters};
 use super::claims::{self, Judged, Race, Verdict};
 use super::{OPEN, Outcome, ROBOTS, ROOMS, Times, Who, generated};
 use crate::chart::{Axis, LineChart, Point, Series, Stroke};
-use tautline_sim::columns::{Column, Columns, Width};
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::{Limits, Milestone, RuleName};
-use tautline_sim::fault::Halt;
-use tautline_sim::reading::within;
 use tautline_sim::rivals::Links;
+use tautline_sim::text_table::{Column, TextTable, Width};
+use tautline_sim::value_parser::within;
 
 /// Fig. 3.
 #[derive(Clone, Copy, Debug)]
@@ -190,7 +190,7 @@ impl Table for ChainFig3 {
         );
         for (place, milestone) in MILESTONES.iter().enumerate() {
             let teams = Who::all(settings.told.pool);
-            let mut columns = Columns::new(
+            let mut columns = TextTable::new(
                 [Column::left(Width::Fit)].into_iter().chain(teams.iter().map(|_| Column::right(Width::Fit))),
             );
             columns.title(format!("Team moves to {} %", milestone.percent()));

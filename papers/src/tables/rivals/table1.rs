@@ -3,7 +3,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::super::parameter::{Parameter, put, shown};
 use super::super::{About, Observer, Table};
@@ -11,11 +11,11 @@ use super::asked::{Told, parameters};
 use super::claims::{self, Judged, Verdict};
 use super::{OPEN, Outcome, ROBOTS, ROOMS, Times, Who, generated, stopping};
 use tautline_field::stats::{Estimate, rounded};
-use tautline_sim::columns::{Column, Columns, Width};
+use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::{Limits, Milestone, RuleName};
-use tautline_sim::fault::Halt;
-use tautline_sim::reading::within;
 use tautline_sim::rivals::{Cells, Links, Search};
+use tautline_sim::text_table::{Column, TextTable, Width};
+use tautline_sim::value_parser::within;
 
 /// Table I.
 #[derive(Clone, Copy, Debug)]
@@ -200,7 +200,7 @@ impl Table for ChainTable1 {
             counted(*patience, "team move"),
         );
         let numbers = [9, 14, 11, 10].map(|width| Column::right(Width::Of(width)));
-        let mut columns = Columns::new([Column::left(Width::Fit)].into_iter().chain(numbers));
+        let mut columns = TextTable::new([Column::left(Width::Fit)].into_iter().chain(numbers));
         columns.title("What the paper prints");
         columns.row(["", "paper", "ours", "difference", "reached"]);
         for Printed { what, paper, ours, difference, reached, runs } in &merged.paper {
@@ -214,7 +214,7 @@ impl Table for ChainTable1 {
             ]);
         }
         text += &columns.text();
-        let mut columns = Columns::new([
+        let mut columns = TextTable::new([
             Column::left(Width::Fit),
             Column::right(Width::Fit),
             Column::right(Width::Fit),
@@ -226,7 +226,7 @@ impl Table for ChainTable1 {
             columns.row([who.name()].into_iter().chain(milestones.iter().map(Times::text)));
         }
         text += &columns.text();
-        let mut columns = Columns::new([
+        let mut columns = TextTable::new([
             Column::left(Width::Fit),
             Column::left(Width::Fit),
             Column::right(Width::Fit),

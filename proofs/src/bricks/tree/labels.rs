@@ -5,7 +5,7 @@ use tautline_kernel::choice::{Oracle, one_of};
 
 use super::{Observed, Way};
 use crate::engine::{Outcome, assume, require};
-use crate::words::counted;
+use crate::plural::counted;
 
 /// How many trees an agent has founded before: the first ones, those around a byte more, and the last ones.
 const FOUNDED: [u32; 9] =

@@ -8,11 +8,11 @@ use tautline_kernel::ground::{Cell, Side, Step};
 
 use super::state::{Body, Part, Small, State};
 use super::{Deception, Way};
-use crate::course::{Course, Scene, Turn};
 use crate::engine::outcomes;
 use crate::engine::states::{self, Bits, Places, Run, System};
 use crate::floor::plans::{Edges, FloorPlan};
 use crate::floor::small::Misses;
+use crate::floor_trace::{Course, Scene, Turn};
 
 pub(super) use crate::bricks::team::Turns;
 

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::court::Court;
-use super::exhibit::Move;
+use super::judge_input::Move;
 use super::place::{Place, SIDES, add, is_covered, side_between};
 
 /// What breaks the clause with this id, if the judge knows it.
@@ -117,7 +117,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
-    use crate::judge::chain::exhibit::{Exhibit, Repairs};
+    use crate::judge::chain::judge_input::{Exhibit, Repairs};
 
     /// A layout without walls, its base in the middle.
     fn exhibit(width: i32, height: i32, robots: usize) -> Exhibit {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::exhibit::{Exhibit, Move, Repairs};
+use super::judge_input::{Exhibit, Move, Repairs};
 use super::place::{Place, add, is_covered, is_safe, side_between};
 
 /// What the team knows, kept by the judge.

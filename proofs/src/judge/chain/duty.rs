@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, VecDeque};
 
 use super::court::Court;
-use super::exhibit::{Move, Repairs};
+use super::judge_input::{Move, Repairs};
 use super::place::{Place, SIDES, add, is_covered, side_between};
 
 /// What the team has to do next.
@@ -158,7 +158,7 @@ impl Court<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::chain::exhibit::Exhibit;
+    use crate::judge::chain::judge_input::Exhibit;
 
     #[test]
     fn a_chain_unfolds_until_it_has_gained_as_long_as_there_is_something_within_reach() {

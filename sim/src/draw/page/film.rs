@@ -6,7 +6,7 @@ use serde::Serialize;
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
 
 use super::line::place_of;
-use crate::aside::HTML_HEAD;
+use crate::atomic_file::HTML_HEAD;
 use crate::draw::svg::escaped;
 use crate::explore::{Layer, Shape, Value, Zone};
 use crate::layout::Layout;

@@ -2,14 +2,14 @@
 
 use tautline_proofs::chain::Observed;
 use tautline_proofs::chain::areas::{Areas, Found, Searched, Smallest, most_edges, search};
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::hunt::{bounds, fault, team};
+use crate::diagnostic::Diagnostic;
 use crate::explore::ClauseId;
 use crate::explore::hunt::{
-    Area, Asked, Done, Facts, Far, Hunted, Hunter, Quarry, RunSize, Shown, outcome, setup,
+    Area, Asked, Done, Facts, Far, Finding, HuntReport, Hunter, RunSize, Shown, outcome, setup,
 };
-use crate::fault::Fault;
 
 /// Searches all areas of at most so many cells.
 pub(super) fn hunt(
@@ -17,7 +17,7 @@ pub(super) fn hunt(
     asked: &Asked<'_>,
     max_cells: u32,
     hunter: &mut dyn Hunter,
-) -> Result<Hunted, Fault> {
+) -> Result<HuntReport, Diagnostic> {
     if asked.resume.is_some() {
         refuse(asked, "resume", "a hunt over areas is not kept in a file")?;
     }
@@ -32,13 +32,13 @@ pub(super) fn hunt(
 }
 
 /// Refuses what a hunt over areas does not take, if this is one.
-pub(super) fn refuse(asked: &Asked<'_>, field: &'static str, what: &str) -> Result<(), Fault> {
+pub(super) fn refuse(asked: &Asked<'_>, field: &'static str, what: &str) -> Result<(), Diagnostic> {
     let remedy = format!("leave `{field}` out; fewer `max-cells` or `max-walls` make it shorter");
-    asked.max_cells.map_or(Ok(()), |_| Err(Fault::of_field(field, what, remedy)))
+    asked.max_cells.map_or(Ok(()), |_| Err(Diagnostic::of_field(field, what, remedy)))
 }
 
 /// The areas that are asked for.
-fn areas(observed: Observed, asked: &Asked<'_>, max_cells: u32) -> Result<Areas, Fault> {
+fn areas(observed: Observed, asked: &Asked<'_>, max_cells: u32) -> Result<Areas, Diagnostic> {
     let (robots, walls) = team(asked);
     let whole = bounds(observed, robots, walls, None)?;
     let within_reach = (whole.area.width() * whole.area.height()) as u32;
@@ -48,13 +48,13 @@ fn areas(observed: Observed, asked: &Asked<'_>, max_cells: u32) -> Result<Areas,
             _ => format!("{} get to {within_reach} cells at most", counted(robots, "robot")),
         };
         let remedy = format!("give `max-cells` a number from 1 to {within_reach}");
-        return Err(Fault::of_field("max-cells", what, remedy));
+        return Err(Diagnostic::of_field("max-cells", what, remedy));
     }
     let edges = most_edges(max_cells);
     if asked.max_walls.is_some_and(|walls| walls > edges) {
         let what = format!("no area of {} has room for {walls} walls", counted(max_cells, "cell"));
         let remedy = format!("give `max-walls` a number up to {edges}, or more `max-cells`");
-        return Err(Fault::of_field("max-walls", what, remedy));
+        return Err(Diagnostic::of_field("max-walls", what, remedy));
     }
     Ok(Areas {
         observed,
@@ -67,16 +67,16 @@ fn areas(observed: Observed, asked: &Asked<'_>, max_cells: u32) -> Result<Areas,
 }
 
 /// What is told of a search.
-fn told(asked: &Asked<'_>, areas: &Areas, found: &Found) -> Result<Hunted, Fault> {
+fn told(asked: &Asked<'_>, areas: &Areas, found: &Found) -> Result<HuntReport, Diagnostic> {
     let quarries = found.broken.iter().map(|smallest| quarry(asked, smallest));
-    let quarries = quarries.collect::<Result<Vec<Quarry>, Fault>>()?;
+    let quarries = quarries.collect::<Result<Vec<Finding>, Diagnostic>>()?;
     let &Areas { max_cells, max_walls, robots, .. } = areas;
     let (robots, runs, moves) = (robots as u64, found.runs(), found.moves());
     let (all_runs, all_moves) = (counted(runs, "run"), counted(moves, "team move"));
     let bases: u64 = found.searched.iter().map(|area| area.bases).sum();
     let all_areas = counted(found.searched.len(), "area");
     let covered = found.cells.map(|cells| format!("of at most {}", counted(cells, "cell")));
-    Ok(Hunted {
+    Ok(HuntReport {
         robots,
         facts: Facts::Areas {
             runs,
@@ -106,13 +106,13 @@ const fn area(searched: &Searched) -> Area {
     Area { columns, rows, bases, walls, runs, moves }
 }
 
-fn quarry(asked: &Asked<'_>, Smallest { bounds, found }: &Smallest) -> Result<Quarry, Fault> {
+fn quarry(asked: &Asked<'_>, Smallest { bounds, found }: &Smallest) -> Result<Finding, Diagnostic> {
     let run = bounds.run(found);
     let setup = setup(asked.scheme, asked.rule, &run)?;
     let (columns, rows) = (bounds.area.width(), bounds.area.height());
     let (walls, steps) = (run.walls.len(), found.frames.len());
     let broken = found.broken.breach().map(ClauseId::from);
-    Ok(Quarry {
+    Ok(Finding {
         clause: found.broken.clause(),
         facts: RunSize::Area { columns, rows, walls, steps },
         title: format!("{columns}x{rows} cells, {}, {}", counted(walls, "wall"), counted(steps, "team move")),

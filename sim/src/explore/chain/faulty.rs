@@ -11,7 +11,7 @@ use tautline_proofs::run::Frame;
 
 use super::{is_costly, left_out, planned, shown};
 use crate::explore::{Change, ClauseId, End, Hearers, Layer, Scene, Setup, Survey, Team};
-use crate::faults::{Appearing, Failure, Faults, Going};
+use crate::failures::{Appearing, Failure, Failures, Going};
 use crate::layout::Layout;
 use crate::layout::generate::{Probability, below, source};
 
@@ -56,7 +56,7 @@ pub(super) struct Faulty<G, const ROBOTS: usize> {
     going: Going,
     chance: ChaCha8Rng,
     barriers: Vec<Barrier<ROBOTS>>,
-    faults: Faults,
+    faults: Failures,
     moves: u32,
     /// Epochs before the last team move.
     epochs: u32,
@@ -86,7 +86,7 @@ impl<G: Grid, const ROBOTS: usize> Faulty<G, ROBOTS> {
             going: setup.options.going,
             chance: source(setup.seed, *b"faults  "),
             barriers: Vec::new(),
-            faults: Faults::default(),
+            faults: Failures::default(),
             moves: 0,
             epochs: 0,
             is_silent: false,
@@ -358,7 +358,7 @@ impl<G: Grid, const ROBOTS: usize> Team for Faulty<G, ROBOTS> {
         }
     }
 
-    fn faults(&self) -> Option<Faults> {
+    fn faults(&self) -> Option<Failures> {
         Some(self.faults)
     }
 

@@ -8,18 +8,18 @@ use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::Observed;
 use tautline_proofs::chain::search::{Bounds, Deal, Found, Position, Search, Unsearchable};
 use tautline_proofs::engine::tree::{self, Progress};
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::areas;
-use super::saved::{AGAIN, Saved};
+use super::checkpoint::{AGAIN, Saved};
+use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::hunt::{
-    Asked, Bound, Deals, Dealt, Done, Facts, Far, Hunt, Hunted, Hunter, Quarry, RunSize, Shown, outcome,
+    Asked, Bound, Deals, Dealt, Done, Facts, Far, Finding, Hunt, HuntReport, Hunter, RunSize, Shown, outcome,
     setup,
 };
 use crate::explore::{ClauseId, Profile, RuleId};
-use crate::fault::{Fault, Halt};
 use crate::layout::Size;
-use crate::part::{self, KEEP_EVERY, Part, written};
+use crate::resumable::{self, KEEP_EVERY, Resumable, written};
 
 /// Robots of a chain when nobody says how many.
 const DEFAULT_ROBOTS: u64 = 4;
@@ -49,7 +49,7 @@ impl Hunt for Walls {
         (what.to_owned(), "give `max-walls`, or `scheme` ants, bricks or bricks-ants".to_owned())
     }
 
-    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault> {
+    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
         if let Some(cells) = asked.max_cells {
             return areas::hunt(self.0, asked, cells, hunter);
         }
@@ -76,19 +76,19 @@ struct Plan {
 }
 
 impl Plan {
-    fn read(text: &RawValue) -> Result<Self, Fault> {
-        serde_json::from_str(text.get()).map_err(|error| Fault::usage(error, "plan anew"))
+    fn read(text: &RawValue) -> Result<Self, Diagnostic> {
+        serde_json::from_str(text.get()).map_err(|error| Diagnostic::usage(error, "plan anew"))
     }
 
-    fn bounds(&self, observed: Observed) -> Result<Bounds, Fault> {
+    fn bounds(&self, observed: Observed) -> Result<Bounds, Diagnostic> {
         let size = self.size.map(|(width, height)| Size::new(width as u64, height as u64)).transpose();
-        let size = size.map_err(|problem| Fault::usage(problem, "plan anew"))?;
+        let size = size.map_err(|problem| Diagnostic::usage(problem, "plan anew"))?;
         bounds(observed, self.robots, self.max_walls, size)
     }
 }
 
 impl Deals for Walls {
-    fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Fault> {
+    fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Diagnostic> {
         areas::refuse(asked, "shards", "a hunt over areas is not dealt out")?;
         let (robots, max_walls) = team(asked);
         let search = start(&bounds(self.0, robots, max_walls, asked.size)?)?;
@@ -105,7 +105,7 @@ impl Deals for Walls {
         deal: &RawValue,
         shard: usize,
         far: Option<&RawValue>,
-    ) -> Result<Box<dyn Part + 'a>, Fault> {
+    ) -> Result<Box<dyn Resumable + 'a>, Diagnostic> {
         let plan = Plan::read(deal)?;
         let bounds = Bounds { budget_moves: asked.budget, ..plan.bounds(self.0)? };
         let search = match far {
@@ -115,7 +115,12 @@ impl Deals for Walls {
         Ok(Box::new(Shard(search.map_err(fault)?)))
     }
 
-    fn merge(&self, asked: &Asked<'_>, deal: &RawValue, shards: &[&RawValue]) -> Result<Hunted, Fault> {
+    fn merge(
+        &self,
+        asked: &Asked<'_>,
+        deal: &RawValue,
+        shards: &[&RawValue],
+    ) -> Result<HuntReport, Diagnostic> {
         let plan = Plan::read(deal)?;
         let bounds = plan.bounds(self.0)?;
         let positions = shards.iter().map(|far| position(far)).collect::<Result<Vec<_>, _>>()?;
@@ -124,19 +129,19 @@ impl Deals for Walls {
     }
 }
 
-fn position(far: &RawValue) -> Result<Position, Fault> {
-    serde_json::from_str(far.get()).map_err(|error| Fault::usage(error, "run the shard again"))
+fn position(far: &RawValue) -> Result<Position, Diagnostic> {
+    serde_json::from_str(far.get()).map_err(|error| Diagnostic::usage(error, "run the shard again"))
 }
 
 /// A shard of a hunt.
 struct Shard(Search);
 
-impl Part for Shard {
+impl Resumable for Shard {
     fn step(&mut self) -> Result<bool, Halt> {
         Ok(self.0.wave())
     }
 
-    fn far(&self) -> Result<Box<RawValue>, Fault> {
+    fn far(&self) -> Result<Box<RawValue>, Diagnostic> {
         written(&self.0.position())
     }
 
@@ -144,9 +149,9 @@ impl Part for Shard {
         self.0.is_complete()
     }
 
-    fn facts(&self) -> part::Facts {
+    fn facts(&self) -> resumable::Facts {
         let Progress { runs, moves, .. } = self.0.progress();
-        part::Facts::Chain { runs, moves }
+        resumable::Facts::Chain { runs, moves }
     }
 
     fn words(&self) -> String {
@@ -161,14 +166,19 @@ pub(super) fn team(asked: &Asked<'_>) -> (u64, u32) {
 }
 
 /// What is told of a search, and of each run that it found.
-fn told(scheme: &'static Profile, rule: RuleId, bounds: &Bounds, found: &Found) -> Result<Hunted, Fault> {
+fn told(
+    scheme: &'static Profile,
+    rule: RuleId,
+    bounds: &Bounds,
+    found: &Found,
+) -> Result<HuntReport, Diagnostic> {
     let quarries = found.counterexamples.iter().map(|counterexample| {
         let run = bounds.run(counterexample);
         let setup = setup(scheme, rule, &run)?;
         let (walls, steps) = (run.walls.len(), counterexample.frames.len());
         let runs = counterexample.runs;
         let broken = counterexample.broken.breach().map(ClauseId::from);
-        Ok(Quarry {
+        Ok(Finding {
             clause: counterexample.broken.clause(),
             facts: RunSize::Chain { runs, walls, steps },
             title: format!(
@@ -181,18 +191,18 @@ fn told(scheme: &'static Profile, rule: RuleId, bounds: &Bounds, found: &Found) 
             shown: broken.map_or(Shown::Endless, Shown::Run),
         })
     });
-    let quarries = quarries.collect::<Result<Vec<Quarry>, Fault>>()?;
+    let quarries = quarries.collect::<Result<Vec<Finding>, Diagnostic>>()?;
     Ok(hunted(bounds, found, quarries))
 }
 
 /// What is told of a search.
-fn hunted(bounds: &Bounds, found: &Found, quarries: Vec<Quarry>) -> Hunted {
+fn hunted(bounds: &Bounds, found: &Found, quarries: Vec<Finding>) -> HuntReport {
     let Found { runs, moves, longest, levels, .. } = found;
     let max_walls = bounds.max_walls;
     let (robots, done) = (bounds.robots as u64, (levels.len() as u32).checked_sub(1));
     let covered = done.map(|walls| format!("with at most {}", counted(walls, "wall")));
     let (all_runs, all_moves) = (counted(*runs, "run"), counted(*moves, "team move"));
-    Hunted {
+    HuntReport {
         robots,
         facts: Facts::Chain { runs: *runs, moves: *moves, longest: *longest, max_walls },
         is_complete: found.complete && found.given_up == 0,
@@ -208,7 +218,7 @@ fn hunted(bounds: &Bounds, found: &Found, quarries: Vec<Quarry>) -> Hunted {
     }
 }
 
-fn search(asked: &Asked<'_>, bounds: &Bounds, hunter: &mut dyn Hunter) -> Result<Found, Fault> {
+fn search(asked: &Asked<'_>, bounds: &Bounds, hunter: &mut dyn Hunter) -> Result<Found, Diagnostic> {
     let mut saved = asked.resume.map(|path| Saved::new(path, asked.scheme, asked.rule, bounds));
     let mut search = match &mut saved {
         Some(saved) => saved.search(bounds)?,
@@ -238,8 +248,13 @@ fn search(asked: &Asked<'_>, bounds: &Bounds, hunter: &mut dyn Hunter) -> Result
 /// `max_walls`.
 ///
 /// # Errors
-/// A [`Fault`] if there are too few or too many robots.
-pub fn bounds(observed: Observed, robots: u64, max_walls: u32, size: Option<Size>) -> Result<Bounds, Fault> {
+/// A [`Diagnostic`] if there are too few or too many robots.
+pub fn bounds(
+    observed: Observed,
+    robots: u64,
+    max_walls: u32,
+    size: Option<Size>,
+) -> Result<Bounds, Diagnostic> {
     let count = usize::try_from(robots).ok().filter(|count| (2..=MAX_ROBOTS).contains(count));
     let count = count.ok_or_else(|| {
         let what = match robots {
@@ -247,7 +262,7 @@ pub fn bounds(observed: Observed, robots: u64, max_walls: u32, size: Option<Size
             1 => "the base alone".to_owned(),
             _ => format!("{robots} robots"),
         };
-        Fault::of_field(
+        Diagnostic::of_field(
             "robots",
             format_args!("{what} cannot be the team"),
             format_args!("give `robots` a number from 2 to {MAX_ROBOTS}, the base counted"),
@@ -264,31 +279,33 @@ pub fn bounds(observed: Observed, robots: u64, max_walls: u32, size: Option<Size
 /// The search within `bounds`, from the start.
 ///
 /// # Errors
-/// A [`Fault`] if it cannot be made.
-pub fn start(bounds: &Bounds) -> Result<Search, Fault> {
+/// A [`Diagnostic`] if it cannot be made.
+pub fn start(bounds: &Bounds) -> Result<Search, Diagnostic> {
     Search::new(bounds).map_err(fault)
 }
 
 /// The fault of a search that is refused.
-pub(super) fn fault(refused: Unsearchable) -> Fault {
+pub(super) fn fault(refused: Unsearchable) -> Diagnostic {
     let refused = match refused {
         Unsearchable::Team(refused) => return super::fault(refused),
         Unsearchable::Search(refused) => refused,
     };
     match refused {
-        tree::Unsearchable::TooManyWalls { edges, .. } => Fault::of_field(
+        tree::Unsearchable::TooManyWalls { edges, .. } => Diagnostic::of_field(
             "max-walls",
             refused,
             format_args!("give `max-walls` a number up to {edges}, or a larger `size`"),
         ),
         tree::Unsearchable::TooLarge { .. } => {
-            Fault::of_field("size", refused, "give fewer `robots` or a smaller `size`")
+            Diagnostic::of_field("size", refused, "give fewer `robots` or a smaller `size`")
         }
-        tree::Unsearchable::Beyond { walls } => Fault::of_field(
+        tree::Unsearchable::Beyond { walls } => Diagnostic::of_field(
             "max-walls",
             refused,
             format_args!("give `max-walls` {walls} or more, or another `resume` file"),
         ),
-        tree::Unsearchable::Foreign | tree::Unsearchable::Short => Fault::of_field("resume", refused, AGAIN),
+        tree::Unsearchable::Foreign | tree::Unsearchable::Short => {
+            Diagnostic::of_field("resume", refused, AGAIN)
+        }
     }
 }

@@ -9,16 +9,16 @@ use tautline_proofs::engine::states::Limits as Most;
 use tautline_proofs::frontier::areas::{Counterexample, fewest, setting};
 use tautline_proofs::frontier::drift::{Drift, PARTS};
 use tautline_proofs::frontier::world::{Demand, Event, Setting};
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 pub(super) use self::rivals::Simulated;
+use crate::diagnostic::Diagnostic;
 use crate::explore::hunt::{
-    Asked, Bound, Done, Facts, Hunt, Hunted, Hunter, Quarry, RunSize, Shown, outcome,
+    Asked, Bound, Done, Facts, Finding, Hunt, HuntReport, Hunter, RunSize, Shown, outcome,
 };
 use crate::explore::run::Limits;
 use crate::explore::watched::{Count, watched};
 use crate::explore::{ClauseId, Setup};
-use crate::fault::Fault;
 use crate::layout::{Layout, Size};
 
 /// Robots when nobody says how many.
@@ -46,7 +46,7 @@ fn areas(size: Size) -> Vec<(i16, i16)> {
 }
 
 /// The size and the number of robots that are asked for.
-fn bounds(asked: &Asked<'_>, most: u64) -> Result<(Size, u64), Fault> {
+fn bounds(asked: &Asked<'_>, most: u64) -> Result<(Size, u64), Diagnostic> {
     let size = match asked.size {
         Some(size) => size,
         None => Size::new(DEFAULT_SIZE.0, DEFAULT_SIZE.1)?,
@@ -54,7 +54,7 @@ fn bounds(asked: &Asked<'_>, most: u64) -> Result<(Size, u64), Fault> {
     if size.cells() > MOST_CELLS {
         let what = format!("{size} cells are {}, too many to search all their layouts", size.cells());
         let remedy = format!("give `size` at most {MOST_CELLS} cells, for example 4x4 or 8x2");
-        return Err(Fault::of_field("size", what, remedy));
+        return Err(Diagnostic::of_field("size", what, remedy));
     }
     let robots = asked.robots.unwrap_or(DEFAULT_ROBOTS);
     if !(1..=most).contains(&robots) {
@@ -62,12 +62,16 @@ fn bounds(asked: &Asked<'_>, most: u64) -> Result<(Size, u64), Fault> {
             0 => "a hunt without a robot finds nothing".to_owned(),
             _ => format!("this search holds {}, and not {robots}", counted(most, "robot")),
         };
-        return Err(Fault::of_field("robots", what, format_args!("give `robots` a number from 1 to {most}")));
+        return Err(Diagnostic::of_field(
+            "robots",
+            what,
+            format_args!("give `robots` a number from 1 to {most}"),
+        ));
     }
     if robots > size.cells() as u64 {
         let what = format!("{robots} robots do not find room in {size} cells");
         let remedy = format!("give `robots` a number up to {}, or a larger `size`", size.cells());
-        return Err(Fault::of_field("robots", what, remedy));
+        return Err(Diagnostic::of_field("robots", what, remedy));
     }
     Ok((size, robots))
 }
@@ -77,14 +81,14 @@ impl Hunt for Searched {
         &[Bound::Walls, Bound::Losses, Bound::Error]
     }
 
-    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault> {
+    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
         let (size, robots) = bounds(asked, MOST_ROBOTS)?;
         let max_wrong = match error(asked)? {
             Off::Never => 0,
             Off::OneCell => 1,
             Off::Parts(_) if robots > 1 => {
                 let what = "an error of a part of a cell is searched of one robot alone";
-                return Err(Fault::of_field("error", what, "give `robots` 1, or `error` 1"));
+                return Err(Diagnostic::of_field("error", what, "give `robots` 1, or `error` 1"));
             }
             Off::Parts(parts) => return drifting(self.0, size, parts, asked, hunter),
         };
@@ -107,7 +111,7 @@ enum Off {
     Parts(u8),
 }
 
-fn error(asked: &Asked<'_>) -> Result<Off, Fault> {
+fn error(asked: &Asked<'_>) -> Result<Off, Diagnostic> {
     let parts = asked.error_cells.unwrap_or(0.0) * f64::from(PARTS);
     let whole = (0..=PARTS as u8).find(|&whole| f64::from(whole).to_bits() == parts.abs().to_bits());
     match whole {
@@ -118,7 +122,7 @@ fn error(asked: &Asked<'_>) -> Result<Off, Fault> {
             let what = format!("an error of {} cells is not searched", asked.error_cells.unwrap_or(0.0));
             let remedy =
                 "give `error` a number of sixteenths from 0 to 1, such as 0.25; 1 is one fix off by one cell";
-            Err(Fault::of_field("error", what, remedy))
+            Err(Diagnostic::of_field("error", what, remedy))
         }
     }
 }
@@ -130,7 +134,7 @@ fn drifting(
     error: u8,
     asked: &Asked<'_>,
     hunter: &mut dyn Hunter,
-) -> Result<Hunted, Fault> {
+) -> Result<HuntReport, Diagnostic> {
     let max_obstacles = most_obstacles(asked);
     let system = Drift { rule, error, max_obstacles };
     let mut count = Count { is_complete: true, ..Count::default() };
@@ -145,7 +149,7 @@ fn drifting(
             let size = [area.0 as usize, area.1 as usize];
             let (story, walls) = system.story(area, run);
             let clause = Demand::Marks.clause();
-            found.push(Quarry {
+            found.push(Finding {
                 clause,
                 facts: RunSize::Area { columns: size[0], rows: size[1], walls, steps: run.steps.len() },
                 title: title(size, walls, run.steps.len()),
@@ -176,7 +180,7 @@ fn searched<const ROBOTS: usize>(
     max_wrong: u8,
     asked: &Asked<'_>,
     hunter: &mut dyn Hunter,
-) -> Result<(Count, Vec<Quarry>), Fault> {
+) -> Result<(Count, Vec<Finding>), Diagnostic> {
     let max_losses = asked.max_losses.unwrap_or(0);
     let mut found: Vec<(Demand, Counterexample<ROBOTS>)> = Vec::new();
     let mut count = Count { is_complete: true, ..Count::default() };
@@ -208,7 +212,7 @@ fn quarry<const ROBOTS: usize>(
     asked: &Asked<'_>,
     demand: Demand,
     found: &Counterexample<ROBOTS>,
-) -> Result<Quarry, Fault> {
+) -> Result<Finding, Diagnostic> {
     let area = found.setting.area;
     let mut layout = Layout::open(area.width() as u64, area.height() as u64)?;
     let (cells, moves, blocked, choices) = match (found.steps(), found.given()) {
@@ -232,7 +236,7 @@ fn quarry<const ROBOTS: usize>(
     let is_stored = found.run.round().is_empty() && !setup.choices.is_empty();
     let story = found.story();
     let (columns, rows) = (area.width(), area.height());
-    Ok(Quarry {
+    Ok(Finding {
         clause: demand.clause(),
         facts: RunSize::Area { columns, rows, walls, steps: moves },
         title: title([columns, rows], walls, moves),
@@ -246,14 +250,14 @@ fn title([columns, rows]: [usize; 2], walls: usize, moves: usize) -> String {
 }
 
 /// What is told of a hunt.
-fn told(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Vec<Quarry>) -> Hunted {
+fn told(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Vec<Finding>) -> HuntReport {
     let Count { states, steps, cells, is_complete } = *count;
     let (all_states, all_steps) = (counted(states, "state"), counted(steps, "step"));
     let losses = asked.max_losses.unwrap_or(0);
     let covered = cells.map(|cells| format!("of at most {}", counted(cells, "cell")));
     let lost = if losses == 0 { String::new() } else { format!(", at most {losses} lost") };
     let walls = asked.max_walls.map_or_else(String::new, |walls| format!(", at most {walls} blocked"));
-    Hunted {
+    HuntReport {
         robots,
         facts: Facts::Frontier {
             size: size.to_string(),

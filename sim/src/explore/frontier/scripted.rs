@@ -11,16 +11,16 @@ use tautline_proofs::frontier::world::{Demand, Event, Setting, World};
 use tautline_proofs::run::Frame;
 
 use super::{COVERS, KNOWS, reachable};
+use crate::diagnostic::Diagnostic;
 use crate::explore::ClauseId;
-use crate::explore::misfit::of_choices;
 use crate::explore::run::{End, Team};
 use crate::explore::setup::Setup;
+use crate::explore::setup_error::of_choices;
 use crate::explore::survey::Survey;
-use crate::fault::Fault;
 use crate::layout::Layout;
 
 /// The team of `setup`, which has choices.
-pub(super) fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Fault> {
+pub(super) fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Diagnostic> {
     match setup.robots {
         1 => begin::<1>(setup, rule),
         2 => begin::<2>(setup, rule),
@@ -29,7 +29,7 @@ pub(super) fn start(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Faul
     }
 }
 
-fn begin<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Fault> {
+fn begin<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Box<dyn Team>, Diagnostic> {
     let layout = &setup.layout;
     let starts = setup.starts();
     let setting = setting::<ROBOTS>(rule, (layout.width(), layout.height()));

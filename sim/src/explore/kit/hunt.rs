@@ -8,16 +8,16 @@ use tautline_proofs::engine::states::{Found, Limits as Most};
 use tautline_proofs::kit::counterexample::{Counterexample, fewest};
 use tautline_proofs::kit::symmetry::Symmetric;
 use tautline_proofs::kit::world::{Demand, Setting, Speeds, Starts};
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::EQUAL;
+use crate::diagnostic::Diagnostic;
 use crate::explore::hunt::{
-    Asked, Bound, Done, Facts, Hunt, Hunted, Hunter, Quarry, RunSize, Shown, outcome,
+    Asked, Bound, Done, Facts, Finding, Hunt, HuntReport, Hunter, RunSize, Shown, outcome,
 };
 use crate::explore::run::Limits;
 use crate::explore::watched::{Count, watched};
 use crate::explore::{ClauseId, Setup};
-use crate::fault::Fault;
 use crate::layout::{Layout, Size};
 
 /// Robots when nobody says how many.
@@ -111,7 +111,7 @@ impl Hunt for Searched {
         &[Bound::Walls]
     }
 
-    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<Hunted, Fault> {
+    fn hunt(&self, asked: &Asked<'_>, hunter: &mut dyn Hunter) -> Result<HuntReport, Diagnostic> {
         let (size, robots) = bounds(asked)?;
         let mut count = Count { is_complete: true, ..Count::default() };
         let found = match robots {
@@ -134,7 +134,7 @@ fn lattices(size: Size) -> Vec<(i16, i16)> {
 }
 
 /// The size and the number of robots that are asked for.
-fn bounds(asked: &Asked<'_>) -> Result<(Size, u64), Fault> {
+fn bounds(asked: &Asked<'_>) -> Result<(Size, u64), Diagnostic> {
     let size = match asked.size {
         Some(size) => size,
         None => Size::new(DEFAULT_SIZE.0, DEFAULT_SIZE.1)?,
@@ -142,14 +142,14 @@ fn bounds(asked: &Asked<'_>) -> Result<(Size, u64), Fault> {
     let nodes = size.cells();
     if nodes == 1 {
         let what = "1x1 is one node, and no path to drive";
-        return Err(Fault::of_field("size", what, "give `size` at least 2 nodes, for example 2x1"));
+        return Err(Diagnostic::of_field("size", what, "give `size` at least 2 nodes, for example 2x1"));
     }
     if nodes > MOST_NODES || size.width().max(size.height()) > MOST_SIDE {
         let what = format!("{size} nodes are {nodes}, too many to search all their layouts");
         let remedy = format!(
             "give `size` at most {MOST_NODES} nodes and {MOST_SIDE} on a side, for example 4x3 or 8x2"
         );
-        return Err(Fault::of_field("size", what, remedy));
+        return Err(Diagnostic::of_field("size", what, remedy));
     }
     let robots = asked.robots.unwrap_or(DEFAULT_ROBOTS);
     if !(1..=MOST_ROBOTS).contains(&robots) {
@@ -158,12 +158,12 @@ fn bounds(asked: &Asked<'_>) -> Result<(Size, u64), Fault> {
             _ => format!("the joint search holds {MOST_ROBOTS} robots, and not {robots}"),
         };
         let remedy = format!("give `robots` a number from 1 to {MOST_ROBOTS}");
-        return Err(Fault::of_field("robots", what, remedy));
+        return Err(Diagnostic::of_field("robots", what, remedy));
     }
     if robots > nodes as u64 {
         let what = format!("{robots} robots do not find room in {nodes} nodes");
         let remedy = format!("give `robots` a number up to {nodes}, or a larger `size`");
-        return Err(Fault::of_field("robots", what, remedy));
+        return Err(Diagnostic::of_field("robots", what, remedy));
     }
     Ok((size, robots))
 }
@@ -177,7 +177,7 @@ impl Searched {
         asked: &Asked<'_>,
         count: &mut Count,
         hunter: &mut dyn Hunter,
-    ) -> Result<Vec<Quarry>, Fault> {
+    ) -> Result<Vec<Finding>, Diagnostic> {
         let mut all: Vec<Broken<ROBOTS>> = Vec::new();
         'lattices: for lattice in lattices(size) {
             for &pass in passes {
@@ -212,7 +212,7 @@ impl Searched {
 }
 
 /// A counterexample of a search as one that can be stored.
-fn quarry<const ROBOTS: usize>(asked: &Asked<'_>, broken: &Broken<ROBOTS>) -> Result<Quarry, Fault> {
+fn quarry<const ROBOTS: usize>(asked: &Asked<'_>, broken: &Broken<ROBOTS>) -> Result<Finding, Diagnostic> {
     let Broken { clause, found, .. } = broken;
     let area = found.setting.area;
     let (columns, rows) = (area.width(), area.height());
@@ -231,7 +231,7 @@ fn quarry<const ROBOTS: usize>(asked: &Asked<'_>, broken: &Broken<ROBOTS>) -> Re
     let choices = super::scripted::choices(found.setting.speeds, &choices);
     let story = found.story();
     let (drives, walls) = (found.drives(), walls.len());
-    Ok(Quarry {
+    Ok(Finding {
         clause: clause.as_str(),
         facts: RunSize::Area { columns, rows, walls, steps: drives },
         title: format!("{columns}x{rows} nodes, {}, {}", counted(walls, "wall"), counted(drives, "drive")),
@@ -241,13 +241,13 @@ fn quarry<const ROBOTS: usize>(asked: &Asked<'_>, broken: &Broken<ROBOTS>) -> Re
 }
 
 /// What is told of a hunt.
-fn told(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Vec<Quarry>) -> Hunted {
+fn told(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Vec<Finding>) -> HuntReport {
     let Count { states, steps, cells, is_complete } = *count;
     let (all_states, all_steps) = (counted(states, "state"), counted(steps, "step"));
     let covered = cells.map(|nodes| format!("of at most {}", counted(nodes, "node")));
     let walls =
         asked.max_walls.map_or_else(String::new, |walls| format!(", at most {}", counted(walls, "wall")));
-    Hunted {
+    HuntReport {
         robots,
         facts: Facts::Kit { size: size.to_string(), states, steps, max_walls: asked.max_walls },
         is_complete,

@@ -9,12 +9,12 @@ use tautline_proofs::kit::world::{Demand, Event, Setting, Speeds, Starts, World}
 use tautline_proofs::run::Frame;
 
 use super::{COVERS, ENDS, EQUAL, MOVES, WHOLE, nodes};
+use crate::diagnostic::Diagnostic;
 use crate::explore::ClauseId;
-use crate::explore::misfit::of_choices;
 use crate::explore::run::{End, Team};
 use crate::explore::setup::Setup;
+use crate::explore::setup_error::of_choices;
 use crate::explore::survey::Survey;
-use crate::fault::Fault;
 use crate::kit::paths;
 use crate::layout::Layout;
 
@@ -32,7 +32,7 @@ pub(super) fn choices(speeds: Speeds, steps: &[u32]) -> Vec<u32> {
 }
 
 /// The team of `setup`, which has choices.
-pub(super) fn start(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Fault> {
+pub(super) fn start(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Diagnostic> {
     match setup.robots {
         1 => begin::<1>(setup, rule),
         2 => begin::<2>(setup, rule),
@@ -41,7 +41,7 @@ pub(super) fn start(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Fault> {
     }
 }
 
-fn begin<const ROBOTS: usize>(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Fault> {
+fn begin<const ROBOTS: usize>(setup: &Setup, rule: Kit) -> Result<Box<dyn Team>, Diagnostic> {
     let layout = &setup.layout;
     let starts = setup.starts();
     let setting = Setting::<ROBOTS>::new(rule, (layout.width(), layout.height()));

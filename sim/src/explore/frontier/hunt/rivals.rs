@@ -6,12 +6,12 @@ use tautline_proofs::engine::lots::{self, Lots};
 
 use super::super::{ENDS, reachable};
 use super::{MOST_CELLS, areas, bounds, title, told};
+use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::each::{Each, FoundBy};
-use crate::explore::hunt::{Asked, Bound, Hunted, Quarry, RunSize, Shown};
+use crate::explore::hunt::{Asked, Bound, Finding, HuntReport, RunSize, Shown};
 use crate::explore::run::{Limits, run};
 use crate::explore::watched::Count;
 use crate::explore::{ClauseId, Profile, RuleId, Setup, team};
-use crate::fault::{Fault, Halt};
 use crate::layout::Layout;
 
 /// Team moves after which a rival is watched no longer.
@@ -26,7 +26,7 @@ impl Each for Simulated {
 
     const TAKES: &'static [Bound] = &[Bound::Walls];
 
-    fn layouts(&self, asked: &Asked<'_>) -> Result<Layouts, Fault> {
+    fn layouts(&self, asked: &Asked<'_>) -> Result<Layouts, Diagnostic> {
         let (size, robots) = bounds(asked, MOST_CELLS as u64)?;
         let &Asked { scheme, rule, max_walls, .. } = asked;
         Ok(Layouts {
@@ -47,7 +47,7 @@ impl Each for Simulated {
         asked: &Asked<'_>,
         (count, mut found): FoundBy<Self>,
         is_complete: bool,
-    ) -> Result<Hunted, Fault> {
+    ) -> Result<HuntReport, Diagnostic> {
         found.sort_by_key(|quarry| quarry.clause);
         Ok(told(asked, bounds(asked, MOST_CELLS as u64)?, &Count { is_complete, ..count }, found))
     }
@@ -110,14 +110,14 @@ impl Lots for Layouts {
     type Stage = (i16, i16);
     type Lot = Blocked;
     type Look = Tried;
-    type Found = (Count, Vec<Quarry>);
-    type Fault = Fault;
+    type Found = (Count, Vec<Finding>);
+    type Diagnostic = Diagnostic;
 
     fn stages(&self) -> Vec<(i16, i16)> {
         self.areas.clone()
     }
 
-    fn lots(&self, area: (i16, i16)) -> Result<Vec<Blocked>, Fault> {
+    fn lots(&self, area: (i16, i16)) -> Result<Vec<Blocked>, Diagnostic> {
         let mut sets: Vec<u32> = (0..1_u32 << (area.0 * area.1)).collect();
         sets.retain(|set| set.count_ones() <= self.max_walls);
         sets.sort_by_key(|set| (set.count_ones(), *set));
@@ -128,7 +128,7 @@ impl Lots for Layouts {
         u64::from(blocked.cells(false).len() as u32).saturating_pow(self.robots as u32 + 1)
     }
 
-    fn look(&self, _: (i16, i16), blocked: &Blocked, _: u64) -> Result<Tried, Fault> {
+    fn look(&self, _: (i16, i16), blocked: &Blocked, _: u64) -> Result<Tried, Diagnostic> {
         let mut tried = Tried { runs: 0, steps: 0, broken: Vec::new() };
         for (start, starts) in blocked.starts(self.robots).iter().enumerate() {
             let setup = self.setup(blocked, starts)?;
@@ -149,10 +149,10 @@ impl Lots for Layouts {
 
     fn add(
         &self,
-        (count, found): &mut (Count, Vec<Quarry>),
+        (count, found): &mut (Count, Vec<Finding>),
         blocked: &Blocked,
         look: Tried,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), Diagnostic> {
         count.states += look.runs;
         count.steps += look.steps;
         for Broken { clause, start, steps } in look.broken {
@@ -165,7 +165,7 @@ impl Lots for Layouts {
         Ok(())
     }
 
-    fn cover(&self, (count, _): &mut (Count, Vec<Quarry>), (width, height): (i16, i16)) {
+    fn cover(&self, (count, _): &mut (Count, Vec<Finding>), (width, height): (i16, i16)) {
         count.cells = Some((width * height) as usize);
     }
 }
@@ -185,7 +185,7 @@ impl Blocked {
 }
 
 impl Layouts {
-    fn setup(&self, blocked: &Blocked, starts: &[Cell]) -> Result<Setup, Fault> {
+    fn setup(&self, blocked: &Blocked, starts: &[Cell]) -> Result<Setup, Diagnostic> {
         let (width, height) = blocked.area;
         let mut layout = Layout::open(width as u64, height as u64)?;
         blocked.cells(true).into_iter().for_each(|cell| layout.block(cell));
@@ -220,7 +220,7 @@ fn endless(setup: &Setup) -> String {
 
 /// Runs a rival once: its team moves, and what it breaks, each with the team move. It goes on after it has broken something,
 /// for the sake of the other clauses.
-fn try_one(setup: &Setup) -> Result<(u32, Vec<(ClauseId, u32)>), Fault> {
+fn try_one(setup: &Setup) -> Result<(u32, Vec<(ClauseId, u32)>), Diagnostic> {
     let mut members = team(setup)?;
     let mut broken = Vec::new();
     let made = run(&mut *members, &setup.layout, setup.limits, &mut |made| {
@@ -239,12 +239,12 @@ fn try_one(setup: &Setup) -> Result<(u32, Vec<(ClauseId, u32)>), Fault> {
 }
 
 /// A run that breaks a clause, as one that can be stored, unless it goes on for ever.
-fn quarry(setup: Setup, clause: ClauseId, steps: u32) -> Quarry {
+fn quarry(setup: Setup, clause: ClauseId, steps: u32) -> Finding {
     let layout = &setup.layout;
     let size = [layout.width() as usize, layout.height() as usize];
     let walls = layout.size().cells() - layout.free_cells();
     let limits = Limits::stopping_at(Some(clause));
-    Quarry {
+    Finding {
         clause: clause.as_str(),
         facts: RunSize::Area { columns: size[0], rows: size[1], walls, steps: steps as usize },
         title: title(size, walls, steps as usize),

@@ -50,7 +50,7 @@ impl Column {
 
 /// Rows of cells.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Columns {
+pub struct TextTable {
     columns: Vec<Column>,
     lines: Vec<Line>,
 }
@@ -61,7 +61,7 @@ enum Line {
     Row(Vec<String>),
 }
 
-impl Columns {
+impl TextTable {
     /// No row yet.
     pub fn new(columns: impl IntoIterator<Item = Column>) -> Self {
         Self { columns: columns.into_iter().collect(), lines: Vec::new() }
@@ -129,14 +129,14 @@ impl Columns {
 pub struct Figures<'a, T> {
     heading: String,
     measured: &'a [T],
-    columns: Columns,
+    columns: TextTable,
 }
 
 impl<'a, T> Figures<'a, T> {
     /// No figure yet, under a line that says what was measured.
     pub fn new(heading: String, measured: &'a [T]) -> Self {
         let of_figures = measured.iter().map(|_| Column::right(Width::Alike));
-        let columns = Columns::new([Column::left(Width::Fit)].into_iter().chain(of_figures));
+        let columns = TextTable::new([Column::left(Width::Fit)].into_iter().chain(of_figures));
         Self { heading, measured, columns }
     }
 
@@ -162,7 +162,7 @@ mod tests {
 
     #[test]
     fn columns_are_as_wide_as_they_say() {
-        let mut columns = Columns::new([
+        let mut columns = TextTable::new([
             Column::left(Width::Fit),
             Column::right(Width::Alike),
             Column::right(Width::Alike).after(1),

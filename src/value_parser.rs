@@ -2,10 +2,10 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use tautline_sim::explore::{Profile, RuleId, catalogue};
-use tautline_sim::words::Worded;
+use tautline_sim::named_values::NamedValues;
 
 /// Reads one of the words for values of `T`; the help says what each of them means.
-pub(crate) fn chosen<T: Worded + Send + Sync>() -> impl TypedValueParser<Value = T> {
+pub(crate) fn chosen<T: NamedValues + Send + Sync>() -> impl TypedValueParser<Value = T> {
     one_of(T::WORDS.iter().copied())
 }
 

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::value::{RawValue, to_raw_value};
 
-use crate::fault::{Fault, Halt};
+use crate::diagnostic::{Diagnostic, Halt};
 
 /// How often work that can be taken up again is kept in its file.
 pub const KEEP_EVERY: Duration = Duration::from_secs(5);
@@ -25,7 +25,7 @@ pub enum Facts {
 }
 
 /// A part of some work.
-pub trait Part {
+pub trait Resumable {
     /// Works a little further. Returns whether there is more to do, and to spend.
     ///
     /// # Errors
@@ -35,8 +35,8 @@ pub trait Part {
     /// How far it is: enough to go on from here, on any machine.
     ///
     /// # Errors
-    /// A [`Fault`] if that cannot be written.
-    fn far(&self) -> Result<Box<RawValue>, Fault>;
+    /// A [`Diagnostic`] if that cannot be written.
+    fn far(&self) -> Result<Box<RawValue>, Diagnostic>;
 
     /// Whether nothing is left to do.
     fn is_done(&self) -> bool;
@@ -51,7 +51,7 @@ pub trait Part {
 /// `value` as JSON, as it stands in a file.
 ///
 /// # Errors
-/// A [`Fault`] if it cannot be written.
-pub fn written(value: &impl Serialize) -> Result<Box<RawValue>, Fault> {
-    to_raw_value(value).map_err(|error| Fault::usage(error, "report it: this is a bug of tautline"))
+/// A [`Diagnostic`] if it cannot be written.
+pub fn written(value: &impl Serialize) -> Result<Box<RawValue>, Diagnostic> {
+    to_raw_value(value).map_err(|error| Diagnostic::usage(error, "report it: this is a bug of tautline"))
 }

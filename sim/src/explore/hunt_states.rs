@@ -2,15 +2,15 @@
 //! they miss written down.
 
 use tautline_proofs::floor::trap::{Bounds, End, Found, MAX_AGENTS, MAX_CELLS, Trap, Way};
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::agents::PREMATURE;
 use super::each::Each;
-use super::hunt::{Asked, Bound, Done, Facts, Hunted, Quarry, RunSize, Shown};
+use super::hunt::{Asked, Bound, Done, Facts, Finding, HuntReport, RunSize, Shown};
 use super::rule::RuleId;
 use super::run::{Limits, OnViolation};
 use super::setup::{Profile, Setup};
-use crate::fault::Fault;
+use crate::diagnostic::Diagnostic;
 use crate::layout::{Layout, Problem, Size};
 
 /// Columns and rows of the layouts at most, if nobody says.
@@ -38,7 +38,7 @@ impl Each for Traps {
         Some(refusal(bound))
     }
 
-    fn layouts(&self, asked: &Asked<'_>) -> Result<Bounds, Fault> {
+    fn layouts(&self, asked: &Asked<'_>) -> Result<Bounds, Diagnostic> {
         let Sought { agents, max_misses, size } = sought(asked)?;
         let (max_width, max_height) = (size.width(), size.height());
         Ok(Bounds { way: self.0, agents, max_misses, max_width, max_height, budget_steps: asked.budget })
@@ -48,13 +48,13 @@ impl Each for Traps {
         so_far(asked, found)
     }
 
-    fn told(&self, asked: &Asked<'_>, found: Found, is_complete: bool) -> Result<Hunted, Fault> {
+    fn told(&self, asked: &Asked<'_>, found: Found, is_complete: bool) -> Result<HuntReport, Diagnostic> {
         hunted(asked, &found.ended(is_complete), "state")
     }
 }
 
 /// What is told of a search of so many `what`s: states, or runs.
-pub(super) fn hunted(asked: &Asked<'_>, found: &Found, what: &str) -> Result<Hunted, Fault> {
+pub(super) fn hunted(asked: &Asked<'_>, found: &Found, what: &str) -> Result<HuntReport, Diagnostic> {
     let Sought { agents, max_misses, size } = sought(asked)?;
     let quarries = found.trap.iter().map(|trap| quarry(asked, trap)).collect::<Result<Vec<_>, _>>()?;
     let Found { layouts, states, steps, levels, .. } = *found;
@@ -66,7 +66,7 @@ pub(super) fn hunted(asked: &Asked<'_>, found: &Found, what: &str) -> Result<Hun
     };
     let order = if agents == 1 { "" } else { " that act in turn" };
     let (all_layouts, all_states) = (counted(layouts, "layout"), counted(states, what));
-    Ok(Hunted {
+    Ok(HuntReport {
         robots: agents.into(),
         facts: Facts::Floor { size: size.to_string(), layouts, states, steps, max_misses },
         is_complete: found.is_complete,
@@ -87,7 +87,7 @@ pub(super) fn hunted(asked: &Asked<'_>, found: &Found, what: &str) -> Result<Hun
     })
 }
 
-fn quarry(asked: &Asked<'_>, trap: &Trap) -> Result<Quarry, Fault> {
+fn quarry(asked: &Asked<'_>, trap: &Trap) -> Result<Finding, Diagnostic> {
     let Trap { width, height, moves, .. } = *trap;
     let misses = trap.missed.len();
     let (clause, shown) = match trap.end {
@@ -96,7 +96,7 @@ fn quarry(asked: &Asked<'_>, trap: &Trap) -> Result<Quarry, Fault> {
     };
     let facts = RunSize::Floor { misses, columns: width, rows: height, steps: moves };
     let title = format!("{misses} missed, {width}x{height} cells, {}", counted(moves, "team move"));
-    Ok(Quarry { clause, facts, title, setup: setup(asked.scheme, asked.rule, trap)?, shown })
+    Ok(Finding { clause, facts, title, setup: setup(asked.scheme, asked.rule, trap)?, shown })
 }
 
 /// What a hunt for traps is asked for.
@@ -109,8 +109,8 @@ pub(super) struct Sought {
 /// What is asked for.
 ///
 /// # Errors
-/// A [`Fault`] if there are too few or too many agents or cells.
-pub(super) fn sought(asked: &Asked<'_>) -> Result<Sought, Fault> {
+/// A [`Diagnostic`] if there are too few or too many agents or cells.
+pub(super) fn sought(asked: &Asked<'_>) -> Result<Sought, Diagnostic> {
     let size = match asked.size {
         Some(size) => size,
         None => Size::new(DEFAULT_SIDE, DEFAULT_SIDE)?,
@@ -119,12 +119,12 @@ pub(super) fn sought(asked: &Asked<'_>) -> Result<Sought, Fault> {
     let fitting = u32::try_from(agents).ok().filter(|agents| (1..=MAX_AGENTS).contains(agents));
     let agents = fitting.ok_or_else(|| {
         let what = format!("a hunt for traps of {agents} agents");
-        Fault::of_field("robots", what, format_args!("give `robots` a number from 1 to {MAX_AGENTS}"))
+        Diagnostic::of_field("robots", what, format_args!("give `robots` a number from 1 to {MAX_AGENTS}"))
     })?;
     if size.cells() > MAX_CELLS {
         let what = format!("{size} cells are {}, too many to search all their layouts", size.cells());
         let remedy = format!("give `size` at most {MAX_CELLS} cells, for example 4x4 or 8x2");
-        return Err(Fault::of_field("size", what, remedy));
+        return Err(Diagnostic::of_field("size", what, remedy));
     }
     Ok(Sought { agents, max_misses: asked.max_misses.unwrap_or(DEFAULT_MISSES), size })
 }

@@ -1,6 +1,6 @@
 //! Files that are there whole or not at all: written beside their place under another name, then renamed. A file that
 //! cannot be written to its end is left out, and nothing else suffers: whoever writes it goes on, and is told by
-//! [`Aside::keep`]. What a command reads, and what this program did not write, is not overwritten.
+//! [`AtomicFile::keep`]. What a command reads, and what this program did not write, is not overwritten.
 
 use std::ffi::OsStr;
 use std::fs::{self, File, TryLockError};
@@ -11,7 +11,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::NamedTempFile;
 
-use crate::fault::{Fault, Halt};
+use crate::diagnostic::{Diagnostic, Halt};
 
 /// How the files begin that this program writes: stored runs and kept hunts, pictures, pages, manual pages, ITF traces,
 /// recordings, tables.
@@ -77,23 +77,23 @@ impl Replaceable {
     }
 
     /// Checks that a file may stand at `target`, which the user calls `path`.
-    fn check(&self, path: &Path, target: &Path) -> Result<(), Fault> {
+    fn check(&self, path: &Path, target: &Path) -> Result<(), Diagnostic> {
         if target.is_dir() {
-            return Err(Fault::in_file(path, "this is a folder", "name a file in it"));
+            return Err(Diagnostic::in_file(path, "this is a folder", "name a file in it"));
         }
         if !target.exists() {
             return Ok(());
         }
         if !target.is_file() {
-            return Err(Fault::in_file(path, "this is a device or a pipe", "name a file"));
+            return Err(Diagnostic::in_file(path, "this is a device or a pipe", "name a file"));
         }
         if self.inputs.iter().any(|input| is_same(input, target)) {
             let what = "this command reads this file, and does not overwrite it";
-            return Err(Fault::in_file(path, what, "store it elsewhere"));
+            return Err(Diagnostic::in_file(path, what, "store it elsewhere"));
         }
         if self.foreign == Foreign::Keep && !is_ours(target) {
             let what = "tautline did not write this file, and does not overwrite it";
-            return Err(Fault::in_file(path, what, "store it elsewhere, or replace it with `force`"));
+            return Err(Diagnostic::in_file(path, what, "store it elsewhere, or replace it with `force`"));
         }
         Ok(())
     }
@@ -125,7 +125,7 @@ pub(crate) fn is_same(one: &Path, other: &Path) -> bool {
 const MAX_LINKS: usize = 40;
 
 /// Where the file is to stand that the user calls `path`: where the symbolic link leads, if it is one.
-fn target(path: &Path) -> Result<PathBuf, Fault> {
+fn target(path: &Path) -> Result<PathBuf, Diagnostic> {
     let mut target = path.to_owned();
     for _ in 0..MAX_LINKS {
         match fs::read_link(&target) {
@@ -133,7 +133,7 @@ fn target(path: &Path) -> Result<PathBuf, Fault> {
             Err(_) => return Ok(target),
         }
     }
-    Err(Fault::in_file(path, "the symbolic links lead to no end", "name a file"))
+    Err(Diagnostic::in_file(path, "the symbolic links lead to no end", "name a file"))
 }
 
 fn folder(path: &Path) -> &Path {
@@ -143,22 +143,22 @@ fn folder(path: &Path) -> &Path {
     }
 }
 
-/// A file in the making. Dropped before [`Aside::keep`], it leaves nothing behind.
+/// A file in the making. Dropped before [`AtomicFile::keep`], it leaves nothing behind.
 #[derive(Debug)]
-pub struct Aside {
+pub struct AtomicFile {
     path: PathBuf,
     target: PathBuf,
     replaceable: Replaceable,
     /// What is written so far, or why the file is left out.
-    file: Result<BufWriter<Part>, Fault>,
+    file: Result<BufWriter<Part>, Diagnostic>,
 }
 
-impl Aside {
+impl AtomicFile {
     /// A file that is to stand at `path`; one that stands there now is replaced in the end, and a symbolic link followed.
     ///
     /// # Errors
-    /// A [`Fault`] if nothing can be written in its folder, or what stands at `path` is not to be replaced.
-    pub fn new(path: &Path, replaceable: &Replaceable) -> Result<Self, Fault> {
+    /// A [`Diagnostic`] if nothing can be written in its folder, or what stands at `path` is not to be replaced.
+    pub fn new(path: &Path, replaceable: &Replaceable) -> Result<Self, Diagnostic> {
         let target = target(path)?;
         replaceable.check(path, &target)?;
         let part = Part::new(folder(&target)).map_err(|error| unwritable(path, &error))?;
@@ -166,7 +166,7 @@ impl Aside {
         Ok(Self { path: path.to_owned(), target, replaceable: replaceable.clone(), file })
     }
 
-    /// A file of which the place is known only when the work is done: what is wrong with it is told by [`Aside::keep`].
+    /// A file of which the place is known only when the work is done: what is wrong with it is told by [`AtomicFile::keep`].
     pub fn late(path: &Path, replaceable: &Replaceable) -> Self {
         Self::new(path, replaceable).unwrap_or_else(|fault| Self {
             path: path.to_owned(),
@@ -179,11 +179,11 @@ impl Aside {
     /// The files that a command stores, where they have a place.
     ///
     /// # Errors
-    /// A [`Fault`] as of [`Aside::new`], or if two of them are the same.
+    /// A [`Diagnostic`] as of [`AtomicFile::new`], or if two of them are the same.
     pub fn several<const N: usize>(
         paths: [Option<&Path>; N],
         replaceable: &Replaceable,
-    ) -> Result<[Option<Self>; N], Fault> {
+    ) -> Result<[Option<Self>; N], Diagnostic> {
         let mut asides = [const { None::<Self> }; N];
         for (place, path) in paths.into_iter().enumerate() {
             let Some(path) = path else { continue };
@@ -195,16 +195,16 @@ impl Aside {
     /// A file that a command stores beside others.
     ///
     /// # Errors
-    /// A [`Fault`] as of [`Aside::new`], or if it is to stand where one of the others is.
+    /// A [`Diagnostic`] as of [`AtomicFile::new`], or if it is to stand where one of the others is.
     pub fn beside<'a>(
         path: &Path,
         mut others: impl Iterator<Item = &'a Self>,
         replaceable: &Replaceable,
-    ) -> Result<Self, Fault> {
+    ) -> Result<Self, Diagnostic> {
         let aside = Self::new(path, replaceable)?;
         if others.any(|other| other.place() == aside.place()) {
             let what = "two files are to stand here";
-            return Err(Fault::in_file(path, what, "give each a name of its own"));
+            return Err(Diagnostic::in_file(path, what, "give each a name of its own"));
         }
         Ok(aside)
     }
@@ -235,14 +235,14 @@ impl Aside {
     pub fn draw(&mut self, drawn: Result<impl AsRef<[u8]>, Halt>) -> Result<(), Halt> {
         match drawn {
             Ok(content) => self.append(content),
-            Err(Halt::Fault(fault)) => self.leave_out(fault),
+            Err(Halt::Diagnostic(fault)) => self.leave_out(fault),
             Err(halt @ Halt::Interrupted) => return Err(halt),
         }
         Ok(())
     }
 
     /// Gives the file up, and makes room for others.
-    pub fn leave_out(&mut self, fault: Fault) {
+    pub fn leave_out(&mut self, fault: Diagnostic) {
         if let Ok(file) = mem::replace(&mut self.file, Err(fault)) {
             // What is still buffered is not to be written when dropped.
             let _ = file.into_parts();
@@ -252,16 +252,16 @@ impl Aside {
     /// Puts the file in its place.
     ///
     /// # Errors
-    /// A [`Fault`] if that is not possible, or if the file was left out; then nothing of it is left.
-    pub fn keep(self) -> Result<(), Fault> {
+    /// A [`Diagnostic`] if that is not possible, or if the file was left out; then nothing of it is left.
+    pub fn keep(self) -> Result<(), Diagnostic> {
         place(vec![self.finish()?]).pop().map_or(Ok(()), Err)
     }
 
     /// Puts the file in its place, locked until what is returned is closed.
     ///
     /// # Errors
-    /// A [`Fault`] as of [`Aside::keep`], or if another process has put a file there.
-    pub(crate) fn keep_locked(self, standing: Standing) -> Result<File, Fault> {
+    /// A [`Diagnostic`] as of [`AtomicFile::keep`], or if another process has put a file there.
+    pub(crate) fn keep_locked(self, standing: Standing) -> Result<File, Diagnostic> {
         let Finished { path, target, part, .. } = self.finish()?;
         lock(&path, part.file.as_file())?;
         let kept = match standing {
@@ -271,7 +271,7 @@ impl Aside {
         kept.map_err(|refused| match refused.error.kind() {
             io::ErrorKind::AlreadyExists => {
                 let what = "another process has put a file here meanwhile";
-                Fault::in_file(&path, what, "wait until it has ended, or name another file")
+                Diagnostic::in_file(&path, what, "wait until it has ended, or name another file")
             }
             _ => unwritable(&path, &refused.error),
         })
@@ -280,8 +280,8 @@ impl Aside {
     /// The file, written to its end.
     ///
     /// # Errors
-    /// A [`Fault`] if that is not possible, or if the file was left out; then nothing of it is left.
-    pub fn finish(self) -> Result<Finished, Fault> {
+    /// A [`Diagnostic`] if that is not possible, or if the file was left out; then nothing of it is left.
+    pub fn finish(self) -> Result<Finished, Diagnostic> {
         let Self { path, target, replaceable, file } = self;
         let part = file?.into_inner().map_err(|error| {
             let (error, file) = error.into_parts();
@@ -305,7 +305,7 @@ pub struct Finished {
 
 /// Puts files in their places together, so that all of them are the new ones or all the old ones: whoever [`abandon`]s unfinished
 /// files meanwhile waits. Returns the faults of those that have no place.
-pub fn place(files: Vec<Finished>) -> Vec<Fault> {
+pub fn place(files: Vec<Finished>) -> Vec<Diagnostic> {
     let together = unfinished();
     let put = |Finished { path, target, replaceable, part }: Finished| {
         let Part { file, entry } = part;
@@ -315,7 +315,7 @@ pub fn place(files: Vec<Finished>) -> Vec<Fault> {
         });
         (entry, placed.err())
     };
-    let (entries, faults): (Vec<Entry>, Vec<Option<Fault>>) = files.into_iter().map(put).unzip();
+    let (entries, faults): (Vec<Entry>, Vec<Option<Diagnostic>>) = files.into_iter().map(put).unzip();
     drop(together);
     drop(entries);
     faults.into_iter().flatten().collect()
@@ -334,13 +334,13 @@ pub(crate) enum Standing {
 /// logged as a warning.
 ///
 /// # Errors
-/// A [`Fault`] if another process has locked it.
-pub(crate) fn lock(path: &Path, file: &File) -> Result<(), Fault> {
+/// A [`Diagnostic`] if another process has locked it.
+pub(crate) fn lock(path: &Path, file: &File) -> Result<(), Diagnostic> {
     match file.try_lock() {
         Ok(()) => Ok(()),
         Err(TryLockError::WouldBlock) => {
             let what = "another process is at work with this file";
-            Err(Fault::in_file(path, what, "wait until it has ended, or name another file"))
+            Err(Diagnostic::in_file(path, what, "wait until it has ended, or name another file"))
         }
         Err(TryLockError::Error(error)) => {
             tracing::warn!("{} cannot be locked against other processes: {error}", path.display());
@@ -415,19 +415,19 @@ fn open_to_others(builder: &mut tempfile::Builder<'_, '_>) {
 #[cfg(not(unix))]
 fn open_to_others(_: &mut tempfile::Builder<'_, '_>) {}
 
-fn unwritable(path: &Path, error: &io::Error) -> Fault {
+fn unwritable(path: &Path, error: &io::Error) -> Diagnostic {
     match error.kind() {
         io::ErrorKind::NotFound => {
-            Fault::in_file(path, "there is no such folder", "make it first, or name another")
+            Diagnostic::in_file(path, "there is no such folder", "make it first, or name another")
         }
         io::ErrorKind::NotADirectory => {
-            Fault::in_file(path, "what should be its folder is none", "name a file in a folder")
+            Diagnostic::in_file(path, "what should be its folder is none", "name a file in a folder")
         }
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
             let what = format_args!("it is left out, there is no room for it: {}", error.kind());
-            Fault::in_file(path, what, "make room, or store it elsewhere")
+            Diagnostic::in_file(path, what, "make room, or store it elsewhere")
         }
-        _ => Fault::in_file(
+        _ => Diagnostic::in_file(
             path,
             format_args!("it cannot be written: {error}"),
             "name a file in a folder that you can write to",
@@ -436,7 +436,7 @@ fn unwritable(path: &Path, error: &io::Error) -> Fault {
 }
 
 /// What goes wrong is told when the file is put in its place.
-impl Write for Aside {
+impl Write for AtomicFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.append(bytes);
         Ok(bytes.len())
@@ -451,8 +451,8 @@ impl Write for Aside {
 mod tests {
     use super::*;
 
-    fn several<const N: usize>(paths: [Option<&Path>; N]) -> Result<[Option<Aside>; N], Fault> {
-        Aside::several(paths, &Replaceable::default())
+    fn several<const N: usize>(paths: [Option<&Path>; N]) -> Result<[Option<AtomicFile>; N], Diagnostic> {
+        AtomicFile::several(paths, &Replaceable::default())
     }
 
     #[test]
@@ -482,7 +482,7 @@ mod tests {
         let replaceable = Replaceable::new(Foreign::Replace, []);
         let finished = |text: &str| {
             paths.each_ref().map(|path| {
-                let mut aside = Aside::new(path, &replaceable).expect("a place");
+                let mut aside = AtomicFile::new(path, &replaceable).expect("a place");
                 aside.append(text);
                 aside.finish().expect("room")
             })
@@ -495,7 +495,10 @@ mod tests {
         // One that has no place any more is left out alone.
         fs::remove_file(&paths[1]).expect("a file");
         fs::create_dir(&paths[1]).expect("a folder");
-        assert_eq!(place(new.into()), [Fault::in_file(&paths[1], "this is a folder", "name a file in it")]);
+        assert_eq!(
+            place(new.into()),
+            [Diagnostic::in_file(&paths[1], "this is a folder", "name a file in it")]
+        );
         assert_eq!(read(), [Some("new".to_owned()), None, Some("new".to_owned())]);
         assert_eq!(folder.path().read_dir().expect("a folder").count(), 3);
     }
@@ -504,9 +507,9 @@ mod tests {
     fn a_file_that_is_left_out_leaves_nothing_and_says_why() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("one");
-        let mut aside = Aside::new(&path, &Replaceable::default()).expect("a place");
+        let mut aside = AtomicFile::new(&path, &Replaceable::default()).expect("a place");
         aside.append("text");
-        let fault = Fault::in_file(&path, "it is too large", "take less");
+        let fault = Diagnostic::in_file(&path, "it is too large", "take less");
         aside.leave_out(fault.clone());
         assert_eq!(folder.path().read_dir().expect("a folder").count(), 0);
         aside.append("more");
@@ -518,7 +521,7 @@ mod tests {
     fn a_file_that_came_meanwhile_is_not_overwritten() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("one");
-        let aside = Aside::new(&path, &Replaceable::default()).expect("a place");
+        let aside = AtomicFile::new(&path, &Replaceable::default()).expect("a place");
         fs::write(&path, "something else").expect("a file");
         assert!(aside.keep().is_err());
         assert_eq!(fs::read_to_string(&path).expect("text"), "something else");
@@ -529,8 +532,8 @@ mod tests {
     #[test]
     fn a_device_is_not_replaced() {
         let replaceable = Replaceable::new(Foreign::Replace, []);
-        let refused = Aside::new(Path::new("/dev/null"), &replaceable).map(|_| ());
-        let fault = Fault::in_file(Path::new("/dev/null"), "this is a device or a pipe", "name a file");
+        let refused = AtomicFile::new(Path::new("/dev/null"), &replaceable).map(|_| ());
+        let fault = Diagnostic::in_file(Path::new("/dev/null"), "this is a device or a pipe", "name a file");
         assert_eq!(refused, Err(fault));
     }
 }

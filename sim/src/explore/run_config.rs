@@ -7,7 +7,7 @@ use tautline_kernel::ground::Cell;
 use super::clause::ClauseId;
 use super::run::{Limits, Report, TeamMove, Watcher};
 use super::survey::Survey;
-use crate::fault::Halt;
+use crate::diagnostic::Halt;
 use crate::frontier::Options;
 use crate::layout::Layout;
 use crate::layout::generate::Probability;
@@ -60,7 +60,7 @@ pub enum Knowledge {
 
 /// What stands still while a run goes on: who explores, where, and what makes the run.
 #[derive(Clone, Copy, Debug)]
-pub struct Stage<'a> {
+pub struct RunConfig<'a> {
     /// The name of the scheme: letters, digits and hyphens, as all names of rules and clauses.
     pub scheme: &'a str,
     /// The name of its rule.
@@ -91,7 +91,7 @@ pub struct Stage<'a> {
     pub knowledge: Option<Knowledge>,
 }
 
-impl<'a> Stage<'a> {
+impl<'a> RunConfig<'a> {
     /// Robots in these `starts` of `layout`, the first of which is the base; nothing is left to chance.
     pub fn new(scheme: &'a str, rule: &'a str, layout: &'a Layout, starts: &'a [Cell]) -> Self {
         let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
@@ -122,7 +122,7 @@ impl<'a> Stage<'a> {
 /// A run that can be made as often as it is drawn: by its rule, or from what is stored of it.
 pub trait Play {
     /// What stands still.
-    fn stage(&self) -> Stage<'_>;
+    fn stage(&self) -> RunConfig<'_>;
 
     /// Makes the run. `watch` sees every team move, and may stop the run for good.
     ///

@@ -1,7 +1,7 @@
 //! What a person chooses by a word, on the command line and in a file.
 
 /// Values that have words.
-pub trait Worded: Copy + PartialEq + 'static {
+pub trait NamedValues: Copy + PartialEq + 'static {
     /// Each value, its word, and one line about it.
     const WORDS: &'static [(Self, &'static str, &'static str)];
 

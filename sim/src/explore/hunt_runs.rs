@@ -9,11 +9,11 @@ use tautline_proofs::floor::trap::{End, Found, Look, Stage, Trap, stages, weight
 
 use super::agents::{Agents, Crew};
 use super::each::Each;
-use super::hunt::{Asked, Bound, Hunted};
+use super::hunt::{Asked, Bound, HuntReport};
+use super::hunt_states::{Sought, TAKEN, hunted, refusal, setup, so_far, sought};
 use super::rule::RuleId;
 use super::setup::Profile;
-use super::traps::{Sought, TAKEN, hunted, refusal, setup, so_far, sought};
-use crate::fault::Fault;
+use crate::diagnostic::Diagnostic;
 use crate::layout::Layout;
 
 /// Team moves for each cell after which a run is taken to go on for ever: an agent alone makes at most four (BRICKS-10), and a
@@ -33,7 +33,7 @@ impl<K: Crew + Sync + Send + fmt::Debug> Each for Tries<K> {
         Some(refusal(bound))
     }
 
-    fn layouts(&self, asked: &Asked<'_>) -> Result<Runs<K>, Fault> {
+    fn layouts(&self, asked: &Asked<'_>) -> Result<Runs<K>, Diagnostic> {
         let &Asked { scheme, rule, .. } = asked;
         Ok(Runs { crew: self.0, scheme, rule, sought: sought(asked)? })
     }
@@ -42,7 +42,7 @@ impl<K: Crew + Sync + Send + fmt::Debug> Each for Tries<K> {
         so_far(asked, found)
     }
 
-    fn told(&self, asked: &Asked<'_>, found: Found, is_complete: bool) -> Result<Hunted, Fault> {
+    fn told(&self, asked: &Asked<'_>, found: Found, is_complete: bool) -> Result<HuntReport, Diagnostic> {
         hunted(asked, &found.ended(is_complete), "run")
     }
 }
@@ -60,14 +60,14 @@ impl<K: Crew + Sync> Lots for Runs<K> {
     type Lot = Plan;
     type Look = Look;
     type Found = Found;
-    type Fault = Fault;
+    type Diagnostic = Diagnostic;
 
     fn stages(&self) -> Vec<Stage> {
         let Sought { max_misses, size, .. } = self.sought;
         stages(max_misses, (size.width(), size.height()))
     }
 
-    fn lots(&self, (_, area): Stage) -> Result<Vec<Plan>, Fault> {
+    fn lots(&self, (_, area): Stage) -> Result<Vec<Plan>, Diagnostic> {
         plans(area)
     }
 
@@ -75,11 +75,11 @@ impl<K: Crew + Sync> Lots for Runs<K> {
         weight(stage, plan.free.len() as u32, self.sought.agents)
     }
 
-    fn look(&self, (misses, _): Stage, plan: &Plan, _: u64) -> Result<Look, Fault> {
+    fn look(&self, (misses, _): Stage, plan: &Plan, _: u64) -> Result<Look, Diagnostic> {
         self.plan(misses, plan)
     }
 
-    fn add(&self, found: &mut Found, _: &Plan, look: Look) -> Result<(), Fault> {
+    fn add(&self, found: &mut Found, _: &Plan, look: Look) -> Result<(), Diagnostic> {
         found.add(look);
         Ok(())
     }
@@ -91,7 +91,7 @@ impl<K: Crew + Sync> Lots for Runs<K> {
 
 impl<K: Crew + Sync> Runs<K> {
     /// Every run in one layout in which exactly so many sensors are missed.
-    fn plan(&self, misses: u8, plan: &Plan) -> Result<Look, Fault> {
+    fn plan(&self, misses: u8, plan: &Plan) -> Result<Look, Diagnostic> {
         let mut look = Look { states: 0, steps: 0, is_whole: true, trap: None };
         let (free, agents) = (plan.free.len(), self.sought.agents);
         for number in 0..free.pow(agents) {
@@ -111,7 +111,7 @@ impl<K: Crew + Sync> Runs<K> {
     }
 
     /// The run of `trap` as far as it is given, and with each way to miss so many sensors more after those that it misses.
-    fn try_each(&self, trap: Trap, misses: u8, look: &mut Look) -> Result<(), Fault> {
+    fn try_each(&self, trap: Trap, misses: u8, look: &mut Look) -> Result<(), Diagnostic> {
         let mut team = Agents::of(&setup(self.scheme, self.rule, &trap)?, self.crew);
         let (mut moves, mut end) = (0, None);
         while end.is_none() && !team.is_over() && team.explored() < team.due() {
@@ -149,7 +149,7 @@ pub(super) struct Plan {
 }
 
 /// Every layout of an area, blocked cells read as a binary number with the north-western one last.
-fn plans((width, height): (i16, i16)) -> Result<Vec<Plan>, Fault> {
+fn plans((width, height): (i16, i16)) -> Result<Vec<Plan>, Diagnostic> {
     let cells: Vec<Cell> = (0..height).flat_map(|y| (0..width).map(move |x| Cell::new(x, y))).collect();
     let mut plans = Vec::new();
     for set in 0..(1_u32 << cells.len()) - 1 {

@@ -19,7 +19,7 @@ use self::search::{Field, Search};
 
 /// A grid on the heap, of any width and height.
 #[derive(Clone, Debug)]
-pub struct WideGrid {
+pub struct HeapGrid {
     area: Area,
     /// How many cells are unexplored.
     unexplored: usize,
@@ -56,7 +56,7 @@ struct Walk {
     stops: Option<Vec<Cell>>,
 }
 
-impl WideGrid {
+impl HeapGrid {
     /// Nothing known of `area` but its border. It takes 22 bytes a cell.
     pub fn new(area: Area) -> Self {
         let cells = area.width() * area.height();
@@ -106,7 +106,7 @@ impl WideGrid {
     }
 }
 
-impl Grid for WideGrid {
+impl Grid for HeapGrid {
     type Bearings = Arc<Near>;
 
     fn area(&self) -> Area {

@@ -18,7 +18,7 @@ pub const BOM: char = '\u{feff}';
 /// A place, what is wrong there, and the remedy. `Display` is one plain line,
 /// `file:line:column: what; remedy`.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Fault(Box<Parts>);
+pub struct Diagnostic(Box<Parts>);
 
 #[derive(Clone, PartialEq, Eq, Debug)]
 struct Parts {
@@ -63,7 +63,7 @@ pub struct Excerpt {
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Halt {
     /// Something was wrong with what the user gave.
-    Fault(Fault),
+    Diagnostic(Diagnostic),
     /// The user asked it to stop.
     Interrupted,
 }
@@ -71,7 +71,7 @@ pub enum Halt {
 impl fmt::Display for Halt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Fault(fault) => fault.fmt(f),
+            Self::Diagnostic(fault) => fault.fmt(f),
             Self::Interrupted => f.write_str("interrupted"),
         }
     }
@@ -79,22 +79,22 @@ impl fmt::Display for Halt {
 
 impl std::error::Error for Halt {}
 
-impl From<Infallible> for Fault {
+impl From<Infallible> for Diagnostic {
     fn from(never: Infallible) -> Self {
         match never {}
     }
 }
 
-impl From<Fault> for Halt {
-    fn from(fault: Fault) -> Self {
-        Self::Fault(fault)
+impl From<Diagnostic> for Halt {
+    fn from(fault: Diagnostic) -> Self {
+        Self::Diagnostic(fault)
     }
 }
 
 /// Is called after each part of a work, from any thread, and may stop the work.
 pub type Watch<'a> = dyn Fn() -> Result<(), Halt> + Sync + 'a;
 
-impl Fault {
+impl Diagnostic {
     /// A fault in the bytes `range` of `text`, the content of `file`. A range that ends beyond its first line
     /// is cut there; one that lies outside the text, or inside a character, is moved to the nearest
     /// character.
@@ -247,10 +247,10 @@ impl fmt::Display for Place {
     }
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}{}; {}", self.0.place, self.0.what, self.0.remedy)
     }
 }
 
-impl std::error::Error for Fault {}
+impl std::error::Error for Diagnostic {}

@@ -10,8 +10,8 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use crate::aside::{Aside, Replaceable, Standing, lock};
-use crate::fault::Fault;
+use crate::atomic_file::{AtomicFile, Replaceable, Standing, lock};
+use crate::diagnostic::Diagnostic;
 use crate::layout::MAX_FILE_BYTES;
 
 /// The version of every such file.
@@ -59,9 +59,9 @@ impl<H: Header> Lines<H> {
     /// The lines of `file`, called `path`, of which the first and the last are sound.
     ///
     /// # Errors
-    /// A [`Fault`] if it is no such file, or damaged.
-    pub(crate) fn read(path: &Path, file: &File) -> Result<Self, Fault> {
-        let whole = |what: String| Fault::in_file(path, what, H::AGAIN);
+    /// A [`Diagnostic`] if it is no such file, or damaged.
+    pub(crate) fn read(path: &Path, file: &File) -> Result<Self, Diagnostic> {
+        let whole = |what: String| Diagnostic::in_file(path, what, H::AGAIN);
         let mut bytes = Vec::new();
         let mut file = file.take(MAX_FILE_BYTES + 1);
         file.read_to_end(&mut bytes).map_err(|error| whole(format!("the file cannot be read: {error}")))?;
@@ -88,7 +88,7 @@ impl<H: Header> Lines<H> {
         let crc32 = crc32fast::hash(format!("{first}\n{second}\n").as_bytes());
         if seal.crc32 != crc32 {
             let what = format!("the file is damaged: its checksum is {}, its lines give {crc32}", seal.crc32);
-            return Err(Fault::in_line(path, 3, third, 0..third.len(), what, H::AGAIN));
+            return Err(Diagnostic::in_line(path, 3, third, 0..third.len(), what, H::AGAIN));
         }
         Ok(Self { path: path.to_owned(), header, text: [first, second, third].map(str::to_owned) })
     }
@@ -101,8 +101,8 @@ impl<H: Header> Lines<H> {
     /// How far it is.
     ///
     /// # Errors
-    /// A [`Fault`] if the second line does not tell it.
-    pub(crate) fn far<T: DeserializeOwned>(&self) -> Result<T, Fault> {
+    /// A [`Diagnostic`] if the second line does not tell it.
+    pub(crate) fn far<T: DeserializeOwned>(&self) -> Result<T, Diagnostic> {
         parse::<H, _>(&self.path, 2, &self.text[1])
     }
 
@@ -112,15 +112,15 @@ impl<H: Header> Lines<H> {
     }
 
     /// A fault at a field of the first line.
-    pub(crate) fn in_header(&self, field: &str, what: String, remedy: &str) -> Fault {
+    pub(crate) fn in_header(&self, field: &str, what: String, remedy: &str) -> Diagnostic {
         in_header(&self.path, &self.text[0], field, what, remedy)
     }
 
     /// Checks that it is of the work `asked` for.
     ///
     /// # Errors
-    /// A [`Fault`] at the field in which they differ.
-    pub(crate) fn check(&self, asked: &H) -> Result<(), Fault> {
+    /// A [`Diagnostic`] at the field in which they differ.
+    pub(crate) fn check(&self, asked: &H) -> Result<(), Diagnostic> {
         let (kept, asked) = (json!(self.header), json!(asked));
         let Some(key) = H::FIELDS.iter().find(|&&key| kept[key] != asked[key]) else { return Ok(()) };
         let what = format!("{}: {key} {}, asked for is {}", H::OTHER, kept[key], asked[key]);
@@ -140,25 +140,29 @@ fn line(value: &impl Serialize) -> String {
     serde_json::to_string(value).unwrap_or_default() + "\n"
 }
 
-fn in_header(path: &Path, text: &str, field: &str, what: String, remedy: &str) -> Fault {
+fn in_header(path: &Path, text: &str, field: &str, what: String, remedy: &str) -> Diagnostic {
     let field = format!("{field:?}");
     let start = text.find(&field).unwrap_or(0);
-    Fault::in_line(path, 1, text, start..start + field.len(), what, remedy)
+    Diagnostic::in_line(path, 1, text, start..start + field.len(), what, remedy)
 }
 
-fn parse<'b, H: Header, T: Deserialize<'b>>(path: &Path, number: usize, text: &'b str) -> Result<T, Fault> {
+fn parse<'b, H: Header, T: Deserialize<'b>>(
+    path: &Path,
+    number: usize,
+    text: &'b str,
+) -> Result<T, Diagnostic> {
     serde_json::from_str(text).map_err(|error| {
         let message = error.to_string();
         let message = message.split(" at line ").next().unwrap_or_default();
         let column = error.column().saturating_sub(1);
         let what = format!("this is no {}: {message}", H::NOUN.trim_start_matches("a "));
-        Fault::in_line(path, number, text, column..column + 1, what, H::AGAIN)
+        Diagnostic::in_line(path, number, text, column..column + 1, what, H::AGAIN)
     })
 }
 
 /// Work that is kept in a file.
 #[derive(Debug)]
-pub(crate) struct Kept<'a, H> {
+pub(crate) struct Checkpoint<'a, H> {
     path: &'a Path,
     header: H,
     /// What stands at the path, as far as this work knows.
@@ -167,7 +171,7 @@ pub(crate) struct Kept<'a, H> {
     held: Option<File>,
 }
 
-impl<'a, H: Header> Kept<'a, H> {
+impl<'a, H: Header> Checkpoint<'a, H> {
     /// This work, to be kept at `path`.
     pub(crate) const fn new(path: &'a Path, header: H) -> Self {
         Self { path, header, standing: Standing::Nothing, held: None }
@@ -186,9 +190,9 @@ impl<'a, H: Header> Kept<'a, H> {
     /// Keeps how far it is.
     ///
     /// # Errors
-    /// A [`Fault`] if it cannot be written, or another process has put a file there.
-    pub(crate) fn write(&mut self, far: &impl Serialize) -> Result<(), Fault> {
-        let mut aside = Aside::new(self.path, &Replaceable::default())?;
+    /// A [`Diagnostic`] if it cannot be written, or another process has put a file there.
+    pub(crate) fn write(&mut self, far: &impl Serialize) -> Result<(), Diagnostic> {
+        let mut aside = AtomicFile::new(self.path, &Replaceable::default())?;
         aside.append(text(&self.header, far));
         if cfg!(not(unix)) {
             // Elsewhere no file is replaced that is open.
@@ -202,8 +206,8 @@ impl<'a, H: Header> Kept<'a, H> {
     /// How far it was by the file, which is locked from now on; `None` if there is no file.
     ///
     /// # Errors
-    /// A [`Fault`] if the file is damaged, of another work or in use.
-    pub(crate) fn read<T: DeserializeOwned>(&mut self) -> Result<Option<T>, Fault> {
+    /// A [`Diagnostic`] if the file is damaged, of another work or in use.
+    pub(crate) fn read<T: DeserializeOwned>(&mut self) -> Result<Option<T>, Diagnostic> {
         let Some(file) = open::<H>(self.path)? else { return Ok(None) };
         lock(self.path, &file)?;
         // A process that has just let it go may have put a newer one there.
@@ -218,19 +222,19 @@ impl<'a, H: Header> Kept<'a, H> {
 }
 
 /// The file that stands at the path; `None` if none does.
-pub(crate) fn open<H: Header>(path: &Path) -> Result<Option<File>, Fault> {
+pub(crate) fn open<H: Header>(path: &Path) -> Result<Option<File>, Diagnostic> {
     if path.is_dir() {
-        return Err(Fault::in_file(path, "this is a folder", "name a file in it"));
+        return Err(Diagnostic::in_file(path, "this is a folder", "name a file in it"));
     }
     if path.exists() && !path.is_file() {
-        return Err(Fault::in_file(path, "this is a device or a pipe", "name a file"));
+        return Err(Diagnostic::in_file(path, "this is a device or a pipe", "name a file"));
     }
     match File::open(path) {
         Ok(file) => Ok(Some(file)),
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
         Err(error) => {
             let what = format_args!("the file cannot be read: {error}");
-            Err(Fault::in_file(path, what, H::AGAIN))
+            Err(Diagnostic::in_file(path, what, H::AGAIN))
         }
     }
 }

@@ -5,13 +5,13 @@ use std::ops::RangeInclusive;
 
 use tautline_kernel::frontier::Threshold;
 use tautline_kernel::ground::Cell;
-use tautline_proofs::words::counted;
+use tautline_proofs::plural::counted;
 
 use super::catalogue::{SCHEMES, sensing};
 use super::rule::RuleId;
 use super::setup::{Drawn, Extra, Profile, Rule, Senses, Setup, Starts};
-use crate::fault::Fault;
-use crate::faults::Failure;
+use crate::diagnostic::Diagnostic;
+use crate::failures::Failure;
 use crate::frontier::Options;
 use crate::layout::Problem;
 
@@ -24,9 +24,9 @@ const SPEEDS_MPS: RangeInclusive<f64> = 0.001..=1000.0;
 /// How much speeds may differ.
 const SPREADS: RangeInclusive<f64> = 0.0..=0.999;
 
-/// What does not fit: `Display` says what, [`Misfit::remedy`] what would be right.
+/// What does not fit: `Display` says what, [`SetupError::remedy`] what would be right.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Misfit {
+pub enum SetupError {
     /// No team of the scheme has so many.
     Robots {
         /// The scheme.
@@ -96,7 +96,7 @@ pub enum Misfit {
     },
 }
 
-impl Misfit {
+impl SetupError {
     /// The field of a setup that does not fit.
     pub const fn field(&self) -> &'static str {
         match self {
@@ -170,7 +170,7 @@ impl Misfit {
     }
 }
 
-impl fmt::Display for Misfit {
+impl fmt::Display for SetupError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Robots { scheme, robots } => {
@@ -227,64 +227,67 @@ impl fmt::Display for Misfit {
     }
 }
 
-impl std::error::Error for Misfit {}
+impl std::error::Error for SetupError {}
 
-impl From<Misfit> for Fault {
-    fn from(misfit: Misfit) -> Self {
+impl From<SetupError> for Diagnostic {
+    fn from(misfit: SetupError) -> Self {
         Self::of_field(misfit.field(), &misfit, misfit.remedy())
     }
 }
 
 /// The fault of choices that no search has made.
-pub(super) fn of_choices(what: impl fmt::Display) -> Fault {
-    Fault::of_field("choices", what, "hunt again: choices come from a counterexample alone")
+pub(super) fn of_choices(what: impl fmt::Display) -> Diagnostic {
+    Diagnostic::of_field("choices", what, "hunt again: choices come from a counterexample alone")
 }
 
 impl Setup {
     /// `robots` as the number of a team of `scheme`.
     ///
     /// # Errors
-    /// [`Misfit::Robots`].
-    pub fn count(scheme: &'static Profile, robots: u64) -> Result<u16, Misfit> {
+    /// [`SetupError::Robots`].
+    pub fn count(scheme: &'static Profile, robots: u64) -> Result<u16, SetupError> {
         let count = u16::try_from(robots).ok().filter(|&count| scheme.robots.contains(&count.into()));
-        count.ok_or(Misfit::Robots { scheme, robots })
+        count.ok_or(SetupError::Robots { scheme, robots })
     }
 
     /// The rule of its scheme, if everything fits that.
     ///
     /// # Errors
-    /// [`Misfit`], the first in the order of its variants.
-    pub fn check(&self) -> Result<&'static Rule, Misfit> {
+    /// [`SetupError`], the first in the order of its variants.
+    pub fn check(&self) -> Result<&'static Rule, SetupError> {
         let Self { scheme, rule, robots, starts, .. } = self;
         Self::count(scheme, (*robots).into())?;
-        let rule = scheme.rule(*rule).ok_or(Misfit::Rule { scheme, rule: *rule })?;
+        let rule = scheme.rule(*rule).ok_or(SetupError::Rule { scheme, rule: *rule })?;
         match scheme.senses {
-            Senses::Bumps if !self.miss.is_never() => return Err(Misfit::Miss(scheme)),
-            Senses::Bumps if !self.missed.is_empty() => return Err(Misfit::MissedByNone(scheme)),
+            Senses::Bumps if !self.miss.is_never() => return Err(SetupError::Miss(scheme)),
+            Senses::Bumps if !self.missed.is_empty() => return Err(SetupError::MissedByNone(scheme)),
             Senses::Floor if self.miss.is_certain() && self.limits.max_moves.is_none() => {
-                return Err(Misfit::MissAll);
+                return Err(SetupError::MissAll);
             }
             Senses::Floor if self.missed.first() == Some(&0) || !self.missed.is_sorted_by(|a, b| a < b) => {
-                return Err(Misfit::Missed);
+                return Err(SetupError::Missed);
             }
             Senses::Bumps | Senses::Floor => {}
         }
         self.check_extras()?;
         match (scheme.starts, starts) {
-            (Starts::Alone, None) => return Err(Misfit::Starts { scheme, starts: 1, robots: *robots }),
+            (Starts::Alone, None) => return Err(SetupError::Starts { scheme, starts: 1, robots: *robots }),
             (Starts::Alone | Starts::Beside, Some(starts)) if self.is_full(starts) => {
-                return Err(Misfit::Full { robots: *robots, cells: starts.len() });
+                return Err(SetupError::Full { robots: *robots, cells: starts.len() });
             }
-            (Starts::Base, Some(_)) => return Err(Misfit::StartsAtBase(scheme)),
+            (Starts::Base, Some(_)) => return Err(SetupError::StartsAtBase(scheme)),
             (Starts::Base, None) => {}
             (Starts::Anywhere | Starts::Beside | Starts::Alone, Some(starts))
                 if starts.len() != usize::from(*robots) =>
             {
-                return Err(Misfit::Starts { scheme, starts: starts.len(), robots: *robots });
+                return Err(SetupError::Starts { scheme, starts: starts.len(), robots: *robots });
             }
             (Starts::Anywhere | Starts::Beside | Starts::Alone, starts) => {
                 let starts = starts.as_deref().unwrap_or(std::slice::from_ref(&self.base));
-                starts.iter().try_for_each(|&start| self.layout.check_start(start)).map_err(Misfit::Start)?;
+                starts
+                    .iter()
+                    .try_for_each(|&start| self.layout.check_start(start))
+                    .map_err(SetupError::Start)?;
             }
         }
         let is_again = |(place, start): (usize, &Cell)| {
@@ -292,7 +295,7 @@ impl Setup {
         };
         let again = starts.iter().flatten().enumerate().find_map(is_again);
         match again.filter(|_| scheme.starts == Starts::Alone) {
-            Some(cell) => Err(Misfit::Together(cell)),
+            Some(cell) => Err(SetupError::Together(cell)),
             None => Ok(rule),
         }
     }
@@ -304,36 +307,36 @@ impl Setup {
     }
 
     /// Refuses what the scheme cannot be told, and what is out of bounds.
-    fn check_extras(&self) -> Result<(), Misfit> {
+    fn check_extras(&self) -> Result<(), SetupError> {
         let Options { noise_db, threshold, speed_mps, spread, fail, wall, .. } = self.options;
         let is_refused =
             |extra: &Extra| extra.is_told_by(&self.options) && !self.scheme.extras.contains(extra);
         if let Some(extra) = Extra::ALL.into_iter().find(is_refused) {
-            return Err(Misfit::Extra(self.scheme, extra));
+            return Err(SetupError::Extra(self.scheme, extra));
         }
         if let Some(Failure { robot, .. }) = fail.filter(|fail| !(2..=self.robots).contains(&fail.robot)) {
-            return Err(Misfit::Fail { robot, robots: self.robots });
+            return Err(SetupError::Fail { robot, robots: self.robots });
         }
         if let Some(wall) = wall {
             let edge = wall.edge();
             let is_between =
                 [edge.cell(), edge.cell().beyond(edge.side())].iter().all(|&cell| self.layout.contains(cell));
             if !is_between || !self.layout.contains(wall.cell) {
-                return Err(Misfit::Wall(wall.cell));
+                return Err(SetupError::Wall(wall.cell));
             }
             if fail.is_some() {
-                return Err(Misfit::WallAndFail);
+                return Err(SetupError::WallAndFail);
             }
         }
         if Threshold::new(threshold).is_none() {
-            return Err(Misfit::Threshold);
+            return Err(SetupError::Threshold);
         }
         if speed_mps.is_some_and(|speed| !SPEEDS_MPS.contains(&speed)) {
-            return Err(Misfit::Speed);
+            return Err(SetupError::Speed);
         }
         if spread.is_some_and(|spread| !SPREADS.contains(&spread)) {
-            return Err(Misfit::Spread);
+            return Err(SetupError::Spread);
         }
-        if (0.0..=MOST_NOISE_DB).contains(&noise_db) { Ok(()) } else { Err(Misfit::Noise) }
+        if (0.0..=MOST_NOISE_DB).contains(&noise_db) { Ok(()) } else { Err(SetupError::Noise) }
     }
 }

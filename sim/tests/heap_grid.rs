@@ -7,7 +7,7 @@ use tautline_kernel::ground::{
     Area, Avoid, BitGrid, Cell, CellMark, CompactGrid, Edge, EdgeMark, Grid, LargeGrid, MediumGrid, Plane,
     Side, SmallGrid, Step, Steps, TinyGrid,
 };
-use tautline_sim::wide::WideGrid;
+use tautline_sim::heap_grid::HeapGrid;
 
 const CELL_MARKS: [CellMark; 4] = [CellMark::Explored, CellMark::Occupied, CellMark::Full, CellMark::Planned];
 const EDGE_MARKS: [EdgeMark; 3] = [EdgeMark::Wall, EdgeMark::Open, EdgeMark::Virtual];
@@ -225,7 +225,7 @@ fn answers<P: Plane>(area: Area, calls: &[Call]) -> Option<(Vec<Option<u32>>, Ev
 proptest! {
     #[test]
     fn all_homes_give_the_same_answers((area, calls) in histories()) {
-        let mut wide = WideGrid::new(area);
+        let mut wide = HeapGrid::new(area);
         let heard: Vec<_> = calls.iter().map(|call| call.make(&mut wide)).collect();
         prop_assert_eq!(wide.area(), area);
         let ours = (heard, everything(&mut wide));
@@ -246,7 +246,7 @@ proptest! {
 
     #[test]
     fn a_walk_has_the_fewest_links_and_the_first_stops((area, calls) in histories()) {
-        let mut grid = WideGrid::new(area);
+        let mut grid = HeapGrid::new(area);
         for call in calls {
             call.make(&mut grid);
         }
@@ -259,7 +259,7 @@ proptest! {
 
     #[test]
     fn what_is_learned_is_forgotten_when_walls_are_cleared((area, calls) in histories()) {
-        let mut taught = WideGrid::new(area);
+        let mut taught = HeapGrid::new(area);
         for &call in &calls {
             call.make(&mut taught);
         }
@@ -314,7 +314,7 @@ fn all_grids_agree(rule: Rule, robots: i16, walls: f64, seed: u64) -> Result<(),
     let wall: std::collections::HashSet<_> = area.edges().filter(|_| chance(walls)).collect();
     let is_open = |edge| !wall.contains(&edge);
     let robots = robots as usize;
-    let ours = run(rule, robots, base, WideGrid::new(area), is_open);
+    let ours = run(rule, robots, base, HeapGrid::new(area), is_open);
     let theirs = [
         TinyGrid::new(area).map(|grid| run(rule, robots, base, grid, is_open)),
         CompactGrid::new(area).map(|grid| run(rule, robots, base, grid, is_open)),
@@ -332,14 +332,14 @@ fn an_open_area_too_wide_for_the_bit_grid_is_explored_in_the_moves_of_the_paper(
     let robots = 40;
     let (area, base) = open_area(robots);
     let robots = robots as usize;
-    let (log, end) = run(Rule::REPAIRED, robots, base, WideGrid::new(area), |_| true);
+    let (log, end) = run(Rule::REPAIRED, robots, base, HeapGrid::new(area), |_| true);
     assert_eq!((log.len() / (robots - 1), end), (9 * (robots - 1) - 1, Some(End::Explored)));
 }
 
 #[test]
 fn the_rim_of_the_coordinates_is_border() {
     let corner = Cell::new(i16::MAX, i16::MAX);
-    let mut grid = WideGrid::new(Area::new(Cell::new(i16::MAX - 1, i16::MAX), corner).expect("two cells"));
+    let mut grid = HeapGrid::new(Area::new(Cell::new(i16::MAX - 1, i16::MAX), corner).expect("two cells"));
     for side in [Side::East, Side::South] {
         let edge = Edge::new(corner, side);
         grid.put_edge(EdgeMark::Open, edge);

@@ -2,7 +2,7 @@
 
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge};
-use tautline_proofs::course::{Course, Turn};
+use tautline_proofs::floor_trace::{Course, Turn};
 use tautline_proofs::judge::chain::{Exhibit, Move, Place, Repairs};
 use tautline_proofs::judge::floor;
 use tautline_proofs::run::Frame;

@@ -2,7 +2,7 @@
 
 use tautline_sim::explore::chain::{ANY_ORDER, CHAIN, REEL, UNHELD};
 use tautline_sim::explore::{Report, RuleId, Setup, Stopped, explore};
-use tautline_sim::faults::{Failure, Going};
+use tautline_sim::failures::{Failure, Going};
 use tautline_sim::frontier::Options;
 use tautline_sim::layout::Generator;
 use tautline_sim::layout::generate::Probability;

@@ -1,11 +1,11 @@
-//! Faults as Python's exceptions: those of the module `pytautline._errors`, each with what is wrong and what would be right.
+//! Failures as Python's exceptions: those of the module `pytautline._errors`, each with what is wrong and what would be right.
 
 use std::fmt::Display;
 
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use tautline_sim::counterexample::minimise::Failure;
-use tautline_sim::fault::{Fault, Halt};
+use tautline_sim::diagnostic::{Diagnostic, Halt};
 
 /// The exceptions of the package, by their names.
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +42,7 @@ pub(crate) fn error(py: Python<'_>, kind: Kind, what: impl Display, remedy: impl
 }
 
 /// The exception of a fault. Its remedy names fields, which are written as Python's keywords.
-pub(crate) fn raised(py: Python<'_>, fault: &Fault) -> PyErr {
+pub(crate) fn raised(py: Python<'_>, fault: &Diagnostic) -> PyErr {
     let keyword = |words: &str| {
         let named = words.split('`').enumerate();
         named
@@ -56,7 +56,7 @@ pub(crate) fn raised(py: Python<'_>, fault: &Fault) -> PyErr {
 /// The exception of what ended a piece of work.
 pub(crate) fn halted(py: Python<'_>, halt: &Halt) -> PyErr {
     match halt {
-        Halt::Fault(fault) => raised(py, fault),
+        Halt::Diagnostic(fault) => raised(py, fault),
         Halt::Interrupted => PyKeyboardInterrupt::new_err(()),
     }
 }

@@ -7,9 +7,9 @@ use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::search::{Bounds, Search};
 
 use super::hunt::{fault, start};
+use crate::checkpoint::{self, Checkpoint, Header};
+use crate::diagnostic::Diagnostic;
 use crate::explore::{Profile, RuleId};
-use crate::fault::Fault;
-use crate::kept::{self, Header, Kept};
 
 /// What to do about a file that is no hunt of ours.
 pub(super) const AGAIN: &str = "name another file, or remove it and hunt from the start";
@@ -17,7 +17,7 @@ pub(super) const AGAIN: &str = "name another file, or remove it and hunt from th
 /// What is hunted.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Hunted {
+struct HuntReport {
     format: String,
     version: u32,
     scheme: &'static Profile,
@@ -28,7 +28,7 @@ struct Hunted {
     base: Cell,
 }
 
-impl Header for Hunted {
+impl Header for HuntReport {
     const FORMAT: &'static str = "tautline hunt";
     const NOUN: &'static str = "a kept hunt";
     const OTHER: &'static str = "this is another hunt";
@@ -39,29 +39,29 @@ impl Header for Hunted {
 
 /// A hunt that is kept in a file.
 #[derive(Debug)]
-pub struct Saved<'a>(Kept<'a, Hunted>);
+pub struct Saved<'a>(Checkpoint<'a, HuntReport>);
 
 impl<'a> Saved<'a> {
     /// The hunt within `bounds` by `scheme` and `rule`, to be kept at `path`.
     pub fn new(path: &'a Path, scheme: &'static Profile, rule: impl Into<RuleId>, bounds: &Bounds) -> Self {
         let area = bounds.reach().unwrap_or(bounds.area);
-        let header = Hunted {
-            format: Hunted::FORMAT.to_owned(),
-            version: kept::VERSION,
+        let header = HuntReport {
+            format: HuntReport::FORMAT.to_owned(),
+            version: checkpoint::VERSION,
             scheme,
             rule: rule.into(),
             robots: bounds.robots,
             area: [area.first(), area.last()],
             base: bounds.base,
         };
-        Self(Kept::new(path, header))
+        Self(Checkpoint::new(path, header))
     }
 
     /// The search as it is in the file, or from the start if there is no file.
     ///
     /// # Errors
-    /// A [`Fault`] if the file is damaged, of another hunt or in use, or the bounds cannot be searched.
-    pub fn search(&mut self, bounds: &Bounds) -> Result<Search, Fault> {
+    /// A [`Diagnostic`] if the file is damaged, of another hunt or in use, or the bounds cannot be searched.
+    pub fn search(&mut self, bounds: &Bounds) -> Result<Search, Diagnostic> {
         match self.0.read()? {
             None => start(bounds),
             Some(position) => {
@@ -73,8 +73,8 @@ impl<'a> Saved<'a> {
     /// Keeps where `search` is.
     ///
     /// # Errors
-    /// A [`Fault`] if it cannot be written, or another process has put a file there.
-    pub fn write(&mut self, search: &Search) -> Result<(), Fault> {
+    /// A [`Diagnostic`] if it cannot be written, or another process has put a file there.
+    pub fn write(&mut self, search: &Search) -> Result<(), Diagnostic> {
         self.0.write(&search.position())
     }
 }

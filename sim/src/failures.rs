@@ -159,7 +159,7 @@ impl Going {
 
 /// What has failed in a run, and what came of it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize)]
-pub struct Faults {
+pub struct Failures {
     /// Bytes that one robot said and another one did not hear.
     pub lost_bytes: u64,
     /// How often robots said their bytes at the barrier, each robot that had to once.
