@@ -1,11 +1,10 @@
 //! What a CI shows of a command: annotations, as GitHub reads them on stdout, and a JUnit file, as most others read it.
 
 use std::fmt::Write;
-use std::time::Duration;
 
 use clap::{Args, ValueEnum};
-use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use tautline_sim::diagnostic::Diagnostic;
+use tautline_sim::draw::svg::escaped;
 
 /// What stdout gets of a command that decides something.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
@@ -96,35 +95,36 @@ fn property(text: &str) -> String {
 }
 
 /// As a JUnit file, `command` being the name of its suite.
-///
-/// # Errors
-/// A [`Diagnostic`] if it cannot be written.
-pub(super) fn junit(command: &str, findings: &[Case]) -> Result<String, Diagnostic> {
-    let mut suite = TestSuite::new(format!("tautline {command}"));
-    suite.add_test_cases(findings.iter().map(|Case { class, name, outcome, seconds }| {
-        let status = match outcome {
-            Outcome::Expected => TestCaseStatus::success(),
-            Outcome::Unfinished(why) => {
-                let mut status = TestCaseStatus::skipped();
-                status.set_message(why.as_str());
-                status
-            }
-            Outcome::Broken(what, story) => {
-                let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
-                status.set_message(what.as_str());
-                status.set_description(story.as_str());
-                status
-            }
-        };
-        let mut case = TestCase::new(name.as_str(), status);
-        case.set_classname(class.as_str());
-        if let Some(time) = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok()) {
-            case.set_time(time);
+pub(super) fn junit(command: &str, findings: &[Case]) -> String {
+    let count = |is: fn(&Outcome) -> bool| findings.iter().filter(|case| is(&case.outcome)).count();
+    let tests = findings.len();
+    let skipped = count(|outcome| matches!(outcome, Outcome::Unfinished(_)));
+    let failures = count(|outcome| matches!(outcome, Outcome::Broken(..)));
+    let cases: String = findings.iter().map(case).collect();
+    format!(
+        r#"<?xml version="1.0" encoding="UTF-8"?>
+<testsuites name="tautline" tests="{tests}" skipped="{skipped}" failures="{failures}" errors="0">
+    <testsuite name="tautline {command}" tests="{tests}" skipped="{skipped}" errors="0" failures="{failures}">
+{cases}    </testsuite>
+</testsuites>
+"#
+    )
+}
+
+/// As a test case of a JUnit file.
+fn case(Case { class, name, outcome, seconds }: &Case) -> String {
+    let time = seconds.map_or(String::new(), |seconds| format!(r#" time="{seconds:.3}""#));
+    let within = match outcome {
+        Outcome::Expected => None,
+        Outcome::Unfinished(why) => Some(format!(r#"<skipped message="{}"/>"#, escaped(why))),
+        Outcome::Broken(what, story) => {
+            let story: Vec<String> = story.split('\n').map(escaped).collect();
+            Some(format!(r#"<failure message="{}">{}</failure>"#, escaped(what), story.join("\n")))
         }
-        case
-    }));
-    let mut report = Report::new("tautline");
-    report.add_test_suite(suite);
-    let text = report.to_string();
-    text.map_err(|error| Diagnostic::usage(error, "report it: this is a bug of tautline"))
+    };
+    let case = format!(r#"        <testcase name="{}" classname="{}"{time}"#, escaped(name), escaped(class));
+    match within {
+        None => case + "/>\n",
+        Some(within) => format!("{case}>\n            {within}\n        </testcase>\n"),
+    }
 }

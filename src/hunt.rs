@@ -257,7 +257,7 @@ impl Found<'_> {
             Format::Json => out.json(&told.printed())?,
             Format::Text => out.text(told.text()?)?,
             Format::Github => out.text(findings::github(&told.findings()?, &told.headline()))?,
-            Format::Junit => out.text(findings::junit("hunt", &told.findings()?)?)?,
+            Format::Junit => out.text(findings::junit("hunt", &told.findings()?))?,
         }
         Ok(match (hunted.is_complete, hunted.found.is_empty()) {
             (false, _) => Exit::Unfinished,

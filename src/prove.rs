@@ -190,7 +190,7 @@ impl Prove {
                 let last = last_line(&rows) + &unfinished;
                 out.text(findings::github(&findings(&rows, room)?, &last))?;
             }
-            Format::Junit => out.text(findings::junit("prove", &findings(&rows, room)?)?)?,
+            Format::Junit => out.text(findings::junit("prove", &findings(&rows, room)?))?,
         }
         Ok(match (unfinished.is_empty(), as_registered) {
             (false, _) => Exit::Unfinished,

@@ -11,8 +11,8 @@ mod network;
 mod perception;
 mod position;
 #[path = "../../src/report.rs"]
-#[expect(dead_code, reason = "a fuzzer has no terminal")]
-mod report;
+#[allow(dead_code, reason = "a fuzzer has no terminal")]
+pub mod report;
 mod rescue;
 
 use std::fs;

@@ -5,6 +5,7 @@
 mod bitmap;
 mod file;
 pub mod generate;
+mod image;
 mod lines;
 pub mod movingai;
 mod problem;

@@ -6,17 +6,16 @@
 //! not opaque. That is the meaning of the modes `trinary` and `scale`; in `raw` pixels are no occupancies,
 //! and it is refused.
 
-use std::io::Cursor;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use image::{GenericImageView, ImageError, ImageFormat, ImageReader, Limits, Rgba};
 use serde::Deserialize;
 use serde_saphyr::{Location, Spanned};
 use tautline_kernel::ground::Cell;
 
+use super::image::{Pixel, decode};
 use super::read::{at, in_file, read_bytes, read_text};
-use super::{Layout, MAX_CELLS, MAX_SIDE_CELLS, Misread, Problem};
+use super::{Layout, Misread, Problem};
 use crate::diagnostic::{BOM, Diagnostic};
 
 /// Where the cells of a map lie in the world.
@@ -163,33 +162,18 @@ pub fn describe(source: &str) -> Result<Description, Misread> {
 /// # Errors
 /// [`Problem::Image`], [`Problem::Size`] or [`Problem::NoFreeCell`].
 pub fn read(description: &Description, bytes: &[u8]) -> Result<Layout, Problem> {
-    let undecoded = |error: ImageError| Problem::Image(error.to_string());
-    let open = || -> Result<ImageReader<Cursor<&[u8]>>, Problem> {
-        let format = image::guess_format(bytes).map_err(undecoded)?;
-        match format {
-            ImageFormat::Png | ImageFormat::Pnm => Ok(ImageReader::with_format(Cursor::new(bytes), format)),
-            other => Err(Problem::Image(format!("the format is {other:?}"))),
-        }
-    };
-    let (width, height) = open()?.into_dimensions().map_err(undecoded)?;
-    let mut layout = Layout::open(width.into(), height.into())?;
-    let mut reader = open()?;
-    let mut limits = Limits::default();
-    limits.max_image_width = Some(MAX_SIDE_CELLS as u32);
-    limits.max_image_height = Some(MAX_SIDE_CELLS as u32);
-    limits.max_alloc = Some(16 * MAX_CELLS);
-    reader.limits(limits);
-    let pixels = reader.decode().map_err(undecoded)?;
-    for (x, y, pixel) in pixels.pixels() {
+    let (mut layout, pixels) = decode(bytes, |width, height| Layout::open(width.into(), height.into()))?;
+    let width = layout.width() as usize;
+    for (place, &pixel) in pixels.iter().enumerate() {
         if !description.is_free(pixel) {
-            layout.block(Cell::new(x as i16, y as i16));
+            layout.block(Cell::new((place % width) as i16, (place / width) as i16));
         }
     }
     if layout.free_cells() == 0 { Err(Problem::NoFreeCell) } else { Ok(layout) }
 }
 
 impl Description {
-    fn is_free(&self, Rgba([red, green, blue, alpha]): Rgba<u8>) -> bool {
+    fn is_free(&self, [red, green, blue, alpha]: Pixel) -> bool {
         let bright: u32 = [red, green, blue].map(u32::from).iter().sum();
         let occupied = match self.shade {
             Shade::BrightIsFree => 3 * 255 - bright,

@@ -1,0 +1,128 @@
+//! The images of ROS maps: PGM and its relatives, as map savers write them, and PNG.
+
+use std::io::Cursor;
+
+use png::{BitDepth, ColorType, Decoder, Limits, Transformations};
+
+use super::{MAX_CELLS, Problem};
+
+/// Red, green, blue, and how opaque it is.
+pub(super) type Pixel = [u8; 4];
+
+/// Decodes the `bytes` of an image: its pixels row by row, and what `begin` makes of its width and height before any of them is
+/// decoded.
+///
+/// # Errors
+/// [`Problem::Image`], or what `begin` returns.
+pub(super) fn decode<T>(
+    bytes: &[u8],
+    begin: impl FnOnce(u32, u32) -> Result<T, Problem>,
+) -> Result<(T, Vec<Pixel>), Problem> {
+    match bytes {
+        [b'P', b'2' | b'3' | b'5' | b'6', ..] => decode_pnm(bytes, begin),
+        [0x89, b'P', b'N', b'G', ..] => decode_png(bytes, begin),
+        _ => Err(Problem::Image("it is neither PGM nor PNG".to_owned())),
+    }
+}
+
+fn decode_png<T>(
+    bytes: &[u8],
+    begin: impl FnOnce(u32, u32) -> Result<T, Problem>,
+) -> Result<(T, Vec<Pixel>), Problem> {
+    let undecoded = |error: png::DecodingError| Problem::Image(error.to_string());
+    let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: 16 * MAX_CELLS as usize });
+    decoder.set_transformations(Transformations::EXPAND);
+    let mut reader = decoder.read_info().map_err(undecoded)?;
+    let (width, height) = reader.info().size();
+    let begun = begin(width, height)?;
+    let size = reader.output_buffer_size().ok_or_else(|| Problem::Image("it is too large".to_owned()))?;
+    let mut samples = vec![0; size];
+    let frame = reader.next_frame(&mut samples).map_err(undecoded)?;
+    samples.truncate(frame.buffer_size());
+    if frame.bit_depth == BitDepth::Sixteen {
+        let wide =
+            samples.chunks_exact(2).map(|pair| scaled(u16::from_be_bytes([pair[0], pair[1]]), u16::MAX));
+        samples = wide.collect();
+    }
+    let pixel = |samples: &[u8]| match *samples {
+        [grey] => [grey, grey, grey, u8::MAX],
+        [grey, alpha] => [grey, grey, grey, alpha],
+        [red, green, blue] => [red, green, blue, u8::MAX],
+        [red, green, blue, alpha, ..] => [red, green, blue, alpha],
+        [] => [0; 4],
+    };
+    let channels = match frame.color_type {
+        ColorType::Grayscale | ColorType::Indexed => 1,
+        ColorType::GrayscaleAlpha => 2,
+        ColorType::Rgb => 3,
+        ColorType::Rgba => 4,
+    };
+    Ok((begun, samples.chunks_exact(channels).map(pixel).collect()))
+}
+
+/// A sample from 0 to `most`, from 0 to 255.
+fn scaled(sample: u16, most: u16) -> u8 {
+    let most = u32::from(most.max(1));
+    ((u32::from(sample).min(most) * 255 + most / 2) / most) as u8
+}
+
+/// Decodes the formats P2, P3, P5 and P6: grey or coloured, in decimal numbers or bytes.
+fn decode_pnm<T>(
+    bytes: &[u8],
+    begin: impl FnOnce(u32, u32) -> Result<T, Problem>,
+) -> Result<(T, Vec<Pixel>), Problem> {
+    let wrong = |what: &str| Problem::Image(what.to_owned());
+    let mut numbers = Numbers(&bytes[2..]);
+    let mut positive = |what: &str| numbers.next().filter(|&number| number > 0).ok_or_else(|| wrong(what));
+    let (width, height) =
+        (positive("its width is no number above 0")?, positive("its height is no number above 0")?);
+    let most = positive("its largest level is no number from 1 to 65535")?;
+    let most = u16::try_from(most).map_err(|_| wrong("its largest level is no number from 1 to 65535"))?;
+    let begun = begin(width, height)?;
+    let is_plain = matches!(bytes[1], b'2' | b'3');
+    let channels = if matches!(bytes[1], b'2' | b'5') { 1 } else { 3 };
+    let count = width as usize * height as usize * channels;
+    let samples: Vec<u8> = if is_plain {
+        numbers.take(count).map(|sample| scaled(sample.min(u32::from(u16::MAX)) as u16, most)).collect()
+    } else {
+        // One blank stands between the largest level and the first sample.
+        let raster = numbers.0.get(1..).unwrap_or_default();
+        if most > u16::from(u8::MAX) {
+            let pairs = raster.chunks_exact(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]]));
+            pairs.take(count).map(|sample| scaled(sample, most)).collect()
+        } else {
+            raster.iter().take(count).map(|&sample| scaled(sample.into(), most)).collect()
+        }
+    };
+    if samples.len() < count {
+        return Err(wrong("it ends before its last pixel"));
+    }
+    let pixel = |samples: &[u8]| match *samples {
+        [red, green, blue, ..] => [red, green, blue, u8::MAX],
+        [grey, ..] => [grey, grey, grey, u8::MAX],
+        [] => [0; 4],
+    };
+    Ok((begun, samples.chunks_exact(channels).map(pixel).collect()))
+}
+
+/// The decimal numbers of a text, with blanks and comments between them. It ends where something else stands.
+struct Numbers<'a>(&'a [u8]);
+
+impl Iterator for Numbers<'_> {
+    type Item = u32;
+
+    fn next(&mut self) -> Option<u32> {
+        loop {
+            self.0 = self.0.trim_ascii_start();
+            if self.0.first() != Some(&b'#') {
+                break;
+            }
+            let end = self.0.iter().position(|&byte| byte == b'\n').unwrap_or(self.0.len());
+            self.0 = &self.0[end..];
+        }
+        let end = self.0.iter().position(|byte| !byte.is_ascii_digit()).unwrap_or(self.0.len());
+        let (digits, rest) = self.0.split_at(end);
+        self.0 = rest;
+        str::from_utf8(digits).ok()?.parse().ok()
+    }
+}
