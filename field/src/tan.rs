@@ -11,7 +11,9 @@
 //! same on every machine.
 
 mod antenna;
+mod back_and_forth;
 mod ear;
+mod gradient;
 mod journey;
 mod rival;
 mod shortest;

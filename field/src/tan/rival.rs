@@ -9,9 +9,11 @@
 //! - Sheu's robot follows the guide nodes from the first neighbour of least hops on, each the least neighbour one hop
 //!   nearer of the one before, with an antenna that hears the same all round.
 
+use super::back_and_forth::{BackAndForth, Walk};
+use super::gradient::{Gradient, Position, Station, reich, verma};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{NodeId, RobotId};
-use tautline_kernel::tan::{BackAndForth, Gradient, Heading, Nav, Position, Station, Walk, reich, verma};
+use tautline_kernel::tan::{Heading, Nav};
 
 use super::ear::apart_m;
 use super::journey::MOST_ACTS;

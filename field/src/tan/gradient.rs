@@ -1,33 +1,31 @@
-//! Where a robot goes next under two schemes of others, as paper 003, 2.1, tells of them: Verma's credit field, for which
+//! Where a robot goes next under two rivals of TAN [Jiang 2011, 2.1]: Verma's credit field, for which
 //! all know their positions, and Reich's gradient, for which nobody does. Both flood the whole network once, so that every
 //! sensor knows its hops from the goal.
 
-use crate::net::NodeId;
+use tautline_kernel::net::NodeId;
 
 /// A place, in micrometres.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Position {
+pub(super) struct Position {
     /// Along +x.
-    pub x_um: i64,
+    pub(super) x_um: i64,
     /// Along +y.
-    pub y_um: i64,
+    pub(super) y_um: i64,
 }
 
 /// A neighbour of Verma's robot.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Station {
+pub(super) struct Station {
     /// Where it is.
-    pub at: Position,
+    pub(super) at: Position,
     /// Its hops from the goal.
-    pub hops: u16,
+    pub(super) hops: u16,
 }
 
 /// Verma's credit field: the place to which the robot goes next. A neighbour's credit is the larger the fewer its hops from
 /// the goal. The paper says only that high-credit neighbours attract the robot; here those of the highest credit do, all
 /// alike, so that it goes to the middle of them: to the goal itself where that is in range. `None` if there is no neighbour.
-pub fn verma(neighbours: impl IntoIterator<Item = Station>) -> Option<Position> {
+pub(super) fn verma(neighbours: impl IntoIterator<Item = Station>) -> Option<Position> {
     let (mut fewest, mut x, mut y, mut count) = (u16::MAX, 0, 0, 0);
     for Station { at, hops } in neighbours {
         if hops < fewest {
@@ -46,12 +44,11 @@ pub fn verma(neighbours: impl IntoIterator<Item = Station>) -> Option<Position> 
 
 /// A neighbour of Reich's robot.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Gradient {
+pub(super) struct Gradient {
     /// Which sensor.
     pub node: NodeId,
     /// Its gradient: hops from the target, low near it.
-    pub hops: u16,
+    pub(super) hops: u16,
     /// Whether the robot has been there.
     pub visited: bool,
 }
@@ -59,7 +56,7 @@ pub struct Gradient {
 /// Reich's gradient: the neighbour to which the robot goes next, the unvisited one of least gradient, the least identity
 /// first; `None` if all are visited. The paper says at once that the way leads from high to low and that the largest is
 /// chosen; only the first leads to the target.
-pub fn reich(neighbours: impl IntoIterator<Item = Gradient>) -> Option<NodeId> {
+pub(super) fn reich(neighbours: impl IntoIterator<Item = Gradient>) -> Option<NodeId> {
     let unvisited = neighbours.into_iter().filter(|neighbour| !neighbour.visited);
     unvisited.min_by_key(|neighbour| (neighbour.hops, neighbour.node)).map(|neighbour| neighbour.node)
 }

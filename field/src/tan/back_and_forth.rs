@@ -1,13 +1,12 @@
-//! Sheu's back-and-forth (paper 003, 2.1): without a directional antenna the robot walks a random direction to the place
+//! Sheu's back-and-forth ([Jiang 2011, 2.1]): without a directional antenna the robot walks a random direction to the place
 //! where a guide node's beacon is strongest, turns by 90°, walks the way on which it becomes stronger, and so on.
 
-use super::heading::Heading;
-use crate::net::Strength;
+use tautline_kernel::net::Strength;
+use tautline_kernel::tan::Heading;
 
 /// What the robot is to do next, a step of a length that the caller gives.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Walk {
+pub(super) enum Walk {
     /// A step that way.
     Step(Heading),
     /// Nothing: it is at the guide node.
@@ -15,7 +14,6 @@ pub enum Walk {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Leg {
     /// The first step of a line: it may be the wrong way.
     Trying,
@@ -27,8 +25,7 @@ enum Leg {
 
 /// A robot that seeks a guide node by the strength of its beacon alone.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct BackAndForth {
+pub(super) struct BackAndForth {
     heading: Heading,
     leg: Leg,
     last: Strength,
@@ -38,18 +35,18 @@ pub struct BackAndForth {
 impl BackAndForth {
     /// A robot that hears the beacon as `heard` and begins by `heading`, which is left to chance. It is there when the
     /// beacon is at least `near`.
-    pub const fn new(heading: Heading, heard: Strength, near: Strength) -> Self {
+    pub(super) const fn new(heading: Heading, heard: Strength, near: Strength) -> Self {
         Self { heading, leg: Leg::Trying, last: heard, near }
     }
 
     /// What it is to do now.
-    pub const fn order(&self) -> Walk {
+    pub(super) const fn order(&self) -> Walk {
         if self.last.0 >= self.near.0 { Walk::Stop } else { Walk::Step(self.heading) }
     }
 
     /// The beacon after the step. One that is not heard is taken as weaker than any.
     #[must_use]
-    pub fn measure(mut self, heard: Option<Strength>) -> Self {
+    pub(super) fn measure(mut self, heard: Option<Strength>) -> Self {
         let now = heard.unwrap_or(Strength(i32::MIN));
         let is_stronger = now > self.last;
         (self.heading, self.leg) = match (self.leg, is_stronger) {
