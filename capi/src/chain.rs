@@ -1,4 +1,4 @@
-//! The chain of robots (paper 000, III: Algorithms 1 to 3): begin, plan, settle or hear, and what is known.
+//! The chain of robots [Kovács 2011, III: Algorithms 1 to 3]: begin, plan, settle or hear, and what is known.
 //! Clauses CHAIN-1 to CHAIN-19 hold of it as of [`tautline_kernel::chain`].
 
 use core::ffi::c_void;

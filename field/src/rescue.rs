@@ -1,4 +1,4 @@
-//! Rescues end to end over the radio field (paper 003, 3.2 to 3.4): nodes at random places call for help, each its event
+//! Rescues end to end over the radio field [Jiang 2011, 3.2 to 3.4]: nodes at random places call for help, each its event
 //! under its epoch, by a broadcast scheme; robots hear, ask by MOVE from parent to parent, are chosen by RESB, and find
 //! their way from path node to path node. Robots, nodes that wait for rescue (WFRs), path nodes and guides are the kernel's;
 //! what is added here is time, places, and what goes wrong.

@@ -1,4 +1,4 @@
-//! Bringing a robot over a radio field to the node that waits for rescue (WFR): TAN (paper 003, 3.4) by the kernel's
+//! Bringing a robot over a radio field to the node that waits for rescue (WFR): TAN [Jiang 2011, 3.4] by the kernel's
 //! rules, and the ways that the paper compares it with. A [`Walker`] is one robot on its way by TAN: each thing that it
 //! does says how long it takes, so that a simulation can have several on the way and let anything go wrong in between.
 //! [`Site`] walks whole journeys, of TAN and of its rivals, over a network in which nothing does.

@@ -1,4 +1,4 @@
-//! Ants (paper 004, II.A, after Svennebring and Koenig 2004): every cell counts how many times an agent has entered it,
+//! Ants [Ferranti 2009, II.A, after Svennebring and Koenig 2004]: every cell counts how many times an agent has entered it,
 //! and an agent goes to the side neighbour that was entered least. It explores whatever is connected and never knows
 //! that it is done. Clause: ANTS-1.
 

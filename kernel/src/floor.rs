@@ -1,4 +1,4 @@
-//! The sensor-instrumented floor (paper 004, I): cells with a fixed sensor in each that is no wall. An agent reads the
+//! The sensor-instrumented floor [Ferranti 2009, I]: cells with a fixed sensor in each that is no wall. An agent reads the
 //! sensors of its cell and of the eight cells around, writes what it has to remember into them, and goes to a side
 //! neighbour. It has no map and no radio to other agents: the floor is all that they share.
 
@@ -12,7 +12,7 @@ pub use sensor::{Claim, Mark, Sensor, Sides};
 
 use crate::ground::{Cell, Edge, Side};
 
-/// The sides in the order that settles every tie of paper 004: north, east, south, west.
+/// The sides in the order that settles every tie of [Ferranti 2009]: north, east, south, west.
 pub const COMPASS: [Side; 4] = [Side::North, Side::East, Side::South, Side::West];
 
 /// The sensors of an area and the walls between them.

@@ -1,4 +1,4 @@
-//! MRC, Mobile Robot Coordination (paper 003, 3.3): which robot goes to which node that waits for rescue (WFR).
+//! MRC, Mobile Robot Coordination [Jiang 2011, 3.3]: which robot goes to which node that waits for rescue (WFR).
 //! Clauses MRC-1 to MRC-14.
 //!
 //! A WFR calls by a NOTICE that spreads through the network; robots answer with MOVE along the tree that the NOTICE

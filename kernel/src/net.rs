@@ -41,7 +41,7 @@ pub struct Call {
     pub epoch: Epoch,
 }
 
-/// NOTICE⟨RID, ID, HC⟩ (paper 003, 3.2), with the number of the call, which the paper leaves out.
+/// NOTICE⟨RID, ID, HC⟩ [Jiang 2011, 3.2], with the number of the call, which the paper leaves out.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Notice {

@@ -1,4 +1,4 @@
-//! Broadcasting an event through a network of sensor nodes (paper 003, 3.2): k-farthest-node forwarding, and the
+//! Broadcasting an event through a network of sensor nodes [Jiang 2011, 3.2]: k-farthest-node forwarding, and the
 //! schemes that it is compared with. Clauses NOTICE-1 to NOTICE-6.
 //!
 //! A node's state is a plain value, [`Node`], one for each source that it hears of. [`Node::receive`] says what a

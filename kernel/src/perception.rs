@@ -1,4 +1,4 @@
-//! How an agent finds the sensors round it with its camera (paper 004, IV): blobs of light in a picture ([`blob`]),
+//! How an agent finds the sensors round it with its camera [Ferranti 2009, IV]: blobs of light in a picture ([`blob`]),
 //! who they are from their blinking ([`blink`]), where they are ([`polar`]), and how long it takes ([`time`]). Pure
 //! functions over lent buffers, in whole numbers. Where the paper leaves a choice, the docs say which reading is ours.
 

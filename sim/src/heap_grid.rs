@@ -1,5 +1,5 @@
 //! The grid of areas of any size: what [`BitGrid`](tautline_kernel::ground::BitGrid) is to a small area, on the
-//! heap. Its distances (paper 000, equation (4)) come from a search that learns. Cells become explored and edges
+//! heap. Its distances [Kovács 2011, equation (4)] come from a search that learns. Cells become explored and edges
 //! become blocked, hardly ever the reverse, so a distance once found stays a lower bound. Every search is an A*
 //! from the asking cell with those bounds as its estimate, and leaves better bounds behind (Adaptive A*, Koenig
 //! and Likhachev 2005): a path that still stands is walked straight down, and a region without a way out is

@@ -1,4 +1,4 @@
-//! One event broadcast through a network by the kernel's rules (paper 003, 3.2).
+//! One event broadcast through a network by the kernel's rules [Jiang 2011, 3.2].
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{Epoch, Heard, NodeId, Notice};

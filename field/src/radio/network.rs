@@ -1,6 +1,6 @@
 //! Who hears whom, and how far off each seems to be by the strength of its signal.
 //!
-//! By equation (1) of paper 003, the kernel's [`Propagation`], the mean power at distance d is 10·α·log₁₀(L/d) dB above
+//! By equation (1) of [Jiang 2011], the kernel's [`Propagation`], the mean power at distance d is 10·α·log₁₀(L/d) dB above
 //! what can just be heard, L being the range, and a shadow adds its deviation X to that. So a signal is heard if
 //! d·10^(−X/10α) ≤ L, and that product is also the distance that the receiver makes of it: with or without shadows, who
 //! seems to be within the range is heard. A shadow is that of a pair of places, the same both ways and for ever.

@@ -1,4 +1,4 @@
-//! How TAN goes over the air (paper 003, 3.4), and how long its steps take. A robot asks its guide for the signal anew about
+//! How TAN goes over the air [Jiang 2011, 3.4], and how long its steps take. A robot asks its guide for the signal anew about
 //! once a second, as the paper has it “continuously request” it, and the signal lasts T_x from the last request: so
 //! neither a lost REQNAV nor a lost NAV ends a journey, and a robot that fails does not keep the nodes silent. T_x is
 //! long enough for three requests to be lost, and short, since the next node on the way is silent for as long after it

@@ -1,4 +1,4 @@
-//! Journeys by the schemes that paper 003 compares TAN with or tells of (2.1). All of them flood the whole network, so
+//! Journeys by the schemes that [Jiang 2011] compares TAN with or tells of (2.1). All of them flood the whole network, so
 //! that every node that links connect to the goal knows its hops. What the paper leaves open:
 //!
 //! - Verma's robot goes all the way to the place that it has calculated. Where it hears nobody nearer to the goal than

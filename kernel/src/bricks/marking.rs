@@ -1,4 +1,4 @@
-//! The local rules: whether a cell may be marked as visited (paper 004, II.A and Fig. 2), and whether a side may be
+//! The local rules: whether a cell may be marked as visited [Ferranti 2009, II.A and Fig. 2], and whether a side may be
 //! shut.
 
 use super::rule::{Condition, Rule};

@@ -1,4 +1,4 @@
-//! What a robot broadcasts after a team move (paper 000, III.D): its step in three bits and whether it met a
+//! What a robot broadcasts after a team move [Kovács 2011, III.D]: its step in three bits and whether it met a
 //! wall in one. Of the byte's other four bits one says that the move was taken back, so that a log of messages
 //! read backwards pairs itself (clause CHAIN-8).
 

@@ -1,5 +1,5 @@
 //! The planning of one team move: the leader's priority list, and for each of its candidates the search for
-//! followers (paper 000, III.D, Algorithm 1, equation (2)). Mostly every follower finds a step at once, in one
+//! followers [Kovács 2011, III.D, Algorithm 1, equation (2)]. Mostly every follower finds a step at once, in one
 //! descent from the leader to the base; where one does not, [`Choices`] find the plan that the paper's recursion
 //! would return, without its cost (clauses CHAIN-4, CHAIN-11 and CHAIN-12).
 

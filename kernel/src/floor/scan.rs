@@ -1,4 +1,4 @@
-//! What an agent sees from a cell (paper 004, I: localisation and querying).
+//! What an agent sees from a cell [Ferranti 2009, I: localisation and querying].
 
 use super::{COMPASS, Claim, Entry, Floor, Mark, Ring, Sensor};
 use crate::choice::Oracle;

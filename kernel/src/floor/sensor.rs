@@ -4,7 +4,7 @@ use core::hash::{Hash, Hasher};
 
 use crate::ground::Side;
 
-/// The state of a cell (paper 004, II.A). Walls have no sensor.
+/// The state of a cell [Ferranti 2009, II.A]. Walls have no sensor.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Mark {

@@ -1,5 +1,5 @@
 //! What a team knows of its area: walls, open sides, explored cells, virtual obstacles, and the distance to
-//! the nearest unexplored cell (paper 000, equation (4)). [`Grid`] is what the rules ask for; [`BitGrid`](super::BitGrid) is
+//! the nearest unexplored cell [Kovács 2011, equation (4)]. [`Grid`] is what the rules ask for; [`BitGrid`](super::BitGrid) is
 //! its home in a few machine words, small enough to be copied at every fork of a search.
 
 use core::ops::ControlFlow;

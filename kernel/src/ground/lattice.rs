@@ -1,4 +1,4 @@
-//! The grid of square cells and the three environments of a cell (paper 000, III.A, equation (1)).
+//! The grid of square cells and the three environments of a cell [Kovács 2011, III.A, equation (1)].
 //! Clause LATTICE-1 shows that the environments, derived here from the radii in whole numbers, are the
 //! sets that the paper draws.
 

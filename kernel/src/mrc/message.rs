@@ -1,4 +1,4 @@
-//! What MRC sends (paper 003, 3.2 and 3.3): NOTICE⟨RID, ID, HC⟩, MOVE⟨SN, MID, MHC, PID⟩ and RESB⟨RSN, MID⟩. To each the
+//! What MRC sends [Jiang 2011, 3.2 and 3.3]: NOTICE⟨RID, ID, HC⟩, MOVE⟨SN, MID, MHC, PID⟩ and RESB⟨RSN, MID⟩. To each the
 //! repair adds the epoch, and to the robot's words that it accepts or declines.
 
 use crate::net::{Call, NodeId, Notice, RobotId};

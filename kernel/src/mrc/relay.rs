@@ -1,4 +1,4 @@
-//! A path node's part in MRC (paper 003, 3.3, step 3): what a robot sends goes from parent to parent, and a RESB the
+//! A path node's part in MRC [Jiang 2011, 3.3, step 3]: what a robot sends goes from parent to parent, and a RESB the
 //! same way back. The paper names no way back: a path node remembers, by SN and MID, who gave it the robot's message.
 
 use super::message::{Resb, Upward};

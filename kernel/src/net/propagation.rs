@@ -1,4 +1,4 @@
-//! Distance from signal strength (paper 003, equation (1)): P_rcv = P_tx·(C_1/D)^α·C_2. Powers matter beside each other
+//! Distance from signal strength [Jiang 2011, equation (1)]: P_rcv = P_tx·(C_1/D)^α·C_2. Powers matter beside each other
 //! only, so that P_tx, C_1 and C_2 cancel out: at distance D a signal is (L/D)^α times as strong as at L. With L the range,
 //! that is how much stronger it is than what can just be heard; its level is ten times the logarithm of it, in dB.
 //!

@@ -1,4 +1,4 @@
-//! Who a sensor is, from its blinking (paper 004, IV, “Discovering the IDs of detected sensors”): in each time interval
+//! Who a sensor is, from its blinking [Ferranti 2009, IV, “Discovering the IDs of detected sensors”]: in each time interval
 //! its LED is on or off as one bit of its identifier says, the most significant bit first, and the agent takes one
 //! picture in each.
 //!

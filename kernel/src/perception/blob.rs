@@ -1,4 +1,4 @@
-//! Blobs of light in a picture, and the colours that an LED has in it (paper 004, IV, “Detecting a sensor LED”).
+//! Blobs of light in a picture, and the colours that an LED has in it [Ferranti 2009, IV, “Detecting a sensor LED”].
 //!
 //! The paper goes through a picture line by line, clusters pixels of the right colours into sets, and sets that overlap
 //! those of the lines before into blobs. Ours are these readings:

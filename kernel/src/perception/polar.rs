@@ -1,4 +1,4 @@
-//! Where a sensor is, seen from the agent (paper 004, IV, “Locating sensors with respect to mobile agent”): the angle
+//! Where a sensor is, seen from the agent [Ferranti 2009, IV, “Locating sensors with respect to mobile agent”]: the angle
 //! from the turning steps and the column in the picture, the distance from the row.
 //!
 //! Ours are these readings:

@@ -1,4 +1,4 @@
-//! How long an agent takes (paper 004, V.A): the means that the paper measured, in whole milliseconds.
+//! How long an agent takes [Ferranti 2009, V.A]: the means that the paper measured, in whole milliseconds.
 //!
 //! Our reading: each sensor takes up one turn of a scan, in which it is detected, identified and localized; in the other
 //! turns the agent just moves on. A sensor that is missed costs what an empty turn costs.

@@ -1,4 +1,4 @@
-//! Directions in steps of 15° (paper 003, 3.4, step 3), and the scan of a directional antenna once round.
+//! Directions in steps of 15° [Jiang 2011, 3.4, step 3], and the scan of a directional antenna once round.
 
 use crate::net::Strength;
 

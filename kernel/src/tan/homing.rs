@@ -1,4 +1,4 @@
-//! TAN (paper 003, 3.4; clauses TAN-1 and TAN-2): the robot asks its parent for a signal, turns its antenna once round,
+//! TAN [Jiang 2011, 3.4; clauses TAN-1 and TAN-2]: the robot asks its parent for a signal, turns its antenna once round,
 //! walks towards the strongest direction, and asks the next parent when it is there, with a hop count one less each time,
 //! until it is 0.
 //!

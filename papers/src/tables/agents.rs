@@ -1,4 +1,4 @@
-//! Agents on the floors of offices (paper 004, V.B): how much is explored and marked as visited by Brick&Mortar, Ants and
+//! Agents on the floors of offices [Ferranti 2009, V.B]: how much is explored and marked as visited by Brick&Mortar, Ants and
 //! Brick&Mortar with ants' ways where sensors are missed, by the number of agents (Fig. 11) and by the area (Fig. 12); and
 //! how long they take where none is (the idealized conditions that the paper takes from its reference 2).
 //!

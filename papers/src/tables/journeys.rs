@@ -1,4 +1,4 @@
-//! Journeys of a robot to the node that waits for rescue (paper 003, 4.3 and 4.4): how far it walks by TAN, by Verma's and
+//! Journeys of a robot to the node that waits for rescue [Jiang 2011, 4.3 and 4.4]: how far it walks by TAN, by Verma's and
 //! Reich's schemes, and by Sheu's, of which the paper only tells. Figure 7 is the ratio RD of what robots walk to the
 //! shortest ways there; figures 6, 9 and 10 are pictures of single journeys, the last two round obstacles, which here
 //! stand beside the same measurement. Every way is walked in the same topologies, from the same place to the same node.

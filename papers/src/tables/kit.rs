@@ -1,4 +1,4 @@
-//! KIT (paper 001, 6) on random lattices: how long one robot and two take to find the nodes (Fig. 9), and what is driven by
+//! KIT [Peiris, 6] on random lattices: how long one robot and two take to find the nodes (Fig. 9), and what is driven by
 //! both when 23 of 26 paths are explored (Fig. 14).
 //!
 //! The paper gives neither its map nor its speeds. From its 88 % and 78 % follow 26 paths, of which 23 are explored and 5

@@ -1,4 +1,4 @@
-//! Figure 5 of paper 003: how many nodes of a random network a broadcast reaches, and how many forward it, by scheme and
+//! Figure 5 of [Jiang 2011]: how many nodes of a random network a broadcast reaches, and how many forward it, by scheme and
 //! density. The paper counts all nodes; those that no link connects to the source nothing can reach, so the reach within
 //! the source's component stands beside it. Every scheme broadcasts over the same topologies, from the same sources.
 

@@ -1,4 +1,4 @@
-//! Figure 8 of paper 003: three robots come to three WFRs. The paper draws the ways in one network, and says that robots
+//! Figure 8 of [Jiang 2011]: three robots come to three WFRs. The paper draws the ways in one network, and says that robots
 //! reach the WFRs “for all simulated scenarios” (4.3) and that each WFR gets “one nearby” robot (1). Ours: how often that is so
 //! in many networks, under MRC as published and repaired, without any fault, and how much farther the robots have to go
 //! than under the best of all assignments. Both rules have the same networks.

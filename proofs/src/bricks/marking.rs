@@ -179,7 +179,7 @@ pub(crate) fn most_walled(observed: &Observed, oracle: &mut dyn Oracle) -> Outco
     Ok("a way on")
 }
 
-/// The side of a cell in millimetres (paper 004, V.A).
+/// The side of a cell in millimetres [Ferranti 2009, V.A].
 const SIDE: u16 = 480;
 
 /// Where the sensors around are, in columns and rows, clockwise from the northern one.

@@ -1,4 +1,4 @@
-//! The search for traps (paper 004, Fig. 8): the smallest layout and the fewest missed sensors with which agents on a
+//! The search for traps [Ferranti 2009, Fig. 8]: the smallest layout and the fewest missed sensors with which agents on a
 //! floor are done, or go round for ever, before every cell is explored (BRICKS-4, BRICKS-5). The agents act in the
 //! order of their ids, once each in a team move, as in a simulation; which sensors they miss is open.
 //!

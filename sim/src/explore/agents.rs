@@ -1,4 +1,4 @@
-//! A team of agents on a sensor floor (paper 004), whichever way they decide, and what is the same in all their rows.
+//! A team of agents on a sensor floor [Ferranti 2009], whichever way they decide, and what is the same in all their rows.
 //! In a team move every agent that is not done acts once, in the order of the agents' ids.
 //!
 //! Missed sensors are drawn from `ChaCha8`, seeded with the seed of the run as layouts are, with the tag `miss`: one

@@ -1,4 +1,4 @@
-//! Ants (paper 004): agents that go where they have been least. Their row; the team is that of all agents.
+//! Ants [Ferranti 2009]: agents that go where they have been least. Their row; the team is that of all agents.
 
 use tautline_kernel::ants::Rule as Ants;
 use tautline_proofs::floor::trap::Way;

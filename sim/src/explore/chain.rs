@@ -1,4 +1,4 @@
-//! The recursive chain (paper 000, III): its row, and its team: the kernel's chain, the log of messages that it reads its
+//! The recursive chain [Kovács 2011, III]: its row, and its team: the kernel's chain, the log of messages that it reads its
 //! history from, and the smallest grid that holds its area.
 
 mod areas;
