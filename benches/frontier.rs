@@ -1,5 +1,5 @@
-//! Decisions of robots that explore cells, by the rule, the size of the area and the number of robots: whole runs, as many elements as
-//! there are decisions, one of each robot in a team move.
+//! Decisions of robots that explore cells, by the rule, the size of the area and the number of robots: whole runs, as
+//! many elements as there are decisions, one of each robot in a team move.
 
 use std::hint::black_box;
 

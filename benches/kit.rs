@@ -1,5 +1,5 @@
-//! Decisions of robots that keep in touch, by the size of the map and the number of robots: whole runs, as many elements as
-//! there are drives.
+//! Decisions of robots that keep in touch, by the size of the map and the number of robots: whole runs, as many
+//! elements as there are drives.
 
 use std::hint::black_box;
 

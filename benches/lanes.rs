@@ -1,5 +1,5 @@
-//! How evenly a search over all layouts is shared out, counted in team moves and not timed: the moves of the busiest share
-//! of a wave over the mean, and how long so many workers wait for one another at the ends of waves.
+//! How evenly a search over all layouts is shared out, counted in team moves and not timed: the moves of the busiest
+//! share of a wave over the mean, and how long so many workers wait for one another at the ends of waves.
 
 use tautline_proofs::chain::Observed;
 use tautline_proofs::chain::search::{Bounds, Search};

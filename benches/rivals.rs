@@ -1,5 +1,5 @@
-//! How fast the rivals' team moves are: Full search of eight robots against plain enumeration, and the best joint step of a
-//! chain of 8 and of 256 robots.
+//! How fast the rivals' team moves are: Full search of eight robots against plain enumeration, and the best joint step
+//! of a chain of 8 and of 256 robots.
 
 use std::hint::black_box;
 

@@ -178,8 +178,8 @@ fn against_naive_searches(criterion: &mut Criterion, thread: &ThreadPool) -> [(u
     all
 }
 
-/// Everything looked for that a hunt looks for, by the number of robots and the most walls: under the published rule and
-/// the repaired one.
+/// Everything looked for that a hunt looks for, by the number of robots and the most walls: under the published rule
+/// and the repaired one.
 fn hunts(criterion: &mut Criterion, thread: &ThreadPool) -> [(u32, u32, [Cost<Searched>; 2]); 7] {
     let mut group = group(criterion, "hunt");
     [(2, 12), (3, 4), (4, 3), (5, 2), (6, 2), (7, 1), (8, 1)].map(|(robots, max_walls)| {

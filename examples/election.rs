@@ -1,6 +1,6 @@
-//! A message protocol over all states and all orders: three robots in a ring elect a leader (Chang and Roberts, 1979). A robot
-//! passes on a larger number than its own, swallows a smaller one, and leads when its own comes back. Which message
-//! arrives next is open at every step.
+//! A message protocol over all states and all orders: three robots in a ring elect a leader (Chang and Roberts, 1979).
+//! A robot passes on a larger number than its own, swallows a smaller one, and leads when its own comes back. Which
+//! message arrives next is open at every step.
 
 use tautline_proofs::clause::{Check, Clause, Named};
 use tautline_proofs::decide::Verdict::{Holds, Refuted};

@@ -1,6 +1,6 @@
-//! A rule of two robots: the first one goes ahead and turns right at a wall, the second one follows where the first one was.
-//! It looks right, and it is not: searched in all layouts of a small area, it breaks its promise where a wall stands
-//! between the two at the start. Repaired, both start in one cell.
+//! A rule of two robots: the first one goes ahead and turns right at a wall, the second one follows where the first one
+//! was. It looks right, and it is not: searched in all layouts of a small area, it breaks its promise where a wall
+//! stands between the two at the start. Repaired, both start in one cell.
 
 use std::env;
 use std::error::Error;

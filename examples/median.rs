@@ -1,5 +1,6 @@
-//! A rule of one step: a robot takes the median of three ranges for the true one, as one of them may be wrong. Every reading
-//! of a coarse scale is looked at, any tape of numbers is a test, and its Kani harnesses take all answers at once.
+//! A rule of one step: a robot takes the median of three ranges for the true one, as one of them may be wrong. Every
+//! reading of a coarse scale is looked at, any tape of numbers is a test, and its Kani harnesses take all answers at
+//! once.
 
 use tautline_kernel::choice::Oracle;
 use tautline_proofs::clause::{AnyCheck, Named};

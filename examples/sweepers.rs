@@ -1,6 +1,6 @@
-//! A team of one's own, simulated: robots that each go to the neighbouring cell where the team has been least, and tell each
-//! other where they are. They run in offices, or on a map that is named: `cargo run -p tautline-examples --bin sweepers
-//! -- map.yaml`.
+//! A team of one's own, simulated: robots that each go to the neighbouring cell where the team has been least, and tell
+//! each other where they are. They run in offices, or on a map that is named: `cargo run -p tautline-examples --bin
+//! sweepers -- map.yaml`.
 
 use std::collections::BTreeMap;
 use std::env;

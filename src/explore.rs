@@ -65,8 +65,9 @@ pub(super) struct Explore {
     /// How likely it is that an agent misses a sensor, from 0 to 1. Without it 0.
     #[arg(long, value_name = "PROBABILITY", value_parser = probability, allow_hyphen_values = true)]
     miss: Option<Probability>,
-    /// How many cells a message of robots that explore cells is heard; without it all hear it. Robots that keep in touch
-    /// hear 2 or 3 cells; without it 10 m, and a cell is 3 m wide. Robots of a pack hear 3 cells or more; without it 60.
+    /// How many cells a message of robots that explore cells is heard; without it all hear it. Robots that keep in
+    /// touch hear 2 or 3 cells; without it 10 m, and a cell is 3 m wide. Robots of a pack hear 3 cells or more; without
+    /// it 60.
     #[arg(long, value_name = "CELLS", value_parser = whole::<u16>)]
     range: Option<u16>,
     /// How many cells robots of a pack see, from 1 to 31. Without it 20.

@@ -60,8 +60,8 @@ pub(super) struct Hunt {
     /// Most walls that a chain meets in one run, 4 unless this says otherwise; the border is not counted.
     #[arg(long, value_name = "K", value_parser = whole::<u32>)]
     max_walls: Option<u32>,
-    /// Search all areas of at most K cells, whatever their columns and rows, with a chain's base in each of their cells: fewest
-    /// cells first, then fewest walls, then fewest team moves, each clause by itself.
+    /// Search all areas of at most K cells, whatever their columns and rows, with a chain's base in each of their
+    /// cells: fewest cells first, then fewest walls, then fewest team moves, each clause by itself.
     #[arg(long, value_name = "K", value_parser = whole::<u32>, conflicts_with = "size")]
     max_cells: Option<u32>,
     /// Most sensors that agents miss in one run, 1 unless this says otherwise.
@@ -70,8 +70,8 @@ pub(super) struct Hunt {
     /// Most messages that are lost in one run of robots that explore cells, 0 unless this says otherwise.
     #[arg(long, value_name = "K", value_parser = number::<u8>)]
     max_losses: Option<u8>,
-    /// How far fixes of robots that explore cells are off, in cells: 0 unless this says otherwise; a number of sixteenths for
-    /// each fix of one robot; or 1 for one fix of a run.
+    /// How far fixes of robots that explore cells are off, in cells: 0 unless this says otherwise; a number of
+    /// sixteenths for each fix of one robot; or 1 for one fix of a run.
     #[arg(long, value_name = "CELLS", value_parser = real)]
     error: Option<f64>,
     /// Columns and rows of a chain's layouts, the base in the middle; without it the (2N−1)x(2N−1) cells in reach. Of

@@ -1,6 +1,6 @@
-//! Signals that end the work: Ctrl-C, SIGTERM and, unless the process was started to ignore it, SIGHUP. The first ends the
-//! process at once, unless the work in hand has results to keep; then it ends the work, and the second the process. No
-//! unfinished file stays.
+//! Signals that end the work: Ctrl-C, SIGTERM and, unless the process was started to ignore it, SIGHUP. The first ends
+//! the process at once, unless the work in hand has results to keep; then it ends the work, and the second the process.
+//! No unfinished file stays.
 
 use std::io::{self, IsTerminal, Write};
 use std::process;

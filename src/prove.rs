@@ -65,12 +65,12 @@ pub(super) struct Prove {
     /// Store each counterexample as a file in DIR, which `tautline replay` plays. DIR is made if it is not there.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// The memory that searches over states may take together, as 1GiB or 500MiB. A check for which it does not suffice is
-    /// left open. Without it they take what they need.
+    /// The memory that searches over states may take together, as 1GiB or 500MiB. A check for which it does not suffice
+    /// is left open. Without it they take what they need.
     #[arg(long, value_name = "SIZE")]
     memory: Option<Bytes>,
-    /// Seconds that one step may take: a team move, a case, a step between states. Where one does not end by then and no other
-    /// check goes on, its check is left open.
+    /// Seconds that one step may take: a team move, a case, a step between states. Where one does not end by then and
+    /// no other check goes on, its check is left open.
     #[arg(long, value_name = "SECONDS", value_parser = positive, default_value_t = PATIENCE)]
     patience: NonZeroU32,
     #[command(flatten)]

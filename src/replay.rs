@@ -388,7 +388,8 @@ impl Replay {
     }
 }
 
-/// Stores the page of a refutation: it plays the run that breaks the clause if the program can make it, and else tells the story.
+/// Stores the page of a refutation: it plays the run that breaks the clause if the program can make it, and else tells
+/// the story.
 fn store_page(
     mut page: AtomicFile,
     clause: &Clause,

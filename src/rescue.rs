@@ -68,7 +68,8 @@ pub(super) struct Rescue {
     /// The radio range, in metres.
     #[arg(long, value_name = "METRES", allow_hyphen_values = true, default_value_t = 25.0, value_parser = real)]
     range: f64,
-    /// West, north, east and south of an obstacle, in metres: no signal and no robot passes it. May be given repeatedly.
+    /// West, north, east and south of an obstacle, in metres: no signal and no robot passes it. May be given
+    /// repeatedly.
     #[arg(long, value_name = "W,N,E,S", allow_hyphen_values = true)]
     obstacle: Vec<Metres<4>>,
     /// How calls are broadcast.
@@ -89,7 +90,8 @@ pub(super) struct Rescue {
     /// Where a robot begins, in metres. May be given repeatedly; the others are at random places.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     robot: Vec<Metres<2>>,
-    /// How often something happens at each node that calls: again at a random time of the ten minutes after it was served.
+    /// How often something happens at each node that calls: again at a random time of the ten minutes after it was
+    /// served.
     #[arg(long, value_name = "N", default_value = "1", value_parser = whole::<usize>)]
     events: usize,
     /// When nodes call for the first time.
@@ -107,10 +109,12 @@ pub(super) struct Rescue {
     /// How likely it is that a message is lost, on each link anew, from 0 to 1.
     #[arg(long, value_name = "PROBABILITY", allow_hyphen_values = true, default_value_t = 0.0, value_parser = real)]
     loss: f64,
-    /// The standard deviation of the shadow on each link, for ever the same, in dB: it changes how far off a sender seems.
+    /// The standard deviation of the shadow on each link, for ever the same, in dB: it changes how far off a sender
+    /// seems.
     #[arg(long, value_name = "DB", allow_hyphen_values = true, default_value_t = 0.0, value_parser = real)]
     shadowing_db: f64,
-    /// Power falls with the distance to the power of this, from 2 to 5: the larger, the less do shadows and noise change.
+    /// Power falls with the distance to the power of this, from 2 to 5: the larger, the less do shadows and noise
+    /// change.
     #[arg(long, value_name = "ALPHA", allow_hyphen_values = true, default_value_t = FREE_SPACE, value_parser = real)]
     exponent: f64,
     /// The standard deviation of the strength of signals, each time anew, in dB.

@@ -35,7 +35,8 @@ impl ViewerArgs {
     }
 }
 
-/// Refuses a file in the format `option` where there is no run of a team: in the file at `path` there is `what` instead.
+/// Refuses a file in the format `option` where there is no run of a team: in the file at `path` there is `what`
+/// instead.
 ///
 /// # Errors
 /// A [`Diagnostic`] if it is asked for.

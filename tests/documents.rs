@@ -1,5 +1,5 @@
-//! SPEC.md, the README and the pages of docs/ say what the code says: the clauses' sentences, the ledger, the tables and
-//! the pictures. Their links lead somewhere, and their commands answer.
+//! SPEC.md, the README and the pages of docs/ say what the code says: the clauses' sentences, the ledger, the tables
+//! and the pictures. Their links lead somewhere, and their commands answer.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -107,7 +107,8 @@ fn the_theorems_of_the_page_are_those_of_the_audit() {
     }
 }
 
-/// The modules of Kani harnesses in the `clauses.rs` of a scheme: the name, the unwind, and the mutants, as a table's columns.
+/// The modules of Kani harnesses in the `clauses.rs` of a scheme: the name, the unwind, and the mutants, as a table's
+/// columns.
 fn harnesses(scheme: &str, text: &str) -> Vec<String> {
     let macros = text.split("\nstep_checks! {").skip(1).filter_map(|text| text.split("\n}\n").next());
     let bodies = macros.flat_map(|text| text.split("        };\n"));

@@ -1,6 +1,6 @@
-//! Pages in a real browser: no error on the console, and at any move the page says what the trace says. The browser is the one
-//! that `TAUTLINE_BROWSER` names, or `chromium`; without one the test says that it is skipped. It is driven over a pair of pipes, as
-//! the [protocol](https://chromedevtools.github.io/devtools-protocol/) of its tools has it.
+//! Pages in a real browser: no error on the console, and at any move the page says what the trace says. The browser is
+//! the one that `TAUTLINE_BROWSER` names, or `chromium`; without one the test says that it is skipped. It is driven
+//! over a pair of pipes, as the [protocol](https://chromedevtools.github.io/devtools-protocol/) of its tools has it.
 #![cfg(unix)]
 
 use std::fs::{self, File};
@@ -283,7 +283,8 @@ fn a_browser_shows_every_kind_of_page_as_the_trace_has_it() {
     assert!(browser.errors().is_empty(), "{:#?}", browser.errors());
 }
 
-/// Loads the page of 10,000 team moves on 512×512 cells and steps through parts of it; a step counts until its picture is there.
+/// Loads the page of 10,000 team moves on 512×512 cells and steps through parts of it; a step counts until its picture
+/// is there.
 #[test]
 #[ignore = "takes ten seconds: cargo test --release --test all page -- --ignored --nocapture (790 kB, 0.5 s, a step 1 ms, 41 ms at most)"]
 fn a_page_of_ten_thousand_team_moves_is_small_and_quick() {

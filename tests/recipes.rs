@@ -96,8 +96,8 @@ fn shell_steps() -> Vec<serde_json::Value> {
     steps.into_iter().filter(|step| step["run"].is_string()).collect()
 }
 
-/// Runs the action's steps as a runner does, in a caller's folder, the action being in a folder beside it. `rustup` and `cargo`
-/// stand in: they say how they were called, and what is built is this program.
+/// Runs the action's steps as a runner does, in a caller's folder, the action being in a folder beside it. `rustup` and
+/// `cargo` stand in: they say how they were called, and what is built is this program.
 #[test]
 fn the_steps_of_the_action_build_with_its_own_toolchain_and_name_what_they_keep_by_its_sources() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -263,8 +263,8 @@ fn the_notes_of_a_release_are_a_section_of_the_changelog() {
     assert_eq!(notes("9.9.9").status.code(), Some(1));
 }
 
-/// What mdBook is given: the table of contents has every page once, and every link of a page leads to a file in the book; mdBook
-/// makes `index.html` of a `README.md`, and nothing of a folder.
+/// What mdBook is given: the table of contents has every page once, and every link of a page leads to a file in the
+/// book; mdBook makes `index.html` of a `README.md`, and nothing of a folder.
 #[test]
 fn no_page_is_left_out_of_the_book() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -11,8 +11,8 @@ use tautline_proofs::ledger;
 use tautline_sim::atomic_file::Replaceable;
 use tautline_sim::counterexample::refutation::{self, path, replay};
 
-/// What refutes the checks that are registered as refuted, but for those that take long to decide: the clause, the number of
-/// its check, and the counterexample.
+/// What refutes the checks that are registered as refuted, but for those that take long to decide: the clause, the
+/// number of its check, and the counterexample.
 fn refutations() -> Vec<(&'static Clause, usize, Evidence)> {
     let mut memory = Memory::default();
     let checks =

@@ -1,5 +1,5 @@
-//! What each command prints as JSON is as its schema in docs/schemas says. What tables print is looked at where all tables are
-//! measured, in `papers/tests/tables.rs`.
+//! What each command prints as JSON is as its schema in docs/schemas says. What tables print is looked at where all
+//! tables are measured, in `papers/tests/tables.rs`.
 
 use std::path::Path;
 use std::process::Command;

@@ -1,5 +1,6 @@
-//! Who may import whom: arrows run one way, from the program down to the kernel, and a scheme is a room of its own, which
-//! the shared rooms do not know. A room is a top-level module of a crate; the root of a crate may import all of its rooms.
+//! Who may import whom: arrows run one way, from the program down to the kernel, and a scheme is a room of its own,
+//! which the shared rooms do not know. A room is a top-level module of a crate; the root of a crate may import all of
+//! its rooms.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -15,8 +16,8 @@ const BELOW: &str = "
     viewers: kernel proofs sim field
     .: kernel proofs sim field papers viewers";
 
-/// By crate and rooms: the other rooms that may import them; `*` are all. The robust rule of bricks goes where an agent has
-/// been least, as ants do.
+/// By crate and rooms: the other rooms that may import them; `*` are all. The robust rule of bricks goes where an agent
+/// has been least, as ants do.
 const KNOWN_TO: &str = "
     kernel choice conditions floor ground net: *
     kernel ants: bricks
@@ -76,8 +77,8 @@ fn room(file: &str) -> &str {
     file.split(['/', '.']).next().unwrap_or(file)
 }
 
-/// The rooms that a file names by a path from the root of its crate, and the crates of ours that it names. The text is laid
-/// out by rustfmt: a module within a file ends at a brace that stands as far in as its first line.
+/// The rooms that a file names by a path from the root of its crate, and the crates of ours that it names. The text is
+/// laid out by rustfmt: a module within a file ends at a brace that stands as far in as its first line.
 fn imports(file: &str, text: &str) -> BTreeSet<String> {
     let name = |text: &str| -> String {
         text.chars().take_while(|&sign| sign.is_alphanumeric() || matches!(sign, '_' | '*')).collect()

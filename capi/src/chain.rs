@@ -62,8 +62,8 @@ pub struct TautlinePlan {
     pub steps: [u8; TAUTLINE_CHAIN_ROBOTS],
 }
 
-/// Whether a robot can go between two cells beside each other: any other number than 0 if it can. `context` is what the caller gave
-/// with the function.
+/// Whether a robot can go between two cells beside each other: any other number than 0 if it can. `context` is what the
+/// caller gave with the function.
 pub type TautlineIsOpen =
     Option<unsafe extern "C" fn(context: *mut c_void, one: TautlineCell, other: TautlineCell) -> i32>;
 
@@ -184,8 +184,8 @@ fn status(done: Result<TautlineStatus, TautlineStatus>) -> TautlineStatus {
     done.unwrap_or_else(|refused| refused)
 }
 
-/// Makes a chain in the caller's memory: `robots`, the base counted, all in the cell `base`. The area goes from the cell `first`
-/// in the north-west to the cell `last` in the south-east; nothing is known of it but its border.
+/// Makes a chain in the caller's memory: `robots`, the base counted, all in the cell `base`. The area goes from the
+/// cell `first` in the north-west to the cell `last` in the south-east; nothing is known of it but its border.
 ///
 /// # Safety
 /// `chain` is null, or memory of the caller that nobody else uses meanwhile.
@@ -225,8 +225,8 @@ pub unsafe extern "C" fn tautline_chain_begin(
     status(begin())
 }
 
-/// Says in `plan` what the team intends. `log` has the messages of all team moves so far, as `tautline_chain_settle` wrote them.
-/// When the run is over, the status says how it ended, and `plan` stays as it was.
+/// Says in `plan` what the team intends. `log` has the messages of all team moves so far, as `tautline_chain_settle`
+/// wrote them. When the run is over, the status says how it ended, and `plan` stays as it was.
 ///
 /// # Safety
 /// `chain` and `plan` are null, or memory of the caller that nobody else uses meanwhile; `log` has so many bytes.
@@ -265,13 +265,13 @@ pub unsafe extern "C" fn tautline_chain_plan(
     status(make())
 }
 
-/// Carries the plan out. `is_open` answers for every pair of cells that a robot goes between for the first time, once each, in the
-/// order of the robots. The messages of the robots behind the base, one byte each, go to `messages`, and their number to `sent`:
-/// the caller appends them to the log.
+/// Carries the plan out. `is_open` answers for every pair of cells that a robot goes between for the first time, once
+/// each, in the order of the robots. The messages of the robots behind the base, one byte each, go to `messages`, and
+/// their number to `sent`: the caller appends them to the log.
 ///
 /// # Safety
-/// `chain` is null, or memory of the caller that nobody else uses meanwhile; `messages` has room for `capacity` bytes; `is_open`
-/// returns, and does not use `chain`.
+/// `chain` is null, or memory of the caller that nobody else uses meanwhile; `messages` has room for `capacity` bytes;
+/// `is_open` returns, and does not use `chain`.
 // SAFETY: no other function of this name is linked.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn tautline_chain_settle(
@@ -305,8 +305,9 @@ pub unsafe extern "C" fn tautline_chain_settle(
     status(settle())
 }
 
-/// Carries the plan out as a robot that plans along and hears of the rest (CHAIN-8): `messages` has one byte of each robot but the
-/// base about this team move. A message that cannot be about it is refused, and the plan is still to be settled.
+/// Carries the plan out as a robot that plans along and hears of the rest (CHAIN-8): `messages` has one byte of each
+/// robot but the base about this team move. A message that cannot be about it is refused, and the plan is still to be
+/// settled.
 ///
 /// # Safety
 /// `chain` is null, or memory of the caller that nobody else uses meanwhile; `messages` has so many bytes.

@@ -1,6 +1,6 @@
-//! The chain (clauses CHAIN-1 to CHAIN-19) for programs in C. A caller gives the memory of a chain and of its log, asks for a
-//! plan, moves the robots, and says what came of it, as [`tautline_kernel::chain`] has it. Every call returns a [`TautlineStatus`];
-//! nothing is allocated, and no panic leaves a call: one, which would be a bug, ends the program.
+//! The chain (clauses CHAIN-1 to CHAIN-19) for programs in C. A caller gives the memory of a chain and of its log, asks
+//! for a plan, moves the robots, and says what came of it, as [`tautline_kernel::chain`] has it. Every call returns a
+//! [`TautlineStatus`]; nothing is allocated, and no panic leaves a call: one, which would be a bug, ends the program.
 //!
 //! The header `include/tautline.h` is written by cbindgen; a test compares it.
 

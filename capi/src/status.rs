@@ -144,8 +144,8 @@ impl From<End> for TautlineStatus {
     }
 }
 
-/// The status in words, with what to do: a text that ends with a zero byte and stays where it is. Of a number that is no status
-/// it says so.
+/// The status in words, with what to do: a text that ends with a zero byte and stays where it is. Of a number that is
+/// no status it says so.
 // SAFETY: no other function of this name is linked.
 #[unsafe(no_mangle)]
 pub extern "C" fn tautline_status_text(status: i32) -> *const c_char {

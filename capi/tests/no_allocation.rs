@@ -1,4 +1,5 @@
-//! A whole exploration allocates nothing. The one allocator of a program is counted, so this test has a program for itself.
+//! A whole exploration allocates nothing. The one allocator of a program is counted, so this test has a program for
+//! itself.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::ffi::c_void;

@@ -1,4 +1,5 @@
-//! Robot teams in radio fields: broadcasts, antennas, rescues end to end and positions, and how they are drawn and counted.
+//! Robot teams in radio fields: broadcasts, antennas, rescues end to end and positions, and how they are drawn and
+//! counted.
 
 pub mod draw;
 pub mod position;

@@ -1,6 +1,6 @@
-//! Where robots are, by the strength of anchors' signals (POSITION): trials with a robot at random places, positions from
-//! measured distances, and how exact they are. The kernel's rules find the positions; the analyses about them, covariance,
-//! error ellipse, dilution of precision, Cramér–Rao bound and singular values, are nalgebra's.
+//! Where robots are, by the strength of anchors' signals (POSITION): trials with a robot at random places, positions
+//! from measured distances, and how exact they are. The kernel's rules find the positions; the analyses about them,
+//! covariance, error ellipse, dilution of precision, Cramér–Rao bound and singular values, are nalgebra's.
 
 pub mod analysis;
 mod measured;

@@ -1,9 +1,10 @@
 //! The radio field: nodes in an area, the links between them, and what becomes of what they send. A [`Field`] has
-//! positions and obstacles; a [`Network`] the links that a [`Radio`] makes of them; [`run`] lets a [`Protocol`] send and
-//! hear over a [`Channel`]. Everything left to chance is asked of an `Oracle`: the same answers make the same run.
+//! positions and obstacles; a [`Network`] the links that a [`Radio`] makes of them; [`run`] lets a [`Protocol`] send
+//! and hear over a [`Channel`]. Everything left to chance is asked of an `Oracle`: the same answers make the same run.
 //!
-//! Results depend on `+ − × ÷ √` and whole numbers alone, which are the same on every machine, and, where signals have a
-//! shadow or noise, on the power function of libm. Time is in nanoseconds, distances between nodes are in micrometres.
+//! Results depend on `+ − × ÷ √` and whole numbers alone, which are the same on every machine, and, where signals have
+//! a shadow or noise, on the power function of libm. Time is in nanoseconds, distances between nodes are in
+//! micrometres.
 
 mod air;
 mod broadcast;

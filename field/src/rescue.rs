@@ -1,10 +1,10 @@
-//! Rescues end to end over the radio field [Jiang 2011, 3.2 to 3.4]: nodes at random places call for help, each its event
-//! under its epoch, by a broadcast scheme; robots hear, ask by MOVE from parent to parent, are chosen by RESB, and find
-//! their way from path node to path node. Robots, nodes that wait for rescue (WFRs), path nodes and guides are the kernel's;
-//! what is added here is time, places, and what goes wrong.
+//! Rescues end to end over the radio field [Jiang 2011, 3.2 to 3.4]: nodes at random places call for help, each its
+//! event under its epoch, by a broadcast scheme; robots hear, ask by MOVE from parent to parent, are chosen by RESB,
+//! and find their way from path node to path node. Robots, nodes that wait for rescue (WFRs), path nodes and guides are
+//! the kernel's; what is added here is time, places, and what goes wrong.
 //!
-//! Everything left to chance is asked of an `Oracle`: the same [`Setting`] and seed make the same rescue on every machine.
-//! While it runs, what the clauses MRC-1 to MRC-9 demand is looked at after every turn.
+//! Everything left to chance is asked of an `Oracle`: the same [`Setting`] and seed make the same rescue on every
+//! machine. While it runs, what the clauses MRC-1 to MRC-9 demand is looked at after every turn.
 
 mod acks;
 mod agenda;

@@ -30,8 +30,8 @@ impl Estimate {
         Some(Self::of_mean(count, mean, squares))
     }
 
-    /// The ratio of two sums over pairs of values, the second above 0: how many times the sum of the second values the sum
-    /// of the first is, by the distances of the first from so many times the second. `None` if there are none.
+    /// The ratio of two sums over pairs of values, the second above 0: how many times the sum of the second values the
+    /// sum of the first is, by the distances of the first from so many times the second. `None` if there are none.
     pub fn of_ratio(pairs: &[(f64, f64)]) -> Option<Self> {
         let count = u32::try_from(pairs.len()).ok().filter(|&count| count > 0)?;
         let (over, under) =
@@ -154,8 +154,8 @@ fn student(degrees_of_freedom: u32) -> f64 {
     }
 }
 
-/// The value below which a share of `sorted` lies, and its 95 % interval: the ranks between which the true one is with that
-/// probability, whatever the distribution. 0 of nothing.
+/// The value below which a share of `sorted` lies, and its 95 % interval: the ranks between which the true one is with
+/// that probability, whatever the distribution. 0 of nothing.
 pub fn quantile(sorted: &[f64], share: f64) -> (f64, [f64; 2]) {
     let count = f64::from(u32::try_from(sorted.len()).unwrap_or(u32::MAX));
     let at = |rank: f64| {

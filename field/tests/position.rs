@@ -39,7 +39,8 @@ proptest! {
 
     #[test]
     fn linear_least_squares_are_those_of_a_singular_value_decomposition(ranges in ranges()) {
-        // The equations less their mean have the same solution as those less the first only without error: so the mean it is.
+        // The equations less their mean have the same solution as those less the first only without error: so the mean
+        // it is.
         let count = f64::from(u32::try_from(ranges.len()).expect("a few"));
         let mean = |of: &dyn Fn(&Range) -> f64| ranges.iter().map(of).sum::<f64>() / count;
         let right = |range: &Range| {

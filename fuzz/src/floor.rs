@@ -154,9 +154,9 @@ struct Team {
     is_promised: bool,
 }
 
-/// Agents of any scheme on any small floor: they go where they can, and no cell is taken back that is done with. Where the
-/// clauses promise it, the cells that are left stay connected (BRICKS-2), an agent is done when nothing is left (BRICKS-4),
-/// and the run ends with every cell explored (ANTS-1, BRICKS-5) and visited (BRICKS-6).
+/// Agents of any scheme on any small floor: they go where they can, and no cell is taken back that is done with. Where
+/// the clauses promise it, the cells that are left stay connected (BRICKS-2), an agent is done when nothing is left
+/// (BRICKS-4), and the run ends with every cell explored (ANTS-1, BRICKS-5) and visited (BRICKS-6).
 pub fn floor(bytes: &[u8]) {
     let numbers = numbers(bytes);
     let mut bytes = Tape(&numbers);

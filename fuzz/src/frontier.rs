@@ -13,8 +13,8 @@ use super::numbers;
 /// Steps after which a run is left: the bytes may let one robot act alone for ever.
 const MOST_STEPS: usize = 1_000;
 
-/// Repaired teams break nothing, whoever acts next, whichever cells are blocked and whichever messages are lost; and when nobody
-/// has anything left to do, everything in reach is explored and everybody knows it.
+/// Repaired teams break nothing, whoever acts next, whichever cells are blocked and whichever messages are lost; and
+/// when nobody has anything left to do, everything in reach is explored and everybody knows it.
 pub fn frontier(bytes: &[u8]) {
     let numbers = numbers(bytes);
     let mut bytes = Tape(&numbers);

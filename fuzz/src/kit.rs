@@ -1,5 +1,5 @@
-//! A team that keeps in touch: the lattice, its walls, the rule, the starts, who acts next and what is seen are in the bytes.
-//! When the bytes have ended, there are no more walls, and the first robot acts that can.
+//! A team that keeps in touch: the lattice, its walls, the rule, the starts, who acts next and what is seen are in the
+//! bytes. When the bytes have ended, there are no more walls, and the first robot acts that can.
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, SmallGrid, TinyGrid};
@@ -35,8 +35,8 @@ impl Walls {
     }
 }
 
-/// Any bytes as fields of a message: whatever is read is written the same. Then a team of one to four robots, from its start
-/// until it is done: a repaired one stays connected, apart, and covers what it can.
+/// Any bytes as fields of a message: whatever is read is written the same. Then a team of one to four robots, from its
+/// start until it is done: a repaired one stays connected, apart, and covers what it can.
 pub fn kit(bytes: &[u8]) {
     let numbers = numbers(bytes);
     let mut oracle = Tape(&numbers);

@@ -240,13 +240,14 @@ fn alter(exhibit: &mut Exhibit, [which, what, robot, by]: [u32; 4]) {
     }
 }
 
-/// A chain of 8 to 24 robots, the first edges decided by the bytes and the rest at random: no repaired plan is dear. Only the
-/// first moves are made, so that many inputs can be tried.
+/// A chain of 8 to 24 robots, the first edges decided by the bytes and the rest at random: no repaired plan is dear.
+/// Only the first moves are made, so that many inputs can be tried.
 pub fn plan_cost(bytes: &[u8]) {
     plan(bytes, [8, 12, 16, 24], |robots| 160 / robots);
 }
 
-/// The same for 16 to 64 robots and a thousand moves: few inputs can be tried, and plans are dearest far from the start.
+/// The same for 16 to 64 robots and a thousand moves: few inputs can be tried, and plans are dearest far from the
+/// start.
 pub fn plan_cost_far(bytes: &[u8]) {
     plan(bytes, [16, 24, 32, 64], |_| 1_000);
 }
@@ -291,8 +292,8 @@ static HUNT: LazyLock<(Bounds, Found)> = LazyLock::new(|| {
     (bounds, whole)
 });
 
-/// Any bytes as a hunt that was kept in a file, also with a checksum that fits them: it is refused, or goes on to an end.
-/// A real one, left anywhere, with some of its bytes changed: it is refused, or goes on to the end of one that was
+/// Any bytes as a hunt that was kept in a file, also with a checksum that fits them: it is refused, or goes on to an
+/// end. A real one, left anywhere, with some of its bytes changed: it is refused, or goes on to the end of one that was
 /// never left. The first byte says which of the three.
 pub fn kept_hunt(bytes: &[u8]) {
     let Some((&which, bytes)) = bytes.split_first() else { return };

@@ -51,8 +51,9 @@ struct Spread {
 }
 
 /// Up to three events of one source in any order of arrivals, with any loss and repetition: the parents form a tree
-/// (NOTICE-1), a node forwards an event once (NOTICE-2), and its parent is the nearest it has heard, the first of several
-/// (NOTICE-6). Where everything arrives and everybody forwards, all connected nodes hear the last event (NOTICE-3).
+/// (NOTICE-1), a node forwards an event once (NOTICE-2), and its parent is the nearest it has heard, the first of
+/// several (NOTICE-6). Where everything arrives and everybody forwards, all connected nodes hear the last event
+/// (NOTICE-3).
 pub fn network(bytes: &[u8]) {
     let numbers = numbers(bytes);
     let mut bytes = Tape(&numbers);

@@ -54,8 +54,8 @@ fn setting(bytes: &mut Tape<'_>) -> (Setting, u64) {
     (setting, bytes.pick(100).into())
 }
 
-/// A rescue of a few nodes: it comes to an end, in order; repaired, no clause is broken but, perhaps, that all are served
-/// in time (MRC-5), and nobody comes twice; a setting that makes none is told in a line.
+/// A rescue of a few nodes: it comes to an end, in order; repaired, no clause is broken but, perhaps, that all are
+/// served in time (MRC-5), and nobody comes twice; a setting that makes none is told in a line.
 pub fn rescue(bytes: &[u8]) {
     let numbers = numbers(bytes);
     let (setting, seed) = setting(&mut Tape(&numbers));
@@ -74,8 +74,8 @@ pub fn rescue(bytes: &[u8]) {
     }
 }
 
-/// Any bytes as a stored rescue, and one that was stored, with some of its bytes changed: it is refused in a line, or is
-/// the same again.
+/// Any bytes as a stored rescue, and one that was stored, with some of its bytes changed: it is refused in a line, or
+/// is the same again.
 pub fn rescue_trace(bytes: &[u8]) {
     let mut file = tempfile::NamedTempFile::new().expect("a file");
     if is_small(bytes) {

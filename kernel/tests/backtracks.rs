@@ -1,4 +1,5 @@
-//! A log is not trusted: of a backtrack every message is asked whether it can be true, and the first that cannot is named.
+//! A log is not trusted: of a backtrack every message is asked whether it can be true, and the first that cannot is
+//! named.
 
 use tautline_kernel::chain::{Chain, Damaged, Intent, Kind, Message, Outcome, Rule};
 use tautline_kernel::choice::Oracle;

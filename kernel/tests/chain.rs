@@ -262,7 +262,8 @@ fn a_barrier_tells_of_every_byte_which_team_move_it_is_about() {
         for turn in 0..6 {
             assert_eq!((barrier.turn(), barrier.again()), (turn, None));
             for (from, byte) in (0..=ROBOTS).flat_map(|from| (0..=u8::MAX).map(move |byte| (from, byte))) {
-                // The lowest five bits are the message, two count team moves, and the highest says that it was asked for.
+                // The lowest five bits are the message, two count team moves, and the highest says that it was asked
+                // for.
                 let (message, about, is_answer) =
                     (byte & 0b1_1111, u32::from(byte >> 5 & 0b11), byte >> 7 == 1);
                 let expected = if !is_message(message) {

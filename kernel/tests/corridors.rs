@@ -1,4 +1,5 @@
-//! Laps of one agent on floors whose corridors are one cell wide: how far it goes before it turns, and when a lap is over.
+//! Laps of one agent on floors whose corridors are one cell wide: how far it goes before it turns, and when a lap is
+//! over.
 
 use std::collections::BTreeMap;
 
@@ -52,8 +53,8 @@ impl Oracle for Luck {
     }
 }
 
-/// An agent that is always on a lap, from `start` until it shuts a side: the sides that its laps begin with and their moves,
-/// the cells that it goes to, and the side that it shuts.
+/// An agent that is always on a lap, from `start` until it shuts a side: the sides that its laps begin with and their
+/// moves, the cells that it goes to, and the side that it shuts.
 fn laps(floor: &mut Corridors, start: Cell, reach: u8) -> (Vec<(Side, u32)>, Vec<Cell>, Side) {
     let rule = Rule { reach, ..Rule::REPAIRED.without(Condition::LeastCrossed) };
     settle(floor, &[start]);

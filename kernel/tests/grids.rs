@@ -1,5 +1,5 @@
-//! Grids of every size compared with a breadth-first search, cell by cell: distances, who is approached first, and what is asked
-//! of a cell outside the area.
+//! Grids of every size compared with a breadth-first search, cell by cell: distances, who is approached first, and what
+//! is asked of a cell outside the area.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::ops::ControlFlow;
@@ -118,7 +118,8 @@ fn agrees<G: Grid>(grid: &mut G, at: Cell) {
     }
 }
 
-/// `rounds` random grids of at most so many columns and rows, each asked of some cells inside and of all just outside it.
+/// `rounds` random grids of at most so many columns and rows, each asked of some cells inside and of all just outside
+/// it.
 fn agree<G: Grid>(columns: i16, rows: i16, rounds: u32, new: impl Fn(Area) -> Option<G>) {
     let mut drawn = Drawn(11);
     for _ in 0..rounds {

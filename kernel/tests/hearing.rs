@@ -1,5 +1,5 @@
-//! Who plans along with a chain and hears its messages knows what the team knows, in a world where walls stand and in one where
-//! they appear; and no message is believed that cannot be true.
+//! Who plans along with a chain and hears its messages knows what the team knows, in a world where walls stand and in
+//! one where they appear; and no message is believed that cannot be true.
 
 use std::collections::BTreeSet;
 

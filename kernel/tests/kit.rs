@@ -1,5 +1,5 @@
-//! What robots that keep in touch (KIT) do where two ways of theirs are as good, where another one is to go first, and where paths
-//! or memory end.
+//! What robots that keep in touch (KIT) do where two ways of theirs are as good, where another one is to go first, and
+//! where paths or memory end.
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, Step, TinyGrid};
@@ -22,8 +22,8 @@ fn edge((x, y, side): (i16, i16, Side)) -> Edge {
     Edge::new(node(x, y), side)
 }
 
-/// So many columns and rows of nodes. Paths begin at these nodes, on these sides: `driven` ones, and those of which nothing is
-/// known. All others are blocked.
+/// So many columns and rows of nodes. Paths begin at these nodes, on these sides: `driven` ones, and those of which
+/// nothing is known. All others are blocked.
 fn map(width: i16, height: i16, driven: &[(i16, i16, Side)], unknown: &[(i16, i16, Side)]) -> TinyGrid {
     let area = Area::new(node(0, 0), node(width - 1, height - 1)).expect("an area");
     let mut map = TinyGrid::new(area).expect("a small map");

@@ -1,5 +1,5 @@
-//! What a fix promises, said without its way downhill: its positions are minima, also within a rectangle; two are told when
-//! the noise cannot tell them apart; and it has no unit of its own.
+//! What a fix promises, said without its way downhill: its positions are minima, also within a rectangle; two are told
+//! when the noise cannot tell them apart; and it has no unit of its own.
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::Propagation;
@@ -210,7 +210,8 @@ fn two_minima_are_told_if_their_costs_differ_by_less_than_3_84_times_the_varianc
 fn a_mirror_image_is_told_without_noise_too() {
     let mut drawn = Drawn(11);
     for round in 0..100 {
-        // Also where rounding makes costs differ by more than other layouts cost, and where anchors are a hundredth of a millimetre apart.
+        // Also where rounding makes costs differ by more than other layouts cost, and where anchors are a hundredth of
+        // a millimetre apart.
         let scale = [1.0, 1e6, 3e-5][round % 3];
         let (from, along) = (place(&mut drawn, 30.0 * scale), place(&mut drawn, scale));
         let on_line = |far_m: f64| Point::new(from.x_m + far_m * along.x_m, from.y_m + far_m * along.y_m);
@@ -345,7 +346,8 @@ fn a_line_is_told_in_one_direction_and_anchors_spread_alike_have_the_axes() {
         Layout::of(&ranges).along
     };
     assert_eq!(along(&[(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0)]), Point::new(1.0, 0.0));
-    // From the diagonal that leads up to the left, round by the right, to the one that leads down to the right, which is not.
+    // From the diagonal that leads up to the left, round by the right, to the one that leads down to the right, which
+    // is not.
     let mut drawn = Drawn(19);
     for round in 0..200 {
         let to = match round {

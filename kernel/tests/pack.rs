@@ -1,5 +1,5 @@
-//! Which frontier cell a robot of a pack goes to, its way there, and what a team move is, each compared with a second, slower way to
-//! say it.
+//! Which frontier cell a robot of a pack goes to, its way there, and what a team move is, each compared with a second,
+//! slower way to say it.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
@@ -102,9 +102,9 @@ fn distances(map: &Map, from: Cell) -> BTreeMap<Cell, u32> {
     reached
 }
 
-/// Whether `aim` is what a robot in `from` goes to: of the frontier cells that have a link to a cell in `others`, if there is one,
-/// and are at most 2 R_c farther than the nearest of them, none has a greater gain over its distance; and if all gains are 0,
-/// none is nearer.
+/// Whether `aim` is what a robot in `from` goes to: of the frontier cells that have a link to a cell in `others`, if
+/// there is one, and are at most 2 R_c farther than the nearest of them, none has a greater gain over its distance; and
+/// if all gains are 0, none is nearer.
 fn is_choice(world: &World, map: &Map, from: Cell, others: &[Cell], aim: Option<Cell>) -> bool {
     let (rule, far) = (world.team.rule(), distances(map, from));
     let may = |&cell: &Cell| {

@@ -1,4 +1,5 @@
-//! Positions from ranges (POSITION): what each way gives, what is refused, and that results are the same bits everywhere.
+//! Positions from ranges (POSITION): what each way gives, what is refused, and that results are the same bits
+//! everywhere.
 
 use core::mem::size_of;
 
@@ -235,7 +236,8 @@ fn an_estimate_outside_the_rectangle_is_on_its_rim_and_says_so() {
     assert_eq!(Area::new(SQUARE[0], Point::new(f64::INFINITY, 1.0)), None);
 }
 
-/// The estimate from distances to these anchors without an error, but for the one of `wrong` that is longer by the share `by`.
+/// The estimate from distances to these anchors without an error, but for the one of `wrong` that is longer by the
+/// share `by`.
 fn estimate_with(anchors: &[Point], at: Point, residual: Residual, wrong: usize, by: f64) -> Estimate {
     let mut ranges = ranges(anchors, at);
     ranges[wrong].distance_m *= 1.0 + by;

@@ -1,4 +1,5 @@
-//! A chain that has lost a robot: what it tells while the two parts take their moves back, and once they are in contact.
+//! A chain that has lost a robot: what it tells while the two parts take their moves back, and once they are in
+//! contact.
 
 use tautline_kernel::chain::{Chain, Damaged, Intent, Rule, Unformed};
 use tautline_kernel::choice::Oracle;

@@ -1,4 +1,5 @@
-//! What sensors and messages store comes back, no two of them are stored alike, and a ring of cells is where it is drawn.
+//! What sensors and messages store comes back, no two of them are stored alike, and a ring of cells is where it is
+//! drawn.
 
 use std::collections::BTreeSet;
 

@@ -1,5 +1,5 @@
-//! What the children of a cell tell of a sensor that has been placed in the stead of another one, and what maps tell when
-//! they are joined.
+//! What the children of a cell tell of a sensor that has been placed in the stead of another one, and what maps tell
+//! when they are joined.
 
 use std::collections::BTreeMap;
 
@@ -77,7 +77,8 @@ fn children_restore_what_the_sensor_of_their_parent_stored() {
         let was = floor[&MIDDLE];
         let children: Vec<Side> =
             COMPASS.into_iter().filter(|&side| floor[&MIDDLE.beyond(side)].is_child_beyond(side)).collect();
-        // A new sensor of a lesser tree, or of the same tree and as deep as the children or deeper, is not their parent's.
+        // A new sensor of a lesser tree, or of the same tree and as deep as the children or deeper, is not their
+        // parent's.
         for here in [
             Note::default().of_tree(less, None),
             was.of_tree(old, None).at_depth(was.depth + 1 + drawn.pick(3)),
@@ -106,7 +107,8 @@ fn children_restore_what_the_sensor_of_their_parent_stored() {
         }
         // A cell of no tree stores nothing that could be restored.
         assert_eq!(view(&floor, Note::default()).restored(), Note::default());
-        // With no parent in sight a neighbour of a greater tree leads on, or one nearer to the root; else it is left as it is.
+        // With no parent in sight a neighbour of a greater tree leads on, or one nearer to the root; else it is left as
+        // it is.
         let Some(&child) = children.first().filter(|_| was.depth > 0) else { continue };
         let only = |others: &[(Side, Note)]| {
             let mut floor = BTreeMap::from([(MIDDLE.beyond(child), floor[&MIDDLE.beyond(child)])]);

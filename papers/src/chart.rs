@@ -1,5 +1,5 @@
-//! Line charts as SVG, for light and dark pages: series of points with 95 % intervals over round ticks. Series differ by
-//! colour and by mark; dashed ones with hollow marks are what a paper prints. The same chart gives the same bytes
+//! Line charts as SVG, for light and dark pages: series of points with 95 % intervals over round ticks. Series differ
+//! by colour and by mark; dashed ones with hollow marks are what a paper prints. The same chart gives the same bytes
 //! everywhere. Any text may stand in it; it is escaped.
 
 use std::fmt::Write;

@@ -1,10 +1,10 @@
-//! The robots of the paper's physical run [Kovács 2011, F]: cells of 4 m, 0.30 m/s, 180°/s, a touch sensor, and a navigation
-//! error of 2·10⁻³ of the way. A team move of the rules becomes seconds and millimetres.
+//! The robots of the paper's physical run [Kovács 2011, F]: cells of 4 m, 0.30 m/s, 180°/s, a touch sensor, and a
+//! navigation error of 2·10⁻³ of the way. A team move of the rules becomes seconds and millimetres.
 //!
-//! A robot first turns by the shorter way, then drives from centre to centre. A robot that touches something backs up 30 cm and
-//! goes round on a rectangular path; if it touches again, that was an extended obstacle, and it goes back to the centre of its
-//! cell; else it has passed another robot. How far aside it goes is ours: its length and its width. The robots of a team move
-//! begin together, and the team move ends with the last one.
+//! A robot first turns by the shorter way, then drives from centre to centre. A robot that touches something backs up
+//! 30 cm and goes round on a rectangular path; if it touches again, that was an extended obstacle, and it goes back to
+//! the centre of its cell; else it has passed another robot. How far aside it goes is ours: its length and its width.
+//! The robots of a team move begin together, and the team move ends with the last one.
 
 use tautline_kernel::ground::{Cell, Side, Step};
 use tautline_proofs::run::Frame;
@@ -44,8 +44,8 @@ impl Body {
         self.length_mm + self.width_mm
     }
 
-    /// Millimetres and quarter turns of a robot that meets a wall: to the wall, back, aside and to the wall again, and from there
-    /// back and aside to the centre.
+    /// Millimetres and quarter turns of a robot that meets a wall: to the wall, back, aside and to the wall again, and
+    /// from there back and aside to the centre.
     const fn wall(self) -> (u64, u64) {
         let there = (self.cell_mm - self.length_mm) / 2;
         (2 * (there + self.back_mm + self.aside_mm()), 4)
@@ -130,8 +130,8 @@ const fn turns(from: Side, to: Side) -> u64 {
     if apart == 3 { 1 } else { apart }
 }
 
-/// Whether `robot`, which arrives, has another one in its way: one that stays in the cell that it enters, outside the base, or one
-/// that comes the other way and has a lower number.
+/// Whether `robot`, which arrives, has another one in its way: one that stays in the cell that it enters, outside the
+/// base, or one that comes the other way and has a lower number.
 fn meets(before: &[Cell], frame: &Frame, robot: usize) -> bool {
     let (from, to) = (before[robot], frame.cells[robot]);
     (0..before.len()).filter(|&other| other != robot).any(|other| {

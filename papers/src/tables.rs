@@ -1,6 +1,6 @@
-//! What the papers and SPEC.md report as tables and figures, measured again. A table is a row of [`TABLES`]: what can be
-//! asked of it, jobs that know nothing of each other, and how their results become a text, JSON and pictures. A new table
-//! is a file of its own and one line here.
+//! What the papers and SPEC.md report as tables and figures, measured again. A table is a row of [`TABLES`]: what can
+//! be asked of it, jobs that know nothing of each other, and how their results become a text, JSON and pictures. A new
+//! table is a file of its own and one line here.
 
 pub mod agents;
 pub mod antenna_fig4;

@@ -73,8 +73,8 @@ fn plain_values(value: &Value) -> usize {
     }
 }
 
-/// The values of a table, as a reader of others takes them, are those of its JSON: each at the place that its column and the
-/// numbers of its row say, and none is left out.
+/// The values of a table, as a reader of others takes them, are those of its JSON: each at the place that its column
+/// and the numbers of its row say, and none is left out.
 fn has_all_values(id: &str, text: &str, json: &Value) {
     assert!(text.ends_with("\r\n") && !text.replace("\r\n", "").contains('\r'), "{id}");
     let mut reader = csv::Reader::from_reader(text.as_bytes());

@@ -1,5 +1,5 @@
-//! What a state of the search over all states costs, in time and memory: against stateright in the same run, for MRC and
-//! for ants on an open floor. The same ants stand in `ants.pml` for SPIN, which is started by hand: see
+//! What a state of the search over all states costs, in time and memory: against stateright in the same run, for MRC
+//! and for ants on an open floor. The same ants stand in `ants.pml` for SPIN, which is started by hand: see
 //! `docs/performance.md`. All must find the same states.
 
 #[path = "../tests/common/rescue.rs"]
@@ -27,8 +27,8 @@ struct Floor {
     at: [usize; ANTS],
 }
 
-/// Whoever is next goes to the neighbour that was entered least often, ties in the order of the compass, until every cell
-/// was entered.
+/// Whoever is next goes to the neighbour that was entered least often, ties in the order of the compass, until every
+/// cell was entered.
 struct Ants;
 
 impl Floor {

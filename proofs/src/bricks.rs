@@ -1,5 +1,5 @@
-//! Brick&Mortar (BRICKS): what is promised of agents that mark cells, over every neighbourhood and over all states on small
-//! floors.
+//! Brick&Mortar (BRICKS): what is promised of agents that mark cells, over every neighbourhood and over all states on
+//! small floors.
 
 pub mod clauses;
 mod floors;

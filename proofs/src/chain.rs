@@ -1,5 +1,5 @@
-//! The chain (CHAIN): what is promised of it, the search over all layouts that it is played in, what it can reach, and in how
-//! few team moves.
+//! The chain (CHAIN): what is promised of it, the search over all layouts that it is played in, what it can reach, and
+//! in how few team moves.
 
 pub mod areas;
 mod barrier;

@@ -127,8 +127,8 @@ pub trait AnyCheck: Sync {
     /// [`Refused`] if its method cannot begin.
     fn decide_own(&self, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused>;
 
-    /// What comes of the mutant with this number; open if there is none. One violation is enough, unless what is found is to
-    /// tell of more.
+    /// What comes of the mutant with this number; open if there is none. One violation is enough, unless what is found
+    /// is to tell of more.
     ///
     /// # Errors
     /// [`Refused`] if its method cannot begin.

@@ -1,5 +1,5 @@
-//! How a check is decided: a [`Method`] asks an engine, remembers what may be asked again, and answers with a verdict and
-//! what refutes the clause. What is here knows engines and no scheme.
+//! How a check is decided: a [`Method`] asks an engine, remembers what may be asked again, and answers with a verdict
+//! and what refutes the clause. What is here knows engines and no scheme.
 
 use std::any::Any;
 use std::fmt;
@@ -191,8 +191,8 @@ pub trait Method<R>: Sync {
         Verdict::Holds
     }
 
-    /// A name for the question that it asks an engine about `rule`, if another check may ask the same one: checks with the
-    /// same name are decided one after the other, with one [`Memory`].
+    /// A name for the question that it asks an engine about `rule`, if another check may ask the same one: checks with
+    /// the same name are decided one after the other, with one [`Memory`].
     fn family(&self, _: &R) -> Option<String> {
         None
     }
@@ -303,7 +303,8 @@ fn replay<R>(body: Body<R>, rule: &R, choices: &Choices) -> Result<Played, Unfit
     Ok(Played { of, evidence: Evidence { choices: choices.clone(), demand, seen: Seen::Choices } })
 }
 
-/// Every state of a system, in every order: what happens is found by an engine, and what is demanded stands in the system.
+/// Every state of a system, in every order: what happens is found by an engine, and what is demanded stands in the
+/// system.
 pub struct EveryState<R: 'static, S: System> {
     /// The bound in words.
     pub range: Range,

@@ -1,4 +1,5 @@
-//! Small sensor floors, shared by all agents on them: which plans there are, what is missed, and all states of many of them.
+//! Small sensor floors, shared by all agents on them: which plans there are, what is missed, and all states of many of
+//! them.
 
 mod agents;
 pub(crate) mod look;

@@ -1,5 +1,5 @@
-//! KIT (KIT): what is promised of robots that keep in touch, over all states on small lattices, over all orders of their
-//! messages, and over all pairs of places.
+//! KIT (KIT): what is promised of robots that keep in touch, over all states on small lattices, over all orders of
+//! their messages, and over all pairs of places.
 
 pub mod clauses;
 pub mod counterexample;

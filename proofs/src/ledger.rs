@@ -108,8 +108,8 @@ const HEAD: [&str; 6] = ["clause", "rule", "engine", "cases", "verdict", "mutant
 /// The column of the cases, which are numbers.
 const CASES: usize = 3;
 
-/// The ledger: a line for each check, and below it its bound and what is machine-checked beyond. What takes time is not in it, so that it is the same
-/// everywhere.
+/// The ledger: a line for each check, and below it its bound and what is machine-checked beyond. What takes time is not
+/// in it, so that it is the same everywhere.
 pub fn table(rows: &[Row]) -> String {
     let cells = |row: &Row| {
         let Decision { killed, survived, .. } = &row.decision;

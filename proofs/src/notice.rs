@@ -1,5 +1,5 @@
-//! NOTICE (NOTICE): what is promised of an event that spreads through a network, under every order in which messages arrive
-//! and waits end.
+//! NOTICE (NOTICE): what is promised of an event that spreads through a network, under every order in which messages
+//! arrive and waits end.
 
 pub mod clauses;
 mod networks;

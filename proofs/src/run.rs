@@ -1,5 +1,5 @@
-//! A run of robots as plain data: where they start, and one [`Frame`] for each team move. Simulation, search and proofs all
-//! use it.
+//! A run of robots as plain data: where they start, and one [`Frame`] for each team move. Simulation, search and proofs
+//! all use it.
 
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Area, Cell, Edge, Step};

@@ -1,9 +1,9 @@
 //! Step checks: one macro makes of a body the exhaustive check, its test, its property and, in the hosted CI, its Kani
 //! harnesses.
 
-/// Registers checks that go through every answer to the choices of a body, each about a rule of type `$rule`, and makes of
-/// each a module with the constant `CHECK`, a test, a property and Kani harnesses: one that must succeed, and one for each
-/// mutant that must fail. Their loops go round at most `unwind` times.
+/// Registers checks that go through every answer to the choices of a body, each about a rule of type `$rule`, and makes
+/// of each a module with the constant `CHECK`, a test, a property and Kani harnesses: one that must succeed, and one
+/// for each mutant that must fail. Their loops go round at most `unwind` times.
 ///
 /// The property is proptest's: the crate that uses the macro has `proptest` among its `dev-dependencies`.
 ///

@@ -142,9 +142,9 @@ impl<R, T: Team<ROBOTS>, const ROBOTS: usize> Layouts<R, T, ROBOTS> {
         Area::new(Cell::new(0, 0), Cell::new(self.size.0 - 1, self.size.1 - 1))
     }
 
-    /// The search for teams that follow `rule`, at its start: it can be made wave by wave, left and taken up again. It is for
-    /// the demands that are `wanted`, or for all if none is said to be; each is decided as if it stood alone, so a run goes on
-    /// until it has broken all of them.
+    /// The search for teams that follow `rule`, at its start: it can be made wave by wave, left and taken up again. It
+    /// is for the demands that are `wanted`, or for all if none is said to be; each is decided as if it stood alone, so
+    /// a run goes on until it has broken all of them.
     ///
     /// # Errors
     /// [`Refused`] if the area is too large, a robot starts outside, or the limits are beyond what can be searched.

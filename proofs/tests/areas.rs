@@ -1,4 +1,5 @@
-//! The search over areas finds the smallest runs that break a clause of the chain: those that plain runs in every layout find.
+//! The search over areas finds the smallest runs that break a clause of the chain: those that plain runs in every
+//! layout find.
 
 use std::ops::ControlFlow;
 
@@ -38,8 +39,8 @@ fn is_covered(one: Cell, other: Cell) -> bool {
     far(one.x, other.x) + far(one.y, other.y) <= 26
 }
 
-/// The first team moves after which contact is broken, and a cell other than the base is crowded, in a run of four robots as
-/// published among `walls`.
+/// The first team moves after which contact is broken, and a cell other than the base is crowded, in a run of four
+/// robots as published among `walls`.
 fn broken_by(area: Area, base: Cell, walls: &[Edge]) -> [Option<usize>; 2] {
     let grid = SmallGrid::new(area).expect("it fits");
     let mut chain = Chain::<_, 4>::new(Rule::PUBLISHED, 4, base, grid).expect("a team");
@@ -60,7 +61,8 @@ fn broken_by(area: Area, base: Cell, walls: &[Edge]) -> [Option<usize>; 2] {
     broken
 }
 
-/// The smallest of plain runs in every layout with at most so many walls, from every base, in every area of so many cells.
+/// The smallest of plain runs in every layout with at most so many walls, from every base, in every area of so many
+/// cells.
 fn plainly(cells: i16, max_walls: u32) -> [Option<Size>; 2] {
     let mut least: [Option<Size>; 2] = [None; 2];
     for rows in (1..=cells).filter(|rows| cells % rows == 0) {

@@ -1,5 +1,5 @@
-//! The judge of chains and the kernel say the same thing twice: which team moves are admitted, and what the leader does. They
-//! share no code, so that one change to either of them shows here.
+//! The judge of chains and the kernel say the same thing twice: which team moves are admitted, and what the leader
+//! does. They share no code, so that one change to either of them shows here.
 
 use std::collections::BTreeSet;
 

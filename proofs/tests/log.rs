@@ -1,6 +1,6 @@
 //! A log whose bytes were changed. Each byte of each entry is replaced by each other message that a robot can send:
-//! whatever the log says, a backtrack crosses only sides that are known to be open, and ends where neighbours in the chain
-//! are in contact and, as repaired, no three robots are in one cell.
+//! whatever the log says, a backtrack crosses only sides that are known to be open, and ends where neighbours in the
+//! chain are in contact and, as repaired, no three robots are in one cell.
 
 use tautline_kernel::chain::{Chain, Damaged, Intent, Kind, Message, Plan, Rule};
 use tautline_kernel::choice::Oracle;

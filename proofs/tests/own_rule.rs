@@ -1,5 +1,5 @@
-//! A rule of one's own is decided as ours are, and what is wrong with how it is asked is said: a situation that never occurs,
-//! a run that neither ends nor comes back, an area that is too large.
+//! A rule of one's own is decided as ours are, and what is wrong with how it is asked is said: a situation that never
+//! occurs, a run that neither ends nor comes back, an area that is too large.
 
 use tautline_kernel::ground::{Cell, Side, Step};
 use tautline_proofs::decide::{Answer, Desk, Memory, Method, Refused, Seen, Verdict};

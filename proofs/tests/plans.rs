@@ -1,5 +1,5 @@
-//! What plans cost: how many team moves a chain makes in the same random layouts, and at how many candidates of followers its plans
-//! look. Both are numbers of the rule and not of the machine.
+//! What plans cost: how many team moves a chain makes in the same random layouts, and at how many candidates of
+//! followers its plans look. Both are numbers of the rule and not of the machine.
 
 use std::fmt::Write;
 

@@ -77,8 +77,8 @@ struct Future {
     next: Vec<(Action, bool, State)>,
 }
 
-/// Goes on from every state that differs in anything at all, up to so many: how many there are, and the futures of those that
-/// are left once states that have the same parts are taken for one. All of these must have the same future.
+/// Goes on from every state that differs in anything at all, up to so many: how many there are, and the futures of
+/// those that are left once states that have the same parts are taken for one. All of these must have the same future.
 fn futures(setting: &Setting, most: usize) -> (usize, HashMap<State, Future>) {
     let (mut known, mut futures) = (HashSet::new(), HashMap::new());
     let mut ahead = VecDeque::from(setting.starts());
@@ -111,8 +111,8 @@ fn futures(setting: &Setting, most: usize) -> (usize, HashMap<State, Future>) {
     (known.len(), futures)
 }
 
-/// The search and stateright both take states for one that have the same parts, so neither would notice parts that leave
-/// out something that matters.
+/// The search and stateright both take states for one that have the same parts, so neither would notice parts that
+/// leave out something that matters.
 #[test]
 fn states_that_are_taken_for_one_have_the_same_future() {
     let setting = setting((2, 1), 2, 2, Faults::any(1));

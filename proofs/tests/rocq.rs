@@ -1,6 +1,6 @@
-//! The tie between the kernel and the proofs of `proofs/rocq`: what the kernel answers is written down as Rocq terms, and Rocq
-//! compares it with the definitions that the theorems speak of. Here the committed files are compared byte by byte with
-//! fresh ones. So neither the kernel nor the definitions can move alone.
+//! The tie between the kernel and the proofs of `proofs/rocq`: what the kernel answers is written down as Rocq terms,
+//! and Rocq compares it with the definitions that the theorems speak of. Here the committed files are compared byte by
+//! byte with fresh ones. So neither the kernel nor the definitions can move alone.
 
 #[path = "rocq/chain.rs"]
 mod chain;

@@ -229,8 +229,8 @@ fn the_shards_of_a_search_count_what_one_search_counts() {
     }
 }
 
-/// The largest shard has at most 1.3 times the mean, and a plan tells what all shards have to a third, and what each has to a
-/// half.
+/// The largest shard has at most 1.3 times the mean, and a plan tells what all shards have to a third, and what each
+/// has to a half.
 #[test]
 fn a_search_is_dealt_out_evenly_and_as_the_plan_tells() {
     let cases = [(Observed::PUBLISHED, 4, 4), (Observed::REPAIRED, 3, 5), (Observed::REEL, 4, 3)];

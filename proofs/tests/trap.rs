@@ -245,8 +245,8 @@ impl Oracle for Fading {
     }
 }
 
-/// The numbers of those of 400 floors of 12×12 cells, one in five blocked, on which robust agents that miss sensors for a
-/// while, and act in any order, go on for ever. On all others they end with every cell visited.
+/// The numbers of those of 400 floors of 12×12 cells, one in five blocked, on which robust agents that miss sensors for
+/// a while, and act in any order, go on for ever. On all others they end with every cell visited.
 fn not_ended(agents: u8, patience: u8) -> Vec<u64> {
     let ends = |seed: u64| {
         let mut world = Fading { state: seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) + 1, left: 20_001 };
@@ -290,8 +290,8 @@ fn not_ended(agents: u8, patience: u8) -> Vec<u64> {
     (0..400).filter(|&seed| !ends(seed)).collect()
 }
 
-/// Laps are lost on these floors, and end only since an agent takes its claim back where it finds it. On one of them a lap
-/// goes through a sealed cell that reads as unexplored: it must not shut anything then (SPEC.md, BRICKS-2).
+/// Laps are lost on these floors, and end only since an agent takes its claim back where it finds it. On one of them a
+/// lap goes through a sealed cell that reads as unexplored: it must not shut anything then (SPEC.md, BRICKS-2).
 #[test]
 fn agents_that_miss_sensors_for_a_while_end_with_every_cell_visited() {
     let shipped = Rule::ROBUST.patience;

@@ -1,4 +1,5 @@
-//! Agents that search in trees, on floors of this test's own: what *OneLabel* is for, and an agent that has no label left.
+//! Agents that search in trees, on floors of this test's own: what *OneLabel* is for, and an agent that has no label
+//! left.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -129,9 +130,9 @@ fn fails(rule: Rule) -> Vec<usize> {
     failed
 }
 
-/// The claim in the argument for BRICKS-8: the cells which have ever had a label are connected by the sides through which cells
-/// became children with it or with greater ones. This is the smallest run known in which it fails without the condition, found
-/// at random; the sentence of the clause itself holds there.
+/// The claim in the argument for BRICKS-8: the cells which have ever had a label are connected by the sides through
+/// which cells became children with it or with greater ones. This is the smallest run known in which it fails without
+/// the condition, found at random; the sentence of the clause itself holds there.
 #[test]
 fn without_one_label_the_claim_behind_trees_that_stay_whole_fails() {
     assert_eq!(fails(Rule::TREE.without(Condition::OneLabel)), [27]);

@@ -1,4 +1,5 @@
-//! A step that does not end leaves its check open, with a word, whichever engine makes it; one that takes its time does not.
+//! A step that does not end leaves its check open, with a word, whichever engine makes it; one that takes its time does
+//! not.
 
 use std::convert::Infallible;
 use std::ops::ControlFlow;
@@ -250,7 +251,8 @@ impl Method<Rule> for By {
 
 static METHODS: [&'static dyn Method<Rule>; 5] = [&EXHAUSTIVE, &SAMPLED, &STATES, &By::Tree, &By::Lots];
 
-/// Tests share the threads that decide, of which an endless step keeps one: so they run one after the other, on threads enough.
+/// Tests share the threads that decide, of which an endless step keeps one: so they run one after the other, on threads
+/// enough.
 fn alone() -> MutexGuard<'static, ()> {
     static ALONE: Mutex<()> = Mutex::new(());
     static THREADS: Once = Once::new();

@@ -1,4 +1,5 @@
-//! Arrays in and out by Python's own `memoryview`, which NumPy reads and gives without a copy of ours, and without being needed.
+//! Arrays in and out by Python's own `memoryview`, which NumPy reads and gives without a copy of ours, and without
+//! being needed.
 
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyMemoryView, PyTuple};

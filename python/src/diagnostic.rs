@@ -1,4 +1,5 @@
-//! Failures as Python's exceptions: those of the module `pytautline._errors`, each with what is wrong and what would be right.
+//! Failures as Python's exceptions: those of the module `pytautline._errors`, each with what is wrong and what would be
+//! right.
 
 use std::fmt::Display;
 

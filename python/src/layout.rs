@@ -92,8 +92,8 @@ impl Layout {
         Ok(Self { ground: read.map_err(fault)?, name: "drawing".to_owned() })
     }
 
-    /// Of arrays, rows by columns: which cells are blocked, and where a wall stands on the eastern and on the southern side of a
-    /// cell.
+    /// Of arrays, rows by columns: which cells are blocked, and where a wall stands on the eastern and on the southern
+    /// side of a cell.
     #[staticmethod]
     #[pyo3(signature = (blocked, *, east=None, south=None, base=None, robots=None))]
     fn from_arrays(

@@ -1,5 +1,5 @@
-//! The native half of the Python package `pytautline`: what is slow in Python, or is Tautline's own. The other half, in the
-//! folder `pytautline`, has the classes that a person derives from, the errors, and the type stubs.
+//! The native half of the Python package `pytautline`: what is slow in Python, or is Tautline's own. The other half, in
+//! the folder `pytautline`, has the classes that a person derives from, the errors, and the type stubs.
 
 mod arrays;
 mod diagnostic;

@@ -1,5 +1,5 @@
-//! A rule written in Python, hunted in all layouts within its bound. The rule is asked on one thread: it is pure, but Python has
-//! one lock.
+//! A rule written in Python, hunted in all layouts within its bound. The rule is asked on one thread: it is pure, but
+//! Python has one lock.
 
 mod game;
 pub(crate) mod moved;

@@ -36,8 +36,8 @@ pub(crate) struct Sweep {
     batch: RecordBatch,
 }
 
-/// Explores each layout by each rule with each number of robots and each seed, on all processors. The rows do not depend on how
-/// many there are.
+/// Explores each layout by each rule with each number of robots and each seed, on all processors. The rows do not
+/// depend on how many there are.
 #[pyfunction]
 #[pyo3(signature = (layouts, scheme="chain", *, rules=vec!["repaired".to_owned()], robots=None, seeds=vec![0], max_moves=None, until=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]

@@ -11,8 +11,8 @@ use pyo3::prelude::*;
 /// How often Python is asked whether someone wants to stop.
 const ASKED_EVERY: Duration = Duration::from_millis(50);
 
-/// Does `work` on a thread of its own. It is told by `is_stopped` to stop, and then may return what it likes. `look` is called now
-/// and then, and may end the work for good.
+/// Does `work` on a thread of its own. It is told by `is_stopped` to stop, and then may return what it likes. `look` is
+/// called now and then, and may end the work for good.
 pub(crate) fn wait<T: Send>(
     py: Python<'_>,
     is_stopped: &AtomicBool,

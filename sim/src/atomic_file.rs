@@ -154,7 +154,8 @@ pub struct AtomicFile {
 }
 
 impl AtomicFile {
-    /// A file that is to stand at `path`; one that stands there now is replaced in the end, and a symbolic link followed.
+    /// A file that is to stand at `path`; one that stands there now is replaced in the end, and a symbolic link
+    /// followed.
     ///
     /// # Errors
     /// A [`Diagnostic`] if nothing can be written in its folder, or what stands at `path` is not to be replaced.
@@ -166,7 +167,8 @@ impl AtomicFile {
         Ok(Self { path: path.to_owned(), target, replaceable: replaceable.clone(), file })
     }
 
-    /// A file of which the place is known only when the work is done: what is wrong with it is told by [`AtomicFile::keep`].
+    /// A file of which the place is known only when the work is done: what is wrong with it is told by
+    /// [`AtomicFile::keep`].
     pub fn late(path: &Path, replaceable: &Replaceable) -> Self {
         Self::new(path, replaceable).unwrap_or_else(|fault| Self {
             path: path.to_owned(),
@@ -303,8 +305,8 @@ pub struct Finished {
     part: Part,
 }
 
-/// Puts files in their places together, so that all of them are the new ones or all the old ones: whoever [`abandon`]s unfinished
-/// files meanwhile waits. Returns the faults of those that have no place.
+/// Puts files in their places together, so that all of them are the new ones or all the old ones: whoever [`abandon`]s
+/// unfinished files meanwhile waits. Returns the faults of those that have no place.
 pub fn place(files: Vec<Finished>) -> Vec<Diagnostic> {
     let together = unfinished();
     let put = |Finished { path, target, replaceable, part }: Finished| {
@@ -330,8 +332,8 @@ pub(crate) enum Standing {
     Held,
 }
 
-/// Locks an open file, called `path`, against other processes, until it is closed. Where files cannot be locked, this is
-/// logged as a warning.
+/// Locks an open file, called `path`, against other processes, until it is closed. Where files cannot be locked, this
+/// is logged as a warning.
 ///
 /// # Errors
 /// A [`Diagnostic`] if another process has locked it.

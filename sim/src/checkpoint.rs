@@ -1,6 +1,6 @@
-//! Work on its way, as a file of three lines of JSON: what is worked at, how far it is, and the checksum of the two. It is
-//! written aside and put in its place, so the last good one stands there whenever the work is killed. The file that stands
-//! there is locked as long as the work goes on: no other process can go on from it meanwhile.
+//! Work on its way, as a file of three lines of JSON: what is worked at, how far it is, and the checksum of the two. It
+//! is written aside and put in its place, so the last good one stands there whenever the work is killed. The file that
+//! stands there is locked as long as the work goes on: no other process can go on from it meanwhile.
 
 use std::fs::File;
 use std::io::{ErrorKind, Read};

@@ -1,5 +1,5 @@
-//! Counterexamples: how they are found, made minimal, stored, and written down for judges who share no code with what made
-//! them.
+//! Counterexamples: how they are found, made minimal, stored, and written down for judges who share no code with what
+//! made them.
 
 pub mod hunt;
 pub mod judge_input;

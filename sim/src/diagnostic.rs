@@ -1,5 +1,6 @@
 //! What went wrong with something the user gave, where, and what would be right: the one error type of this crate, as
-//! data. How it is shown, and by which flag a field is given, is the caller's business. A fault in a text keeps only the line it points at, clipped, however large the file.
+//! data. How it is shown, and by which flag a field is given, is the caller's business. A fault in a text keeps only
+//! the line it points at, clipped, however large the file.
 
 use std::convert::Infallible;
 use std::fmt;

@@ -1,5 +1,5 @@
-//! Drawings in text that a person can judge: layouts, team moves, the order of exploration, the environments of a
-//! cell. Walls are drawn as in our layout format. Pictures for pages are in [`svg`] and [`chart`], the words that go with a
+//! Drawings in text that a person can judge: layouts, team moves, the order of exploration, the environments of a cell.
+//! Walls are drawn as in our layout format. Pictures for pages are in [`svg`] and [`chart`], the words that go with a
 //! counterexample in [`story`].
 
 pub mod page;
@@ -242,8 +242,8 @@ impl<'a> TeamMoves<'a> {
     }
 }
 
-/// Agents on a floor with such marks, one of them with the arrow of what it tries if that is given, with the sensors that
-/// it misses.
+/// Agents on a floor with such marks, one of them with the arrow of what it tries if that is given, with the sensors
+/// that it misses.
 fn agents(layout: &Layout, scene: &Scene, tries: Option<&Turn>) -> Vec<String> {
     let steps = tries.map(|turn| {
         let step = |agent| if agent == turn.agent { turn.step } else { Step::Stay };

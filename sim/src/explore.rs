@@ -1,6 +1,6 @@
-//! Exploration: a scheme is a row in the [`catalogue`], a [`Setup`] is a run of it before its start, and [`explore`] makes
-//! the run. Every team move becomes a [`Frame`](tautline_proofs::run::Frame) and is checked for the sentences of `SPEC.md`
-//! that the scheme is bound to. A team that is in no catalogue is run by [`run`].
+//! Exploration: a scheme is a row in the [`catalogue`], a [`Setup`] is a run of it before its start, and [`explore`]
+//! makes the run. Every team move becomes a [`Frame`](tautline_proofs::run::Frame) and is checked for the sentences of
+//! `SPEC.md` that the scheme is bound to. A team that is in no catalogue is run by [`run`].
 
 pub mod agents;
 pub mod ants;

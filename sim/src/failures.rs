@@ -1,5 +1,5 @@
-//! What can fail while a chain explores: a robot that dies, a wall that appears, bytes that are lost, and robots that go at speeds of
-//! their own.
+//! What can fail while a chain explores: a robot that dies, a wall that appears, bytes that are lost, and robots that
+//! go at speeds of their own.
 
 use std::fmt;
 use std::num::NonZeroU32;

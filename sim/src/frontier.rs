@@ -1,9 +1,10 @@
-//! Robots that explore cells (Rajesh, Nagaraja and Suja 2024) in a whole layout: the kernel's robots, a layout that answers for what they see,
-//! messages with a range that may be lost, and positions with an error; and rivals that assign frontier cells to robots.
+//! Robots that explore cells (Rajesh, Nagaraja and Suja 2024) in a whole layout: the kernel's robots, a layout that
+//! answers for what they see, messages with a range that may be lost, and positions with an error; and rivals that
+//! assign frontier cells to robots.
 //!
-//! In a team move every robot that stands decides and looks, in the order of the robots, and all that enter a cell arrive
-//! together. A slot is a team move. What is left to chance is drawn from `ChaCha8`, seeded with the seed of the run as layouts are,
-//! with the tag `frontier`.
+//! In a team move every robot that stands decides and looks, in the order of the robots, and all that enter a cell
+//! arrive together. A slot is a team move. What is left to chance is drawn from `ChaCha8`, seeded with the seed of the
+//! run as layouts are, with the tag `frontier`.
 
 mod assigned;
 mod chart;

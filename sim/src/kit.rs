@@ -1,9 +1,10 @@
 //! Robots that keep in touch [Peiris] in continuous time: the kernel's team, a layout that answers for what they see,
 //! and speeds. A cell of the layout is a node, 3 m from the next one.
 //!
-//! A decision, a look, a turn and a message take no time, and every drive takes a path's length over the robot's speed. What
-//! is left to chance, which of several sides a robot takes and how fast it drives, is drawn from `ChaCha8`, seeded with the
-//! seed of the run as layouts are, with the tag `kit`. Times are whole milliseconds, and lengths whole millimetres.
+//! A decision, a look, a turn and a message take no time, and every drive takes a path's length over the robot's speed.
+//! What is left to chance, which of several sides a robot takes and how fast it drives, is drawn from `ChaCha8`, seeded
+//! with the seed of the run as layouts are, with the tag `kit`. Times are whole milliseconds, and lengths whole
+//! millimetres.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroU32;
@@ -95,8 +96,8 @@ pub trait Course {
     /// What `robot` has recorded of the sides of the node that it was at last: whether they can be driven.
     fn recorded(&self, robot: usize) -> Vec<(Edge, bool)>;
 
-    /// The farthest that robots have been apart, where each is as near as it can be to those that are linked with another:
-    /// squared, in square millimetres.
+    /// The farthest that robots have been apart, where each is as near as it can be to those that are linked with
+    /// another: squared, in square millimetres.
     fn apart(&self) -> i64;
 }
 
@@ -196,8 +197,8 @@ impl<G: Grid + Copy, const ROBOTS: usize, const NODES: usize> Run<G, ROBOTS, NOD
         std::array::from_fn(|axis| from[axis] + (to[axis] - from[axis]) * gone / whole)
     }
 
-    /// Notes how far apart the robots are. In between it is less than at one of the ends, since distance is convex where
-    /// both robots keep their speeds.
+    /// Notes how far apart the robots are. In between it is less than at one of the ends, since distance is convex
+    /// where both robots keep their speeds.
     fn note(&mut self) {
         let positions: Vec<[i64; 2]> =
             self.kit.stances().enumerate().map(|(robot, stance)| self.position(robot, stance)).collect();
@@ -337,8 +338,8 @@ pub fn paths(layout: &Layout, start: Cell) -> Vec<Edge> {
     paths
 }
 
-/// The nodes nearest to `base`, the base first, in which a team of so many can start: each in one of its own, near enough
-/// to hear one before it. Fewer if there are not so many.
+/// The nodes nearest to `base`, the base first, in which a team of so many can start: each in one of its own, near
+/// enough to hear one before it. Fewer if there are not so many.
 pub fn starts(layout: &Layout, base: Cell, robots: usize) -> Vec<Cell> {
     let mut starts = vec![base];
     let mut place = 0;
@@ -361,7 +362,8 @@ mod tests {
     use super::*;
     use crate::layout::Generator;
 
-    /// Runs a team in layouts of this kind; the drives, and how many runs end before every path is driven, or not at all.
+    /// Runs a team in layouts of this kind; the drives, and how many runs end before every path is driven, or not at
+    /// all.
     fn runs(rule: Rule, kind: &str, robots: usize, seeds: std::ops::Range<u64>) -> (usize, usize) {
         let generator: Generator = kind.parse().expect("a generator");
         let (mut drives, mut ended) = (0, 0);

@@ -1,4 +1,5 @@
-//! Robot teams in layouts: the runs of the kernel's rules, their traces and counterexamples, and how they are drawn. What a person types, and how an error is printed, is the program's business.
+//! Robot teams in layouts: the runs of the kernel's rules, their traces and counterexamples, and how they are drawn.
+//! What a person types, and how an error is printed, is the program's business.
 
 pub mod atomic_file;
 mod checkpoint;

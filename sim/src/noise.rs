@@ -8,7 +8,8 @@ pub fn deviation_db(standard_db: f64, oracle: &mut dyn Oracle) -> f64 {
     if standard_db == 0.0 {
         return 0.0;
     }
-    // Whole numbers, to the last step. The plain case, twelve zeros, is to be no deviation: each number is turned by half.
+    // Whole numbers, to the last step. The plain case, twelve zeros, is to be no deviation: each number is turned by
+    // half.
     let steps: i32 = (0..12).map(|_| (oracle.pick(1 << 16) ^ (1 << 15)) as i32 - (1 << 15)).sum();
     let standard = (f64::from(steps) / 65_536.0).clamp(-MOST_DEVIATIONS, MOST_DEVIATIONS);
     standard_db * standard

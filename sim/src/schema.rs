@@ -18,8 +18,8 @@ pub fn of<T: JsonSchema + ?Sized>(title: &str) -> Schema {
     schema
 }
 
-/// Takes out what is about Rust, or about reading: doc comments, defaults, widths of numbers, and that no other field is read.
-/// Words of which each has a schema become one list.
+/// Takes out what is about Rust, or about reading: doc comments, defaults, widths of numbers, and that no other field
+/// is read. Words of which each has a schema become one list.
 #[derive(Clone, Debug)]
 struct Plain;
 

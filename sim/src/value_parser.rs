@@ -1,4 +1,5 @@
-//! Values as a person writes them, on a command line for example. What is wrong with one is said as what to write instead.
+//! Values as a person writes them, on a command line for example. What is wrong with one is said as what to write
+//! instead.
 
 use std::fmt::Display;
 use std::num::{IntErrorKind, ParseIntError};

@@ -1,5 +1,5 @@
-//! Random runs beyond the searched bounds: many sizes and densities, more robots than any search holds, and all that can fail. They are
-//! judged by SPEC.md's sentences alone: `judge` knows std and nothing of the rules.
+//! Random runs beyond the searched bounds: many sizes and densities, more robots than any search holds, and all that
+//! can fail. They are judged by SPEC.md's sentences alone: `judge` knows std and nothing of the rules.
 
 mod judge;
 

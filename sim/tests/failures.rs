@@ -32,8 +32,8 @@ fn lost_bytes_delay_a_run_and_change_nothing_of_it() {
     }
 }
 
-/// Runs of 8 robots at each density in which the order of going breaks contact: of the reel, of the reel without *Hold*, and of
-/// the repaired rule.
+/// Runs of 8 robots at each density in which the order of going breaks contact: of the reel, of the reel without
+/// *Hold*, and of the repaired rule.
 fn broken_by_orders(runs: u64) -> [[usize; 5]; 3] {
     let speeds = Options { going: Going::OneByOne, ..Options::USUAL };
     [REEL, UNHELD, RuleId::REPAIRED].map(|rule| {
@@ -64,8 +64,8 @@ fn no_order_of_going_breaks_contact_in_1000_runs_a_density() {
     assert!([unheld, repaired].iter().all(|broken| broken.iter().sum::<usize>() > 0));
 }
 
-/// Of so many runs a density in which some robot dies: the team moves taken back, in rising order, and how often the chain
-/// came home. Nothing may be broken.
+/// Of so many runs a density in which some robot dies: the team moves taken back, in rising order, and how often the
+/// chain came home. Nothing may be broken.
 fn deaths(density: f64, runs: u64) -> (Vec<u32>, usize) {
     let (mut taken_back, mut home) = (Vec::new(), 0);
     for seed in 0..runs {

@@ -135,8 +135,8 @@ fn any_starts(layout: &Layout, robots: usize, oracle: &mut Seeded) -> Vec<Cell> 
     (0..robots).map(any).collect()
 }
 
-/// Runs of Hungarian assignment that is computed anew at every move, in so many random layouts for each size, share of blocked
-/// cells and number of robots. All starts are anywhere and in any order, so that ties are broken in any way.
+/// Runs of Hungarian assignment that is computed anew at every move, in so many random layouts for each size, share of
+/// blocked cells and number of robots. All starts are anywhere and in any order, so that ties are broken in any way.
 fn end_of_runs_with_assignments_anew(layouts: u64) -> usize {
     let mut runs = 0;
     for size in ["6x7", "8x8", "10x6", "12x14"] {

@@ -45,8 +45,8 @@ fn drives(rule: Rule, layout: &Layout, starts: &[Cell], spread: u32, seed: u64) 
     (drives, course.apart(), course.is_over())
 }
 
-/// Repaired teams of so many in random layouts, each with its seed. Where there are not so many cells within reach, there is
-/// none.
+/// Repaired teams of so many in random layouts, each with its seed. Where there are not so many cells within reach,
+/// there is none.
 fn repaired(robots: u16) -> impl Iterator<Item = (u64, Report)> {
     (0..60).filter_map(move |seed| {
         let layout = generated(["walls:5x4:0.15", "walls:7x7:0.3", "open:6x5"][seed as usize % 3], seed);

@@ -1,5 +1,5 @@
-//! Laps of Brick&Mortar agents that are cut short after so many moves: whatever their reach and patience, a run without missed
-//! sensors that ends has visited every cell. Their moves are pinned, since a lap that ends otherwise still ends.
+//! Laps of Brick&Mortar agents that are cut short after so many moves: whatever their reach and patience, a run without
+//! missed sensors that ends has visited every cell. Their moves are pinned, since a lap that ends otherwise still ends.
 
 use std::fmt::Write;
 

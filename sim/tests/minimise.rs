@@ -303,8 +303,8 @@ fn a_run_is_taken_to_its_end_and_no_further() {
     assert_eq!(refused(ended(short)), Refused::Unbroken);
 }
 
-/// Of KIT a layout of one node is no layout, and its robots see blocked cells before they could meet them: without these the run
-/// may be another one.
+/// Of KIT a layout of one node is no layout, and its robots see blocked cells before they could meet them: without
+/// these the run may be another one.
 #[test]
 fn a_minimal_run_of_robots_that_see_blocked_cells_breaks_its_clause() {
     let mut minimised = 0;

@@ -1,5 +1,5 @@
-//! A team that is in no catalogue: it runs in a building, its run is stored, read back and drawn as that of any team, and what
-//! it breaks is shrunk. A stored run that contradicts itself is refused with its place.
+//! A team that is in no catalogue: it runs in a building, its run is stored, read back and drawn as that of any team,
+//! and what it breaks is shrunk. A stored run that contradicts itself is refused with its place.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -23,8 +23,8 @@ use tautline_sim::trace::{self, Stored, Writer};
 /// The second robot never comes into the cell of the first.
 const ALONE: ClauseId = ClauseId::new("PAIR-1");
 
-/// Two robots: the first goes where it has not been, and back where nothing is left; the second goes where the first has
-/// been, and does not know that the first may meet a wall.
+/// Two robots: the first goes where it has not been, and back where nothing is left; the second goes where the first
+/// has been, and does not know that the first may meet a wall.
 struct Pair {
     cells: [Cell; 2],
     /// The cells within the rim, which both know.

@@ -1,5 +1,5 @@
-//! The data of a page: what its lines say team move by team move is what the run does, for every scheme, and a page of some
-//! team moves begins with what there was before them.
+//! The data of a page: what its lines say team move by team move is what the run does, for every scheme, and a page of
+//! some team moves begins with what there was before them.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

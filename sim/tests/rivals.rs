@@ -1,5 +1,5 @@
-//! The rivals of the chain: Full search finds what plain enumeration finds, what does not fit is refused with its reason, and
-//! runs end.
+//! The rivals of the chain: Full search finds what plain enumeration finds, what does not fit is refused with its
+//! reason, and runs end.
 
 use std::collections::BTreeSet;
 

@@ -1,5 +1,5 @@
-//! Same seed, same run: how many team moves every rule of every scheme takes in five layouts, and a checksum of them. A change that
-//! is to make a rule faster changes nothing here; one that changes what robots do shows where.
+//! Same seed, same run: how many team moves every rule of every scheme takes in five layouts, and a checksum of them. A
+//! change that is to make a rule faster changes nothing here; one that changes what robots do shows where.
 
 use std::fmt::Write;
 use std::num::NonZeroU32;
@@ -64,7 +64,8 @@ impl Event {
     }
 }
 
-/// The team moves of a run, with a sign if it does not end by all being explored; and a checksum of what robots and others did.
+/// The team moves of a run, with a sign if it does not end by all being explored; and a checksum of what robots and
+/// others did.
 fn run(
     scheme: &'static Profile,
     rule: &Rule,

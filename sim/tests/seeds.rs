@@ -1,5 +1,5 @@
-//! What each scheme says of its seed: a run in which nothing is drawn is the same with every seed, and whatever is drawn makes
-//! runs differ.
+//! What each scheme says of its seed: a run in which nothing is drawn is the same with every seed, and whatever is
+//! drawn makes runs differ.
 
 use std::num::NonZeroU32;
 
@@ -44,7 +44,8 @@ impl Told {
     }
 }
 
-/// A run with this seed: whether it is said to draw anything, and all that came of it. `None` if the rule cannot be told that.
+/// A run with this seed: whether it is said to draw anything, and all that came of it. `None` if the rule cannot be
+/// told that.
 fn run(
     scheme: &'static Profile,
     rule: &Rule,
@@ -71,7 +72,8 @@ fn each_scheme_says_what_its_seed_draws() {
     for scheme in SCHEMES {
         let mut seen: Vec<&Drawn> = Vec::new();
         for (rule, told) in scheme.rules.iter().flat_map(|rule| Told::all().map(move |told| (rule, told))) {
-            // An open area has most ways that are as good; obstacles make messages matter, and walls the order of robots.
+            // An open area has most ways that are as good; obstacles make messages matter, and walls the order of
+            // robots.
             for layout in ["open:7x6", "cells:7x6:0.2", "walls:7x6:0.2"] {
                 let layout = layout.parse::<Generator>().and_then(|generator| generator.generate(5));
                 let layout = layout.expect("a layout");

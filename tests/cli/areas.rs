@@ -1,4 +1,5 @@
-//! The hunt over areas on the command line: the smallest runs that break a clause, its certificate, and what is refused.
+//! The hunt over areas on the command line: the smallest runs that break a clause, its certificate, and what is
+//! refused.
 
 use std::fs;
 use std::path::Path;

@@ -306,7 +306,8 @@ fn peak_kib(folder: &Path, arguments: &[&str]) -> (u64, Option<i32>) {
     }
 }
 
-/// Held all at once, the drawings and the JSON of these moves take 40 MB each or more. The page holds what changes alone.
+/// Held all at once, the drawings and the JSON of these moves take 40 MB each or more. The page holds what changes
+/// alone.
 #[cfg(target_os = "linux")]
 #[test]
 fn however_many_team_moves_are_replayed_memory_stays_bounded() {

@@ -47,7 +47,8 @@ fn the_shards_of_a_hunt_in_any_order_give_what_one_process_gives() {
     assert_eq!(shown(many, &["merge", "plan.json"]), shown(one, &HUNT));
 }
 
-/// Hunts that look at each layout by itself: states, runs and rivals; with a trap, without one, and with one in an early area.
+/// Hunts that look at each layout by itself: states, runs and rivals; with a trap, without one, and with one in an
+/// early area.
 #[test]
 fn the_shards_of_hunts_of_layouts_give_what_one_process_gives() {
     let works: [(&[&str], i32); 5] = [

@@ -73,8 +73,8 @@ pub(crate) fn blocks() -> Vec<Block> {
     found
 }
 
-/// The commands of ours that stand within sentences, each with its page, but those with a word in capitals for what a person
-/// has to choose.
+/// The commands of ours that stand within sentences, each with its page, but those with a word in capitals for what a
+/// person has to choose.
 pub(crate) fn spans() -> Vec<(String, Vec<String>)> {
     let mut found = Vec::new();
     for path in documents() {

@@ -1,5 +1,5 @@
-//! Whether JSON is as a schema in docs/schemas says. Of JSON Schema this knows the words that those schemas have: on any other it
-//! panics.
+//! Whether JSON is as a schema in docs/schemas says. Of JSON Schema this knows the words that those schemas have: on
+//! any other it panics.
 
 use std::fs;
 use std::path::Path;

@@ -1,5 +1,5 @@
-//! A run in the Informal Trace Format of Apalache, for the viewers of model checkers: one state for the start, and one after each
-//! team move. Whole numbers are written as that format has them, as `#bigint`.
+//! A run in the Informal Trace Format of Apalache, for the viewers of model checkers: one state for the start, and one
+//! after each team move. Whole numbers are written as that format has them, as `#bigint`.
 
 use std::mem::replace;
 

@@ -1,5 +1,5 @@
-//! A run as MCAP, the container of ROS 2's recordings: messages in CDR, each with the definition of its type. `docs/formats.md`
-//! lists the topics. The start is at 0 s, and team move k at k seconds.
+//! A run as MCAP, the container of ROS 2's recordings: messages in CDR, each with the definition of its type.
+//! `docs/formats.md` lists the topics. The start is at 0 s, and team move k at k seconds.
 
 mod cdr;
 mod definition;
@@ -20,8 +20,8 @@ use tautline_sim::trace::StoredMove;
 /// The points of a map are so many metres wide, of cells of one metre. The first is a post, whose middle is at 0, 0.
 const POINT_M: f64 = 0.5;
 
-/// A map of at most so many points is sent whole each time that it changes. Of a larger one what changes is sent, and the whole
-/// again when that has taken as many bytes.
+/// A map of at most so many points is sent whole each time that it changes. Of a larger one what changes is sent, and
+/// the whole again when that has taken as many bytes.
 const MOST_WHOLE: usize = 64 * 64;
 
 /// Links by their zones; those in none are lost.

@@ -1,4 +1,5 @@
-//! A rescue as a recording of ROS 2: the field, the robots on their ways, and what happened. `docs/formats.md` lists the topics.
+//! A rescue as a recording of ROS 2: the field, the robots on their ways, and what happened. `docs/formats.md` lists
+//! the topics.
 
 use serde::Serialize;
 

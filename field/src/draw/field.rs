@@ -1,6 +1,6 @@
-//! Radio fields as SVG, for light and dark pages: nodes, the links of a navigation tree, obstacles, and the ways of robots
-//! to those who wait for rescue (WFRs). North is up. The same field gives the same bytes everywhere. Any text may stand in
-//! it; it is escaped.
+//! Radio fields as SVG, for light and dark pages: nodes, the links of a navigation tree, obstacles, and the ways of
+//! robots to those who wait for rescue (WFRs). North is up. The same field gives the same bytes everywhere. Any text
+//! may stand in it; it is escaped.
 
 use std::fmt::Write;
 

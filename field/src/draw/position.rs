@@ -1,5 +1,5 @@
-//! Positions as SVG, for light and dark pages: anchors, where a robot is, where it took itself to be, the ellipse of its errors
-//! and that of the Cramér–Rao bound. +y is up. The same positions give the same bytes everywhere.
+//! Positions as SVG, for light and dark pages: anchors, where a robot is, where it took itself to be, the ellipse of
+//! its errors and that of the Cramér–Rao bound. +y is up. The same positions give the same bytes everywhere.
 
 use std::fmt::Write;
 

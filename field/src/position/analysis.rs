@@ -1,4 +1,5 @@
-//! The analyses of positions, by nalgebra. The kernel says the same of two unknowns without matrices, and is compared with this.
+//! The analyses of positions, by nalgebra. The kernel says the same of two unknowns without matrices, and is compared
+//! with this.
 
 use nalgebra::{DMatrix, Matrix2, Vector2};
 use schemars::JsonSchema;

@@ -1,5 +1,5 @@
-//! A file of measurements: lines of comma-separated values under the names of their columns, one line for each distance that
-//! a robot has measured. Lines with the same name of a fix belong to one position.
+//! A file of measurements: lines of comma-separated values under the names of their columns, one line for each distance
+//! that a robot has measured. Lines with the same name of a fix belong to one position.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
@@ -98,7 +98,8 @@ pub struct Place {
 const PARTS: f64 = 1e5;
 
 impl Measured {
-    /// Reads a file of distances, or of levels where `power` says what these are at one metre; `signal` says how fast they fall.
+    /// Reads a file of distances, or of levels where `power` says what these are at one metre; `signal` says how fast
+    /// they fall.
     ///
     /// # Errors
     /// A [`Diagnostic`] if it cannot be read, a column is missing, or a value is no number or no level.

@@ -1,5 +1,5 @@
-//! Whether every two circles meet, as the kernel says it, for files with so many distances that not every two can be compared:
-//! circles stand in a tree of boxes, and what is in a box is looked at only where its bounds leave it open.
+//! Whether every two circles meet, as the kernel says it, for files with so many distances that not every two can be
+//! compared: circles stand in a tree of boxes, and what is in a box is looked at only where its bounds leave it open.
 
 use tautline_kernel::position::{Point, Range, Refusal, Signal, check, do_meet, most_error};
 

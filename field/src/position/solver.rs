@@ -45,8 +45,8 @@ pub const PARTICLES: usize = 30;
 pub type Solved = (Point, Option<Fix>);
 
 impl Solver {
-    /// The position that the distances tell. The closed form alone is restricted to three anchors; a swarm begins about the linear
-    /// solution where there are more, or where the closed form divides by 0.
+    /// The position that the distances tell. The closed form alone is restricted to three anchors; a swarm begins about
+    /// the linear solution where there are more, or where the closed form divides by 0.
     ///
     /// # Errors
     /// [`Refusal`] if the distances tell none.

@@ -130,8 +130,8 @@ pub struct Report {
     pub error_m: Errors,
     /// How far they are from the position at which the distances miss least, in metres.
     pub optimum_m: Errors,
-    /// The Cramér–Rao bound: no unbiased way has a smaller root mean square error, in metres. None if the anchors tell nothing
-    /// about one direction somewhere.
+    /// The Cramér–Rao bound: no unbiased way has a smaller root mean square error, in metres. None if the anchors tell
+    /// nothing about one direction somewhere.
     pub crlb_rms_m: Option<f64>,
     /// The singular values of the anchors' places about their mean: how far they are spread along a line and across it.
     pub spread_m: [f64; 2],
@@ -160,10 +160,11 @@ pub struct Errors {
     pub interval: Quantiles<[f64; 2]>,
 }
 
-/// How many cells a floor can have from side to side, so that an error of the 99th percentile leaves a robot in its cell.
+/// How many cells a floor can have from side to side, so that an error of the 99th percentile leaves a robot in its
+/// cell.
 ///
-/// With cells of side L, a fix that is wrong by at most E and moves that are wrong by at most D, each fix may be believed if 2E + D <
-/// L/2, and the place within a cell, the cell being counted by moves, if E + D < L/2. Here D is 0.
+/// With cells of side L, a fix that is wrong by at most E and moves that are wrong by at most D, each fix may be
+/// believed if 2E + D < L/2, and the place within a cell, the cell being counted by moves, if E + D < L/2. Here D is 0.
 #[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Advice {
     /// The shorter side of the rectangle that the anchors span, in metres.

@@ -1,8 +1,8 @@
 //! The air between the nodes: what is sent arrives, collides or is lost. Every node has one antenna and one queue.
 //!
-//! Over the ideal channel whoever is linked to a sender hears it at once. Over the shared one sending takes time, a node
-//! listens before it sends and puts it off while it hears somebody, and where two signals overlap neither is heard. A
-//! node that sends hears nothing. There is no capture of a stronger signal, and nobody gives up.
+//! Over the ideal channel whoever is linked to a sender hears it at once. Over the shared one sending takes time, a
+//! node listens before it sends and puts it off while it hears somebody, and where two signals overlap neither is
+//! heard. A node that sends hears nothing. There is no capture of a stronger signal, and nobody gives up.
 
 use std::collections::VecDeque;
 
@@ -16,8 +16,8 @@ use super::network::Link;
 use super::queue::Queue;
 use super::{Network, Problem};
 
-/// What the nodes do with what they hear. Beside the nodes of the network there may be rovers: stations that move, so that
-/// their links are the protocol's to tell. Their numbers follow those of the nodes.
+/// What the nodes do with what they hear. Beside the nodes of the network there may be rovers: stations that move, so
+/// that their links are the protocol's to tell. Their numbers follow those of the nodes.
 pub trait Protocol {
     /// What they send.
     type Message: Copy;
@@ -40,8 +40,8 @@ pub trait Protocol {
         0
     }
 
-    /// Adds the links on which what `at` sends now is heard, beside those of the network: a node's to the rovers, a rover's
-    /// to all that hear it.
+    /// Adds the links on which what `at` sends now is heard, beside those of the network: a node's to the rovers, a
+    /// rover's to all that hear it.
     #[inline]
     fn roving(&self, _at: NodeId, _links: &mut Vec<Link>) {}
 }
@@ -135,8 +135,8 @@ pub struct Air {
     pub end_ns: u64,
 }
 
-/// Runs `protocol` until nothing more happens. It begins with the timers in `begin`, each of a node or rover at a time in
-/// nanoseconds. What happens at once, happens in the order of the nodes.
+/// Runs `protocol` until nothing more happens. It begins with the timers in `begin`, each of a node or rover at a time
+/// in nanoseconds. What happens at once, happens in the order of the nodes.
 ///
 /// # Errors
 /// [`Problem::NoNode`] if there is no such node.

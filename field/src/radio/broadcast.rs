@@ -6,8 +6,8 @@ use tautline_kernel::notice::{Node, Reaction, Rule, Scheme, Stage, Surroundings,
 
 use super::{Air, Channel, Faults, Network, Problem, Protocol, run};
 
-/// B of equation (2), which the paper leaves open: a tenth of a second. Over the ideal channel the farthest-node schemes do
-/// the same for any other.
+/// B of equation (2), which the paper leaves open: a tenth of a second. Over the ideal channel the farthest-node
+/// schemes do the same for any other.
 pub const LONGEST_WAIT_NS: u32 = 100_000_000;
 
 /// How far an event has come.
@@ -58,8 +58,8 @@ pub struct Broadcast<'a> {
     hellos: Hellos,
 }
 
-/// What the scalable broadcast remembers of the neighbours: where the words of each node begin, and the words. The other
-/// schemes need none.
+/// What the scalable broadcast remembers of the neighbours: where the words of each node begin, and the words. The
+/// other schemes need none.
 #[derive(Clone, Default, Debug)]
 struct Hellos {
     first: Vec<usize>,

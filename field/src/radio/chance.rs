@@ -1,5 +1,5 @@
-//! Chances whose outcome is a choice of an `Oracle`. Whatever is the plain case comes first: a source without answers lets
-//! every message arrive.
+//! Chances whose outcome is a choice of an `Oracle`. Whatever is the plain case comes first: a source without answers
+//! lets every message arrive.
 
 use tautline_kernel::choice::Oracle;
 

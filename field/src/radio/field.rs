@@ -148,7 +148,8 @@ impl Field {
     /// strip, so that neighbours have near numbers, which is kind to caches.
     ///
     /// # Errors
-    /// A [`Problem`] if there are too few nodes or too many, an obstacle is no rectangle, or the obstacles leave no room.
+    /// A [`Problem`] if there are too few nodes or too many, an obstacle is no rectangle, or the obstacles leave no
+    /// room.
     pub fn random(
         area: Area,
         obstacles: Vec<Obstacle>,

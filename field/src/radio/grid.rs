@@ -1,5 +1,5 @@
-//! Neighbour search: a grid of cells at least half as wide as signals reach, so that whoever can be heard is at most two
-//! cells off. The nodes are kept cell by cell, row by row: cells side by side are one stretch.
+//! Neighbour search: a grid of cells at least half as wide as signals reach, so that whoever can be heard is at most
+//! two cells off. The nodes are kept cell by cell, row by row: cells side by side are one stretch.
 
 use std::ops::Range;
 

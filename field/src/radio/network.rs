@@ -1,7 +1,7 @@
 //! Who hears whom, and how far off each seems to be by the strength of its signal.
 //!
-//! By equation (1) of [Jiang 2011], the kernel's [`Propagation`], the mean power at distance d is 10·α·log₁₀(L/d) dB above
-//! what can just be heard, L being the range, and a shadow adds its deviation X to that. So a signal is heard if
+//! By equation (1) of [Jiang 2011], the kernel's [`Propagation`], the mean power at distance d is 10·α·log₁₀(L/d) dB
+//! above what can just be heard, L being the range, and a shadow adds its deviation X to that. So a signal is heard if
 //! d·10^(−X/10α) ≤ L, and that product is also the distance that the receiver makes of it: with or without shadows, who
 //! seems to be within the range is heard. A shadow is that of a pair of places, the same both ways and for ever.
 
@@ -227,8 +227,8 @@ impl Network {
     }
 }
 
-/// The nodes with larger numbers than `node` within reach of it, with the squares of their distances. The buffer has room
-/// for all nodes. What is out of reach is written, too, and then written over: that is quicker than to ask first.
+/// The nodes with larger numbers than `node` within reach of it, with the squares of their distances. The buffer has
+/// room for all nodes. What is out of reach is written, too, and then written over: that is quicker than to ask first.
 fn within<'a>(
     grid: &Grid,
     node: u32,
@@ -270,8 +270,8 @@ impl Upper {
         self.ends.push(self.links.len() as u32);
     }
 
-    /// The network of these links, both ways. Node by node the smaller ends are put into the lists of the larger ones, and
-    /// from these lists, node by node, the larger into those of the smaller: so each list ascends, without sorting.
+    /// The network of these links, both ways. Node by node the smaller ends are put into the lists of the larger ones,
+    /// and from these lists, node by node, the larger into those of the smaller: so each list ascends, without sorting.
     fn both_ways(self) -> Network {
         let nodes = self.ends.len();
         let mut first = vec![0; nodes + 1];

@@ -1,8 +1,8 @@
 //! What is for one station alone, MOVE, RESB and the answers to it, goes from hop to hop as a sensor's radio sends such
-//! frames (IEEE 802.15.4): the hop acknowledges it by the number of the frame, the sender repeats it until then, at most
-//! three times, and a frame that comes once more is acknowledged and otherwise ignored. A call is for all, and is not
-//! acknowledged. The paper is silent about this; without it hardly a message would come through fifteen hops that lose
-//! one in ten.
+//! frames (IEEE 802.15.4): the hop acknowledges it by the number of the frame, the sender repeats it until then, at
+//! most three times, and a frame that comes once more is acknowledged and otherwise ignored. A call is for all, and is
+//! not acknowledged. The paper is silent about this; without it hardly a message would come through fifteen hops that
+//! lose one in ten.
 
 use tautline_kernel::mrc::{Hop, Resb, Upward};
 

@@ -1,5 +1,5 @@
-//! What a station has before it: timers that are to go off, and messages that are to be sent. The air knows one timer of a
-//! station, so it is wound to the earliest of them.
+//! What a station has before it: timers that are to go off, and messages that are to be sent. The air knows one timer
+//! of a station, so it is wound to the earliest of them.
 
 use std::collections::VecDeque;
 

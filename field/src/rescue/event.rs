@@ -15,8 +15,8 @@ pub(super) fn millimetres(at: Point) -> Millimetres {
     [at.x_m, at.y_m].map(|metres| (metres * 1e3 + 0.5) as u32)
 }
 
-/// The number of a robot, a WFR, or an event at one: counted from 0 here, and from 1 wherever people read it, in text and in
-/// JSON.
+/// The number of a robot, a WFR, or an event at one: counted from 0 here, and from 1 wherever people read it, in text
+/// and in JSON.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(try_from = "usize", into = "usize")]
 pub struct Ordinal(pub usize);

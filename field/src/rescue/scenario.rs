@@ -238,8 +238,8 @@ impl Scenario {
         self.wfrs.iter().position(|wfr| wfr.node == node)
     }
 
-    /// A node as a robot hears it that was last at `place`: with the shadow between the two, if they are linked. Otherwise, and
-    /// before it was at a node, without shadow.
+    /// A node as a robot hears it that was last at `place`: with the shadow between the two, if they are linked.
+    /// Otherwise, and before it was at a node, without shadow.
     pub(super) fn signal(&self, node: NodeId, place: Option<NodeId>) -> Signal {
         match (self.radio.model(), place) {
             (Model::Shadowed { .. }, Some(place)) => Signal::near(&self.field, &self.network, node, place),

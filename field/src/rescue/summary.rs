@@ -1,5 +1,5 @@
-//! Many rescues of one setting, seed by seed: means with their intervals, what became of the WFRs, and which clauses were
-//! broken.
+//! Many rescues of one setting, seed by seed: means with their intervals, what became of the WFRs, and which clauses
+//! were broken.
 
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;

@@ -1,6 +1,6 @@
-//! How long the timers run that MRC leaves to the network. Each is longer than what it waits for, as the clauses assume:
-//! the bounds follow from the longest wait B of a broadcast, what a message takes for a hop, how many hops there are, and
-//! how long a robot goes from one path node to the next.
+//! How long the timers run that MRC leaves to the network. Each is longer than what it waits for, as the clauses
+//! assume: the bounds follow from the longest wait B of a broadcast, what a message takes for a hop, how many hops
+//! there are, and how long a robot goes from one path node to the next.
 //!
 //! A WFR has been told at deployment how deep the network is as seen from it, so that robots and nodes know it from its
 //! calls: D hops to the farthest node. A broadcast makes detours, and the robot is one hop more: H = 2·D + 2 hops are
@@ -13,8 +13,8 @@ use tautline_kernel::net::Epoch;
 use super::acks::{ANSWER_WAIT_NS, TRIES};
 use crate::radio::LONGEST_WAIT_NS;
 
-/// A message takes at most so long for a hop: a letter and all its repetitions. Over the shared channel nothing bounds how
-/// long others send, but hardly ever does it take longer.
+/// A message takes at most so long for a hop: a letter and all its repetitions. Over the shared channel nothing bounds
+/// how long others send, but hardly ever does it take longer.
 const HOP_NS: u64 = TRIES as u64 * ANSWER_WAIT_NS;
 
 /// Windows are doubled at most so often.

@@ -1,5 +1,5 @@
-//! Everybody on the air: nodes that broadcast, carry messages and guide, WFRs that call and choose, robots that ask and go.
-//! Each reacts by its kernel machine; here is who hears whom, which timer runs how long, and where the robots are.
+//! Everybody on the air: nodes that broadcast, carry messages and guide, WFRs that call and choose, robots that ask and
+//! go. Each reacts by its kernel machine; here is who hears whom, which timer runs how long, and where the robots are.
 
 mod calling;
 mod ending;

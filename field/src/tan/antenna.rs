@@ -1,6 +1,6 @@
-//! The robot's antenna. Figure 4 of [Jiang 2011] shows how the strength falls off the axis, without numbers in the text, so
-//! the pattern is ours: the parabola that radio standards take for the element of a sector antenna (3GPP TR 38.901,
-//! 7.3), with a floor. At half the beam width off the axis the strength is 3 dB less than on it.
+//! The robot's antenna. Figure 4 of [Jiang 2011] shows how the strength falls off the axis, without numbers in the
+//! text, so the pattern is ours: the parabola that radio standards take for the element of a sector antenna (3GPP TR
+//! 38.901, 7.3), with a floor. At half the beam width off the axis the strength is 3 dB less than on it.
 
 use tautline_kernel::tan::Heading;
 

@@ -1,5 +1,5 @@
-//! Sheu's back-and-forth ([Jiang 2011, 2.1]): without a directional antenna the robot walks a random direction to the place
-//! where a guide node's beacon is strongest, turns by 90°, walks the way on which it becomes stronger, and so on.
+//! Sheu's back-and-forth ([Jiang 2011, 2.1]): without a directional antenna the robot walks a random direction to the
+//! place where a guide node's beacon is strongest, turns by 90°, walks the way on which it becomes stronger, and so on.
 
 use tautline_kernel::net::Strength;
 use tautline_kernel::tan::Heading;

@@ -1,7 +1,7 @@
 //! What a robot hears of a node: whether it hears it at all, and how strong, by distance, direction, shadow and noise.
 //!
-//! The level of a signal is that of equation (1) above what can just be heard all round, at the robot's reach, by how far
-//! off the node seems to be; the antenna adds its gain. Strengths are levels in hundredths of a dB.
+//! The level of a signal is that of equation (1) above what can just be heard all round, at the robot's reach, by how
+//! far off the node seems to be; the antenna adds its gain. Strengths are levels in hundredths of a dB.
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{NodeId, Propagation, Strength};
@@ -12,8 +12,8 @@ use super::antenna::degrees_off;
 use crate::radio::{Field, Network, Point, Problem, Radio, checked_deviation};
 use tautline_sim::noise::deviation_db;
 
-/// How many times as far as a node a robot hears, and is heard: a tenth of a dB in free space. A robot that is at a node,
-/// as near as it goes, so hears whom the node hears.
+/// How many times as far as a node a robot hears, and is heard: a tenth of a dB in free space. A robot that is at a
+/// node, as near as it goes, so hears whom the node hears.
 pub const ROBOT_REACH: f64 = 1.01;
 
 /// Nothing is nearer to an antenna, in metres.
@@ -63,8 +63,8 @@ pub struct Ear {
 }
 
 impl Ear {
-    /// The receiver of a robot among nodes with `radio`. Each strength that it measures is off by a standard deviation of
-    /// `noise_db`, anew each time.
+    /// The receiver of a robot among nodes with `radio`. Each strength that it measures is off by a standard deviation
+    /// of `noise_db`, anew each time.
     ///
     /// # Errors
     /// [`Problem::Deviation`] if that is not from 0 to 20 dB.
@@ -78,8 +78,8 @@ impl Ear {
         signal.seems_m(from) <= self.reach_m && field.has_way(signal.at, from)
     }
 
-    /// How strong the signal is on the axis of `antenna`; `None` if it is not heard at all. Noise is in the measurement,
-    /// not on the air: it does not decide about that.
+    /// How strong the signal is on the axis of `antenna`; `None` if it is not heard at all. Noise is in the
+    /// measurement, not on the air: it does not decide about that.
     pub fn strength(
         &self,
         field: &Field,

@@ -1,6 +1,6 @@
-//! Where a robot goes next under two rivals of TAN [Jiang 2011, 2.1]: Verma's credit field, for which
-//! all know their positions, and Reich's gradient, for which nobody does. Both flood the whole network once, so that every
-//! sensor knows its hops from the goal.
+//! Where a robot goes next under two rivals of TAN [Jiang 2011, 2.1]: Verma's credit field, for which all know their
+//! positions, and Reich's gradient, for which nobody does. Both flood the whole network once, so that every sensor
+//! knows its hops from the goal.
 
 use tautline_kernel::net::NodeId;
 
@@ -22,9 +22,10 @@ pub(super) struct Station {
     pub(super) hops: u16,
 }
 
-/// Verma's credit field: the place to which the robot goes next. A neighbour's credit is the larger the fewer its hops from
-/// the goal. The paper says only that high-credit neighbours attract the robot; here those of the highest credit do, all
-/// alike, so that it goes to the middle of them: to the goal itself where that is in range. `None` if there is no neighbour.
+/// Verma's credit field: the place to which the robot goes next. A neighbour's credit is the larger the fewer its hops
+/// from the goal. The paper says only that high-credit neighbours attract the robot; here those of the highest credit
+/// do, all alike, so that it goes to the middle of them: to the goal itself where that is in range. `None` if there is
+/// no neighbour.
 pub(super) fn verma(neighbours: impl IntoIterator<Item = Station>) -> Option<Position> {
     let (mut fewest, mut x, mut y, mut count) = (u16::MAX, 0, 0, 0);
     for Station { at, hops } in neighbours {
@@ -53,9 +54,9 @@ pub(super) struct Gradient {
     pub visited: bool,
 }
 
-/// Reich's gradient: the neighbour to which the robot goes next, the unvisited one of least gradient, the least identity
-/// first; `None` if all are visited. The paper says at once that the way leads from high to low and that the largest is
-/// chosen; only the first leads to the target.
+/// Reich's gradient: the neighbour to which the robot goes next, the unvisited one of least gradient, the least
+/// identity first; `None` if all are visited. The paper says at once that the way leads from high to low and that the
+/// largest is chosen; only the first leads to the target.
 pub(super) fn reich(neighbours: impl IntoIterator<Item = Gradient>) -> Option<NodeId> {
     let unvisited = neighbours.into_iter().filter(|neighbour| !neighbour.visited);
     unvisited.min_by_key(|neighbour| (neighbour.hops, neighbour.node)).map(|neighbour| neighbour.node)

@@ -36,8 +36,8 @@ pub struct Journey {
     pub time_ns: Option<u64>,
 }
 
-/// Where journeys take place: a field whose last node is a robot at its start, and the links of all. Where it starts, the
-/// robot hears whom a node would hear there.
+/// Where journeys take place: a field whose last node is a robot at its start, and the links of all. Where it starts,
+/// the robot hears whom a node would hear there.
 #[derive(Clone, Copy, Debug)]
 pub struct Site<'a> {
     /// Nodes and obstacles.

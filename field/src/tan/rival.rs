@@ -1,5 +1,5 @@
-//! Journeys by the schemes that [Jiang 2011] compares TAN with or tells of (2.1). All of them flood the whole network, so
-//! that every node that links connect to the goal knows its hops. What the paper leaves open:
+//! Journeys by the schemes that [Jiang 2011] compares TAN with or tells of (2.1). All of them flood the whole network,
+//! so that every node that links connect to the goal knows its hops. What the paper leaves open:
 //!
 //! - Verma's robot goes all the way to the place that it has calculated. Where it hears nobody nearer to the goal than
 //!   before, or an obstacle is in the way, it goes to the nearest of the neighbours with the least hops, or to the last

@@ -85,8 +85,8 @@ impl Protocol for Listening<'_> {
     }
 }
 
-/// The hops of each node from `goal` as after a flood that `goal` and the nodes that forward send on; none where it does
-/// not come.
+/// The hops of each node from `goal` as after a flood that `goal` and the nodes that forward send on; none where it
+/// does not come.
 pub fn hops(network: &Network, goal: NodeId, forwards: impl Fn(NodeId) -> bool) -> Vec<Option<u16>> {
     let mut hops = vec![None; network.nodes()];
     let mut queue = VecDeque::new();

@@ -1,8 +1,8 @@
 //! One robot on its way by TAN: what the kernel orders, carried out in the field, step by step.
 //!
-//! A robot walks into no obstacle and does not leave the area: when it feels the rim within a step, that direction is barred,
-//! and it scans again without it, so that it goes along the rim. A step that takes it out of hearing, behind a corner, it
-//! takes back, and bars that direction, too. Once it has gone another way no direction is barred any more.
+//! A robot walks into no obstacle and does not leave the area: when it feels the rim within a step, that direction is
+//! barred, and it scans again without it, so that it goes along the rim. A step that takes it out of hearing, behind a
+//! corner, it takes back, and bars that direction, too. Once it has gone another way no direction is barred any more.
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::{NodeId, RobotId, Strength};
@@ -27,8 +27,9 @@ pub struct Gait {
 }
 
 impl Gait {
-    /// A man's walking pace, 1.4 m/s, and a turn once round in 2.4 s. A packet of a sensor's radio takes 992 µs. An answer
-    /// takes two of them and, on a shared channel, some waiting for it. Half a metre is a fiftieth of the paper's range.
+    /// A man's walking pace, 1.4 m/s, and a turn once round in 2.4 s. A packet of a sensor's radio takes 992 µs. An
+    /// answer takes two of them and, on a shared channel, some waiting for it. Half a metre is a fiftieth of the
+    /// paper's range.
     pub const WALKING: Self = Self {
         speed_mm_s: 1_400,
         turn_ns: 100_000_000,
@@ -68,8 +69,8 @@ const TRIES: u8 = 3;
 const HALVINGS: u8 = 7;
 
 impl Equipment {
-    /// That of a robot among nodes with `radio`, whose measurements are off by a standard deviation of `noise_db`. It is at
-    /// a node when it is a hundredth of the range off, as far as it hears farther than a node.
+    /// That of a robot among nodes with `radio`, whose measurements are off by a standard deviation of `noise_db`. It
+    /// is at a node when it is a hundredth of the range off, as far as it hears farther than a node.
     ///
     /// # Errors
     /// [`Problem::Deviation`] if that is not from 0 to 20 dB.
@@ -202,8 +203,8 @@ impl Walker {
     }
 
     /// Points the antenna or walks a step, whichever is the order, and measures the signal of its guide, `None` if that
-    /// sends none. Returns how long that takes, in nanoseconds, in which the robot goes straight from where it was to where
-    /// it is then.
+    /// sends none. Returns how long that takes, in nanoseconds, in which the robot goes straight from where it was to
+    /// where it is then.
     pub fn act(&mut self, field: &Field, signal: Option<Signal>, chance: &mut dyn Oracle) -> u64 {
         let gait = self.equipment.gait;
         match (self.homing.stage(), self.homing.order()) {

@@ -43,8 +43,8 @@ pub fn is_within(one: Cell, other: Cell, cells: u16) -> bool {
     u32::from(columns).pow(2) + u32::from(rows).pow(2) <= u32::from(cells).pow(2)
 }
 
-/// Whether the straight way between the midpoints of two cells is free: it crosses no obstacle before the last cell, and passes
-/// at no corner between two. A cell is crossed if it has corners on both sides of the line.
+/// Whether the straight way between the midpoints of two cells is free: it crosses no obstacle before the last cell,
+/// and passes at no corner between two. A cell is crossed if it has corners on both sides of the line.
 pub fn is_clear(from: Cell, to: Cell, is_obstacle: impl Fn(Cell) -> bool) -> bool {
     let (columns, rows) = (i32::from(to.x - from.x), i32::from(to.y - from.y));
     let (east, south) = (columns.signum(), rows.signum());

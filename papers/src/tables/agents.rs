@@ -1,6 +1,7 @@
-//! Agents on the floors of offices [Ferranti 2009, V.B]: how much is explored and marked as visited by Brick&Mortar, Ants and
-//! Brick&Mortar with ants' ways where sensors are missed, by the number of agents (Fig. 11) and by the area (Fig. 12); and
-//! how long they take where none is (the idealized conditions that the paper takes from its reference 2).
+//! Agents on the floors of offices [Ferranti 2009, V.B]: how much is explored and marked as visited by Brick&Mortar,
+//! Ants and Brick&Mortar with ants' ways where sensors are missed, by the number of agents (Fig. 11) and by the area
+//! (Fig. 12); and how long they take where none is (the idealized conditions that the paper takes from its reference
+//! 2).
 //!
 //! Layouts are `office:SIDExSIDE:4x4`, all agents start at the cell nearest the centre, and all teams get the same
 //! layouts and seeds. A run that goes on is ended after a number of agents' steps, and counted.

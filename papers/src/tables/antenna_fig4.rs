@@ -1,7 +1,7 @@
-//! Figure 4 of [Jiang 2011]: how strong a robot hears a node 20 m off with its directional antenna, by the angle between the
-//! antenna and the node. The paper measures two sensors and draws it; its text says that the strength is the greatest
-//! straight ahead. The pattern here is the one that [`Antenna`] says. Beside it: how far the strongest of 24 directions is
-//! off the node's, by the noise of the measurements, from nodes in every direction.
+//! Figure 4 of [Jiang 2011]: how strong a robot hears a node 20 m off with its directional antenna, by the angle
+//! between the antenna and the node. The paper measures two sensors and draws it; its text says that the strength is
+//! the greatest straight ahead. The pattern here is the one that [`Antenna`] says. Beside it: how far the strongest of
+//! 24 directions is off the node's, by the noise of the measurements, from nodes in every direction.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,6 @@
-//! Fig. 4 of the chain's paper: the trajectories of seven robots, and what their runs take. A room of 32 m has eight cells of
-//! 4 m a side, an even number, so that no cell is its middle: the area with obstacles has 7×7 cells. Where its obstacles are the
-//! figure shows, and not the text: ours are two rectangles.
+//! Fig. 4 of the chain's paper: the trajectories of seven robots, and what their runs take. A room of 32 m has eight
+//! cells of 4 m a side, an even number, so that no cell is its middle: the area with obstacles has 7×7 cells. Where its
+//! obstacles are the figure shows, and not the text: ours are two rectangles.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

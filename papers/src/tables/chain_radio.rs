@@ -1,10 +1,11 @@
-//! The radio chain [Kovács 2011, II]: a robot with two radios keeps both its neighbours, one with a single radio is a bridge
-//! that leaves the one to speak to the other. “This switching … takes between 3 and 6 seconds … Under this period the network is
-//! not connected.” The bytes are those of real runs without walls: after each team move each robot's byte goes to all others.
+//! The radio chain [Kovács 2011, II]: a robot with two radios keeps both its neighbours, one with a single radio is a
+//! bridge that leaves the one to speak to the other. “This switching … takes between 3 and 6 seconds … Under this
+//! period the network is not connected.” The bytes are those of real runs without walls: after each team move each
+//! robot's byte goes to all others.
 //!
-//! *Two radios*: a byte needs one hop time for each link, and each link carries one byte each way in a hop time, so that all
-//! bytes are everywhere after N−1 hop times. *Bridges*: besides, each of the N−2 robots between the ends switches once before
-//! the first byte of one end is at the other; that is the least, since bytes go both ways.
+//! *Two radios*: a byte needs one hop time for each link, and each link carries one byte each way in a hop time, so
+//! that all bytes are everywhere after N−1 hop times. *Bridges*: besides, each of the N−2 robots between the ends
+//! switches once before the first byte of one end is at the other; that is the least, since bytes go both ways.
 
 use rand_chacha::ChaCha8Rng;
 use schemars::JsonSchema;

@@ -1,8 +1,9 @@
 //! A table as comma-separated values (RFC 4180), made of its JSON, so that a table needs no code for it.
 //!
-//! Each element of each list is a row: of `lines`, of `lines.rules` within it. A row has what stands beside the lists in which it
-//! is, from the settings on. The column `list` says of which list it is; the column with a list's name has the element's
-//! number, from 1. A list of plain values, such as an interval, makes columns of its values, numbered from 1.
+//! Each element of each list is a row: of `lines`, of `lines.rules` within it. A row has what stands beside the lists
+//! in which it is, from the settings on. The column `list` says of which list it is; the column with a list's name has
+//! the element's number, from 1. A list of plain values, such as an interval, makes columns of its values, numbered
+//! from 1.
 
 use std::collections::BTreeMap;
 use std::fmt;

@@ -1,5 +1,5 @@
-//! The face of a table whose types are not known: settings from options, jobs and results as JSON, for the program and for
-//! those who measure jobs elsewhere.
+//! The face of a table whose types are not known: settings from options, jobs and results as JSON, for the program and
+//! for those who measure jobs elsewhere.
 
 use std::fmt;
 

@@ -1,5 +1,6 @@
-//! What a sensor floor costs: the team moves of agents until everything is explored, and until all of them know it, over the
-//! lower bound, cells by agents. Layouts are files of maps, or generated; the agents of a run start in one cell.
+//! What a sensor floor costs: the team moves of agents until everything is explored, and until all of them know it,
+//! over the lower bound, cells by agents. Layouts are files of maps, or generated; the agents of a run start in one
+//! cell.
 
 use rand_chacha::rand_core::Rng;
 use schemars::JsonSchema;

@@ -1,8 +1,9 @@
-//! Frontier cells (Rajesh, Nagaraja and Suja 2024, 6, Fig. 7) on random layouts: how many team moves one robot and several take to explore every
-//! cell, by every rule and rival.
+//! Frontier cells (Rajesh, Nagaraja and Suja 2024, 6, Fig. 7) on random layouts: how many team moves one robot and
+//! several take to explore every cell, by every rule and rival.
 //!
-//! The text has no number of Fig. 7, so that only its sentences can be judged. The area is that of Fig. 3, 6×7 cells. Blocked
-//! cells are drawn at random, so that the free ones are connected; so are the starts, each robot in a cell of its own.
+//! The text has no number of Fig. 7, so that only its sentences can be judged. The area is that of Fig. 3, 6×7 cells.
+//! Blocked cells are drawn at random, so that the free ones are connected; so are the starts, each robot in a cell of
+//! its own.
 
 use std::fmt::Write;
 
@@ -91,7 +92,8 @@ pub struct Line {
     pub robots: u16,
     /// Team moves until every cell is explored, over the runs that explore all.
     pub moves: Option<Estimate>,
-    /// Team moves more than the repaired rule takes on the same layout, over the layouts of which both explore every cell.
+    /// Team moves more than the repaired rule takes on the same layout, over the layouts of which both explore every
+    /// cell.
     pub behind: Option<Estimate>,
     /// Runs that explore every cell, in percent.
     pub whole: Option<Estimate>,

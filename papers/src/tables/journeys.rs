@@ -1,7 +1,8 @@
-//! Journeys of a robot to the node that waits for rescue [Jiang 2011, 4.3 and 4.4]: how far it walks by TAN, by Verma's and
-//! Reich's schemes, and by Sheu's, of which the paper only tells. Figure 7 is the ratio RD of what robots walk to the
-//! shortest ways there; figures 6, 9 and 10 are pictures of single journeys, the last two round obstacles, which here
-//! stand beside the same measurement. Every way is walked in the same topologies, from the same place to the same node.
+//! Journeys of a robot to the node that waits for rescue [Jiang 2011, 4.3 and 4.4]: how far it walks by TAN, by Verma's
+//! and Reich's schemes, and by Sheu's, of which the paper only tells. Figure 7 is the ratio RD of what robots walk to
+//! the shortest ways there; figures 6, 9 and 10 are pictures of single journeys, the last two round obstacles, which
+//! here stand beside the same measurement. Every way is walked in the same topologies, from the same place to the same
+//! node.
 //!
 //! The paper says of its figures that RD of TAN is very close to Verma's and smaller than Reich's in some cases (4.3),
 //! and of its Table 2 that TAN's way is shorter than Verma's and about as long as Reich's (4.4). Each of the four is
@@ -90,8 +91,8 @@ impl Figure {
         }
     }
 
-    /// West, north, east and south of the obstacles, for the paper's square of 300 m. The paper draws its own; these are ours: large lakes that stop
-    /// signals and robots.
+    /// West, north, east and south of the obstacles, for the paper's square of 300 m. The paper draws its own; these
+    /// are ours: large lakes that stop signals and robots.
     fn obstacles(self) -> Vec<[f64; 4]> {
         match self {
             Self::Trajectories | Self::Ratios => Vec::new(),

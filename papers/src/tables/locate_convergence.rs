@@ -1,6 +1,7 @@
-//! How fast particles find the position at which distances miss least (Rajesh et al. 2024, 4 and 7: “the localization error is
-//! brought down to less than 5cm in 20 iterations”, “0.02cm or below”): by the order of the updates, by what random numbers
-//! are drawn for, and by the inertia. Beside it the distance to where the robot is, which is another thing.
+//! How fast particles find the position at which distances miss least (Rajesh et al. 2024, 4 and 7: “the localization
+//! error is brought down to less than 5cm in 20 iterations”, “0.02cm or below”): by the order of the updates, by what
+//! random numbers are drawn for, and by the inertia. Beside it the distance to where the robot is, which is another
+//! thing.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,7 @@
-//! Figure 8 of Rajesh et al. 2024: the localisation error with and without particle swarm optimisation, by the number of
-//! robots. The text that we have prints no number of it; its two sentences are judged: that the error falls with the swarm, and
-//! that it grows with the number of robots. Robots stand at random places of a square with anchors in three corners.
+//! Figure 8 of Rajesh et al. 2024: the localisation error with and without particle swarm optimisation, by the number
+//! of robots. The text that we have prints no number of it; its two sentences are judged: that the error falls with the
+//! swarm, and that it grows with the number of robots. Robots stand at random places of a square with anchors in three
+//! corners.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,7 @@
-//! Figure 5 of [Jiang 2011]: how many nodes of a random network a broadcast reaches, and how many forward it, by scheme and
-//! density. The paper counts all nodes; those that no link connects to the source nothing can reach, so the reach within
-//! the source's component stands beside it. Every scheme broadcasts over the same topologies, from the same sources.
+//! Figure 5 of [Jiang 2011]: how many nodes of a random network a broadcast reaches, and how many forward it, by scheme
+//! and density. The paper counts all nodes; those that no link connects to the source nothing can reach, so the reach
+//! within the source's component stands beside it. Every scheme broadcasts over the same topologies, from the same
+//! sources.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

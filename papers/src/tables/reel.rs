@@ -1,6 +1,6 @@
 //! The reel against the repaired chain, with and without *Hold*, on the same layouts: team moves to 50 % and 75 % of
-//! the cells, to everything within reach, and of whole runs, and how many cells they explore. Sums are whole numbers, so that
-//! the result is the same on any number of threads.
+//! the cells, to everything within reach, and of whole runs, and how many cells they explore. Sums are whole numbers,
+//! so that the result is the same on any number of threads.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

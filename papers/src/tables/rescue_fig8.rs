@@ -1,7 +1,7 @@
-//! Figure 8 of [Jiang 2011]: three robots come to three WFRs. The paper draws the ways in one network, and says that robots
-//! reach the WFRs “for all simulated scenarios” (4.3) and that each WFR gets “one nearby” robot (1). Ours: how often that is so
-//! in many networks, under MRC as published and repaired, without any fault, and how much farther the robots have to go
-//! than under the best of all assignments. Both rules have the same networks.
+//! Figure 8 of [Jiang 2011]: three robots come to three WFRs. The paper draws the ways in one network, and says that
+//! robots reach the WFRs “for all simulated scenarios” (4.3) and that each WFR gets “one nearby” robot (1). Ours: how
+//! often that is so in many networks, under MRC as published and repaired, without any fault, and how much farther the
+//! robots have to go than under the best of all assignments. Both rules have the same networks.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -344,8 +344,8 @@ impl Sample {
     }
 }
 
-/// The least sum of distances when each of the first `wfrs` WFRs gets one of `robots`; `None` if they are too few, or there
-/// is no way.
+/// The least sum of distances when each of the first `wfrs` WFRs gets one of `robots`; `None` if they are too few, or
+/// there is no way.
 fn best_m(wfrs: usize, robots: &[usize], distance_m: &impl Fn(usize, usize) -> Option<f64>) -> Option<f64> {
     let Some(wfr) = wfrs.checked_sub(1) else { return Some(0.0) };
     let with = |&robot: &usize| {

@@ -1,6 +1,6 @@
-//! The chain against its rivals [Kovács 2011, E]: Table I and Fig. 3, measured again. A run that does not get there is a result
-//! as well: beside every figure stands how many of the runs got there, and no mean is taken over those alone. Where not all
-//! did, the median counts the others as later than any.
+//! The chain against its rivals [Kovács 2011, E]: Table I and Fig. 3, measured again. A run that does not get there is
+//! a result as well: beside every figure stands how many of the runs got there, and no mean is taken over those alone.
+//! Where not all did, the median counts the others as later than any.
 
 mod asked;
 mod claims;

@@ -1,5 +1,5 @@
-//! The small floors of the checks of Brick&Mortar: which plans, how many agents, what they miss, and what is demanded of
-//! every state (BRICKS-2 to BRICKS-6).
+//! The small floors of the checks of Brick&Mortar: which plans, how many agents, what they miss, and what is demanded
+//! of every state (BRICKS-2 to BRICKS-6).
 
 use tautline_kernel::bricks::Rule;
 
@@ -26,8 +26,8 @@ struct Series {
     reach: u8,
 }
 
-/// Idle moves before an agent goes round where it is to go to least crossed cells for a while: few, so that it does both
-/// in small layouts.
+/// Idle moves before an agent goes round where it is to go to least crossed cells for a while: few, so that it does
+/// both in small layouts.
 const PATIENT: u8 = 2;
 
 impl Series {
@@ -42,8 +42,8 @@ impl Series {
         Self { max_misses, max_streak: Some(2), ..Self::new(area, agents) }
     }
 
-    /// The same with patient agents, which read the crossings of cells: they count up without end where an agent is kept
-    /// from acting, so no agent acts more than twice while another waits.
+    /// The same with patient agents, which read the crossings of cells: they count up without end where an agent is
+    /// kept from acting, so no agent acts more than twice while another waits.
     const fn patient(area: Area, agents: u32, max_misses: u8) -> Self {
         Self { patience: PATIENT, ..Self::missing(area, agents, max_misses) }
     }
@@ -126,9 +126,9 @@ impl Floors {
         shared.contains(&self).then_some(Self { demand: Demand::All, ..self })
     }
 
-    /// Looks at the states of each plan within `limits`, series by series, until the first violation. Its choices are the
-    /// numbers of the series, the plan and the start, then the steps. What is wrong with a mutant is sought in small areas
-    /// first.
+    /// Looks at the states of each plan within `limits`, series by series, until the first violation. Its choices are
+    /// the numbers of the series, the plan and the start, then the steps. What is wrong with a mutant is sought in
+    /// small areas first.
     fn explore(self, observed: &Observed, (limits, until): (Limits<'_>, Until)) -> Explored {
         let mut explored = Explored::new();
         let mut series: Vec<(u32, &Series)> = (0..).zip(self.series).collect();
@@ -167,8 +167,8 @@ impl Method<Observed> for Floors {
         self.together().map(|together| format!("{together:?} {observed:?}"))
     }
 
-    /// What several clauses demand of the same floors is looked at in one pass. Where something is broken there, each looks
-    /// for its own first violation.
+    /// What several clauses demand of the same floors is looked at in one pass. Where something is broken there, each
+    /// looks for its own first violation.
     fn decide(&self, observed: &Observed, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
         let limits = Limits { room: desk.room, ..Limits::NONE };
         let Some(together) = self.together().filter(|_| until == Until::Exhausted) else {

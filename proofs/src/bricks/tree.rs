@@ -1,5 +1,5 @@
-//! Agents that search in trees on small floors (BRICKS-2 to BRICKS-12): brick-tree, helpers and MDFS, as systems whose states
-//! are all looked at.
+//! Agents that search in trees on small floors (BRICKS-2 to BRICKS-12): brick-tree, helpers and MDFS, as systems whose
+//! states are all looked at.
 
 pub(super) mod checks;
 mod floors;

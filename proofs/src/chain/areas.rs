@@ -1,6 +1,6 @@
-//! The search over areas: all areas with few cells, the base in each of their cells, all layouts in each. A counterexample has the
-//! fewest cells, of these the fewest walls, and of these the fewest team moves. Each demand is decided by itself: a run goes on
-//! when it breaks another one.
+//! The search over areas: all areas with few cells, the base in each of their cells, all layouts in each. A
+//! counterexample has the fewest cells, of these the fewest walls, and of these the fewest team moves. Each demand is
+//! decided by itself: a run goes on when it breaks another one.
 
 use std::ops::ControlFlow;
 
@@ -20,7 +20,8 @@ pub struct Areas {
     pub robots: usize,
     /// Most cells of an area.
     pub max_cells: u32,
-    /// Most walls that are met in one run; the border is not counted. An area with fewer edges is searched for all of them.
+    /// Most walls that are met in one run; the border is not counted. An area with fewer edges is searched for all of
+    /// them.
     pub max_walls: u32,
     /// The search stops when it has made so many team moves.
     pub budget_moves: Option<u64>,
@@ -61,7 +62,8 @@ pub struct Found {
     pub searched: Vec<Searched>,
     /// All areas with at most so many cells are among them.
     pub cells: Option<u32>,
-    /// Whether all areas within the bounds were searched for all demands, or all demands are broken in the areas searched.
+    /// Whether all areas within the bounds were searched for all demands, or all demands are broken in the areas
+    /// searched.
     pub is_complete: bool,
     /// The smallest for each demand broken, by demand. Where the search was ended, those with more than
     /// [`cells`](Self::cells) cells need not be the smallest.
@@ -152,7 +154,8 @@ impl Areas {
         let place = found.searched.len();
         for base in area.cells() {
             let bounds = Bounds { area, base, ..Bounds::new(self.observed, self.robots, walls) };
-            // What the team cannot get to plays no part: the area that it reaches was searched before, for it has fewer cells.
+            // What the team cannot get to plays no part: the area that it reaches was searched before, for it has fewer
+            // cells.
             if bounds.reach()? != area {
                 continue;
             }

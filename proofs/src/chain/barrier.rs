@@ -1,7 +1,7 @@
 //! Two robots at the barrier between team moves while bytes are lost, repeated and late (CHAIN-20): their bytes wait in
 //! the air, those of one robot in the order in which it sent them, and what happens to which of them next is open. Then
-//! nothing is lost any more: the air must be empty soon while no robot repeats its own byte, and both robots must go on when
-//! they do.
+//! nothing is lost any more: the air must be empty soon while no robot repeats its own byte, and both robots must go on
+//! when they do.
 
 use std::collections::VecDeque;
 

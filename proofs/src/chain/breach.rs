@@ -76,8 +76,8 @@ impl Breach {
 /// Candidates of followers for each robot of a chain, the base counted, that a plan may look at by CHAIN-12.
 pub const CHEAP_LOOKS: u32 = 100;
 
-/// Whether a team move commits none of the breaches that are seen in where robots are, at a glance: if not, each of them
-/// tells. The base stands first in both.
+/// Whether a team move commits none of the breaches that are seen in where robots are, at a glance: if not, each of
+/// them tells. The base stands first in both.
 #[inline]
 pub(super) fn is_harmless(before: &[Cell], after: &[Cell]) -> bool {
     let mut robots = before.iter().zip(after).map(|(&from, &to)| (from, Pairs::way(from, to)));
@@ -86,8 +86,8 @@ pub(super) fn is_harmless(before: &[Cell], after: &[Cell]) -> bool {
     keep_contact && !Breach::Crowding.is_in(before, after)
 }
 
-/// By the offset of two robots, from −4 to 3 columns and rows, what the first does and what the other does: whether they
-/// are in E_C of each other afterwards and their centres stay in range.
+/// By the offset of two robots, from −4 to 3 columns and rows, what the first does and what the other does: whether
+/// they are in E_C of each other afterwards and their centres stay in range.
 struct Pairs([[u16; 9]; 64]);
 
 impl Pairs {

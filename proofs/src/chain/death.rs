@@ -1,5 +1,5 @@
-//! A robot of the chain dies, whichever and whenever, and the others go on with one fewer (CHAIN-21). Each unknown side is
-//! decided by the oracle when a robot first tries it.
+//! A robot of the chain dies, whichever and whenever, and the others go on with one fewer (CHAIN-21). Each unknown side
+//! is decided by the oracle when a robot first tries it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -102,8 +102,8 @@ pub(super) fn meetings() -> String {
 const MAY_COME_HOME: &str =
     "a chain that has re-formed can come home until each part has taken all its moves back";
 
-/// CHAIN-21: when the two parts are one chain again, and whether it can still come home, wherever they come to. A log with other
-/// steps than the robots made leads them to more places than true ones do.
+/// CHAIN-21: when the two parts are one chain again, and whether it can still come home, wherever they come to. A log
+/// with other steps than the robots made leads them to more places than true ones do.
 ///
 /// # Errors
 /// [`Stop`] if it is no case, or breaks the clause.
@@ -268,8 +268,8 @@ impl Death<'_> {
         Err(Stop::Violated("the chain of one robot fewer ends its run"))
     }
 
-    /// A team move taken back, and whether there was one. Neighbours of the same part must be in contact, whoever of them has
-    /// gone.
+    /// A team move taken back, and whether there was one. Neighbours of the same part must be in contact, whoever of
+    /// them has gone.
     fn takes_back(&self, reforming: &mut Reforming<SmallGrid, 8>, log: &[u8]) -> Result<bool, Stop> {
         let before = reforming.cells().to_vec();
         let mut take_back =

@@ -369,14 +369,15 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
         }
     }
 
-    /// The team moves left of a take-back, if one is under way in `chain`, and how many have been begun since the last gain.
+    /// The team moves left of a take-back, if one is under way in `chain`, and how many have been begun since the last
+    /// gain.
     fn take_back(chain: &Chain<G, ROBOTS>) -> (Option<u32>, u32) {
         let [not_begun, is_under_way, left] = chain.measure();
         ((is_under_way == 1).then_some(left), u32::from(u8::MAX) - not_begun)
     }
 
-    /// What is taken back belongs to a take-back. One that is begun has twice as many team moves as the one before, the first
-    /// since the last gain one; and it goes on until they are made, the history ends, or something is gained.
+    /// What is taken back belongs to a take-back. One that is begun has twice as many team moves as the one before, the
+    /// first since the last gain one; and it goes on until they are made, the history ends, or something is gained.
     fn doubles(&self) -> Result<(), Stop> {
         let (before, begun) = if self.before.gained() { (None, 0) } else { Self::take_back(self.before) };
         let (planned, now) = Self::take_back(self.planned);

@@ -131,8 +131,8 @@ pub(super) fn goers() -> String {
     format!("every pair of neighbours up to {FAR} apart, every plan, and who has gone")
 }
 
-/// CHAIN-19, inductive step: neighbours in E_C of each other are so whoever of them has gone to where the plan sends it,
-/// and whoever has not, and so are their centres within r_cov on the way.
+/// CHAIN-19, inductive step: neighbours in E_C of each other are so whoever of them has gone to where the plan sends
+/// it, and whoever has not, and so are their centres within r_cov on the way.
 ///
 /// # Errors
 /// [`Stop`] if the choices are no case, or break the clause.

@@ -1,8 +1,8 @@
-//! The chain as the paper writes it down, without any of the kernel's machinery: growing lists, the plain recursion
-//! of Algorithms 1 to 3, a flood fill for every candidate, the history as a list of team moves. It shares no
-//! search, flood fill or bookkeeping with the planner, and says the conditions in its own words: of the kernel's [`Rule`]
-//! it uses only the names of the conditions and the reading of P_high. What the repair *Unfold* adds is written down here
-//! once more, too; a budget it does not know. CHAIN-11 compares the two; the benchmarks measure the one by the other.
+//! The chain as the paper writes it down, without any of the kernel's machinery: growing lists, the plain recursion of
+//! Algorithms 1 to 3, a flood fill for every candidate, the history as a list of team moves. It shares no search, flood
+//! fill or bookkeeping with the planner, and says the conditions in its own words: of the kernel's [`Rule`] it uses
+//! only the names of the conditions and the reading of P_high. What the repair *Unfold* adds is written down here once
+//! more, too; a budget it does not know. CHAIN-11 compares the two; the benchmarks measure the one by the other.
 
 use std::collections::VecDeque;
 
@@ -117,8 +117,8 @@ impl PlainChain {
         Self { doubts_all: true, ..self }
     }
 
-    /// The same chain with one flood fill for all candidates of a plan, from the unexplored cells: the same plans in less
-    /// time where an area is large and most of it explored.
+    /// The same chain with one flood fill for all candidates of a plan, from the unexplored cells: the same plans in
+    /// less time where an area is large and most of it explored.
     #[must_use]
     pub fn that_floods_once(self) -> Self {
         Self { floods: Floods::Few, ..self }

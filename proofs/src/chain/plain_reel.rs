@@ -1,5 +1,6 @@
-//! The choices of the reel as SPEC.md writes them down: every robot with every cell, every step with every other, lists that grow, a
-//! flood fill for each distance. Of the kernel it reads the map, and nothing of its rule. CHAIN-25 compares the two.
+//! The choices of the reel as SPEC.md writes them down: every robot with every cell, every step with every other, lists
+//! that grow, a flood fill for each distance. Of the kernel it reads the map, and nothing of its rule. CHAIN-25
+//! compares the two.
 
 use std::collections::VecDeque;
 
@@ -78,8 +79,8 @@ impl<'a, G: Grid> PlainReel<'a, G> {
         (robot > 0 || step == Step::Stay) && crosses && may_enter && is_covered && agrees_ahead
     }
 
-    /// The first team move, base first, in which each robot has a cell of its own; from the leader backwards each prefers its
-    /// steps in the order of `prefer`, which is told what is planned.
+    /// The first team move, base first, in which each robot has a cell of its own; from the leader backwards each
+    /// prefers its steps in the order of `prefer`, which is told what is planned.
     fn first(&self, planned: &[Step], prefer: &dyn Fn(&[Step]) -> Vec<Step>) -> Option<Vec<Step>> {
         let Some(robot) = self.leader().checked_sub(planned.len()) else {
             return Some(planned.iter().rev().copied().collect());

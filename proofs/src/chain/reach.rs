@@ -4,8 +4,8 @@
 //!
 //! A configuration is where the robots R_2 … R_N are. [`Ground::reachable`] goes through all of them: it keeps for
 //! every place of the followers the set of the leader's cells, one bit each, and moves whole sets at once. Where that
-//! is too much, [`within_reach`](super::links::within_reach) and [`Ground::perhaps_reachable`] bound the answer from both
-//! sides.
+//! is too much, [`within_reach`](super::links::within_reach) and [`Ground::perhaps_reachable`] bound the answer from
+//! both sides.
 
 mod cells;
 mod ground;

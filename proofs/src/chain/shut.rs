@@ -1,5 +1,5 @@
-//! Walls that appear where a robot has crossed (CHAIN-22). Each unknown side is decided by the oracle when a robot first tries
-//! it, and each open one again whenever a robot is to cross it.
+//! Walls that appear where a robot has crossed (CHAIN-22). Each unknown side is decided by the oracle when a robot
+//! first tries it, and each open one again whenever a robot is to cross it.
 
 use std::collections::BTreeMap;
 

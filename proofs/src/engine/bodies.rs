@@ -119,7 +119,8 @@ pub fn sample(runs: u64, seed: u64, body: impl Fn(&mut dyn Oracle) -> Outcome + 
     tally
 }
 
-/// What `body` comes to under every combination of answers, in the order of [`exhaust`]; nothing where it comes to `None`.
+/// What `body` comes to under every combination of answers, in the order of [`exhaust`]; nothing where it comes to
+/// `None`.
 pub fn outcomes<T>(mut body: impl FnMut(&mut dyn Oracle) -> Option<T>) -> impl Iterator<Item = T> {
     let mut odometer = Some(Odometer::default());
     iter::from_fn(move || {

@@ -1,9 +1,9 @@
-//! The search of lots, each of which is looked at by itself: all layouts of an area, say. Lots come in stages, smallest first, and
-//! no stage is looked at after one in which enough was found. They are looked at in waves of a fixed number, so that all comes out
-//! the same on any number of threads.
+//! The search of lots, each of which is looked at by itself: all layouts of an area, say. Lots come in stages, smallest
+//! first, and no stage is looked at after one in which enough was found. They are looked at in waves of a fixed number,
+//! so that all comes out the same on any number of threads.
 //!
-//! Lots can be dealt out among shards. A shard takes the looks at its own lots, stage by stage, until it has found enough itself;
-//! the looks of all shards are put together by the same search that one process makes.
+//! Lots can be dealt out among shards. A shard takes the looks at its own lots, stage by stage, until it has found
+//! enough itself; the looks of all shards are put together by the same search that one process makes.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -75,8 +75,8 @@ pub trait Look: Send {
     fn is_enough(&self) -> bool;
 }
 
-/// Searches all lots until enough is found, `watch` ends the work, or so many steps are made. Whether the search came to its end
-/// stands beside what was found.
+/// Searches all lots until enough is found, `watch` ends the work, or so many steps are made. Whether the search came
+/// to its end stands beside what was found.
 ///
 /// # Errors
 /// The fault of a lot.
@@ -88,7 +88,8 @@ pub fn search<L: Lots>(
     gather(lots, budget_steps, |_, stage, wave, most_steps| looks(lots, stage, wave, most_steps), watch)
 }
 
-/// What one process would have found, by the looks of all shards, each stage by stage. What a shard does not have was not looked at.
+/// What one process would have found, by the looks of all shards, each stage by stage. What a shard does not have was
+/// not looked at.
 ///
 /// # Errors
 /// The fault of a lot.

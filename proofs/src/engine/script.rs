@@ -102,8 +102,8 @@ impl<'a> Script<'a> {
         Ok(chosen as usize)
     }
 
-    /// Makes all choices that are left, each a step of `system`, from the start with this number. Only what `is_meant` is
-    /// looked for. From how many each choice was made, and the run.
+    /// Makes all choices that are left, each a step of `system`, from the start with this number. Only what `is_meant`
+    /// is looked for. From how many each choice was made, and the run.
     ///
     /// # Errors
     /// [`Unfit`] if they break nothing that is meant, or not as they say.

@@ -1,7 +1,7 @@
 //! The search over all states of a system whose ways merge: what happens next is open at every step, so most ways lead
 //! to states that others have led to. States are found in breadth, so that the way to each is as short as can be. When
-//! there are no more, those that the system can come back to are looked at for runs that go on for ever and owe the same
-//! thing throughout, although everybody acts who is not kept from it.
+//! there are no more, those that the system can come back to are looked at for runs that go on for ever and owe the
+//! same thing throughout, although everybody acts who is not kept from it.
 //!
 //! A state is kept in a few bytes: it is taken apart, each part that was ever met stands once in a table, and the state
 //! is the numbers of its parts (collapse compression, Holzmann 1997). It is put together again when it is gone on from.
@@ -29,14 +29,14 @@ pub type Places = u64;
 pub trait System {
     /// All that it is.
     type State: Clone;
-    /// What states are made of. The fewer different parts there are, the less memory a search takes; the whole state may
-    /// be one part.
+    /// What states are made of. The fewer different parts there are, the less memory a search takes; the whole state
+    /// may be one part.
     type Part: Clone + Eq + Hash;
     /// What can be broken.
     type Demand: Copy + Eq;
 
-    /// Makes of `state` the one that stands for all those that are to be taken for one with it: there are no others unless
-    /// there is more to tell.
+    /// Makes of `state` the one that stands for all those that are to be taken for one with it: there are no others
+    /// unless there is more to tell.
     fn make_canonical(&self, _: &mut Self::State) {}
 
     /// How many parts `state` has: as many as every other state.
@@ -47,8 +47,8 @@ pub trait System {
     /// The part of `state` in this place.
     fn part(&self, state: &Self::State, place: usize) -> Self::Part;
 
-    /// The places whose parts may differ in two states; all of them, unless there is more to tell. The fewer they are, the
-    /// less time a search takes.
+    /// The places whose parts may differ in two states; all of them, unless there is more to tell. The fewer they are,
+    /// the less time a search takes.
     fn differing(&self, _: &Self::State, _: &Self::State) -> Places {
         Places::MAX
     }
@@ -80,8 +80,9 @@ pub trait System {
         0
     }
 
-    /// Whether nothing more is looked for once a step or an end breaks `demand`: what is not found then may be broken all the
-    /// same. Where it is not, each demand is decided as if it stood alone, since steps are made from every state.
+    /// Whether nothing more is looked for once a step or an end breaks `demand`: what is not found then may be broken
+    /// all the same. Where it is not, each demand is decided as if it stood alone, since steps are made from every
+    /// state.
     fn is_enough(&self, _: Self::Demand) -> bool {
         true
     }

@@ -1,17 +1,17 @@
-//! The search over all layouts. Walls are not drawn in advance: the world decides an edge when a robot first tries
-//! it, both ways, so one tree of runs covers every layout. A run is a leaf; it ends by itself, or when it has broken
-//! everything that is wanted: each demand is decided as if it stood alone, so a run goes on for the demands that it has not
-//! broken yet. A team move is an edge of the tree and is counted once. States never merge, since branches differ for ever in
-//! a revealed edge.
+//! The search over all layouts. Walls are not drawn in advance: the world decides an edge when a robot first tries it,
+//! both ways, so one tree of runs covers every layout. A run is a leaf; it ends by itself, or when it has broken
+//! everything that is wanted: each demand is decided as if it stood alone, so a run goes on for the demands that it has
+//! not broken yet. A team move is an edge of the tree and is counted once. States never merge, since branches differ
+//! for ever in a revealed edge.
 //!
 //! The tree is searched by levels: first the runs that meet no wall, then those that meet one, and so on, so that the
 //! first counterexample has the fewest walls. On the way to its runs a level goes the ways of the levels before it
-//! again, which costs a few per cent and saves the memory that a list of all the places left for later would take.
-//! A level is shared out among *lanes*, each a depth-first search that knows only the answers on its way. They are
-//! searched in waves. Before each wave the lanes with most left are split, and dealt out in *shares* that may all make the
-//! same number of team moves: fewer where a level begins or ends, so that hardly a share runs out before the others. All
-//! this hangs on nothing but where the lanes are: so a search comes out the same on any number of threads, and its
-//! [`Position`], a list of answer prefixes, is small.
+//! again, which costs a few per cent and saves the memory that a list of all the places left for later would take. A
+//! level is shared out among *lanes*, each a depth-first search that knows only the answers on its way. They are
+//! searched in waves. Before each wave the lanes with most left are split, and dealt out in *shares* that may all make
+//! the same number of team moves: fewer where a level begins or ends, so that hardly a share runs out before the
+//! others. All this hangs on nothing but where the lanes are: so a search comes out the same on any number of threads,
+//! and its [`Position`], a list of answer prefixes, is small.
 //!
 //! Whoever implements [`Game`] has all of this: levels, threads, resuming, replaying. What is here knows no scheme.
 
@@ -86,8 +86,9 @@ pub trait Game: Send + Sync + 'static {
     /// Everything that a run breaks that ends in `state`, with all that it remembers in `log`.
     fn broken_at_end(&self, state: &Self::State, log: &[u8]) -> Vec<Broken<Self>>;
 
-    /// Whether a run goes on for ever, and everything that it breaks by that: it was in the state `then` when the log had
-    /// `sent` bytes, and is in `now` without an answer in between. A run that breaks nothing by coming back is over.
+    /// Whether a run goes on for ever, and everything that it breaks by that: it was in the state `then` when the log
+    /// had `sent` bytes, and is in `now` without an answer in between. A run that breaks nothing by coming back is
+    /// over.
     fn recurs(
         &self,
         then: &Self::State,
@@ -99,8 +100,8 @@ pub trait Game: Send + Sync + 'static {
     /// How many edges can be walls: a run asks for no more answers than this.
     fn edges(&self) -> u32;
 
-    /// Team moves after which a run is given up. A run that comes back to a state is never so long; one that neither ends
-    /// nor comes back needs such a budget.
+    /// Team moves after which a run is given up. A run that comes back to a state is never so long; one that neither
+    /// ends nor comes back needs such a budget.
     fn longest_run(&self) -> u32 {
         u32::MAX
     }
@@ -158,7 +159,8 @@ pub struct Level {
     pub moves: u64,
 }
 
-/// A run that breaks a demand in its last move, or by having ended, or by never ending. It may have broken others before.
+/// A run that breaks a demand in its last move, or by having ended, or by never ending. It may have broken others
+/// before.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Counterexample<D, F> {
     /// What is broken.

@@ -1,11 +1,12 @@
-//! The watchdog over steps. Code under test may loop for ever inside one step: a team move, a case of a body, the steps from a
-//! state, a look at a lot. No engine gets the control back then, and no thread can be ended by another one. So each thread counts the
-//! steps that it makes, and whoever waits for its work looks at the counts once a second. A task is *silent* while one of its
-//! threads is inside a step and none of them begins another one. A task that is silent for too long is given up, and its thread is
-//! left behind.
+//! The watchdog over steps. Code under test may loop for ever inside one step: a team move, a case of a body, the steps
+//! from a state, a look at a lot. No engine gets the control back then, and no thread can be ended by another one. So
+//! each thread counts the steps that it makes, and whoever waits for its work looks at the counts once a second. A task
+//! is *silent* while one of its threads is inside a step and none of them begins another one. A task that is silent for
+//! too long is given up, and its thread is left behind.
 //!
-//! Seconds are counted in looks: a process that was stopped, or a machine that slept, makes nobody impatient. A count is written by
-//! its own thread alone, on a cache line of its own, so that counting costs two plain memory accesses for each step.
+//! Seconds are counted in looks: a process that was stopped, or a machine that slept, makes nobody impatient. A count
+//! is written by its own thread alone, on a cache line of its own, so that counting costs two plain memory accesses for
+//! each step.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -86,8 +87,8 @@ impl Task {
         Self(OWN.with(|pulse| pulse.task.load(Ordering::Relaxed)))
     }
 
-    /// Lets this thread work on the task until what is returned is dropped. A thread that waits for others may take up other work
-    /// meanwhile: it is outside of its step then, and inside again when it comes back.
+    /// Lets this thread work on the task until what is returned is dropped. A thread that waits for others may take up
+    /// other work meanwhile: it is outside of its step then, and inside again when it comes back.
     #[must_use]
     pub fn enter(self) -> Working {
         let pulse = OWN.with(Arc::clone);
@@ -156,7 +157,8 @@ type Inside = Vec<(usize, u64)>;
 /// Looks at the tasks of a range, and tells how long each has been silent.
 pub struct Watchdog {
     tasks: Range<u64>,
-    /// The tasks of which a thread is inside a step, as they were at the last look, and for how many looks they have been so.
+    /// The tasks of which a thread is inside a step, as they were at the last look, and for how many looks they have
+    /// been so.
     known: BTreeMap<Task, (Inside, u32)>,
     /// The counts of all threads at work on the tasks, at the last look, and for how many looks they have been so.
     all: (Inside, u32),

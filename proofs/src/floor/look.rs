@@ -40,8 +40,8 @@ impl Explored {
         answer
     }
 
-    /// Searches the states of `systems`, which are of the series with this number, from their starts within `limits` each,
-    /// until something is broken: by which system, and how. The tally is the same on any number of threads.
+    /// Searches the states of `systems`, which are of the series with this number, from their starts within `limits`
+    /// each, until something is broken: by which system, and how. The tally is the same on any number of threads.
     pub(crate) fn look<'a, S: System<Demand = &'static str> + Sync>(
         &mut self,
         series: u32,
@@ -70,8 +70,8 @@ impl Explored {
 /// Systems that are looked at between two looks for a violation.
 const WAVE: usize = 64;
 
-/// What is found in each of `systems`, up to the first in which something is broken, or for a whole tally up to the end of
-/// its wave.
+/// What is found in each of `systems`, up to the first in which something is broken, or for a whole tally up to the end
+/// of its wave.
 fn search_each<S: System<Demand = &'static str> + Sync>(
     systems: &[S],
     starts: impl Fn(&S) -> Vec<S::State> + Sync,

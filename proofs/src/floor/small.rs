@@ -9,8 +9,8 @@ use tautline_kernel::ground::{Cell, Edge, Side};
 use super::plans::{CELLS, Edges, FloorPlan};
 use crate::engine::states::Places;
 
-/// The memory of a sensor in one word. Its identifier counts how many sensors were placed in its cell, and takes the byte
-/// that is left: on a small floor it has no more.
+/// The memory of a sensor in one word. Its identifier counts how many sensors were placed in its cell, and takes the
+/// byte that is left: on a small floor it has no more.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub(crate) struct Stored(u64);
 

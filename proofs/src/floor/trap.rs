@@ -1,5 +1,5 @@
-//! The search for traps [Ferranti 2009, Fig. 8]: the smallest layout and the fewest missed sensors with which agents on a
-//! floor are done, or go round for ever, before every cell is explored (BRICKS-4, BRICKS-5). The agents act in the
+//! The search for traps [Ferranti 2009, Fig. 8]: the smallest layout and the fewest missed sensors with which agents on
+//! a floor are done, or go round for ever, before every cell is explored (BRICKS-4, BRICKS-5). The agents act in the
 //! order of their ids, once each in a team move, as in a simulation; which sensors they miss is open.
 //!
 //! No miss comes before one, one before two; then areas go by their number of cells, narrow ones first, and within an
@@ -78,8 +78,8 @@ pub struct Trap {
     pub blocked: Vec<Cell>,
     /// Where each agent starts.
     pub starts: Vec<Cell>,
-    /// Which sensors are missed: the numbers of the questions, counted from 1, that are answered yes. An agent asks once
-    /// for each sensor around it that is not that of an unexplored cell, clockwise from the northern one.
+    /// Which sensors are missed: the numbers of the questions, counted from 1, that are answered yes. An agent asks
+    /// once for each sensor around it that is not that of an unexplored cell, clockwise from the northern one.
     pub missed: Vec<u32>,
     /// Team moves, up to the one in which an agent is done or from which on they go round.
     pub moves: u32,
@@ -120,8 +120,8 @@ pub fn stages(max_misses: u8, (max_width, max_height): (i16, i16)) -> Vec<Stage>
     (0..=max_misses).flat_map(|misses| areas.iter().map(move |&area| (misses, area))).collect()
 }
 
-/// About how much there is to look at in a layout with so many free cells: every start, a run for every sensor that can be
-/// missed, and runs that are longer the more cells there are.
+/// About how much there is to look at in a layout with so many free cells: every start, a run for every sensor that can
+/// be missed, and runs that are longer the more cells there are.
 pub fn weight((misses, _): Stage, free: u32, agents: u32) -> u64 {
     u64::from(free).saturating_pow(agents + 2 * u32::from(misses) + 1)
 }

@@ -1,5 +1,5 @@
-//! Small areas: all obstacles, all starts, all orders of moves, lost messages and wrong fixes (FRONTIER-1 to FRONTIER-5). A
-//! counterexample has the fewest cells, of these the fewest obstacles, and of these the fewest steps.
+//! Small areas: all obstacles, all starts, all orders of moves, lost messages and wrong fixes (FRONTIER-1 to
+//! FRONTIER-5). A counterexample has the fewest cells, of these the fewest obstacles, and of these the fewest steps.
 
 use tautline_kernel::frontier::{Rule, Sight, TinyMap};
 use tautline_kernel::ground::{Area, Cell, Side};
@@ -69,7 +69,8 @@ pub fn fewest<const ROBOTS: usize>(
 type Steps<const ROBOTS: usize> = Vec<(Event, World<ROBOTS>)>;
 
 impl<const ROBOTS: usize> Counterexample<ROBOTS> {
-    /// The world at the start, each step with what comes of it, and after how many steps those begin that come over and over.
+    /// The world at the start, each step with what comes of it, and after how many steps those begin that come over and
+    /// over.
     pub fn steps(&self) -> Option<(World<ROBOTS>, Steps<ROBOTS>, usize)> {
         let start = self.setting.starts().into_iter().nth(self.run.start)?;
         let (mut world, mut steps) = (start, Vec::new());
@@ -81,7 +82,8 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         Some((start, steps, self.run.steps.len()))
     }
 
-    /// The same run where the obstacles that it has met are given, and no others: the setting, and the number of each step.
+    /// The same run where the obstacles that it has met are given, and no others: the setting, and the number of each
+    /// step.
     pub fn given(&self) -> Option<(Setting<ROBOTS>, Vec<u32>)> {
         let (start, steps, _) = self.steps()?;
         let truth = *steps.last().map_or(start.truth(), |(_, world)| world.truth());
@@ -207,7 +209,8 @@ impl<const ROBOTS: usize> Method<Rule> for Areas<ROBOTS> {
         Some(format!("{ROBOTS} {:?} {} {} {rule:?}", self.sizes, self.max_losses, self.max_wrong))
     }
 
-    /// One search answers the checks of all demands, if it finds none of them broken. Else each demand has its own search.
+    /// One search answers the checks of all demands, if it finds none of them broken. Else each demand has its own
+    /// search.
     ///
     /// The choices are the numbers of the area, of the most obstacles, of the start, and of the steps.
     fn decide(&self, rule: &Rule, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {

@@ -316,7 +316,8 @@ mod tests {
         assert_eq!(unshared.0, cells("3×1"));
     }
 
-    /// States of larger areas than clauses search, by robots and lost messages: seconds with optimisation, the last one two minutes.
+    /// States of larger areas than clauses search, by robots and lost messages: seconds with optimisation, the last one
+    /// two minutes.
     #[test]
     #[ignore = "takes minutes: cargo test --release -p tautline-proofs -- --ignored --nocapture larger_areas"]
     fn larger_areas_break_nothing_either() {

@@ -1,5 +1,5 @@
-//! One robot whose fixes are off by a part of a cell (FRONTIER-5): where it really is, and where it takes itself to be. The
-//! obstacles are decided as they are met. An error is 0 or the greatest there is, along each axis.
+//! One robot whose fixes are off by a part of a cell (FRONTIER-5): where it really is, and where it takes itself to be.
+//! The obstacles are decided as they are met. An error is 0 or the greatest there is, along each axis.
 
 use std::ops::ControlFlow;
 

@@ -1,5 +1,5 @@
-//! Which unexplored cell a robot goes to by what it knows and what the others have told it (FRONTIER-9): here all pairs of robots and
-//! cells are written down, put in order, and taken one after the other.
+//! Which unexplored cell a robot goes to by what it knows and what the others have told it (FRONTIER-9): here all pairs
+//! of robots and cells are written down, put in order, and taken one after the other.
 
 use std::collections::VecDeque;
 
@@ -12,7 +12,8 @@ use tautline_kernel::ground::{Area, Cell, Side};
 use crate::engine::{Outcome, Stop, Tape, require};
 use crate::plural::counted;
 
-/// Columns and rows: on each map some cells are farther from the rim across than along it, on the other one the other way.
+/// Columns and rows: on each map some cells are farther from the rim across than along it, on the other one the other
+/// way.
 const SIZES: [(i16, i16); 2] = [(3, 2), (2, 3)];
 
 const CELLS: usize = 6;
@@ -89,8 +90,8 @@ fn next(rule: &Rule, map: TinyMap, team: &[Known]) -> Next {
     if let Some(claimed) = claimed {
         own.tries(Side::East, claimed);
     }
-    // A robot keeps what it has claimed when it arrives; its fix says that it is where it was. It has claimed nothing any more when it
-    // has met another robot.
+    // A robot keeps what it has claimed when it arrives; its fix says that it is where it was. It has claimed nothing
+    // any more when it has met another robot.
     own.looked(rule, if aim.is_some() { Sight::Open } else { Sight::Robot });
     own.arrived(&rule.without(Condition::Track), at);
     let other = |&(cell, aim): &Known| Other { cell, place: Place::midpoint(cell), aim };

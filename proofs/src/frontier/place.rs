@@ -1,5 +1,5 @@
-//! Robots whose positions have an error: which cell a robot takes itself to be in (FRONTIER-6, FRONTIER-7), and the occupancy
-//! probability (FRONTIER-8). Places are on a lattice of 1/16 of a cell.
+//! Robots whose positions have an error: which cell a robot takes itself to be in (FRONTIER-6, FRONTIER-7), and the
+//! occupancy probability (FRONTIER-8). Places are on a lattice of 1/16 of a cell.
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{HALF, Occupancy, Place, SIDE, clamped, taken_for};
@@ -49,7 +49,8 @@ fn within(oracle: &mut dyn Oracle, most: i32) -> i32 {
     oracle.pick(2 * most as u32 + 1) as i32 - most
 }
 
-/// Errors that are borne, and where a robot really is after a move to the midpoint of the cell 1 of three, which had them.
+/// Errors that are borne, and where a robot really is after a move to the midpoint of the cell 1 of three, which had
+/// them.
 fn moved(bears: &Bears, oracle: &mut dyn Oracle) -> Result<(i32, i32), Stop> {
     let most = PARTS / 2;
     let (fix, odometry) = (oracle.pick(most as u32 + 1) as i32, oracle.pick(most as u32 + 1) as i32);

@@ -1,13 +1,13 @@
-//! A team in a small area whose obstacles are decided as they are met: which robot acts next, which cell is blocked, which
-//! message is lost, and which fix is wrong, are choices. What the clauses demand is in plain arithmetic here; of the
-//! kernel's rule only what robots do is used.
+//! A team in a small area whose obstacles are decided as they are met: which robot acts next, which cell is blocked,
+//! which message is lost, and which fix is wrong, are choices. What the clauses demand is in plain arithmetic here; of
+//! the kernel's rule only what robots do is used.
 //!
-//! A robot decides by its own repository and by what the others have told it. A message says what its sender knows, where it takes
-//! itself to be, and which cell it has claimed; a robot that misses a message knows none of the three.
+//! A robot decides by its own repository and by what the others have told it. A message says what its sender knows,
+//! where it takes itself to be, and which cell it has claimed; a robot that misses a message knows none of the three.
 //!
-//! A move has three steps: a robot goes to the rim of its cell, looks, and arrives. Time is in slots, which count only while a
-//! robot waits for its own. A robot that is under way when a slot begins arrives before that slot is over, and a robot that
-//! has waited for its slot has made its move, or met another one again, before it is over.
+//! A move has three steps: a robot goes to the rim of its cell, looks, and arrives. Time is in slots, which count only
+//! while a robot waits for its own. A robot that is under way when a slot begins arrives before that slot is over, and
+//! a robot that has waited for its slot has made its move, or met another one again, before it is over.
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{
@@ -102,7 +102,8 @@ pub struct World<const ROBOTS: usize> {
 /// What happens.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Event {
-    /// A robot goes to the rim of its cell on its way to a cell, which it claims; the robots that miss that have a bit each.
+    /// A robot goes to the rim of its cell on its way to a cell, which it claims; the robots that miss that have a bit
+    /// each.
     Decides(usize, Side, Cell, u8),
     /// A robot looks beyond the rim. The robots that miss what it says have a bit each; and the slot that it is when it
     /// begins to wait.
@@ -148,7 +149,8 @@ impl<const ROBOTS: usize> World<ROBOTS> {
         }
     }
 
-    /// The other robots that are in `cell` or entering it, a bit for each; those at its rim among them, if they are asked for.
+    /// The other robots that are in `cell` or entering it, a bit for each; those at its rim among them, if they are
+    /// asked for.
     fn inside(&self, robot: usize, cell: Cell, rim: Rim) -> u8 {
         let is_there = |other: usize| {
             let tries = match (self.robots[other].stance(), rim) {
@@ -176,8 +178,8 @@ enum Rim {
 }
 
 impl<const ROBOTS: usize> Setting<ROBOTS> {
-    /// Every start: the robots in different cells. Robots differ by their numbers alone, so those of a start are in the order
-    /// of their cells.
+    /// Every start: the robots in different cells. Robots differ by their numbers alone, so those of a start are in the
+    /// order of their cells.
     pub fn starts(&self) -> Vec<World<ROBOTS>> {
         let cells: Vec<Cell> = self.area.cells().filter(|&cell| !self.is_given(cell)).collect();
         let of = cells.len();
@@ -384,8 +386,8 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         Turned { world: after, event: Event::Arrives(robot, fix, missed), breaks }
     }
 
-    /// `from` tells the robots in `to` where it is, what it has claimed, and what is new, or all that it knows. Those that miss it
-    /// have a bit each.
+    /// `from` tells the robots in `to` where it is, what it has claimed, and what is new, or all that it knows. Those
+    /// that miss it have a bit each.
     fn tell(
         &self,
         world: &mut World<ROBOTS>,

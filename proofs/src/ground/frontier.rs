@@ -1,5 +1,5 @@
-//! LATTICE-2: the distance to the frontier, equation (4) of [Kovács 2011]. The grids flood whole sets of cells at a time, in
-//! machine words; here every case is small enough, or straight enough, to be counted cell by cell.
+//! LATTICE-2: the distance to the frontier, equation (4) of [Kovács 2011]. The grids flood whole sets of cells at a
+//! time, in machine words; here every case is small enough, or straight enough, to be counted cell by cell.
 
 use std::collections::VecDeque;
 

@@ -1,5 +1,5 @@
-//! Runs on small lattices that break a clause: the one with the fewest walls, the same run on a lattice that is given, and what
-//! happens in it.
+//! Runs on small lattices that break a clause: the one with the fewest walls, the same run on a lattice that is given,
+//! and what happens in it.
 
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side};
 use tautline_kernel::kit::{Next, Sight};
@@ -16,8 +16,8 @@ pub struct Counterexample<const ROBOTS: usize> {
     pub run: Run<Demand>,
 }
 
-/// The shortest run with the fewest walls that breaks `demand` on the lattice of `setting`; `None` if there is none within the
-/// walls of `setting` and the `limits`.
+/// The shortest run with the fewest walls that breaks `demand` on the lattice of `setting`; `None` if there is none
+/// within the walls of `setting` and the `limits`.
 pub fn fewest<const ROBOTS: usize>(
     setting: Setting<ROBOTS>,
     demand: Demand,

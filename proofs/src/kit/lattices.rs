@@ -1,5 +1,6 @@
-//! Small lattices: all layouts of so many nodes, all starts, all orders of decisions and arrivals (KIT-1 to KIT-3, KIT-6 to
-//! KIT-8, KIT-10 to KIT-12). A counterexample has the fewest nodes, of these the fewest walls, and of these the fewest steps.
+//! Small lattices: all layouts of so many nodes, all starts, all orders of decisions and arrivals (KIT-1 to KIT-3,
+//! KIT-6 to KIT-8, KIT-10 to KIT-12). A counterexample has the fewest nodes, of these the fewest walls, and of these
+//! the fewest steps.
 
 use tautline_kernel::kit::Rule;
 

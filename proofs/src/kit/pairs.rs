@@ -140,8 +140,8 @@ mod tests {
     use super::*;
     use crate::engine::outcomes;
 
-    /// The pairs of stances, the first robot at 0,0, of which that is so, and the largest and the least squared distance of
-    /// their ends.
+    /// The pairs of stances, the first robot at 0,0, of which that is so, and the largest and the least squared
+    /// distance of their ends.
     fn count(is: impl Fn(Stance, Stance) -> bool) -> (usize, i64, i64) {
         let pairs: Vec<[Stance; 2]> =
             outcomes(|oracle| Some(pair(oracle))).filter(|&[one, other]| is(one, other)).collect();

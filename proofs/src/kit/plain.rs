@@ -1,6 +1,6 @@
-//! Which uncovered sides a team could come to, in plain arithmetic: it shares nothing with the rule but cells. Robots stand in
-//! contact and drive one at a time over driven paths, until one of them could drive a path that is new. A side counts as
-//! open unless it is known to be blocked.
+//! Which uncovered sides a team could come to, in plain arithmetic: it shares nothing with the rule but cells. Robots
+//! stand in contact and drive one at a time over driven paths, until one of them could drive a path that is new. A side
+//! counts as open unless it is known to be blocked.
 
 use std::collections::HashSet;
 
@@ -27,7 +27,8 @@ impl<const ROBOTS: usize> Found<'_, ROBOTS> {
         self.map.edge_has(EdgeMark::Open, Edge::new(node, side))
     }
 
-    /// Whether a robot could drive there once more, or for the first time: no wall, nobody in the way, and all connected.
+    /// Whether a robot could drive there once more, or for the first time: no wall, nobody in the way, and all
+    /// connected.
     pub(super) fn admits(&self, cells: &[Cell; ROBOTS], robot: usize, side: Side) -> bool {
         let (from, to) = (cells[robot], cells[robot].beyond(side));
         if self.map.edge_has(EdgeMark::Wall, Edge::new(from, side))
@@ -58,8 +59,8 @@ impl<const ROBOTS: usize> Found<'_, ROBOTS> {
         reached.len() == ROBOTS
     }
 
-    /// The fewest drives of `movers`, a bit for each, from `cells` until one of them could drive a new path; `None` if they
-    /// never can.
+    /// The fewest drives of `movers`, a bit for each, from `cells` until one of them could drive a new path; `None` if
+    /// they never can.
     pub(super) fn distance(&self, cells: [Cell; ROBOTS], movers: u8) -> Option<u32> {
         let mut known = HashSet::from([cells]);
         let mut now = vec![cells];
@@ -87,8 +88,8 @@ impl<const ROBOTS: usize> Found<'_, ROBOTS> {
         None
     }
 
-    /// Whether a side is neither driven nor known to be blocked that driven paths join to where the robots are. Where they fill
-    /// all nodes that they have come to, none can leave.
+    /// Whether a side is neither driven nor known to be blocked that driven paths join to where the robots are. Where
+    /// they fill all nodes that they have come to, none can leave.
     pub(super) fn is_left_over(&self, cells: [Cell; ROBOTS]) -> bool {
         let mut reached = cells.to_vec();
         let mut unknown = Vec::new();

@@ -65,15 +65,15 @@ impl Image {
     }
 }
 
-/// By what images of a state are compared: of each robot where it was, where it goes, whether it is done, whether it may decide,
-/// and whether it drives a new path; and whose turn it is.
+/// By what images of a state are compared: of each robot where it was, where it goes, whether it is done, whether it
+/// may decide, and whether it drives a new path; and whose turn it is.
 type Robots = ([(Cell, Cell, bool, bool, bool); 2], Option<usize>);
 
 /// Edges that are walls, that are known to be free, and that were driven.
 type Edges = [u64; 3];
 
-/// A lattice with two robots of which one image of each state is searched. An endless run is one that goes round, whoever acts in
-/// it, since an image may have other numbers on its robots.
+/// A lattice with two robots of which one image of each state is searched. An endless run is one that goes round,
+/// whoever acts in it, since an image may have other numbers on its robots.
 #[derive(Clone, Debug)]
 pub struct Symmetric {
     setting: Setting<2>,
@@ -243,7 +243,8 @@ mod tests {
         next.collect()
     }
 
-    /// Whether what can happen next is the same in every image, in the states of random runs of so many columns and rows.
+    /// Whether what can happen next is the same in every image, in the states of random runs of so many columns and
+    /// rows.
     fn do_alike(rule: Rule, size: (i16, i16), orders: &'static [[usize; 2]]) -> bool {
         let setting = Setting::new(rule, size).expect("a lattice");
         let lattice = Symmetric { orders, ..Symmetric::new(setting) };
@@ -383,7 +384,8 @@ mod tests {
     fn three_robots_without_ties_drive_everything_in_two_rows_of_three_nodes() {
         let begun = Instant::now();
         let rule = Rule::REPAIRED.without(Condition::Tether);
-        // Two rows of four nodes with at most one wall did not come to an end within eight minutes, and nothing was broken so far.
+        // Two rows of four nodes with at most one wall did not come to an end within eight minutes, and nothing was
+        // broken so far.
         let setting = Setting::<3>::new(rule, (3, 2)).expect("a lattice");
         let setting = Setting { starts: Starts::SideBySide, demand: Some(Demand::Whole), ..setting };
         let found = search(&setting, setting.starts(), Limits::NONE);

@@ -1,6 +1,6 @@
-//! Two robots that talk: the kernel's robots, the messages between them, which take any time and overtake each other, and as
-//! many that are lost or come twice as a setting lets. Nodes are numbers: what matters is whether a robot knows where the
-//! other one goes when it decides (KIT-4, KIT-5).
+//! Two robots that talk: the kernel's robots, the messages between them, which take any time and overtake each other,
+//! and as many that are lost or come twice as a setting lets. Nodes are numbers: what matters is whether a robot knows
+//! where the other one goes when it decides (KIT-4, KIT-5).
 
 use tautline_kernel::ground::{Cell, Steps};
 use tautline_kernel::kit::{Letter, Message, NUMBERS, Phase, Rule, Sent, Talk};
@@ -38,8 +38,8 @@ pub(super) struct State {
     last: Event,
 }
 
-/// A letter on its way: to whom, its fields, and a bit for each robot that has acted since it was sent. A copy of a letter
-/// takes any time.
+/// A letter on its way: to whom, its fields, and a bit for each robot that has acted since it was sent. A copy of a
+/// letter takes any time.
 type Sealed = (usize, [i16; 8], Bits);
 
 /// The bit of a copy.
@@ -130,8 +130,8 @@ impl Talks {
         state.letters.sort_unstable();
     }
 
-    /// Whether `robot` may act: a message takes less time than a robot from one act to the one after the next, and a copy of
-    /// one less than half of the numbers.
+    /// Whether `robot` may act: a message takes less time than a robot from one act to the one after the next, and a
+    /// copy of one less than half of the numbers.
     fn may_act(state: &State, robot: usize) -> bool {
         state.letters.iter().all(|&(to, fields, age)| {
             if age & COPY == 0 {

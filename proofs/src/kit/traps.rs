@@ -1,5 +1,5 @@
-//! Traps of the published rule: layouts and starts from which two robots that are answered at once can come to where they never
-//! cover everything any more, whatever happens.
+//! Traps of the published rule: layouts and starts from which two robots that are answered at once can come to where
+//! they never cover everything any more, whatever happens.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -60,8 +60,9 @@ fn due(setting: &Setting<2>, given: &TinyGrid, start: Cell) -> Vec<Edge> {
     due
 }
 
-/// What can come of a start: a run to where everything is never covered any more; one to where nobody ever moves any more; one to
-/// where everything is never covered any more, and somebody always moves; and that no run covers everything.
+/// What can come of a start: a run to where everything is never covered any more; one to where nobody ever moves any
+/// more; one to where everything is never covered any more, and somebody always moves; and that no run covers
+/// everything.
 const FATES: [&str; 4] = ["can be trapped", "can be stuck", "can go round", "always are"];
 
 /// The numbers from which those that are marked can be reached.

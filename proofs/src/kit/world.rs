@@ -1,6 +1,6 @@
-//! A team on a small lattice whose walls are decided as it meets them: which robot arrives next, which decides, where it
-//! turns, whether it sees another one, and whether a side is blocked, are choices. What the clauses demand is in plain
-//! arithmetic here; of the kernel's rule only what robots do is used.
+//! A team on a small lattice whose walls are decided as it meets them: which robot arrives next, which decides, where
+//! it turns, whether it sees another one, and whether a side is blocked, are choices. What the clauses demand is in
+//! plain arithmetic here; of the kernel's rule only what robots do is used.
 
 mod broken;
 mod turns;
@@ -156,8 +156,8 @@ pub struct Turned<const ROBOTS: usize> {
 }
 
 impl<const ROBOTS: usize> Setting<ROBOTS> {
-    /// A lattice of so many columns and rows, with any walls, any starts and any speeds, of which everything is demanded; `None`
-    /// if it is too large.
+    /// A lattice of so many columns and rows, with any walls, any starts and any speeds, of which everything is
+    /// demanded; `None` if it is too large.
     pub fn new(rule: Rule, (columns, rows): (i16, i16)) -> Option<Self> {
         let area = Area::new(Cell::new(0, 0), Cell::new(columns.checked_sub(1)?, rows.checked_sub(1)?))?;
         TinyGrid::new(area)?;
@@ -211,8 +211,8 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         with_paths.collect()
     }
 
-    /// The robots in all places: all at one node where they may be there and nobody takes turns, since then one enters after
-    /// the other; else each at a node of its own.
+    /// The robots in all places: all at one node where they may be there and nobody takes turns, since then one enters
+    /// after the other; else each at a node of its own.
     fn placed(&self) -> impl Iterator<Item = World<ROBOTS>> {
         let nodes: Vec<Cell> = self.area.cells().collect();
         let enters_one_by_one = !self.rule.has(Condition::Turn) && !self.rule.has(Condition::Apart);

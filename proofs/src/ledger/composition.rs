@@ -1,5 +1,6 @@
-//! Which clauses Rocq has proved for every number of robots, layout or network, and of which rules: read from what the audit
-//! of `proofs/rocq` prints, and from the list of rules beside it. `docs/machine-checked.md` says what each theorem assumes.
+//! Which clauses Rocq has proved for every number of robots, layout or network, and of which rules: read from what the
+//! audit of `proofs/rocq` prints, and from the list of rules beside it. `docs/machine-checked.md` says what each
+//! theorem assumes.
 
 /// What `proofs/rocq/Audit.v` prints: each theorem with its statement, and whether it rests on assumptions.
 const AUDIT: &str = include_str!("../../rocq/audit.expected");
@@ -22,8 +23,8 @@ pub struct Theorem {
 }
 
 impl Theorem {
-    /// The theorem of this name, of which the list of `rules` has a line: the id of a clause, with `_` for `-`, and the part behind
-    /// it, unless the line names the part. Other names are no theorems about a clause.
+    /// The theorem of this name, of which the list of `rules` has a line: the id of a clause, with `_` for `-`, and the
+    /// part behind it, unless the line names the part. Other names are no theorems about a clause.
     fn named(name: &str, rules: &'static str) -> Option<Self> {
         let (clause, part) = split(name)?;
         let line = rules.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(' '))?;
@@ -56,7 +57,8 @@ fn closed(audit: &str) -> impl Iterator<Item = &str> {
     heads().zip(heads().skip(1)).filter(|&(_, below)| below == CLOSED).map(|(name, _)| name)
 }
 
-/// What the ledger says of a clause that holds for `rule`: whether it, or a part of it, is machine-checked beyond the bound.
+/// What the ledger says of a clause that holds for `rule`: whether it, or a part of it, is machine-checked beyond the
+/// bound.
 pub(super) fn words(clause: &str, rule: &str) -> Option<String> {
     let mut parts = Vec::new();
     let about = |theorem: &Theorem| theorem.clause == clause && theorem.rules.contains(&rule);

@@ -1,6 +1,6 @@
-//! How checks are decided on all cores: what is a job of its own, and what becomes of the jobs. Rows do not depend on how
-//! many cores there are. Whoever wants the rows waits for them on a thread of their own, and looks once a second whether a step of
-//! a job still goes on: a job that does not come back from a step is left behind, with its thread.
+//! How checks are decided on all cores: what is a job of its own, and what becomes of the jobs. Rows do not depend on
+//! how many cores there are. Whoever wants the rows waits for them on a thread of their own, and looks once a second
+//! whether a step of a job still goes on: a job that does not come back from a step is left behind, with its thread.
 
 use std::any::Any;
 use std::cmp::Reverse;
@@ -51,8 +51,8 @@ pub type Hear = Arc<dyn Fn(Heard<'_>) -> ControlFlow<()> + Send + Sync>;
 pub struct Limits {
     /// The memory that searches over states may take together.
     pub room: Arc<Room>,
-    /// Seconds that one step may take: a team move, a case of a body, a step between states. They are far more than any step takes that
-    /// ends, on any machine.
+    /// Seconds that one step may take: a team move, a case of a body, a step between states. They are far more than any
+    /// step takes that ends, on any machine.
     pub patience_s: u32,
 }
 
@@ -105,9 +105,9 @@ pub fn decide_all(clauses: &[&'static Clause]) -> Result<Vec<Row>, Refused> {
     )
 }
 
-/// Decides `checks`, on all cores; the rows are in their order. Checks that share what is found are decided by one thread,
-/// which forgets it after the last of them. Where a step does not end, its check is left open, with those that wait for it; all
-/// others are decided. A thread that makes such a step is left behind: it ends with the process.
+/// Decides `checks`, on all cores; the rows are in their order. Checks that share what is found are decided by one
+/// thread, which forgets it after the last of them. Where a step does not end, its check is left open, with those that
+/// wait for it; all others are decided. A thread that makes such a step is left behind: it ends with the process.
 ///
 /// # Errors
 /// [`Refused`] if a method cannot begin.
@@ -199,8 +199,8 @@ struct Waiting<'a> {
 }
 
 impl Waiting<'_> {
-    /// All answers; or those that there are when a step does not end and no other job goes on, and the numbers of the jobs that have
-    /// such a step.
+    /// All answers; or those that there are when a step does not end and no other job goes on, and the numbers of the
+    /// jobs that have such a step.
     fn wait(&self, told: &Receiver<Told>) -> Result<(Vec<Done>, Vec<usize>), Refused> {
         let (patience_s, mut watchdog) = (self.shared.limits.patience_s, Watchdog::new(self.tasks));
         let (mut done, mut unended, mut left) = (Vec::new(), Vec::new(), self.jobs.len());
@@ -286,8 +286,8 @@ impl Waiting<'_> {
 /// The time between two attempts to be of use to the other threads.
 const IDLE: Duration = Duration::from_millis(1);
 
-/// What is told next, if anything is before `until`. A thread that is itself one of those that do the work does some meanwhile:
-/// it may be the only one. A step that does not end is its end, too, then.
+/// What is told next, if anything is before `until`. A thread that is itself one of those that do the work does some
+/// meanwhile: it may be the only one. A step that does not end is its end, too, then.
 fn next(told: &Receiver<Told>, until: Instant) -> Option<Told> {
     loop {
         let rest = until.saturating_duration_since(Instant::now());
@@ -339,8 +339,8 @@ enum Came {
     Mutant(&'static str, Verdict),
 }
 
-/// The checks, those with most others in their family first, as these may take longest, each family with the mutants about
-/// which it tells as much; then the other mutants.
+/// The checks, those with most others in their family first, as these may take longest, each family with the mutants
+/// about which it tells as much; then the other mutants.
 fn jobs(checks: &[(&'static Clause, usize)]) -> Vec<Job> {
     let of = |place: usize| {
         let (clause, number) = checks[place];

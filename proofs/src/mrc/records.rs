@@ -1,5 +1,5 @@
-//! What robots and path nodes write down (MRC-10 to MRC-14): every order in which a few messages reach one of them, against
-//! what follows from the list of them. Repetitions and losses are orders, too.
+//! What robots and path nodes write down (MRC-10 to MRC-14): every order in which a few messages reach one of them,
+//! against what follows from the list of them. Repetitions and losses are orders, too.
 
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::mrc::{Downward, Hop, Relay, Resb, Robot, Rule, Sent, Served, Task, Upward, Wfr, Word};

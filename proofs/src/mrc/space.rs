@@ -1,7 +1,7 @@
-//! All states of a [`Setting`], fewest actions first, and in them the shortest run that breaks each demand. That a WFR is
-//! served in the end (MRC-5) is broken by a state in which nothing more is bound to happen, or by states in which it
-//! waits and that can go round for ever, nothing being left out that is bound to happen: no timer that runs, no robot on
-//! its way, and no message between a robot and a WFR between whom there is one throughout.
+//! All states of a [`Setting`], fewest actions first, and in them the shortest run that breaks each demand. That a WFR
+//! is served in the end (MRC-5) is broken by a state in which nothing more is bound to happen, or by states in which it
+//! waits and that can go round for ever, nothing being left out that is bound to happen: no timer that runs, no robot
+//! on its way, and no message between a robot and a WFR between whom there is one throughout.
 
 use super::state::{Action, Actor, Demand, Message, Part, ROBOTS, Setting, State, WFRS, place};
 use crate::engine::states::{self, Bits, Limits, Places, Run, Step, System};

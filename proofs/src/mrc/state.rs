@@ -1,10 +1,11 @@
-//! MRC under a network that misbehaves: the kernel's robots and WFRs, the messages between them, and everything that can
-//! go wrong within a [`Setting`]. What is searched for all states that can be reached is in [`space`](super::space); a
-//! run is drawn by [`chart`](super::chart).
+//! MRC under a network that misbehaves: the kernel's robots and WFRs, the messages between them, and everything that
+//! can go wrong within a [`Setting`]. What is searched for all states that can be reached is in
+//! [`space`](super::space); a run is drawn by [`chart`](super::chart).
 //!
 //! A message takes any time and overtakes others. A timer runs longer than what it waits for: it goes off when none of
-//! that is on its way, whatever goes on elsewhere, or earlier, which is one of the [`Faults`]. Epochs are only compared:
-//! two states that differ by a renumbering that keeps their order are one, and so the states are finitely many.
+//! that is on its way, whatever goes on elsewhere, or earlier, which is one of the [`Faults`]. Epochs are only
+//! compared: two states that differ by a renumbering that keeps their order are one, and so the states are finitely
+//! many.
 
 mod action;
 mod broken;

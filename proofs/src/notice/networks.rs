@@ -388,8 +388,8 @@ mod tests {
         }
     }
 
-    /// The search leaves out what is under way to a node that it no longer changes. Stateright, which is not told to, finds
-    /// more states and the same verdicts: what is left out plays no part.
+    /// The search leaves out what is under way to a node that it no longer changes. Stateright, which is not told to,
+    /// finds more states and the same verdicts: what is left out plays no part.
     #[test]
     fn stateright_comes_to_the_same_verdicts_where_nothing_is_left_out() {
         let demands = [Demand::Tree, Demand::Once, Demand::Reaches, Demand::NearestParent];

@@ -61,8 +61,8 @@ pub(super) struct Spread<const NODES: usize> {
     pub(super) under_way: [u64; NODES],
     /// How often each node has forwarded; more than twice is twice.
     pub(super) forwards: [u8; NODES],
-    /// What an observer notes down of each node: of those it has heard before it forwarded or fell silent, the first with
-    /// the least hop count, and that hop count.
+    /// What an observer notes down of each node: of those it has heard before it forwarded or fell silent, the first
+    /// with the least hop count, and that hop count.
     pub(super) nearest: [Option<(usize, u16)>; NODES],
 }
 

@@ -19,8 +19,9 @@ pub(super) enum Gains {
 /// How many R_c farther than the nearest cell that a robot may go to it looks for a better one.
 const HORIZONS: u32 = 2;
 
-/// Whether the aims that robots in `cells` have `chosen`, one after the other, are best; those that are `kept` are not chosen anew. Two
-/// robots that get into each other's way in the move may have exchanged theirs. Of more than two robots nothing is said.
+/// Whether the aims that robots in `cells` have `chosen`, one after the other, are best; those that are `kept` are not
+/// chosen anew. Two robots that get into each other's way in the move may have exchanged theirs. Of more than two
+/// robots nothing is said.
 pub(super) fn are_best<W: AsRef<[[u64; 2]]>>(
     rule: &Rule,
     chart: &Chart<W>,
@@ -55,7 +56,8 @@ pub(super) fn are_best<W: AsRef<[[u64; 2]]>>(
     }
 }
 
-/// Whether no frontier cell has a greater metric gain than `aim`, for a robot in `from` that has heard where the others go.
+/// Whether no frontier cell has a greater metric gain than `aim`, for a robot in `from` that has heard where the others
+/// go.
 fn is_best<W: AsRef<[[u64; 2]]>>(
     rule: &Rule,
     chart: &Chart<W>,

@@ -27,8 +27,9 @@ fn is_within((columns, rows): Offset, sight_cells: i32) -> bool {
     columns.pow(2) + rows.pow(2) <= sight_cells.pow(2)
 }
 
-/// Whether the ray to the midpoint of the cell so far away gets there. Along the ray from 0 to 1, times twice the columns and the rows, it
-/// is within an open square of side 1 between two numbers for the columns, and between two for the rows.
+/// Whether the ray to the midpoint of the cell so far away gets there. Along the ray from 0 to 1, times twice the
+/// columns and the rows, it is within an open square of side 1 between two numbers for the columns, and between two for
+/// the rows.
 fn is_clear(rays: Rays, (columns, rows): Offset, is_obstacle: impl Fn(Offset) -> bool) -> bool {
     let (east, south) = (columns.signum(), rows.signum());
     let (columns, rows) = (columns.abs(), rows.abs());
@@ -61,8 +62,8 @@ fn is_clear(rays: Rays, (columns, rows): Offset, is_obstacle: impl Fn(Offset) ->
     !is_stopped && !is_pinched
 }
 
-/// The visibility gain of `cell` by what is on the `chart`: how many unknown cells would be seen that are not within R_s of a cell
-/// in `others`.
+/// The visibility gain of `cell` by what is on the `chart`: how many unknown cells would be seen that are not within
+/// R_s of a cell in `others`.
 pub(super) fn gain<W: AsRef<[[u64; 2]]>>(
     chart: &Chart<W>,
     sight_cells: u8,

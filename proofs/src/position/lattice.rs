@@ -1,5 +1,5 @@
-//! Anchors and robots on a lattice of metres: ways are exact without error (POSITION-1), follow the anchors when these are moved
-//! and turned (POSITION-4), and keep to a rectangle (POSITION-6).
+//! Anchors and robots on a lattice of metres: ways are exact without error (POSITION-1), follow the anchors when these
+//! are moved and turned (POSITION-4), and keep to a rectangle (POSITION-6).
 
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::position::{Area, Point, Range};

@@ -1,5 +1,5 @@
-//! Two positions that fit alike (POSITION-3): the mirror image of a robot in the line of its anchors, and second minima that an
-//! independent search finds, by looking at a whole grid of places and going downhill in steps along the axes.
+//! Two positions that fit alike (POSITION-3): the mirror image of a robot in the line of its anchors, and second minima
+//! that an independent search finds, by looking at a whole grid of places and going downhill in steps along the axes.
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::position::{Point, Range};

@@ -1,5 +1,6 @@
-//! A robot on its whole way by TAN, and a node that guides robots, once more in few words (TAN-3, TAN-4): what is asked, how the
-//! antenna is read, when a robot goes back, and when a node keeps silent, follow from lists of what happened.
+//! A robot on its whole way by TAN, and a node that guides robots, once more in few words (TAN-3, TAN-4): what is
+//! asked, how the antenna is read, when a robot goes back, and when a node keeps silent, follow from lists of what
+//! happened.
 
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::net::{NodeId, RobotId, Strength};
@@ -103,7 +104,8 @@ pub(super) fn whole_way(patience: &Patience, oracle: &mut dyn Oracle) -> Outcome
     Ok("it asks")
 }
 
-/// A scan, and a walk; whether the robot has come to the node or lost its signal. In scan `number` two directions are as good.
+/// A scan, and a walk; whether the robot has come to the node or lost its signal. In scan `number` two directions are
+/// as good.
 fn walks(robot: &mut Homing, way: &Way, number: u8, oracle: &mut dyn Oracle) -> Result<bool, Stop> {
     let strongest = one_of(oracle, &[None, Some(way.due() - 1), Some(way.due())]);
     let best = [5 + number % 2, 9].map(|steps| Heading::FIRST.turned(steps));

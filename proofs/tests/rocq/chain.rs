@@ -1,5 +1,5 @@
-//! What the chain's admission relation answers to every question about neighbours that can be asked, with the lattice that it
-//! stands on, the bytes of messages, and when a robot goes on along a walk.
+//! What the chain's admission relation answers to every question about neighbours that can be asked, with the lattice
+//! that it stands on, the bytes of messages, and when a robot goes on along a walk.
 
 use tautline_kernel::chain::{Condition, Message, Move, Outcome, Role, Rule, goes_on};
 use tautline_kernel::ground::{Cell, Circle, Edge, Side, Step, neighbours};
@@ -67,8 +67,8 @@ fn lattice() -> String {
 }
 
 fn relation(name: &str, rule: &Rule) -> String {
-    // For the robot ahead at each offset a number: a bit for each step of the robot behind, each step of the robot ahead, and
-    // whether its side is known to be open.
+    // For the robot ahead at each offset a number: a bit for each step of the robot behind, each step of the robot
+    // ahead, and whether its side is known to be open.
     let ahead = offsets(REACH).map(|offset| {
         let mut answers = Vec::new();
         for step in Step::ALL {
@@ -112,7 +112,8 @@ fn messages() -> String {
     definition("words", "list nat", &format!("{}%nat", list(words)))
 }
 
-/// Whether a robot goes on, by the cells that it has gone, its last one, and those that the robot ahead is planned to have gone.
+/// Whether a robot goes on, by the cells that it has gone, its last one, and those that the robot ahead is planned to
+/// have gone.
 fn walks() -> String {
     let mut answers = Vec::new();
     for own in 0..8 {

@@ -1,4 +1,5 @@
-//! What two robots that keep in touch answer: who is in reach of whom, whose paths are apart, and which drives are admitted.
+//! What two robots that keep in touch answer: who is in reach of whom, whose paths are apart, and which drives are
+//! admitted.
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, MediumGrid, Step};
@@ -37,8 +38,8 @@ fn of_stances(ask: impl Fn(Stance, Stance) -> bool) -> String {
     bits(&pairs.map(answer).collect::<Vec<_>>())
 }
 
-/// Whether the robot here, which stands, may drive through each side, by the offset and the step of the other robot. A first
-/// number has the questions that robots can come to ask, a second one the answers.
+/// Whether the robot here, which stands, may drive through each side, by the offset and the step of the other robot. A
+/// first number has the questions that robots can come to ask, a second one the answers.
 fn drives(rule: Rule) -> [String; 2] {
     let (mut asked, mut admitted) = (Vec::new(), Vec::new());
     let area = Area::new(Cell::new(0, 0), Cell::new(15, 15)).expect("an area");

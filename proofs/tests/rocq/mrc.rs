@@ -1,5 +1,6 @@
-//! What robots and WFRs answer in every state that they can come to, with two epochs of two WFRs and two robots; a robot also
-//! with a table of one record. The states that differ in hop counts, or in how often something is still repeated, are one here.
+//! What robots and WFRs answer in every state that they can come to, with two epochs of two WFRs and two robots; a
+//! robot also with a table of one record. The states that differ in hop counts, or in how often something is still
+//! repeated, are one here.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::hash::Hash;
@@ -143,8 +144,9 @@ fn wfr_inputs(wfr: &Wfr<2>) -> Vec<(String, Wfr<2>, String)> {
     all
 }
 
-/// The states, the inputs and the lists of messages that occur, each once; and for every state that was gone on from, which are the
-/// first ones, and every input the numbers of what may follow. Where nothing changes and nothing is sent, that list is empty.
+/// The states, the inputs and the lists of messages that occur, each once; and for every state that was gone on from,
+/// which are the first ones, and every input the numbers of what may follow. Where nothing changes and nothing is sent,
+/// that list is empty.
 fn table(name: &str, state: &str, input: &str, answers: &Answers) -> String {
     let each = |terms: BTreeSet<&String>| -> Vec<String> { terms.into_iter().cloned().collect() };
     let followers = || answers.values().flatten();

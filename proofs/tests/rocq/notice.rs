@@ -25,7 +25,8 @@ impl Oracle for AtOnce {
 /// How far a node is, its parent, and its hops.
 type State = (usize, u32, u16);
 
-/// A state, the sender that is heard with its hop count, and the state after it; or what the node sends at the end of its wait.
+/// A state, the sender that is heard with its hop count, and the state after it; or what the node sends at the end of
+/// its wait.
 #[derive(Default)]
 struct Rows {
     heard: BTreeSet<(State, (u32, u16), State)>,

@@ -26,8 +26,8 @@ struct Met {
     unfolding: usize,
 }
 
-/// Of each rule's runs: how many robots, the base, the walls, what the robots sent in each team move (R_2 in the lowest byte), and
-/// where they are at the end.
+/// Of each rule's runs: how many robots, the base, the walls, what the robots sent in each team move (R_2 in the lowest
+/// byte), and where they are at the end.
 pub(super) fn terms() -> String {
     let (repaired, met) = runs("REPAIRED", Rule::REPAIRED);
     let Met { backtracks, blocked, unfolding } = met;

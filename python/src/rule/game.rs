@@ -16,7 +16,8 @@ use super::written::{Blocked, Cells, MAX_ROBOTS, Move, Steps, Written};
 /// A rule in layouts, and the numbers of its demands.
 pub(super) struct InRule(Arc<Written>, Vec<Promise>);
 
-/// The number of the rule's state, where its robots are, what came of the last team move, and what was found of the layout.
+/// The number of the rule's state, where its robots are, what came of the last team move, and what was found of the
+/// layout.
 #[derive(Clone, Copy)]
 pub(super) struct State {
     number: u32,

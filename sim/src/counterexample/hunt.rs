@@ -7,7 +7,8 @@ use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::{ClauseId, Report, Setup, explore};
 use crate::trace;
 
-/// The place in `folder` of a run of `setup` that breaks `clause`. The scheme is in its name unless the clause tells it.
+/// The place in `folder` of a run of `setup` that breaks `clause`. The scheme is in its name unless the clause tells
+/// it.
 pub fn path(folder: &Path, setup: &Setup, clause: ClauseId) -> PathBuf {
     let clause = clause.as_str().to_lowercase();
     let Setup { scheme, rule, robots, .. } = setup;
@@ -16,8 +17,8 @@ pub fn path(folder: &Path, setup: &Setup, clause: ClauseId) -> PathBuf {
     folder.join(format!("{clause}{scheme}-{rule}-n{robots}.jsonl"))
 }
 
-/// Writes the run of `setup`, which breaks `clause`, to a file in `folder` under a name that says so. The file has yet to
-/// be put in its place.
+/// Writes the run of `setup`, which breaks `clause`, to a file in `folder` under a name that says so. The file has yet
+/// to be put in its place.
 ///
 /// # Errors
 /// [`Halt`] if the setup does not fit its scheme.

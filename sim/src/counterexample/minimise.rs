@@ -14,11 +14,11 @@
 //! - *A wall* inside the rim.
 //!
 //! What a run never met goes all at once, before anything else and after everything that goes: the cells out of the
-//! team's reach, and the walls and blocked cells that no robot bumped into. Where robots see what they do not bump into,
-//! as those of KIT do, another run comes of it: what is left is run again, and stays whole if it does not break the clause. Then the
-//! robots are tried, the smallest team first, and columns, rows, blocked cells and walls in this order: all, then in
-//! chunks half as large each time (Zeller and Hildebrandt 2002, *Simplifying and Isolating Failure-Inducing Input*),
-//! then single ones; all this until nothing goes any more. There is no chance in it.
+//! team's reach, and the walls and blocked cells that no robot bumped into. Where robots see what they do not bump
+//! into, as those of KIT do, another run comes of it: what is left is run again, and stays whole if it does not break
+//! the clause. Then the robots are tried, the smallest team first, and columns, rows, blocked cells and walls in this
+//! order: all, then in chunks half as large each time (Zeller and Hildebrandt 2002, *Simplifying and Isolating
+//! Failure-Inducing Input*), then single ones; all this until nothing goes any more. There is no chance in it.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -461,8 +461,8 @@ impl Shrinking<'_, '_> {
         Ok(false)
     }
 
-    /// Runs `candidate` and, if it breaks the clause, makes it the smallest case, or what it met if that breaks the clause, too.
-    /// Whether it does.
+    /// Runs `candidate` and, if it breaks the clause, makes it the smallest case, or what it met if that breaks the
+    /// clause, too. Whether it does.
     fn attempt(&mut self, candidate: &Case) -> Result<bool, Halt> {
         let Some(Broken { mut steps, met }) = self.run(candidate)? else { return Ok(false) };
         self.smallest = candidate.clone();

@@ -1,5 +1,5 @@
-//! Counterexamples to a rule of one's own: made again in one layout, and stored as files that anyone can replay. Nothing in
-//! them can go: the search finds the fewest walls, and the area is what the rule and its demands may know.
+//! Counterexamples to a rule of one's own: made again in one layout, and stored as files that anyone can replay.
+//! Nothing in them can go: the search finds the fewest walls, and the area is what the rule and its demands may know.
 
 use std::path::Path;
 
@@ -23,8 +23,8 @@ pub struct Found<'a, R: 'static, T: 'static, const ROBOTS: usize> {
 }
 
 impl<R, T: team::Team<ROBOTS>, const ROBOTS: usize> Found<'_, R, T, ROBOTS> {
-    /// Makes the run again, in the layout that has the walls that it met and no others, and writes it to a file at `path`, which
-    /// `tautline replay` plays. The file has yet to be put in its place.
+    /// Makes the run again, in the layout that has the walls that it met and no others, and writes it to a file at
+    /// `path`, which `tautline replay` plays. The file has yet to be put in its place.
     ///
     /// # Errors
     /// [`Halt`] if the area is too large for a layout, or a robot starts in a blocked cell.

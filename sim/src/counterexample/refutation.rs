@@ -1,7 +1,7 @@
 //! A refutation as a file, one JSON object a line: a header that names the check whose bound it lies in, one line for
-//! each choice that leads to what is broken, and an end with the checksum of the lines before. Reading a file is playing
-//! it again: the rule is asked at every choice, so the file is believed no farther than the rule goes along with it.
-//! A run that can go on for ever has its choices marked that come again.
+//! each choice that leads to what is broken, and an end with the checksum of the lines before. Reading a file is
+//! playing it again: the rule is asked at every choice, so the file is believed no farther than the rule goes along
+//! with it. A run that can go on for ever has its choices marked that come again.
 //!
 //! ```text
 //! {"format":"tautline refutation","version":1,"clause":"NOTICE-5","rule":"published","engine":"states","bound":"…","demand":"…"}
@@ -75,8 +75,8 @@ struct End {
     crc32: u32,
 }
 
-/// The place in `folder` of a refutation that the check of `clause` with this number has found: clause, rule and engine are
-/// its name, and a number where another check of the clause before has the same.
+/// The place in `folder` of a refutation that the check of `clause` with this number has found: clause, rule and engine
+/// are its name, and a number where another check of the clause before has the same.
 pub fn path(folder: &Path, clause: &Clause, check: usize) -> PathBuf {
     let name = |check: &&dyn AnyCheck| (check.rule(), check.engine());
     let checks = || clause.checks.iter().map(name);

@@ -1,6 +1,6 @@
-//! A page that plays a run: one file without anything from elsewhere, drawn on a canvas from data. Of each team move it holds
-//! what changes, so that long runs stay small; it is written as the run goes on. What a scheme shows beside its robots comes
-//! from its [`Layer`]s: the page knows no scheme.
+//! A page that plays a run: one file without anything from elsewhere, drawn on a canvas from data. Of each team move it
+//! holds what changes, so that long runs stay small; it is written as the run goes on. What a scheme shows beside its
+//! robots comes from its [`Layer`]s: the page knows no scheme.
 
 pub mod film;
 pub mod line;
@@ -46,8 +46,8 @@ pub struct Page<'a> {
 }
 
 impl<'a> Page<'a> {
-    /// The page in `file` that plays these team moves of a run that came out as `report`. All team moves up to the last one
-    /// are to be added.
+    /// The page in `file` that plays these team moves of a run that came out as `report`. All team moves up to the last
+    /// one are to be added.
     pub fn new(
         file: &'a mut AtomicFile,
         run: &'a dyn Play,

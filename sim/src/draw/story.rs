@@ -69,8 +69,8 @@ const fn towards(side: Side) -> &'static str {
     }
 }
 
-/// How the end of a run breaks its clauses: the sentence, the cells that it missed, and the layout drawn. Nothing, if it
-/// does not.
+/// How the end of a run breaks its clauses: the sentence, the cells that it missed, and the layout drawn. Nothing, if
+/// it does not.
 pub fn of_end(run: &dyn Play, report: &Report) -> String {
     let missed = |broken: &Violation| Some((*broken, run.missed(broken.clause, &report.chart)?));
     let found = report.violations.iter().find_map(missed);
@@ -122,8 +122,8 @@ pub fn of_trap(run: &dyn Play) -> Result<String, Halt> {
     Ok(format!("{}\n\n{words}\n{}", legend(run.stage().look), beside(blocks)))
 }
 
-/// What agents do in `course`, turn by turn: every turn before it is made, with what the agent tries and the sensors that
-/// it misses, and the end. Of turns that can go on for ever only those are shown.
+/// What agents do in `course`, turn by turn: every turn before it is made, with what the agent tries and the sensors
+/// that it misses, and the end. Of turns that can go on for ever only those are shown.
 ///
 /// # Errors
 /// [`Problem`] if it does not fit into a layout.
@@ -186,8 +186,8 @@ pub fn last_move(run: &dyn Play) -> Result<String, Halt> {
     Ok(story)
 }
 
-/// How `run`, the run that a search has `found`, breaks `clause`: by the last team move that was found, or by its end. Whoever
-/// watches it need not see that the clause is broken, and may see it go on.
+/// How `run`, the run that a search has `found`, breaks `clause`: by the last team move that was found, or by its end.
+/// Whoever watches it need not see that the clause is broken, and may see it go on.
 ///
 /// # Errors
 /// [`Halt`] if the run cannot be made.

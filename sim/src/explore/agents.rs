@@ -1,5 +1,5 @@
-//! A team of agents on a sensor floor [Ferranti 2009], whichever way they decide, and what is the same in all their rows.
-//! In a team move every agent that is not done acts once, in the order of the agents' ids.
+//! A team of agents on a sensor floor [Ferranti 2009], whichever way they decide, and what is the same in all their
+//! rows. In a team move every agent that is not done acts once, in the order of the agents' ids.
 //!
 //! Missed sensors are drawn from `ChaCha8`, seeded with the seed of the run as layouts are, with the tag `miss`: one
 //! draw for each sensor that is asked about, agent by agent, clockwise from the northern neighbour. Where the
@@ -232,8 +232,8 @@ pub struct Agents<K: Crew = Way> {
 }
 
 impl<K: Crew> Agents<K> {
-    /// A team in `layout`, an agent in each of `starts`: at most 255, and in free cells. They miss sensors by `chance`, drawn
-    /// from `seed`.
+    /// A team in `layout`, an agent in each of `starts`: at most 255, and in free cells. They miss sensors by `chance`,
+    /// drawn from `seed`.
     pub fn new(way: K, layout: &Layout, starts: &[Cell], chance: Probability, seed: u64) -> Self {
         let mut floor = SensorFloor::new(layout, starts);
         way.settle(&mut floor, starts);
@@ -346,7 +346,8 @@ impl<K: Crew> Agents<K> {
         self.floor.components().iter().map(number).sum()
     }
 
-    /// Whether the run is over: every agent is done or, where some may never know that they are, everything is explored.
+    /// Whether the run is over: every agent is done or, where some may never know that they are, everything is
+    /// explored.
     pub fn is_over(&self) -> bool {
         let may_roam = || self.way.may_roam(!self.misses.chance.is_never());
         self.active() == 0 || self.explored() == self.due() && may_roam()

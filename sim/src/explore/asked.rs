@@ -26,7 +26,8 @@ pub struct Asked {
     pub robots: Option<u64>,
     /// The seed of whatever is left to chance.
     pub seed: u64,
-    /// The base. Else it is where the first robot starts, or the layout says, or it is the free cell nearest the centre.
+    /// The base. Else it is where the first robot starts, or the layout says, or it is the free cell nearest the
+    /// centre.
     pub base: Option<Cell>,
     /// Where the agents start: one cell for all, or one for each; none if the scheme is to choose.
     pub starts: Vec<Cell>,

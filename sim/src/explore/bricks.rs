@@ -1,5 +1,5 @@
-//! Brick&Mortar [Ferranti 2009]: agents that mark cells as visited until none is left, as published, repaired, and robust
-//! against missed sensors. Their rows; the team is that of all agents.
+//! Brick&Mortar [Ferranti 2009]: agents that mark cells as visited until none is left, as published, repaired, and
+//! robust against missed sensors. Their rows; the team is that of all agents.
 
 use tautline_kernel::bricks::Rule as Bricks;
 use tautline_kernel::floor::Mark;

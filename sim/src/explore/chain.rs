@@ -1,5 +1,5 @@
-//! The recursive chain [Kovács 2011, III]: its row, and its team: the kernel's chain, the log of messages that it reads its
-//! history from, and the smallest grid that holds its area.
+//! The recursive chain [Kovács 2011, III]: its row, and its team: the kernel's chain, the log of messages that it reads
+//! its history from, and the smallest grid that holds its area.
 
 mod areas;
 mod checkpoint;

@@ -8,8 +8,8 @@ use std::sync::{Mutex, PoisonError};
 use serde::{Serialize, Serializer};
 use tautline_proofs::chain::breach::Breach;
 
-/// An id such as `CHAIN-1`: a family and a number, of letters, digits and hyphens. Ids are ordered by family, then by number, so that `CHAIN-2` comes
-/// before `CHAIN-12`.
+/// An id such as `CHAIN-1`: a family and a number, of letters, digits and hyphens. Ids are ordered by family, then by
+/// number, so that `CHAIN-2` comes before `CHAIN-12`.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ClauseId(&'static str);
 

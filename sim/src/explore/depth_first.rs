@@ -1,5 +1,5 @@
-//! The rivals of Brick&Mortar: MDFS, the classic that its authors compared it with, and helpers. Their rows; the team is that
-//! of all agents.
+//! The rivals of Brick&Mortar: MDFS, the classic that its authors compared it with, and helpers. Their rows; the team
+//! is that of all agents.
 
 use tautline_proofs::bricks::tree::Way;
 

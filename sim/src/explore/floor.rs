@@ -1,5 +1,5 @@
-//! A sensor floor over a layout: what every sensor stores, the open sides of every cell, and a tally of each part of the
-//! layout in which agents start. Nothing is asked of the layout once the floor stands.
+//! A sensor floor over a layout: what every sensor stores, the open sides of every cell, and a tally of each part of
+//! the layout in which agents start. Nothing is asked of the layout once the floor stands.
 
 use std::mem;
 

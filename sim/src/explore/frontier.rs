@@ -1,5 +1,5 @@
-//! Frontier cells (Rajesh, Nagaraja and Suja 2024): their row, and their teams: the kernel's robots, rivals that assign cells, and runs that a
-//! search has found.
+//! Frontier cells (Rajesh, Nagaraja and Suja 2024): their row, and their teams: the kernel's robots, rivals that assign
+//! cells, and runs that a search has found.
 
 mod hunt;
 mod scripted;

@@ -1,5 +1,6 @@
-//! Hunts: what a rule's row brings, so that all small layouts can be searched for runs that break a clause. A hunt says which
-//! bounds it takes, and returns what it has found as plain data; storing, drawing and printing are the same for all hunts.
+//! Hunts: what a rule's row brings, so that all small layouts can be searched for runs that break a clause. A hunt says
+//! which bounds it takes, and returns what it has found as plain data; storing, drawing and printing are the same for
+//! all hunts.
 
 use std::fmt;
 use std::ops::ControlFlow;
@@ -51,7 +52,8 @@ pub trait Deals {
     /// A [`Diagnostic`] if it cannot be searched so.
     fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Diagnostic>;
 
-    /// One shard of a deal, the first being 0, where it was. The scheme, the rule and the budget are `asked`, all else the deal has.
+    /// One shard of a deal, the first being 0, where it was. The scheme, the rule and the budget are `asked`, all else
+    /// the deal has.
     ///
     /// # Errors
     /// A [`Diagnostic`] if there is no such deal, or the shard was never there.
@@ -350,8 +352,8 @@ pub enum Shown {
     Told(String),
 }
 
-/// What follows from what a hunt has found: within its whole bound, or, where it was ended before, among the layouts that it
-/// had `covered` by then, if any.
+/// What follows from what a hunt has found: within its whole bound, or, where it was ended before, among the layouts
+/// that it had `covered` by then, if any.
 pub(super) fn outcome(found: &[Finding], is_whole: bool, covered: Option<String>) -> String {
     let bound = match (is_whole, covered) {
         (true, _) => "in any layout within this bound".to_owned(),
@@ -366,8 +368,8 @@ pub(super) fn outcome(found: &[Finding], is_whole: bool, covered: Option<String>
     }
 }
 
-/// The run of `scheme` that `found` is, in the area of its search; it stops at the violation of what it was found for, and may
-/// break other clauses before.
+/// The run of `scheme` that `found` is, in the area of its search; it stops at the violation of what it was found for,
+/// and may break other clauses before.
 ///
 /// # Errors
 /// [`Problem`] if the area is too large for a layout, or the base is outside.
@@ -379,7 +381,8 @@ pub fn setup(scheme: &'static Profile, rule: impl Into<RuleId>, found: &Run) -> 
     Ok(Setup { limits, ..Setup::new(scheme, rule, starts.len() as u16, layout, base) })
 }
 
-/// The layout of a run that was found, which has the walls that were met and no others; and where the robots start in it.
+/// The layout of a run that was found, which has the walls that were met and no others; and where the robots start in
+/// it.
 ///
 /// # Errors
 /// [`Problem`] if the area is too large for a layout.

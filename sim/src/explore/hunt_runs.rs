@@ -1,5 +1,6 @@
-//! Tries: the hunt of agents whose sensors store trees. The traps of other agents are sought among states; here each run is run,
-//! in every small layout, from every start, and with every choice of sensors that are missed: fewest first, then the smallest area.
+//! Tries: the hunt of agents whose sensors store trees. The traps of other agents are sought among states; here each
+//! run is run, in every small layout, from every start, and with every choice of sensors that are missed: fewest first,
+//! then the smallest area.
 
 use std::fmt;
 
@@ -16,8 +17,8 @@ use super::setup::Profile;
 use crate::diagnostic::Diagnostic;
 use crate::layout::Layout;
 
-/// Team moves for each cell after which a run is taken to go on for ever: an agent alone makes at most four (BRICKS-10), and a
-/// missed sensor costs it a few.
+/// Team moves for each cell after which a run is taken to go on for ever: an agent alone makes at most four
+/// (BRICKS-10), and a missed sensor costs it a few.
 const MANY: u32 = 100;
 
 /// The way of the agents that are hunted.
@@ -110,7 +111,8 @@ impl<K: Crew + Sync> Runs<K> {
         Ok(look)
     }
 
-    /// The run of `trap` as far as it is given, and with each way to miss so many sensors more after those that it misses.
+    /// The run of `trap` as far as it is given, and with each way to miss so many sensors more after those that it
+    /// misses.
     fn try_each(&self, trap: Trap, misses: u8, look: &mut Look) -> Result<(), Diagnostic> {
         let mut team = Agents::of(&setup(self.scheme, self.rule, &trap)?, self.crew);
         let (mut moves, mut end) = (0, None);

@@ -1,5 +1,5 @@
-//! Traps: the hunt of agents on a sensor floor. A [`Trap`] becomes the setup of agents in its layout, with the sensors that
-//! they miss written down.
+//! Traps: the hunt of agents on a sensor floor. A [`Trap`] becomes the setup of agents in its layout, with the sensors
+//! that they miss written down.
 
 use tautline_proofs::floor::trap::{Bounds, End, Found, MAX_AGENTS, MAX_CELLS, Trap, Way};
 use tautline_proofs::plural::counted;

@@ -1,8 +1,9 @@
-//! KIT \[Peiris\]: robots that drive every path between two nodes and keep in touch, 3 m from node to node. Its row, and
-//! its team. A team move is one robot's drive, in the order in which they begin; whoever drives is drawn where it arrives.
+//! KIT \[Peiris\]: robots that drive every path between two nodes and keep in touch, 3 m from node to node. Its row,
+//! and its team. A team move is one robot's drive, in the order in which they begin; whoever drives is drawn where it
+//! arrives.
 //!
-//! As published no robot knows when everything is driven: whoever watches them ends the run then. A team that has driven no
-//! new path for twenty drives a path is taken to go round for ever.
+//! As published no robot knows when everything is driven: whoever watches them ends the run then. A team that has
+//! driven no new path for twenty drives a path is taken to go round for ever.
 
 mod hunt;
 mod scripted;

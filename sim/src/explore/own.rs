@@ -1,5 +1,5 @@
-//! A team of one's own that is searched over all layouts ([`tautline_proofs::team`]), as a run plays it: in one layout, with
-//! what it breaks.
+//! A team of one's own that is searched over all layouts ([`tautline_proofs::team`]), as a run plays it: in one layout,
+//! with what it breaks.
 
 use std::collections::HashMap;
 

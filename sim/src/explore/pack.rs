@@ -1,5 +1,5 @@
-//! Pack exploration (Jasmine Xavier and Shantha Selva Kumari 2013, II): its row, and its team: the kernel's pack, a layout that
-//! answers for what robots see, and the history on the heap.
+//! Pack exploration (Jasmine Xavier and Shantha Selva Kumari 2013, II): its row, and its team: the kernel's pack, a
+//! layout that answers for what robots see, and the history on the heap.
 //!
 //! A cell is explored once a robot has seen it (II.A), and not only where a robot was.
 
@@ -103,7 +103,8 @@ struct PackTeam {
     queue: Vec<Cell>,
     gains: Vec<u16>,
     rounds: u32,
-    /// The free cells, and the obstacles, that were seen in the last team move; before the first one those at the start.
+    /// The free cells, and the obstacles, that were seen in the last team move; before the first one those at the
+    /// start.
     free: Vec<Cell>,
     obstacles: Vec<Cell>,
     /// What the last team move was.

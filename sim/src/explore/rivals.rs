@@ -1,5 +1,5 @@
-//! The rivals of the chain [Kovács 2011, C]: their rows, and their teams. No clause is about them: what a robot that meets a
-//! wall does to their links is measured, not promised.
+//! The rivals of the chain [Kovács 2011, C]: their rows, and their teams. No clause is about them: what a robot that
+//! meets a wall does to their links is measured, not promised.
 
 use tautline_kernel::chain::{self, MAX_ROBOTS};
 use tautline_kernel::ground::{Area, Cell, Circle, Edge};
@@ -107,8 +107,8 @@ fn start(setup: &Setup, parameters: Parameters) -> Result<Box<dyn Team>, Diagnos
     rival(parameters, setup.robots, &setup.layout, setup.base, setup.seed)
 }
 
-/// A team with these parameters, the base counted, in the area that a chain of as many would explore: “this restriction is
-/// applied for all of the tested algorithms” (D).
+/// A team with these parameters, the base counted, in the area that a chain of as many would explore: “this restriction
+/// is applied for all of the tested algorithms” (D).
 ///
 /// # Errors
 /// A [`Diagnostic`] if the parameters do not fit, or the base is outside.

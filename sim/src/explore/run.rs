@@ -1,5 +1,6 @@
-//! The run loop. A [`Team`] sees what its robots know and makes one team move at a time; the layout answers for the edges
-//! it tries. A run goes on after a violation, so that its cost can be compared. Any team can be run, of this program or not.
+//! The run loop. A [`Team`] sees what its robots know and makes one team move at a time; the layout answers for the
+//! edges it tries. A run goes on after a violation, so that its cost can be compared. Any team can be run, of this
+//! program or not.
 
 use std::fmt;
 use std::num::NonZeroU32;
@@ -74,8 +75,8 @@ pub trait Team {
         &[]
     }
 
-    /// The cells besides those where its robots are that the last team move has explored, or before the first one the start: none
-    /// for teams that explore a cell by being in it.
+    /// The cells besides those where its robots are that the last team move has explored, or before the first one the
+    /// start: none for teams that explore a cell by being in it.
     fn seen(&self) -> &[Cell] {
         &[]
     }

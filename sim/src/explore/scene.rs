@@ -1,5 +1,5 @@
-//! What a team shows beside its robots and the cells that they enter: named layers, and what each team move changes in them.
-//! A page draws a layer by its shape; it knows no scheme.
+//! What a team shows beside its robots and the cells that they enter: named layers, and what each team move changes in
+//! them. A page draws a layer by its shape; it knows no scheme.
 
 use tautline_kernel::ground::{Cell, Edge};
 
@@ -131,7 +131,8 @@ pub struct Zone {
     pub name: &'static str,
     /// What it means, in one line.
     pub about: &'static str,
-    /// Whether the zone round the first cell has the second one, which is at most [`Zone::REACH`] away in columns and rows.
+    /// Whether the zone round the first cell has the second one, which is at most [`Zone::REACH`] away in columns and
+    /// rows.
     pub has: fn(Cell, Cell) -> bool,
 }
 

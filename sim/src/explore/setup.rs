@@ -82,8 +82,8 @@ pub enum Starts {
     Base,
     /// Each in any free cell.
     Anywhere,
-    /// Each in any free cell: without another word as published all at the base, and else the first one there and the others
-    /// beside it.
+    /// Each in any free cell: without another word as published all at the base, and else the first one there and the
+    /// others beside it.
     Beside,
     /// Each in a free cell of its own: without another word the first one at the base, and the others beside it.
     Alone,

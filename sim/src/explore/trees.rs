@@ -1,5 +1,5 @@
-//! Agents that search in trees on a sensor floor (BRICKS-8 to BRICKS-12): brick-tree, helpers and MDFS. The team is that of all
-//! agents.
+//! Agents that search in trees on a sensor floor (BRICKS-8 to BRICKS-12): brick-tree, helpers and MDFS. The team is
+//! that of all agents.
 
 use tautline_kernel::bricks::tree::{Next, Note, Rule as Trees, View, settle};
 use tautline_kernel::floor::Scan;

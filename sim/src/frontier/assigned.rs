@@ -1,8 +1,9 @@
-//! Rivals that assign frontier cells to robots: unexplored cells beside explored ones, each to the robot that goes there.
+//! Rivals that assign frontier cells to robots: unexplored cells beside explored ones, each to the robot that goes
+//! there.
 //!
-//! One repository is known to all. A robot goes its shortest way through explored cells, stays where another robot is in its way,
-//! and stores an obstacle that it meets. An assignment is kept until its cell is known or its robot is in another one's way, unless
-//! the rival assigns anew at every move.
+//! One repository is known to all. A robot goes its shortest way through explored cells, stays where another robot is
+//! in its way, and stores an obstacle that it meets. An assignment is kept until its cell is known or its robot is in
+//! another one's way, unless the rival assigns anew at every move.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
@@ -25,8 +26,8 @@ pub enum Assignment {
     Hungarian,
     /// The same, anew at every move.
     HungarianAnew,
-    /// Each robot in its order takes the nearest cell that no earlier robot has taken, at every move. Where there is none left,
-    /// it stays.
+    /// Each robot in its order takes the nearest cell that no earlier robot has taken, at every move. Where there is
+    /// none left, it stays.
     Earlier,
 }
 

@@ -1,5 +1,5 @@
-//! A repository of any size, which remembers in which order it learned what it knows: so a robot that joins it again looks
-//! only at what is new.
+//! A repository of any size, which remembers in which order it learned what it knows: so a robot that joins it again
+//! looks only at what is new.
 
 use tautline_kernel::frontier::{Map, Pair, Reached, Scratch, Status};
 use tautline_kernel::ground::{Area, Cell, Side};
@@ -59,7 +59,8 @@ impl Chart {
         &self.cells
     }
 
-    /// How far the place of a neighbour is from that of a cell: in the order of the numbers of the cells beyond the sides.
+    /// How far the place of a neighbour is from that of a cell: in the order of the numbers of the cells beyond the
+    /// sides.
     pub(super) fn steps(&self) -> [(isize, Side); 4] {
         let row = self.area.width() as isize + 2;
         [(-row, Side::North), (-1, Side::West), (1, Side::East), (row, Side::South)]

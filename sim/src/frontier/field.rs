@@ -1,9 +1,9 @@
 //! How far the nearest unexplored cell is at least: what keeps far waves narrow.
 //!
-//! The distance from a cell to the nearest unexplored cell that it reaches never falls while the explored cells become more. A way that
-//! is new leads through a cell that has become explored since; it was the nearest unexplored one of that way before, and the way
-//! goes on from there. So distances that were right once are lower bounds for good, and are computed anew only when waves
-//! have looked at so many cells that it pays.
+//! The distance from a cell to the nearest unexplored cell that it reaches never falls while the explored cells become
+//! more. A way that is new leads through a cell that has become explored since; it was the nearest unexplored one of
+//! that way before, and the way goes on from there. So distances that were right once are lower bounds for good, and
+//! are computed anew only when waves have looked at so many cells that it pays.
 
 use tautline_kernel::frontier::Status;
 
@@ -40,8 +40,8 @@ impl Field {
         self.spent += cells;
     }
 
-    /// Computes the distances anew if it pays. Where a cell became explored that was taken for an obstacle, distances may have
-    /// fallen, and nothing is known of them any more.
+    /// Computes the distances anew if it pays. Where a cell became explored that was taken for an obstacle, distances
+    /// may have fallen, and nothing is known of them any more.
     pub(super) fn renew(&mut self, chart: &Chart) {
         if chart.has_erred() {
             self.least.clear();

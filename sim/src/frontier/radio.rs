@@ -18,7 +18,8 @@ use crate::noise::deviation_db;
 #[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Options {
-    /// Farther than so many cells no message is heard. Without it all are; robots that keep in touch hear 10 m, those of a pack 60 cells.
+    /// Farther than so many cells no message is heard. Without it all are; robots that keep in touch hear 10 m, those
+    /// of a pack 60 cells.
     pub range_cells: Option<u16>,
     /// How many cells robots see; without it 20.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -102,7 +102,8 @@ impl Explorers {
         self.radio.range_cells()
     }
 
-    /// By robot what it has learned in the last team move, and in the first one with what it knew before: where all start.
+    /// By robot what it has learned in the last team move, and in the first one with what it knew before: where all
+    /// start.
     pub fn news(&self) -> impl Iterator<Item = (usize, &[(Cell, Status)])> {
         let news = |(robot, &known): (usize, &usize)| (robot, self.robots[robot].map().learned(known));
         self.known.iter().enumerate().map(news)

@@ -1,13 +1,15 @@
-//! The cell of a robot's pair, for a whole team: what [`Robot::next`](tautline_kernel::frontier::Robot::next) finds for one robot alone,
-//! and the same to the last tie.
+//! The cell of a robot's pair, for a whole team: what [`Robot::next`](tautline_kernel::frontier::Robot::next) finds for
+//! one robot alone, and the same to the last tie.
 //!
-//! Robots and unexplored cells are paired, the nearest pair first. One [`Wave`] for each robot finds the cells that it reaches, one
-//! level of distance after another, and no wave goes farther than it must: a robot that has its pair needs no more. Between the
-//! decisions of one team move robots stand, and no way becomes shorter: so the waves of one decision serve the next ones.
+//! Robots and unexplored cells are paired, the nearest pair first. One [`Wave`] for each robot finds the cells that it
+//! reaches, one level of distance after another, and no wave goes farther than it must: a robot that has its pair needs
+//! no more. Between the decisions of one team move robots stand, and no way becomes shorter: so the waves of one
+//! decision serve the next ones.
 //!
-//! A far wave is kept narrow. A [`Field`] says of each cell how far the nearest unexplored cell is at least, and a wave that is bounded
-//! leaves out what leads to none within its bound. Each shortest way to an unexplored cell within the bound stays in: so the cells that
-//! it finds, their distances and the first sides of the ways are those of a wave without a bound.
+//! A far wave is kept narrow. A [`Field`] says of each cell how far the nearest unexplored cell is at least, and a wave
+//! that is bounded leaves out what leads to none within its bound. Each shortest way to an unexplored cell within the
+//! bound stays in: so the cells that it finds, their distances and the first sides of the ways are those of a wave
+//! without a bound.
 
 use tautline_kernel::frontier::{Condition, Found, Map, Pair, Rule, Seeker, Status};
 use tautline_kernel::ground::{Cell, Side};
@@ -101,7 +103,8 @@ impl Wave {
         self.left == 0 || (self.told == self.queue.len() && !self.is_cut)
     }
 
-    /// Goes one level farther, or begins again with twice the slack if its bound is reached. Returns the cells it has looked at.
+    /// Goes one level farther, or begins again with twice the slack if its bound is reached. Returns the cells it has
+    /// looked at.
     fn extend(&mut self, chart: &Chart, field: &Field) -> usize {
         if self.level >= self.bound || self.told == self.queue.len() {
             self.slack = self.slack.saturating_mul(2);
@@ -159,8 +162,9 @@ impl Waves {
         Self { knowledge, by_robot: vec![Wave::default(); robots], field: Field::default() }
     }
 
-    /// The way of the robot `own` to the cell of its pair, or to the one that comes first for it if all cells are the others'; `None`
-    /// if it reaches none. `chart` is its repository, and `seekers` are all robots, as far as it has heard of them.
+    /// The way of the robot `own` to the cell of its pair, or to the one that comes first for it if all cells are the
+    /// others'; `None` if it reaches none. `chart` is its repository, and `seekers` are all robots, as far as it has
+    /// heard of them.
     pub(super) fn way(
         &mut self,
         chart: &Chart,

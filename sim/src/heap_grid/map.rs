@@ -83,8 +83,8 @@ impl Map {
             .map(move |side| beyond(place, side, width))
     }
 
-    /// Tells of the cells at most `most` steps from the one at `from` over sides without a wall, nearest first, with their
-    /// distances, until `tell` says that it has heard enough.
+    /// Tells of the cells at most `most` steps from the one at `from` over sides without a wall, nearest first, with
+    /// their distances, until `tell` says that it has heard enough.
     pub(super) fn flood(&self, from: usize, most: u32, mut tell: impl FnMut(usize, u32) -> bool) -> Near {
         let (rows, row) = (self.marks.len() / self.width, from / self.width);
         let far = usize::try_from(most).unwrap_or(rows);
@@ -117,7 +117,8 @@ impl Map {
         near
     }
 
-    /// Whether the distances in `near` hold with the wall that now stands between two cells: the farther one has another neighbour as near.
+    /// Whether the distances in `near` hold with the wall that now stands between two cells: the farther one has
+    /// another neighbour as near.
     pub(super) fn outlasts(&self, near: &Near, one: usize, other: usize) -> bool {
         let (Some(of_one), Some(of_other)) = (near.distance(one), near.distance(other)) else { return true };
         let (nearer, farther) = if of_one < of_other { (of_one, other) } else { (of_other, one) };

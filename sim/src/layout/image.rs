@@ -9,8 +9,8 @@ use super::{MAX_CELLS, Problem};
 /// Red, green, blue, and how opaque it is.
 pub(super) type Pixel = [u8; 4];
 
-/// Decodes the `bytes` of an image: its pixels row by row, and what `begin` makes of its width and height before any of them is
-/// decoded.
+/// Decodes the `bytes` of an image: its pixels row by row, and what `begin` makes of its width and height before any of
+/// them is decoded.
 ///
 /// # Errors
 /// [`Problem::Image`], or what `begin` returns.

@@ -1,9 +1,10 @@
 //! The best joint step of a chain: of all plans that the chain's conditions admit, one with the greatest sum of values.
 //!
-//! The conditions between neighbours and those about one robot alone make a chain of choices, five a robot and 25 a pair of
-//! neighbours: dynamic programming from the base to the leader finds the best plan. The condition that no two robots plan to
-//! be in one cell ties robots that are no neighbours; with it the plans are searched depth first from the leader, and what
-//! dynamic programming gives for the robots behind is the bound. It is a step solver, not Full search: there links are a tree.
+//! The conditions between neighbours and those about one robot alone make a chain of choices, five a robot and 25 a
+//! pair of neighbours: dynamic programming from the base to the leader finds the best plan. The condition that no two
+//! robots plan to be in one cell ties robots that are no neighbours; with it the plans are searched depth first from
+//! the leader, and what dynamic programming gives for the robots behind is the bound. It is a step solver, not Full
+//! search: there links are a tree.
 
 use tautline_kernel::chain::{Condition, Move, Role, Rule};
 use tautline_kernel::ground::{Cell, Step, Steps};
@@ -67,8 +68,8 @@ struct Table<'a> {
     values: Vec<[i64; Step::ALL.len()]>,
 }
 
-/// The best plan of the chain in `position`. Ties go to the earlier direction, the leader first. A chain of which not every
-/// robot has options has no plan.
+/// The best plan of the chain in `position`. Ties go to the earlier direction, the leader first. A chain of which not
+/// every robot has options has no plan.
 pub fn best(position: &Position<'_>) -> Solved {
     if position.cells.is_empty() || position.cells.len() != position.options.len() {
         return Solved::Impossible;
@@ -116,7 +117,8 @@ impl<'a> Table<'a> {
         table
     }
 
-    /// What the robot behind `robot` may do if this one does `step`, and what that is worth at best with those behind it.
+    /// What the robot behind `robot` may do if this one does `step`, and what that is worth at best with those behind
+    /// it.
     fn admitted(&self, robot: usize, step: Step) -> impl Iterator<Item = (Step, i64)> + use<'_> {
         let Position { rule, cells, options } = *self.position;
         let known_open = options[robot].known_open.has(step);

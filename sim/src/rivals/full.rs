@@ -1,7 +1,8 @@
-//! Full search [Kovács 2011, C]: the best of all joint moves. Links are a tree, so there is no order of the robots along which
-//! the best could be put together; the joint moves are searched depth first. A branch is cut where the prices of what is
-//! chosen, with the least prices of what is left, are more than the best, and where a robot can no longer be joined to the base
-//! whatever the robots that have not chosen yet do. Both are bounds, so the answer is that of plain enumeration, ties included.
+//! Full search [Kovács 2011, C]: the best of all joint moves. Links are a tree, so there is no order of the robots
+//! along which the best could be put together; the joint moves are searched depth first. A branch is cut where the
+//! prices of what is chosen, with the least prices of what is left, are more than the best, and where a robot can no
+//! longer be joined to the base whatever the robots that have not chosen yet do. Both are bounds, so the answer is that
+//! of plain enumeration, ties included.
 
 use rand_chacha::ChaCha8Rng;
 use tautline_kernel::ground::Step;

@@ -1,4 +1,5 @@
-//! The joint moves of a team whose links are a tree through the base: what each robot can do, and how a joint move is judged.
+//! The joint moves of a team whose links are a tree through the base: what each robot can do, and how a joint move is
+//! judged.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;

@@ -91,8 +91,8 @@ impl Map {
         is_new
     }
 
-    /// How many sides, none of them known to be a wall, are crossed on the shortest way from `cell` to an unexplored cell;
-    /// `None` if there is no such way.
+    /// How many sides, none of them known to be a wall, are crossed on the shortest way from `cell` to an unexplored
+    /// cell; `None` if there is no such way.
     pub(super) fn distance(&self, cell: Cell) -> Option<u32> {
         self.place(cell).map(|place| self.distances[place]).filter(|&distance| distance != FAR)
     }

@@ -89,8 +89,8 @@ pub enum Search {
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Null {
-    /// It stands by: it is made if all that are drawn have more faults than it has. So a team leaves a place where every
-    /// team move makes its utility less: the paper's “random factor” (E).
+    /// It stands by: it is made if all that are drawn have more faults than it has. So a team leaves a place where
+    /// every team move makes its utility less: the paper's “random factor” (E).
     StandsBy,
     /// It counts with those that are drawn: a team in such a place never leaves it.
     Competes,

@@ -1,6 +1,7 @@
 //! Rooker and Birk's choice of a team move [Kovács 2011, C]: the best of some that are drawn at random, “possible or
-//! impossible”. A joint move in which a robot crosses a side that is known to be a wall is drawn, and then left out. The null
-//! move counts with the others, or stands by for the case that all that are drawn have more faults: see [`Null`].
+//! impossible”. A joint move in which a robot crosses a side that is known to be a wall is drawn, and then left out.
+//! The null move counts with the others, or stands by for the case that all that are drawn have more faults: see
+//! [`Null`].
 
 use rand_chacha::ChaCha8Rng;
 use tautline_kernel::ground::{Cell, Step};
@@ -8,8 +9,9 @@ use tautline_kernel::ground::{Cell, Step};
 use super::joint::{Best, Candidate, Joint, WORST, draw};
 use super::parameters::Null;
 
-/// The best of a pool of so many joint moves; of those as good each is as likely. A robot has `moves` moves, some of which it
-/// may not be able to make. `None` if every joint move that was drawn crosses a wall, and there is no null move.
+/// The best of a pool of so many joint moves; of those as good each is as likely. A robot has `moves` moves, some of
+/// which it may not be able to make. `None` if every joint move that was drawn crosses a wall, and there is no null
+/// move.
 pub fn best(
     joint: &Joint,
     pool: u32,

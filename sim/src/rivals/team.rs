@@ -37,8 +37,8 @@ pub enum Over {
 }
 
 impl Team {
-    /// `robots` robots, the base counted, all of them at the base; they explore the cells of `area`. Ties are drawn from
-    /// `seed`.
+    /// `robots` robots, the base counted, all of them at the base; they explore the cells of `area`. Ties are drawn
+    /// from `seed`.
     ///
     /// # Errors
     /// [`Unfit`] if so many cannot explore so.

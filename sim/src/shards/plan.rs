@@ -204,7 +204,8 @@ impl Plan {
         Err(Diagnostic::of_field("shard", what, format!("give `shard` a number from 1 to {}", self.shards)))
     }
 
-    /// Where the file of a shard stands unless it is said otherwise: beside the plan, with its number at the end of the name.
+    /// Where the file of a shard stands unless it is said otherwise: beside the plan, with its number at the end of the
+    /// name.
     pub fn shard_path(&self, shard: u32) -> PathBuf {
         let stem = self.path.file_stem().unwrap_or_default().to_string_lossy();
         let end = self.path.extension().map_or(String::new(), |end| format!(".{}", end.to_string_lossy()));
@@ -216,7 +217,8 @@ impl Plan {
         Sharded { format, version, plan: self.digest.clone(), shard, done: false }
     }
 
-    /// How far each shard is that `files` tell of, and which of them does, in the order of the shards; or what is missing.
+    /// How far each shard is that `files` tell of, and which of them does, in the order of the shards; or what is
+    /// missing.
     ///
     /// # Errors
     /// A [`Diagnostic`] if a file is no shard of this plan, or two are the same shard.
@@ -259,7 +261,8 @@ pub struct Keeper<'a> {
 }
 
 impl<'a> Keeper<'a> {
-    /// The keeper of a shard of `plan`, whose file stands at `path`; and how far that shard is, if there is such a file.
+    /// The keeper of a shard of `plan`, whose file stands at `path`; and how far that shard is, if there is such a
+    /// file.
     ///
     /// # Errors
     /// A [`Diagnostic`] if the file is damaged, of another shard or in use.

@@ -1,6 +1,6 @@
-//! A stored run of a scheme that this program does not know. Its rule cannot be run again, so the file is believed where it
-//! agrees with itself: every robot does what the layout allows, cells follow from steps, and the end follows from the team
-//! moves. Which clauses are broken, and how many cells there were to explore, only the file knows.
+//! A stored run of a scheme that this program does not know. Its rule cannot be run again, so the file is believed
+//! where it agrees with itself: every robot does what the layout allows, cells follow from steps, and the end follows
+//! from the team moves. Which clauses are broken, and how many cells there were to explore, only the file knows.
 
 use serde::de::IgnoredAny;
 use tautline_kernel::ground::{Cell, Edge};

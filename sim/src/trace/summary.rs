@@ -37,8 +37,8 @@ pub struct Summary<'a> {
     violations: Vec<StoredViolation>,
 }
 
-/// What there is of a sensor floor besides. Ants mark nothing and never know that they are done: of them nothing is said
-/// about that.
+/// What there is of a sensor floor besides. Ants mark nothing and never know that they are done: of them nothing is
+/// said about that.
 #[derive(JsonSchema, Serialize)]
 struct FloorSummary<'a> {
     miss: Probability,

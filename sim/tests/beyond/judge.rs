@@ -1,5 +1,5 @@
-//! Judges of runs, who know the sentences of `SPEC.md` and std: floors, steps, reach, sight and joint ways are their own, and
-//! they share no code with the rules, the searches and the simulator.
+//! Judges of runs, who know the sentences of `SPEC.md` and std: floors, steps, reach, sight and joint ways are their
+//! own, and they share no code with the rules, the searches and the simulator.
 
 mod chain;
 mod controls;

@@ -1,5 +1,5 @@
-//! Values in CDR, the encoding of ROS 2 on the wire: little-endian, each number at a multiple of its own size, counted from
-//! behind a head of four bytes.
+//! Values in CDR, the encoding of ROS 2 on the wire: little-endian, each number at a multiple of its own size, counted
+//! from behind a head of four bytes.
 
 /// CDR, little-endian, without options.
 const HEAD: [u8; 4] = [0, 1, 0, 0];

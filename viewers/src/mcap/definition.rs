@@ -1,5 +1,5 @@
-//! The types of the messages, as ROS 2 defines them, and some of our own. A definition names the types of its fields; a file has
-//! each type with all that it is made of, so that a reader needs no installed ROS.
+//! The types of the messages, as ROS 2 defines them, and some of our own. A definition names the types of its fields; a
+//! file has each type with all that it is made of, so that a reader needs no installed ROS.
 
 use std::collections::BTreeSet;
 

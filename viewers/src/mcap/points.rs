@@ -1,6 +1,6 @@
-//! A layout, or what a team knows of it, as an occupancy grid. Walls stand between cells, so a cell and its sides are points of
-//! their own: a layout of 2×1 cells has 5×3 points, two to a metre, where a cell is a metre wide. Rows of points go
-//! north, as ROS has them; rows of cells go south.
+//! A layout, or what a team knows of it, as an occupancy grid. Walls stand between cells, so a cell and its sides are
+//! points of their own: a layout of 2×1 cells has 5×3 points, two to a metre, where a cell is a metre wide. Rows of
+//! points go north, as ROS has them; rows of cells go south.
 //!
 //! ```text
 //!  + - + - +
@@ -71,8 +71,8 @@ impl Points {
         points
     }
 
-    /// Takes in what a team move tells: the sides that were tried, the cells that were entered, and what the scheme says of
-    /// other sides.
+    /// Takes in what a team move tells: the sides that were tried, the cells that were entered, and what the scheme
+    /// says of other sides.
     pub(super) fn take(&mut self, made: &TeamMove<'_>, scene: &Scene) {
         for ((&from, &step), &blocked) in made.before.iter().zip(&made.frame.steps).zip(&made.frame.blocked) {
             if let Step::Cross(side) = step {

@@ -1,5 +1,5 @@
-//! MRC over the air: each turn of a WFR's or a robot's machine, what it sends, which timers it starts, and what is told of
-//! it.
+//! MRC over the air: each turn of a WFR's or a robot's machine, what it sends, which timers it starts, and what is told
+//! of it.
 
 use tautline_kernel::mrc::{Bid, Downward, Hop, Phase, Resb, Robot, Sent, Task, Upward, Wfr, Word};
 use tautline_kernel::net::{Epoch, RobotId};

@@ -1,5 +1,5 @@
-//! What nodes do with what they hear: they broadcast calls, carry messages up and down the tree of a call as letters from
-//! hop to hop, and guide robots.
+//! What nodes do with what they hear: they broadcast calls, carry messages up and down the tree of a call as letters
+//! from hop to hop, and guide robots.
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::mrc::{Bid, Condition, Hop, Relay, Resb, Upward, Word};
@@ -110,8 +110,8 @@ impl World<'_> {
     pub(super) fn guide(&mut self, at: NodeId, request: ReqNav, now_ns: u64) {
         let Some(wfr) = self.scenario.wfr(request.wfr) else { return };
         let epoch = self.broadcasts[wfr].nodes()[at.0 as usize].event();
-        // Whoever comes to a WFR that is rescued comes in vain: it answers a MOVE with nobody's name, and a REQNAV not at
-        // all.
+        // Whoever comes to a WFR that is rescued comes in vain: it answers a MOVE with nobody's name, and a REQNAV not
+        // at all.
         let is_over = self.wfrs[wfr].call().wfr == at
             && !self.wfrs[wfr].is_waiting()
             && self.scenario.rule.has(Condition::AnswersAgain);
@@ -127,8 +127,8 @@ impl World<'_> {
         }
     }
 
-    /// What a node begins to do lasts for T_x from now. A silence that has begun is not prolonged: two robots could else
-    /// keep each other's guides silent for ever.
+    /// What a node begins to do lasts for T_x from now. A silence that has begun is not prolonged: two robots could
+    /// else keep each other's guides silent for ever.
     fn conduct(&mut self, at: NodeId, guide: Guide, now_ns: u64) {
         let sensor = &mut self.sensors[at.0 as usize];
         if sensor.guide != guide {

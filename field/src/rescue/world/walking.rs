@@ -49,7 +49,8 @@ impl World<'_> {
         }
     }
 
-    /// Asks the next node for its signal, or the same once more, and says what comes of it if there is none to be asked.
+    /// Asks the next node for its signal, or the same once more, and says what comes of it if there is none to be
+    /// asked.
     pub(super) fn begin_leg(&mut self, robot: usize, now_ns: u64) {
         let station = self.station(robot);
         let rover = &mut self.rovers[robot];

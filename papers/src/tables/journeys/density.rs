@@ -19,7 +19,8 @@ pub struct Density {
     pub told: Option<Estimate>,
     /// Way by way.
     pub ways: Vec<Line>,
-    /// How many hops the robots have by TAN's trees for each hop that the shortest chain of links has, where TAN arrives.
+    /// How many hops the robots have by TAN's trees for each hop that the shortest chain of links has, where TAN
+    /// arrives.
     pub hops: Option<Estimate>,
     /// What the paper says, and what is so.
     pub claims: Vec<Decision>,

@@ -23,8 +23,8 @@ pub(super) const FAMILIES: [Family; 4] = [
 ];
 
 impl Family {
-    /// The layout of this seed, and the node where the team starts: paths in an order that is drawn, first those that connect
-    /// nodes which are not connected yet, then others until there are 26.
+    /// The layout of this seed, and the node where the team starts: paths in an order that is drawn, first those that
+    /// connect nodes which are not connected yet, then others until there are 26.
     pub(super) fn layout(self, seed: u64) -> Result<(Layout, Cell), Problem> {
         let mut layout = Layout::open(self.columns, self.rows)?;
         let mut dice = generate::source(seed, *b"lattice ");

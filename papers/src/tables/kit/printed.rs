@@ -17,7 +17,8 @@ pub(super) struct Printed {
     difference: f64,
 }
 
-/// The paper's two numbers: 78 % efficiency at 88 % (5 of 23 paths driven by both), and 7 min 24 s between one robot and two.
+/// The paper's two numbers: 78 % efficiency at 88 % (5 of 23 paths driven by both), and 7 min 24 s between one robot
+/// and two.
 pub(super) fn of(figure: Figure, lines: &[Line], races: &[Race]) -> Vec<Printed> {
     let two = lines.iter().filter(|line| line.team == TEAMS[TWO]);
     let claims: Vec<(String, f64, Option<Estimate>)> = match figure {

@@ -1,5 +1,5 @@
-//! Table I: team moves without walls, and how much of two buildings is explored when MAX_MOVES ends the run; and how far the
-//! rivals' figures depend on what the paper does not say.
+//! Table I: team moves without walls, and how much of two buildings is explored when MAX_MOVES ends the run; and how
+//! far the rivals' figures depend on what the paper does not say.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

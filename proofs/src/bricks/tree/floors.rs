@@ -1,5 +1,5 @@
-//! The small floors of the checks of agents that search in trees: which plans, how many agents, what they miss, whether they
-//! fail, and what is demanded of every state.
+//! The small floors of the checks of agents that search in trees: which plans, how many agents, what they miss, whether
+//! they fail, and what is demanded of every state.
 
 use tautline_kernel::bricks::tree::Note;
 
@@ -145,9 +145,9 @@ impl Floors {
         is_shared.then_some(Self { demand: Demand::All, ..self })
     }
 
-    /// Looks at the states of each plan within `limits`, series by series, until the first violation. Its choices are the
-    /// numbers of the series, the plan and the start, then the steps. What is wrong with a mutant is sought in small areas
-    /// first.
+    /// Looks at the states of each plan within `limits`, series by series, until the first violation. Its choices are
+    /// the numbers of the series, the plan and the start, then the steps. What is wrong with a mutant is sought in
+    /// small areas first.
     fn explore(self, observed: &Observed, (limits, until): (Limits<'_>, Until)) -> Explored {
         let mut explored = Explored::new();
         let mut series: Vec<(u32, &Series)> = (0..).zip(self.series).collect();
@@ -183,8 +183,8 @@ impl Method<Observed> for Floors {
         self.together().map(|together| format!("{together:?} {observed:?}"))
     }
 
-    /// What several clauses demand of the same floors is looked at in one pass. Where something is broken there, each looks
-    /// for its own first violation.
+    /// What several clauses demand of the same floors is looked at in one pass. Where something is broken there, each
+    /// looks for its own first violation.
     fn decide(&self, observed: &Observed, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
         let limits = Limits { room: desk.room, ..Limits::NONE };
         let Some(together) = self.together().filter(|_| until == Until::Exhausted) else {

@@ -20,7 +20,8 @@ pub(super) fn pairs() -> String {
     format!("any two of {} of {}", counted(founded, "tree"), counted(agents, "agent"))
 }
 
-/// BRICKS-14: no two trees have the same label, and of two the one before which its agent had founded fewer has the greater.
+/// BRICKS-14: no two trees have the same label, and of two the one before which its agent had founded fewer has the
+/// greater.
 ///
 /// # Errors
 /// [`crate::engine::Stop`] if the choices are no two trees, or break the clause.

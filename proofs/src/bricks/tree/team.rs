@@ -37,7 +37,8 @@ pub(super) enum Demand {
     Twice,
     /// BRICKS-13
     LeastEntered,
-    /// BRICKS-2, BRICKS-4, BRICKS-5, BRICKS-6, BRICKS-8, BRICKS-9, and where no sensor is missed BRICKS-13, looked at in one pass.
+    /// BRICKS-2, BRICKS-4, BRICKS-5, BRICKS-6, BRICKS-8, BRICKS-9, and where no sensor is missed BRICKS-13, looked at
+    /// in one pass.
     All,
 }
 
@@ -234,7 +235,8 @@ impl Team {
     }
 }
 
-/// How many times the child of the cell beyond `side` was entered, as far as the agent has seen it; `None` if there is none.
+/// How many times the child of the cell beyond `side` was entered, as far as the agent has seen it; `None` if there is
+/// none.
 fn entered(view: &View, side: Side) -> Option<u16> {
     let (_, note) = COMPASS.into_iter().zip(view.beside).find(|&(other, _)| other == side)?;
     let is_child = note.state == Cellular::Open && note.side == Some(side.opposite());

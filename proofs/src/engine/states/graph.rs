@@ -1,5 +1,5 @@
-//! The graph of the states that were met, with nothing of what they are: how each was first found, and where endless runs
-//! are looked for, what is owed in it and which steps are bound to be made from it.
+//! The graph of the states that were met, with nothing of what they are: how each was first found, and where endless
+//! runs are looked for, what is owed in it and which steps are bound to be made from it.
 
 use super::Bits;
 use super::known::Pile;

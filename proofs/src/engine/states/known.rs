@@ -152,8 +152,8 @@ impl<P: Clone + Eq + Hash> Known<P> {
         self.codes.bytes() + table + parts as u64
     }
 
-    /// Makes a state the one that is shown: `put` gets the parts that it does not share with the one that was before, each
-    /// with its place.
+    /// Makes a state the one that is shown: `put` gets the parts that it does not share with the one that was before,
+    /// each with its place.
     pub(super) fn show(&mut self, node: usize, mut put: impl FnMut(usize, &P)) {
         let Self { parts, codes, places, width, shown, .. } = self;
         let code = codes.entry(node);
@@ -252,8 +252,8 @@ fn number(bytes: &[u8]) -> u32 {
     }
 }
 
-/// The share of a place in the hash of a state, so that where one part changes, one share does (Zobrist 1970): splitmix64
-/// (Steele, Lea and Flood 2014) of place and number.
+/// The share of a place in the hash of a state, so that where one part changes, one share does (Zobrist 1970):
+/// splitmix64 (Steele, Lea and Flood 2014) of place and number.
 const fn hash_at(place: usize, number: u32) -> HashOfState {
     let mixed = ((place as u64 + 1) << u32::BITS | number as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
     let mixed = (mixed ^ mixed >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);

@@ -91,8 +91,8 @@ impl<'a> Taken<'a> {
         self.reaches(bytes)
     }
 
-    /// Has so many bytes in all for a while; false if a search may not have them. A search that becomes large waits until
-    /// no other one is.
+    /// Has so many bytes in all for a while; false if a search may not have them. A search that becomes large waits
+    /// until no other one is.
     pub(super) fn reaches(&mut self, bytes: u64) -> bool {
         self.most = self.most.max(bytes);
         if bytes > self.room.small && self.large.is_none() {

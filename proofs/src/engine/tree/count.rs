@@ -79,8 +79,8 @@ impl<D: PartialEq> Count<D> {
         }
     }
 
-    /// Whether a search that has these levels behind it, and so many lanes left, can have counted so. A run that breaks a
-    /// demand is counted when it does, and as a leaf when it is over: until then some lane is on it.
+    /// Whether a search that has these levels behind it, and so many lanes left, can have counted so. A run that breaks
+    /// a demand is counted when it does, and as a leaf when it is over: until then some lane is on it.
     pub(super) fn follows(&self, levels: &[Level], lanes: usize) -> bool {
         let runs: u128 = levels.iter().map(|level| u128::from(level.runs)).sum();
         let moves: u128 = levels.iter().map(|level| u128::from(level.moves)).sum();

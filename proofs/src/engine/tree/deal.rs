@@ -1,7 +1,7 @@
-//! A search dealt out among shards, for those who have many machines. Its small levels are searched by the dealer; each of the
-//! others is begun, until it is in many parts, and the parts are dealt out by how much is expected to be left of each. A shard
-//! searches its parts as a search of its own, which can be left and taken up again. What all shards count together is what one
-//! search counts.
+//! A search dealt out among shards, for those who have many machines. Its small levels are searched by the dealer; each
+//! of the others is begun, until it is in many parts, and the parts are dealt out by how much is expected to be left of
+//! each. A shard searches its parts as a search of its own, which can be left and taken up again. What all shards count
+//! together is what one search counts.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -18,7 +18,8 @@ use crate::engine::watchdog::Steps;
 /// For each number of walls, from none on, the places where a search begins.
 pub(super) type Ways = Vec<Vec<Place>>;
 
-/// A part is at most so small a share of what a shard has, so that what is not foreseen of one is made up for by others.
+/// A part is at most so small a share of what a shard has, so that what is not foreseen of one is made up for by
+/// others.
 const PARTS: u64 = 96;
 
 /// Team moves that are made in a part that is too large, before it is looked for places to divide it.
@@ -116,7 +117,8 @@ impl<G: Game> Tree<G> {
         deal
     }
 
-    /// A level in parts, of which no more than `most` is left unless they cannot be divided; and how much is left of each.
+    /// A level in parts, of which no more than `most` is left unless they cannot be divided; and how much is left of
+    /// each.
     fn divided(&mut self, walls: usize, forecast: &Forecast, most: u64) -> Vec<(u64, Place)> {
         let mut parts = Vec::new();
         let (mut large, steps) = (vec![Lane::whole(&self.game, walls as u32)], Steps::begin());

@@ -1,9 +1,10 @@
-//! About how many team moves are left below a place in the tree of runs, by what the levels before this one had. It decides
-//! how a level is shared out, and nothing of what is found.
+//! About how many team moves are left below a place in the tree of runs, by what the levels before this one had. It
+//! decides how a level is shared out, and nothing of what is found.
 
 use super::Level;
 
-/// Parts of a run of usual length. Walls make runs longer, so that the last part, and not nothing, is left near its end.
+/// Parts of a run of usual length. Walls make runs longer, so that the last part, and not nothing, is left near its
+/// end.
 const PARTS: u64 = 8;
 
 /// A fraction of one is a number of these.
@@ -12,9 +13,10 @@ const ONE: u64 = 1 << 20;
 /// Levels by which the next one can be told: fewer do not show that walls make runs longer.
 pub(super) const TELLING: usize = 3;
 
-/// Team moves of the next level, if the levels grow on as they have so far. The runs that meet *k* walls are about as many as
-/// sets of *k* edges, so their growth falls as that of the sets does. In excess of that, walls make runs longer, by less with each
-/// wall: from one level to the next the excess is taken to grow by the square root of what it grew by before.
+/// Team moves of the next level, if the levels grow on as they have so far. The runs that meet *k* walls are about as
+/// many as sets of *k* edges, so their growth falls as that of the sets does. In excess of that, walls make runs
+/// longer, by less with each wall: from one level to the next the excess is taken to grow by the square root of what it
+/// grew by before.
 #[expect(clippy::cast_precision_loss, reason = "an estimate")]
 pub(super) fn next(levels: &[Level], edges: u32) -> Option<f64> {
     let moves: Vec<f64> = levels.iter().map(|level| level.moves as f64).collect();
@@ -44,9 +46,9 @@ pub(super) struct Forecast {
 }
 
 impl Forecast {
-    /// Below the start, a search for at most *k* mishaps makes as many team moves as the levels 0 to *k* have. Farther on,
-    /// where a part *x* of a usual run is left, a level of *k* mishaps has about its *x* to the power of *k*, since each of
-    /// them is somewhere on what is left.
+    /// Below the start, a search for at most *k* mishaps makes as many team moves as the levels 0 to *k* have. Farther
+    /// on, where a part *x* of a usual run is left, a level of *k* mishaps has about its *x* to the power of *k*, since
+    /// each of them is somewhere on what is left.
     pub(super) fn new(levels: &[Level]) -> Self {
         let mut fractions = [ONE; PARTS as usize];
         let mut sums = [0_u64; PARTS as usize];
@@ -63,8 +65,8 @@ impl Forecast {
         Self { length, below }
     }
 
-    /// The team moves below a place after `steps` team moves, from which `mishaps` may still come. If no level tells, it is
-    /// more than any number.
+    /// The team moves below a place after `steps` team moves, from which `mishaps` may still come. If no level tells,
+    /// it is more than any number.
     pub(super) fn below(&self, steps: u32, mishaps: u32) -> u64 {
         let part = (u64::from(steps) * PARTS / self.length).min(PARTS - 1);
         self.below.get(mishaps as usize).map_or(u64::MAX, |moves| moves[part as usize])

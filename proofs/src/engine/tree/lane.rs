@@ -238,8 +238,8 @@ impl<G: Game> Lane<G> {
         Some(Fork { before, planned: self.state, plan, steps, sent, answered, broken: self.broken.len() })
     }
 
-    /// Makes the team move that is planned, with the answers of the script first; whether they fit its questions. Only a
-    /// team move whose outcome is asked for is kept.
+    /// Makes the team move that is planned, with the answers of the script first; whether they fit its questions. Only
+    /// a team move whose outcome is asked for is kept.
     #[inline]
     fn settle(&mut self, game: &G, ready: &Ready<'_, G>) -> bool {
         let (steps, sent, answered) = (self.steps, self.log.len(), self.answers.given.len());
@@ -410,8 +410,8 @@ impl<G: Game> Lane<G> {
         self.next == Next::Advance || self.first_open(self.floor).is_some()
     }
 
-    /// The fork whose other outcomes can be split off so that something is left: the first of its own that has any, unless
-    /// these are all that is sure to be new in the lane.
+    /// The fork whose other outcomes can be split off so that something is left: the first of its own that has any,
+    /// unless these are all that is sure to be new in the lane.
     fn divisible(&self) -> Option<(usize, usize)> {
         let (place, answered) = self.first_open(self.floor)?;
         let is_sure = self.next == Next::Advance && self.is_new();
@@ -486,7 +486,8 @@ pub(super) struct Replayed<F> {
     pub(super) steps: u32,
 }
 
-/// Makes the run with these answers, at most `most` of them mishaps, as far as it breaks `demand`, whatever else it breaks.
+/// Makes the run with these answers, at most `most` of them mishaps, as far as it breaks `demand`, whatever else it
+/// breaks.
 pub(super) fn replay<G: Game>(
     game: &G,
     most: u32,

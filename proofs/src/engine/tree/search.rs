@@ -60,14 +60,16 @@ pub trait Waves<D, F> {
     /// # Errors
     /// [`Unsearchable`] if they are not those of the deal, or not at their ends.
     fn merge(&mut self, deal: &Deal<D>, shards: &[Position<D>]) -> Result<(), Unsearchable>;
-    /// Plays a run that breaks `demand` again, whose answers these are. It is one run, whatever number of runs break it.
+    /// Plays a run that breaks `demand` again, whose answers these are. It is one run, whatever number of runs break
+    /// it.
     ///
     /// # Errors
     /// [`Unfit`] if there is no such run.
     fn replay(&self, demand: D, answers: &[u32]) -> Result<Counterexample<D, F>, Unfit>;
 }
 
-/// Searches all layouts within `limits`. The result is the same on any number of threads, unless `watch` ends the search.
+/// Searches all layouts within `limits`. The result is the same on any number of threads, unless `watch` ends the
+/// search.
 ///
 /// # Errors
 /// [`Unsearchable`] if the limits are beyond what can be searched.
@@ -121,9 +123,9 @@ pub struct Tree<G: Game> {
     pub(super) shard: Option<(Ways, Vec<Level>)>,
 }
 
-/// The first lanes, in their order, in shares in each of which enough is left that it can make `moves`: how many lanes each
-/// has. There are at most `most` shares; `left` says how much is left of each lane. If there is not enough for any, all are
-/// in one.
+/// The first lanes, in their order, in shares in each of which enough is left that it can make `moves`: how many lanes
+/// each has. There are at most `most` shares; `left` says how much is left of each lane. If there is not enough for
+/// any, all are in one.
 fn share_out(left: &[u64], moves: u64, most: usize) -> Vec<usize> {
     let enough = RESERVE * moves;
     let mut shares = Vec::new();
@@ -213,8 +215,8 @@ impl<G: Game> Tree<G> {
         position.levels.starts_with(&self.levels)
     }
 
-    /// Whether a shard has searched what it was dealt of the levels that it has begun, but for what is left; `is_at_end` says that
-    /// it has begun no other level than those that are done.
+    /// Whether a shard has searched what it was dealt of the levels that it has begun, but for what is left;
+    /// `is_at_end` says that it has begun no other level than those that are done.
     fn has_done_what_it_was_dealt(&self, is_at_end: bool) -> bool {
         let Some((ways, _)) = &self.shard else { return true };
         let begun = self.levels.len() + usize::from(!is_at_end);
@@ -237,8 +239,8 @@ impl<G: Game> Tree<G> {
         self.limits.budget_moves.map_or(u64::MAX, |budget| budget.saturating_sub(made))
     }
 
-    /// Splits lanes, shares them out, those with most left first, searches each share a little further, and forgets the lanes
-    /// that are done.
+    /// Splits lanes, shares them out, those with most left first, searches each share a little further, and forgets the
+    /// lanes that are done.
     fn search(&mut self) {
         let budget = self.affordable_moves();
         let left = self.split();

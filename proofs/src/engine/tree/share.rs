@@ -1,8 +1,8 @@
-//! How much of a tree is searched. Each answer to a question has an equal share of what the question has, and all runs together
-//! have the whole: so what a search has done can be compared with what it was dealt, however it went about it.
+//! How much of a tree is searched. Each answer to a question has an equal share of what the question has, and all runs
+//! together have the whole: so what a search has done can be compared with what it was dealt, however it went about it.
 //!
-//! Shares are numbers modulo a prime, in which every small number has an inverse: their sums are exact, and parts that were left out
-//! or searched twice go unseen in one case of 2⁶¹.
+//! Shares are numbers modulo a prime, in which every small number has an inverse: their sums are exact, and parts that
+//! were left out or searched twice go unseen in one case of 2⁶¹.
 
 use serde::{Deserialize, Serialize};
 

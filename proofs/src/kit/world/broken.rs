@@ -46,8 +46,9 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         breaks
     }
 
-    /// Whether `other` drives on where `path` leads, straight ahead: at one speed it is never less than a path away. Round a corner
-    /// it is: two robots that leave one right after the other come to 2.12 m, half a path beyond and half a path before it.
+    /// Whether `other` drives on where `path` leads, straight ahead: at one speed it is never less than a path away.
+    /// Round a corner it is: two robots that leave one right after the other come to 2.12 m, half a path beyond and
+    /// half a path before it.
     fn stays_ahead(&self, path: Stance, other: Stance) -> bool {
         let goes = |stance: Stance| (stance.to().x - stance.from().x, stance.to().y - stance.from().y);
         self.speeds == Speeds::Equal
@@ -83,7 +84,8 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         rest.is_empty()
     }
 
-    /// Whether the team, or the robot alone while another one drives a new path, is nearer to an uncovered side at `to`.
+    /// Whether the team, or the robot alone while another one drives a new path, is nearer to an uncovered side at
+    /// `to`.
     fn is_shorter(&self, before: &World<ROBOTS>, robot: usize, to: Cell) -> bool {
         let map = self.found(before);
         let cells = Self::ends(before);
@@ -102,8 +104,8 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         is_nearer([None; ROBOTS], u8::MAX) || goes_alone && is_nearer(std::array::from_fn(left), 1 << robot)
     }
 
-    /// The sides of old paths with which a shortest way of the team begins, or of `robot` alone while another one drives a new
-    /// path and it has one.
+    /// The sides of old paths with which a shortest way of the team begins, or of `robot` alone while another one
+    /// drives a new path and it has one.
     pub(super) fn shortest(&self, world: &World<ROBOTS>, robot: usize) -> Vec<Side> {
         let map = self.found(world);
         let cells = Self::ends(world);

@@ -57,8 +57,8 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         turns
     }
 
-    /// All that comes of a decision of `robot`, if it may decide. Where it drives an old path at once, it is any that begins a
-    /// shortest way.
+    /// All that comes of a decision of `robot`, if it may decide. Where it drives an old path at once, it is any that
+    /// begins a shortest way.
     fn decided(&self, world: &World<ROBOTS>, robot: usize) -> Vec<Turned<ROBOTS>> {
         let mut decided: Vec<_> = outcomes(|oracle| self.decide(world, robot, oracle)).collect();
         let taken = |turned: &Turned<ROBOTS>| match (turned.situation, &turned.events[..]) {

@@ -57,9 +57,9 @@ impl State {
     /// The parts: the robots, the WFRs, the messages of each robot, and the rest.
     pub(in crate::mrc) const PARTS: usize = REST + 1;
 
-    /// Names epochs by their places among those of the same WFR, and leaves out what plays no part any more: what a robot
-    /// knew that has failed, who took the lease of a call that is over, and what the machines themselves will not look at.
-    /// Then states that differ in no other way are one. What comes of them is one, too.
+    /// Names epochs by their places among those of the same WFR, and leaves out what plays no part any more: what a
+    /// robot knew that has failed, who took the lease of a call that is over, and what the machines themselves will not
+    /// look at. Then states that differ in no other way are one. What comes of them is one, too.
     pub(in crate::mrc) fn make_canonical(&mut self) {
         for robot in (0..ROBOTS).filter(|&robot| self.failed[robot]) {
             self.robots[robot] = self.robots[robot].anew();

@@ -92,8 +92,8 @@ pub enum Board {
         rows: usize,
         /// The column and the row of the first cell.
         first: [i16; 2],
-        /// Row by row, a letter for so many cells: `a`, one letter more if they are blocked, two for a wall in the east and
-        /// four for one in the south.
+        /// Row by row, a letter for so many cells: `a`, one letter more if they are blocked, two for a wall in the east
+        /// and four for one in the south.
         ground: Vec<String>,
         /// Where the robots are before the first line.
         start: Vec<u32>,

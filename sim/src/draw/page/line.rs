@@ -149,8 +149,8 @@ impl Line {
         text + &known(true, &open) + &known(false, &blocked) + &puts.text() + &said
     }
 
-    /// The number of a side between two cells: that of the western or northern cell, twice, and one more for its southern
-    /// side; none on the rim.
+    /// The number of a side between two cells: that of the western or northern cell, twice, and one more for its
+    /// southern side; none on the rim.
     fn side(&self, edge: Edge) -> Option<u32> {
         let axis = match edge.side() {
             Side::East | Side::West => 0,
@@ -165,7 +165,8 @@ pub(super) fn place_of(area: Area, cell: Cell) -> Option<u32> {
     area.locate(cell).map(|(column, row)| (row * area.width() + column) as u32)
 }
 
-/// What robots tried: a letter each, small where a wall was met; a number before a point is how many robots in a row stay.
+/// What robots tried: a letter each, small where a wall was met; a number before a point is how many robots in a row
+/// stay.
 pub(super) fn steps(frame: &Frame) -> String {
     let (mut text, mut resting) = (String::new(), 0);
     for (step, blocked) in frame.steps.iter().zip(&frame.blocked).map(Some).chain([None]).map(Option::unzip) {

@@ -1,5 +1,6 @@
-//! A chain in which something fails: bytes are lost at the barrier (CHAIN-20), a robot dies (CHAIN-21), robots go one after
-//! the other (CHAIN-19), a wall appears (CHAIN-22). The run is that of the kernel's chain; where nothing fails it is the run of a chain without faults.
+//! A chain in which something fails: bytes are lost at the barrier (CHAIN-20), a robot dies (CHAIN-21), robots go one
+//! after the other (CHAIN-19), a wall appears (CHAIN-22). The run is that of the kernel's chain; where nothing fails it
+//! is the run of a chain without faults.
 
 use std::mem::take;
 
@@ -249,8 +250,8 @@ impl<G: Grid, const ROBOTS: usize> Faulty<G, ROBOTS> {
         }
     }
 
-    /// Whether neighbours are in contact all the time while robots go from `before` to `after` one after the other, in a random
-    /// order.
+    /// Whether neighbours are in contact all the time while robots go from `before` to `after` one after the other, in
+    /// a random order.
     fn holds_one_by_one(&self, before: &[Cell], after: &[Cell]) -> bool {
         // The order is drawn anew from the number of the team move, so that a look does not change the run.
         let mut chance = source(self.seed ^ u64::from(self.moves) << 32, *b"going   ");

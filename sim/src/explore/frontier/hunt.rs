@@ -1,5 +1,5 @@
-//! Hunts of robots that explore cells. Of the kernel's robots all states are searched: all obstacles, all starts, all orders,
-//! lost messages and wrong fixes. Of rivals all layouts and starts are tried, smallest first.
+//! Hunts of robots that explore cells. Of the kernel's robots all states are searched: all obstacles, all starts, all
+//! orders, lost messages and wrong fixes. Of rivals all layouts and starts are tried, smallest first.
 
 mod rivals;
 

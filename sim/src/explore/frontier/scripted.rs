@@ -1,6 +1,7 @@
-//! A run that a search has found: the search's world makes it again by its choices. A team move is a robot's look: whoever
-//! enters a cell is drawn there, and what happens until the next look belongs to it. The first two choices say how many messages are
-//! lost and how many fixes are wrong at most, since the others are counted among what may happen then.
+//! A run that a search has found: the search's world makes it again by its choices. A team move is a robot's look:
+//! whoever enters a cell is drawn there, and what happens until the next look belongs to it. The first two choices say
+//! how many messages are lost and how many fixes are wrong at most, since the others are counted among what may happen
+//! then.
 
 use tautline_kernel::chain::Kind;
 use tautline_kernel::frontier::{Map, Rule as Frontier, Sight, TinyMap};

@@ -1,5 +1,6 @@
-//! What a page shows of robots that explore cells: each robot's repository, the cells that they have claimed, how far they
-//! are heard, and who misses what they say; of rivals the obstacles that all know, and who is assigned to which cell.
+//! What a page shows of robots that explore cells: each robot's repository, the cells that they have claimed, how far
+//! they are heard, and who misses what they say; of rivals the obstacles that all know, and who is assigned to which
+//! cell.
 
 use tautline_kernel::frontier::Status;
 

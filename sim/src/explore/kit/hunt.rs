@@ -1,6 +1,6 @@
-//! Hunts of robots that keep in touch: all walls, all starts, and all orders of decisions and arrivals on all small lattices. Of
-//! two robots one image of each state is searched; what is broken there is searched again as it is, with as few walls as can
-//! be.
+//! Hunts of robots that keep in touch: all walls, all starts, and all orders of decisions and arrivals on all small
+//! lattices. Of two robots one image of each state is searched; what is broken there is searched again as it is, with
+//! as few walls as can be.
 
 use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule as Kit;
@@ -123,7 +123,8 @@ impl Hunt for Searched {
     }
 }
 
-/// All lattices up to a size that have a path, fewest nodes first, and each once: one that lies on its side is the same.
+/// All lattices up to a size that have a path, fewest nodes first, and each once: one that lies on its side is the
+/// same.
 fn lattices(size: Size) -> Vec<(i16, i16)> {
     let (columns, rows) = (size.width(), size.height());
     let all = (1..=rows).flat_map(|height| (1..=columns).map(move |width| (width, height)));

@@ -1,5 +1,6 @@
-//! A run that a search has found: the search's world makes it again by its choices. A team move is a robot's decision, and the
-//! arrivals after it; whoever drives is drawn where it arrives. The first choice says whether robots drive at equal speeds.
+//! A run that a search has found: the search's world makes it again by its choices. A team move is a robot's decision,
+//! and the arrivals after it; whoever drives is drawn where it arrives. The first choice says whether robots drive at
+//! equal speeds.
 
 use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Step, TinyGrid};
@@ -107,7 +108,8 @@ impl<const ROBOTS: usize> Scripted<ROBOTS> {
         Some(event)
     }
 
-    /// Whether the choices have led back to where the robots were, and keep nobody from acting: so they can go on for ever.
+    /// Whether the choices have led back to where the robots were, and keep nobody from acting: so they can go on for
+    /// ever.
     fn goes_round(&self) -> bool {
         let Some(home) = self.past.iter().position(|(world, _)| *world == self.world) else { return false };
         let round = &self.past[home..];

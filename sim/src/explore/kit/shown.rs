@@ -1,5 +1,5 @@
-//! What a page shows of robots that keep in touch: the radio circle, who hears whom at all speeds, each robot's record, and
-//! who asks before it drives.
+//! What a page shows of robots that keep in touch: the radio circle, who hears whom at all speeds, each robot's record,
+//! and who asks before it drives.
 
 use tautline_kernel::kit::in_reach;
 

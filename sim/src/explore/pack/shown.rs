@@ -1,4 +1,5 @@
-//! What a page shows of a pack: the obstacles that it has seen, where its robots are going, and how far they see and hear.
+//! What a page shows of a pack: the obstacles that it has seen, where its robots are going, and how far they see and
+//! hear.
 
 use tautline_kernel::ground::Cell;
 use tautline_kernel::pack::Rule;

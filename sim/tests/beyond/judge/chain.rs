@@ -66,7 +66,8 @@ impl<'a> Chain<'a> {
             self.parts = Some(2 * self.kept);
         }
         let living: Vec<usize> = (0..self.cells.len()).filter(|&robot| Some(robot) != dead).collect();
-        // In the team move in which it dies a robot is still on its way, and nobody has to be in contact across it any more.
+        // In the team move in which it dies a robot is still on its way, and nobody has to be in contact across it any
+        // more.
         let groups: Vec<&[usize]> = match (dead, self.parts) {
             (Some(dead), Some(_)) => {
                 let (behind, ahead) = living.split_at(dead);

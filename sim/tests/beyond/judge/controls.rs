@@ -1,5 +1,5 @@
-//! Each judge hears one small run that breaks each of its clauses, and one that breaks none: a judge that finds nothing would
-//! not be noticed otherwise.
+//! Each judge hears one small run that breaks each of its clauses, and one that breaks none: a judge that finds nothing
+//! would not be noticed otherwise.
 
 use std::collections::BTreeSet;
 

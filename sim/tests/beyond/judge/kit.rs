@@ -108,8 +108,8 @@ impl Kit<'_> {
         at
     }
 
-    /// A side that is not driven, and that two robots could come to and drive through: by single drives over driven paths, each
-    /// in contact and to a node of its own.
+    /// A side that is not driven, and that two robots could come to and drive through: by single drives over driven
+    /// paths, each in contact and to a node of its own.
     fn within_reach(&self, at: &[Place], driven: &BTreeSet<(Place, Place)>) -> Option<(Place, Place)> {
         let &[one, other] = at else {
             // A robot alone comes to whatever paths join to it.

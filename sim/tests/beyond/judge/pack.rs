@@ -72,8 +72,8 @@ impl<'a> Pack<'a> {
         }
     }
 
-    /// Whether a ray goes from the midpoint of a cell to that of the free cell so far from it: no cell that it crosses has an
-    /// obstacle, and it passes no corner between two.
+    /// Whether a ray goes from the midpoint of a cell to that of the free cell so far from it: no cell that it crosses
+    /// has an obstacle, and it passes no corner between two.
     fn sees(&self, from: Place, (dx, dy): Place) -> bool {
         let is_obstacle = |place: Place| !self.floor.is_free(place);
         let (x_step, y_step) = (dx.signum(), dy.signum());

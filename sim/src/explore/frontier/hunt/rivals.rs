@@ -218,8 +218,8 @@ fn endless(setup: &Setup) -> String {
     format!("A run without end: {}\n\n{}", starts.collect::<Vec<_>>().join(", "), setup.layout)
 }
 
-/// Runs a rival once: its team moves, and what it breaks, each with the team move. It goes on after it has broken something,
-/// for the sake of the other clauses.
+/// Runs a rival once: its team moves, and what it breaks, each with the team move. It goes on after it has broken
+/// something, for the sake of the other clauses.
 fn try_one(setup: &Setup) -> Result<(u32, Vec<(ClauseId, u32)>), Diagnostic> {
     let mut members = team(setup)?;
     let mut broken = Vec::new();
