@@ -1,5 +1,5 @@
 //! Drawings in text that a person can judge: layouts, team moves, the order of exploration, the environments of a cell.
-//! Walls are drawn as in our layout format. Pictures for pages are in [`svg`] and [`chart`], the words that go with a
+//! Walls are drawn as in our layout format. Pictures for pages are in [`svg`], the words that go with a
 //! counterexample in [`story`].
 
 pub mod page;

@@ -1,4 +1,4 @@
-//! Robots that keep in touch [Peiris] in continuous time: the kernel's team, a layout that answers for what they see,
+//! Robots that keep in touch (Peiris) in continuous time: the kernel's team, a layout that answers for what they see,
 //! and speeds. A cell of the layout is a node, 3 m from the next one.
 //!
 //! A decision, a look, a turn and a message take no time, and every drive takes a path's length over the robot's speed.
