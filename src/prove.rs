@@ -150,9 +150,7 @@ impl Prove {
                 ControlFlow::Continue(())
             }
             Heard::Unended { clause } => {
-                tracing::warn!(
-                    "a step of {clause} has not ended within {patience} s; the other checks go on"
-                );
+                tracing::warn!("a step of {clause} has not ended within {patience} s");
                 ControlFlow::Continue(())
             }
         });

@@ -36,7 +36,7 @@ pub enum Heard<'a> {
         /// How many there are.
         of: usize,
     },
-    /// A step of a job has not ended for too long. The other jobs go on.
+    /// A step of a job has not ended for too long. Other jobs go on where a thread is left.
     Unended {
         /// The clause that the job is about.
         clause: &'static str,
@@ -106,8 +106,9 @@ pub fn decide_all(clauses: &[&'static Clause]) -> Result<Vec<Row>, Refused> {
 }
 
 /// Decides `checks`, on all cores; the rows are in their order. Checks that share what is found are decided by one
-/// thread, which forgets it after the last of them. Where a step does not end, its check is left open, with those that
-/// wait for it; all others are decided. A thread that makes such a step is left behind: it ends with the process.
+/// thread, which forgets it after the last of them. Where a step does not end, its check is left open; others are
+/// decided as long as a thread is left for them, and open if none is. A thread that makes such a step is left behind: it
+/// ends with the process.
 ///
 /// # Errors
 /// [`Refused`] if a method cannot begin.
