@@ -210,8 +210,8 @@ typedef struct {
 } TautlinePlan;
 
 /*
- Whether a robot can go between two cells beside each other: any other number than 0 if it can. `context` is what the caller gave
- with the function.
+ Whether a robot can go between two cells beside each other: any other number than 0 if it can. `context` is what the
+ caller gave with the function.
  */
 typedef int32_t (*TautlineIsOpen)(void *context, TautlineCell one, TautlineCell other);
 
@@ -220,14 +220,14 @@ extern "C" {
 #endif // __cplusplus
 
 /*
- The status in words, with what to do: a text that ends with a zero byte and stays where it is. Of a number that is no status
- it says so.
+ The status in words, with what to do: a text that ends with a zero byte and stays where it is. Of a number that is
+ no status it says so.
  */
 const char *tautline_status_text(int32_t status);
 
 /*
- Makes a chain in the caller's memory: `robots`, the base counted, all in the cell `base`. The area goes from the cell `first`
- in the north-west to the cell `last` in the south-east; nothing is known of it but its border.
+ Makes a chain in the caller's memory: `robots`, the base counted, all in the cell `base`. The area goes from the
+ cell `first` in the north-west to the cell `last` in the south-east; nothing is known of it but its border.
 
  # Safety
  `chain` is null, or memory of the caller that nobody else uses meanwhile.
@@ -240,8 +240,8 @@ TautlineStatus tautline_chain_begin(TautlineChain *chain,
                                     TautlineCell base);
 
 /*
- Says in `plan` what the team intends. `log` has the messages of all team moves so far, as `tautline_chain_settle` wrote them.
- When the run is over, the status says how it ended, and `plan` stays as it was.
+ Says in `plan` what the team intends. `log` has the messages of all team moves so far, as `tautline_chain_settle`
+ wrote them. When the run is over, the status says how it ended, and `plan` stays as it was.
 
  # Safety
  `chain` and `plan` are null, or memory of the caller that nobody else uses meanwhile; `log` has so many bytes.
@@ -252,13 +252,13 @@ TautlineStatus tautline_chain_plan(TautlineChain *chain,
                                    TautlinePlan *plan);
 
 /*
- Carries the plan out. `is_open` answers for every pair of cells that a robot goes between for the first time, once each, in the
- order of the robots. The messages of the robots behind the base, one byte each, go to `messages`, and their number to `sent`:
- the caller appends them to the log.
+ Carries the plan out. `is_open` answers for every pair of cells that a robot goes between for the first time, once
+ each, in the order of the robots. The messages of the robots behind the base, one byte each, go to `messages`, and
+ their number to `sent`: the caller appends them to the log.
 
  # Safety
- `chain` is null, or memory of the caller that nobody else uses meanwhile; `messages` has room for `capacity` bytes; `is_open`
- returns, and does not use `chain`.
+ `chain` is null, or memory of the caller that nobody else uses meanwhile; `messages` has room for `capacity` bytes;
+ `is_open` returns, and does not use `chain`.
  */
 TautlineStatus tautline_chain_settle(TautlineChain *chain,
                                      TautlineIsOpen is_open,
@@ -268,8 +268,9 @@ TautlineStatus tautline_chain_settle(TautlineChain *chain,
                                      size_t *sent);
 
 /*
- Carries the plan out as a robot that plans along and hears of the rest (CHAIN-8): `messages` has one byte of each robot but the
- base about this team move. A message that cannot be about it is refused, and the plan is still to be settled.
+ Carries the plan out as a robot that plans along and hears of the rest (CHAIN-8): `messages` has one byte of each
+ robot but the base about this team move. A message that cannot be about it is refused, and the plan is still to be
+ settled.
 
  # Safety
  `chain` is null, or memory of the caller that nobody else uses meanwhile; `messages` has so many bytes.
