@@ -229,6 +229,7 @@ impl ForceArgs {
     ///
     /// # Errors
     /// As of [`ForceArgs::files`].
+    #[cfg(feature = "papers")]
     fn each(&self, paths: &[Option<PathBuf>]) -> Result<Vec<Option<AtomicFile>>, Diagnostic> {
         self.has_effect(paths.iter().any(Option::is_some))?;
         let replaceable = self.replaceable([]);

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use clap::{Args, value_parser};
+use clap::Args;
+#[cfg(feature = "papers")]
+use clap::value_parser;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::value::RawValue;

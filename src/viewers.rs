@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+#[cfg(not(feature = "viewers"))]
 use tautline_field::rescue::{Report, Setting};
 use tautline_sim::atomic_file::AtomicFile;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::Play;
 #[cfg(feature = "viewers")]
-use tautline_viewers::{itf, mcap, rescue};
+use tautline_viewers::{itf, mcap};
 
 use super::output::Output;
 
@@ -71,16 +72,8 @@ pub(super) fn store(_: ViewerFiles, _: &dyn Play, _: &mut Output) -> Result<(), 
     Ok(())
 }
 
-/// Writes a rescue as a recording of ROS 2.
 #[cfg(feature = "viewers")]
-pub(super) fn record(
-    file: &mut AtomicFile,
-    setting: &Setting,
-    seed: u64,
-    report: &Report,
-) -> Result<(), Diagnostic> {
-    rescue::write(file, setting, seed, report)
-}
+pub(super) use tautline_viewers::rescue::write as record;
 
 /// Writes nothing: this program was built without viewers, and has no option that names such a file.
 #[cfg(not(feature = "viewers"))]

@@ -9,13 +9,10 @@ mod solver;
 mod trials;
 
 pub use measured::{Found, Measured, Place, Power};
-pub use solver::Solver;
-pub use solver::{PARTICLES, Solved};
-pub use trials::distances;
-pub use trials::{Advice, Anchors, Errors, Quantiles, Report, Setting, Spot};
+pub use solver::{PARTICLES, Solved, Solver};
+pub use trials::{Advice, Anchors, Errors, Quantiles, Report, Setting, Spot, distances};
 
 use tautline_kernel::position::Refusal;
-
 use tautline_sim::diagnostic::Diagnostic;
 
 /// What is wrong where the kernel refuses, for a person.

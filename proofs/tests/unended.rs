@@ -168,7 +168,7 @@ impl Lots for Counting {
     type Lot = ();
     type Look = Seen;
     type Found = u64;
-    type Diagnostic = Infallible;
+    type Error = Infallible;
 
     fn stages(&self) -> Vec<()> {
         vec![()]

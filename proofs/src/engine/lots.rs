@@ -27,7 +27,7 @@ pub trait Lots: Sync {
     /// What all looks together have found.
     type Found: Default;
     /// Why a lot cannot be looked at.
-    type Diagnostic: Send;
+    type Error: Send;
 
     /// All stages, in their order.
     fn stages(&self) -> Vec<Self::Stage>;
@@ -36,7 +36,7 @@ pub trait Lots: Sync {
     ///
     /// # Errors
     /// Its fault, if one of them cannot be made.
-    fn lots(&self, stage: Self::Stage) -> Result<Vec<Self::Lot>, Self::Diagnostic>;
+    fn lots(&self, stage: Self::Stage) -> Result<Vec<Self::Lot>, Self::Error>;
 
     /// About how many steps a look at a lot takes; only how they compare matters.
     fn weight(&self, stage: Self::Stage, lot: &Self::Lot) -> u64;
@@ -45,19 +45,13 @@ pub trait Lots: Sync {
     ///
     /// # Errors
     /// Its fault, if it cannot be looked at.
-    fn look(
-        &self,
-        stage: Self::Stage,
-        lot: &Self::Lot,
-        most_steps: u64,
-    ) -> Result<Self::Look, Self::Diagnostic>;
+    fn look(&self, stage: Self::Stage, lot: &Self::Lot, most_steps: u64) -> Result<Self::Look, Self::Error>;
 
     /// Adds a look to what was found in the lots before.
     ///
     /// # Errors
     /// Its fault, if what was seen cannot be told.
-    fn add(&self, found: &mut Self::Found, lot: &Self::Lot, look: Self::Look)
-    -> Result<(), Self::Diagnostic>;
+    fn add(&self, found: &mut Self::Found, lot: &Self::Lot, look: Self::Look) -> Result<(), Self::Error>;
 
     /// All lots of a stage were looked at, and a later one may follow.
     fn cover(&self, found: &mut Self::Found, stage: Self::Stage);
@@ -84,7 +78,7 @@ pub fn search<L: Lots>(
     lots: &L,
     budget_steps: Option<u64>,
     watch: &mut dyn FnMut(&L::Found) -> ControlFlow<()>,
-) -> Result<(L::Found, bool), L::Diagnostic> {
+) -> Result<(L::Found, bool), L::Error> {
     gather(lots, budget_steps, |_, stage, wave, most_steps| looks(lots, stage, wave, most_steps), watch)
 }
 
@@ -93,7 +87,7 @@ pub fn search<L: Lots>(
 ///
 /// # Errors
 /// The fault of a lot.
-pub fn merged<L: Lots>(lots: &L, shards: Vec<Vec<Vec<L::Look>>>) -> Result<(L::Found, bool), L::Diagnostic> {
+pub fn merged<L: Lots>(lots: &L, shards: Vec<Vec<Vec<L::Look>>>) -> Result<(L::Found, bool), L::Error> {
     let owners = deal(lots, shards.len())?;
     let mut shards: Vec<Vec<_>> =
         shards.into_iter().map(|stages| stages.into_iter().map(Vec::into_iter).collect()).collect();
@@ -118,9 +112,9 @@ pub fn merged<L: Lots>(lots: &L, shards: Vec<Vec<Vec<L::Look>>>) -> Result<(L::F
 fn gather<L: Lots>(
     lots: &L,
     budget_steps: Option<u64>,
-    mut take: impl FnMut(usize, L::Stage, &[L::Lot], u64) -> Result<Vec<L::Look>, L::Diagnostic>,
+    mut take: impl FnMut(usize, L::Stage, &[L::Lot], u64) -> Result<Vec<L::Look>, L::Error>,
     watch: &mut dyn FnMut(&L::Found) -> ControlFlow<()>,
-) -> Result<(L::Found, bool), L::Diagnostic> {
+) -> Result<(L::Found, bool), L::Error> {
     let (mut found, mut left) = (L::Found::default(), budget_steps.unwrap_or(u64::MAX));
     for (number, stage) in lots.stages().into_iter().enumerate() {
         let mut is_enough = false;
@@ -153,7 +147,7 @@ fn looks<L: Lots>(
     stage: L::Stage,
     wave: &[L::Lot],
     most_steps: u64,
-) -> Result<Vec<L::Look>, L::Diagnostic> {
+) -> Result<Vec<L::Look>, L::Error> {
     let task = Task::current();
     wave.par_iter().map(|lot| look(lots, stage, lot, (most_steps, task))).collect()
 }
@@ -164,13 +158,13 @@ fn look<L: Lots>(
     stage: L::Stage,
     lot: &L::Lot,
     (most_steps, task): (u64, Task),
-) -> Result<L::Look, L::Diagnostic> {
+) -> Result<L::Look, L::Error> {
     let (_working, _steps) = (task.enter(), Steps::begin());
     lots.look(stage, lot, most_steps)
 }
 
 /// Of each stage the shard of each lot: the heaviest lots first, each goes to the shard that has least until then.
-fn deal<L: Lots>(lots: &L, shards: usize) -> Result<Vec<Vec<usize>>, L::Diagnostic> {
+fn deal<L: Lots>(lots: &L, shards: usize) -> Result<Vec<Vec<usize>>, L::Error> {
     let mut loads: BinaryHeap<Reverse<(u64, usize)>> = (0..shards).map(|shard| Reverse((0, shard))).collect();
     let deal_stage = |stage: L::Stage| {
         let all = lots.lots(stage)?;
@@ -192,7 +186,7 @@ fn deal<L: Lots>(lots: &L, shards: usize) -> Result<Vec<Vec<usize>>, L::Diagnost
 ///
 /// # Errors
 /// The fault of a lot.
-pub fn dealt<L: Lots>(lots: &L, shards: usize) -> Result<Vec<u64>, L::Diagnostic> {
+pub fn dealt<L: Lots>(lots: &L, shards: usize) -> Result<Vec<u64>, L::Error> {
     let mut left = vec![0; shards];
     for owner in deal(lots, shards)?.into_iter().flatten() {
         left[owner] += 1;
@@ -225,7 +219,7 @@ impl<L: Lots> Shard<L> {
         (number, of): (usize, usize),
         mut looks: Vec<Vec<L::Look>>,
         budget_steps: Option<u64>,
-    ) -> Result<Self, L::Diagnostic> {
+    ) -> Result<Self, L::Error> {
         let (stages, owners) = (lots.stages(), deal(&lots, of)?);
         looks.truncate(stages.len());
         let left = budget_steps.unwrap_or(u64::MAX);
@@ -248,7 +242,7 @@ impl<L: Lots> Shard<L> {
     ///
     /// # Errors
     /// The fault of a lot.
-    pub fn wave(&mut self) -> Result<bool, L::Diagnostic> {
+    pub fn wave(&mut self) -> Result<bool, L::Error> {
         if self.is_done() || self.left == 0 {
             return Ok(false);
         }
@@ -294,14 +288,14 @@ impl<L: Lots> Shard<L> {
     }
 
     /// Begins the next stage with a lot of its own.
-    fn go_on(&mut self) -> Result<(), L::Diagnostic> {
+    fn go_on(&mut self) -> Result<(), L::Error> {
         while self.is_at_end() && !self.is_done() {
             self.begin()?;
         }
         Ok(())
     }
 
-    fn begin(&mut self) -> Result<(), L::Diagnostic> {
+    fn begin(&mut self) -> Result<(), L::Error> {
         if self.looks.len() < self.stages.len() {
             self.looks.push(Vec::new());
             self.own = self.own_lots()?;
@@ -309,7 +303,7 @@ impl<L: Lots> Shard<L> {
         Ok(())
     }
 
-    fn own_lots(&self) -> Result<Vec<L::Lot>, L::Diagnostic> {
+    fn own_lots(&self) -> Result<Vec<L::Lot>, L::Error> {
         let begun = self.looks.len().wrapping_sub(1);
         let (Some(&stage), Some(owners)) = (self.stages.get(begun), self.owners.get(begun)) else {
             return Ok(Vec::new());
@@ -358,7 +352,7 @@ mod tests {
         type Look = Seen;
         /// The lots in the order in which they were added, and the stages that were covered.
         type Found = (Vec<(u64, u64)>, Vec<u64>);
-        type Diagnostic = Infallible;
+        type Error = Infallible;
 
         fn stages(&self) -> Vec<(u64, u64)> {
             (0..).zip(self.stages.iter().copied()).collect()

@@ -131,7 +131,7 @@ impl<A: Agents> Lots for Bounds<A> {
     type Lot = FloorPlan;
     type Look = Look;
     type Found = Found;
-    type Diagnostic = Infallible;
+    type Error = Infallible;
 
     fn stages(&self) -> Vec<Stage> {
         stages(self.max_misses, (self.max_width, self.max_height))

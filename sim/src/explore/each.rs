@@ -16,7 +16,7 @@ use crate::resumable::{Facts, Resumable, written};
 /// A hunt that looks at each layout by itself.
 pub(super) trait Each: fmt::Debug + Sync {
     /// The layouts.
-    type Layouts: Lots<Look: Serialize + DeserializeOwned, Diagnostic: Into<Diagnostic>>;
+    type Layouts: Lots<Look: Serialize + DeserializeOwned, Error: Into<Diagnostic>>;
 
     /// The bounds that it takes, as of a [`Hunt`].
     const TAKES: &'static [Bound];
@@ -156,7 +156,7 @@ impl<L: Lots> Looks<L> {
     }
 }
 
-impl<L: Lots<Look: Serialize, Diagnostic: Into<Diagnostic>>> Resumable for Looks<L> {
+impl<L: Lots<Look: Serialize, Error: Into<Diagnostic>>> Resumable for Looks<L> {
     fn step(&mut self) -> Result<bool, Halt> {
         self.0.wave().map_err(|fault| fault.into().into())
     }

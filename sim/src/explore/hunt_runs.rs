@@ -61,7 +61,7 @@ impl<K: Crew + Sync> Lots for Runs<K> {
     type Lot = Plan;
     type Look = Look;
     type Found = Found;
-    type Diagnostic = Diagnostic;
+    type Error = Diagnostic;
 
     fn stages(&self) -> Vec<Stage> {
         let Sought { max_misses, size, .. } = self.sought;

@@ -44,13 +44,6 @@ fn decode_png<T>(
             samples.chunks_exact(2).map(|pair| scaled(u16::from_be_bytes([pair[0], pair[1]]), u16::MAX));
         samples = wide.collect();
     }
-    let pixel = |samples: &[u8]| match *samples {
-        [grey] => [grey, grey, grey, u8::MAX],
-        [grey, alpha] => [grey, grey, grey, alpha],
-        [red, green, blue] => [red, green, blue, u8::MAX],
-        [red, green, blue, alpha, ..] => [red, green, blue, alpha],
-        [] => [0; 4],
-    };
     let channels = match frame.color_type {
         ColorType::Grayscale | ColorType::Indexed => 1,
         ColorType::GrayscaleAlpha => 2,
@@ -58,6 +51,17 @@ fn decode_png<T>(
         ColorType::Rgba => 4,
     };
     Ok((begun, samples.chunks_exact(channels).map(pixel).collect()))
+}
+
+/// The pixel of grey, or red, green and blue, with or without how opaque it is.
+fn pixel(samples: &[u8]) -> Pixel {
+    match *samples {
+        [grey] => [grey, grey, grey, u8::MAX],
+        [grey, alpha] => [grey, grey, grey, alpha],
+        [red, green, blue] => [red, green, blue, u8::MAX],
+        [red, green, blue, alpha, ..] => [red, green, blue, alpha],
+        [] => [0; 4],
+    }
 }
 
 /// A sample from 0 to `most`, from 0 to 255.
@@ -97,11 +101,6 @@ fn decode_pnm<T>(
     if samples.len() < count {
         return Err(wrong("it ends before its last pixel"));
     }
-    let pixel = |samples: &[u8]| match *samples {
-        [red, green, blue, ..] => [red, green, blue, u8::MAX],
-        [grey, ..] => [grey, grey, grey, u8::MAX],
-        [] => [0; 4],
-    };
     Ok((begun, samples.chunks_exact(channels).map(pixel).collect()))
 }
 

@@ -111,7 +111,7 @@ impl Lots for Layouts {
     type Lot = Blocked;
     type Look = Tried;
     type Found = (Count, Vec<Finding>);
-    type Diagnostic = Diagnostic;
+    type Error = Diagnostic;
 
     fn stages(&self) -> Vec<(i16, i16)> {
         self.areas.clone()
