@@ -2,10 +2,12 @@
 //! A robot passes on a larger number than its own, swallows a smaller one, and leads when its own comes back. Which
 //! message arrives next is open at every step.
 
+use tautline_kernel::choice::Oracle;
 use tautline_proofs::clause::{Check, Clause, Named};
 use tautline_proofs::decide::Verdict::{Holds, Refuted};
 use tautline_proofs::decide::{EveryState, Refused, Seen};
-use tautline_proofs::engine::states::{Step, System};
+use tautline_proofs::engine::states::System;
+use tautline_proofs::engine::world::{Turn, World};
 use tautline_proofs::ledger;
 
 const ROBOTS: usize = 3;
@@ -26,10 +28,54 @@ struct Ring {
 
 struct Election(Smaller);
 
-impl System for Election {
+/// A robot hears a number.
+struct Heard {
+    robot: usize,
+    number: usize,
+    passes_on: bool,
+}
+
+impl World for Election {
     type State = Ring;
-    type Part = Ring;
+    /// The robots that a number has reached.
+    type Plan = Vec<usize>;
+    type Event = Heard;
     type Demand = &'static str;
+
+    fn plan(&self, ring: &mut Ring, _: &[u8]) -> Option<Vec<usize>> {
+        let reached = (0..ROBOTS).filter(|&robot| !ring.under_way[robot].is_empty()).collect();
+        Some(reached).filter(|reached: &Vec<usize>| !reached.is_empty())
+    }
+
+    fn settle(
+        &self,
+        ring: &mut Ring,
+        reached: &Vec<usize>,
+        _: &mut Vec<u8>,
+        world: &mut impl Oracle,
+    ) -> Heard {
+        let robot = reached[world.pick(reached.len() as u32) as usize];
+        let number = ring.under_way[robot].remove(0);
+        let passes_on = number > robot || number < robot && matches!(self.0, Smaller::PassOn);
+        if passes_on {
+            ring.under_way[(robot + 1) % ROBOTS].push(number);
+        }
+        ring.leads[robot] |= number == robot;
+        Heard { robot, number, passes_on }
+    }
+
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<&'static str> {
+        let leaders = turn.after.leads.iter().filter(|&&leads| leads).count();
+        if leaders > 1 { vec!["two robots lead"] } else { Vec::new() }
+    }
+
+    fn broken_at_end(&self, ring: &Ring, _: &[u8]) -> Vec<&'static str> {
+        if ring.leads.contains(&true) { Vec::new() } else { vec!["nobody leads"] }
+    }
+}
+
+impl System for Election {
+    type Part = Ring;
 
     fn part(&self, ring: &Ring, _: usize) -> Ring {
         ring.clone()
@@ -39,25 +85,8 @@ impl System for Election {
         ring.clone_from(part);
     }
 
-    fn steps(&self, ring: &Ring) -> impl Iterator<Item = Step<Ring, &'static str>> {
-        let arrives = |robot: usize| {
-            let mut state = ring.clone();
-            let number = (!state.under_way[robot].is_empty()).then(|| state.under_way[robot].remove(0))?;
-            let passes_on = number > robot || number < robot && matches!(self.0, Smaller::PassOn);
-            if passes_on {
-                state.under_way[(robot + 1) % ROBOTS].push(number);
-            }
-            state.leads[robot] |= number == robot;
-            let leaders = state.leads.iter().filter(|&&leads| leads).count();
-            let breaks = if leaders > 1 { vec!["two robots lead"] } else { Vec::new() };
-            let situation = if passes_on { "a number goes on" } else { "a number stops" };
-            Some(Step { state, situation, acting: 1 << robot, is_bound: true, breaks })
-        };
-        (0..ROBOTS).filter_map(arrives)
-    }
-
-    fn broken_at_end(&self, ring: &Ring) -> Vec<&'static str> {
-        if ring.leads.contains(&true) { Vec::new() } else { vec!["nobody leads"] }
+    fn situation(&self, turn: &Turn<'_, Self>) -> &'static str {
+        if turn.event.passes_on { "a number goes on" } else { "a number stops" }
     }
 }
 
@@ -67,11 +96,10 @@ static ORDERS: EveryState<Smaller, Election> = EveryState {
     starts: |_| vec![Ring { under_way: [vec![2], vec![0], vec![1]], leads: [false; ROBOTS] }],
     most_steps: 10_000,
     covers: &["a number goes on", "a number stops", "an end"],
-    tell: |before, after| {
-        let robot = (0..ROBOTS).find(|&robot| before.under_way[robot].len() > after.under_way[robot].len());
-        let robot = robot.unwrap_or_default();
-        let now = if after.leads[robot] { ", and leads" } else { "" };
-        format!("{robot} hears {}{now}.", before.under_way[robot][0])
+    tell: |_, step| {
+        let Heard { robot, number, .. } = step.event;
+        let now = if step.state.leads[robot] { ", and leads" } else { "" };
+        format!("{robot} hears {number}{now}.")
     },
 };
 

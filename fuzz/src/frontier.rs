@@ -3,15 +3,15 @@
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::frontier::{Map, Rule, TinyMap};
 use tautline_kernel::ground::{Area, Cell};
-use tautline_proofs::engine::Tape;
-use tautline_proofs::engine::states::System;
+use tautline_proofs::engine::world::play;
+use tautline_proofs::engine::{Stop, Tape};
 use tautline_proofs::frontier::areas::setting;
-use tautline_proofs::frontier::world::Setting;
+use tautline_proofs::frontier::world::{Demand, Setting};
 
 use super::numbers;
 
 /// Steps after which a run is left: the bytes may let one robot act alone for ever.
-const MOST_STEPS: usize = 1_000;
+const MOST_STEPS: u32 = 1_000;
 
 /// Repaired teams break nothing, whoever acts next, whichever cells are blocked and whichever messages are lost; and
 /// when nobody has anything left to do, everything in reach is explored and everybody knows it.
@@ -39,15 +39,7 @@ fn follow<const ROBOTS: usize>(bytes: &mut Tape<'_>) {
         }
     }
     let setting = Setting { given: Some(given), max_losses: bytes.pick(4) as u8, ..setting };
-    let mut world = setting.start(starts).expect("at most 64 cells");
-    for _ in 0..MOST_STEPS {
-        let mut turns = setting.turns(&world);
-        if turns.is_empty() {
-            assert!(setting.broken_at_end(&world).is_empty(), "{world:?}");
-            return;
-        }
-        let turned = turns.swap_remove(bytes.pick(turns.len() as u32) as usize);
-        assert!(turned.breaks.is_empty(), "{:?} after {:?}", turned.breaks, turned.event);
-        world = turned.world;
-    }
+    let start = setting.start(starts).expect("at most 64 cells");
+    let outcome = play(&setting, start, MOST_STEPS, bytes, Demand::words);
+    assert!(!matches!(outcome, Err(Stop::Violated(_))), "{outcome:?} in {given:?}");
 }

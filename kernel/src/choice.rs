@@ -1,6 +1,8 @@
 //! The one door through which the unknown enters. Whether an edge is open, a sensor is seen, a packet
 //! arrives, which agent moves next: each is a choice, and each is asked of an [`Oracle`].
 
+use crate::ground::{Cell, Edge};
+
 /// Answers choices. Engines differ only in how: at random, every alternative in turn, symbolically, from a
 /// list of numbers, or as a stored run answered.
 pub trait Oracle {
@@ -19,6 +21,21 @@ pub trait Oracle {
     /// bound how often it is; the plain case is `false`.
     fn mishap(&mut self) -> bool {
         self.flip()
+    }
+
+    /// Whether robots can cross `edge`, which none of them has tried before: a wall is a mishap. A layout looks it up.
+    fn is_open(&mut self, _edge: Edge) -> bool {
+        !self.mishap()
+    }
+
+    /// Whether robots can be in `cell`, of which nothing is known: an obstacle is a mishap. A layout looks it up.
+    fn is_free(&mut self, _cell: Cell) -> bool {
+        !self.mishap()
+    }
+
+    /// Whether a message from one robot arrives at another one: a loss is a mishap.
+    fn arrives(&mut self, _from: usize, _to: usize) -> bool {
+        !self.mishap()
     }
 }
 

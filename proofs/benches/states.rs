@@ -9,8 +9,10 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use stateright::{Checker, Model, Property};
+use tautline_kernel::choice::Oracle;
 use tautline_kernel::mrc::Rule;
-use tautline_proofs::engine::states::{Found, Limits, Step, System, search};
+use tautline_proofs::engine::states::{Bits, Found, Limits, System, search};
+use tautline_proofs::engine::world::{Turn, World};
 use tautline_proofs::mrc::space::{self, Until};
 use tautline_proofs::mrc::{Demand, Faults, Leases, Lossy, Setting};
 
@@ -67,10 +69,29 @@ enum Part {
     Ants([usize; ANTS]),
 }
 
-impl System for Ants {
+impl World for Ants {
     type State = Floor;
-    type Part = Part;
+    type Plan = ();
+    type Event = u32;
     type Demand = ();
+
+    fn plan(&self, floor: &mut Floor, _: &[u8]) -> Option<()> {
+        (!floor.is_over()).then_some(())
+    }
+
+    fn settle(&self, floor: &mut Floor, (): &(), _: &mut Vec<u8>, world: &mut impl Oracle) -> u32 {
+        let ant = world.pick(ANTS as u32);
+        *floor = floor.after(ant as usize);
+        ant
+    }
+
+    fn broken_by(&self, _: &Turn<'_, Self>) -> Vec<()> {
+        Vec::new()
+    }
+}
+
+impl System for Ants {
+    type Part = Part;
 
     fn places(&self, _: &Floor) -> usize {
         CELLS / WIDTH + 1
@@ -87,16 +108,8 @@ impl System for Ants {
         }
     }
 
-    fn steps(&self, floor: &Floor) -> impl Iterator<Item = Step<Floor, ()>> {
-        let step = |ant| Step {
-            state: floor.after(ant),
-            situation: "a step",
-            acting: 1 << ant,
-            is_bound: true,
-            breaks: Vec::new(),
-        };
-        let ants = if floor.is_over() { 0..0 } else { 0..ANTS };
-        ants.map(step)
+    fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
+        1 << turn.event
     }
 }
 

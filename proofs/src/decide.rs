@@ -6,7 +6,7 @@ use std::fmt;
 
 use tautline_kernel::choice::Oracle;
 
-use crate::engine::states::{self, Limits, Room, System};
+use crate::engine::states::{self, Limits, Room, Step, System, steps};
 use crate::engine::tree::Watch;
 use crate::engine::{self, Choices, Outcome, Replay, Script, Stop, Tally, Unfit, Until};
 use crate::floor_trace::Course;
@@ -317,7 +317,7 @@ pub struct EveryState<R: 'static, S: System> {
     /// The situations that must occur.
     pub covers: &'static [&'static str],
     /// What a step is, in words.
-    pub tell: fn(before: &S::State, after: &S::State) -> String,
+    pub tell: fn(before: &S::State, step: &Step<S>) -> String,
 }
 
 impl<R, S: System<Demand = &'static str>> EveryState<R, S> {
@@ -326,8 +326,8 @@ impl<R, S: System<Demand = &'static str>> EveryState<R, S> {
         let Some(mut state) = (self.starts)(system).into_iter().nth(run.start) else { return Seen::Choices };
         let mut lines = String::new();
         for &number in run.steps.iter().chain(run.round()) {
-            let Some(step) = system.steps(&state).nth(number as usize) else { break };
-            lines += &(self.tell)(&state, &step.state);
+            let Some(step) = steps(system, &state).nth(number as usize) else { break };
+            lines += &(self.tell)(&state, &step);
             lines.push('\n');
             state = step.state;
         }

@@ -14,6 +14,7 @@ pub mod states;
 pub mod symbolic;
 pub mod tree;
 pub mod watchdog;
+pub mod world;
 
 pub use bodies::{
     Outcome, Replay, Seeded, Stop, Tally, Tape, assume, cover, exhaust, outcomes, require, sample,

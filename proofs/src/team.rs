@@ -12,7 +12,8 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, SmallGrid, Step};
 
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen, Verdict};
-use crate::engine::tree::{Broken, Counterexample, Found, Game, Limits, Tree, Turn, Waves};
+use crate::engine::tree::{Counterexample, Found, Game, Limits, Tree, Waves};
+use crate::engine::world::{Turn, World};
 use crate::engine::{Choices, Unfit, Until};
 use crate::run::{Frame, Run, walls};
 
@@ -273,25 +274,17 @@ pub struct State<T, const ROBOTS: usize> {
 
 impl<R, T: Team<ROBOTS>, const ROBOTS: usize> InLayouts<R, T, ROBOTS> {
     /// The demands that are wanted and broken.
-    fn broken(&self, is_broken: impl Fn(&Demand<T, ROBOTS>) -> bool) -> Vec<(Promise, &'static str)> {
-        let wanted =
-            self.wanted.iter().filter_map(|&promise| Some((promise, self.layouts.demands.get(promise.0)?)));
-        wanted
-            .filter(|(_, demand)| is_broken(demand))
-            .map(|(promise, demand)| (promise, demand.words))
-            .collect()
+    fn broken(&self, is_broken: impl Fn(&Demand<T, ROBOTS>) -> bool) -> Vec<Promise> {
+        let is_broken = |promise: &Promise| self.layouts.demands.get(promise.0).is_some_and(&is_broken);
+        self.wanted.iter().copied().filter(is_broken).collect()
     }
 }
 
-impl<R, T: Team<ROBOTS>, const ROBOTS: usize> Game for InLayouts<R, T, ROBOTS> {
+impl<R, T: Team<ROBOTS>, const ROBOTS: usize> World for InLayouts<R, T, ROBOTS> {
     type State = State<T, ROBOTS>;
     type Plan = [Step; ROBOTS];
+    type Event = ();
     type Demand = Promise;
-    type Frame = Frame;
-
-    fn start(&self) -> Self::State {
-        self.state
-    }
 
     fn plan(&self, state: &mut Self::State, _: &[u8]) -> Option<Self::Plan> {
         state.team.plan()
@@ -303,7 +296,7 @@ impl<R, T: Team<ROBOTS>, const ROBOTS: usize> Game for InLayouts<R, T, ROBOTS> {
             let Step::Cross(side) = *step else { continue };
             let edge = Edge::new(state.cells[robot], side);
             if !state.grid.edge_has(EdgeMark::Wall, edge) && !state.grid.edge_has(EdgeMark::Open, edge) {
-                let mark = if world.mishap() { EdgeMark::Wall } else { EdgeMark::Open };
+                let mark = if world.is_open(edge) { EdgeMark::Open } else { EdgeMark::Wall };
                 state.grid.put_edge(mark, edge);
             }
             blocked[robot] = state.grid.edge_has(EdgeMark::Wall, edge);
@@ -313,6 +306,27 @@ impl<R, T: Team<ROBOTS>, const ROBOTS: usize> Game for InLayouts<R, T, ROBOTS> {
         }
         log.extend(blocked.map(u8::from));
         state.team.settle(state.cells, blocked);
+    }
+
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Promise> {
+        let moved = moved(turn);
+        self.broken(|demand| demand.is_broken_by(&moved))
+    }
+
+    fn broken_at_end(&self, state: &Self::State, _: &[u8]) -> Vec<Promise> {
+        self.broken(|demand| demand.is_broken_at_end(&state.team, &state.cells))
+    }
+}
+
+impl<R, T: Team<ROBOTS>, const ROBOTS: usize> Game for InLayouts<R, T, ROBOTS> {
+    type Frame = Frame;
+
+    fn words(&self, Promise(demand): Promise, _: Option<&Turn<'_, Self>>) -> &'static str {
+        self.layouts.demands.get(demand).map_or("", |demand| demand.words)
+    }
+
+    fn start(&self) -> Self::State {
+        self.state
     }
 
     fn frame(&self, turn: &Turn<'_, Self>) -> Frame {
@@ -328,22 +342,7 @@ impl<R, T: Team<ROBOTS>, const ROBOTS: usize> Game for InLayouts<R, T, ROBOTS> {
         &self.wanted
     }
 
-    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Broken<Self>> {
-        let moved = moved(turn);
-        self.broken(|demand| demand.is_broken_by(&moved))
-    }
-
-    fn broken_at_end(&self, state: &Self::State, _: &[u8]) -> Vec<Broken<Self>> {
-        self.broken(|demand| demand.is_broken_at_end(&state.team, &state.cells))
-    }
-
-    fn recurs(
-        &self,
-        then: &Self::State,
-        _: usize,
-        now: &Self::State,
-        _: &[u8],
-    ) -> ControlFlow<Vec<Broken<Self>>> {
+    fn recurs(&self, then: &Self::State, _: usize, now: &Self::State, _: &[u8]) -> ControlFlow<Vec<Promise>> {
         if (&then.team, then.cells) != (&now.team, now.cells) {
             return ControlFlow::Continue(());
         }

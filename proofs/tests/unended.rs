@@ -14,8 +14,9 @@ use tautline_proofs::decide::{
     Answer, Desk, EveryState, Exhaustive, Method, Played, Refused, Sampled, Verdict,
 };
 use tautline_proofs::engine::lots::{self, Look, Lots};
-use tautline_proofs::engine::states::{Step, System};
-use tautline_proofs::engine::tree::{self, Broken, Game, Turn, unwatched};
+use tautline_proofs::engine::states::System;
+use tautline_proofs::engine::tree::{self, Game, unwatched};
+use tautline_proofs::engine::world::{Turn, World};
 use tautline_proofs::engine::{Choices, Outcome, Unfit, Until, assume};
 use tautline_proofs::ledger::{Hear, Heard, Limits, Row, Undecided, checks, decide};
 
@@ -87,46 +88,11 @@ static SAMPLED: Sampled<Rule> = Sampled { body, runs: STEPS as u64, range, cover
 /// A counter, or a team that counts its team moves.
 struct Counting(Rule);
 
-impl System for Counting {
-    type State = u32;
-    type Part = u32;
-    type Demand = &'static str;
-
-    fn part(&self, &state: &u32, _: usize) -> u32 {
-        state
-    }
-
-    fn put(&self, state: &mut u32, _: usize, &part: &u32) {
-        *state = part;
-    }
-
-    fn steps(&self, &state: &u32) -> impl Iterator<Item = Step<u32, &'static str>> {
-        let step = (state < STEPS).then(|| {
-            self.0.step();
-            Step { state: state + 1, situation: "a step", acting: 1, is_bound: true, breaks: Vec::new() }
-        });
-        step.into_iter()
-    }
-}
-
-static STATES: EveryState<Rule, Counting> = EveryState {
-    range,
-    system: |&rule| Counting(rule),
-    starts: |_| vec![0],
-    most_steps: 1000,
-    covers: &[],
-    tell: |before, after| format!("{before} to {after}"),
-};
-
-impl Game for Counting {
+impl World for Counting {
     type State = u32;
     type Plan = ();
-    type Demand = u8;
-    type Frame = u32;
-
-    fn start(&self) -> u32 {
-        0
-    }
+    type Event = ();
+    type Demand = &'static str;
 
     fn plan(&self, state: &mut u32, _: &[u8]) -> Option<()> {
         (*state < STEPS).then_some(())
@@ -137,23 +103,52 @@ impl Game for Counting {
         *state += 1;
     }
 
+    fn broken_by(&self, _: &Turn<'_, Self>) -> Vec<&'static str> {
+        Vec::new()
+    }
+}
+
+impl System for Counting {
+    type Part = u32;
+
+    fn part(&self, &state: &u32, _: usize) -> u32 {
+        state
+    }
+
+    fn put(&self, state: &mut u32, _: usize, &part: &u32) {
+        *state = part;
+    }
+}
+
+static STATES: EveryState<Rule, Counting> = EveryState {
+    range,
+    system: |&rule| Counting(rule),
+    starts: |_| vec![0],
+    most_steps: 1000,
+    covers: &[],
+    tell: |before, step| format!("{before} to {}", step.state),
+};
+
+impl Game for Counting {
+    type Frame = u32;
+
+    fn start(&self) -> u32 {
+        0
+    }
+
     fn frame(&self, turn: &Turn<'_, Self>) -> u32 {
         *turn.after
     }
 
-    fn wanted(&self) -> &[u8] {
-        &[0]
+    fn wanted(&self) -> &[&'static str] {
+        &["nothing"]
     }
 
-    fn broken_by(&self, _: &Turn<'_, Self>) -> Vec<Broken<Self>> {
-        Vec::new()
+    fn words(&self, demand: &'static str, _: Option<&Turn<'_, Self>>) -> &'static str {
+        demand
     }
 
-    fn broken_at_end(&self, _: &u32, _: &[u8]) -> Vec<Broken<Self>> {
-        Vec::new()
-    }
-
-    fn recurs(&self, _: &u32, _: usize, _: &u32, _: &[u8]) -> ControlFlow<Vec<Broken<Self>>> {
+    fn recurs(&self, _: &u32, _: usize, _: &u32, _: &[u8]) -> ControlFlow<Vec<&'static str>> {
         ControlFlow::Continue(())
     }
 

@@ -7,8 +7,9 @@ use tautline_kernel::floor::{Mark, Scan, Sensor};
 use tautline_kernel::ground::Cell;
 
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
-use crate::engine::states::{Bits, Limits, Places, Step, System};
-use crate::engine::{Choices, Script, Unfit, Until, outcomes};
+use crate::engine::states::{Bits, Limits, Places, System};
+use crate::engine::world::{Turn, World};
+use crate::engine::{Choices, Script, Unfit, Until};
 use crate::floor::look::Explored;
 use crate::floor::plans::{Area, FloorPlan};
 use crate::floor::small::{self, Misses, Part, Small, Stored, marked};
@@ -47,13 +48,20 @@ impl Colony {
     fn is_explored(&self, state: &State) -> bool {
         marked(&self.plan, &state.sensors, |mark| mark == Mark::Unexplored) == 0
     }
+}
 
-    /// One step from `state`; none once the run is over.
-    fn step(&self, state: &State, world: &mut dyn Oracle) -> Option<Step<State, &'static str>> {
-        if self.is_explored(state) {
-            return None;
-        }
-        let mut state = state.clone();
+impl World for Colony {
+    type State = State;
+    type Plan = ();
+    /// The ant that acts.
+    type Event = u32;
+    type Demand = &'static str;
+
+    fn plan(&self, state: &mut State, _: &[u8]) -> Option<()> {
+        (!self.is_explored(state)).then_some(())
+    }
+
+    fn settle(&self, state: &mut State, (): &(), _: &mut Vec<u8>, world: &mut impl Oracle) -> u32 {
         let ant = if state.bodies.len() > 1 { world.pick(state.bodies.len() as u32) } else { 0 };
         let cell = state.bodies[ant as usize];
         let mut floor = Small { plan: &self.plan, sensors: &mut state.sensors, placed: &mut state.placed };
@@ -67,14 +75,16 @@ impl Colony {
             let once = |sensor: Sensor| Sensor { crossings: sensor.crossings.min(1), ..sensor };
             state.sensors = state.sensors.map(|sensor| Stored::new(once(sensor.sensor())));
         }
-        Some(Step { state, situation: "a step", acting: 1 << ant, is_bound: true, breaks: Vec::new() })
+        ant
+    }
+
+    fn broken_by(&self, _: &Turn<'_, Self>) -> Vec<&'static str> {
+        Vec::new()
     }
 }
 
 impl System for Colony {
-    type State = State;
     type Part = Part<Cell>;
-    type Demand = &'static str;
 
     fn places(&self, state: &State) -> usize {
         state.places()
@@ -92,8 +102,8 @@ impl System for Colony {
         state.put(place, part);
     }
 
-    fn steps(&self, state: &State) -> impl Iterator<Item = Step<State, &'static str>> {
-        outcomes(|world| self.step(state, world))
+    fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
+        1 << turn.event
     }
 
     fn broken_by_endless_runs(&self) -> Option<&'static str> {

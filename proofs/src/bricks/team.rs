@@ -8,7 +8,8 @@ use tautline_kernel::floor::{Floor, Mark, Scan};
 use tautline_kernel::ground::{Cell, Step};
 
 use crate::engine::outcomes;
-use crate::engine::states::{self, Bits, Places, Run, System};
+use crate::engine::states::{Bits, Places, Run, System};
+use crate::engine::world;
 use crate::floor::plans::FloorPlan;
 use crate::floor::small::{self, Misses, Part, Small, Stored, marked, shut};
 use crate::floor_trace::{Course, Scene, Turn};
@@ -248,7 +249,8 @@ fn awake(state: &State) -> Bits {
 }
 
 /// What a turn leads to.
-struct Turned {
+#[derive(Clone)]
+pub struct Turned {
     state: Box<State>,
     /// Whose turn it is, and where it goes.
     agent: usize,
@@ -259,10 +261,49 @@ struct Turned {
 }
 
 /// States are boxed: each is handed on many times before it is looked at.
-impl System for Team {
+impl world::World for Team {
     type State = Box<State>;
-    type Part = Part<Body>;
+    type Plan = Vec<Turned>;
+    type Event = Turned;
     type Demand = &'static str;
+
+    fn plan(&self, state: &mut Box<State>, _: &[u8]) -> Option<Self::Plan> {
+        let all: Vec<_> = self.turns(state).collect();
+        Some(all).filter(|all| !all.is_empty())
+    }
+
+    fn settle(
+        &self,
+        state: &mut Box<State>,
+        all: &Self::Plan,
+        _: &mut Vec<u8>,
+        world: &mut impl Oracle,
+    ) -> Self::Event {
+        let turned = all[world.pick(all.len() as u32) as usize].clone();
+        *state = turned.state.clone();
+        turned
+    }
+
+    fn broken_by(&self, turn: &world::Turn<'_, Self>) -> Vec<&'static str> {
+        turn.event.breaks.into_iter().collect()
+    }
+
+    fn broken_at_end(&self, state: &Box<State>, _: &[u8]) -> Vec<&'static str> {
+        let broken = match self.demand {
+            Demand::Connected | Demand::Knowing => None,
+            Demand::Explores => (!self.is_explored(state)).then_some("every cell is explored"),
+            Demand::Ends | Demand::All => {
+                let is_left = |mark| !matches!(mark, Mark::Visited | Mark::Sealed);
+                (self.marked(state, is_left) != 0)
+                    .then_some("when all agents are done, every cell is visited")
+            }
+        };
+        broken.into_iter().collect()
+    }
+}
+
+impl System for Team {
+    type Part = Part<Body>;
 
     fn places(&self, state: &Box<State>) -> usize {
         state.places()
@@ -280,27 +321,8 @@ impl System for Team {
         state.put(place, part);
     }
 
-    fn steps(&self, state: &Box<State>) -> impl Iterator<Item = states::Step<Box<State>, &'static str>> {
-        self.turns(state).map(|Turned { state, agent, breaks, .. }| states::Step {
-            state,
-            situation: "a step",
-            acting: 1 << agent,
-            is_bound: true,
-            breaks: breaks.into_iter().collect(),
-        })
-    }
-
-    fn broken_at_end(&self, state: &Box<State>) -> Vec<&'static str> {
-        let broken = match self.demand {
-            Demand::Connected | Demand::Knowing => None,
-            Demand::Explores => (!self.is_explored(state)).then_some("every cell is explored"),
-            Demand::Ends | Demand::All => {
-                let is_left = |mark| !matches!(mark, Mark::Visited | Mark::Sealed);
-                (self.marked(state, is_left) != 0)
-                    .then_some("when all agents are done, every cell is visited")
-            }
-        };
-        broken.into_iter().collect()
+    fn acting(&self, turn: &world::Turn<'_, Self>) -> Bits {
+        1 << turn.event.agent
     }
 
     fn broken_by_endless_runs(&self) -> Option<&'static str> {

@@ -13,7 +13,8 @@ use super::links::within_reach;
 use super::observed::Deception;
 use super::reach::{CellSet, Ground};
 use crate::engine::Stop;
-use crate::engine::tree::{Broken, Game, Turn};
+use crate::engine::tree::Game;
+use crate::engine::world::{Turn, World};
 use crate::run::Frame;
 
 /// Robots for which it can be said what they could reach at all.
@@ -56,48 +57,13 @@ impl<G: Grid, const ROBOTS: usize> ChainGame<G, ROBOTS> {
     }
 }
 
-impl<G, const ROBOTS: usize> Game for ChainGame<G, ROBOTS>
+impl<G, const ROBOTS: usize> ChainGame<G, ROBOTS>
 where
     G: Grid + Copy + Eq + Send + Sync + 'static,
 {
-    type State = Chain<G, ROBOTS>;
-    type Plan = Plan<ROBOTS>;
-    type Demand = Invariant;
-    type Frame = Frame;
-
-    fn edges(&self) -> u32 {
-        self.start.grid().area().edges().count() as u32
-    }
-
-    fn longest_run(&self) -> u32 {
-        MOVES_OF_A_CELL * self.start.grid().area().cells().count() as u32
-    }
-
-    fn start(&self) -> Self::State {
-        self.start
-    }
-
-    fn plan(&self, chain: &mut Self::State, log: &[u8]) -> Option<Self::Plan> {
-        match chain.plan(log) {
-            Ok(Intent::Go(plan)) => Some(plan),
-            Ok(Intent::Done(_)) | Err(_) => None,
-        }
-    }
-
-    fn settle(&self, chain: &mut Self::State, plan: &Self::Plan, log: &mut Vec<u8>, world: &mut impl Oracle) {
-        log.extend_from_slice(chain.settle(plan, |_| !world.mishap()).messages());
-    }
-
-    fn frame(&self, turn: &Turn<'_, Self>) -> Frame {
-        frame(turn.plan.kind, turn.sent, turn.after.cells())
-    }
-
-    fn wanted(&self) -> &[Invariant] {
-        &self.bounds.invariants
-    }
-
-    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Broken<Self>> {
-        let Turn { before, planned, after, plan, sent } = *turn;
+    /// Those of these demands that a team move breaks, each with what is not so.
+    fn broken_in(&self, turn: &Turn<'_, Self>, demands: &[Invariant]) -> Vec<(Invariant, &'static str)> {
+        let Turn { before, planned, after, plan, sent, .. } = *turn;
         let observed = &self.bounds.observed;
         let (mut forged_steps, mut forged_messages) = ([Step::Stay; ROBOTS], [0; ROBOTS]);
         let (mut steps, mut messages) = (plan.steps(), sent);
@@ -121,23 +87,49 @@ where
         let moment = Moment { observed, before, planned, after, plan, steps, messages };
         let is_harmless = is_harmless(before.cells(), after.cells());
         let is_met = |invariant: Invariant| is_harmless && invariant.breach().is_some();
-        let doubtful = self.bounds.invariants.iter().filter(|&&invariant| !is_met(invariant));
+        let doubtful = demands.iter().filter(|&&invariant| !is_met(invariant));
         let broken = doubtful.copied().filter_map(|invariant| match invariant.check(&moment) {
             Err(Stop::Violated(demand)) => Some((invariant, demand)),
             Err(Stop::Assumed | Stop::GivenUp) | Ok(()) => None,
         });
         broken.collect()
     }
+}
 
-    fn broken_at_end(&self, chain: &Self::State, log: &[u8]) -> Vec<Broken<Self>> {
+impl<G, const ROBOTS: usize> World for ChainGame<G, ROBOTS>
+where
+    G: Grid + Copy + Eq + Send + Sync + 'static,
+{
+    type State = Chain<G, ROBOTS>;
+    type Plan = Plan<ROBOTS>;
+    type Event = ();
+    type Demand = Invariant;
+
+    fn plan(&self, chain: &mut Self::State, log: &[u8]) -> Option<Self::Plan> {
+        match chain.plan(log) {
+            Ok(Intent::Go(plan)) => Some(plan),
+            Ok(Intent::Done(_)) | Err(_) => None,
+        }
+    }
+
+    fn settle(&self, chain: &mut Self::State, plan: &Self::Plan, log: &mut Vec<u8>, world: &mut impl Oracle) {
+        log.extend_from_slice(chain.settle(plan, |edge| world.is_open(edge)).messages());
+    }
+
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Invariant> {
+        let broken: Vec<_> = self.broken_in(turn, &self.bounds.invariants);
+        broken.into_iter().map(|(invariant, _)| invariant).collect()
+    }
+
+    fn broken_at_end(&self, chain: &Self::State, log: &[u8]) -> Vec<Invariant> {
         let mut broken = Vec::new();
         if self.looks_for(Invariant::Heard) && chain.clone().plan(log).is_err() {
-            broken.push((Invariant::Heard, "no message of a team is refused by it"));
+            broken.push(Invariant::Heard);
         }
         let grid = chain.grid();
         let moves = log.len() / (self.bounds.robots - 1);
         if self.looks_for(Invariant::Short) && moves > most_moves(grid, self.bounds.robots) {
-            broken.push((Invariant::Short, "each wall that is met costs at most N² team moves"));
+            broken.push(Invariant::Short);
         }
         if grid.is_explored() {
             return broken;
@@ -149,7 +141,7 @@ where
         if self.looks_for(complete)
             && within_reach(grid.area(), base, robots, is_open).into_iter().any(is_missed)
         {
-            broken.push((complete, "at the end every cell within reach is explored"));
+            broken.push(complete);
         }
         let ground =
             self.looks_for(exhausts).then(|| Ground::new(grid.area(), base, robots, is_open)).flatten();
@@ -158,9 +150,48 @@ where
         grid.area().cells().filter(|&cell| is_missed(cell)).for_each(|cell| missed.insert(cell));
         let is_reachable = ground.reaches_any(chain.rule(), &missed).unwrap_or(false);
         if is_reachable {
-            broken.push((exhausts, "at the end every cell that a chain can reach is explored"));
+            broken.push(exhausts);
         }
         broken
+    }
+}
+
+impl<G, const ROBOTS: usize> Game for ChainGame<G, ROBOTS>
+where
+    G: Grid + Copy + Eq + Send + Sync + 'static,
+{
+    type Frame = Frame;
+
+    fn edges(&self) -> u32 {
+        self.start.grid().area().edges().count() as u32
+    }
+
+    fn longest_run(&self) -> u32 {
+        MOVES_OF_A_CELL * self.start.grid().area().cells().count() as u32
+    }
+
+    fn start(&self) -> Self::State {
+        self.start
+    }
+
+    fn frame(&self, turn: &Turn<'_, Self>) -> Frame {
+        frame(turn.plan.kind, turn.sent, turn.after.cells())
+    }
+
+    fn wanted(&self) -> &[Invariant] {
+        &self.bounds.invariants
+    }
+
+    fn words(&self, demand: Invariant, turn: Option<&Turn<'_, Self>>) -> &'static str {
+        let broken: Vec<_> = turn.map_or_else(Vec::new, |turn| self.broken_in(turn, &[demand]));
+        match (broken.first(), demand) {
+            (Some((_, words)), _) => words,
+            (None, Invariant::Heard) => "no message of a team is refused by it",
+            (None, Invariant::Short) => "each wall that is met costs at most N² team moves",
+            (None, Invariant::Without(_)) => "at the end every cell within reach is explored",
+            (None, Invariant::Exhausts) => "at the end every cell that a chain can reach is explored",
+            (None, _) => "a run never comes back to where it was",
+        }
     }
 
     /// The chain is where it was, and what it took back since then, it has done again: so it goes on as it did. If it
@@ -171,7 +202,7 @@ where
         sent: usize,
         now: &Self::State,
         log: &[u8],
-    ) -> ControlFlow<Vec<Broken<Self>>> {
+    ) -> ControlFlow<Vec<Invariant>> {
         if !now.is_where(then) {
             return ControlFlow::Continue(());
         }
@@ -184,11 +215,7 @@ where
         let was_home = self.open_moves(&log[..sent]).nth(undone).is_none();
         let recurs = (height == 0 || height > 0 && !was_home)
             && self.open_moves(&log[..sent]).take(undone).eq(self.open_moves(log).take(undone));
-        if recurs {
-            ControlFlow::Break(vec![(Invariant::Ends, "a run never comes back to where it was")])
-        } else {
-            ControlFlow::Continue(())
-        }
+        if recurs { ControlFlow::Break(vec![Invariant::Ends]) } else { ControlFlow::Continue(()) }
     }
 }
 

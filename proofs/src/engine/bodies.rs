@@ -139,7 +139,7 @@ pub fn outcomes<T>(mut body: impl FnMut(&mut dyn Oracle) -> Option<T>) -> impl I
 
 /// Every alternative in turn: a counter whose digits have each the base that the body asked for.
 #[derive(Default)]
-struct Odometer {
+pub(super) struct Odometer {
     digits: Vec<Digit>,
     position: usize,
 }
@@ -156,7 +156,7 @@ impl Odometer {
     }
 
     /// Goes to the next combination; false after the last.
-    fn advance(&mut self) -> bool {
+    pub(super) fn advance(&mut self) -> bool {
         self.digits.truncate(self.position);
         self.position = 0;
         while let Some(digit) = self.digits.last_mut() {

@@ -4,7 +4,7 @@
 
 use std::fmt;
 
-use super::states::{Bits, Ending, Run, Step, System};
+use super::states::{Bits, Ending, Run, Step, System, steps};
 
 /// The choices of a refutation, each the number of what was chosen.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -115,8 +115,8 @@ impl<'a> Script<'a> {
     ) -> Result<(Vec<u32>, Run<S::Demand>), Unfit> {
         let first = self.of.len();
         let still = |state: &S::State| {
-            let is_still = !system.steps(state).any(|step| step.is_bound);
-            is_still.then(|| system.broken_at_end(state).into_iter().find(&is_meant)).flatten()
+            let is_still = !steps(system, state).any(|step| step.is_bound);
+            is_still.then(|| system.broken_at_end(state, &[]).into_iter().find(&is_meant)).flatten()
         };
         let mut there = None;
         while self.of.len() < self.choices.once.len() {
@@ -140,14 +140,14 @@ impl<'a> Script<'a> {
                 (demand, Ending::Round(self.choices.again.clone()))
             }
         };
-        let steps = self.choices.once[first..].to_vec();
-        Ok((self.of, Run { demand, start, steps, ending }))
+        let made = self.choices.once[first..].to_vec();
+        Ok((self.of, Run { demand, start, steps: made, ending }))
     }
 
-    fn step<S: System>(&mut self, system: &S, state: &S::State) -> Result<Step<S::State, S::Demand>, Unfit> {
-        let mut steps: Vec<_> = system.steps(state).collect();
-        let chosen = self.take(steps.len())?;
-        Ok(steps.swap_remove(chosen))
+    fn step<S: System>(&mut self, system: &S, state: &S::State) -> Result<Step<S>, Unfit> {
+        let mut all: Vec<_> = steps(system, state).collect();
+        let chosen = self.take(all.len())?;
+        Ok(all.swap_remove(chosen))
     }
 
     /// Goes round from `state` once; what is broken by doing so for ever.

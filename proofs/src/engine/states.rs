@@ -15,9 +15,13 @@ mod rounds;
 mod search;
 
 use std::hash::Hash;
+use std::iter;
 
 pub use limits::{Limits, Room};
 pub use search::search;
+
+use super::bodies::Odometer;
+use super::world::{Turn, World};
 
 /// A set of at most sixteen things, one bit each.
 pub type Bits = u16;
@@ -25,15 +29,11 @@ pub type Bits = u16;
 /// A set of the parts' places, one bit each. Whatever it says, places from 64 on are among them.
 pub type Places = u64;
 
-/// A system whose states are searched.
-pub trait System {
-    /// All that it is.
-    type State: Clone;
+/// A world whose ways merge: its states are searched.
+pub trait System: World {
     /// What states are made of. The fewer different parts there are, the less memory a search takes; the whole state
     /// may be one part.
     type Part: Clone + Eq + Hash;
-    /// What can be broken.
-    type Demand: Copy + Eq;
 
     /// Makes of `state` the one that stands for all those that are to be taken for one with it: there are no others
     /// unless there is more to tell.
@@ -56,16 +56,23 @@ pub trait System {
     /// Makes `part` the part of `state` in this place. Until all its parts are put, others may be another state's.
     fn put(&self, state: &mut Self::State, place: usize, part: &Self::Part);
 
-    /// Every step from `state`, always in the same order.
-    fn steps(&self, state: &Self::State) -> impl Iterator<Item = Step<Self::State, Self::Demand>>;
-
-    /// Everything that is broken by staying in `state`, from which no step is bound to be made.
-    fn broken_at_end(&self, _: &Self::State) -> Vec<Self::Demand> {
-        Vec::new()
+    /// The situation that a step is, among those that are to be covered.
+    fn situation(&self, _: &Turn<'_, Self>) -> &'static str {
+        "a step"
     }
 
-    /// What is broken by a run that never ends and owes the same thing throughout, everybody acting who is awake
-    /// throughout; `None` if that is not looked for.
+    /// Who acts in a step; of no use in a step that is not bound to be made.
+    fn acting(&self, _: &Turn<'_, Self>) -> Bits {
+        1
+    }
+
+    /// Whether a step is bound to be made if no other one is.
+    fn is_bound(&self, _: &Turn<'_, Self>) -> bool {
+        true
+    }
+
+    /// The demand that is broken by a run that never ends and owes the same thing throughout, everybody acting who is
+    /// awake throughout; `None` if that is not looked for.
     fn broken_by_endless_runs(&self) -> Option<Self::Demand> {
         None
     }
@@ -89,17 +96,38 @@ pub trait System {
 }
 
 /// A step to another state.
-pub struct Step<S, D> {
-    /// Where it leads.
-    pub state: S,
+pub struct Step<S: System + ?Sized> {
+    /// The state to which it leads.
+    pub state: S::State,
+    /// What happens in it.
+    pub event: S::Event,
     /// Which of the situations that are to be covered it is.
     pub situation: &'static str,
     /// Who acts in it; of no use in a step that is not bound to be made.
     pub acting: Bits,
     /// Whether it is bound to be made if no other one is.
     pub is_bound: bool,
-    /// What it breaks.
-    pub breaks: Vec<D>,
+    /// The demands that it breaks.
+    pub breaks: Vec<S::Demand>,
+}
+
+/// Every step of `system` from `state`, one for each combination of answers, always in the same order.
+pub fn steps<S: System>(system: &S, state: &S::State) -> impl Iterator<Item = Step<S>> {
+    let mut planned = state.clone();
+    let plan = system.plan(&mut planned, &[]);
+    let mut answers = plan.is_some().then(Odometer::default);
+    iter::from_fn(move || {
+        let (plan, world) = (plan.as_ref()?, answers.as_mut()?);
+        let (mut after, mut log) = (planned.clone(), Vec::new());
+        let event = system.settle(&mut after, plan, &mut log, world);
+        if !world.advance() {
+            answers = None;
+        }
+        let turn = Turn { before: state, planned: &planned, after: &after, plan, event: &event, sent: &log };
+        let (situation, acting) = (system.situation(&turn), system.acting(&turn));
+        let (is_bound, breaks) = (system.is_bound(&turn), system.broken_by(&turn));
+        Some(Step { state: after, event, situation, acting, is_bound, breaks })
+    })
 }
 
 /// The situation in which a run ends.

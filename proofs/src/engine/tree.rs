@@ -28,63 +28,32 @@ use std::fmt;
 use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
-use tautline_kernel::choice::Oracle;
 
 pub use self::deal::Deal;
 pub use self::search::{Position, Tree, Waves, search};
 use super::Until;
+use super::world::{Turn, World};
 use crate::plural::counted;
 
-/// One team move between its states.
-pub struct Turn<'a, G: Game + ?Sized> {
-    /// When the team was asked for a plan.
-    pub before: &'a G::State,
-    /// When it had planned.
-    pub planned: &'a G::State,
-    /// When it had moved.
-    pub after: &'a G::State,
-    /// What it intended.
-    pub plan: &'a G::Plan,
-    /// What the log grew by.
-    pub sent: &'a [u8],
-}
-
-/// A demand that is not met, and in words what is not so.
-pub type Broken<G> = (<G as Game>::Demand, &'static str);
-
-/// A team that moves in a world that answers when it is asked: what is searched. The state is a plain value, so it is
-/// copied where the world has more than one answer.
-pub trait Game: Send + Sync + 'static {
-    /// All that the team is and knows, but for the log.
-    type State: Copy + Send + Sync;
-    /// What the team intends to do in one team move.
-    type Plan: Copy + Send + Sync;
-    /// What can be broken. Counterexamples are told in this order.
-    type Demand: Copy + Ord + Send + Sync + fmt::Debug;
-    /// What a team move looks like.
+/// A team that moves in a world that answers when it is asked: what is searched. Its state is copied where the world
+/// has more than one answer.
+pub trait Game:
+    World<State: Send + Sync, Plan: Clone + Send + Sync, Demand: Send + Sync> + Send + Sync + 'static
+{
+    /// A team move as a person sees it.
     type Frame;
 
     /// The state before the first team move.
     fn start(&self) -> Self::State;
 
-    /// What the team does next; `None` if the run is over.
-    fn plan(&self, state: &mut Self::State, log: &[u8]) -> Option<Self::Plan>;
-
-    /// Carries the plan out. Whatever the team cannot know is asked of `world`: whether it meets a wall is a
-    /// [mishap](Oracle::mishap). Whatever the team needs to remember goes to the end of `log`.
-    fn settle(&self, state: &mut Self::State, plan: &Self::Plan, log: &mut Vec<u8>, world: &mut impl Oracle);
-
-    /// What a team move looks like.
+    /// A team move as a person sees it.
     fn frame(&self, turn: &Turn<'_, Self>) -> Self::Frame;
 
     /// The demands that are looked for, each as if it stood alone: a run that has broken all of them is over.
     fn wanted(&self) -> &[Self::Demand];
 
-    /// Everything that a team move breaks.
-    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Broken<Self>>;
-
-    /// Everything that a run breaks that ends in `state`, with all that it remembers in `log`.
-    fn broken_at_end(&self, state: &Self::State, log: &[u8]) -> Vec<Broken<Self>>;
+    /// In words what is not so where `demand` is broken, by this team move if it is not by ending or going on for ever.
+    fn words(&self, demand: Self::Demand, turn: Option<&Turn<'_, Self>>) -> &'static str;
 
     /// Whether a run goes on for ever, and everything that it breaks by that: it was in the state `then` when the log
     /// had `sent` bytes, and is in `now` without an answer in between. A run that breaks nothing by coming back is
@@ -95,9 +64,9 @@ pub trait Game: Send + Sync + 'static {
         sent: usize,
         now: &Self::State,
         log: &[u8],
-    ) -> ControlFlow<Vec<Broken<Self>>>;
+    ) -> ControlFlow<Vec<Self::Demand>>;
 
-    /// How many edges can be walls: a run asks for no more answers than this.
+    /// How many mishaps there can be: a run asks for no more answers than this.
     fn edges(&self) -> u32;
 
     /// Team moves after which a run is given up. A run that comes back to a state is never so long; one that neither

@@ -21,7 +21,8 @@ use super::small::{self, Misses, Part, Small, Stored, marked, shut};
 pub use super::way::Way;
 use crate::engine::lots::{self, Lots};
 use crate::engine::outcomes;
-use crate::engine::states::{Bits, Limits, Places, Run, Step, System, search};
+use crate::engine::states::{Bits, Limits, Places, Run, System, search};
+use crate::engine::world::{Turn, World};
 
 /// What to search for, and how far.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -354,6 +355,7 @@ impl<A: Agents> Floors<A> {
 }
 
 /// What a team move leads to.
+#[derive(Clone)]
 struct Moved<M> {
     state: State<M>,
     /// Whether an agent is done in it while a cell is unexplored.
@@ -384,10 +386,36 @@ impl Oracle for Questions<'_> {
     }
 }
 
-impl<A: Agents> System for Floors<A> {
+impl<A: Agents> World for Floors<A> {
     type State = State<A::Memory>;
-    type Part = Part<Body<A::Memory>>;
+    type Plan = Vec<Moved<A::Memory>>;
+    type Event = Moved<A::Memory>;
     type Demand = &'static str;
+
+    fn plan(&self, state: &mut State<A::Memory>, _: &[u8]) -> Option<Self::Plan> {
+        let all: Vec<_> = self.moves(state).collect();
+        Some(all).filter(|all| !all.is_empty())
+    }
+
+    fn settle(
+        &self,
+        state: &mut State<A::Memory>,
+        all: &Self::Plan,
+        _: &mut Vec<u8>,
+        world: &mut impl Oracle,
+    ) -> Self::Event {
+        let turned = all[world.pick(all.len() as u32) as usize].clone();
+        *state = turned.state.clone();
+        turned
+    }
+
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<&'static str> {
+        if turn.event.is_early { vec![DONE] } else { Vec::new() }
+    }
+}
+
+impl<A: Agents> System for Floors<A> {
+    type Part = Part<Body<A::Memory>>;
 
     fn places(&self, state: &State<A::Memory>) -> usize {
         state.places()
@@ -405,12 +433,8 @@ impl<A: Agents> System for Floors<A> {
         state.put(place, part);
     }
 
-    fn steps(&self, state: &State<A::Memory>) -> impl Iterator<Item = Step<State<A::Memory>, &'static str>> {
-        let step = |Moved { state, is_early, .. }: Moved<A::Memory>| {
-            let breaks = if is_early { vec![DONE] } else { Vec::new() };
-            Step { state, situation: "a team move", acting: 1, is_bound: true, breaks }
-        };
-        self.moves(state).map(step)
+    fn situation(&self, _: &Turn<'_, Self>) -> &'static str {
+        "a team move"
     }
 
     fn broken_by_endless_runs(&self) -> Option<&'static str> {

@@ -100,7 +100,7 @@ const fn off(system: fn(&Rule) -> Drift, range: fn() -> String) -> EveryState<Ru
         starts: |drift| drift.starts(&SMALLEST),
         most_steps: 10_000_000,
         covers: &["an obstacle", "an arrival"],
-        tell: drift::tell,
+        tell: |before, step| drift::tell(before, &step.state),
     }
 }
 

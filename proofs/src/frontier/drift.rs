@@ -13,7 +13,8 @@ use tautline_kernel::ground::{Area, Cell};
 use super::areas::Size;
 use super::world::Demand;
 use crate::engine::outcomes;
-use crate::engine::states::{Bits, Run, Step, System};
+use crate::engine::states::{Run, System, steps};
+use crate::engine::world::{Turn, World};
 
 /// The parts of a cell's side in which an error is told.
 pub const PARTS: i32 = 16;
@@ -78,7 +79,7 @@ impl Drift {
         };
         let mut lines = format!("{}×{} cells, it starts in {}\n", area.0, area.1, state.robot.at());
         for &number in &run.steps {
-            let Some(step) = self.steps(&state).nth(number as usize) else { break };
+            let Some(step) = steps(self, &state).nth(number as usize) else { break };
             lines += &tell(&state, &step.state);
             lines.push('\n');
             state = step.state;
@@ -147,10 +148,37 @@ impl Drift {
     }
 }
 
-impl System for Drift {
+impl World for Drift {
     type State = State;
-    type Part = State;
+    type Plan = Vec<(State, &'static str)>;
+    type Event = &'static str;
     type Demand = &'static str;
+
+    fn plan(&self, state: &mut State, _: &[u8]) -> Option<Self::Plan> {
+        let all: Vec<_> = outcomes(|oracle| self.go(state, oracle)).collect();
+        Some(all).filter(|all| !all.is_empty())
+    }
+
+    fn settle(
+        &self,
+        state: &mut State,
+        all: &Self::Plan,
+        _: &mut Vec<u8>,
+        world: &mut impl Oracle,
+    ) -> &'static str {
+        let (after, situation) = all[world.pick(all.len() as u32) as usize];
+        *state = after;
+        situation
+    }
+
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<&'static str> {
+        let is_right = turn.after.robot.map().is_within(&turn.after.truth);
+        if is_right { Vec::new() } else { vec![Demand::Marks.words()] }
+    }
+}
+
+impl System for Drift {
+    type Part = State;
 
     fn part(&self, state: &State, _: usize) -> State {
         *state
@@ -160,13 +188,8 @@ impl System for Drift {
         *state = *part;
     }
 
-    fn steps(&self, state: &State) -> impl Iterator<Item = Step<State, &'static str>> {
-        outcomes(|oracle| self.go(state, oracle)).map(|(state, situation)| {
-            let is_right = state.robot.map().is_within(&state.truth);
-            let breaks = if is_right { Vec::new() } else { vec![Demand::Marks.words()] };
-            let acting: Bits = 1;
-            Step { state, situation, acting, is_bound: true, breaks }
-        })
+    fn situation(&self, turn: &Turn<'_, Self>) -> &'static str {
+        turn.event
     }
 }
 

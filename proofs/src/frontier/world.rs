@@ -17,10 +17,11 @@ use tautline_kernel::frontier::{
 use tautline_kernel::ground::{Area, Cell, Side};
 
 use crate::engine::outcomes;
-use crate::engine::states::{self, Bits, Places, System};
+use crate::engine::states::{Bits, Places, System};
+use crate::engine::world::{self, Turn};
 
 /// What is demanded.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Demand {
     /// FRONTIER-1
     Covers,
@@ -459,10 +460,45 @@ pub enum Part<const ROBOTS: usize> {
     Rest(Box<World<ROBOTS>>),
 }
 
-impl<const ROBOTS: usize> System for Setting<ROBOTS> {
+impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
     type State = World<ROBOTS>;
-    type Part = Part<ROBOTS>;
+    type Plan = Vec<Turned<ROBOTS>>;
+    type Event = Turned<ROBOTS>;
     type Demand = Demand;
+
+    fn plan(&self, state: &mut World<ROBOTS>, _: &[u8]) -> Option<Vec<Turned<ROBOTS>>> {
+        Some(self.turns(state)).filter(|turns| !turns.is_empty())
+    }
+
+    fn settle(
+        &self,
+        state: &mut World<ROBOTS>,
+        turns: &Vec<Turned<ROBOTS>>,
+        _: &mut Vec<u8>,
+        world: &mut impl Oracle,
+    ) -> Turned<ROBOTS> {
+        let turned = turns[world.pick(turns.len() as u32) as usize].clone();
+        *state = turned.world;
+        turned
+    }
+
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Demand> {
+        turn.event.breaks.clone()
+    }
+
+    fn broken_at_end(&self, state: &World<ROBOTS>, _: &[u8]) -> Vec<Demand> {
+        let covers = !self.is_wanted(Demand::Covers) || !self.is_owed(state);
+        let all_know = || (0..ROBOTS).all(|robot| self.would(state, robot) == Next::Done);
+        let knows = !self.is_wanted(Demand::Knows) || all_know();
+        [(covers, Demand::Covers), (knows, Demand::Knows)]
+            .into_iter()
+            .filter_map(|(is_kept, demand)| (!is_kept).then_some(demand))
+            .collect()
+    }
+}
+
+impl<const ROBOTS: usize> System for Setting<ROBOTS> {
+    type Part = Part<ROBOTS>;
 
     fn places(&self, _: &World<ROBOTS>) -> usize {
         ROBOTS + 2
@@ -504,28 +540,22 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
         }
     }
 
-    fn steps(&self, state: &World<ROBOTS>) -> impl Iterator<Item = states::Step<World<ROBOTS>, Demand>> {
-        self.turns(state).into_iter().map(|Turned { world, event, breaks }| {
-            let (situation, acting) = match event {
-                Event::Decides(robot, ..) => ("a decision", 1 << robot),
-                Event::Looks(robot, _, Sight::Open, ..) => ("an open cell", 1 << robot),
-                Event::Looks(robot, _, Sight::Obstacle, ..) => ("an obstacle", 1 << robot),
-                Event::Looks(robot, _, Sight::Robot, ..) => ("a robot", 1 << robot),
-                Event::Arrives(robot, ..) => ("an arrival", 1 << robot),
-                Event::Ticks => ("a slot", 1 << ROBOTS),
-            };
-            states::Step { state: world, situation, acting, is_bound: true, breaks }
-        })
+    fn situation(&self, turn: &Turn<'_, Self>) -> &'static str {
+        match turn.event.event {
+            Event::Decides(..) => "a decision",
+            Event::Looks(_, _, Sight::Open, ..) => "an open cell",
+            Event::Looks(_, _, Sight::Obstacle, ..) => "an obstacle",
+            Event::Looks(_, _, Sight::Robot, ..) => "a robot",
+            Event::Arrives(..) => "an arrival",
+            Event::Ticks => "a slot",
+        }
     }
 
-    fn broken_at_end(&self, state: &World<ROBOTS>) -> Vec<Demand> {
-        let covers = !self.is_wanted(Demand::Covers) || !self.is_owed(state);
-        let all_know = || (0..ROBOTS).all(|robot| self.would(state, robot) == Next::Done);
-        let knows = !self.is_wanted(Demand::Knows) || all_know();
-        [(covers, Demand::Covers), (knows, Demand::Knows)]
-            .into_iter()
-            .filter_map(|(is_kept, demand)| (!is_kept).then_some(demand))
-            .collect()
+    fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
+        match turn.event.event {
+            Event::Decides(robot, ..) | Event::Looks(robot, ..) | Event::Arrives(robot, ..) => 1 << robot,
+            Event::Ticks => 1 << ROBOTS,
+        }
     }
 
     fn broken_by_endless_runs(&self) -> Option<Demand> {

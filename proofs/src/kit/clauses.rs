@@ -113,7 +113,7 @@ const fn every_talk(range: fn() -> String, system: fn(&Rule) -> Talks) -> EveryS
         starts: |talks| vec![talks.start()],
         most_steps: 40_000_000,
         covers: &["a drive", "a message", "a stay", "an arrival"],
-        tell: talks::tell,
+        tell: |_, step| talks::tell(&step.state),
     }
 }
 

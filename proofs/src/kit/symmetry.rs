@@ -3,11 +3,13 @@
 
 use std::cell::Cell as Counter;
 
+use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, TinyGrid};
 use tautline_kernel::kit::{Condition, Stance};
 
-use super::world::{Demand, Part, Setting, Speeds, World};
-use crate::engine::states::{Bits, Places, Step, System};
+use super::world::{Demand, Part, Setting, Speeds, Turned, World};
+use crate::engine::states::{Bits, Places, System};
+use crate::engine::world::{self, Turn};
 
 /// A way to turn or mirror an area, so that it covers itself.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -149,10 +151,40 @@ impl Symmetric {
     }
 }
 
-impl System for Symmetric {
+impl world::World for Symmetric {
     type State = World<2>;
-    type Part = Part<2>;
+    type Plan = Vec<Turned<2>>;
+    type Event = Turned<2>;
     type Demand = Demand;
+
+    fn plan(&self, state: &mut World<2>, log: &[u8]) -> Option<Vec<Turned<2>>> {
+        self.setting.plan(state, log)
+    }
+
+    fn settle(
+        &self,
+        state: &mut World<2>,
+        turns: &Vec<Turned<2>>,
+        log: &mut Vec<u8>,
+        world: &mut impl Oracle,
+    ) -> Turned<2> {
+        let turned = self.setting.settle(state, turns, log, world);
+        let is_drive = matches!(turned.situation, "a new path" | "an old path");
+        self.drives.set(self.drives.get() + u64::from(is_drive));
+        turned
+    }
+
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Demand> {
+        turn.event.breaks.clone()
+    }
+
+    fn broken_at_end(&self, state: &World<2>, log: &[u8]) -> Vec<Demand> {
+        self.setting.broken_at_end(state, log)
+    }
+}
+
+impl System for Symmetric {
+    type Part = Part<2>;
 
     fn make_canonical(&self, state: &mut World<2>) {
         let world = self.stripped(state);
@@ -193,15 +225,12 @@ impl System for Symmetric {
         self.setting.put(state, place, part);
     }
 
-    fn steps(&self, state: &World<2>) -> impl Iterator<Item = Step<World<2>, Demand>> {
-        self.setting.steps(state).inspect(|step| {
-            let is_drive = matches!(step.situation, "a new path" | "an old path");
-            self.drives.set(self.drives.get() + u64::from(is_drive));
-        })
+    fn situation(&self, turn: &Turn<'_, Self>) -> &'static str {
+        turn.event.situation
     }
 
-    fn broken_at_end(&self, state: &World<2>) -> Vec<Demand> {
-        self.setting.broken_at_end(state)
+    fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
+        1 << turn.event.robot
     }
 
     fn broken_by_endless_runs(&self) -> Option<Demand> {
@@ -222,7 +251,6 @@ mod tests {
     use std::collections::HashSet;
     use std::time::Instant;
 
-    use tautline_kernel::choice::Oracle;
     use tautline_kernel::kit::{Reach, Rule};
 
     use super::super::world::Starts;

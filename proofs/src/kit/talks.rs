@@ -2,10 +2,12 @@
 //! and as many that are lost or come twice as a setting lets. Nodes are numbers: what matters is whether a robot knows
 //! where the other one goes when it decides (KIT-4, KIT-5).
 
+use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Steps};
 use tautline_kernel::kit::{Letter, Message, NUMBERS, Phase, Rule, Sent, Talk};
 
-use crate::engine::states::{Bits, Step, System};
+use crate::engine::states::{Bits, System};
+use crate::engine::world::{Turn, World};
 
 /// What is demanded.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -147,7 +149,7 @@ impl Talks {
     }
 
     /// What two robots can do.
-    fn acts(&self, state: &State) -> Vec<(State, Bits, &'static str, Option<&'static str>)> {
+    fn acts(&self, state: &State) -> Vec<Turned> {
         let mut acts = Vec::new();
         for robot in 0..2 {
             let bit = 1 << robot;
@@ -157,20 +159,20 @@ impl Talks {
                     let mut after = State { last: Event::Arrives(robot), ..state.clone() };
                     let sent = after.robots[robot].arrived(Steps::NONE);
                     self.act(&mut after, robot, sent);
-                    acts.push((after, bit, "an arrival", None));
+                    acts.push(Turned::by(bit, "an arrival", after));
                 }
                 Phase::Decides if Self::may_act(state, robot) => {
                     let is_stale = talk.told().is_some_and(|told| told != state.robots[1 - robot].next());
-                    let broken = (is_stale && self.demand == Demand::Fresh).then_some(STALE);
+                    let breaks = (is_stale && self.demand == Demand::Fresh).then_some(STALE);
                     let mut after = State { last: Event::Drives(robot), ..state.clone() };
                     let to = Cell::new((talk.next().x + 1) % NODES, talk.next().y);
                     let sent = after.robots[robot].drives(to, nothing);
                     self.act(&mut after, robot, sent);
-                    acts.push((after, bit, "a drive", broken));
+                    acts.push(Turned { breaks, ..Turned::by(bit, "a drive", after) });
                     let mut after = State { last: Event::Stays(robot), ..state.clone() };
                     let sent = after.robots[robot].stays(nothing);
                     self.act(&mut after, robot, sent);
-                    acts.push((after, bit, "a stay", broken));
+                    acts.push(Turned { breaks, ..Turned::by(bit, "a stay", after) });
                 }
                 Phase::Drives | Phase::Decides | Phase::Asks | Phase::Waits | Phase::Stays => {}
             }
@@ -179,14 +181,14 @@ impl Talks {
             {
                 let mut after = State { last: Event::Repeats(robot), ..state.clone() };
                 self.send(&mut after, robot, [Some(letter), None, None]);
-                acts.push((after, 16 << robot, "a repeated request", None));
+                acts.push(Turned::by(16 << robot, "a repeated request", after));
             }
         }
         acts
     }
 
     /// What becomes of the messages on their way.
-    fn letters(&self, state: &State) -> Vec<(State, Bits, &'static str, bool)> {
+    fn letters(&self, state: &State) -> Vec<Turned> {
         let mut steps = Vec::new();
         let mut before = None;
         for (place, &(to, fields, age)) in state.letters.iter().enumerate() {
@@ -200,17 +202,17 @@ impl Talks {
             let mut after = State { last: Event::Hears(to, letter), ..gone.clone() };
             let sent = after.robots[to].hears(letter, nothing);
             self.send(&mut after, to, sent);
-            steps.push((after, 4 << to, "a message", true));
+            steps.push(Turned::by(4 << to, "a message", after));
             if state.lost < self.max_lost {
-                let lost = state.lost + 1;
-                steps.push((State { last: Event::Loses(to, letter), lost, ..gone }, 0, "a loss", false));
+                let lost = State { last: Event::Loses(to, letter), lost: state.lost + 1, ..gone };
+                steps.push(Turned::by(0, "a loss", lost));
             }
             if state.doubled < self.max_doubled {
                 let mut twice = State { last: Event::Doubles(to, letter), ..state.clone() };
                 twice.letters.push((to, fields, age | COPY));
                 twice.letters.sort_unstable();
                 twice.doubled += 1;
-                steps.push((twice, 0, "a double", false));
+                steps.push(Turned::by(0, "a double", twice));
             }
         }
         steps
@@ -225,10 +227,57 @@ impl Talks {
     }
 }
 
-impl System for Talks {
+/// A step, with what happens in it.
+#[derive(Clone)]
+pub(super) struct Turned {
+    state: State,
+    /// Who acts; nobody in a fault.
+    acting: Bits,
+    situation: &'static str,
+    breaks: Option<&'static str>,
+}
+
+impl Turned {
+    const fn by(acting: Bits, situation: &'static str, state: State) -> Self {
+        Self { state, acting, situation, breaks: None }
+    }
+}
+
+impl World for Talks {
     type State = State;
-    type Part = State;
+    type Plan = Vec<Turned>;
+    type Event = Turned;
     type Demand = &'static str;
+
+    fn plan(&self, state: &mut State, _: &[u8]) -> Option<Vec<Turned>> {
+        let mut turns = self.acts(state);
+        turns.extend(self.letters(state));
+        Some(turns).filter(|turns| !turns.is_empty())
+    }
+
+    fn settle(
+        &self,
+        state: &mut State,
+        turns: &Vec<Turned>,
+        _: &mut Vec<u8>,
+        world: &mut impl Oracle,
+    ) -> Turned {
+        let turned = turns[world.pick(turns.len() as u32) as usize].clone();
+        state.clone_from(&turned.state);
+        turned
+    }
+
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<&'static str> {
+        turn.event.breaks.into_iter().collect()
+    }
+
+    fn broken_at_end(&self, state: &State, _: &[u8]) -> Vec<&'static str> {
+        (self.waiting(state) != 0).then_some(WAITS).into_iter().collect()
+    }
+}
+
+impl System for Talks {
+    type Part = State;
 
     fn part(&self, state: &State, _: usize) -> State {
         state.clone()
@@ -238,26 +287,17 @@ impl System for Talks {
         state.clone_from(part);
     }
 
-    fn steps(&self, state: &State) -> impl Iterator<Item = Step<State, &'static str>> {
-        let acts = self.acts(state).into_iter().map(|(state, acting, situation, broken)| Step {
-            state,
-            situation,
-            acting,
-            is_bound: true,
-            breaks: broken.into_iter().collect(),
-        });
-        let letters = self.letters(state).into_iter().map(|(state, acting, situation, is_bound)| Step {
-            state,
-            situation,
-            acting,
-            is_bound,
-            breaks: Vec::new(),
-        });
-        acts.chain(letters).collect::<Vec<_>>().into_iter()
+    fn situation(&self, turn: &Turn<'_, Self>) -> &'static str {
+        turn.event.situation
     }
 
-    fn broken_at_end(&self, state: &State) -> Vec<&'static str> {
-        (self.waiting(state) != 0).then_some(WAITS).into_iter().collect()
+    fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
+        turn.event.acting
+    }
+
+    /// Whatever becomes of a message by a fault has nobody who acts.
+    fn is_bound(&self, turn: &Turn<'_, Self>) -> bool {
+        turn.event.acting != 0
     }
 
     fn broken_by_endless_runs(&self) -> Option<&'static str> {
@@ -279,7 +319,7 @@ impl System for Talks {
 }
 
 /// A step in words.
-pub(super) fn tell(_: &State, after: &State) -> String {
+pub(super) fn tell(after: &State) -> String {
     let name = |robot: usize| format!("R{}", robot + 1);
     let says = |letter: Letter| match letter.message {
         Message::Request { .. } => "a request",

@@ -5,17 +5,19 @@
 mod broken;
 mod turns;
 
+use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, TinyGrid};
 use tautline_kernel::kit::{Condition, Kit, Next, Rule, Sight, Stance};
 
 use super::plain::Found;
-use crate::engine::states::{self, Bits, Places, System};
+use crate::engine::states::{Bits, Places, System};
+use crate::engine::world::{self, Turn};
 
 /// A team on a small lattice.
 pub type Team<const ROBOTS: usize> = Kit<TinyGrid, ROBOTS, 64>;
 
 /// What is demanded.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Demand {
     /// KIT-1, KIT-2, KIT-12
     Contact,
@@ -277,10 +279,39 @@ pub enum Part<const ROBOTS: usize> {
     Rest(Box<World<ROBOTS>>),
 }
 
-impl<const ROBOTS: usize> System for Setting<ROBOTS> {
+impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
     type State = World<ROBOTS>;
-    type Part = Part<ROBOTS>;
+    type Plan = Vec<Turned<ROBOTS>>;
+    type Event = Turned<ROBOTS>;
     type Demand = Demand;
+
+    fn plan(&self, state: &mut World<ROBOTS>, _: &[u8]) -> Option<Vec<Turned<ROBOTS>>> {
+        Some(self.turns(state)).filter(|turns| !turns.is_empty())
+    }
+
+    fn settle(
+        &self,
+        state: &mut World<ROBOTS>,
+        turns: &Vec<Turned<ROBOTS>>,
+        _: &mut Vec<u8>,
+        world: &mut impl Oracle,
+    ) -> Turned<ROBOTS> {
+        let turned = turns[world.pick(turns.len() as u32) as usize].clone();
+        *state = turned.world;
+        turned
+    }
+
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Demand> {
+        turn.event.breaks.clone()
+    }
+
+    fn broken_at_end(&self, state: &World<ROBOTS>, _: &[u8]) -> Vec<Demand> {
+        self.broken_by_staying(state)
+    }
+}
+
+impl<const ROBOTS: usize> System for Setting<ROBOTS> {
+    type Part = Part<ROBOTS>;
 
     fn places(&self, _: &World<ROBOTS>) -> usize {
         ROBOTS + 2
@@ -318,18 +349,12 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
         }
     }
 
-    fn steps(&self, state: &World<ROBOTS>) -> impl Iterator<Item = states::Step<World<ROBOTS>, Demand>> {
-        self.turns(state).into_iter().map(|turned| states::Step {
-            state: turned.world,
-            situation: turned.situation,
-            acting: 1 << turned.robot,
-            is_bound: true,
-            breaks: turned.breaks,
-        })
+    fn situation(&self, turn: &Turn<'_, Self>) -> &'static str {
+        turn.event.situation
     }
 
-    fn broken_at_end(&self, state: &World<ROBOTS>) -> Vec<Demand> {
-        self.broken_by_staying(state)
+    fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
+        1 << turn.event.robot
     }
 
     fn broken_by_endless_runs(&self) -> Option<Demand> {

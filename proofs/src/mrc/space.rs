@@ -3,8 +3,11 @@
 //! waits and that can go round for ever, nothing being left out that is bound to happen: no timer that runs, no robot
 //! on its way, and no message between a robot and a WFR between whom there is one throughout.
 
+use tautline_kernel::choice::Oracle;
+
 use super::state::{Action, Actor, Demand, Message, Part, ROBOTS, Setting, State, WFRS, place};
-use crate::engine::states::{self, Bits, Limits, Places, Run, Step, System};
+use crate::engine::states::{self, Bits, Limits, Places, Run, System};
+use crate::engine::world::{Turn, World};
 use crate::engine::{Choices, Script, Unfit};
 
 /// When to stop.
@@ -188,10 +191,40 @@ impl Space {
     }
 }
 
-impl System for Space {
+impl World for Space {
     type State = State;
-    type Part = Part;
+    type Plan = Vec<Action>;
+    type Event = Action;
     type Demand = Demand;
+
+    fn plan(&self, state: &mut State, _: &[u8]) -> Option<Vec<Action>> {
+        Some(state.actions(&self.setting)).filter(|actions| !actions.is_empty())
+    }
+
+    fn settle(
+        &self,
+        state: &mut State,
+        actions: &Vec<Action>,
+        _: &mut Vec<u8>,
+        world: &mut impl Oracle,
+    ) -> Action {
+        let action = actions[world.pick(actions.len() as u32) as usize];
+        *state = state.after(&self.setting, action);
+        action
+    }
+
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Demand> {
+        Demand::ALL.into_iter().filter(|&demand| turn.after.breaks(demand)).collect()
+    }
+
+    fn broken_at_end(&self, state: &State, _: &[u8]) -> Vec<Demand> {
+        let waits = self.looks_for_service() && self.owed(state) != 0;
+        waits.then_some(Demand::IsServed).into_iter().collect()
+    }
+}
+
+impl System for Space {
+    type Part = Part;
 
     fn make_canonical(&self, state: &mut State) {
         state.make_canonical();
@@ -213,26 +246,20 @@ impl System for Space {
         state.put(place, part);
     }
 
-    fn steps(&self, state: &State) -> impl Iterator<Item = Step<State, Demand>> {
-        let step = |action| {
-            let after = state.after(&self.setting, action);
-            let is_bound = state.is_bound_to_happen(&self.setting, action);
-            let acting =
-                || actors(|actor| has_turned(state, action, &after, actor)) | arriving(state, action);
-            Step {
-                situation: "an action",
-                acting: if is_bound { acting() } else { 0 },
-                is_bound,
-                breaks: Demand::ALL.into_iter().filter(|&demand| after.breaks(demand)).collect(),
-                state: after,
-            }
-        };
-        state.actions(&self.setting).into_iter().map(step)
+    fn situation(&self, _: &Turn<'_, Self>) -> &'static str {
+        "an action"
     }
 
-    fn broken_at_end(&self, state: &State) -> Vec<Demand> {
-        let waits = self.looks_for_service() && self.owed(state) != 0;
-        waits.then_some(Demand::IsServed).into_iter().collect()
+    fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
+        let Turn { before, after, event: &action, .. } = *turn;
+        if !self.is_bound(turn) {
+            return 0;
+        }
+        actors(|actor| has_turned(before, action, after, actor)) | arriving(before, action)
+    }
+
+    fn is_bound(&self, turn: &Turn<'_, Self>) -> bool {
+        turn.before.is_bound_to_happen(&self.setting, *turn.event)
     }
 
     fn broken_by_endless_runs(&self) -> Option<Demand> {

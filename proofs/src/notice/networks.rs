@@ -1,13 +1,15 @@
 //! Every small network, and every state that it can come to (NOTICE-1 to NOTICE-6).
 
 use rayon::prelude::*;
+use tautline_kernel::choice::Oracle;
 use tautline_kernel::notice::{Count, Rule, Scheme, Stage};
 
 use super::Observed;
 use super::spread::{Demand, Event, Links, Point, Spread, ones};
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
-use crate::engine::states::{Limits, Run, Step, System, search};
+use crate::engine::states::{Limits, Run, System, search};
 use crate::engine::watchdog::Task;
+use crate::engine::world::{Turn, World};
 use crate::engine::{Choices, Script, Stop, Tally, Unfit, Until, cover};
 
 /// The largest network of which every state is looked at.
@@ -134,10 +136,41 @@ impl Case {
     }
 }
 
-impl System for Case {
+impl World for Case {
     type State = Spread<SMALL>;
-    type Part = Spread<SMALL>;
+    type Plan = Vec<Event>;
+    type Event = Event;
     type Demand = (Demand, &'static str);
+
+    fn plan(&self, spread: &mut Spread<SMALL>, _: &[u8]) -> Option<Vec<Event>> {
+        Some(spread.events()).filter(|events| !events.is_empty())
+    }
+
+    fn settle(
+        &self,
+        spread: &mut Spread<SMALL>,
+        events: &Vec<Event>,
+        _: &mut Vec<u8>,
+        world: &mut impl Oracle,
+    ) -> Event {
+        let event = events[world.pick(events.len() as u32) as usize];
+        *spread = spread.after(&self.rule, &self.links, event);
+        event
+    }
+
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Self::Demand> {
+        self.broken(turn.after, Point::OnTheWay).collect()
+    }
+
+    /// What is demanded on the way is told on the way.
+    fn broken_at_end(&self, spread: &Spread<SMALL>, _: &[u8]) -> Vec<Self::Demand> {
+        let is_of_ends = |(demand, _): &(Demand, _)| self.demands.len() == 1 || demand.is_of_ends();
+        self.broken(spread, Point::End).filter(is_of_ends).collect()
+    }
+}
+
+impl System for Case {
+    type Part = Spread<SMALL>;
 
     fn part(&self, spread: &Spread<SMALL>, _: usize) -> Spread<SMALL> {
         *spread
@@ -147,24 +180,12 @@ impl System for Case {
         *spread = *part;
     }
 
-    fn steps(&self, spread: &Spread<SMALL>) -> impl Iterator<Item = Step<Spread<SMALL>, Self::Demand>> {
-        let step = |event| {
-            let state = spread.after(&self.rule, &self.links, event);
-            let situation = match event {
-                Event::Arrives { .. } => "a NOTICE arrives",
-                Event::ArrivesAgain { .. } => "a copy arrives",
-                Event::Expires { .. } => "a node forwards",
-            };
-            let breaks = self.broken(&state, Point::OnTheWay).collect();
-            Step { state, situation, acting: 0, is_bound: true, breaks }
-        };
-        spread.events().into_iter().map(step)
-    }
-
-    /// What is demanded on the way is told on the way.
-    fn broken_at_end(&self, spread: &Spread<SMALL>) -> Vec<Self::Demand> {
-        let is_of_ends = |(demand, _): &(Demand, _)| self.demands.len() == 1 || demand.is_of_ends();
-        self.broken(spread, Point::End).filter(is_of_ends).collect()
+    fn situation(&self, turn: &Turn<'_, Self>) -> &'static str {
+        match turn.event {
+            Event::Arrives { .. } => "a NOTICE arrives",
+            Event::ArrivesAgain { .. } => "a copy arrives",
+            Event::Expires { .. } => "a node forwards",
+        }
     }
 
     /// Among several demands the others are looked for.

@@ -220,7 +220,7 @@ pub(super) enum Point {
 }
 
 /// What is demanded of every state.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Demand {
     /// NOTICE-1
     Tree,

@@ -2,7 +2,9 @@
 
 use std::cell::{Cell, RefCell};
 
-use tautline_proofs::engine::states::{Bits, Found, Limits, Places, Step, System, search};
+use tautline_kernel::choice::Oracle;
+use tautline_proofs::engine::states::{Bits, Found, Limits, Places, System, search};
+use tautline_proofs::engine::world::{Turn, World};
 
 use super::hunt::{Asked, Far, Hunter};
 
@@ -53,10 +55,44 @@ struct Watched<'a, 'h, S> {
     is_stopped: Cell<bool>,
 }
 
-impl<S: System> System for Watched<'_, '_, S> {
+impl<S: System> World for Watched<'_, '_, S> {
     type State = S::State;
-    type Part = S::Part;
+    type Plan = S::Plan;
+    type Event = S::Event;
     type Demand = S::Demand;
+
+    fn plan(&self, state: &mut S::State, log: &[u8]) -> Option<S::Plan> {
+        let states = self.states.get() + 1;
+        self.states.set(states);
+        if states.is_multiple_of(BETWEEN) {
+            let words = format!("{}, states {states}", self.what);
+            let flow = self.hunter.borrow_mut().hears(Far::Words(words));
+            self.is_stopped.set(self.is_stopped.get() || flow.is_break());
+        }
+        if self.is_stopped.get() { None } else { self.system.plan(state, log) }
+    }
+
+    fn settle(
+        &self,
+        state: &mut S::State,
+        plan: &S::Plan,
+        log: &mut Vec<u8>,
+        world: &mut impl Oracle,
+    ) -> S::Event {
+        self.system.settle(state, plan, log, world)
+    }
+
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<S::Demand> {
+        self.system.broken_by(&of_system(turn))
+    }
+
+    fn broken_at_end(&self, state: &S::State, log: &[u8]) -> Vec<S::Demand> {
+        if self.is_stopped.get() { Vec::new() } else { self.system.broken_at_end(state, log) }
+    }
+}
+
+impl<S: System> System for Watched<'_, '_, S> {
+    type Part = S::Part;
 
     fn make_canonical(&self, state: &mut S::State) {
         self.system.make_canonical(state);
@@ -78,19 +114,16 @@ impl<S: System> System for Watched<'_, '_, S> {
         self.system.put(state, place, part);
     }
 
-    fn steps(&self, state: &S::State) -> impl Iterator<Item = Step<S::State, S::Demand>> {
-        let states = self.states.get() + 1;
-        self.states.set(states);
-        if states.is_multiple_of(BETWEEN) {
-            let words = format!("{}, states {states}", self.what);
-            let flow = self.hunter.borrow_mut().hears(Far::Words(words));
-            self.is_stopped.set(self.is_stopped.get() || flow.is_break());
-        }
-        (!self.is_stopped.get()).then(|| self.system.steps(state)).into_iter().flatten()
+    fn situation(&self, turn: &Turn<'_, Self>) -> &'static str {
+        self.system.situation(&of_system(turn))
     }
 
-    fn broken_at_end(&self, state: &S::State) -> Vec<S::Demand> {
-        if self.is_stopped.get() { Vec::new() } else { self.system.broken_at_end(state) }
+    fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
+        self.system.acting(&of_system(turn))
+    }
+
+    fn is_bound(&self, turn: &Turn<'_, Self>) -> bool {
+        self.system.is_bound(&of_system(turn))
     }
 
     fn broken_by_endless_runs(&self) -> Option<S::Demand> {
@@ -108,4 +141,10 @@ impl<S: System> System for Watched<'_, '_, S> {
     fn is_enough(&self, demand: S::Demand) -> bool {
         self.system.is_enough(demand)
     }
+}
+
+/// The same step, of the system that is watched.
+const fn of_system<'a, S: System>(turn: &Turn<'a, Watched<'_, '_, S>>) -> Turn<'a, S> {
+    let Turn { before, planned, after, plan, event, sent } = *turn;
+    Turn { before, planned, after, plan, event, sent }
 }

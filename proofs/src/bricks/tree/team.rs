@@ -9,7 +9,8 @@ use tautline_kernel::ground::{Cell, Side, Step};
 use super::state::{Body, Part, Small, State};
 use super::{Deception, Way};
 use crate::engine::outcomes;
-use crate::engine::states::{self, Bits, Places, Run, System};
+use crate::engine::states::{Bits, Places, Run, System};
+use crate::engine::world;
 use crate::floor::plans::{Edges, FloorPlan};
 use crate::floor::small::Misses;
 use crate::floor_trace::{Course, Scene, Turn};
@@ -261,7 +262,8 @@ fn awake(state: &State) -> Bits {
 }
 
 /// What a turn leads to.
-struct Turned {
+#[derive(Clone)]
+pub(super) struct Turned {
     state: Box<State>,
     /// Whose turn it is, and where it goes.
     agent: usize,
@@ -274,10 +276,53 @@ struct Turned {
 }
 
 /// States are boxed: each is handed on many times before it is looked at.
-impl System for Team {
+impl world::World for Team {
     type State = Box<State>;
-    type Part = Part;
+    type Plan = Vec<Turned>;
+    type Event = Turned;
     type Demand = &'static str;
+
+    fn plan(&self, state: &mut Box<State>, _: &[u8]) -> Option<Self::Plan> {
+        let all: Vec<_> = self.turns(state).collect();
+        Some(all).filter(|all| !all.is_empty())
+    }
+
+    fn settle(
+        &self,
+        state: &mut Box<State>,
+        all: &Self::Plan,
+        _: &mut Vec<u8>,
+        world: &mut impl Oracle,
+    ) -> Self::Event {
+        let turned = all[world.pick(all.len() as u32) as usize].clone();
+        *state = turned.state.clone();
+        turned
+    }
+
+    fn broken_by(&self, turn: &world::Turn<'_, Self>) -> Vec<&'static str> {
+        turn.event.breaks.into_iter().collect()
+    }
+
+    fn broken_at_end(&self, state: &Box<State>, _: &[u8]) -> Vec<&'static str> {
+        let broken = match self.demand {
+            Demand::Connected
+            | Demand::Knowing
+            | Demand::Whole
+            | Demand::Rising
+            | Demand::Bounded
+            | Demand::Twice
+            | Demand::LeastEntered => None,
+            Demand::Explores => (!state.is_explored(&self.plan)).then_some("every cell is explored"),
+            Demand::Ends | Demand::All => {
+                (state.left(&self.plan) != 0).then_some("when all agents are done, every cell is visited")
+            }
+        };
+        broken.into_iter().collect()
+    }
+}
+
+impl System for Team {
+    type Part = Part;
 
     fn places(&self, state: &Box<State>) -> usize {
         state.places()
@@ -295,31 +340,16 @@ impl System for Team {
         state.put(place, part);
     }
 
-    fn steps(&self, state: &Box<State>) -> impl Iterator<Item = states::Step<Box<State>, &'static str>> {
-        self.turns(state).map(|Turned { state, agent, fails, breaks, .. }| states::Step {
-            state,
-            situation: if fails { "a failure" } else { "a step" },
-            acting: if fails { 0 } else { 1 << agent },
-            is_bound: !fails,
-            breaks: breaks.into_iter().collect(),
-        })
+    fn situation(&self, turn: &world::Turn<'_, Self>) -> &'static str {
+        if turn.event.fails { "a failure" } else { "a step" }
     }
 
-    fn broken_at_end(&self, state: &Box<State>) -> Vec<&'static str> {
-        let broken = match self.demand {
-            Demand::Connected
-            | Demand::Knowing
-            | Demand::Whole
-            | Demand::Rising
-            | Demand::Bounded
-            | Demand::Twice
-            | Demand::LeastEntered => None,
-            Demand::Explores => (!state.is_explored(&self.plan)).then_some("every cell is explored"),
-            Demand::Ends | Demand::All => {
-                (state.left(&self.plan) != 0).then_some("when all agents are done, every cell is visited")
-            }
-        };
-        broken.into_iter().collect()
+    fn acting(&self, turn: &world::Turn<'_, Self>) -> Bits {
+        if turn.event.fails { 0 } else { 1 << turn.event.agent }
+    }
+
+    fn is_bound(&self, turn: &world::Turn<'_, Self>) -> bool {
+        !turn.event.fails
     }
 
     fn broken_by_endless_runs(&self) -> Option<&'static str> {

@@ -273,18 +273,33 @@ const fn spread(hash: HashOfState) -> u64 {
 
 #[cfg(test)]
 mod tests {
-    use std::iter;
+    use tautline_kernel::choice::Oracle;
 
-    use super::super::Step;
     use super::*;
+    use crate::engine::world::{Turn, World};
 
     /// States of three parts.
     struct Triples;
 
-    impl System for Triples {
+    impl World for Triples {
         type State = [u32; 3];
-        type Part = u32;
+        type Plan = ();
+        type Event = ();
         type Demand = ();
+
+        fn plan(&self, _: &mut [u32; 3], _: &[u8]) -> Option<()> {
+            None
+        }
+
+        fn settle(&self, _: &mut [u32; 3], (): &(), _: &mut Vec<u8>, _: &mut impl Oracle) {}
+
+        fn broken_by(&self, _: &Turn<'_, Self>) -> Vec<()> {
+            Vec::new()
+        }
+    }
+
+    impl System for Triples {
+        type Part = u32;
 
         fn places(&self, _: &[u32; 3]) -> usize {
             3
@@ -296,10 +311,6 @@ mod tests {
 
         fn put(&self, state: &mut [u32; 3], place: usize, &part: &u32) {
             state[place] = part;
-        }
-
-        fn steps(&self, _: &[u32; 3]) -> impl Iterator<Item = Step<[u32; 3], ()>> {
-            iter::empty()
         }
     }
 

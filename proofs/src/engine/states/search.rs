@@ -7,7 +7,7 @@ use super::graph::{Arc, Graph};
 use super::known::Known;
 use super::limits::{Limits, Taken};
 use super::rounds::TooLarge;
-use super::{Bits, END, Ending, Found, Places, Run, Step, System};
+use super::{Bits, END, Ending, Found, Places, Run, Step, System, steps};
 use crate::engine::cover;
 use crate::engine::watchdog::Steps;
 
@@ -140,9 +140,9 @@ impl<'a, S: System> Search<'a, S> {
         self.looked_at += 1;
         self.graph.go_on(|| system.owed(state));
         let (mut is_last, mut is_still) = (true, true);
-        for (number, step) in (0..).zip(system.steps(state)) {
+        for (number, step) in (0..).zip(steps(system, state)) {
             making.next();
-            let Step { state: mut to, situation, acting, is_bound, breaks } = step;
+            let Step { state: mut to, situation, acting, is_bound, breaks, .. } = step;
             if self.steps == most_steps || self.graph.is_full() {
                 return ControlFlow::Break(Stop::TooMany);
             }
@@ -166,7 +166,7 @@ impl<'a, S: System> Search<'a, S> {
             cover(&mut self.covered, END);
         }
         if is_still {
-            for demand in system.broken_at_end(state) {
+            for demand in system.broken_at_end(state, &[]) {
                 self.note(Broken { demand, node, how: How::Still })?;
             }
         }
@@ -200,17 +200,17 @@ impl<'a, S: System> Search<'a, S> {
     /// The number of the start, and those of the steps from it that first led to a node.
     fn way(&mut self, node: usize) -> (usize, Vec<u32>) {
         let (start, way) = self.graph.way(node);
-        let mut steps = Vec::new();
+        let mut numbers = Vec::new();
         for pair in way.windows(2) {
             let Some(state) = self.state(pair[0]) else { break };
-            let number = self.system.steps(&state).position(|mut step| {
+            let number = steps(self.system, &state).position(|mut step| {
                 self.system.make_canonical(&mut step.state);
                 self.known.find(self.system, &step.state) == Some(pair[1] as u32)
             });
-            steps.extend(number.map(|number| number as u32));
+            numbers.extend(number.map(|number| number as u32));
             self.shown = Some(state);
         }
-        (start, steps)
+        (start, numbers)
     }
 
     /// The numbers of the steps of a round from a node, each among all steps.
@@ -218,10 +218,10 @@ impl<'a, S: System> Search<'a, S> {
         let mut numbers = Vec::new();
         for &bound in round {
             let (Some(state), Some(arc)) = (self.state(node), self.graph.arc(node, bound)) else { break };
-            let steps = (0..).zip(self.system.steps(&state));
-            let number =
-                steps.filter(|(_, step)| step.is_bound).nth(bound as usize).map(|(number, _)| number);
-            numbers.extend(number);
+            let numbered = (0..).zip(steps(self.system, &state));
+            let mut bound_ones = numbered.filter(|(_, step)| step.is_bound).map(|(number, _)| number);
+            numbers.extend(bound_ones.nth(bound as usize));
+            drop(bound_ones);
             self.shown = Some(state);
             node = arc.to as usize;
         }
@@ -250,8 +250,11 @@ impl<'a, S: System> Search<'a, S> {
 
 #[cfg(test)]
 mod tests {
+    use tautline_kernel::choice::Oracle;
+
     use super::super::{Bits, Room};
     use super::*;
+    use crate::engine::world::{Turn, World};
 
     /// An arc of a graph that one can look at: where it leads, and who acts.
     type Drawn = (usize, Bits);
@@ -274,10 +277,39 @@ mod tests {
     const STEP: &str = "a step";
     const ROUND: &str = "no run owes something for ever";
 
-    impl System for Graphic {
+    impl World for Graphic {
         type State = usize;
-        type Part = usize;
+        type Plan = &'static [Drawn];
+        type Event = Drawn;
         type Demand = &'static str;
+
+        fn plan(&self, &mut node: &mut usize, _: &[u8]) -> Option<&'static [Drawn]> {
+            Some(self.arcs[node]).filter(|arcs| !arcs.is_empty())
+        }
+
+        fn settle(
+            &self,
+            node: &mut usize,
+            arcs: &&'static [Drawn],
+            _: &mut Vec<u8>,
+            world: &mut impl Oracle,
+        ) -> Drawn {
+            let arc = arcs[world.pick(arcs.len() as u32) as usize];
+            *node = arc.0;
+            arc
+        }
+
+        fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<&'static str> {
+            if *turn.after == self.forbidden { vec!["not there"] } else { Vec::new() }
+        }
+
+        fn broken_at_end(&self, &node: &usize, _: &[u8]) -> Vec<&'static str> {
+            if node == self.dead { vec!["no end there", "no end at all"] } else { Vec::new() }
+        }
+    }
+
+    impl System for Graphic {
+        type Part = usize;
 
         fn part(&self, &node: &usize, _: usize) -> usize {
             node
@@ -287,15 +319,12 @@ mod tests {
             *state = node;
         }
 
-        fn steps(&self, &node: &usize) -> impl Iterator<Item = Step<usize, &'static str>> {
-            self.arcs[node].iter().map(|&(state, acting)| {
-                let breaks = if state == self.forbidden { vec!["not there"] } else { Vec::new() };
-                Step { state, situation: STEP, acting, is_bound: acting != 0, breaks }
-            })
+        fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
+            turn.event.1
         }
 
-        fn broken_at_end(&self, &node: &usize) -> Vec<&'static str> {
-            if node == self.dead { vec!["no end there", "no end at all"] } else { Vec::new() }
+        fn is_bound(&self, turn: &Turn<'_, Self>) -> bool {
+            turn.event.1 != 0
         }
 
         fn broken_by_endless_runs(&self) -> Option<&'static str> {

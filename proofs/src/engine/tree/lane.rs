@@ -8,12 +8,13 @@ use std::slice;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::choice::Oracle;
 
+use super::Game;
 use super::count::{self, Count, Violation};
 use super::forecast::Forecast;
 use super::share::Share;
-use super::{Broken, Game, Turn};
 use crate::engine::Unfit;
 use crate::engine::watchdog::Steps;
+use crate::engine::world::Turn;
 
 /// One answer of the world.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -57,14 +58,14 @@ impl Answers {
 }
 
 /// Answers as a script says, and plainly where it has ended.
-struct World<'a> {
+struct Answering<'a> {
     answers: &'a mut Answers,
     script: slice::Iter<'a, u32>,
     /// Whether every line of the script was an answer to its question.
     fits: bool,
 }
 
-impl World<'_> {
+impl Answering<'_> {
     fn answer(&mut self, below: u32, is_mishap: bool) -> u32 {
         let value = self.script.next().copied().unwrap_or(0);
         self.fits &= value < below;
@@ -72,7 +73,7 @@ impl World<'_> {
     }
 }
 
-impl Oracle for World<'_> {
+impl Oracle for Answering<'_> {
     fn pick(&mut self, below: u32) -> u32 {
         if below > 1 { self.answer(below, false) } else { 0 }
     }
@@ -104,11 +105,10 @@ struct Fork<G: Game> {
 
 impl<G: Game> Clone for Fork<G> {
     fn clone(&self) -> Self {
-        *self
+        let (before, planned) = (self.before.clone(), self.planned.clone());
+        Self { before, planned, plan: self.plan.clone(), ..*self }
     }
 }
-
-impl<G: Game> Copy for Fork<G> {}
 
 impl<G: Game> Fork<G> {
     const fn ready(&self) -> Ready<'_, G> {
@@ -208,10 +208,8 @@ impl<G: Game> Lane<G> {
         while (lane.answers.given.len(), lane.mark.moved) < at {
             let fork = lane.plan(game).filter(|_| !lane.is_spent(game))?;
             lane.script.extend_from_slice(place.answers.get(fork.answered..)?);
-            if !lane.settle(game, &fork.ready()) {
-                return None;
-            }
-            let broken = game.broken_by(&lane.turn(&fork.ready(), fork.sent));
+            let event = lane.settle(game, &fork.ready())?;
+            let broken = game.broken_by(&lane.turn(&fork.ready(), &event, fork.sent));
             lane.note(broken, |_, _| ());
             if lane.recurs(game).is_break() || lane.steps > game.longest_run() {
                 return None;
@@ -232,32 +230,33 @@ impl<G: Game> Lane<G> {
 
     /// Plans the next team move of the run; `None` if it is over.
     fn plan(&mut self, game: &G) -> Option<Fork<G>> {
-        let before = self.state;
+        let before = self.state.clone();
         let plan = game.plan(&mut self.state, &self.log)?;
-        let (steps, sent, answered) = (self.steps, self.log.len(), self.answers.given.len());
-        Some(Fork { before, planned: self.state, plan, steps, sent, answered, broken: self.broken.len() })
+        let (planned, steps, sent) = (self.state.clone(), self.steps, self.log.len());
+        let (answered, broken) = (self.answers.given.len(), self.broken.len());
+        Some(Fork { before, planned, plan, steps, sent, answered, broken })
     }
 
-    /// Makes the team move that is planned, with the answers of the script first; whether they fit its questions. Only
-    /// a team move whose outcome is asked for is kept.
+    /// Makes the team move that is planned, with the answers of the script first; `None` if they do not fit its
+    /// questions. Only a team move whose outcome is asked for is kept.
     #[inline]
-    fn settle(&mut self, game: &G, ready: &Ready<'_, G>) -> bool {
+    fn settle(&mut self, game: &G, ready: &Ready<'_, G>) -> Option<G::Event> {
         let (steps, sent, answered) = (self.steps, self.log.len(), self.answers.given.len());
         self.steps += 1;
-        let mut world = World { answers: &mut self.answers, script: self.script.iter(), fits: true };
-        game.settle(&mut self.state, ready.plan, &mut self.log, &mut world);
+        let mut world = Answering { answers: &mut self.answers, script: self.script.iter(), fits: true };
+        let event = game.settle(&mut self.state, ready.plan, &mut self.log, &mut world);
         let fits = world.fits;
         self.script.clear();
         if self.answers.given.len() > answered {
             let Ready { before, planned, plan } = *ready;
-            let (before, planned, plan) = (*before, *planned, *plan);
+            let (before, planned, plan) = (before.clone(), planned.clone(), plan.clone());
             self.mark = Mark::NONE;
             let broken = self.broken.len();
             self.forks.push(Fork { before, planned, plan, steps, sent, answered, broken });
         } else {
             self.mark.moved += 1;
         }
-        fits
+        fits.then_some(event)
     }
 
     /// Searches on until `count` has `made` team moves, or `new` ones that are new.
@@ -272,13 +271,13 @@ impl<G: Game> Lane<G> {
             steps.next();
             match self.next {
                 Next::Advance => {
-                    let before = self.state;
+                    let before = self.state.clone();
                     let Some(plan) = game.plan(&mut self.state, &self.log) else {
                         self.breaks(game.broken_at_end(&self.state, &self.log), count);
                         self.end(count);
                         continue;
                     };
-                    let planned = self.state;
+                    let planned = self.state.clone();
                     self.make(game, &Ready { before: &before, planned: &planned, plan: &plan }, count);
                 }
                 Next::Retreat => {
@@ -292,14 +291,16 @@ impl<G: Game> Lane<G> {
     /// Makes the team move that is planned and checks it.
     fn make(&mut self, game: &G, ready: &Ready<'_, G>, count: &mut Count<G::Demand>) {
         let sent = self.log.len();
-        self.settle(game, ready);
+        let event = self.settle(game, ready);
         self.next = Next::Advance;
         count.made += 1;
         count.moves += u64::from(self.is_new());
-        let turn = self.turn(ready, sent);
-        count.covered |= game.occurs(&turn);
-        let broken = game.broken_by(&turn);
-        self.breaks(broken, count);
+        if let Some(event) = &event {
+            let turn = self.turn(ready, event, sent);
+            count.covered |= game.occurs(&turn);
+            let broken = game.broken_by(&turn);
+            self.breaks(broken, count);
+        }
         if self.is_spent(game) {
             self.end(count);
         } else if let ControlFlow::Break(broken) = self.recurs(game) {
@@ -313,8 +314,8 @@ impl<G: Game> Lane<G> {
 
     /// Notes what the run breaks, and hands on what it had not broken before.
     #[inline]
-    fn note(&mut self, broken: Vec<Broken<G>>, mut first: impl FnMut(&Self, G::Demand)) {
-        for (demand, _) in broken {
+    fn note(&mut self, broken: Vec<G::Demand>, mut first: impl FnMut(&Self, G::Demand)) {
+        for demand in broken {
             if !self.broken.contains(&demand) {
                 self.broken.push(demand);
                 first(self, demand);
@@ -324,7 +325,7 @@ impl<G: Game> Lane<G> {
 
     /// Counts what the run breaks for the first time.
     #[inline]
-    fn breaks(&mut self, broken: Vec<Broken<G>>, count: &mut Count<G::Demand>) {
+    fn breaks(&mut self, broken: Vec<G::Demand>, count: &mut Count<G::Demand>) {
         self.note(broken, |lane, demand| {
             if lane.is_new() {
                 let answers = lane.answers.values(0).collect();
@@ -341,13 +342,13 @@ impl<G: Game> Lane<G> {
     }
 
     /// The latest team move, before which the log had `sent` bytes.
-    fn turn<'a>(&'a self, ready: &Ready<'a, G>, sent: usize) -> Turn<'a, G> {
+    fn turn<'a>(&'a self, ready: &Ready<'a, G>, event: &'a G::Event, sent: usize) -> Turn<'a, G> {
         let Ready { before, planned, plan } = *ready;
-        Turn { before, planned, after: &self.state, plan, sent: &self.log[sent..] }
+        Turn { before, planned, after: &self.state, plan, event, sent: &self.log[sent..] }
     }
 
     /// Whether the run comes back to where it was, and so never ends, and what is broken by that.
-    fn recurs(&mut self, game: &G) -> ControlFlow<Vec<Broken<G>>> {
+    fn recurs(&mut self, game: &G) -> ControlFlow<Vec<G::Demand>> {
         let Mark { at, moved, due } = &self.mark;
         if moved < due {
             return match at {
@@ -355,7 +356,7 @@ impl<G: Game> Lane<G> {
                 None => ControlFlow::Continue(()),
             };
         }
-        self.mark = Mark { at: Some((self.state, self.log.len())), moved: *moved, due: 2 * due };
+        self.mark = Mark { at: Some((self.state.clone(), self.log.len())), moved: *moved, due: 2 * due };
         ControlFlow::Continue(())
     }
 
@@ -384,7 +385,7 @@ impl<G: Game> Lane<G> {
                     self.script.extend(self.answers.values(fork.answered));
                     self.script.push(answer.value + 1);
                     while self.answers.take(fork.answered).is_some() {}
-                    self.state = fork.planned;
+                    self.state = fork.planned.clone();
                     self.steps = fork.steps;
                     self.log.truncate(fork.sent);
                     self.broken.truncate(fork.broken);
@@ -462,12 +463,12 @@ impl<G: Game> Lane<G> {
         let mishaps = given.iter().filter(|answer| answer.is_mishap && answer.value == 1).count() as u32;
         let share = given.iter().fold(Share::WHOLE, |share, answer| share.part_of(answer.below));
         Some(Self {
-            state: self.state,
+            state: self.state.clone(),
             log: self.log[..self.forks[place].sent].to_vec(),
             steps: self.steps,
             answers: Answers { given, share, mishaps, most: self.answers.most },
             broken: self.broken[..self.forks[place].broken].to_vec(),
-            forks: vec![self.forks[place]],
+            forks: vec![self.forks[place].clone()],
             floor: 0,
             next: Next::Retreat,
             mark: Mark::NONE,
@@ -494,32 +495,33 @@ pub(super) fn replay<G: Game>(
     demand: G::Demand,
     answers: &[u32],
 ) -> Result<Replayed<G::Frame>, Unfit> {
-    let words =
-        |broken: Vec<Broken<G>>| broken.into_iter().find(|&(one, _)| one == demand).map(|(_, words)| words);
+    let words = |broken: Vec<G::Demand>| broken.contains(&demand).then(|| game.words(demand, None));
     let mut lane = Lane::whole(game, most);
     let mut frames = Vec::new();
     // Where it was since the last answer.
-    let mut been = vec![(lane.state, 0)];
+    let mut been = vec![(lane.state.clone(), 0)];
     let broken = loop {
-        let Some(fork) = lane.plan(game) else { break words(game.broken_at_end(&lane.state, &lane.log)) };
+        let Some(fork) = lane.plan(game) else {
+            break words(game.broken_at_end(&lane.state, &lane.log));
+        };
         lane.script.extend_from_slice(answers.get(fork.answered..).unwrap_or_default());
-        if !lane.settle(game, &fork.ready()) {
+        let Some(event) = lane.settle(game, &fork.ready()) else {
             let mut given = lane.answers.given.iter().zip(answers);
             let at = given.position(|(given, &answer)| given.value != answer).unwrap_or(fork.answered);
             return Err(Unfit::None { at, of: lane.answers.given[at].below });
-        }
+        };
         if lane.answers.given.len() > answers.len() {
             return Err(Unfit::Unbroken);
         }
-        let turn = lane.turn(&fork.ready(), fork.sent);
+        let turn = lane.turn(&fork.ready(), &event, fork.sent);
         frames.push(game.frame(&turn));
+        if game.broken_by(&turn).contains(&demand) {
+            break Some(game.words(demand, Some(&turn)));
+        }
         if lane.mark.moved == 0 {
             been.clear();
         }
-        been.push((lane.state, lane.log.len()));
-        if let Some(words) = words(game.broken_by(&turn)) {
-            break Some(words);
-        }
+        been.push((lane.state.clone(), lane.log.len()));
         match lane.recurs(game) {
             ControlFlow::Break(broken) => {
                 frames.truncate(frames.len() + 1 - been.len() + first_round(game, &been, &lane.log));

@@ -6,7 +6,7 @@
 use tautline_kernel::chain::Kind;
 use tautline_kernel::frontier::{Map, Rule as Frontier, Sight, TinyMap};
 use tautline_kernel::ground::{Cell, Edge, Step};
-use tautline_proofs::engine::states::System;
+use tautline_proofs::engine::world::World as _;
 use tautline_proofs::frontier::areas::setting;
 use tautline_proofs::frontier::world::{Demand, Event, Setting, World};
 use tautline_proofs::run::Frame;
@@ -134,7 +134,7 @@ impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
         let is_still = self.setting.turns(&self.world).is_empty();
         let is_short = is_still && !self.missed(layout, chart).is_empty();
         let knows = Setting { demand: Some(Demand::Knows), ..self.setting };
-        let knows_not = is_still && knows.broken_at_end(&self.world).contains(&Demand::Knows);
+        let knows_not = is_still && knows.broken_at_end(&self.world, &[]).contains(&Demand::Knows);
         [is_short.then_some(COVERS), knows_not.then_some(KNOWS)].into_iter().flatten().collect()
     }
 }

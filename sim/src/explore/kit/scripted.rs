@@ -6,6 +6,7 @@ use tautline_kernel::chain::Kind;
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Step, TinyGrid};
 use tautline_kernel::kit::{Next, Rule as Kit, Sight};
 use tautline_proofs::engine::states::{Bits, System};
+use tautline_proofs::engine::world::World as _;
 use tautline_proofs::kit::world::{Demand, Event, Setting, Speeds, Starts, World};
 use tautline_proofs::run::Frame;
 
@@ -180,7 +181,7 @@ impl<const ROBOTS: usize> Team for Scripted<ROBOTS> {
         ];
         let is_broken = |&(demand, starts, _): &(Demand, Starts, ClauseId)| {
             let asked = Setting { demand: Some(demand), starts, ..self.setting };
-            asked.broken_at_end(&self.world).contains(&demand)
+            asked.broken_at_end(&self.world, &[]).contains(&demand)
         };
         ends.iter().filter(|end| is_broken(end)).map(|&(.., clause)| clause).collect()
     }
