@@ -72,6 +72,14 @@ impl World for Election {
     fn broken_at_end(&self, ring: &Ring, _: &[u8]) -> Vec<&'static str> {
         if ring.leads.contains(&true) { Vec::new() } else { vec!["nobody leads"] }
     }
+
+    fn covers(&self) -> Vec<&'static str> {
+        vec!["a number goes on", "a number stops"]
+    }
+
+    fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
+        if turn.event.passes_on { 1 } else { 2 }
+    }
 }
 
 impl System for Election {
@@ -83,10 +91,6 @@ impl System for Election {
 
     fn put(&self, ring: &mut Ring, _: usize, part: &Ring) {
         ring.clone_from(part);
-    }
-
-    fn situation(&self, turn: &Turn<'_, Self>) -> &'static str {
-        if turn.event.passes_on { "a number goes on" } else { "a number stops" }
     }
 }
 

@@ -6,77 +6,74 @@ use std::env;
 use std::error::Error;
 use std::path::Path;
 
-use tautline_kernel::ground::{Cell, Side, Step};
+use tautline_kernel::ground::{Cell, Side};
 use tautline_proofs::clause::{Check, Clause, Named};
 use tautline_proofs::decide::Seen;
 use tautline_proofs::decide::Verdict::{Holds, Refuted};
 use tautline_proofs::ledger::{self, Row};
 use tautline_proofs::run::Run;
-use tautline_proofs::team::{Demand, Keeps, Layouts, Team};
+use tautline_proofs::team::{Act, Demand, Ground, Keeps, Places, Rule, Scene, Senses, Setting, View, Which};
 use tautline_sim::atomic_file::Replaceable;
 use tautline_sim::counterexample::own::Found;
 
-/// Two robots, and all that they know. The last two fields are the rule.
+/// The rule: where the leader starts, whether the follower goes to where the leader is, and how many walls end a run.
 #[derive(Clone, Copy, PartialEq, Eq)]
-struct Pair {
-    cells: [Cell; 2],
-    left: Cell,
-    heading: Side,
-    walls: u8,
+struct Followers {
+    leader: Cell,
     is_eager: bool,
     most_walls: u8,
 }
 
-impl Pair {
-    const fn starting(leader: Cell) -> Self {
-        let left = Cell::new(0, 0);
-        Self { cells: [leader, left], left, heading: Side::East, walls: 0, is_eager: false, most_walls: 3 }
-    }
-}
+impl Rule for Followers {
+    /// Where the leader heads, the walls that it has met, and the last two cells in which it was seen, the latest first.
+    type Memory = (Side, u8, [Cell; 2]);
+    type Message = ();
 
-impl Team<2> for Pair {
-    fn plan(&mut self) -> Option<[Step; 2]> {
-        let side = Side::ALL.into_iter().find(|&side| self.cells[1].beyond(side) == self.left);
-        let steps = [Step::Cross(self.heading), side.map_or(Step::Stay, Step::Cross)];
-        (self.walls < self.most_walls).then_some(steps)
+    fn start(&self, _: usize, starts: &[Cell]) -> Self::Memory {
+        (Side::East, 0, [starts[0], starts[1]])
     }
 
-    fn settle(&mut self, cells: [Cell; 2], [is_blocked, _]: [bool; 2]) {
-        if is_blocked {
-            (self.heading, self.walls) = (self.heading.turned_right(), (self.walls + 1) % 4);
-        } else {
-            self.left = if self.is_eager { cells[0] } else { self.cells[0] };
+    fn act(&self, view: &mut View<'_, Self>, (heading, walls, trail): &mut Self::Memory) -> Act {
+        if view.me() == 0 {
+            if view.was_blocked() {
+                (*heading, *walls) = (heading.turned_right(), (*walls + 1).min(3));
+            }
+            return Act::Go(*heading);
         }
-        self.cells = cells;
+        if let Some(leader) = view.sees(0).filter(|&leader| leader != trail[0]) {
+            *trail = [leader, trail[0]];
+        }
+        view.side_to(trail[usize::from(!self.is_eager)]).map_or(Act::Wait, Act::Go)
+    }
+
+    fn is_done(&self, _: usize, team: &Scene<Self>) -> bool {
+        team.memory(0).1 + u8::from(team.was_blocked(0)) >= self.most_walls
     }
 }
 
-static LAYOUTS: Layouts<Pair, Pair, 2> = Layouts {
-    scheme: "followers",
-    size: (4, 3),
-    max_walls: 3,
+const GROUND: Ground = Ground::open(4, 3).walls(Which::Met(3));
+
+static SETTING: Setting<'_, Followers> = Setting {
+    senses: Senses::TEAM,
     longest_run: 100,
-    start: |pair| (*pair, pair.cells),
     demands: &[
-        Demand::always("FOLLOW-1", "the robots are at most two steps apart", |moved| {
-            let (columns, rows) = moved.to[0].apart(moved.to[1]);
+        Demand::always("FOLLOW-1", "the robots are at most two steps apart", &|moved| {
+            let (columns, rows) = moved.after.cell(0).apart(moved.after.cell(1));
             columns + rows <= 2
         }),
-        Demand::always("FOLLOW-2", "the follower enters no occupied cell", |moved| {
-            moved.from[1] == moved.to[1] || moved.to[0] != moved.to[1]
+        Demand::always("FOLLOW-2", "the follower enters no occupied cell", &|moved| {
+            !moved.has_moved(1) || moved.after.cells_differ()
         }),
         Demand::never_endless("FOLLOW-3", "no run comes back to where it was"),
     ],
-    covers: &[
-        ("a step", |moved| moved.from[1] != moved.to[1]),
-        ("a wall", |moved| moved.from[0] == moved.to[0]),
-    ],
+    covers: &[("a step", &|moved| moved.has_moved(1)), ("a wall", &|moved| !moved.has_moved(0))],
+    ..Setting::new("followers", GROUND, 2, Places::At(|rule| vec![rule.leader, Cell::new(0, 0)]))
 };
 
-const WRITTEN: Pair = Pair::starting(Cell::new(1, 0));
-const OURS: Named<Pair> = Named::new("repaired", Pair::starting(Cell::new(0, 0)));
-const EAGER: Named<Pair> = Named::new("follows at once", Pair { is_eager: true, ..OURS.rule });
-const ENDLESS: Named<Pair> = Named::new("never gives up", Pair { most_walls: 4, ..OURS.rule });
+const WRITTEN: Followers = Followers { leader: Cell::new(1, 0), is_eager: false, most_walls: 3 };
+const OURS: Named<Followers> = Named::new("repaired", Followers { leader: Cell::new(0, 0), ..WRITTEN });
+const EAGER: Named<Followers> = Named::new("follows at once", Followers { is_eager: true, ..OURS.rule });
+const ENDLESS: Named<Followers> = Named::new("never gives up", Followers { most_walls: 9, ..OURS.rule });
 
 /// What is promised.
 pub static CLAUSES: [Clause; 3] = [
@@ -84,19 +81,19 @@ pub static CLAUSES: [Clause; 3] = [
         id: "FOLLOW-1",
         sentence: "The robots MUST stay at most two steps apart.",
         checks: &[
-            &Check::new(Named::new("written", WRITTEN), &Keeps(&LAYOUTS, 0), Refuted, &[]),
-            &Check::new(OURS, &Keeps(&LAYOUTS, 0), Holds, &[Named::new("as written", WRITTEN)]),
+            &Check::new(Named::new("written", WRITTEN), &Keeps(&SETTING, 0), Refuted, &[]),
+            &Check::new(OURS, &Keeps(&SETTING, 0), Holds, &[Named::new("as written", WRITTEN)]),
         ],
     },
     Clause {
         id: "FOLLOW-2",
         sentence: "The follower MUST never enter the leader's cell.",
-        checks: &[&Check::new(OURS, &Keeps(&LAYOUTS, 1), Holds, &[EAGER])],
+        checks: &[&Check::new(OURS, &Keeps(&SETTING, 1), Holds, &[EAGER])],
     },
     Clause {
         id: "FOLLOW-3",
         sentence: "Every run MUST end.",
-        checks: &[&Check::new(OURS, &Keeps(&LAYOUTS, 2), Holds, &[ENDLESS])],
+        checks: &[&Check::new(OURS, &Keeps(&SETTING, 2), Holds, &[ENDLESS])],
     },
 ];
 
@@ -113,7 +110,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let rows = ledger::decide_all(&ledger::register(&[&CLAUSES])?)?;
     print!("{}", ledger::table(&rows));
     if let (Some(path), Some(run)) = (env::args().nth(1), counterexample(&rows)) {
-        let found = Found { layouts: &LAYOUTS, rule: ("written", &WRITTEN), run };
+        let found = Found { setting: &SETTING, rule: ("written", &WRITTEN), run };
         let (file, _) = found.store(Path::new(&path), &Replaceable::default())?;
         file.keep()?;
         println!("\nplay the counterexample with: tautline replay {path}");
@@ -137,7 +134,7 @@ mod tests {
         let tutorial = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/own-rule.md");
         assert!(fs::read_to_string(tutorial).expect("a page").contains(&ledger::table(&rows)));
         let run = counterexample(&rows).expect("the rule as written is refuted");
-        let found = Found { layouts: &LAYOUTS, rule: ("written", &WRITTEN), run };
+        let found = Found { setting: &SETTING, rule: ("written", &WRITTEN), run };
         assert_eq!((run.walls.len(), run.frames.len()), (1, 2));
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("found.jsonl");

@@ -1,5 +1,5 @@
-//! A team of one's own, simulated: robots that each go to the neighbouring cell where the team has been least, and tell
-//! each other where they are. They run in offices, or on a map that is named: `cargo run -p tautline-examples --bin
+//! A rule of one's own, simulated: robots that each go to the neighbouring cell where the team has been least, and tell
+//! each other where they go. They run in offices, or on a map that is named: `cargo run -p tautline-examples --bin
 //! sweepers -- map.yaml`.
 
 use std::collections::BTreeMap;
@@ -7,53 +7,51 @@ use std::env;
 use std::error::Error;
 use std::num::NonZeroU32;
 
-use tautline_kernel::chain::Kind;
-use tautline_kernel::ground::{Cell, Edge, Side, Step};
-use tautline_proofs::run::Frame;
+use tautline_kernel::ground::{Cell, Side};
+use tautline_proofs::team::{Act, Ground, Places, Rule, Setting, View};
 use tautline_sim::diagnostic::Halt;
-use tautline_sim::explore::{End, Limits, Milestone, Report, Team, run};
+use tautline_sim::explore::{Limits, Milestone, Own, Report, run};
 use tautline_sim::layout::{self, Layout};
 
-/// The robots, and how often the team has been in each cell or found it shut.
-struct Sweepers {
-    cells: Vec<Cell>,
-    visits: BTreeMap<Cell, u32>,
-}
+/// Robots that go to the neighbouring cell where they know the team to have been least.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Sweepers;
 
-impl Sweepers {
-    fn new(start: Cell, robots: usize) -> Self {
-        Self { cells: vec![start; robots], visits: BTreeMap::from([(start, 1)]) }
-    }
-}
+impl Rule for Sweepers {
+    /// How often the team has gone to each cell.
+    type Memory = BTreeMap<Cell, u32>;
+    /// The cell to which the sender goes.
+    type Message = Cell;
 
-impl Team for Sweepers {
-    fn cells(&self) -> &[Cell] {
-        &self.cells
+    fn start(&self, _: usize, starts: &[Cell]) -> Self::Memory {
+        starts.iter().map(|&start| (start, 1)).collect()
     }
 
-    fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
-        let (mut steps, mut blocked) = (Vec::new(), Vec::new());
-        for cell in &mut self.cells {
-            let visits = |side: &Side| self.visits.get(&cell.beyond(*side)).copied().unwrap_or(0);
-            let side = Side::ALL.into_iter().min_by_key(visits).unwrap_or(Side::East);
-            let is_blocked = !is_open(Edge::new(*cell, side));
-            *self.visits.entry(cell.beyond(side)).or_default() += 1;
-            if !is_blocked {
-                *cell = cell.beyond(side);
-            }
-            steps.push(Step::Cross(side));
-            blocked.push(is_blocked);
+    fn act(&self, view: &mut View<'_, Self>, visits: &mut Self::Memory) -> Act {
+        for &(_, cell) in view.heard() {
+            *visits.entry(cell).or_default() += 1;
         }
-        Ok(Frame { kind: Kind::Advance, steps, blocked, cells: self.cells.clone() })
+        let often = |side: &Side| visits.get(&view.cell().beyond(*side)).copied().unwrap_or(0);
+        // Each begins on another side, so that robots in one cell part.
+        let sides = Side::ALL.into_iter().cycle().skip(view.me()).take(Side::ALL.len());
+        let side = sides.min_by_key(often).unwrap_or(Side::East);
+        let next = view.cell().beyond(side);
+        *visits.entry(next).or_default() += 1;
+        view.tell(next);
+        Act::Go(side)
     }
 }
+
+static SETTING: Setting<'_, Sweepers> =
+    Setting::new("sweepers", Ground::open(1, 1), 1, Places::At(|_: &Sweepers| vec![Cell::new(0, 0)]));
 
 /// Runs `robots` in `layout` until everything is explored, or one has entered so many cells.
 fn sweep(layout: &Layout, robots: usize, most: u32) -> Result<Report, Halt> {
     let start = layout.default_base().map_err(|problem| Halt::Diagnostic(problem.into()))?;
     let (until, max_moves) = (Some(Milestone::Whole), NonZeroU32::new(most));
     let limits = Limits { until, max_moves, ..Limits::default() };
-    run(&mut Sweepers::new(start, robots), layout, limits, &mut |_| Ok(()))
+    let team = SETTING.in_layout(&Sweepers, &vec![start; robots], Vec::new());
+    run(&mut Own::new(team, 0), layout, limits, &mut |_| Ok(()))
 }
 
 fn main() -> Result<(), Box<dyn Error>> {

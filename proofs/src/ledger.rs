@@ -7,12 +7,14 @@ use std::fmt::{self, Write};
 
 use crate::clause::{AnyCheck, Clause, Decision};
 use crate::decide::Verdict;
+#[cfg(feature = "rooms")]
 use crate::{ants, bricks, chain, frontier, ground, kit, mrc, notice, pack, position, tan};
 
 pub use composition::{Theorem, theorems};
 pub use jobs::{Hear, Heard, Limits, PATIENCE_S, Undecided, decide, decide_all};
 
 /// The clauses of each room.
+#[cfg(feature = "rooms")]
 pub static ROOMS: &[&[Clause]] = &[
     &ground::clauses::CLAUSES,
     &chain::clauses::CLAUSES,
@@ -29,6 +31,7 @@ pub static ROOMS: &[&[Clause]] = &[
 ];
 
 /// Every clause of our own.
+#[cfg(feature = "rooms")]
 pub fn clauses() -> impl Iterator<Item = &'static Clause> {
     ROOMS.iter().copied().flatten()
 }

@@ -39,12 +39,25 @@ pub struct Run {
     pub starts: Vec<Cell>,
     /// The walls that they met.
     pub walls: Vec<Edge>,
+    /// The blocked cells that they met.
+    pub obstacles: Vec<Cell>,
     /// The team moves.
     pub frames: Vec<Frame>,
     /// The id of the clause that the run breaks as anyone sees who watches it, if it is one of these.
     pub breaks: Option<&'static str>,
-    /// Whether the run breaks a clause by its end, not by its last team move.
-    pub is_over: bool,
+    /// How it breaks a clause.
+    pub ending: Ending,
+}
+
+/// How a run breaks a clause.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Ending {
+    /// By its last team move.
+    Move,
+    /// By having ended.
+    Over,
+    /// By going on for ever: its last team moves lead back to where it was.
+    Endless,
 }
 
 /// The walls that `frames` met, each once.

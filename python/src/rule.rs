@@ -3,7 +3,6 @@
 
 mod game;
 pub(crate) mod moved;
-mod player;
 mod written;
 
 use std::fs;
@@ -12,21 +11,19 @@ use std::sync::atomic::Ordering;
 
 use pyo3::prelude::*;
 use rayon::ThreadPoolBuilder;
-use tautline_kernel::ground::{Area, Cell};
 use tautline_proofs::engine::Until;
 use tautline_proofs::engine::tree::{self, Limits as Bounds, Tree, Waves};
-use tautline_proofs::run::{Frame, Run as Found, walls};
-use tautline_proofs::team::Promise;
+use tautline_proofs::run::Frame;
+use tautline_proofs::team::{Map, Promise, Setting};
 use tautline_sim::atomic_file::{AtomicFile, Replaceable};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::hunt::layout as layout_of;
-use tautline_sim::explore::{Limits, Report, RunConfig, run};
+use tautline_sim::explore::{Limits, Own, Report, RunConfig, run};
 use tautline_sim::layout::Layout;
 use tautline_sim::trace::{self, Stored, Writer};
 
-use self::game::InRule;
-use self::player::Player;
-use self::written::{Demand, When, Written};
+use self::game::{Asked, Questions, setting};
+use self::written::{Demand, Written};
 use crate::diagnostic::{Kind, error, halted};
 use crate::hunt::verdict;
 use crate::run::{Made, Run};
@@ -98,7 +95,7 @@ struct Plain {
 
 /// What was found before Python has it.
 struct Outcome {
-    found: tree::Found<Promise, Frame>,
+    found: tree::Found<Promise, (Frame, Option<Map>)>,
     counterexamples: Vec<Plain>,
 }
 
@@ -152,9 +149,14 @@ pub(crate) fn hunt_rule(
 fn found(py: Python<'_>, written: &Arc<Written>, budget: Option<u64>) -> PyResult<Outcome> {
     written.begin(py)?;
     let limits = Bounds { max_walls: written.max_walls, budget_moves: budget, until: Until::Exhausted };
-    let game = InRule::new(Arc::clone(written));
-    let mut tree = Tree::new(game, &limits)
-        .map_err(|refused| error(py, Kind::Input, refused, "give fewer max_walls, or a smaller size"))?;
+    let questions = Questions::of(written);
+    let (demands, covers) = (questions.demands(written), questions.covers(written));
+    let (rule, setting) = (Asked(Arc::clone(written)), setting(written, &demands, &covers));
+    let refused = |refused: &dyn std::fmt::Display| {
+        error(py, Kind::Input, refused, "give fewer max_walls, or a smaller size")
+    };
+    let playing = setting.playing(&rule, &[]).map_err(|what| refused(&what))?;
+    let mut tree = Tree::new(playing, &limits).map_err(|what| refused(&what))?;
     while tree.wave() {
         written.checked(py)?;
     }
@@ -169,20 +171,11 @@ fn found(py: Python<'_>, written: &Arc<Written>, budget: Option<u64>) -> PyResul
     for example in &found.counterexamples {
         let demand = example.broken.0;
         let clause = written.demands[demand].clause;
-        let run = Found {
-            scheme: written.scheme,
-            area: Area::of(Cell::new(0, 0)),
-            starts: written.starts().to_vec(),
-            walls: walls(&example.frames),
-            frames: Vec::new(),
-            breaks: Some(clause.as_str()),
-            is_over: matches!(written.demands[demand].when, When::AtTheEnd(_)),
-        };
-        let run = Found { area: written.area(py)?, ..run };
+        let run = setting.run(written.starts().to_vec(), example);
         let halted = |halt: Halt| written.failure(py).unwrap_or_else(|| halted(py, &halt));
         let (layout, _) = layout_of(&run)
             .map_err(|problem| halted(Diagnostic::usage(&problem, problem.remedy()).into()))?;
-        let (made, report) = stored(written, &layout, demand).map_err(halted)?;
+        let (made, report) = stored(written, (&setting, &rule), &layout, demand).map_err(halted)?;
         if report.violations.is_empty() {
             return Err(written.not_pure(py));
         }
@@ -193,7 +186,12 @@ fn found(py: Python<'_>, written: &Arc<Written>, budget: Option<u64>) -> PyResul
 }
 
 /// The run of the rule in `layout`, as far as it breaks the demand with this number, written to a file and read again.
-fn stored(written: &Written, layout: &Layout, demand: usize) -> Result<(Made, Report), Halt> {
+fn stored(
+    written: &Written,
+    (setting, rule): (&Setting<'_, Asked>, &Asked),
+    layout: &Layout,
+    demand: usize,
+) -> Result<(Made, Report), Halt> {
     let folder =
         tempfile::tempdir().map_err(|error| Diagnostic::usage(error, "make room for temporary files"))?;
     let path = folder.path().join("run.jsonl");
@@ -204,7 +202,8 @@ fn stored(written: &Written, layout: &Layout, demand: usize) -> Result<(Made, Re
     let aside = AtomicFile::new(&path, &Replaceable::default())?;
     let mut writer = Writer::new(aside, &stage, Some(clause)).map_err(Diagnostic::from)?;
     let mut left = written.longest_run;
-    let report = run(&mut Player::new(written, demand..demand + 1), layout, limits, &mut |made| {
+    let team = setting.in_layout(rule, written.starts(), Vec::new()).wanting(&[Promise(demand)]);
+    let report = run(&mut Own::new(team, 0), layout, limits, &mut |made| {
         left = left.saturating_sub(1);
         writer.add(made);
         // A rule that is not the same each time may have a run that neither ends nor comes back.

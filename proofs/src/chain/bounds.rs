@@ -9,7 +9,7 @@ use super::observed::Observed;
 use super::whole;
 use crate::engine::Until;
 use crate::engine::tree::{self, Limits};
-use crate::run::{Frame, Run, walls};
+use crate::run::{Ending, Frame, Run, walls};
 
 /// A run that breaks an invariant.
 pub type Counterexample = tree::Counterexample<Invariant, Frame>;
@@ -59,9 +59,10 @@ impl Bounds {
             area: self.area,
             starts: vec![self.base; self.robots],
             walls: walls(&found.frames),
+            obstacles: Vec::new(),
             frames: found.frames.clone(),
             breaks: found.broken.breach().map(Breach::clause),
-            is_over: found.broken.is_of_the_end(),
+            ending: if found.broken.is_of_the_end() { Ending::Over } else { Ending::Move },
         }
     }
 

@@ -56,11 +56,6 @@ pub trait System: World {
     /// Makes `part` the part of `state` in this place. Until all its parts are put, others may be another state's.
     fn put(&self, state: &mut Self::State, place: usize, part: &Self::Part);
 
-    /// The situation that a step is, among those that are to be covered.
-    fn situation(&self, _: &Turn<'_, Self>) -> &'static str {
-        "a step"
-    }
-
     /// Who acts in a step; of no use in a step that is not bound to be made.
     fn acting(&self, _: &Turn<'_, Self>) -> Bits {
         1
@@ -101,8 +96,8 @@ pub struct Step<S: System + ?Sized> {
     pub state: S::State,
     /// What happens in it.
     pub event: S::Event,
-    /// Which of the situations that are to be covered it is.
-    pub situation: &'static str,
+    /// The situations that it is: a bit for each of [`World::covers`].
+    pub occurs: u64,
     /// Who acts in it; of no use in a step that is not bound to be made.
     pub acting: Bits,
     /// Whether it is bound to be made if no other one is.
@@ -124,9 +119,9 @@ pub fn steps<S: System>(system: &S, state: &S::State) -> impl Iterator<Item = St
             answers = None;
         }
         let turn = Turn { before: state, planned: &planned, after: &after, plan, event: &event, sent: &log };
-        let (situation, acting) = (system.situation(&turn), system.acting(&turn));
+        let (occurs, acting) = (system.occurs(&turn), system.acting(&turn));
         let (is_bound, breaks) = (system.is_bound(&turn), system.broken_by(&turn));
-        Some(Step { state: after, event, situation, acting, is_bound, breaks })
+        Some(Step { state: after, event, occurs, acting, is_bound, breaks })
     })
 }
 

@@ -38,7 +38,7 @@ use crate::plural::counted;
 /// A team that moves in a world that answers when it is asked: what is searched. Its state is copied where the world
 /// has more than one answer.
 pub trait Game:
-    World<State: Send + Sync, Plan: Clone + Send + Sync, Demand: Send + Sync> + Send + Sync + 'static
+    World<State: Send + Sync, Plan: Clone + Send + Sync, Demand: Send + Sync> + Send + Sync
 {
     /// A team move as a person sees it.
     type Frame;
@@ -74,16 +74,6 @@ pub trait Game:
     fn longest_run(&self) -> u32 {
         u32::MAX
     }
-
-    /// The situations that must occur, at most 64 of them.
-    fn covers(&self) -> impl Iterator<Item = &'static str> {
-        std::iter::empty()
-    }
-
-    /// Which of them a team move is: a bit for each, in their order.
-    fn occurs(&self, _: &Turn<'_, Self>) -> u64 {
-        0
-    }
 }
 
 /// How far to search.
@@ -108,7 +98,7 @@ pub struct Found<D, F> {
     pub longest: u32,
     /// Runs that were given up, since they grew too long. They are among the leaves.
     pub given_up: u64,
-    /// The situations that occurred, in the order of [`Game::covers`].
+    /// The situations that occurred, in the order of [`World::covers`].
     pub covered: Vec<&'static str>,
     /// For each number of walls, from none on, the runs that meet so many and were all covered.
     pub levels: Vec<Level>,

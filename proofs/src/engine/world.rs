@@ -44,6 +44,17 @@ pub trait World {
         let _ = (state, log);
         Vec::new()
     }
+
+    /// The situations that must occur, at most 64 of them.
+    fn covers(&self) -> Vec<&'static str> {
+        Vec::new()
+    }
+
+    /// Which of them a step is: a bit for each, in their order.
+    fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
+        let _ = turn;
+        0
+    }
 }
 
 /// A step between its states.
@@ -60,6 +71,21 @@ pub struct Turn<'a, W: World + ?Sized> {
     pub event: &'a W::Event,
     /// The bytes that the log grew by.
     pub sent: &'a [u8],
+}
+
+/// The plan of a step that may be any of `all`; `None` if there is none.
+pub fn any_of<T>(all: Vec<T>) -> Option<Vec<T>> {
+    Some(all).filter(|all| !all.is_empty())
+}
+
+/// The one of `all` that `world` picks.
+pub fn picked<T: Clone>(all: &[T], world: &mut impl Oracle) -> T {
+    all[world.pick(all.len() as u32) as usize].clone()
+}
+
+/// The bit of `situation` among those that must occur; none if it is none of them.
+pub fn bit(covers: &[&str], situation: &str) -> u64 {
+    covers.iter().position(|&other| other == situation).map_or(0, |place| 1 << place)
 }
 
 /// Plays a run of `world` from `state` with these answers, for at most so many steps, until something is broken: the

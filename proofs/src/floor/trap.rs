@@ -433,10 +433,6 @@ impl<A: Agents> System for Floors<A> {
         state.put(place, part);
     }
 
-    fn situation(&self, _: &Turn<'_, Self>) -> &'static str {
-        "a team move"
-    }
-
     fn broken_by_endless_runs(&self) -> Option<&'static str> {
         Some(ENDLESS)
     }

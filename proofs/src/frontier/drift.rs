@@ -14,7 +14,7 @@ use super::areas::Size;
 use super::world::Demand;
 use crate::engine::outcomes;
 use crate::engine::states::{Run, System, steps};
-use crate::engine::world::{Turn, World};
+use crate::engine::world::{Turn, World, any_of, bit, picked};
 
 /// The parts of a cell's side in which an error is told.
 pub const PARTS: i32 = 16;
@@ -148,6 +148,9 @@ impl Drift {
     }
 }
 
+/// What happens.
+const SITUATIONS: [&str; 2] = ["an arrival", "an obstacle"];
+
 impl World for Drift {
     type State = State;
     type Plan = Vec<(State, &'static str)>;
@@ -156,7 +159,7 @@ impl World for Drift {
 
     fn plan(&self, state: &mut State, _: &[u8]) -> Option<Self::Plan> {
         let all: Vec<_> = outcomes(|oracle| self.go(state, oracle)).collect();
-        Some(all).filter(|all| !all.is_empty())
+        any_of(all)
     }
 
     fn settle(
@@ -166,7 +169,7 @@ impl World for Drift {
         _: &mut Vec<u8>,
         world: &mut impl Oracle,
     ) -> &'static str {
-        let (after, situation) = all[world.pick(all.len() as u32) as usize];
+        let (after, situation) = picked(all, world);
         *state = after;
         situation
     }
@@ -174,6 +177,14 @@ impl World for Drift {
     fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<&'static str> {
         let is_right = turn.after.robot.map().is_within(&turn.after.truth);
         if is_right { Vec::new() } else { vec![Demand::Marks.words()] }
+    }
+
+    fn covers(&self) -> Vec<&'static str> {
+        SITUATIONS.to_vec()
+    }
+
+    fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
+        bit(&SITUATIONS, turn.event)
     }
 }
 
@@ -186,10 +197,6 @@ impl System for Drift {
 
     fn put(&self, state: &mut State, _: usize, part: &State) {
         *state = *part;
-    }
-
-    fn situation(&self, turn: &Turn<'_, Self>) -> &'static str {
-        turn.event
     }
 }
 

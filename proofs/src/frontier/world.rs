@@ -460,6 +460,10 @@ pub enum Part<const ROBOTS: usize> {
     Rest(Box<World<ROBOTS>>),
 }
 
+/// What happens.
+const SITUATIONS: [&str; 6] =
+    ["a decision", "a robot", "a slot", "an arrival", "an obstacle", "an open cell"];
+
 impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
     type State = World<ROBOTS>;
     type Plan = Vec<Turned<ROBOTS>>;
@@ -467,7 +471,7 @@ impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
     type Demand = Demand;
 
     fn plan(&self, state: &mut World<ROBOTS>, _: &[u8]) -> Option<Vec<Turned<ROBOTS>>> {
-        Some(self.turns(state)).filter(|turns| !turns.is_empty())
+        world::any_of(self.turns(state))
     }
 
     fn settle(
@@ -477,7 +481,7 @@ impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
         _: &mut Vec<u8>,
         world: &mut impl Oracle,
     ) -> Turned<ROBOTS> {
-        let turned = turns[world.pick(turns.len() as u32) as usize].clone();
+        let turned = world::picked(turns, world);
         *state = turned.world;
         turned
     }
@@ -494,6 +498,21 @@ impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
             .into_iter()
             .filter_map(|(is_kept, demand)| (!is_kept).then_some(demand))
             .collect()
+    }
+
+    fn covers(&self) -> Vec<&'static str> {
+        SITUATIONS.to_vec()
+    }
+
+    fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
+        match turn.event.event {
+            Event::Decides(..) => 1,
+            Event::Looks(_, _, Sight::Robot, ..) => 1 << 1,
+            Event::Ticks => 1 << 2,
+            Event::Arrives(..) => 1 << 3,
+            Event::Looks(_, _, Sight::Obstacle, ..) => 1 << 4,
+            Event::Looks(_, _, Sight::Open, ..) => 1 << 5,
+        }
     }
 }
 
@@ -537,17 +556,6 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
                     *robot.map_mut() = map;
                 }
             }
-        }
-    }
-
-    fn situation(&self, turn: &Turn<'_, Self>) -> &'static str {
-        match turn.event.event {
-            Event::Decides(..) => "a decision",
-            Event::Looks(_, _, Sight::Open, ..) => "an open cell",
-            Event::Looks(_, _, Sight::Obstacle, ..) => "an obstacle",
-            Event::Looks(_, _, Sight::Robot, ..) => "a robot",
-            Event::Arrives(..) => "an arrival",
-            Event::Ticks => "a slot",
         }
     }
 

@@ -7,7 +7,7 @@ use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, TinyGrid};
 use tautline_kernel::kit::{Condition, Stance};
 
-use super::world::{Demand, Part, Setting, Speeds, Turned, World};
+use super::world::{Demand, Part, SITUATIONS, Setting, Speeds, Turned, World};
 use crate::engine::states::{Bits, Places, System};
 use crate::engine::world::{self, Turn};
 
@@ -181,6 +181,14 @@ impl world::World for Symmetric {
     fn broken_at_end(&self, state: &World<2>, log: &[u8]) -> Vec<Demand> {
         self.setting.broken_at_end(state, log)
     }
+
+    fn covers(&self) -> Vec<&'static str> {
+        SITUATIONS.to_vec()
+    }
+
+    fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
+        world::bit(&SITUATIONS, turn.event.situation)
+    }
 }
 
 impl System for Symmetric {
@@ -223,10 +231,6 @@ impl System for Symmetric {
 
     fn put(&self, state: &mut World<2>, place: usize, part: &Part<2>) {
         self.setting.put(state, place, part);
-    }
-
-    fn situation(&self, turn: &Turn<'_, Self>) -> &'static str {
-        turn.event.situation
     }
 
     fn acting(&self, turn: &Turn<'_, Self>) -> Bits {

@@ -7,7 +7,7 @@ use tautline_kernel::ground::{Cell, Steps};
 use tautline_kernel::kit::{Letter, Message, NUMBERS, Phase, Rule, Sent, Talk};
 
 use crate::engine::states::{Bits, System};
-use crate::engine::world::{Turn, World};
+use crate::engine::world::{Turn, World, any_of, bit, picked};
 
 /// What is demanded.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -243,6 +243,10 @@ impl Turned {
     }
 }
 
+/// What happens.
+const SITUATIONS: [&str; 7] =
+    ["a double", "a drive", "a loss", "a message", "a repeated request", "a stay", "an arrival"];
+
 impl World for Talks {
     type State = State;
     type Plan = Vec<Turned>;
@@ -252,7 +256,7 @@ impl World for Talks {
     fn plan(&self, state: &mut State, _: &[u8]) -> Option<Vec<Turned>> {
         let mut turns = self.acts(state);
         turns.extend(self.letters(state));
-        Some(turns).filter(|turns| !turns.is_empty())
+        any_of(turns)
     }
 
     fn settle(
@@ -262,7 +266,7 @@ impl World for Talks {
         _: &mut Vec<u8>,
         world: &mut impl Oracle,
     ) -> Turned {
-        let turned = turns[world.pick(turns.len() as u32) as usize].clone();
+        let turned = picked(turns, world);
         state.clone_from(&turned.state);
         turned
     }
@@ -273,6 +277,14 @@ impl World for Talks {
 
     fn broken_at_end(&self, state: &State, _: &[u8]) -> Vec<&'static str> {
         (self.waiting(state) != 0).then_some(WAITS).into_iter().collect()
+    }
+
+    fn covers(&self) -> Vec<&'static str> {
+        SITUATIONS.to_vec()
+    }
+
+    fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
+        bit(&SITUATIONS, turn.event.situation)
     }
 }
 
@@ -285,10 +297,6 @@ impl System for Talks {
 
     fn put(&self, state: &mut State, _: usize, part: &State) {
         state.clone_from(part);
-    }
-
-    fn situation(&self, turn: &Turn<'_, Self>) -> &'static str {
-        turn.event.situation
     }
 
     fn acting(&self, turn: &Turn<'_, Self>) -> Bits {

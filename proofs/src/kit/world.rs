@@ -279,6 +279,9 @@ pub enum Part<const ROBOTS: usize> {
     Rest(Box<World<ROBOTS>>),
 }
 
+/// What happens.
+pub(super) const SITUATIONS: [&str; 5] = ["a new path", "a stay", "an arrival", "an old path", "done"];
+
 impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
     type State = World<ROBOTS>;
     type Plan = Vec<Turned<ROBOTS>>;
@@ -286,7 +289,7 @@ impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
     type Demand = Demand;
 
     fn plan(&self, state: &mut World<ROBOTS>, _: &[u8]) -> Option<Vec<Turned<ROBOTS>>> {
-        Some(self.turns(state)).filter(|turns| !turns.is_empty())
+        world::any_of(self.turns(state))
     }
 
     fn settle(
@@ -296,7 +299,7 @@ impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
         _: &mut Vec<u8>,
         world: &mut impl Oracle,
     ) -> Turned<ROBOTS> {
-        let turned = turns[world.pick(turns.len() as u32) as usize].clone();
+        let turned = world::picked(turns, world);
         *state = turned.world;
         turned
     }
@@ -307,6 +310,14 @@ impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {
 
     fn broken_at_end(&self, state: &World<ROBOTS>, _: &[u8]) -> Vec<Demand> {
         self.broken_by_staying(state)
+    }
+
+    fn covers(&self) -> Vec<&'static str> {
+        SITUATIONS.to_vec()
+    }
+
+    fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
+        world::bit(&SITUATIONS, turn.event.situation)
     }
 }
 
@@ -347,10 +358,6 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
                 state.truth = truth;
             }
         }
-    }
-
-    fn situation(&self, turn: &Turn<'_, Self>) -> &'static str {
-        turn.event.situation
     }
 
     fn acting(&self, turn: &Turn<'_, Self>) -> Bits {

@@ -7,7 +7,7 @@ use tautline_kernel::choice::Oracle;
 
 use super::state::{Action, Actor, Demand, Message, Part, ROBOTS, Setting, State, WFRS, place};
 use crate::engine::states::{self, Bits, Limits, Places, Run, System};
-use crate::engine::world::{Turn, World};
+use crate::engine::world::{Turn, World, any_of, picked};
 use crate::engine::{Choices, Script, Unfit};
 
 /// When to stop.
@@ -198,7 +198,7 @@ impl World for Space {
     type Demand = Demand;
 
     fn plan(&self, state: &mut State, _: &[u8]) -> Option<Vec<Action>> {
-        Some(state.actions(&self.setting)).filter(|actions| !actions.is_empty())
+        any_of(state.actions(&self.setting))
     }
 
     fn settle(
@@ -208,7 +208,7 @@ impl World for Space {
         _: &mut Vec<u8>,
         world: &mut impl Oracle,
     ) -> Action {
-        let action = actions[world.pick(actions.len() as u32) as usize];
+        let action = picked(actions, world);
         *state = state.after(&self.setting, action);
         action
     }
@@ -244,10 +244,6 @@ impl System for Space {
 
     fn put(&self, state: &mut State, place: usize, part: &Part) {
         state.put(place, part);
-    }
-
-    fn situation(&self, _: &Turn<'_, Self>) -> &'static str {
-        "an action"
     }
 
     fn acting(&self, turn: &Turn<'_, Self>) -> Bits {

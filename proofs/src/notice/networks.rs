@@ -9,7 +9,7 @@ use super::spread::{Demand, Event, Links, Point, Spread, ones};
 use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen};
 use crate::engine::states::{Limits, Run, System, search};
 use crate::engine::watchdog::Task;
-use crate::engine::world::{Turn, World};
+use crate::engine::world::{Turn, World, any_of, picked};
 use crate::engine::{Choices, Script, Stop, Tally, Unfit, Until, cover};
 
 /// The largest network of which every state is looked at.
@@ -143,7 +143,7 @@ impl World for Case {
     type Demand = (Demand, &'static str);
 
     fn plan(&self, spread: &mut Spread<SMALL>, _: &[u8]) -> Option<Vec<Event>> {
-        Some(spread.events()).filter(|events| !events.is_empty())
+        any_of(spread.events())
     }
 
     fn settle(
@@ -153,7 +153,7 @@ impl World for Case {
         _: &mut Vec<u8>,
         world: &mut impl Oracle,
     ) -> Event {
-        let event = events[world.pick(events.len() as u32) as usize];
+        let event = picked(events, world);
         *spread = spread.after(&self.rule, &self.links, event);
         event
     }
@@ -167,6 +167,18 @@ impl World for Case {
         let is_of_ends = |(demand, _): &(Demand, _)| self.demands.len() == 1 || demand.is_of_ends();
         self.broken(spread, Point::End).filter(is_of_ends).collect()
     }
+
+    fn covers(&self) -> Vec<&'static str> {
+        EVENTS[..3].to_vec()
+    }
+
+    fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
+        match turn.event {
+            Event::Arrives { .. } => 1,
+            Event::ArrivesAgain { .. } => 1 << 1,
+            Event::Expires { .. } => 1 << 2,
+        }
+    }
 }
 
 impl System for Case {
@@ -178,14 +190,6 @@ impl System for Case {
 
     fn put(&self, spread: &mut Spread<SMALL>, _: usize, part: &Spread<SMALL>) {
         *spread = *part;
-    }
-
-    fn situation(&self, turn: &Turn<'_, Self>) -> &'static str {
-        match turn.event {
-            Event::Arrives { .. } => "a NOTICE arrives",
-            Event::ArrivesAgain { .. } => "a copy arrives",
-            Event::Expires { .. } => "a node forwards",
-        }
     }
 
     /// Among several demands the others are looked for.

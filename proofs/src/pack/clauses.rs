@@ -25,117 +25,64 @@ const NO_ANEW: Named<Rule> =
 /// Any number of obstacles.
 const ALL: u32 = u64::BITS;
 
+/// Columns and rows, and the most obstacles where they are not all looked at.
+macro_rules! floors {
+    ($($columns:literal by $rows:literal $(: $most:literal)?),+) => {
+        &[$((($columns, $rows), [$($most,)? ALL][0])),+]
+    };
+}
+
 /// The floors of two robots.
-const TWO: [(Size, u32); 16] = [
-    ((2, 1), ALL),
-    ((3, 1), ALL),
-    ((2, 2), ALL),
-    ((4, 1), ALL),
-    ((5, 1), ALL),
-    ((3, 2), ALL),
-    ((6, 1), ALL),
-    ((7, 1), ALL),
-    ((4, 2), ALL),
-    ((8, 1), ALL),
-    ((3, 3), ALL),
-    ((5, 2), ALL),
-    ((10, 1), ALL),
-    ((4, 3), ALL),
-    ((5, 3), 4),
-    ((5, 4), 2),
+const TWO: &[(Size, u32)] = floors![
+    2 by 1, 3 by 1, 2 by 2, 4 by 1, 5 by 1, 3 by 2, 6 by 1, 7 by 1, 4 by 2, 8 by 1, 3 by 3, 5 by 2, 10 by 1,
+    4 by 3, 5 by 3: 4, 5 by 4: 2
 ];
 
 /// The floors on which the published rule, and robots that start anywhere, are looked at.
-const FEW: [(Size, u32); 10] = [
-    ((2, 1), ALL),
-    ((3, 1), ALL),
-    ((2, 2), ALL),
-    ((4, 1), ALL),
-    ((5, 1), ALL),
-    ((3, 2), ALL),
-    ((6, 1), ALL),
-    ((7, 1), ALL),
-    ((4, 2), ALL),
-    ((5, 2), ALL),
+const FEW: &[(Size, u32)] = floors![
+    2 by 1, 3 by 1, 2 by 2, 4 by 1, 5 by 1, 3 by 2, 6 by 1, 7 by 1, 4 by 2, 5 by 2
 ];
 
 /// Floors on which no two cells are R_c apart: whether robots are linked does not rest on equality.
-const NARROW: [(Size, u32); 8] = [
-    ((2, 1), ALL),
-    ((3, 1), ALL),
-    ((2, 2), ALL),
-    ((4, 1), ALL),
-    ((3, 2), ALL),
-    ((4, 2), ALL),
-    ((3, 3), ALL),
-    ((4, 3), ALL),
-];
+const NARROW: &[(Size, u32)] = floors![2 by 1, 3 by 1, 2 by 2, 4 by 1, 3 by 2, 4 by 2, 3 by 3, 4 by 3];
 
 /// The floors of robots that see two cells far.
-const FAR: [(Size, u32); 8] = [
-    ((4, 1), ALL),
-    ((3, 2), ALL),
-    ((4, 2), ALL),
-    ((3, 3), ALL),
-    ((5, 2), ALL),
-    ((4, 3), ALL),
-    ((5, 3), 4),
-    ((5, 4), 2),
-];
+const FAR: &[(Size, u32)] = floors![4 by 1, 3 by 2, 4 by 2, 3 by 3, 5 by 2, 4 by 3, 5 by 3: 4, 5 by 4: 2];
 
 /// The floors on which gains are compared.
-const CHOOSING: [(Size, u32); 6] =
-    [((6, 1), ALL), ((4, 2), ALL), ((3, 3), ALL), ((5, 2), ALL), ((4, 3), 4), ((5, 4), 1)];
+const CHOOSING: &[(Size, u32)] = floors![6 by 1, 4 by 2, 3 by 3, 5 by 2, 4 by 3: 4, 5 by 4: 1];
 
 /// The floors of three.
-const THREE: [(Size, u32); 9] = [
-    ((3, 1), ALL),
-    ((2, 2), ALL),
-    ((4, 1), ALL),
-    ((3, 2), ALL),
-    ((4, 2), ALL),
-    ((3, 3), ALL),
-    ((5, 2), ALL),
-    ((4, 3), 4),
-    ((5, 3), 2),
+const THREE: &[(Size, u32)] = floors![
+    3 by 1, 2 by 2, 4 by 1, 3 by 2, 4 by 2, 3 by 3, 5 by 2, 4 by 3: 4, 5 by 3: 2
 ];
 
 /// Floors on which three robots lead, take back and march.
 const LEADING: [Drawing; 2] = [&[".....", ".##.#", "..#.."], &["...", "#.#", "...", ".#.", "...", "..."]];
 
 /// Floors without obstacles.
-const OPEN: [(Size, u32); 12] = [
-    ((2, 1), 0),
-    ((3, 1), 0),
-    ((2, 2), 0),
-    ((4, 1), 0),
-    ((5, 1), 0),
-    ((3, 2), 0),
-    ((4, 2), 0),
-    ((3, 3), 0),
-    ((5, 2), 0),
-    ((4, 3), 0),
-    ((5, 3), 0),
-    ((5, 5), 0),
+const OPEN: &[(Size, u32)] = floors![
+    2 by 1: 0, 3 by 1: 0, 2 by 2: 0, 4 by 1: 0, 5 by 1: 0, 3 by 2: 0, 4 by 2: 0, 3 by 3: 0, 5 by 2: 0,
+    4 by 3: 0, 5 by 3: 0, 5 by 5: 0
 ];
 
 const SMALLEST: Bounds = Bounds {
     gains: Gains::Unseen,
-    sizes: &TWO,
+    sizes: TWO,
     drawn: &[],
     robots: 2,
     sight_cells: 1,
     range_cells: 3,
     starts: Starts::Beside,
 };
-const OF_FEW: Bounds = Bounds { sizes: &FEW, ..SMALLEST };
-const NO_TIES: Bounds = Bounds { sizes: &NARROW, range_cells: 4, ..SMALLEST };
-const OF_THREE: Bounds = Bounds { sizes: &THREE, drawn: &LEADING, robots: 3, ..SMALLEST };
+const OF_FEW: Bounds = Bounds { sizes: FEW, ..SMALLEST };
+const NO_TIES: Bounds = Bounds { sizes: NARROW, range_cells: 4, ..SMALLEST };
+const OF_THREE: Bounds = Bounds { sizes: THREE, drawn: &LEADING, robots: 3, ..SMALLEST };
 /// Choices are looked at on smaller floors.
-const OF_GAINS: Bounds = Bounds { sizes: &CHOOSING, gains: Gains::Compared, ..SMALLEST };
-const FAR_SIGHTED: Bounds = Bounds { sizes: &FAR, sight_cells: 2, ..SMALLEST };
+const OF_GAINS: Bounds = Bounds { sizes: CHOOSING, gains: Gains::Compared, ..SMALLEST };
+const FAR_SIGHTED: Bounds = Bounds { sizes: FAR, sight_cells: 2, ..SMALLEST };
 const ANYWHERE: Bounds = Bounds { starts: Starts::Linked, ..OF_FEW };
-const ANYWHERE_IN_THE_OPEN: Bounds = Bounds { sizes: &OPEN, ..ANYWHERE };
+const ANYWHERE_IN_THE_OPEN: Bounds = Bounds { sizes: OPEN, ..ANYWHERE };
 
 const fn demand(bounds: Bounds, demand: Demand) -> Floors {
     Floors { bounds, demand, covers: &[] }

@@ -1,147 +1,129 @@
-//! The rule in all layouts, as the search plays it.
+//! A rule written in Python as a rule of each robot: all remember the number of one state, and see the whole team.
 
-use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
-use pyo3::Python;
-use tautline_kernel::chain::Kind;
-use tautline_kernel::choice::Oracle;
-use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, SmallGrid, Step};
-use tautline_proofs::engine::tree::{Broken, Game, Turn};
-use tautline_proofs::run::Frame;
-use tautline_proofs::team::Promise;
+use tautline_kernel::ground::{Cell, Step};
+use tautline_proofs::team::{
+    Act, Cover, Demand, Ground, Moved, Places, Rule, Scene, Senses, Setting, View, Which,
+};
 
-use super::written::{Blocked, Cells, MAX_ROBOTS, Move, Steps, Written};
+use super::written::{Blocked, Cells, MAX_ROBOTS, Move, When, Written};
 
-/// A rule in layouts, and the numbers of its demands.
-pub(super) struct InRule(Arc<Written>, Vec<Promise>);
+/// The rule, asked as a robot asks it.
+#[derive(Clone)]
+pub(super) struct Asked(pub(super) Arc<Written>);
 
-/// The number of the rule's state, where its robots are, what came of the last team move, and what was found of the
-/// layout.
-#[derive(Clone, Copy)]
-pub(super) struct State {
-    number: u32,
-    cells: Cells,
-    blocked: Blocked,
-    grid: SmallGrid,
-}
+impl Rule for Asked {
+    type Memory = u32;
+    type Message = ();
 
-/// What the team tries, and the number of the state with which it was asked.
-#[derive(Clone, Copy)]
-pub(super) struct Plan {
-    before: u32,
-    steps: Steps,
-}
-
-impl InRule {
-    pub(super) fn new(written: Arc<Written>) -> Self {
-        let demands = (0..written.demands.len()).map(Promise).collect();
-        Self(written, demands)
+    fn start(&self, _: usize, _: &[Cell]) -> u32 {
+        self.0.start().0
     }
 
-    const fn demands(&self) -> Range<usize> {
-        0..self.1.len()
+    fn act(&self, view: &mut View<'_, Self>, number: &mut u32) -> Act {
+        let (mut cells, mut blocked) = ([Cell::new(0, 0); MAX_ROBOTS], [false; MAX_ROBOTS]);
+        for robot in 0..view.robots() {
+            cells[robot] = view.sees(robot).unwrap_or(cells[robot]);
+            blocked[robot] = view.sees_blocked(robot).unwrap_or(false);
+        }
+        let (next, steps) = self.0.step(*number, &cells, &blocked);
+        *number = next;
+        match steps.map(|steps| steps[view.me()]) {
+            Some(Step::Cross(side)) => Act::Go(side),
+            Some(Step::Stay) | None => Act::Wait,
+        }
     }
 
-    fn told(&self, broken: Vec<usize>) -> Vec<Broken<Self>> {
-        broken.into_iter().map(|demand| (Promise(demand), self.0.demands[demand].words)).collect()
+    fn is_done(&self, _: usize, scene: &Scene<Self>) -> bool {
+        let (cells, blocked) = seen(scene);
+        self.0.step(*scene.memory(0), &cells, &blocked).1.is_none()
     }
 }
 
-fn moved(turn: &Turn<'_, InRule>) -> Move {
-    Move {
-        before: turn.plan.before,
-        after: turn.after.number,
-        from: turn.before.cells,
-        to: turn.after.cells,
-        steps: turn.plan.steps,
-        blocked: turn.after.blocked,
+/// Where the robots are, and which of them have just met a wall.
+fn seen(scene: &Scene<Asked>) -> (Cells, Blocked) {
+    let (mut cells, mut blocked) = ([Cell::new(0, 0); MAX_ROBOTS], [false; MAX_ROBOTS]);
+    for robot in 0..scene.robots() {
+        (cells[robot], blocked[robot]) = (scene.cell(robot), scene.was_blocked(robot));
     }
+    (cells, blocked)
 }
 
-impl Game for InRule {
-    type State = State;
-    type Plan = Plan;
-    type Demand = Promise;
-    type Frame = Frame;
+/// A team move as Python sees it.
+fn moved(written: &Written, moved: &Moved<'_, Asked>) -> Move {
+    let (before, after) = (*moved.before.memory(0), *moved.after.memory(0));
+    let ((from, was_blocked), (to, blocked)) = (seen(moved.before), seen(moved.after));
+    let steps = written.step(before, &from, &was_blocked).1.unwrap_or([Step::Stay; MAX_ROBOTS]);
+    Move { before, after, from, to, steps, blocked }
+}
 
-    fn start(&self) -> State {
-        let (number, cells) = self.0.start();
-        // The rule was refused if its area does not fit.
-        let area = Python::attach(|py| self.0.area(py)).unwrap_or(Area::of(Cell::new(0, 0)));
-        let grid = SmallGrid::new(area).or_else(|| SmallGrid::new(Area::of(Cell::new(0, 0))));
-        let grid = grid.expect("one cell fits in every grid");
-        State { number, cells, blocked: [false; MAX_ROBOTS], grid }
+/// A question about a team move.
+type OfMove<'a> = Box<dyn Fn(&Moved<'_, Asked>) -> bool + Sync + 'a>;
+/// A question about the end of a run.
+type OfEnd<'a> = Box<dyn Fn(&Scene<Asked>) -> bool + Sync + 'a>;
+
+/// The questions that a rule's demands and covers ask.
+pub(super) struct Questions<'a> {
+    of_moves: Vec<OfMove<'a>>,
+    of_ends: Vec<OfEnd<'a>>,
+    covers: Vec<OfMove<'a>>,
+}
+
+impl<'a> Questions<'a> {
+    pub(super) fn of(written: &'a Written) -> Self {
+        let of_move = |demand: usize| -> OfMove<'a> {
+            Box::new(move |step| !written.is_broken_by(demand, &moved(written, step)))
+        };
+        let of_end = |demand: usize| -> OfEnd<'a> {
+            Box::new(move |scene| {
+                let (cells, blocked) = seen(scene);
+                // A rule that learns something at its end says so with its last answer.
+                let (last, _) = written.step(*scene.memory(0), &cells, &blocked);
+                !written.is_broken_at_end(demand, last, &cells)
+            })
+        };
+        let cover =
+            |cover: usize| -> OfMove<'a> { Box::new(move |step| written.occurs(cover, &moved(written, step))) };
+        let demands = 0..written.demands.len();
+        Self {
+            of_moves: demands.clone().map(of_move).collect(),
+            of_ends: demands.map(of_end).collect(),
+            covers: (0..written.covers.len()).map(cover).collect(),
+        }
     }
 
-    fn plan(&self, state: &mut State, _: &[u8]) -> Option<Plan> {
-        let before = state.number;
-        let (number, steps) = self.0.step(before, &state.cells, &state.blocked);
-        state.number = number;
-        Some(Plan { before, steps: steps? })
-    }
-
-    fn settle(&self, state: &mut State, plan: &Plan, log: &mut Vec<u8>, world: &mut impl Oracle) {
-        state.blocked = [false; MAX_ROBOTS];
-        for (robot, step) in plan.steps.iter().enumerate().take(self.0.robots) {
-            let Step::Cross(side) = *step else { continue };
-            let edge = Edge::new(state.cells[robot], side);
-            if !state.grid.edge_has(EdgeMark::Wall, edge) && !state.grid.edge_has(EdgeMark::Open, edge) {
-                let mark = if world.mishap() { EdgeMark::Wall } else { EdgeMark::Open };
-                state.grid.put_edge(mark, edge);
+    pub(super) fn demands(&'a self, written: &Written) -> Vec<Demand<'a, Asked>> {
+        let demand = |(number, demand): (usize, &super::written::Demand)| {
+            let (id, words) = (demand.clause.as_str(), demand.words);
+            match demand.when {
+                When::Always(_) => Demand::always(id, words, &*self.of_moves[number]),
+                When::AtTheEnd(_) => Demand::at_the_end(id, words, &*self.of_ends[number]),
+                When::NeverEndless => Demand::never_endless(id, words),
             }
-            state.blocked[robot] = state.grid.edge_has(EdgeMark::Wall, edge);
-            if !state.blocked[robot] {
-                state.cells[robot] = state.cells[robot].after(*step);
-            }
-        }
-        log.extend(state.blocked[..self.0.robots].iter().map(|&blocked| u8::from(blocked)));
+        };
+        written.demands.iter().enumerate().map(demand).collect()
     }
 
-    fn frame(&self, turn: &Turn<'_, Self>) -> Frame {
-        let robots = ..self.0.robots;
-        Frame {
-            kind: Kind::Advance,
-            steps: turn.plan.steps[robots].to_vec(),
-            blocked: turn.after.blocked[robots].to_vec(),
-            cells: turn.after.cells[robots].to_vec(),
-        }
+    pub(super) fn covers(&'a self, written: &Written) -> Vec<Cover<'a, Asked>> {
+        written.covers.iter().zip(&self.covers).map(|(&(name, _), is_one)| (name, &**is_one as _)).collect()
     }
+}
 
-    fn wanted(&self) -> &[Promise] {
-        &self.1
-    }
-
-    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Broken<Self>> {
-        self.told(self.0.broken_by(self.demands(), &moved(turn)))
-    }
-
-    fn broken_at_end(&self, state: &State, _: &[u8]) -> Vec<Broken<Self>> {
-        self.told(self.0.broken_at_end(self.demands(), state.number, &state.cells))
-    }
-
-    fn recurs(&self, then: &State, _: usize, now: &State, _: &[u8]) -> ControlFlow<Vec<Broken<Self>>> {
-        if (then.number, then.cells, then.blocked) != (now.number, now.cells, now.blocked) {
-            return ControlFlow::Continue(());
-        }
-        ControlFlow::Break(self.told(self.0.broken_by_endless(self.demands())))
-    }
-
-    fn edges(&self) -> u32 {
-        let (width, height) =
-            (u32::from(self.0.size.0.unsigned_abs()), u32::from(self.0.size.1.unsigned_abs()));
-        2 * width * height - width - height
-    }
-
-    fn longest_run(&self) -> u32 {
-        self.0.longest_run
-    }
-
-    fn covers(&self) -> impl Iterator<Item = &'static str> {
-        self.0.covers.iter().map(|&(name, _)| name)
-    }
-
-    fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
-        self.0.occurs(&moved(turn))
+/// The surroundings of a rule.
+pub(super) fn setting<'a>(
+    written: &Written,
+    demands: &'a [Demand<'a, Asked>],
+    covers: &'a [Cover<'a, Asked>],
+) -> Setting<'a, Asked> {
+    let (width, height) = written.size;
+    let ground = Ground::open(width, height).walls(Which::Met(written.max_walls));
+    let starts = Places::At(|Asked(written): &Asked| written.starts().to_vec());
+    Setting {
+        senses: Senses::TEAM,
+        longest_run: written.longest_run,
+        demands,
+        covers,
+        ..Setting::new(written.scheme, ground, written.robots, starts)
     }
 }

@@ -1,7 +1,6 @@
 //! The rule itself: what it is asked, what it may answer, and what becomes of an answer that is none.
 
 use std::collections::BTreeSet;
-use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
@@ -53,6 +52,8 @@ pub(super) type Cells = [Cell; MAX_ROBOTS];
 pub(super) type Blocked = [bool; MAX_ROBOTS];
 /// What robots try.
 pub(super) type Steps = [Step; MAX_ROBOTS];
+/// What a rule is asked: the number of its state, where robots are, and which met a wall.
+type Question = (u32, Cells, Blocked);
 
 /// The states that Python has answered, each once, by their numbers.
 struct States {
@@ -76,6 +77,8 @@ pub(super) struct Written {
     pub(super) is_stopped: AtomicBool,
     object: Py<PyAny>,
     states: Mutex<States>,
+    /// What was asked last, and what came of it.
+    last: Mutex<Option<(Question, (u32, Option<Steps>))>>,
     started: OnceLock<(u32, Cells)>,
     is_called: AtomicBool,
     /// The number that Python has for the thread that asks the rule.
@@ -171,6 +174,7 @@ impl Written {
             is_stopped: AtomicBool::new(false),
             object: rule.clone().unbind(),
             states: Mutex::new(States { numbers: PyDict::new(py).unbind(), values: Vec::new() }),
+            last: Mutex::new(None),
             started: OnceLock::new(),
             is_called: AtomicBool::new(false),
             thread: AtomicU64::new(0),
@@ -295,8 +299,14 @@ impl Written {
         if self.is_over() {
             return (state, None);
         }
+        let question = (state, *cells, *blocked);
+        if let Some((_, answer)) = held(&self.last).as_ref().filter(|(last, _)| *last == question) {
+            return *answer;
+        }
         let asked = Python::attach(|py| self.asked(py, state, cells, blocked));
-        asked.unwrap_or_else(|error| (state, self.fail(error)))
+        let answer = asked.unwrap_or_else(|error| (state, self.fail(error)));
+        *held(&self.last) = Some((question, answer));
+        answer
     }
 
     fn asked(
@@ -341,9 +351,9 @@ impl Written {
         answer.unwrap_or_else(|error| self.fail(error))
     }
 
-    /// The demands of these that a team move breaks.
-    pub(super) fn broken_by(&self, demands: Range<usize>, moved: &Move) -> Vec<usize> {
-        self.broken(demands, |py, demand| match &demand.when {
+    /// Whether a team move breaks the demand with this number.
+    pub(super) fn is_broken_by(&self, demand: usize, moved: &Move) -> bool {
+        self.is_broken(demand, |py, demand| match &demand.when {
             When::Always(is_kept) => {
                 let moved = moved.told(py, self).and_then(|moved| PyTuple::new(py, [moved]));
                 let moved = moved.unwrap_or_else(|_| PyTuple::empty(py));
@@ -353,9 +363,9 @@ impl Written {
         })
     }
 
-    /// The demands of these that the end of a run breaks.
-    pub(super) fn broken_at_end(&self, demands: Range<usize>, state: u32, cells: &Cells) -> Vec<usize> {
-        self.broken(demands, |py, demand| match &demand.when {
+    /// Whether the end of a run breaks the demand with this number.
+    pub(super) fn is_broken_at_end(&self, demand: usize, state: u32, cells: &Cells) -> bool {
+        self.is_broken(demand, |py, demand| match &demand.when {
             When::AtTheEnd(is_kept) => {
                 let end =
                     self.cells(py, cells).and_then(|cells| (self.state(py, state), cells).into_pyobject(py));
@@ -366,38 +376,27 @@ impl Written {
         })
     }
 
-    /// The demands of these that a run without end breaks.
-    pub(super) fn broken_by_endless(&self, demands: Range<usize>) -> Vec<usize> {
-        self.broken(demands, |_, demand| matches!(demand.when, When::NeverEndless))
+    /// Whether this is so of the demand with this number; no if the rule has failed.
+    fn is_broken(&self, demand: usize, is_broken: impl Fn(Python<'_>, &Demand) -> bool) -> bool {
+        if self.is_over() {
+            return false;
+        }
+        let is_found = Python::attach(|py| is_broken(py, &self.demands[demand])) && !self.is_over();
+        if is_found {
+            held(&self.seen).insert(demand);
+        }
+        is_found
     }
 
-    /// The demands of these of which this is so; none if the rule has failed.
-    fn broken(&self, demands: Range<usize>, is_broken: impl Fn(Python<'_>, &Demand) -> bool) -> Vec<usize> {
+    /// Whether a team move is the situation with this number.
+    pub(super) fn occurs(&self, cover: usize, moved: &Move) -> bool {
         if self.is_over() {
-            return Vec::new();
-        }
-        let found: Vec<usize> =
-            Python::attach(|py| demands.filter(|&demand| is_broken(py, &self.demands[demand])).collect());
-        if self.is_over() {
-            return Vec::new();
-        }
-        held(&self.seen).extend(&found);
-        found
-    }
-
-    /// Which situations a team move is: a bit for each.
-    pub(super) fn occurs(&self, moved: &Move) -> u64 {
-        if self.covers.is_empty() || self.is_over() {
-            return 0;
+            return false;
         }
         Python::attach(|py| {
-            let Ok(told) = moved.told(py, self) else { return 0 };
-            let mut bits = 0;
-            for (bit, (name, is_one)) in self.covers.iter().enumerate() {
-                let told = PyTuple::new(py, [&told]).unwrap_or_else(|_| PyTuple::empty(py));
-                bits |= u64::from(self.says(py, name, is_one, told)) << bit;
-            }
-            bits
+            let (name, is_one) = &self.covers[cover];
+            let moved = moved.told(py, self).and_then(|moved| PyTuple::new(py, [moved]));
+            moved.is_ok_and(|moved| self.says(py, name, is_one, moved))
         })
     }
 

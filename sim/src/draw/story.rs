@@ -7,7 +7,7 @@ use tautline_kernel::ground::{Cell, Side, Step};
 use tautline_proofs::floor_trace::Course;
 use tautline_proofs::ledger;
 use tautline_proofs::plural::counted;
-use tautline_proofs::run::Run;
+use tautline_proofs::run::{Ending, Run};
 
 use super::{Block, Pose, agents, beside, first_drawn, legend, outcome, team_move};
 use crate::diagnostic::Halt;
@@ -194,7 +194,7 @@ pub fn last_move(run: &dyn Play) -> Result<String, Halt> {
 pub fn of_found(run: &dyn Play, clause: ClauseId, found: &Run) -> Result<String, Halt> {
     let (step, mut story) = (found.frames.len() as u32, String::new());
     let report = run.play(&mut |_| Ok(()))?;
-    if found.is_over {
+    if found.ending == Ending::Over {
         let head = format!("The end after team move {step} breaks {}", with_sentence(clause));
         let (what, cells) = run.missed(clause, &report.chart).unwrap_or_else(|| left(&report));
         return Ok(unexplored(run, &report, &head, what, &cells));

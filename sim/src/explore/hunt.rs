@@ -393,5 +393,6 @@ pub fn layout(found: &Run) -> Result<(Layout, Vec<Cell>), Problem> {
     for wall in &found.walls {
         layout.build_wall(Edge::new(shifted(wall.cell()), wall.side()));
     }
+    found.obstacles.iter().for_each(|&cell| layout.block(shifted(cell)));
     Ok((layout, found.starts.iter().copied().map(shifted).collect()))
 }

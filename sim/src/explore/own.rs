@@ -1,79 +1,106 @@
-//! A team of one's own that is searched over all layouts ([`tautline_proofs::team`]), as a run plays it: in one layout,
-//! with what it breaks.
+//! A rule of one's own ([`tautline_proofs::team`]), as a run plays it: in one layout, with what it breaks.
 
-use std::collections::HashMap;
-
-use tautline_kernel::chain::Kind;
-use tautline_kernel::ground::{Cell, Edge, Step};
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::ground::{Cell, Edge};
+use tautline_proofs::engine::Seeded;
+use tautline_proofs::engine::tree::Game;
+use tautline_proofs::engine::world::World;
 use tautline_proofs::run::Frame;
-use tautline_proofs::team::{self, Demand, Moved};
+use tautline_proofs::team::{Moved, Playing, Rule, Scene};
 
 use super::clause::ClauseId;
 use super::run::{End, Team};
 use super::survey::Survey;
 use crate::layout::Layout;
 
-/// A team that is played in one layout.
-pub struct Own<T: 'static, const ROBOTS: usize> {
-    team: T,
-    /// Before the last team move.
-    before: T,
-    cells: [Cell; ROBOTS],
-    demands: &'static [Demand<T, ROBOTS>],
-    /// What the team was in these cells.
-    been: HashMap<[Cell; ROBOTS], Vec<T>>,
+/// A team that follows a rule of one's own in one layout.
+pub struct Own<'a, R: Rule> {
+    playing: Playing<'a, R>,
+    before: Scene<R>,
+    scene: Scene<R>,
+    cells: Vec<Cell>,
+    dice: Seeded,
+    mark: Mark<R>,
 }
 
-impl<T: team::Team<ROBOTS>, const ROBOTS: usize> Own<T, ROBOTS> {
-    /// `team` at its start, in these cells.
-    pub fn new(team: T, cells: [Cell; ROBOTS], demands: &'static [Demand<T, ROBOTS>]) -> Self {
-        Self { team, before: team, cells, demands, been: HashMap::new() }
+/// A scene that the team may come back to, moved on at powers of two (Brent 1980), since the last draw.
+struct Mark<R: Rule> {
+    scene: Scene<R>,
+    moved: u64,
+    due: u64,
+}
+
+/// Answers as a layout does, and by lot what no layout knows.
+struct InLayout<'a> {
+    is_open: &'a mut dyn FnMut(Edge) -> bool,
+    dice: &'a mut Seeded,
+    /// Whether anything was asked that no layout knows.
+    has_drawn: bool,
+}
+
+impl Oracle for InLayout<'_> {
+    fn pick(&mut self, below: u32) -> u32 {
+        self.has_drawn = true;
+        self.dice.pick(below)
     }
 
-    fn broken(&self, is_broken: impl Fn(&Demand<T, ROBOTS>) -> bool) -> Vec<ClauseId> {
-        let broken = self.demands.iter().filter(|demand| is_broken(demand));
-        broken.map(|demand| ClauseId::new(demand.id)).collect()
+    fn is_open(&mut self, edge: Edge) -> bool {
+        (self.is_open)(edge)
+    }
+
+    /// Whoever crosses an open edge finds the cell behind it free.
+    fn is_free(&mut self, _: Cell) -> bool {
+        true
     }
 }
 
-impl<T: team::Team<ROBOTS>, const ROBOTS: usize> Team for Own<T, ROBOTS> {
+impl<'a, R: Rule> Own<'a, R> {
+    /// A team at its start. What no layout knows, such as who acts next, is drawn by `seed`.
+    pub fn new(playing: Playing<'a, R>, seed: u64) -> Self {
+        let scene = playing.start();
+        let (cells, dice) = (scene.cells().collect(), Seeded::new(seed, 0));
+        let mark = Mark { scene: scene.clone(), moved: 0, due: 1 };
+        Self { playing, before: scene.clone(), scene, cells, dice, mark }
+    }
+
+    fn clauses(&self, broken: Vec<<Playing<'a, R> as World>::Demand>) -> Vec<ClauseId> {
+        broken.into_iter().map(|demand| ClauseId::new(self.playing.demand(demand).id)).collect()
+    }
+}
+
+impl<R: Rule> Team for Own<'_, R> {
     fn cells(&self) -> &[Cell] {
         &self.cells
     }
 
     fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
-        let been = self.been.entry(self.cells).or_default();
-        if been.contains(&self.team) {
+        self.before.clone_from(&self.scene);
+        let Some(plan) = self.playing.plan(&mut self.scene, &[]) else { return Err(End::Exhausted) };
+        if self.mark.moved > 0 && self.mark.scene == self.before {
             return Err(End::Endless);
         }
-        been.push(self.team);
-        self.before = self.team;
-        let steps = self.team.plan().ok_or(End::Exhausted)?;
-        let mut blocked = [false; ROBOTS];
-        for (robot, step) in steps.iter().enumerate() {
-            let cell = &mut self.cells[robot];
-            blocked[robot] = matches!(*step, Step::Cross(side) if !is_open(Edge::new(*cell, side)));
-            if !blocked[robot] {
-                *cell = cell.after(*step);
-            }
+        if self.mark.moved == self.mark.due {
+            self.mark = Mark { scene: self.before.clone(), moved: 0, due: 2 * self.mark.due };
         }
-        self.team.settle(self.cells, blocked);
-        let (steps, blocked, cells) = (steps.to_vec(), blocked.to_vec(), self.cells.to_vec());
-        Ok(Frame { kind: Kind::Advance, steps, blocked, cells })
+        self.mark.moved += 1;
+        let mut world = InLayout { is_open, dice: &mut self.dice, has_drawn: false };
+        let event = self.playing.settle(&mut self.scene, &plan, &mut Vec::new(), &mut world);
+        if world.has_drawn {
+            self.mark = Mark { scene: self.scene.clone(), moved: 0, due: 1 };
+        }
+        self.cells = self.scene.cells().collect();
+        Ok(event.frame(&self.scene))
     }
 
-    fn broken_in_move(&self, before: &[Cell], _: &Frame) -> Vec<ClauseId> {
-        let Ok(from) = before.try_into() else { return Vec::new() };
-        let moved = Moved { before: &self.before, after: &self.team, from, to: self.cells };
-        self.broken(|demand| demand.is_broken_by(&moved))
+    fn broken_in_move(&self, _: &[Cell], _: &Frame) -> Vec<ClauseId> {
+        let moved = Moved { before: &self.before, after: &self.scene };
+        self.clauses(self.playing.broken(|demand| demand.is_broken_by(&moved)))
     }
 
     fn broken_at_end(&self, _: &Layout, _: &Survey, end: End) -> Vec<ClauseId> {
-        match end {
-            End::Explored | End::Exhausted | End::Silent => {
-                self.broken(|demand| demand.is_broken_at_end(&self.team, &self.cells))
-            }
-            End::Endless => self.broken(Demand::is_broken_by_endless_runs),
-        }
+        self.clauses(match end {
+            End::Explored | End::Exhausted | End::Silent => self.playing.broken_at_end(&self.scene, &[]),
+            End::Endless => self.playing.broken(|demand| demand.is_broken_by_endless_runs()),
+        })
     }
 }

@@ -89,6 +89,14 @@ impl<S: System> World for Watched<'_, '_, S> {
     fn broken_at_end(&self, state: &S::State, log: &[u8]) -> Vec<S::Demand> {
         if self.is_stopped.get() { Vec::new() } else { self.system.broken_at_end(state, log) }
     }
+
+    fn covers(&self) -> Vec<&'static str> {
+        self.system.covers()
+    }
+
+    fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
+        self.system.occurs(&of_system(turn))
+    }
 }
 
 impl<S: System> System for Watched<'_, '_, S> {
@@ -112,10 +120,6 @@ impl<S: System> System for Watched<'_, '_, S> {
 
     fn put(&self, state: &mut S::State, place: usize, part: &S::Part) {
         self.system.put(state, place, part);
-    }
-
-    fn situation(&self, turn: &Turn<'_, Self>) -> &'static str {
-        self.system.situation(&of_system(turn))
     }
 
     fn acting(&self, turn: &Turn<'_, Self>) -> Bits {

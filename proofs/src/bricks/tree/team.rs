@@ -340,10 +340,6 @@ impl System for Team {
         state.put(place, part);
     }
 
-    fn situation(&self, turn: &world::Turn<'_, Self>) -> &'static str {
-        if turn.event.fails { "a failure" } else { "a step" }
-    }
-
     fn acting(&self, turn: &world::Turn<'_, Self>) -> Bits {
         if turn.event.fails { 0 } else { 1 << turn.event.agent }
     }

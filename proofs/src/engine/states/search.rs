@@ -8,7 +8,6 @@ use super::known::Known;
 use super::limits::{Limits, Taken};
 use super::rounds::TooLarge;
 use super::{Bits, END, Ending, Found, Places, Run, Step, System, steps};
-use crate::engine::cover;
 use crate::engine::watchdog::Steps;
 
 /// Searches all states that `system` gets to from `starts`, until enough is broken or one of the `limits` is reached.
@@ -29,6 +28,10 @@ pub fn search<S: System>(
         stop = search.look_for_rounds(demand).err().map(|TooLarge| Stop::TooMany);
     }
     let broken = std::mem::take(&mut search.broken);
+    let situations = system.covers().into_iter().zip(0..);
+    let occurred = situations.filter(|(_, bit)| search.occurred >> bit & 1 == 1).map(|(name, _)| name);
+    let mut covered: Vec<_> = occurred.chain(search.has_ended.then_some(END)).collect();
+    covered.sort_unstable();
     Found {
         states: search.known.len() as u64,
         looked_at: search.looked_at as u64,
@@ -36,7 +39,7 @@ pub fn search<S: System>(
         bytes: search.taken.most,
         is_whole: stop != Some(Stop::TooMany),
         broken: broken.into_iter().map(|broken| search.run(broken)).collect(),
-        covered: search.covered,
+        covered,
     }
 }
 
@@ -71,7 +74,9 @@ struct Search<'a, S: System> {
     /// The state that is shown: of the next one only what differs is put.
     shown: Option<Box<S::State>>,
     taken: Taken<'a>,
-    covered: Vec<&'static str>,
+    /// The situations that occurred, a bit for each.
+    occurred: u64,
+    has_ended: bool,
     broken: Vec<Broken<S::Demand>>,
 }
 
@@ -88,7 +93,8 @@ impl<'a, S: System> Search<'a, S> {
             steps: 0,
             shown: None,
             taken: Taken::new(limits.room),
-            covered: Vec::new(),
+            occurred: 0,
+            has_ended: false,
             broken: Vec::new(),
         }
     }
@@ -142,13 +148,13 @@ impl<'a, S: System> Search<'a, S> {
         let (mut is_last, mut is_still) = (true, true);
         for (number, step) in (0..).zip(steps(system, state)) {
             making.next();
-            let Step { state: mut to, situation, acting, is_bound, breaks, .. } = step;
+            let Step { state: mut to, occurs, acting, is_bound, breaks, .. } = step;
             if self.steps == most_steps || self.graph.is_full() {
                 return ControlFlow::Break(Stop::TooMany);
             }
             self.steps += 1;
             is_last = false;
-            cover(&mut self.covered, situation);
+            self.occurred |= occurs;
             system.make_canonical(&mut to);
             let (to, is_new) = self.known.meet(system, &to, system.differing(state, &to));
             if is_new {
@@ -162,9 +168,7 @@ impl<'a, S: System> Search<'a, S> {
                 self.note(Broken { demand, node, how: How::Step(number) })?;
             }
         }
-        if is_last {
-            cover(&mut self.covered, END);
-        }
+        self.has_ended |= is_last;
         if is_still {
             for demand in system.broken_at_end(state, &[]) {
                 self.note(Broken { demand, node, how: How::Still })?;
@@ -305,6 +309,14 @@ mod tests {
 
         fn broken_at_end(&self, &node: &usize, _: &[u8]) -> Vec<&'static str> {
             if node == self.dead { vec!["no end there", "no end at all"] } else { Vec::new() }
+        }
+
+        fn covers(&self) -> Vec<&'static str> {
+            vec![STEP]
+        }
+
+        fn occurs(&self, _: &Turn<'_, Self>) -> u64 {
+            1
         }
     }
 

@@ -386,7 +386,7 @@ impl<G: Game> Waves<G::Demand, G::Frame> for Tree<G> {
         let Count { runs, moves, longest, given_up, ref broken, .. } = self.count;
         let mut broken = broken.clone();
         broken.sort_unstable();
-        let situations = self.game.covers().zip(0..);
+        let situations = self.game.covers().into_iter().zip(0..);
         let covered = situations.filter(|(_, bit)| self.count.covered >> bit & 1 == 1);
         let counterexamples = broken.iter().filter_map(|broken| self.record(broken)).collect();
         Found {

@@ -1,0 +1,215 @@
+//! A check that a team keeps a demand in its setting.
+
+use tautline_kernel::ground::{Area, Cell};
+
+use super::ground::{Map, words};
+use super::rule::{Rule, Scene, When};
+use super::{Moves, Places, Playing, Promise, Setting, Strategy};
+use crate::decide::{Answer, Desk, Evidence, Method, Played, Refused, Seen, Verdict};
+use crate::engine::states::{self, steps};
+use crate::engine::tree::{self, Waves};
+use crate::engine::{Choices, Script, Unfit, Until};
+use crate::plural::counted;
+use crate::run::{Ending, Frame, Run};
+
+/// A check that no team breaks the demand with this number, in its setting.
+pub struct Keeps<'a, R: Rule>(
+    /// The setting with all demands.
+    pub &'a Setting<'a, R>,
+    /// The number of the demand.
+    pub usize,
+);
+
+/// What a tree has found: the frames, and the layout as far as it was known in each.
+type Found = tree::Found<Promise, (Frame, Option<Map>)>;
+
+impl<'a, R: Rule> Setting<'a, R> {
+    /// The run with these frames, the last of them in this layout.
+    fn run_of(
+        &self,
+        starts: Vec<Cell>,
+        frames: Vec<Frame>,
+        map: Option<Map>,
+        (broken, ending): (Promise, Ending),
+    ) -> Run {
+        Run {
+            scheme: self.scheme,
+            area: self.ground.area().unwrap_or(Area::of(Cell::new(0, 0))),
+            starts,
+            walls: map.as_ref().map_or_else(Vec::new, Map::walls),
+            obstacles: map.as_ref().map_or_else(Vec::new, Map::obstacles),
+            frames,
+            breaks: self.demands.get(broken.0).map(|demand| demand.id),
+            ending,
+        }
+    }
+
+    /// The run from these cells that a search as a tree has found.
+    pub fn run(&self, starts: Vec<Cell>, found: &tree::Counterexample<Promise, (Frame, Option<Map>)>) -> Run {
+        let known = || self.ground.maps().ok()?.first().copied();
+        let map = found.frames.last().map_or_else(known, |(_, map)| *map);
+        let frames = found.frames.iter().map(|(frame, _)| frame.clone()).collect();
+        let ending = match self.demands[found.broken.0].when {
+            When::Always(_) => Ending::Move,
+            When::AtTheEnd(_) => Ending::Over,
+            When::NeverEndless | When::Eventually(_) => Ending::Endless,
+        };
+        self.run_of(starts, frames, map, (found.broken, ending))
+    }
+
+    fn evidence(
+        &self,
+        start: &Scene<R>,
+        found: &tree::Counterexample<Promise, (Frame, Option<Map>)>,
+    ) -> Evidence {
+        let choices = Choices { once: found.answers.clone(), again: Vec::new() };
+        let run = self.run(start.cells().collect(), found);
+        Evidence { choices, demand: found.demand, seen: Seen::Robots(Box::new(run)) }
+    }
+}
+
+impl<R: Rule> Playing<'_, R> {
+    /// The frames of a run that was found among the states, and its last scene.
+    fn played(&self, mut scene: Scene<R>, run: &states::Run<Promise>) -> (Vec<Frame>, Scene<R>) {
+        let mut frames = Vec::new();
+        for &number in run.steps.iter().chain(run.round()) {
+            let Some(step) = steps(self, &scene).nth(number as usize) else { break };
+            frames.push(step.event.frame(&step.state));
+            scene = step.state;
+        }
+        (frames, scene)
+    }
+
+    /// The evidence of a run that was found among the states.
+    fn evidence(&self, starts: &[Scene<R>], run: &states::Run<Promise>) -> Option<Evidence> {
+        let start = starts.get(run.start)?;
+        let (frames, last) = self.played(start.clone(), run);
+        let ending = match run.ending {
+            states::Ending::There => Ending::Move,
+            states::Ending::Still => Ending::Over,
+            states::Ending::Round(_) => Ending::Endless,
+        };
+        let found = self.setting.run_of(start.cells().collect(), frames, last.map, (run.demand, ending));
+        let once = [&[run.start as u32], &run.steps[..]].concat();
+        let choices = Choices { once, again: run.round().to_vec() };
+        let demand = self.demand(run.demand).words;
+        Some(Evidence { choices, demand, seen: Seen::Robots(Box::new(found)) })
+    }
+}
+
+impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
+    /// What a search as a tree finds, which is made only once.
+    fn found<'d>(&self, rule: &R, until: Until, desk: &'d mut Desk<'_, '_>) -> Result<&'d Found, Refused> {
+        // A search that goes on for each demand answers for all of them.
+        let wanted = match until {
+            Until::Exhausted => Vec::new(),
+            Until::Violation => vec![Promise(self.1)],
+        };
+        let Desk { memory, watch, .. } = desk;
+        let key = (std::ptr::from_ref(self.0).addr(), rule.clone(), until, wanted);
+        memory.recall(key, |(_, rule, until, wanted)| {
+            let mut tree = self.0.search(rule, *until, wanted)?;
+            while tree.wave() && watch(&tree.progress()).is_continue() {}
+            Ok(tree.found())
+        })
+    }
+
+    fn in_tree(&self, rule: &R, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+        let start = self.0.playing(rule, &[])?.start;
+        let found = self.found(rule, until, desk)?;
+        let broken = found.counterexamples.iter().find(|found| found.broken.0 == self.1);
+        let is_covered = self.0.covers.iter().all(|(name, _)| found.covered.contains(name));
+        let evidence = broken.map(|found| self.0.evidence(&start, found));
+        let is_whole = found.complete && found.given_up == 0 && is_covered;
+        let answer = Answer::new(evidence, is_whole, Verdict::Holds, found.runs - found.given_up);
+        Ok(Answer { given_up: found.given_up, ..answer })
+    }
+
+    fn in_states(&self, rule: &R, desk: &Desk<'_, '_>) -> Result<Answer, Refused> {
+        let starts = self.0.starts(rule)?;
+        let Some(start) = starts.first().cloned() else {
+            return Ok(Answer::new(None, false, Verdict::Holds, 0));
+        };
+        let playing = Playing { setting: self.0, rule: rule.clone(), wanted: vec![Promise(self.1)], start };
+        let limits = states::Limits { room: desk.room, ..states::Limits::NONE };
+        let found = states::search(&playing, starts.iter().cloned(), limits);
+        let evidence = found.broken.first().and_then(|run| playing.evidence(&starts, run));
+        let is_covered = self.0.covers.iter().all(|(name, _)| found.covered.contains(name));
+        Ok(Answer::new(evidence, found.is_whole && is_covered, Verdict::Holds, found.states))
+    }
+}
+
+impl<R: Rule + PartialEq + 'static> Method<R> for Keeps<'static, R> {
+    fn engine(&self) -> &'static str {
+        match self.0.strategy() {
+            Strategy::Tree => "search",
+            Strategy::States => "states",
+        }
+    }
+
+    fn bound(&self) -> String {
+        let Setting { ground, robots, starts, goals, moves, losses, deaths, longest_run, .. } = self.0;
+        let placed = |places: &Places<R>, what: &str| match places {
+            Places::None | Places::At(_) => None,
+            Places::Any => Some(format!("any {what}")),
+            Places::Distinct => Some(format!("any {what} apart")),
+        };
+        let moves = match moves {
+            Moves::Together => None,
+            Moves::OneAtATime => Some("one at a time".to_owned()),
+            Moves::AnySubset => Some("any of them at a time".to_owned()),
+            Moves::LookThenMove => Some("each looks, then moves".to_owned()),
+        };
+        let most = |most: u32, what: &str| (most > 0).then(|| format!("at most {}", counted(most, what)));
+        let parts = [
+            Some(ground.to_string()),
+            Some(counted(*robots as u32, "robot")),
+            words(&ground.walls, "wall"),
+            words(&ground.obstacles, "blocked cell"),
+            placed(starts, "starts"),
+            placed(goals, "goals"),
+            moves,
+            most(*losses, "lost message"),
+            most(*deaths, "death"),
+            (*longest_run != u32::MAX).then(|| format!("runs of at most {longest_run} team moves")),
+        ];
+        parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+
+    /// The rule is left out of the name, as it has none: checks of several rules are decided one after the other, too.
+    fn family(&self, _: &R) -> Option<String> {
+        Some(format!("{:x}", std::ptr::from_ref(self.0).addr()))
+    }
+
+    /// The choices are the answers of the world in a tree; among states, the number of the start and those of the steps.
+    fn decide(&self, rule: &R, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
+        match self.0.strategy() {
+            Strategy::Tree => self.in_tree(rule, until, desk),
+            Strategy::States => self.in_states(rule, desk),
+        }
+    }
+
+    fn replay(&self, rule: &R, choices: &Choices) -> Result<Played, Unfit> {
+        let wanted = [Promise(self.1)];
+        match self.0.strategy() {
+            Strategy::Tree => {
+                if !choices.again.is_empty() {
+                    return Err(Unfit::Over { at: choices.once.len() });
+                }
+                let start = self.0.playing(rule, &wanted).map_err(|_| Unfit::Unbroken)?.start;
+                let tree = self.0.search(rule, Until::Exhausted, &wanted).map_err(|_| Unfit::Unbroken)?;
+                let found = tree.replay(Promise(self.1), &choices.once)?;
+                Ok(Played { of: vec![2; found.answers.len()], evidence: self.0.evidence(&start, &found) })
+            }
+            Strategy::States => {
+                let playing = self.0.playing(rule, &wanted).map_err(|_| Unfit::Unbroken)?;
+                let starts = self.0.starts(rule).map_err(|_| Unfit::Unbroken)?;
+                let mut script = Script::new(choices);
+                let number = script.choose(starts.len())?;
+                let (of, run) = script.play(&playing, (number, starts[number].clone()), |_| true)?;
+                let evidence = playing.evidence(&starts, &run).ok_or(Unfit::Unbroken)?;
+                Ok(Played { of, evidence })
+            }
+        }
+    }
+}

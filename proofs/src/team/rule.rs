@@ -1,0 +1,318 @@
+//! The face of a robot's rule: what it sees, what it does, and what is demanded of the team.
+
+use std::fmt::Debug;
+use std::hash::Hash;
+
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::ground::{Cell, Edge, Side};
+
+use super::Setting;
+use super::ground::Map;
+
+/// What a robot does next.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Act {
+    /// It stays in its cell.
+    Wait,
+    /// It goes to the next cell on this side, if nothing is in its way.
+    Go(Side),
+}
+
+/// The rule of every robot of a team. It depends on nothing but its arguments: the same view and the same memory make
+/// the same act.
+pub trait Rule: Clone + Send + Sync {
+    /// All that a robot remembers.
+    type Memory: Clone + Eq + Hash + Debug + Send + Sync;
+    /// What robots tell each other; `()` if they do not.
+    type Message: Clone + Eq + Hash + Debug + Send + Sync;
+
+    /// What a robot remembers at the start, of a team that starts in these cells.
+    fn start(&self, robot: usize, starts: &[Cell]) -> Self::Memory;
+
+    /// What a robot does, and remembers from now on.
+    fn act(&self, view: &mut View<'_, Self>, memory: &mut Self::Memory) -> Act;
+
+    /// Whether a robot has nothing left to do. The run is over when no robot has.
+    fn is_done(&self, robot: usize, scene: &Scene<Self>) -> bool {
+        let _ = (robot, scene);
+        false
+    }
+}
+
+/// One robot: where it is, what it remembers, and what it is about to do.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub struct Body<M, T> {
+    pub(super) cell: Cell,
+    pub(super) memory: M,
+    /// Whether something was in its way when it last went.
+    pub(super) is_blocked: bool,
+    pub(super) is_dead: bool,
+    /// What it does next, if looking and moving are steps of their own.
+    pub(super) pending: Option<Act>,
+    /// The last message of each other robot since it last acted.
+    pub(super) heard: Vec<(usize, T)>,
+}
+
+impl<M, T> Body<M, T> {
+    pub(super) const fn new(cell: Cell, memory: M) -> Self {
+        Self { cell, memory, is_blocked: false, is_dead: false, pending: None, heard: Vec::new() }
+    }
+}
+
+/// A team that follows a rule, and what is known of its layout.
+pub type Scene<R> = TeamState<<R as Rule>::Memory, <R as Rule>::Message>;
+
+/// Robots with their memories, the messages that have come to them, and what is known of their layout.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub struct TeamState<M, T> {
+    pub(super) bodies: Vec<Body<M, T>>,
+    pub(super) goals: Vec<Cell>,
+    /// What was met of the layout; `None` in a layout that answers for itself.
+    pub(super) map: Option<Map>,
+    pub(super) losses: u32,
+    pub(super) deaths: u32,
+}
+
+impl<M, T> TeamState<M, T> {
+    /// How many robots there are.
+    pub fn robots(&self) -> usize {
+        self.bodies.len()
+    }
+
+    /// The cells of the robots.
+    pub fn cells(&self) -> impl Iterator<Item = Cell> + Clone {
+        self.bodies.iter().map(|body| body.cell)
+    }
+
+    /// The cell of a robot.
+    pub fn cell(&self, robot: usize) -> Cell {
+        self.bodies[robot].cell
+    }
+
+    /// The goal of a robot, if robots have goals.
+    pub fn goal(&self, robot: usize) -> Option<Cell> {
+        self.goals.get(robot).copied()
+    }
+
+    /// What a robot remembers.
+    pub fn memory(&self, robot: usize) -> &M {
+        &self.bodies[robot].memory
+    }
+
+    /// Whether something was in the way of a robot when it last went.
+    pub fn was_blocked(&self, robot: usize) -> bool {
+        self.bodies[robot].is_blocked
+    }
+
+    /// Whether a robot has died.
+    pub fn is_dead(&self, robot: usize) -> bool {
+        self.bodies[robot].is_dead
+    }
+
+    /// The layout, as far as anybody has met it; `None` in a layout that answers for itself.
+    pub const fn map(&self) -> Option<&Map> {
+        self.map.as_ref()
+    }
+
+    /// Whether no two robots are in one cell.
+    pub fn cells_differ(&self) -> bool {
+        let cells = self.cells();
+        cells.clone().enumerate().all(|(robot, cell)| cells.clone().take(robot).all(|other| other != cell))
+    }
+}
+
+/// What a robot sees when it acts.
+pub struct View<'a, R: Rule> {
+    pub(super) setting: &'a Setting<'a, R>,
+    pub(super) robot: usize,
+    pub(super) scene: &'a Scene<R>,
+    /// What is known of the layout by now.
+    pub(super) map: &'a mut Option<Map>,
+    pub(super) world: &'a mut dyn Oracle,
+    pub(super) sent: &'a mut Vec<(usize, R::Message)>,
+}
+
+impl<R: Rule> View<'_, R> {
+    /// The number of this robot.
+    pub const fn me(&self) -> usize {
+        self.robot
+    }
+
+    /// How many robots there are.
+    pub fn robots(&self) -> usize {
+        self.scene.robots()
+    }
+
+    /// The cell of this robot.
+    pub fn cell(&self) -> Cell {
+        self.scene.cell(self.robot)
+    }
+
+    /// The goal of this robot, if robots have goals.
+    pub fn goal(&self) -> Option<Cell> {
+        self.scene.goal(self.robot)
+    }
+
+    /// Whether something was in its way when it last went.
+    pub fn was_blocked(&self) -> bool {
+        self.scene.was_blocked(self.robot)
+    }
+
+    /// The cell of another robot, if it is in sight.
+    pub fn sees(&self, robot: usize) -> Option<Cell> {
+        let cell = self.scene.bodies.get(robot)?.cell;
+        self.is_within(cell, self.setting.senses.robots).then_some(cell)
+    }
+
+    /// Whether a robot that is in sight has met something in its way.
+    pub fn sees_blocked(&self, robot: usize) -> Option<bool> {
+        self.sees(robot).map(|_| self.scene.was_blocked(robot))
+    }
+
+    /// Whether robots can go from `cell` through `side`: no wall is between, and the next cell is free. `None` if it is
+    /// out of sight.
+    pub fn is_open(&mut self, cell: Cell, side: Side) -> Option<bool> {
+        let is_seen = self.is_within(cell, self.setting.senses.ground);
+        is_seen.then(|| passes(self.setting, self.map, (cell, side), self.world))
+    }
+
+    /// The messages that have come since this robot last acted, each with the number of its sender.
+    pub fn heard(&self) -> &[(usize, R::Message)] {
+        &self.scene.bodies[self.robot].heard
+    }
+
+    /// Tells all other robots. Of two messages to a robot that has not acted since, the later one counts.
+    pub fn tell(&mut self, message: R::Message) {
+        self.sent.push((self.robot, message));
+    }
+
+    /// The side to a cell beside this robot's.
+    pub fn side_to(&self, cell: Cell) -> Option<Side> {
+        Side::ALL.into_iter().find(|&side| self.cell().beyond(side) == cell)
+    }
+
+    fn is_within(&self, cell: Cell, most: u16) -> bool {
+        let (columns, rows) = self.cell().apart(cell);
+        most > 0 && u32::from(columns) + u32::from(rows) <= u32::from(most)
+            || most == u16::MAX
+            || cell == self.cell() && most > 0
+    }
+}
+
+/// Whether robots can go from a cell through a side, which is decided now if nobody has met it.
+pub(super) fn passes<R: Rule>(
+    setting: &Setting<'_, R>,
+    map: &mut Option<Map>,
+    (cell, side): (Cell, Side),
+    world: &mut dyn Oracle,
+) -> bool {
+    let (edge, beyond, ground) = (Edge::new(cell, side), cell.beyond(side), &setting.ground);
+    match map {
+        Some(map) => map.meet_edge(ground, edge, world) && map.meet_cell(ground, beyond, world),
+        None => world.is_open(edge) && world.is_free(beyond),
+    }
+}
+
+/// One step of a team, as a demand sees it.
+#[derive(Debug)]
+pub struct Moved<'a, R: Rule> {
+    /// The team before it.
+    pub before: &'a Scene<R>,
+    /// The team after it.
+    pub after: &'a Scene<R>,
+}
+
+impl<R: Rule> Clone for Moved<'_, R> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<R: Rule> Copy for Moved<'_, R> {}
+
+impl<R: Rule> Moved<'_, R> {
+    /// Whether a robot has left its cell.
+    pub fn has_moved(&self, robot: usize) -> bool {
+        self.before.cell(robot) != self.after.cell(robot)
+    }
+
+    /// Whether two robots have changed places.
+    pub fn has_swap(&self) -> bool {
+        let (before, after) = (self.before, self.after);
+        let swap = |one: usize, other: usize| {
+            before.cell(one) == after.cell(other)
+                && after.cell(one) == before.cell(other)
+                && self.has_moved(one)
+        };
+        (0..before.robots()).any(|one| (0..one).any(|other| swap(one, other)))
+    }
+}
+
+/// A question about a step.
+type OfStep<'a, R> = &'a (dyn Fn(&Moved<'_, R>) -> bool + Sync);
+/// A question about a team.
+type OfScene<'a, R> = &'a (dyn Fn(&Scene<R>) -> bool + Sync);
+
+/// When a demand is looked at.
+pub(super) enum When<'a, R: Rule> {
+    Always(OfStep<'a, R>),
+    AtTheEnd(OfScene<'a, R>),
+    NeverEndless,
+    Eventually(OfScene<'a, R>),
+}
+
+/// What is demanded of a team.
+pub struct Demand<'a, R: Rule> {
+    /// The id of the clause that demands it.
+    pub id: &'static str,
+    /// The demand in words.
+    pub words: &'static str,
+    pub(super) when: When<'a, R>,
+}
+
+impl<'a, R: Rule> Demand<'a, R> {
+    /// Of every step.
+    pub const fn always(id: &'static str, words: &'static str, is_kept: OfStep<'a, R>) -> Self {
+        Self { id, words, when: When::Always(is_kept) }
+    }
+
+    /// Of the end of every run that ends.
+    pub const fn at_the_end(id: &'static str, words: &'static str, is_kept: OfScene<'a, R>) -> Self {
+        Self { id, words, when: When::AtTheEnd(is_kept) }
+    }
+
+    /// That no run goes on for ever: none in which every robot acts again and again that has something left to do.
+    /// Where this is not demanded, a run that comes back to where it was is over.
+    pub const fn never_endless(id: &'static str, words: &'static str) -> Self {
+        Self { id, words, when: When::NeverEndless }
+    }
+
+    /// That this is so at some time in every run in which every robot acts again and again that has something left to
+    /// do (weak fairness).
+    pub const fn eventually(id: &'static str, words: &'static str, is_so: OfScene<'a, R>) -> Self {
+        Self { id, words, when: When::Eventually(is_so) }
+    }
+
+    /// Whether a step breaks it.
+    pub fn is_broken_by(&self, moved: &Moved<'_, R>) -> bool {
+        matches!(self.when, When::Always(is_kept) if !is_kept(moved))
+    }
+
+    /// Whether a run breaks it that ends so.
+    pub fn is_broken_at_end(&self, scene: &Scene<R>) -> bool {
+        matches!(self.when, When::AtTheEnd(is_kept) | When::Eventually(is_kept) if !is_kept(scene))
+    }
+
+    /// Whether a run breaks it that never ends.
+    pub const fn is_broken_by_endless_runs(&self) -> bool {
+        matches!(self.when, When::NeverEndless | When::Eventually(_))
+    }
+
+    /// Whether nothing more is demanded of a run that has come to this.
+    pub(super) fn is_met_by(&self, scene: &Scene<R>) -> bool {
+        matches!(self.when, When::Eventually(is_so) if is_so(scene))
+    }
+}
+
+/// A situation that must occur: its name, and whether a step is one.
+pub type Cover<'a, R> = (&'static str, OfStep<'a, R>);

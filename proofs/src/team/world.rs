@@ -1,0 +1,300 @@
+//! A team in its setting, as every engine plays it.
+
+use std::ops::ControlFlow;
+
+use tautline_kernel::chain::Kind;
+use tautline_kernel::choice::Oracle;
+use tautline_kernel::ground::{Cell, Step};
+
+use super::ground::Map;
+use super::rule::{Act, Body, Demand, Moved, Rule, Scene, TeamState, View, passes};
+use super::{Moves, Promise, Setting};
+use crate::engine::states::{Bits, Places, System};
+use crate::engine::tree::Game;
+use crate::engine::world::{Turn, World};
+use crate::run::Frame;
+
+/// A team that follows a rule in its setting.
+pub struct Playing<'a, R: Rule> {
+    pub(super) setting: &'a Setting<'a, R>,
+    pub(super) rule: R,
+    /// The demands that are looked at, each as if it stood alone.
+    pub(super) wanted: Vec<Promise>,
+    /// The first scene.
+    pub(super) start: Scene<R>,
+}
+
+/// What happened in a step.
+#[derive(Clone, Debug)]
+pub struct Event {
+    /// The robots that acted, a bit for each; none if one died.
+    acted: Bits,
+    steps: Vec<Step>,
+    blocked: Vec<bool>,
+}
+
+impl<'a, R: Rule> Playing<'a, R> {
+    /// The robots that have something left to do, a bit for each.
+    fn awake(&self, scene: &Scene<R>) -> Bits {
+        let is_awake = |robot: &usize| !scene.is_dead(*robot) && !self.rule.is_done(*robot, scene);
+        (0..scene.robots()).filter(is_awake).fold(0, |set, robot| set | 1 << robot)
+    }
+
+    /// The robots that act in the next step.
+    fn acting(&self, awake: Bits, world: &mut impl Oracle) -> Bits {
+        let ready: Vec<usize> = (0..Bits::BITS as usize).filter(|robot| awake >> robot & 1 == 1).collect();
+        match self.setting.moves {
+            _ if ready.len() < 2 => awake,
+            Moves::Together => awake,
+            Moves::OneAtATime | Moves::LookThenMove => 1 << ready[world.pick(ready.len() as u32) as usize],
+            Moves::AnySubset => {
+                let subset = 1 + world.pick((1 << ready.len()) - 1);
+                ready
+                    .iter()
+                    .zip(0..)
+                    .filter(|(_, bit)| subset >> bit & 1 == 1)
+                    .fold(0, |set, (robot, _)| set | 1 << robot)
+            }
+        }
+    }
+
+    /// One robot dies, if one may and the world is against it.
+    fn dies(&self, scene: &mut Scene<R>, awake: Bits, world: &mut impl Oracle) -> bool {
+        if scene.deaths >= self.setting.deaths || !world.mishap() {
+            return false;
+        }
+        let ready: Vec<usize> = (0..scene.robots()).filter(|robot| awake >> robot & 1 == 1).collect();
+        let robot = ready[world.pick(ready.len() as u32) as usize];
+        scene.bodies[robot].is_dead = true;
+        scene.bodies[robot].pending = None;
+        scene.bodies[robot].heard.clear();
+        scene.deaths += 1;
+        true
+    }
+
+    /// The messages that were sent arrive, or are lost.
+    fn deliver(&self, scene: &mut Scene<R>, sent: Vec<(usize, R::Message)>, world: &mut impl Oracle) {
+        for (from, message) in sent {
+            for to in (0..scene.robots()).filter(|&to| to != from) {
+                if scene.is_dead(to) {
+                    continue;
+                }
+                if scene.losses < self.setting.losses && !world.arrives(from, to) {
+                    scene.losses += 1;
+                    continue;
+                }
+                let heard = &mut scene.bodies[to].heard;
+                heard.retain(|(other, _)| *other != from);
+                heard.push((from, message.clone()));
+            }
+        }
+    }
+
+    /// The demands that are wanted and of which this is so.
+    pub fn broken(&self, is_broken: impl Fn(&Demand<'_, R>) -> bool) -> Vec<Promise> {
+        let is_broken = |promise: &Promise| self.setting.demands.get(promise.0).is_some_and(&is_broken);
+        self.wanted.iter().copied().filter(is_broken).collect()
+    }
+
+    /// The same team, of whose demands only these are looked at.
+    #[must_use]
+    pub fn wanting(self, wanted: &[Promise]) -> Self {
+        Self { wanted: wanted.to_vec(), ..self }
+    }
+
+    /// The demand with this number.
+    pub fn demand(&self, Promise(demand): Promise) -> &Demand<'a, R> {
+        &self.setting.demands[demand]
+    }
+}
+
+impl Event {
+    /// The step as a person sees it, once it has led to `scene`.
+    pub fn frame<M, T>(&self, scene: &TeamState<M, T>) -> Frame {
+        let Self { steps, blocked, .. } = self.clone();
+        Frame { kind: Kind::Advance, steps, blocked, cells: scene.cells().collect() }
+    }
+}
+
+impl<R: Rule> World for Playing<'_, R> {
+    type State = Scene<R>;
+    type Plan = Bits;
+    type Event = Event;
+    type Demand = Promise;
+
+    /// The robots that have something left to do.
+    fn plan(&self, scene: &mut Scene<R>, _: &[u8]) -> Option<Bits> {
+        let awake = self.awake(scene);
+        let is_met = |promise: &Promise| {
+            self.setting.demands.get(promise.0).is_some_and(|demand| demand.is_met_by(scene))
+        };
+        let is_over = awake == 0 || !self.wanted.is_empty() && self.wanted.iter().all(is_met);
+        (!is_over).then_some(awake)
+    }
+
+    fn settle(&self, scene: &mut Scene<R>, &awake: &Bits, _: &mut Vec<u8>, world: &mut impl Oracle) -> Event {
+        let robots = scene.robots();
+        let mut event = Event { acted: 0, steps: vec![Step::Stay; robots], blocked: vec![false; robots] };
+        if self.dies(scene, awake, world) {
+            return event;
+        }
+        event.acted = self.acting(awake, world);
+        let before = scene.clone();
+        let mut sent = Vec::new();
+        let acting = (0..robots).filter(|robot| event.acted >> robot & 1 == 1);
+        for robot in acting {
+            let act = if let Some(act) = scene.bodies[robot].pending.take() {
+                act
+            } else {
+                let map = &mut scene.map;
+                let mut view =
+                    View { setting: self.setting, robot, scene: &before, map, world, sent: &mut sent };
+                let body = &mut scene.bodies[robot];
+                let act = self.rule.act(&mut view, &mut body.memory);
+                body.heard.clear();
+                if self.setting.moves == Moves::LookThenMove && act != Act::Wait {
+                    body.pending = Some(act);
+                    continue;
+                }
+                act
+            };
+            let Act::Go(side) = act else { continue };
+            event.steps[robot] = Step::Cross(side);
+        }
+        for (robot, &step) in event.steps.iter().enumerate() {
+            let cell = before.cell(robot);
+            let body = &mut scene.bodies[robot];
+            if event.acted >> robot & 1 == 1 && body.pending.is_none() {
+                body.is_blocked = false;
+            }
+            let Step::Cross(side) = step else { continue };
+            body.is_blocked = !passes(self.setting, &mut scene.map, (cell, side), world);
+            event.blocked[robot] = body.is_blocked;
+            if !body.is_blocked {
+                body.cell = cell.after(step);
+            }
+        }
+        self.deliver(scene, sent, world);
+        event
+    }
+
+    fn broken_by(&self, turn: &Turn<'_, Self>) -> Vec<Promise> {
+        let moved = Moved { before: turn.before, after: turn.after };
+        self.broken(|demand| demand.is_broken_by(&moved))
+    }
+
+    fn broken_at_end(&self, scene: &Scene<R>, _: &[u8]) -> Vec<Promise> {
+        self.broken(|demand| demand.is_broken_at_end(scene))
+    }
+
+    fn covers(&self) -> Vec<&'static str> {
+        self.setting.covers.iter().map(|&(name, _)| name).collect()
+    }
+
+    fn occurs(&self, turn: &Turn<'_, Self>) -> u64 {
+        let moved = Moved { before: turn.before, after: turn.after };
+        let occurs = self.setting.covers.iter().zip(0..).filter(|((_, is_one), _)| is_one(&moved));
+        occurs.fold(0, |bits, (_, bit)| bits | 1 << bit)
+    }
+}
+
+impl<R: Rule> Game for Playing<'_, R> {
+    type Frame = (Frame, Option<Map>);
+
+    fn start(&self) -> Scene<R> {
+        self.start.clone()
+    }
+
+    fn frame(&self, turn: &Turn<'_, Self>) -> Self::Frame {
+        (turn.event.frame(turn.after), turn.after.map)
+    }
+
+    fn wanted(&self) -> &[Promise] {
+        &self.wanted
+    }
+
+    fn words(&self, Promise(demand): Promise, _: Option<&Turn<'_, Self>>) -> &'static str {
+        self.setting.demands[demand].words
+    }
+
+    fn recurs(&self, then: &Scene<R>, _: usize, now: &Scene<R>, _: &[u8]) -> ControlFlow<Vec<Promise>> {
+        if then.bodies != now.bodies {
+            return ControlFlow::Continue(());
+        }
+        ControlFlow::Break(self.broken(|demand| demand.is_broken_by_endless_runs()))
+    }
+
+    fn edges(&self) -> u32 {
+        self.setting.ground.mishaps() + self.setting.losses + self.setting.deaths
+    }
+
+    fn longest_run(&self) -> u32 {
+        self.setting.longest_run
+    }
+}
+
+/// What a scene is made of.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub enum Part<M, T> {
+    /// A robot.
+    Robot(Body<M, T>),
+    /// All but the robots.
+    Rest {
+        /// Where robots are to go.
+        goals: Vec<Cell>,
+        /// What is known of the layout.
+        map: Option<Map>,
+        /// Messages that were lost.
+        losses: u32,
+        /// Robots that have died.
+        deaths: u32,
+    },
+}
+
+impl<R: Rule> System for Playing<'_, R> {
+    type Part = Part<R::Memory, R::Message>;
+
+    fn places(&self, scene: &Scene<R>) -> usize {
+        scene.robots() + 1
+    }
+
+    fn part(&self, scene: &Scene<R>, place: usize) -> Self::Part {
+        let TeamState { bodies, goals, map, losses, deaths } = scene;
+        let rest = || Part::Rest { goals: goals.clone(), map: *map, losses: *losses, deaths: *deaths };
+        bodies.get(place).cloned().map_or_else(rest, Part::Robot)
+    }
+
+    fn differing(&self, one: &Scene<R>, other: &Scene<R>) -> Places {
+        let bodies = one.bodies.iter().zip(&other.bodies).map(|(one, other)| one != other);
+        let rest = |scene: &Scene<R>| (scene.map, scene.losses, scene.deaths);
+        let differing = bodies.chain([rest(one) != rest(other) || one.goals != other.goals]);
+        (0..).zip(differing).fold(0, |places, (place, differs)| places | Places::from(differs) << place)
+    }
+
+    fn put(&self, scene: &mut Scene<R>, place: usize, part: &Self::Part) {
+        match part {
+            Part::Robot(body) => scene.bodies[place].clone_from(body),
+            Part::Rest { goals, map, losses, deaths } => {
+                scene.goals.clone_from(goals);
+                (scene.map, scene.losses, scene.deaths) = (*map, *losses, *deaths);
+            }
+        }
+    }
+
+    fn acting(&self, turn: &Turn<'_, Self>) -> Bits {
+        turn.event.acted
+    }
+
+    /// Nobody is bound to die.
+    fn is_bound(&self, turn: &Turn<'_, Self>) -> bool {
+        turn.event.acted != 0
+    }
+
+    fn broken_by_endless_runs(&self) -> Option<Promise> {
+        self.broken(|demand| demand.is_broken_by_endless_runs()).first().copied()
+    }
+
+    fn awake(&self, scene: &Scene<R>) -> Bits {
+        Self::awake(self, scene)
+    }
+}
