@@ -53,7 +53,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// The sides that `robot`, which stands, can take as its part of a shortest way of the team to an uncovered side: none if
     /// others have to go first. `None` if there is no way.
     pub(super) fn part(&self, robot: usize) -> Option<Steps> {
-        if ROBOTS != 2 {
+        if self.count != 2 {
             return self.together(robot);
         }
         let goes_alone = self.rule().has(Condition::Meanwhile) && self.another_drives_a_new_path(robot);
@@ -64,7 +64,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// The single drives of a shortest joint way of two robots from where they go, before an uncovered side is admitted for
     /// one of them; `None` if there is none, or there are not two robots.
     pub fn joint_way(&self) -> Option<u32> {
-        if ROBOTS == 2 { self.joint(0).map(|(length, _)| length) } else { None }
+        if self.count == 2 { self.joint(0).map(|(length, _)| length) } else { None }
     }
 
     /// The length of a shortest joint way from where both robots go, and the sides with which `robot` can begin one.

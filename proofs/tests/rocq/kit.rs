@@ -46,7 +46,7 @@ fn drives(rule: Rule) -> [String; 2] {
     let here = Cell::new(7, 7);
     for (offset, there) in offsets(REACH).flat_map(|offset| Step::ALL.map(move |there| (offset, there))) {
         let map = MediumGrid::new(area).expect("it is small");
-        let kit = Pair::new(rule, map, [at(here, offset), here]).ok().filter(|_| offset != (0, 0));
+        let kit = Pair::new(rule, map, &[at(here, offset), here]).ok().filter(|_| offset != (0, 0));
         let kit = kit.and_then(|kit| comes_to(&kit, stance(at(here, offset), there)));
         for side in Step::ALL.into_iter().filter(|&step| step != Step::Stay) {
             asked.push(kit.is_some());
