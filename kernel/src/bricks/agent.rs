@@ -275,7 +275,6 @@ impl Agent {
 
 /// What comes of a lap that is over, and which side it began with where that matters.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Ended {
     /// The side is shut.
     Shut(Side),

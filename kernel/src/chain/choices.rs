@@ -51,7 +51,6 @@ struct Trial {
 
 /// Whether a robot's step was tried when it was its turn: once all robots ahead had theirs.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Turn {
     Own,
     Early,

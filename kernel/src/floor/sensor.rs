@@ -71,13 +71,7 @@ pub struct Sensor {
 }
 
 impl Sensor {
-    /// The bits that a sensor stores for Ants: the crossings.
-    pub const BITS_FOR_ANTS: u32 = 32;
-
-    /// For Brick&Mortar as published: the mark, which is neither closing nor sealed.
-    pub const BITS_FOR_PUBLISHED: u32 = 2;
-
-    /// For Brick&Mortar repaired: 2 for the mark, which is not sealed, 32 for the crossings, 8 for the agents, 4 for the
+    /// The bits that a sensor stores for Brick&Mortar repaired: 2 for the mark, which is not sealed, 32 for the crossings, 8 for the agents, 4 for the
     /// sides that are shut, 9 for the claim.
     pub const BITS_FOR_REPAIRED: u32 = 55;
 

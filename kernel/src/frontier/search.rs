@@ -22,7 +22,6 @@ impl Reached {
 
 /// The memory of one search.
 #[derive(Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Search<'a> {
     pub(super) reached: &'a mut [Reached],
     pub(super) queue: &'a mut [Cell],
