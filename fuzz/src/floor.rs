@@ -52,7 +52,7 @@ impl Patch {
     /// Whether both sensors say that the side between them is shut.
     fn is_shut(&self, edge: Edge) -> bool {
         let (one, side) = (edge.cell(), edge.side());
-        let says = |cell, side| self.sensor(cell).is_some_and(|sensor| sensor.shut.has(side));
+        let says = |cell, side| self.sensor(cell).is_some_and(|sensor| sensor.shut.has(Step::Cross(side)));
         says(one, side) && says(one.beyond(side), side.opposite())
     }
 

@@ -7,7 +7,7 @@ use super::rule::{Condition, Precedence, Rule};
 use crate::ants::least_crossed;
 use crate::choice::Oracle;
 use crate::floor::{COMPASS, Claim, Entry, Floor, Mark, Ring, Scan, Sensor, enter, leave};
-use crate::ground::{Cell, Side};
+use crate::ground::{Cell, Side, Step};
 
 /// What an agent remembers. It has no map and knows no place.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -85,7 +85,7 @@ impl Agent {
         let end = self.end_lap(rule, &mut scan);
         let shuts = end.and_then(Ended::shuts);
         if let Some(side) = shuts {
-            scan.here.shut = scan.here.shut.with(side);
+            scan.here.shut = scan.here.shut.with(Step::Cross(side));
             scan.open = scan.open.and(Ring::of(side).not());
         }
         let next = self.choose(rule, &mut scan, end);
@@ -313,7 +313,7 @@ pub fn carry_out(floor: &mut impl Floor, cell: Cell, act: &Act) -> Cell {
     if let Some(side) = act.shuts {
         let beyond = cell.beyond(side);
         if let Some(sensor) = floor.sensor(beyond) {
-            floor.put(beyond, Sensor { shut: sensor.shut.with(side.opposite()), ..sensor });
+            floor.put(beyond, Sensor { shut: sensor.shut.with(Step::Cross(side.opposite())), ..sensor });
         }
     }
     match act.next {

@@ -2,7 +2,7 @@
 
 use core::hash::{Hash, Hasher};
 
-use crate::ground::Side;
+use crate::ground::Steps;
 
 /// The state of a cell [Ferranti 2009, II.A]. Walls have no sensor.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
@@ -19,28 +19,6 @@ pub enum Mark {
     Visited,
     /// Visited, and so in spite of whatever sensors have been missed. The paper does not have it.
     Sealed,
-}
-
-/// A set of sides of a cell.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Sides(u8);
-
-impl Sides {
-    /// No side.
-    pub const NONE: Self = Self(0);
-
-    /// Whether `side` is in the set.
-    #[inline]
-    pub const fn has(self, side: Side) -> bool {
-        self.0 & 1 << side as u8 != 0
-    }
-
-    /// The set with `side`.
-    #[inline]
-    pub const fn with(self, side: Side) -> Self {
-        Self(self.0 | 1 << side as u8)
-    }
 }
 
 /// An agent's hold on the cell where its lap began (clause BRICKS-2).
@@ -62,7 +40,7 @@ pub struct Sensor {
     /// Agents that are in the cell or on their way into it.
     pub agents: u8,
     /// The sides that a loop closure has shut. A side is shut when the sensors on both sides of it say so.
-    pub shut: Sides,
+    pub shut: Steps,
     /// The claim on the cell, if there is one.
     pub claim: Option<Claim>,
     /// The sensor's own identifier; 0 where there is none yet. See [`Floor::unpack`](super::Floor::unpack) for what it
@@ -107,7 +85,7 @@ impl Sensor {
         self.mark as u64
             | (self.crossings as u64) << 3
             | (self.agents as u64) << 35
-            | (self.shut.0 as u64) << 43
+            | (self.shut.bits() as u64) << 43
             | claim << 47
     }
 
@@ -131,7 +109,7 @@ impl Sensor {
             mark,
             crossings: (bits >> 3) as u32,
             agents: (bits >> 35) as u8,
-            shut: Sides((bits >> 43) as u8 & 0b1111),
+            shut: Steps::of_bits((bits >> 43) as u8 & 0b1111),
             claim,
             serial: 0,
         })
@@ -150,6 +128,7 @@ impl Hash for Sensor {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ground::{Side, Step};
 
     #[test]
     fn a_sensor_fits_into_its_bits_and_comes_back() {
@@ -157,13 +136,13 @@ mod tests {
             mark: Mark::Sealed,
             crossings: u32::MAX,
             agents: u8::MAX,
-            shut: Sides(0b1111),
+            shut: Steps::of_bits(0b1111),
             claim: Some(Claim { owner: u8::MAX }),
             serial: 0,
         };
         assert_eq!(full.to_bits() >> (Sensor::BITS_WITHOUT_SERIAL - 1), 1);
         assert_eq!(Sensor::BITS_FOR_ROBUST, 72);
-        let part = Sensor { shut: Sides::default().with(Side::West), claim: None, ..full };
+        let part = Sensor { shut: Steps::only(Step::Cross(Side::West)), claim: None, ..full };
         let owned = Sensor { claim: Some(Claim { owner: 0 }), ..Sensor::default() };
         for sensor in [full, part, owned, Sensor::default()] {
             assert_eq!(Sensor::from_bits(sensor.to_bits()), Some(sensor));

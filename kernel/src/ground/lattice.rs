@@ -47,6 +47,12 @@ impl Cell {
         self.moved(OFFSETS[step.place() % OFFSETS.len()])
     }
 
+    /// The cell so many columns and rows away, or the nearest one that has coordinates.
+    #[inline]
+    pub const fn at_offset(self, columns: i16, rows: i16) -> Self {
+        Self::new(self.x.saturating_add(columns), self.y.saturating_add(rows))
+    }
+
     /// Columns and rows between two cells, without sign.
     #[inline]
     pub const fn apart(self, other: Self) -> (u16, u16) {

@@ -3,7 +3,7 @@
 use super::Step;
 
 /// A set of steps, one bit each in direction order.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Steps(u8);
 
@@ -93,6 +93,12 @@ impl Steps {
     #[inline]
     pub const fn of_bits(bits: u8) -> Self {
         Self(bits & Self::ALL.0)
+    }
+
+    /// A bit for each, as [`Steps::of_bits`] has them.
+    #[inline]
+    pub const fn bits(self) -> u8 {
+        self.0
     }
 
     /// In direction order.

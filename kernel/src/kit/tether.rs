@@ -5,7 +5,7 @@
 //! field join their nodes. So a robot that comes nearer to one that it is tied to, along such paths, is in contact with
 //! it all the way; radio alone, through a wall, promises no way back.
 
-use super::around::{HERE, IN_REACH, Places, at_offset, bit, offsets, place_of};
+use super::around::{HERE, IN_REACH, Places, bit, offsets, place_of};
 use super::rule::Condition;
 use super::sets::{Set, first_robots, robots, sets};
 use super::stance::Stance;
@@ -126,7 +126,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     pub(super) fn near(&self, node: Cell, also: Option<Step>) -> Near {
         let (mut east, mut south): (Places, Places) = (0, 0);
         for offset in offsets(IN_REACH | HERE) {
-            let paths = self.paths(at_offset(node, offset));
+            let paths = self.paths(node.at_offset(offset.0, offset.1));
             let place = 1 << bit(offset.0, offset.1);
             east |= if paths.has(Step::Cross(Side::East)) { place } else { 0 };
             south |= if paths.has(Step::Cross(Side::South)) { place } else { 0 };
@@ -276,7 +276,8 @@ mod tests {
             assert!(field & HERE != 0);
             for one in offsets(field) {
                 for other in offsets(field) {
-                    let [one, other] = [one, other].map(|offset| at_offset(Cell::new(0, 0), offset));
+                    let [one, other] =
+                        [one, other].map(|offset| Cell::new(0, 0).at_offset(offset.0, offset.1));
                     assert!(in_reach(one, other), "{one} {other}");
                 }
             }

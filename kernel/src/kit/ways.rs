@@ -10,7 +10,7 @@
 //! Three robots and more have too many places for that. There the robot goes that can come to an uncovered side alone, the
 //! others staying where they go; if there is none, all go together: see `caravan.rs`. So does a robot that has no others.
 
-use super::around::{HERE, Places, at_offset, bit, in_reach, moved, offsets, place_of};
+use super::around::{HERE, Places, bit, in_reach, moved, offsets, place_of};
 use super::rule::Condition;
 use super::team::Kit;
 use crate::ground::{Cell, EdgeMark, Grid, Steps};
@@ -116,7 +116,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
                 near[node] |= places;
                 let at = self.node(node);
                 let is_goal = |offset: (i16, i16)| {
-                    let goals = self.goals(at_offset(at, offset), admitted, ends);
+                    let goals = self.goals(at.at_offset(offset.0, offset.1), admitted, ends);
                     goals & 1 << bit(-offset.0, -offset.1) != 0
                 };
                 if self.goals(at, admitted, ends) & places != 0 || offsets(places).any(is_goal) {
@@ -158,7 +158,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
                 let Some(place) = self.place(node).filter(|_| goals != 0) else { continue };
                 level.add(place, goals);
                 for offset in offsets(goals) {
-                    if let Some(place) = self.place(at_offset(node, offset)) {
+                    if let Some(place) = self.place(node.at_offset(offset.0, offset.1)) {
                         level.add(place, 1 << bit(-offset.0, -offset.1));
                     }
                 }
@@ -177,7 +177,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
                 }
             }
             for offset in offsets(places) {
-                for step in self.known(EdgeMark::Open, at_offset(node, offset)).iter() {
+                for step in self.known(EdgeMark::Open, node.at_offset(offset.0, offset.1)).iter() {
                     next.add(place, moved(1 << bit(offset.0, offset.1), step) & admitted & !near[place]);
                 }
             }

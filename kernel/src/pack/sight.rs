@@ -156,14 +156,7 @@ impl Window {
             while left != 0 {
                 let column = left.trailing_zeros() as i32 - self.radius;
                 left &= left - 1;
-                tell(
-                    column,
-                    row,
-                    Cell::new(
-                        self.from.x.saturating_add(column as i16),
-                        self.from.y.saturating_add(row as i16),
-                    ),
-                );
+                tell(column, row, self.from.at_offset(column as i16, row as i16));
             }
         }
     }
