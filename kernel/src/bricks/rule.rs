@@ -73,7 +73,6 @@ impl Rule {
     pub const ROBUST: Self = Self::REPAIRED.with(Condition::SecondPass).with(Condition::SeenOnly);
 
     /// Moves without gain before the second pass: each counts one up, and a gain in the first pass a little down.
-    #[inline]
     pub(super) const fn hope(self) -> u16 {
         4 * self.patience as u16
     }

@@ -7,7 +7,6 @@ use crate::ground::{Cell, Grid, Step};
 
 /// Whether a follower goes on along the walk: it is `own` cells along it and stops after `last`, while the robot
 /// ahead is planned to be `ahead` cells along it. It follows one cell behind, up to where it stops.
-#[inline]
 pub const fn goes_on(own: usize, last: usize, ahead: usize) -> bool {
     own < last && own + 2 <= ahead
 }

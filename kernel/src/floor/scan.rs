@@ -115,25 +115,21 @@ impl Scan {
     }
 
     /// The scan as it is read by one who goes through visited cells as through explored ones.
-    #[inline]
     pub const fn with_visited(self) -> Self {
         Self { explored: self.explored.or(self.visited), ..self }
     }
 
     /// Cells that read as accessible: unexplored or explored.
-    #[inline]
     pub const fn accessible(&self) -> Ring {
         self.unexplored.or(self.explored)
     }
 
     /// The side neighbours that read as accessible, with an open side in between.
-    #[inline]
     pub const fn reachable(&self) -> Ring {
         self.accessible().and(self.open)
     }
 
     /// The claim on the neighbour beyond `side`, if one was seen.
-    #[inline]
     pub fn claim(&self, side: Side) -> Option<Claim> {
         self.claims.into_iter().zip(COMPASS).find_map(|(claim, at)| claim.filter(|_| at == side))
     }
@@ -147,13 +143,11 @@ impl Scan {
     }
 
     /// What the neighbour beyond `side`, which has a sensor, is entered as.
-    #[inline]
     pub const fn entry(&self, side: Side) -> Entry {
         if self.unexplored.has(side) { Entry::New { crossings: 0 } } else { Entry::Known }
     }
 
     /// The same; if a sensor is placed, it counts on from this cell's.
-    #[inline]
     pub fn entry_counting_on(&self, side: Side) -> Entry {
         match self.entry(side) {
             Entry::New { .. } => Entry::New { crossings: self.here.crossings.saturating_sub(1) },
@@ -163,13 +157,11 @@ impl Scan {
 
     /// Whether the square to the left of the way through `side`, which is reachable, is free all round: the neighbours
     /// beyond `side` and to the left of it, the corner between them, and the edges to it.
-    #[inline]
     pub fn is_filled_left(&self, side: Side) -> bool {
         self.is_filled(Ring::place(side) + 6)
     }
 
     /// The same for the right.
-    #[inline]
     pub fn is_filled_right(&self, side: Side) -> bool {
         self.is_filled(Ring::place(side))
     }

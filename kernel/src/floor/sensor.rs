@@ -59,7 +59,6 @@ impl Sensor {
     const BITS_WITHOUT_SERIAL: u32 = Self::BITS_FOR_REPAIRED + 1;
 
     /// What it stores once one agent more has entered.
-    #[inline]
     pub(super) const fn entered(self) -> Self {
         let mark = match self.mark {
             Mark::Unexplored | Mark::Explored => Mark::Explored,
@@ -70,13 +69,11 @@ impl Sensor {
     }
 
     /// What it stores once one agent has left.
-    #[inline]
     pub(super) const fn left(self) -> Self {
         Self { agents: self.agents.saturating_sub(1), ..self }
     }
 
     /// All that it stores but its identifier, in the lowest 56 bits.
-    #[inline]
     pub const fn to_bits(self) -> u64 {
         let claim = match self.claim {
             None => 0,
@@ -90,7 +87,6 @@ impl Sensor {
     }
 
     /// The sensor that stores `bits`; `None` if no sensor does.
-    #[inline]
     pub const fn from_bits(bits: u64) -> Option<Self> {
         let mark = match bits & 0b111 {
             0 => Mark::Unexplored,
@@ -118,7 +114,6 @@ impl Sensor {
 
 /// In two words, not field by field: searches spend much of their time hashing floors.
 impl Hash for Sensor {
-    #[inline]
     fn hash<H: Hasher>(&self, hasher: &mut H) {
         hasher.write_u64(self.to_bits());
         hasher.write_u16(self.serial);

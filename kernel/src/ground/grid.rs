@@ -180,13 +180,11 @@ impl Area {
     }
 
     /// Number of columns.
-    #[inline]
     pub const fn width(self) -> usize {
         self.last.x.wrapping_sub(self.first.x) as u16 as usize + 1
     }
 
     /// Number of rows.
-    #[inline]
     pub const fn height(self) -> usize {
         self.last.y.wrapping_sub(self.first.y) as u16 as usize + 1
     }

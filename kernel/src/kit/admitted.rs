@@ -28,13 +28,11 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     }
 
     /// The sides of `node` that carry `mark` in any record.
-    #[inline]
     pub fn known(&self, mark: EdgeMark, node: Cell) -> Steps {
         self.union.sides(mark, node)
     }
 
     /// The sides of `node` that are known to be open: driven, or seen free by robots at both ends.
-    #[inline]
     pub(super) fn paths(&self, node: Cell) -> Steps {
         let driven = self.union.sides(EdgeMark::Open, node);
         if self.count > 2 { driven.or(self.union.sides(SEEN, node)) } else { driven }
@@ -53,13 +51,11 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     }
 
     /// The sides of `node` that are uncovered for `robot`.
-    #[inline]
     pub fn uncovered(&self, robot: usize, node: Cell) -> Steps {
         Steps::ALL.without(Step::Stay).minus(self.covered(robot, node))
     }
 
     /// The sides of `node` that nobody has covered.
-    #[inline]
     pub fn uncovered_by_all(&self, node: Cell) -> Steps {
         let known = self.known(EdgeMark::Open, node).or(self.known(EdgeMark::Wall, node));
         Steps::ALL.without(Step::Stay).minus(known)

@@ -52,7 +52,6 @@ impl Count {
     }
 
     /// The number.
-    #[inline]
     pub const fn get(self) -> u8 {
         self.0
     }
@@ -107,7 +106,6 @@ impl Rule {
 
     /// Equation (2), in nanoseconds: ((L − D) / L)·B, rounded down. D is at most L: who hears a sender from beyond its
     /// range takes it to be at the rim.
-    #[inline]
     pub const fn backoff_ns(&self, distance_um: u32) -> u64 {
         let range = self.range_um.get() as u64;
         let inside = range.saturating_sub(distance_um as u64);

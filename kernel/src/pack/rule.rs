@@ -103,7 +103,6 @@ impl Rule {
     }
 
     /// Whether robots in these cells have a link.
-    #[inline]
     pub const fn links(&self, one: Cell, other: Cell) -> bool {
         let circle = Circle::new(4 * (self.range_cells as u64) * (self.range_cells as u64));
         if self.has(Condition::Corners) { circle.covers(one, other) } else { circle.reaches(one, other) }

@@ -161,7 +161,6 @@ impl Window {
         }
     }
 
-    #[inline]
     fn has_obstacle(&self, columns: i32, rows: i32) -> bool {
         let row = self.obstacles.get((rows + self.radius) as usize);
         row.is_some_and(|row| row >> ((columns + self.radius) & 63) & 1 == 1)
