@@ -24,6 +24,6 @@ mod ways;
 pub use message::{Damaged, FIELDS, Message};
 pub use refused::{NotNow, Refused};
 pub use rule::{Answers, Condition, Conditions, Fallback, Filter, Records, Rule, Runs};
-pub use stance::{Reach, Stance, in_reach, touch};
+pub use stance::{Reach, Stance, touch};
 pub use talk::{Letter, NUMBERS, Phase, Sent, Talk};
 pub use team::{Kit, MAX_ROBOTS, Next, Robot, Sight};

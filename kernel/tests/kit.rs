@@ -83,8 +83,9 @@ fn a_robot_waits_for_one_that_drives_an_old_path() {
 fn a_joint_way_is_found_though_robots_may_meet() {
     let map = map(3, 2, &row([0, 1]), &[(2, 0, Side::South)]);
     for rule in [Rule::REPAIRED, Rule::REPAIRED.without(Condition::Apart)] {
-        let kit = Kit::<_, 2, 6>::new(rule, map, &[node(0, 0), node(1, 0)]).expect("a team");
-        assert_eq!(kit.joint_way(), Some(1));
+        let mut kit = Kit::<_, 2, 6>::new(rule, map, &[node(0, 0), node(1, 0)]).expect("a team");
+        assert_eq!(kit.decide(0, &mut Nth(0)), Ok(Next::Stays), "the second one goes on");
+        assert_eq!(kit.decide(1, &mut Nth(0)), Ok(Next::Looks(Side::East)));
     }
 }
 

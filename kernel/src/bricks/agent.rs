@@ -83,7 +83,7 @@ impl Agent {
         let was = scan.here.mark;
         self.meet(rule, &mut scan.here.claim);
         let end = self.end_lap(rule, &mut scan);
-        let shuts = end.and_then(Ended::shuts);
+        let shuts = end.and_then(|end| if let Ended::Shut(side) = end { Some(side) } else { None });
         if let Some(side) = shuts {
             scan.here.shut = scan.here.shut.with(Step::Cross(side));
             scan.open = scan.open.and(Ring::of(side).not());
@@ -282,15 +282,6 @@ enum Ended {
     InVain(Side),
     /// Nothing yet: it was cut short.
     CutShort,
-}
-
-impl Ended {
-    const fn shuts(self) -> Option<Side> {
-        match self {
-            Self::Shut(side) => Some(side),
-            Self::InVain(_) | Self::CutShort => None,
-        }
-    }
 }
 
 /// What the neighbour beyond `side` is entered as. Missed sensors take their counts with them: under

@@ -49,14 +49,10 @@ pub struct Sensor {
 }
 
 impl Sensor {
-    /// The bits that a sensor stores for Brick&Mortar repaired: 2 for the mark, which is not sealed, 32 for the crossings, 8 for the agents, 4 for the
-    /// sides that are shut, 9 for the claim.
-    pub const BITS_FOR_REPAIRED: u32 = 55;
-
-    /// For Brick&Mortar robust against missed sensors: one more for the mark, and 16 for the identifier.
-    pub const BITS_FOR_ROBUST: u32 = Self::BITS_WITHOUT_SERIAL + u16::BITS;
-
-    const BITS_WITHOUT_SERIAL: u32 = Self::BITS_FOR_REPAIRED + 1;
+    /// The bits that a sensor stores for Brick&Mortar robust against missed sensors, but for the 16 of its identifier: 3 for the
+    /// mark, 32 for the crossings, 8 for the agents, 4 for the sides that are shut, 9 for the claim. As published it stores 2
+    /// for the mark, and for Ants the crossings.
+    pub const BITS: u32 = 56;
 
     /// What it stores once one agent more has entered.
     pub(super) const fn entered(self) -> Self {
@@ -73,7 +69,7 @@ impl Sensor {
         Self { agents: self.agents.saturating_sub(1), ..self }
     }
 
-    /// All that it stores but its identifier, in the lowest 56 bits.
+    /// All that it stores but its identifier, in the lowest [`Sensor::BITS`] bits.
     pub const fn to_bits(self) -> u64 {
         let claim = match self.claim {
             None => 0,
@@ -135,14 +131,13 @@ mod tests {
             claim: Some(Claim { owner: u8::MAX }),
             serial: 0,
         };
-        assert_eq!(full.to_bits() >> (Sensor::BITS_WITHOUT_SERIAL - 1), 1);
-        assert_eq!(Sensor::BITS_FOR_ROBUST, 72);
+        assert_eq!(full.to_bits() >> (Sensor::BITS - 1), 1);
         let part = Sensor { shut: Steps::only(Step::Cross(Side::West)), claim: None, ..full };
         let owned = Sensor { claim: Some(Claim { owner: 0 }), ..Sensor::default() };
         for sensor in [full, part, owned, Sensor::default()] {
             assert_eq!(Sensor::from_bits(sensor.to_bits()), Some(sensor));
         }
-        for wrong in [5, 1 << 48, 1 << Sensor::BITS_WITHOUT_SERIAL] {
+        for wrong in [5, 1 << 48, 1 << Sensor::BITS] {
             assert_eq!(Sensor::from_bits(wrong), None, "{wrong:b}");
         }
     }

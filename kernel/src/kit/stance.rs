@@ -41,11 +41,6 @@ impl Reach {
     }
 }
 
-/// Whether robots at these nodes hear each other within the paper's 10 m.
-pub const fn in_reach(one: Cell, other: Cell) -> bool {
-    Reach::PAPER.joins(one, other)
-}
-
 /// Where a robot is.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -132,6 +127,10 @@ mod tests {
     use super::*;
 
     const HERE: Cell = Cell::new(0, 0);
+
+    fn in_reach(one: Cell, other: Cell) -> bool {
+        Reach::PAPER.joins(one, other)
+    }
 
     #[test]
     fn ten_metres_are_three_paths_and_one_to_the_side() {

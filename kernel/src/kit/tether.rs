@@ -207,7 +207,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 #[cfg(test)]
 mod tests {
     use super::super::rule::Rule;
-    use super::super::stance::in_reach;
+    use super::super::stance::Reach;
     use super::*;
     use crate::ground::{Area, EdgeMark, TinyGrid};
 
@@ -278,7 +278,7 @@ mod tests {
                 for other in offsets(field) {
                     let [one, other] =
                         [one, other].map(|offset| Cell::new(0, 0).at_offset(offset.0, offset.1));
-                    assert!(in_reach(one, other), "{one} {other}");
+                    assert!(Reach::PAPER.joins(one, other), "{one} {other}");
                 }
             }
         }

@@ -58,17 +58,11 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         }
         let goes_alone = self.rule().has(Condition::Meanwhile) && self.another_drives_a_new_path(robot);
         let alone = if goes_alone { self.alone(robot, &self.formation(), u16::MAX) } else { None };
-        alone.map(|way| way.sides).or_else(|| self.joint(robot).map(|(_, sides)| sides))
+        alone.map(|way| way.sides).or_else(|| self.joint(robot))
     }
 
-    /// The single drives of a shortest joint way of two robots from where they go, before an uncovered side is admitted for
-    /// one of them; `None` if there is none, or there are not two robots.
-    pub fn joint_way(&self) -> Option<u32> {
-        if self.count == 2 { self.joint(0).map(|(length, _)| length) } else { None }
-    }
-
-    /// The length of a shortest joint way from where both robots go, and the sides with which `robot` can begin one.
-    fn joint(&self, robot: usize) -> Option<(u32, Steps)> {
+    /// The sides with which `robot` can begin a shortest joint way from where both robots go; `None` if there is none.
+    fn joint(&self, robot: usize) -> Option<Steps> {
         let at = self.stance(robot)?.to();
         let other = self.others(robot).next()?.to();
         let around = in_reach(self.rule().reach);
@@ -78,7 +72,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         let ends = [at, other];
         let length = self.joint_length((place, pair), admitted, ends)?;
         if length == 0 {
-            return Some((0, Steps::NONE));
+            return Some(Steps::NONE);
         }
         let mut near: Pairs<NODES> = [0; NODES];
         let mut levels = [Level::<NODES>::NONE, Level::NONE];
@@ -98,7 +92,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             let node = self.place(at.after(step));
             node.is_some_and(|node| near[node] & moved(pair, step.reverse()) & admitted != 0)
         });
-        Some((length, self.admitted(robot, nearer)))
+        Some(self.admitted(robot, nearer))
     }
 
     /// The single drives from this pair of nodes to the nearest one with an uncovered side.

@@ -3,7 +3,7 @@
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, MediumGrid, Step};
-use tautline_kernel::kit::{Condition, Kit, Next, Rule, Sight, Stance, in_reach};
+use tautline_kernel::kit::{Condition, Kit, Next, Reach, Rule, Sight, Stance};
 
 use super::term::{at, bits, definition, everywhere, offsets};
 
@@ -69,8 +69,8 @@ fn comes_to(kit: &Pair, wanted: Stance) -> Option<Pair> {
 }
 
 pub(super) fn terms() -> String {
-    let in_reach: Vec<bool> =
-        offsets(REACH).map(|offset| everywhere(|cell| in_reach(cell, at(cell, offset)))).collect();
+    let is_in_reach = |offset| everywhere(|cell| Reach::PAPER.joins(cell, at(cell, offset)));
+    let in_reach: Vec<bool> = offsets(REACH).map(is_in_reach).collect();
     let mut text = definition("reach", "Z", &format!("{REACH}%Z"));
     text += &definition("reached", "N", &bits(&in_reach));
     text += &definition("sure", "N", &of_stances(Stance::is_sure_of));
