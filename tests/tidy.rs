@@ -21,7 +21,7 @@ const BELOW: &str = "
 const KNOWN_TO: &str = "
     kernel choice conditions floor ground net: *
     kernel ants: bricks
-    kernel bricks chain frontier kit mrc notice pack perception position tan:
+    kernel bricks chain frontier kit mrc notice pack position tan:
     proofs clause decide engine floor_trace plural run step_check team: *
     proofs judge ledger:
     proofs floor: ants bricks

@@ -5,7 +5,7 @@ use tautline_kernel::ants;
 use tautline_kernel::bricks::{self, Agent, Condition, Next};
 use tautline_kernel::choice::{Oracle, one_of};
 use tautline_kernel::floor::{Floor, Mark, Scan, Sensor, settle};
-use tautline_kernel::ground::{Cell, Edge, Side};
+use tautline_kernel::ground::{Cell, Edge, Side, Step};
 use tautline_proofs::engine::Tape;
 use tautline_sim::layout::{Layout, Size};
 
@@ -52,7 +52,7 @@ impl Patch {
     /// Whether both sensors say that the side between them is shut.
     fn is_shut(&self, edge: Edge) -> bool {
         let (one, side) = (edge.cell(), edge.side());
-        let says = |cell, side| self.sensor(cell).is_some_and(|sensor| sensor.shut.has(side));
+        let says = |cell, side| self.sensor(cell).is_some_and(|sensor| sensor.shut.has(Step::Cross(side)));
         says(one, side) && says(one.beyond(side), side.opposite())
     }
 

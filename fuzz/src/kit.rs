@@ -8,6 +8,9 @@ use tautline_proofs::engine::Tape;
 
 use super::numbers;
 
+/// A team of at most four.
+type Team = Kit<SmallGrid, 4, 256>;
+
 /// The longest side, in nodes.
 const SIDE: u32 = 8;
 
@@ -46,12 +49,8 @@ pub fn kit(bytes: &[u8]) {
         _ => Rule::REPAIRED,
     };
     message(&rule, &mut oracle);
-    match oracle.pick(4) {
-        0 => run::<1>(rule, &mut oracle),
-        1 => run::<2>(rule, &mut oracle),
-        2 => run::<3>(rule, &mut oracle),
-        _ => run::<4>(rule, &mut oracle),
-    }
+    let robots = oracle.pick(4) as usize + 1;
+    run(rule, robots, &mut oracle);
 }
 
 fn message(rule: &Rule, oracle: &mut dyn Oracle) {
@@ -65,21 +64,19 @@ fn message(rule: &Rule, oracle: &mut dyn Oracle) {
     }
 }
 
-fn run<const ROBOTS: usize>(rule: Rule, oracle: &mut dyn Oracle) {
+fn run(rule: Rule, robots: usize, oracle: &mut dyn Oracle) {
     let (width, height) = (SIDE - oracle.pick(SIDE), SIDE - oracle.pick(SIDE));
     let last = Cell::new(width as i16 - 1, height as i16 - 1);
     let area = Area::new(Cell::new(0, 0), last).expect("it has nodes");
     let met = TinyGrid::new(area).expect("at most 8 nodes a side");
     let mut walls = Walls { met, left: oracle.pick(32) };
-    let mut starts = [Cell::new(0, 0); ROBOTS];
-    for start in &mut starts {
-        *start = Cell::new(oracle.pick(width) as i16, oracle.pick(height) as i16);
-    }
+    let start = |_| Cell::new(oracle.pick(width) as i16, oracle.pick(height) as i16);
+    let starts: Vec<Cell> = (0..robots).map(start).collect();
     let map = SmallGrid::new(area).expect("at most 16 nodes a side");
-    let Ok(mut team) = Kit::<_, ROBOTS, 256>::new(rule, map, starts) else { return };
+    let Ok(mut team) = Team::new(rule, map, &starts) else { return };
     let is_repaired = rule.has(Condition::Stays);
     for act in 0.. {
-        let acting: Vec<usize> = (0..ROBOTS)
+        let acting: Vec<usize> = (0..robots)
             .filter(|&robot| {
                 team.may_decide(robot) || team.stance(robot).is_some_and(|stance| !stance.stands())
             })
@@ -100,23 +97,18 @@ fn run<const ROBOTS: usize>(rule: Rule, oracle: &mut dyn Oracle) {
             assert!(are_apart(&stances), "nearer than a path: {stances:?}");
         }
     }
-    if is_repaired && ROBOTS == 1 {
+    if is_repaired && robots == 1 {
         let uncovered = area.cells().filter(|&node| !team.uncovered_by_all(node).is_empty());
         let known = uncovered.filter(|&node| !team.known(EdgeMark::Open, node).is_empty()).count();
         assert!(team.is_over() && known == 0, "one robot leaves {known} nodes with uncovered sides");
     }
-    if is_repaired && ROBOTS <= 2 {
+    if is_repaired && robots <= 2 {
         assert!(team.is_over(), "the run ends, and a robot does not know it");
     }
 }
 
 /// `robot` decides, and looks until it has decided.
-fn decide<const ROBOTS: usize>(
-    team: &mut Kit<SmallGrid, ROBOTS, 256>,
-    robot: usize,
-    walls: &mut Walls,
-    oracle: &mut dyn Oracle,
-) {
+fn decide(team: &mut Team, robot: usize, walls: &mut Walls, oracle: &mut dyn Oracle) {
     let at = team.stance(robot).expect("a robot").to();
     let mut next = team.decide(robot, oracle).expect("it may decide");
     while let Next::Looks(side) = next {
@@ -132,12 +124,7 @@ fn decide<const ROBOTS: usize>(
 }
 
 /// Whether `robot` sees another one at a side of its node; where that depends on speeds, the bytes say it.
-fn sees<const ROBOTS: usize>(
-    team: &Kit<SmallGrid, ROBOTS, 256>,
-    robot: usize,
-    (at, side): (Cell, Side),
-    oracle: &mut dyn Oracle,
-) -> bool {
+fn sees(team: &Team, robot: usize, (at, side): (Cell, Side), oracle: &mut dyn Oracle) -> bool {
     let others = team.stances().enumerate().filter(|&(other, _)| other != robot);
     others.into_iter().any(|(_, other)| touch(at, side, other).unwrap_or_else(|| oracle.flip()))
 }

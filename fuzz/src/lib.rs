@@ -8,7 +8,6 @@ mod floor;
 mod frontier;
 mod kit;
 mod network;
-mod perception;
 mod position;
 #[path = "../../src/report.rs"]
 #[allow(dead_code, reason = "a fuzzer has no terminal")]
@@ -42,7 +41,6 @@ pub use floor::floor;
 pub use frontier::frontier;
 pub use kit::kit;
 pub use network::network;
-pub use perception::perception;
 pub use position::position;
 pub use rescue::{rescue, rescue_trace};
 
@@ -50,7 +48,7 @@ pub use rescue::{rescue, rescue_trace};
 pub type Body = fn(&[u8]);
 
 /// Every target's name and body.
-pub const TARGETS: [(&str, Body); 18] = [
+pub const TARGETS: [(&str, Body); 17] = [
     ("chain", chain),
     ("chain_log", chain_log),
     ("floor", floor),
@@ -62,7 +60,6 @@ pub const TARGETS: [(&str, Body); 18] = [
     ("layout_ros", layout_ros),
     ("layout_text", layout_text),
     ("network", network),
-    ("perception", perception),
     ("plan_cost", plan_cost),
     ("plan_cost_far", plan_cost_far),
     ("position", position),

@@ -18,7 +18,6 @@ pub enum Rule {
 
 /// Where an agent goes: the side neighbour of `among` with the fewest crossings, ties in the order of the compass.
 /// `None` if there is none.
-#[inline]
 pub fn least_crossed(scan: &Scan, among: Ring) -> Option<Side> {
     (0..)
         .zip(COMPASS)

@@ -1,24 +1,42 @@
 //! Sets of named conditions: every rule is one.
 
-/// Makes the type `Conditions` of the sets of a `Condition`, a fieldless enum that counts from 0 and has at most 16 variants.
+/// Makes a fieldless enum of at most 16 conditions, the list `ALL` of them, the type `Conditions` of their sets, and what a rule
+/// is asked that has such a set in its field `conditions`.
 ///
 /// ```
-/// #[derive(Clone, Copy)]
-/// pub enum Condition {
-///     /// A robot that is blocked waits.
-///     Waits,
-///     /// A robot that waits tells so.
-///     Tells,
+/// tautline_kernel::conditions! {
+///     /// One condition of the rule.
+///     pub enum Condition of Rule {
+///         /// A robot that is blocked waits.
+///         Waits,
+///         /// A robot that waits tells so.
+///         Tells,
+///     }
 /// }
 ///
-/// tautline_kernel::conditions!(Condition);
+/// #[derive(Clone, Copy)]
+/// pub struct Rule {
+///     conditions: Conditions,
+/// }
 ///
-/// const OURS: Conditions = Conditions::of(&[Condition::Waits, Condition::Tells]);
+/// const OURS: Rule = Rule { conditions: Conditions::of(&Condition::ALL) };
 /// assert!(!OURS.without(Condition::Tells).has(Condition::Tells));
 /// ```
 #[macro_export]
 macro_rules! conditions {
-    ($condition:ident) => {
+    (
+        $(#[$about:meta])*
+        pub enum $condition:ident $(of $rule:ident)? { $($(#[$says:meta])* $name:ident,)* }
+    ) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, PartialEq, Eq, Debug)]
+        pub enum $condition { $($(#[$says])* $name,)* }
+
+        impl $condition {
+            /// All of them.
+            pub const ALL: [Self; [$(Self::$name),*].len()] = [$(Self::$name),*];
+        }
+
         /// A set of conditions.
         #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
         pub struct Conditions(u16);
@@ -55,6 +73,26 @@ macro_rules! conditions {
                 self.0 & (1 << condition as u16) != 0
             }
         }
+
+        $(impl $rule {
+            /// This rule with one condition put in.
+            #[must_use]
+            pub const fn with(self, condition: $condition) -> Self {
+                Self { conditions: self.conditions.with(condition), ..self }
+            }
+
+            /// This rule with one condition taken out.
+            #[must_use]
+            pub const fn without(self, condition: $condition) -> Self {
+                Self { conditions: self.conditions.without(condition), ..self }
+            }
+
+            /// Whether `condition` is in force.
+            #[inline]
+            pub const fn has(&self, condition: $condition) -> bool {
+                self.conditions.has(condition)
+            }
+        })?
     };
 }
 

@@ -8,7 +8,7 @@ mod sensor;
 
 pub use ring::Ring;
 pub use scan::Scan;
-pub use sensor::{Claim, Mark, Sensor, Sides};
+pub use sensor::{Claim, Mark, Sensor};
 
 use crate::ground::{Cell, Edge, Side};
 

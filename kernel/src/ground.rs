@@ -14,5 +14,5 @@ pub use bits::{BitGrid, CompactGrid, LargeGrid, Layers, MediumGrid, SmallGrid, T
 pub use grid::{Area, Avoid, CellMark, EdgeMark, Grid};
 pub use lattice::{Cell, Circle, Edge, Side, Step, neighbours};
 pub use link::{Link, link, links};
-pub use plane::{Plane, Word};
+pub use plane::Plane;
 pub use steps::Steps;

@@ -20,7 +20,6 @@ pub mod mrc;
 pub mod net;
 pub mod notice;
 pub mod pack;
-pub mod perception;
 pub mod position;
 pub mod tan;
 

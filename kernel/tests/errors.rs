@@ -3,15 +3,12 @@
 use std::error::Error;
 
 use tautline_kernel::ground::Cell;
-use tautline_kernel::perception::blink::Unidentified;
-use tautline_kernel::perception::blob::{NoSample, TooManySets};
-use tautline_kernel::perception::polar::Unplaced;
 use tautline_kernel::position::Refusal;
 use tautline_kernel::{chain, kit, pack};
 
 #[test]
 fn errors_say_what_would_be_right() {
-    let said: [(&dyn Error, &str); 21] = [
+    let said: [(&dyn Error, &str); 16] = [
         (&chain::Damaged::Byte(0xff), "byte 0xff is no message of the chain"),
         (
             &chain::Damaged::Length { bytes: 6, sent: 7 },
@@ -37,14 +34,6 @@ fn errors_say_what_would_be_right() {
         (&pack::Refused::Apart(2, 5), "the pack is not connected: links join 2 of its 5 robots"),
         (&pack::Unfit::Sight, "a robot of a pack sees from 1 to 31 cells far"),
         (&pack::Unfit::Range, "robots of a pack hear each other 3 cells far or more"),
-        (&Unidentified::Lost, "its LED was on in no picture; 0 is no identifier"),
-        (&NoSample::Empty, "the rectangle has no pixel: draw it round an LED"),
-        (&NoSample::Outside, "the rectangle reaches beyond the picture: draw it inside"),
-        (
-            &TooManySets { row: 7 },
-            "there is no place left for sets of pixels in line 7: lend more, or take fewer colours",
-        ),
-        (&Unplaced::Column, "the light is beyond the right rim of the picture"),
     ];
     for (error, words) in said {
         assert_eq!(error.to_string(), words);

@@ -49,7 +49,7 @@ fn a_robot_takes_any_of_the_shortest_ways_to_an_uncovered_side() {
     let unknown = [(0, 0, Side::South), (4, 0, Side::South)];
     let map = map(5, 2, &row([0, 1, 2, 3]), &unknown);
     let begins = [0, 1].map(|pick| {
-        let mut kit = Kit::<_, 1, 10>::new(Rule::REPAIRED, map, [node(2, 0)]).expect("a team");
+        let mut kit = Kit::<_, 1, 10>::new(Rule::REPAIRED, map, &[node(2, 0)]).expect("a team");
         kit.decide(0, &mut Nth(pick))
     });
     assert_eq!(begins, [Ok(Next::Looks(Side::East)), Ok(Next::Looks(Side::West))]);
@@ -60,7 +60,7 @@ fn a_robot_waits_for_one_that_is_nearer_to_an_uncovered_side_unless_that_one_dri
     let unknown = [(0, 0, Side::South), (2, 0, Side::East), (3, 0, Side::South)];
     let map = map(4, 2, &row([0, 1]), &unknown);
     let starts = [node(1, 0), node(2, 0)];
-    let mut kit = Kit::<_, 2, 8>::new(Rule::REPAIRED, map, starts).expect("a team");
+    let mut kit = Kit::<_, 2, 8>::new(Rule::REPAIRED, map, &starts).expect("a team");
     assert_eq!(kit.decide(0, &mut Nth(0)), Ok(Next::Stays), "the second one has the uncovered side");
     assert_eq!(kit.decide(1, &mut Nth(0)), Ok(Next::Looks(Side::East)));
     assert_eq!(kit.looked(1, Sight::Free, &mut Nth(0)), Ok(Next::Drives(node(3, 0))));
@@ -73,7 +73,7 @@ fn a_robot_waits_for_one_that_drives_an_old_path() {
     let unknown = [(0, 0, Side::South), (3, 0, Side::South)];
     let map = map(4, 2, &row([0, 1, 2]), &unknown);
     let starts = [node(2, 0), node(1, 0)];
-    let mut kit = Kit::<_, 2, 8>::new(Rule::REPAIRED, map, starts).expect("a team");
+    let mut kit = Kit::<_, 2, 8>::new(Rule::REPAIRED, map, &starts).expect("a team");
     assert_eq!(kit.decide(0, &mut Nth(0)), Ok(Next::Looks(Side::East)));
     assert_eq!(kit.looked(0, Sight::Free, &mut Nth(0)), Ok(Next::Drives(node(3, 0))));
     assert_eq!(kit.decide(1, &mut Nth(0)), Ok(Next::Stays), "the first one arrives at an uncovered side");
@@ -83,8 +83,9 @@ fn a_robot_waits_for_one_that_drives_an_old_path() {
 fn a_joint_way_is_found_though_robots_may_meet() {
     let map = map(3, 2, &row([0, 1]), &[(2, 0, Side::South)]);
     for rule in [Rule::REPAIRED, Rule::REPAIRED.without(Condition::Apart)] {
-        let kit = Kit::<_, 2, 6>::new(rule, map, [node(0, 0), node(1, 0)]).expect("a team");
-        assert_eq!(kit.joint_way(), Some(1));
+        let mut kit = Kit::<_, 2, 6>::new(rule, map, &[node(0, 0), node(1, 0)]).expect("a team");
+        assert_eq!(kit.decide(0, &mut Nth(0)), Ok(Next::Stays), "the second one goes on");
+        assert_eq!(kit.decide(1, &mut Nth(0)), Ok(Next::Looks(Side::East)));
     }
 }
 
@@ -101,17 +102,17 @@ fn three_robots_stay_tied_by_paths_and_two_by_radio_alone() {
     let map = map(3, 4, &round, &[(2, 2, Side::South)]);
     let south = Step::Cross(Side::South);
     let starts = [node(2, 2), node(0, 1), node(0, 0)];
-    let trio = |rule: Rule| Kit::<_, 3, 12>::new(rule, map, starts).expect("a team");
+    let trio = |rule: Rule| Kit::<_, 3, 12>::new(rule, map, &starts).expect("a team");
     assert!(!trio(Rule::REPAIRED).admits(0, south));
     assert!(trio(Rule::REPAIRED.without(Condition::Tether)).admits(0, south));
-    let pair = Kit::<_, 2, 12>::new(Rule::REPAIRED, map, [starts[0], starts[1]]).expect("a team");
+    let pair = Kit::<_, 2, 12>::new(Rule::REPAIRED, map, &starts[..2]).expect("a team");
     assert!(pair.admits(0, south));
 }
 
 #[test]
 fn records_of_a_larger_map_are_used_as_far_as_there_is_room() {
     let small = map(4, 1, &row([0, 1, 2]), &[]);
-    let kit = Kit::<_, 1, 4>::new(Rule::REPAIRED, small, [node(0, 0)]).expect("a team");
-    let mut kit = kit.with_records([map(6, 1, &row([0, 1, 2, 3]), &[(4, 0, Side::East)])]);
+    let kit = Kit::<_, 1, 4>::new(Rule::REPAIRED, small, &[node(0, 0)]).expect("a team");
+    let mut kit = kit.with_records(|_| map(6, 1, &row([0, 1, 2, 3]), &[(4, 0, Side::East)]));
     assert_eq!(kit.decide(0, &mut Nth(0)), Ok(Next::Done), "there is no room for the fifth node");
 }

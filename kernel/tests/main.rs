@@ -4,8 +4,6 @@ mod backtracks;
 mod chain;
 mod choice;
 mod corridors;
-#[path = "support/drawn.rs"]
-mod drawn;
 mod errors;
 #[path = "support/floors.rs"]
 mod floors;
@@ -18,7 +16,6 @@ mod notice;
 #[path = "support/numbers.rs"]
 mod numbers;
 mod pack;
-mod perception;
 mod position;
 mod reforming;
 mod sight;

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use tautline_kernel::bricks::tree::{Label, Note, State};
 use tautline_kernel::chain::Message;
-use tautline_kernel::floor::{Claim, Mark, Ring, Sensor, Sides};
+use tautline_kernel::floor::{Claim, Mark, Ring, Sensor};
 use tautline_kernel::ground::{Cell, Circle, Edge, Side, Step, Steps};
 
 #[test]
@@ -19,8 +19,7 @@ fn every_sensor_comes_back_from_bits_of_its_own() {
             .flat_map(move |crossings| [0, 1, 128, 255].map(|agents| (mark, crossings, agents)))
     }) {
         for set in 0..16_u8 {
-            let sides = Side::ALL.into_iter().enumerate().filter(|(place, _)| set >> place & 1 == 1);
-            let shut = sides.fold(Sides::default(), |shut, (_, side)| shut.with(side));
+            let shut = Steps::of_bits(set);
             for claim in
                 [None, Some(Claim { owner: 0 }), Some(Claim { owner: 1 }), Some(Claim { owner: 255 })]
             {

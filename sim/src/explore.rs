@@ -23,6 +23,7 @@ pub mod rivals;
 mod rule;
 mod run;
 mod run_config;
+mod scan_time;
 mod scene;
 mod setup;
 mod setup_error;

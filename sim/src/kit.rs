@@ -112,37 +112,11 @@ pub fn course(
     pace: Pace,
     seed: u64,
 ) -> Result<Box<dyn Course>, Refused> {
-    let begin = match starts.len() {
-        1 => begin::<1>,
-        2 => begin::<2>,
-        3 => begin::<3>,
-        4 => begin::<4>,
-        5 => begin::<5>,
-        6 => begin::<6>,
-        7 => begin::<7>,
-        MOST_ROBOTS => begin::<MOST_ROBOTS>,
-        robots => return Err(Refused::Robots(robots)),
-    };
-    begin(rule, layout, starts, pace, seed)
-}
-
-fn begin<const ROBOTS: usize>(
-    rule: Rule,
-    layout: &Layout,
-    starts: &[Cell],
-    pace: Pace,
-    seed: u64,
-) -> Result<Box<dyn Course>, Refused> {
     let area = layout.size().area();
-    let starts: [Cell; ROBOTS] = std::array::from_fn(|robot| starts[robot]);
-    let (small, medium) = (SmallGrid::new(area), MediumGrid::new(area));
-    match (small, medium) {
-        (Some(map), _) => {
-            Ok(Box::new(Run::<_, ROBOTS, FEW_NODES>::new(rule, map, starts, (layout, pace, seed))?))
-        }
-        (None, Some(map)) => {
-            Ok(Box::new(Run::<_, ROBOTS, MOST_NODES>::new(rule, map, starts, (layout, pace, seed))?))
-        }
+    let world = (layout, pace, seed);
+    match (SmallGrid::new(area), MediumGrid::new(area)) {
+        (Some(map), _) => Ok(Box::new(Run::<_, FEW_NODES>::new(rule, map, starts, world)?)),
+        (None, Some(map)) => Ok(Box::new(Run::<_, MOST_NODES>::new(rule, map, starts, world)?)),
         (None, None) => Err(Refused::TooManyNodes { nodes: area.width() * area.height(), most: MOST_NODES }),
     }
 }
@@ -156,23 +130,23 @@ impl Oracle for Dice {
     }
 }
 
-struct Run<G, const ROBOTS: usize, const NODES: usize> {
-    kit: Kit<G, ROBOTS, NODES>,
+struct Run<G, const NODES: usize> {
+    kit: Kit<G, MOST_ROBOTS, NODES>,
     layout: Layout,
     pace: Pace,
     dice: Dice,
     clock: u64,
     /// When each drive has begun and will end.
-    times: [[u64; 2]; ROBOTS],
+    times: [[u64; 2]; MOST_ROBOTS],
     driven: BTreeMap<Edge, u16>,
     apart: i64,
 }
 
-impl<G: Grid + Copy, const ROBOTS: usize, const NODES: usize> Run<G, ROBOTS, NODES> {
+impl<G: Grid + Copy, const NODES: usize> Run<G, NODES> {
     fn new(
         rule: Rule,
         map: G,
-        starts: [Cell; ROBOTS],
+        starts: &[Cell],
         (layout, pace, seed): (&Layout, Pace, u64),
     ) -> Result<Self, Refused> {
         Ok(Self {
@@ -181,7 +155,7 @@ impl<G: Grid + Copy, const ROBOTS: usize, const NODES: usize> Run<G, ROBOTS, NOD
             pace,
             dice: Dice(generate::source(seed, *b"kit     ")),
             clock: 0,
-            times: [[0; 2]; ROBOTS],
+            times: [[0; 2]; MOST_ROBOTS],
             driven: BTreeMap::new(),
             apart: 0,
         })
@@ -239,17 +213,17 @@ impl<G: Grid + Copy, const ROBOTS: usize, const NODES: usize> Run<G, ROBOTS, NOD
     }
 }
 
-impl<G: Grid + Copy + 'static, const ROBOTS: usize, const NODES: usize> Course for Run<G, ROBOTS, NODES> {
+impl<G: Grid + Copy + 'static, const NODES: usize> Course for Run<G, NODES> {
     fn drive(&mut self) -> Option<Drive> {
         loop {
-            while let Some(robot) = (0..ROBOTS).find(|&robot| self.kit.may_decide(robot)) {
+            let robots = 0..self.kit.robots().len();
+            while let Some(robot) = robots.clone().find(|&robot| self.kit.may_decide(robot)) {
                 if let Some(drive) = self.decide(robot) {
                     return Some(drive);
                 }
             }
             let is_driving = |robot: &usize| self.kit.stance(*robot).is_some_and(|stance| !stance.stands());
-            let (end, robot) =
-                (0..ROBOTS).filter(is_driving).map(|robot| (self.times[robot][1], robot)).min()?;
+            let (end, robot) = robots.filter(is_driving).map(|robot| (self.times[robot][1], robot)).min()?;
             self.clock = end;
             self.note();
             self.kit.arrived(robot).ok()?;

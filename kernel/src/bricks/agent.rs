@@ -7,7 +7,7 @@ use super::rule::{Condition, Precedence, Rule};
 use crate::ants::least_crossed;
 use crate::choice::Oracle;
 use crate::floor::{COMPASS, Claim, Entry, Floor, Mark, Ring, Scan, Sensor, enter, leave};
-use crate::ground::{Cell, Side};
+use crate::ground::{Cell, Side, Step};
 
 /// What an agent remembers. It has no map and knows no place.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -83,9 +83,9 @@ impl Agent {
         let was = scan.here.mark;
         self.meet(rule, &mut scan.here.claim);
         let end = self.end_lap(rule, &mut scan);
-        let shuts = end.and_then(Ended::shuts);
+        let shuts = end.and_then(|end| if let Ended::Shut(side) = end { Some(side) } else { None });
         if let Some(side) = shuts {
-            scan.here.shut = scan.here.shut.with(side);
+            scan.here.shut = scan.here.shut.with(Step::Cross(side));
             scan.open = scan.open.and(Ring::of(side).not());
         }
         let next = self.choose(rule, &mut scan, end);
@@ -275,7 +275,6 @@ impl Agent {
 
 /// What comes of a lap that is over, and which side it began with where that matters.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Ended {
     /// The side is shut.
     Shut(Side),
@@ -283,15 +282,6 @@ enum Ended {
     InVain(Side),
     /// Nothing yet: it was cut short.
     CutShort,
-}
-
-impl Ended {
-    const fn shuts(self) -> Option<Side> {
-        match self {
-            Self::Shut(side) => Some(side),
-            Self::InVain(_) | Self::CutShort => None,
-        }
-    }
 }
 
 /// What the neighbour beyond `side` is entered as. Missed sensors take their counts with them: under
@@ -314,7 +304,7 @@ pub fn carry_out(floor: &mut impl Floor, cell: Cell, act: &Act) -> Cell {
     if let Some(side) = act.shuts {
         let beyond = cell.beyond(side);
         if let Some(sensor) = floor.sensor(beyond) {
-            floor.put(beyond, Sensor { shut: sensor.shut.with(side.opposite()), ..sensor });
+            floor.put(beyond, Sensor { shut: sensor.shut.with(Step::Cross(side.opposite())), ..sensor });
         }
     }
     match act.next {

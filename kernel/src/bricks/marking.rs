@@ -8,7 +8,6 @@ use crate::ground::Side;
 /// Whether the cell blocks the way between two accessible side neighbours, judged on the eight cells around: then it
 /// is marked as explored, else as visited. It does not block if its reachable side neighbours, going round, form one
 /// chain in which each is joined to the next: by the square that both make with the cell and the corner between them.
-#[inline]
 pub fn blocks(rule: Rule, scan: &Scan) -> bool {
     let reachable = scan.reachable();
     reachable.count() > 1
@@ -38,7 +37,6 @@ fn is_joined(rule: Rule, scan: &Scan, side: Side) -> bool {
 
 /// Whether the way through `side`, which is reachable, has material on both sides: no square beside it is free all
 /// round.
-#[inline]
 pub fn is_thin(scan: &Scan, side: Side) -> bool {
     !scan.is_filled_left(side) && !scan.is_filled_right(side)
 }

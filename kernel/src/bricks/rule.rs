@@ -2,27 +2,26 @@
 
 use crate::conditions;
 
-/// One condition of the rule, by the sentence it stands for.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Condition {
-    /// Two side neighbours are connected past the cell only if the corner between them can be gone through.
-    Corners,
-    /// Repair: an agent marks its cell as visited only if no other agent is in it or on its way into it.
-    Alone,
-    /// Repair: an agent that can neither mark its cell nor see an unexplored one walks laps and shuts sides.
-    Laps,
-    /// Repair: of several explored neighbours an agent goes to the one that was entered least, as Ants does.
-    LeastCrossed,
-    /// Robustness: an agent that has nowhere to go, or finds nothing, goes over the visited cells again and seals them.
-    /// It is done when there is nothing left to seal.
-    SecondPass,
-    /// Robustness: in the second pass, what reads as unexplored may be a missed sensor, so no connection goes through
-    /// it.
-    SeenOnly,
+conditions! {
+    /// One condition of the rule, by the sentence it stands for.
+    #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+    pub enum Condition of Rule {
+        /// Two side neighbours are connected past the cell only if the corner between them can be gone through.
+        Corners,
+        /// Repair: an agent marks its cell as visited only if no other agent is in it or on its way into it.
+        Alone,
+        /// Repair: an agent that can neither mark its cell nor see an unexplored one walks laps and shuts sides.
+        Laps,
+        /// Repair: of several explored neighbours an agent goes to the one that was entered least, as Ants does.
+        LeastCrossed,
+        /// Robustness: an agent that has nowhere to go, or finds nothing, goes over the visited cells again and seals
+        /// them. It is done when there is nothing left to seal.
+        SecondPass,
+        /// Robustness: in the second pass, what reads as unexplored may be a missed sensor, so no connection goes
+        /// through it.
+        SeenOnly,
+    }
 }
-
-conditions!(Condition);
 
 /// Whose lap is void when an agent on a lap comes to the cell where another's began.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -71,32 +70,10 @@ impl Rule {
     };
 
     /// With loop closure, robust against missed sensors.
-    pub const ROBUST: Self = Self {
-        conditions: Conditions::of(&[
-            Condition::Corners,
-            Condition::Alone,
-            Condition::Laps,
-            Condition::LeastCrossed,
-            Condition::SecondPass,
-            Condition::SeenOnly,
-        ]),
-        ..Self::PUBLISHED
-    };
-
-    /// The rule without `condition`.
-    pub const fn without(self, condition: Condition) -> Self {
-        Self { conditions: self.conditions.without(condition), ..self }
-    }
+    pub const ROBUST: Self = Self::REPAIRED.with(Condition::SecondPass).with(Condition::SeenOnly);
 
     /// Moves without gain before the second pass: each counts one up, and a gain in the first pass a little down.
-    #[inline]
     pub(super) const fn hope(self) -> u16 {
         4 * self.patience as u16
-    }
-
-    /// Whether `condition` is in force.
-    #[inline]
-    pub const fn has(self, condition: Condition) -> bool {
-        self.conditions.has(condition)
     }
 }

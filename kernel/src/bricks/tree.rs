@@ -4,11 +4,9 @@
 //! of trees beside it are of its own tree, and its agent goes to its parent. Clauses: BRICKS-1 … BRICKS-12.
 //!
 //! *Helpers* is the same without bricks: depth first search, several agents sharing the trees that they meet: *careful* ones look
-//! underfoot before they place a sensor, *doubting* ones place it unasked and believe what they miss after several scans. *MDFS* is the
-//! classic, depth first search with a tree for each agent: see [`mdfs`].
+//! underfoot before they place a sensor, *doubting* ones place it unasked and believe what they miss after several scans.
 
 mod agent;
-pub mod mdfs;
 mod note;
 mod rule;
 mod view;

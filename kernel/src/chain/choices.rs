@@ -51,7 +51,6 @@ struct Trial {
 
 /// Whether a robot's step was tried when it was its turn: once all robots ahead had theirs.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Turn {
     Own,
     Early,
@@ -343,35 +342,29 @@ impl<const ROBOTS: usize> Robots<ROBOTS> {
     const WORDS: usize = ROBOTS.div_ceil(64);
 
     /// The word of a robot.
-    #[inline]
     const fn word(robot: usize) -> usize {
         if Self::WORDS == 1 { 0 } else { robot / 64 % 4 }
     }
 
-    #[inline]
     const fn insert(&mut self, robot: usize) {
         self.0[Self::word(robot)] |= 1 << (robot % 64);
     }
 
-    #[inline]
     const fn remove(&mut self, robot: usize) {
         self.0[Self::word(robot)] &= !(1 << (robot % 64));
     }
 
     /// Inserts or removes it.
-    #[inline]
     const fn put(&mut self, robot: usize, is_in: bool) {
         self.remove(robot);
         self.0[Self::word(robot)] |= (is_in as u64) << (robot % 64);
     }
 
-    #[inline]
     const fn has(&self, robot: usize) -> bool {
         self.0[Self::word(robot)] >> (robot % 64) & 1 == 1
     }
 
     /// The one nearest to the leader that is also in the other set.
-    #[inline]
     fn last_in(&self, other: &Self) -> Option<usize> {
         (0..Self::WORDS).rev().find_map(|word| {
             let both = self.0[word] & other.0[word];

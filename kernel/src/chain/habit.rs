@@ -2,30 +2,23 @@
 
 use crate::conditions;
 
-/// One habit of the reel, by the sentence it stands for.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Habit {
-    /// A task is begun only if a rehearsal on the known map carries it through.
-    Rehearses,
-    /// Each team move of an approach brings the robot that approaches one cell nearer.
-    ComesNearer,
-    /// A task is kept until it gains or is over.
-    KeepsTask,
-    /// The place of a robot on the walk is looked up behind that of the robot ahead, the last first: the walk may visit a
-    /// cell twice.
-    LastPlace,
-    /// Each time the history is taken back without a gain, twice as much of it is.
-    Doubles,
+conditions! {
+    /// One habit of the reel, by the sentence it stands for.
+    #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+    pub enum Habit {
+        /// A task is begun only if a rehearsal on the known map carries it through.
+        Rehearses,
+        /// Each team move of an approach brings the robot that approaches one cell nearer.
+        ComesNearer,
+        /// A task is kept until it gains or is over.
+        KeepsTask,
+        /// The place of a robot on the walk is looked up behind that of the robot ahead, the last first: the walk may
+        /// visit a cell twice.
+        LastPlace,
+        /// Each time the history is taken back without a gain, twice as much of it is.
+        Doubles,
+    }
 }
-
-impl Habit {
-    /// Every habit.
-    pub const ALL: [Self; 5] =
-        [Self::Rehearses, Self::ComesNearer, Self::KeepsTask, Self::LastPlace, Self::Doubles];
-}
-
-conditions!(Habit);
 
 /// A set of habits.
 pub type Habits = Conditions;

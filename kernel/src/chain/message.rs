@@ -110,7 +110,6 @@ const BACKTRACK_BIT: u8 = 1 << 4;
 
 impl Message {
     /// The step that the robot really made: none if it was blocked.
-    #[inline]
     pub const fn made(self) -> Step {
         match self.outcome {
             Outcome::Arrived | Outcome::TookBack => self.step,
@@ -119,7 +118,6 @@ impl Message {
     }
 
     /// Bits 0 to 2: the step's place in direction order. Bit 3: met a wall. Bit 4: taken back.
-    #[inline]
     pub const fn encode(self) -> u8 {
         let step = self.step.place() as u8;
         match self.outcome {
@@ -133,7 +131,6 @@ impl Message {
     ///
     /// # Errors
     /// [`Damaged`] if no message is encoded so.
-    #[inline]
     pub fn decode(byte: u8) -> Result<Self, Damaged> {
         let step = *Step::ALL.get(usize::from(byte & 0b111)).ok_or(Damaged::Byte(byte))?;
         let outcome = match byte & !0b111 {
@@ -145,7 +142,6 @@ impl Message {
         Ok(Self { step, outcome })
     }
 
-    #[inline]
     pub(super) const fn is_backtrack(byte: u8) -> bool {
         byte & BACKTRACK_BIT != 0
     }

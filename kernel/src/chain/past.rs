@@ -5,7 +5,6 @@ use super::message::Message;
 
 /// Where a history begins.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) enum Past {
     /// With all robots in the base.
     Home,

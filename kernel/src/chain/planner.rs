@@ -8,7 +8,6 @@ use crate::ground::{Avoid, Cell, CellMark, Edge, EdgeMark, Grid, Step, Steps};
 
 /// The candidates of followers that a plan has looked at, and may look at.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Looks {
     used: u32,
     most: u32,

@@ -38,7 +38,6 @@ pub(super) enum Task {
 
 /// What the reel remembers from one team move to the next.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Reel<const ROBOTS: usize> {
     pub(super) task: Task,
     /// Team moves left of the task.
@@ -50,7 +49,6 @@ pub(super) struct Reel<const ROBOTS: usize> {
 
 /// What the team does next.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) enum Next<const ROBOTS: usize> {
     /// This team move.
     Go([Step; ROBOTS]),
@@ -142,13 +140,16 @@ impl<G: Grid, const ROBOTS: usize> Winder<'_, G, ROBOTS> {
 
     /// The next team move of the task, if there is one.
     fn go_on(&mut self, reel: &mut Reel<ROBOTS>) -> Option<Next<ROBOTS>> {
-        let mut team = [self.team[0]; ROBOTS];
-        team[..self.team.len()].copy_from_slice(self.team);
-        let bearings = match reel.task {
+        let bearings = self.bearings(reel.task);
+        self.step(reel, self.team, bearings.as_ref()).map(Next::Go)
+    }
+
+    /// How far cells are from the one that is approached.
+    fn bearings(&mut self, task: Task) -> Option<G::Bearings> {
+        match task {
             Task::Approach { to, .. } => Some(self.grid.bearings(to, self.most_steps())),
             Task::None | Task::DrawIn { .. } | Task::LetOut | Task::TakeBack => None,
-        };
-        self.step(reel, &team[..self.team.len()], bearings.as_ref()).map(Next::Go)
+        }
     }
 
     /// The farthest cells that are sought.
@@ -244,10 +245,7 @@ impl<G: Grid, const ROBOTS: usize> Winder<'_, G, ROBOTS> {
         let robots = self.team.len();
         let mut team = [self.team[0]; ROBOTS];
         team[..robots].copy_from_slice(self.team);
-        let bearings = match reel.task {
-            Task::Approach { to, .. } => Some(self.grid.bearings(to, self.most_steps())),
-            Task::None | Task::DrawIn { .. } | Task::LetOut | Task::TakeBack => None,
-        };
+        let bearings = self.bearings(reel.task);
         reel.left = u32::MAX;
         for moves in 1..=most {
             let steps = self.step(&mut reel, &team[..robots], bearings.as_ref())?;

@@ -6,52 +6,35 @@ use super::habit::{Habit, Habits};
 use crate::conditions;
 use crate::ground::{Cell, Circle, Step, Steps, neighbouring_steps, neighbours};
 
-/// One condition of the rule, by the sentence it stands for.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Condition {
-    /// A follower plans to be in E_S of the planned position ahead: P′_i ∈ E_S(P′_{i+1}).
-    SafeAhead,
-    /// A robot plans to be in E_C of the present position behind: P′_i ∈ E_C(P_{i−1}).
-    CoveredBehind,
-    /// No two robots plan to be in one cell, the base excepted.
-    Distinct,
-    /// A candidate of the leader that is refused gets a virtual obstacle.
-    RefusedIsVirtual,
-    /// An epoch that explored no cell and found no wall ends the run, unless the next unfolds the chain.
-    EpochMustGain,
-    /// Repair: unless the robot ahead is sure to arrive, a follower also plans to be in E_C of its present
-    /// position: P′_i ∈ E_C(P_{i+1}).
-    UnsureAhead,
-    /// Repair: no follower enters a cell that two others occupy now, the base excepted.
-    FullForFollower,
-    /// Repair: nor does the leader.
-    FullForLeader,
-    /// Repair: when an epoch is over and an unexplored cell is within reach, the next begins by unfolding the chain
-    /// towards it. Within reach is what is at most N−1 links from the base in the map known so far.
-    Unfold,
-    /// Ours: a follower plans to be in E_C of the present position ahead, also where the robot ahead is sure to arrive:
-    /// P′_i ∈ E_C(P_{i+1}). So contact holds whichever robots do not go, and in whatever order they go.
-    Hold,
+conditions! {
+    /// One condition of the rule, by the sentence it stands for.
+    #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+    pub enum Condition of Rule {
+        /// A follower plans to be in E_S of the planned position ahead: P′_i ∈ E_S(P′_{i+1}).
+        SafeAhead,
+        /// A robot plans to be in E_C of the present position behind: P′_i ∈ E_C(P_{i−1}).
+        CoveredBehind,
+        /// No two robots plan to be in one cell, the base excepted.
+        Distinct,
+        /// A candidate of the leader that is refused gets a virtual obstacle.
+        RefusedIsVirtual,
+        /// An epoch that explored no cell and found no wall ends the run, unless the next unfolds the chain.
+        EpochMustGain,
+        /// Repair: unless the robot ahead is sure to arrive, a follower also plans to be in E_C of its present
+        /// position: P′_i ∈ E_C(P_{i+1}).
+        UnsureAhead,
+        /// Repair: no follower enters a cell that two others occupy now, the base excepted.
+        FullForFollower,
+        /// Repair: nor does the leader.
+        FullForLeader,
+        /// Repair: when an epoch is over and an unexplored cell is within reach, the next begins by unfolding the chain
+        /// towards it. Within reach is what is at most N−1 links from the base in the map known so far.
+        Unfold,
+        /// Ours: a follower plans to be in E_C of the present position ahead, also where the robot ahead is sure to
+        /// arrive: P′_i ∈ E_C(P_{i+1}). So contact holds whichever robots do not go, and in whatever order they go.
+        Hold,
+    }
 }
-
-impl Condition {
-    /// Every condition.
-    pub const ALL: [Self; 10] = [
-        Self::SafeAhead,
-        Self::CoveredBehind,
-        Self::Distinct,
-        Self::RefusedIsVirtual,
-        Self::EpochMustGain,
-        Self::UnsureAhead,
-        Self::FullForFollower,
-        Self::FullForLeader,
-        Self::Unfold,
-        Self::Hold,
-    ];
-}
-
-conditions!(Condition);
 
 /// Which position of the robot ahead P_high is read from. The planned one is the paper's meaning: the other
 /// gives 458 moves, or no end, where this one gives 62.
@@ -175,23 +158,8 @@ impl Rule {
     };
 
     /// The repaired chain that reels itself in and out instead of backtracking, and holds contact whoever fails.
-    pub const REEL: Self = Self {
-        conditions: Self::REPAIRED.conditions.with(Condition::Hold),
-        pursuit: Pursuit::Reel(Habits::of(&Habit::ALL)),
-        ..Self::REPAIRED
-    };
-
-    /// This rule with one condition taken out.
-    #[must_use]
-    pub const fn without(self, condition: Condition) -> Self {
-        Self { conditions: self.conditions.without(condition), ..self }
-    }
-
-    /// Whether the rule has `condition`.
-    #[inline]
-    pub const fn has(&self, condition: Condition) -> bool {
-        self.conditions.has(condition)
-    }
+    pub const REEL: Self =
+        Self { pursuit: Pursuit::Reel(Habits::of(&Habit::ALL)), ..Self::REPAIRED.with(Condition::Hold) };
 
     /// Whether R_i, or the base, may plan `own` while the robot ahead of it plans `ahead`.
     #[inline]
@@ -266,6 +234,7 @@ impl Rule {
             High::Present => neighbours(ahead.from, to),
         }
     }
+
     /// The steps of a follower at `at` that lead into P_high.
     #[inline]
     pub fn high_steps(&self, at: Cell, ahead: Move) -> Steps {

@@ -9,7 +9,6 @@ use crate::ground::{Cell, CellMark, EdgeMark, Grid, Step, Steps, neighbouring_st
 
 /// What a robot may do, and what it costs.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Wish {
     /// The steps that are wished for.
     pub(super) steps: Steps,
@@ -24,7 +23,6 @@ impl Wish {
 
 /// What it costs that two neighbours in the chain do not plan to be side by side, or in one cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Apart(pub(super) i32);
 
 /// Steps that are tried beyond one for each robot, for each robot.

@@ -6,7 +6,6 @@ use crate::ground::{Cell, Edge, EdgeMark, Grid, Link, Side, Step, link};
 
 /// A walk with the robots on it. Robots are counted from 0, the base.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Walk<const ROBOTS: usize> {
     /// The cells one after the other.
     cells: [[Cell; 2]; ROBOTS],
@@ -37,6 +36,18 @@ impl<const ROBOTS: usize> Walk<ROBOTS> {
         }
         walk.leader = walk.stops[usize::from(walk.links)];
         walk
+    }
+
+    /// The walk by the links between `stops`, on which the leader is in the cell `at`; `None` if it is not on it.
+    pub(super) fn between(grid: &impl Grid, stops: &[Cell], at: Cell) -> Option<Self> {
+        let mut walk = Self::NONE;
+        walk.cells.as_flattened_mut()[0] = *stops.first()?;
+        for link in stops.windows(2) {
+            walk.link_up(grid, link[0], link[1]);
+        }
+        let end = walk.stop(walk.links.into());
+        walk.leader = walk.cells.as_flattened()[..=end].iter().rposition(|&cell| cell == at)? as u16;
+        Some(walk)
     }
 
     /// This walk up to its stop `stop`, and from there by the links between `stops`, of which there are `links`.
@@ -126,7 +137,6 @@ impl<const ROBOTS: usize> Walk<ROBOTS> {
 
 /// Where the place of a robot on a walk is looked for that may visit a cell twice.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) enum Lookup {
     /// From the robot ahead backwards.
     LastFirst,

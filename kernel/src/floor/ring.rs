@@ -10,7 +10,6 @@ pub struct Ring(pub u8);
 
 impl Ring {
     /// The place of the neighbour beyond `side`.
-    #[inline]
     pub const fn place(side: Side) -> u32 {
         match side {
             Side::North => 0,
@@ -42,50 +41,42 @@ impl Ring {
     }
 
     /// The neighbour beyond `side`.
-    #[inline]
     pub const fn of(side: Side) -> Self {
         Self(1 << Self::place(side))
     }
 
     /// Whether the neighbour beyond `side` is in the set.
-    #[inline]
     pub const fn has(self, side: Side) -> bool {
         self.0 & Self::of(side).0 != 0
     }
 
     /// Whether the corner clockwise from the neighbour beyond `side` is in the set.
-    #[inline]
     pub const fn has_right_of(self, side: Side) -> bool {
         self.0 & Self::of(side).0 << 1 != 0
     }
 
     /// Those in both sets.
-    #[inline]
     pub const fn and(self, other: Self) -> Self {
         Self(self.0 & other.0)
     }
 
     /// Those in either set.
-    #[inline]
     pub const fn or(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
     /// Those not in the set.
-    #[inline]
     pub const fn not(self) -> Self {
         Self(!self.0)
     }
 
     /// How many there are.
-    #[inline]
     pub const fn count(self) -> u32 {
         self.0.count_ones()
     }
 
     /// What is known in the cell beyond `side` of those in the set and of the cell that they are around: the cells around that
     /// one which are in the set, and the cell itself.
-    #[inline]
     pub const fn seen_beyond(self, side: Side) -> Self {
         let turned = self.0.rotate_right(Self::place(side));
         let ahead = (turned & 0b110) << 1 | 1 << 4 | (turned & 0b1100_0000) >> 1;
@@ -94,7 +85,6 @@ impl Ring {
 
     /// The cells one step along the ring from those of the set, where `rims` are the edges that can be crossed; edge
     /// *i* lies between the cells in places *i* and *i*+1.
-    #[inline]
     pub const fn beside(self, rims: Self) -> Self {
         Self((self.0 & rims.0).rotate_left(1) | self.0.rotate_right(1) & rims.0)
     }

@@ -2,11 +2,11 @@
 
 use super::{COMPASS, Claim, Entry, Floor, Mark, Ring, Sensor};
 use crate::choice::Oracle;
-use crate::ground::{Cell, Edge, Side};
+use crate::ground::{Cell, Edge, Side, Step};
 
 /// One scan: the sensor underfoot, which is always found, and what was seen around. A sensor that was missed reads as
 /// an unexplored cell, as the paper has it; walls are always seen.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Scan {
     /// The sensor of the cell.
@@ -48,10 +48,6 @@ const AROUND: [(i16, i16, Side); 8] = [
     (-1, -1, Side::East),
 ];
 
-const fn moved(cell: Cell, columns: i16, rows: i16) -> Cell {
-    Cell::new(cell.x.saturating_add(columns), cell.y.saturating_add(rows))
-}
-
 impl Scan {
     /// Scans from `cell`, which has a sensor. Whether a sensor is missed is asked of `world`, once for each that an
     /// agent has been at.
@@ -67,23 +63,10 @@ impl Scan {
         cell: Cell,
         world: &mut (impl Oracle + ?Sized),
     ) -> Self {
-        let mut scan = Self {
-            here: sensor(cell).unwrap_or_default(),
-            unexplored: Ring::default(),
-            explored: Ring::default(),
-            closing: Ring::default(),
-            visited: Ring::default(),
-            open: Ring::default(),
-            rims: Ring::default(),
-            detected: 0,
-            beside: Ring::default(),
-            crossings: [0; 4],
-            claims: [None; 4],
-            serials: [0; 8],
-        };
+        let mut scan = Self { here: sensor(cell).unwrap_or_default(), ..Self::default() };
         let mut around = [None; 8];
         for (seen, (columns, rows, _)) in around.iter_mut().zip(AROUND) {
-            *seen = sensor(moved(cell, columns, rows)).map(|sensor| match sensor.mark {
+            *seen = sensor(cell.at_offset(columns, rows)).map(|sensor| match sensor.mark {
                 Mark::Unexplored => Sensor::default(),
                 Mark::Explored | Mark::Closing | Mark::Visited | Mark::Sealed if world.mishap() => {
                     Sensor::default()
@@ -107,8 +90,9 @@ impl Scan {
             scan.serials[place] = sensor.serial;
             scan.detected += u8::from(sensor.mark != Mark::Unexplored);
             if let Some(next) = around[(place + 1) % around.len()] {
-                let is_shut = sensor.shut.has(onward) || next.shut.has(onward.opposite());
-                if !is_shut && is_open(Edge::new(moved(cell, columns, rows), onward)) {
+                let is_shut =
+                    sensor.shut.has(Step::Cross(onward)) || next.shut.has(Step::Cross(onward.opposite()));
+                if !is_shut && is_open(Edge::new(cell.at_offset(columns, rows), onward)) {
                     scan.rims.0 |= bit;
                 }
             }
@@ -121,7 +105,8 @@ impl Scan {
             scan.beside.0 |= Ring::of(side).0;
             scan.crossings[place] = sensor.crossings;
             scan.claims[place] = sensor.claim;
-            let is_shut = scan.here.shut.has(side) && sensor.shut.has(side.opposite());
+            let is_shut =
+                scan.here.shut.has(Step::Cross(side)) && sensor.shut.has(Step::Cross(side.opposite()));
             if !is_shut {
                 scan.open.0 |= Ring::of(side).0;
             }
@@ -130,25 +115,21 @@ impl Scan {
     }
 
     /// The scan as it is read by one who goes through visited cells as through explored ones.
-    #[inline]
     pub const fn with_visited(self) -> Self {
         Self { explored: self.explored.or(self.visited), ..self }
     }
 
     /// Cells that read as accessible: unexplored or explored.
-    #[inline]
     pub const fn accessible(&self) -> Ring {
         self.unexplored.or(self.explored)
     }
 
     /// The side neighbours that read as accessible, with an open side in between.
-    #[inline]
     pub const fn reachable(&self) -> Ring {
         self.accessible().and(self.open)
     }
 
     /// The claim on the neighbour beyond `side`, if one was seen.
-    #[inline]
     pub fn claim(&self, side: Side) -> Option<Claim> {
         self.claims.into_iter().zip(COMPASS).find_map(|(claim, at)| claim.filter(|_| at == side))
     }
@@ -158,17 +139,15 @@ impl Scan {
         let unexplored = self.unexplored;
         let reads = (0..).zip(AROUND).filter(move |(place, _)| unexplored.0 >> place & 1 == 1);
         let is_known = move |&cell: &Cell| mark(cell) != Mark::Unexplored;
-        reads.map(move |(_, (columns, rows, _))| moved(cell, columns, rows)).filter(is_known)
+        reads.map(move |(_, (columns, rows, _))| cell.at_offset(columns, rows)).filter(is_known)
     }
 
     /// What the neighbour beyond `side`, which has a sensor, is entered as.
-    #[inline]
     pub const fn entry(&self, side: Side) -> Entry {
         if self.unexplored.has(side) { Entry::New { crossings: 0 } } else { Entry::Known }
     }
 
     /// The same; if a sensor is placed, it counts on from this cell's.
-    #[inline]
     pub fn entry_counting_on(&self, side: Side) -> Entry {
         match self.entry(side) {
             Entry::New { .. } => Entry::New { crossings: self.here.crossings.saturating_sub(1) },
@@ -178,13 +157,11 @@ impl Scan {
 
     /// Whether the square to the left of the way through `side`, which is reachable, is free all round: the neighbours
     /// beyond `side` and to the left of it, the corner between them, and the edges to it.
-    #[inline]
     pub fn is_filled_left(&self, side: Side) -> bool {
         self.is_filled(Ring::place(side) + 6)
     }
 
     /// The same for the right.
-    #[inline]
     pub fn is_filled_right(&self, side: Side) -> bool {
         self.is_filled(Ring::place(side))
     }

@@ -2,7 +2,7 @@
 
 use core::hash::{Hash, Hasher};
 
-use crate::ground::Side;
+use crate::ground::Steps;
 
 /// The state of a cell [Ferranti 2009, II.A]. Walls have no sensor.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
@@ -19,28 +19,6 @@ pub enum Mark {
     Visited,
     /// Visited, and so in spite of whatever sensors have been missed. The paper does not have it.
     Sealed,
-}
-
-/// A set of sides of a cell.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Sides(u8);
-
-impl Sides {
-    /// No side.
-    pub const NONE: Self = Self(0);
-
-    /// Whether `side` is in the set.
-    #[inline]
-    pub const fn has(self, side: Side) -> bool {
-        self.0 & 1 << side as u8 != 0
-    }
-
-    /// The set with `side`.
-    #[inline]
-    pub const fn with(self, side: Side) -> Self {
-        Self(self.0 | 1 << side as u8)
-    }
 }
 
 /// An agent's hold on the cell where its lap began (clause BRICKS-2).
@@ -62,7 +40,7 @@ pub struct Sensor {
     /// Agents that are in the cell or on their way into it.
     pub agents: u8,
     /// The sides that a loop closure has shut. A side is shut when the sensors on both sides of it say so.
-    pub shut: Sides,
+    pub shut: Steps,
     /// The claim on the cell, if there is one.
     pub claim: Option<Claim>,
     /// The sensor's own identifier; 0 where there is none yet. See [`Floor::unpack`](super::Floor::unpack) for what it
@@ -71,23 +49,12 @@ pub struct Sensor {
 }
 
 impl Sensor {
-    /// The bits that a sensor stores for Ants: the crossings.
-    pub const BITS_FOR_ANTS: u32 = 32;
-
-    /// For Brick&Mortar as published: the mark, which is neither closing nor sealed.
-    pub const BITS_FOR_PUBLISHED: u32 = 2;
-
-    /// For Brick&Mortar repaired: 2 for the mark, which is not sealed, 32 for the crossings, 8 for the agents, 4 for the
-    /// sides that are shut, 9 for the claim.
-    pub const BITS_FOR_REPAIRED: u32 = 55;
-
-    /// For Brick&Mortar robust against missed sensors: one more for the mark, and 16 for the identifier.
-    pub const BITS_FOR_ROBUST: u32 = Self::BITS_WITHOUT_SERIAL + u16::BITS;
-
-    const BITS_WITHOUT_SERIAL: u32 = Self::BITS_FOR_REPAIRED + 1;
+    /// The bits that a sensor stores for Brick&Mortar robust against missed sensors, but for the 16 of its identifier: 3 for the
+    /// mark, 32 for the crossings, 8 for the agents, 4 for the sides that are shut, 9 for the claim. As published it stores 2
+    /// for the mark, and for Ants the crossings.
+    pub const BITS: u32 = 56;
 
     /// What it stores once one agent more has entered.
-    #[inline]
     pub(super) const fn entered(self) -> Self {
         let mark = match self.mark {
             Mark::Unexplored | Mark::Explored => Mark::Explored,
@@ -98,13 +65,11 @@ impl Sensor {
     }
 
     /// What it stores once one agent has left.
-    #[inline]
     pub(super) const fn left(self) -> Self {
         Self { agents: self.agents.saturating_sub(1), ..self }
     }
 
-    /// All that it stores but its identifier, in the lowest 56 bits.
-    #[inline]
+    /// All that it stores but its identifier, in the lowest [`Sensor::BITS`] bits.
     pub const fn to_bits(self) -> u64 {
         let claim = match self.claim {
             None => 0,
@@ -113,12 +78,11 @@ impl Sensor {
         self.mark as u64
             | (self.crossings as u64) << 3
             | (self.agents as u64) << 35
-            | (self.shut.0 as u64) << 43
+            | (self.shut.bits() as u64) << 43
             | claim << 47
     }
 
     /// The sensor that stores `bits`; `None` if no sensor does.
-    #[inline]
     pub const fn from_bits(bits: u64) -> Option<Self> {
         let mark = match bits & 0b111 {
             0 => Mark::Unexplored,
@@ -137,7 +101,7 @@ impl Sensor {
             mark,
             crossings: (bits >> 3) as u32,
             agents: (bits >> 35) as u8,
-            shut: Sides((bits >> 43) as u8 & 0b1111),
+            shut: Steps::of_bits((bits >> 43) as u8 & 0b1111),
             claim,
             serial: 0,
         })
@@ -146,7 +110,6 @@ impl Sensor {
 
 /// In two words, not field by field: searches spend much of their time hashing floors.
 impl Hash for Sensor {
-    #[inline]
     fn hash<H: Hasher>(&self, hasher: &mut H) {
         hasher.write_u64(self.to_bits());
         hasher.write_u16(self.serial);
@@ -156,6 +119,7 @@ impl Hash for Sensor {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ground::{Side, Step};
 
     #[test]
     fn a_sensor_fits_into_its_bits_and_comes_back() {
@@ -163,18 +127,17 @@ mod tests {
             mark: Mark::Sealed,
             crossings: u32::MAX,
             agents: u8::MAX,
-            shut: Sides(0b1111),
+            shut: Steps::of_bits(0b1111),
             claim: Some(Claim { owner: u8::MAX }),
             serial: 0,
         };
-        assert_eq!(full.to_bits() >> (Sensor::BITS_WITHOUT_SERIAL - 1), 1);
-        assert_eq!(Sensor::BITS_FOR_ROBUST, 72);
-        let part = Sensor { shut: Sides::default().with(Side::West), claim: None, ..full };
+        assert_eq!(full.to_bits() >> (Sensor::BITS - 1), 1);
+        let part = Sensor { shut: Steps::only(Step::Cross(Side::West)), claim: None, ..full };
         let owned = Sensor { claim: Some(Claim { owner: 0 }), ..Sensor::default() };
         for sensor in [full, part, owned, Sensor::default()] {
             assert_eq!(Sensor::from_bits(sensor.to_bits()), Some(sensor));
         }
-        for wrong in [5, 1 << 48, 1 << Sensor::BITS_WITHOUT_SERIAL] {
+        for wrong in [5, 1 << 48, 1 << Sensor::BITS] {
             assert_eq!(Sensor::from_bits(wrong), None, "{wrong:b}");
         }
     }

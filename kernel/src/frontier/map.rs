@@ -74,8 +74,8 @@ impl TinyMap {
 
     /// The bit of a cell, by its number; none outside the area.
     const fn bit(&self, cell: Cell) -> u64 {
-        match self.area.locate(cell) {
-            Some((column, row)) => 1 << (row * self.area.width() + column),
+        match self.area.place(cell) {
+            Some(place) => 1 << place,
             None => 0,
         }
     }

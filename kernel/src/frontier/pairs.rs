@@ -159,7 +159,6 @@ fn fill<M: Map>(
 
 /// The pair of `own`, and how far the others are looked at for it, which is as far as its own cells are.
 #[derive(Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Pairing<'a, 'm, M, I> {
     pub(super) map: &'a M,
     pub(super) rule: &'a Rule,

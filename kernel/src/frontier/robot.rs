@@ -178,25 +178,19 @@ impl<M: Map> Robot<M> {
         });
         let least = candidates.iter().flatten().map(|&(occupancy, ..)| occupancy).min();
         let best = candidates.map(|candidate| candidate.filter(|&(occupancy, ..)| Some(occupancy) == least));
-        let of = best.iter().flatten().count() as u32;
-        if of > 0 {
-            let number = match rule.ties {
-                Ties::Lowest => 0,
-                Ties::Any => oracle.pick(of),
-            };
-            let chosen = best.iter().flatten().nth(number as usize);
-            return chosen.map_or(Next::Stops, |&(_, side, aim)| Next::Tries { side, aim });
+        let chosen = match rule.ties {
+            Ties::Lowest => best.into_iter().flatten().next(),
+            Ties::Any => any(best, oracle),
+        };
+        if let Some((_, side, aim)) = chosen {
+            return Next::Tries { side, aim };
         }
         let explored = neighbours.map(|(side, cell)| {
             (self.map.status(cell) == Status::Explored).then_some(Next::Tries { side, aim: cell })
         });
-        let of = explored.iter().flatten().count() as u32;
         match rule.otherwise {
-            Otherwise::Wanders if of > 0 => {
-                let number = oracle.pick(of);
-                explored.iter().flatten().nth(number as usize).copied().unwrap_or(Next::Stops)
-            }
-            Otherwise::Stops | Otherwise::Wanders => Next::Stops,
+            Otherwise::Wanders => any(explored, oracle).unwrap_or(Next::Stops),
+            Otherwise::Stops => Next::Stops,
         }
     }
 
@@ -228,9 +222,7 @@ impl<M: Map> Robot<M> {
             }
         });
         let least = ways.iter().flatten().map(|way| way.distance).min()?;
-        let nearest = ways.map(|way| way.filter(|way| way.distance == least));
-        let number = oracle.pick(nearest.iter().flatten().count() as u32);
-        nearest.iter().flatten().nth(number as usize).copied()
+        any(ways.map(|way| way.filter(|way| way.distance == least)), oracle)
     }
 
     /// It goes to the rim of its cell at `side`, and claims `aim`.
@@ -277,4 +269,11 @@ impl<M: Map> Robot<M> {
             Status::Obstacle => self.map.block(cell),
         }
     }
+}
+
+/// Any of those that there are, each as likely.
+fn any<T, const SIDES: usize>(options: [Option<T>; SIDES], oracle: &mut dyn Oracle) -> Option<T> {
+    let of = options.iter().flatten().count() as u32;
+    let number = if of > 0 { oracle.pick(of) } else { 0 };
+    options.into_iter().flatten().nth(number as usize)
 }

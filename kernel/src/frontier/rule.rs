@@ -3,56 +3,41 @@
 use super::place::{Occupancy, Threshold};
 use crate::conditions;
 
-/// One condition of the rule, by the sentence it stands for. As published there is none but [`Condition::Record`], and not
-/// even that one if the paper's avoidance of obstacles is taken literally.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Condition {
-    /// Repair: a robot without an unexplored neighbour goes through explored cells, the shortest way to the nearest
-    /// unexplored one.
-    Route,
-    /// A cell that a robot has tried to enter in vain is stored as an obstacle. Taken literally, the robot goes on “until it
-    /// reaches the midpoint”.
-    Record,
-    /// Repair: a robot looks before it enters, and enters no cell that has a robot in it, or one that is entering it.
-    Look,
-    /// Repair: a robot that has met another one tries again only in its own slot. A slot is at least as long as the longest
-    /// move.
-    Turn,
-    /// Repair: a robot that was met is no obstacle.
-    Tell,
-    /// Repair: a robot counts its cell by its moves; a fix corrects its place within the cell alone.
-    Track,
-    /// Repair: a message has the whole repository of its sender, and whoever hears it joins both. As published it has the one
-    /// cell that the sender has explored or found blocked.
-    Share,
-    /// Preference: robots and unexplored cells are paired, the nearest pair first, and a robot goes to the cell of its pair: so it
-    /// leaves to another robot a cell to which that one is nearer. A robot goes to the nearest cell if all are the others'.
-    Nearer,
-    /// Preference: of pairs as near, the one comes first whose robot has claimed the cell: it keeps its aim.
-    Claim,
-    /// Preference: of pairs as near, the one comes first whose cell has the fewest unexplored neighbours, and of these the one whose
-    /// cell is nearest to the rim of the area: nobody has to come back for it.
-    Corner,
+conditions! {
+    /// One condition of the rule, by the sentence it stands for. As published there is none but [`Condition::Record`],
+    /// and not even that one if the paper's avoidance of obstacles is taken literally.
+    #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+    pub enum Condition of Rule {
+        /// Repair: a robot without an unexplored neighbour goes through explored cells, the shortest way to the nearest
+        /// unexplored one.
+        Route,
+        /// A cell that a robot has tried to enter in vain is stored as an obstacle. Taken literally, the robot goes on
+        /// “until it reaches the midpoint”.
+        Record,
+        /// Repair: a robot looks before it enters, and enters no cell that has a robot in it, or one that is entering
+        /// it.
+        Look,
+        /// Repair: a robot that has met another one tries again only in its own slot. A slot is at least as long as the
+        /// longest move.
+        Turn,
+        /// Repair: a robot that was met is no obstacle.
+        Tell,
+        /// Repair: a robot counts its cell by its moves; a fix corrects its place within the cell alone.
+        Track,
+        /// Repair: a message has the whole repository of its sender, and whoever hears it joins both. As published it
+        /// has the one cell that the sender has explored or found blocked.
+        Share,
+        /// Preference: robots and unexplored cells are paired, the nearest pair first, and a robot goes to the cell of
+        /// its pair: so it leaves to another robot a cell to which that one is nearer. A robot goes to the nearest cell
+        /// if all are the others'.
+        Nearer,
+        /// Preference: of pairs as near, the one comes first whose robot has claimed the cell: it keeps its aim.
+        Claim,
+        /// Preference: of pairs as near, the one comes first whose cell has the fewest unexplored neighbours, and of
+        /// these the one whose cell is nearest to the rim of the area: nobody has to come back for it.
+        Corner,
+    }
 }
-
-impl Condition {
-    /// Every condition.
-    pub const ALL: [Self; 10] = [
-        Self::Route,
-        Self::Record,
-        Self::Look,
-        Self::Turn,
-        Self::Tell,
-        Self::Track,
-        Self::Share,
-        Self::Nearer,
-        Self::Claim,
-        Self::Corner,
-    ];
-}
-
-conditions!(Condition);
 
 /// What a robot does that has no candidate, where it knows no [`Condition::Route`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -117,22 +102,4 @@ impl Rule {
         ties: Ties::Any,
         ..Self::REPAIRED.without(Condition::Nearer).without(Condition::Claim).without(Condition::Corner)
     };
-
-    /// This rule with one condition taken out.
-    #[must_use]
-    pub const fn without(self, condition: Condition) -> Self {
-        Self { conditions: self.conditions.without(condition), ..self }
-    }
-
-    /// This rule with one condition put in.
-    #[must_use]
-    pub const fn with(self, condition: Condition) -> Self {
-        Self { conditions: self.conditions.with(condition), ..self }
-    }
-
-    /// Whether the rule has `condition`.
-    #[inline]
-    pub const fn has(&self, condition: Condition) -> bool {
-        self.conditions.has(condition)
-    }
 }

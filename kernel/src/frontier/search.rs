@@ -22,7 +22,6 @@ impl Reached {
 
 /// The memory of one search.
 #[derive(Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Search<'a> {
     pub(super) reached: &'a mut [Reached],
     pub(super) queue: &'a mut [Cell],
@@ -51,19 +50,18 @@ pub(super) fn search<M: Map>(
     mut tell: impl FnMut(Found) -> ControlFlow<()>,
 ) {
     let area = map.area();
-    let place = |cell| area.locate(cell).map(|(column, row)| row * area.width() + column);
     *memory.rounds = memory.rounds.wrapping_add(1);
     let round = *memory.rounds;
     let (mut head, mut tail) = (0, 0);
     let mut left = map.frontier();
     let mut at = Found { cell: from, distance: 0, first: Side::East };
-    if let Some(reached) = place(from).and_then(|place| memory.reached.get_mut(place)) {
+    if let Some(reached) = area.place(from).and_then(|place| memory.reached.get_mut(place)) {
         *reached = Reached { round, ..Reached::NEVER };
     }
     while at.distance < most && left > 0 {
         for side in BY_NUMBER {
             let cell = at.cell.beyond(side);
-            let Some(reached) = place(cell).and_then(|place| memory.reached.get_mut(place)) else {
+            let Some(reached) = area.place(cell).and_then(|place| memory.reached.get_mut(place)) else {
                 continue;
             };
             if reached.round == round {
@@ -88,7 +86,7 @@ pub(super) fn search<M: Map>(
         }
         let Some(&cell) = memory.queue.get(head).filter(|_| head < tail) else { return };
         head += 1;
-        let Some(reached) = place(cell).and_then(|place| memory.reached.get(place)) else { return };
+        let Some(reached) = area.place(cell).and_then(|place| memory.reached.get(place)) else { return };
         at = Found { cell, distance: reached.distance, first: reached.first };
     }
 }

@@ -3,44 +3,54 @@
 
 use super::{Cell, Circle, Step, Steps, neighbours};
 
+/// What steps lead into: a set of cells round another one.
+#[derive(Clone, Copy)]
+enum Set {
+    /// The cells that lie wholly inside a circle.
+    Inside(Circle),
+    /// E_N: the cell and its side neighbours.
+    Beside,
+    /// The cell alone.
+    Cell,
+}
+
+impl Set {
+    const fn has(self, round: Cell, cell: Cell) -> bool {
+        match self {
+            Self::Inside(circle) => circle.covers(round, cell),
+            Self::Beside => neighbours(round, cell),
+            Self::Cell => cell.x == round.x && cell.y == round.y,
+        }
+    }
+
+    /// The steps from `at` that lead into the set round `round`.
+    #[cold]
+    const fn steps(self, round: Cell, at: Cell) -> Steps {
+        let mut steps = Steps::NONE;
+        let mut place = 0;
+        while place < Step::ALL.len() {
+            if self.has(round, at.after(Step::ALL[place])) {
+                steps = steps.with(Step::ALL[place]);
+            }
+            place += 1;
+        }
+        steps
+    }
+}
+
 /// By offset, from −4 to 3 columns and rows: the steps from there that lead into a set of cells round 0,0.
 struct Table([Steps; 64]);
 
 impl Table {
-    const fn of_circle(circle: Circle) -> Self {
+    const fn of(set: Set) -> Self {
         let mut table = Self([Steps::NONE; 64]);
         let mut place = 0;
         while place < table.0.len() {
-            table.0[place] = covered_steps(circle, Cell::new(0, 0), Self::cell(place));
+            let at = Cell::new((place % 8) as i16 - 4, (place / 8) as i16 - 4);
+            table.0[place] = set.steps(Cell::new(0, 0), at);
             place += 1;
         }
         table
-    }
-
-    /// The one step from there to 0,0.
-    const fn of_cell() -> Self {
-        let mut table = Self([Steps::NONE; 64]);
-        let mut place = 0;
-        while place < table.0.len() {
-            table.0[place] = steps_onto(Cell::new(0, 0), Self::cell(place));
-            place += 1;
-        }
-        table
-    }
-
-    const fn of_neighbours() -> Self {
-        let mut table = Self([Steps::NONE; 64]);
-        let mut place = 0;
-        while place < table.0.len() {
-            table.0[place] = steps_beside(Cell::new(0, 0), Self::cell(place));
-            place += 1;
-        }
-        table
-    }
-
-    /// The cell whose steps stand at `place`.
-    const fn cell(place: usize) -> Cell {
-        Cell::new((place % 8) as i16 - 4, (place / 8) as i16 - 4)
     }
 
     /// The steps from `at` into the set round `round`; `None` if they are too far apart to stand here.
@@ -52,10 +62,10 @@ impl Table {
     }
 }
 
-static SAFE: Table = Table::of_circle(Circle::SAFE);
-static COVERED: Table = Table::of_circle(Circle::COVERED);
-static BESIDE: Table = Table::of_neighbours();
-static ONTO: Table = Table::of_cell();
+static SAFE: Table = Table::of(Set::Inside(Circle::SAFE));
+static COVERED: Table = Table::of(Set::Inside(Circle::COVERED));
+static BESIDE: Table = Table::of(Set::Beside);
+static ONTO: Table = Table::of(Set::Cell);
 
 impl Circle {
     /// The steps from `at` that lead to a cell which lies wholly inside the circle round the centre of `round`.
@@ -66,7 +76,7 @@ impl Circle {
             Self::COVERED => COVERED.get(round, at),
             _ => None,
         };
-        known.unwrap_or_else(|| covered_steps(self, round, at))
+        known.unwrap_or_else(|| Set::Inside(self).steps(round, at))
     }
 }
 
@@ -76,52 +86,10 @@ pub fn neighbouring_steps(to: Cell, at: Cell) -> Steps {
     BESIDE.get(to, at).unwrap_or(Steps::NONE)
 }
 
-#[cold]
-const fn covered_steps(circle: Circle, round: Cell, at: Cell) -> Steps {
-    let mut steps = Steps::NONE;
-    let mut place = 0;
-    while place < Step::ALL.len() {
-        let step = Step::ALL[place];
-        if circle.covers(round, at.after(step)) {
-            steps = steps.with(step);
-        }
-        place += 1;
-    }
-    steps
-}
-
 /// The step from `at` that leads to the cell `to`, if there is one.
 #[inline]
 pub fn steps_to(to: Cell, at: Cell) -> Steps {
     ONTO.get(to, at).unwrap_or(Steps::NONE)
-}
-
-#[cold]
-const fn steps_onto(to: Cell, at: Cell) -> Steps {
-    let mut steps = Steps::NONE;
-    let mut place = 0;
-    while place < Step::ALL.len() {
-        let cell = at.after(Step::ALL[place]);
-        if cell.x == to.x && cell.y == to.y {
-            steps = steps.with(Step::ALL[place]);
-        }
-        place += 1;
-    }
-    steps
-}
-
-#[cold]
-const fn steps_beside(to: Cell, at: Cell) -> Steps {
-    let mut steps = Steps::NONE;
-    let mut place = 0;
-    while place < Step::ALL.len() {
-        let step = Step::ALL[place];
-        if neighbours(to, at.after(step)) {
-            steps = steps.with(step);
-        }
-        place += 1;
-    }
-    steps
 }
 
 #[cfg(test)]

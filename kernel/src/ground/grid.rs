@@ -162,13 +162,10 @@ impl Area {
             return None;
         }
         let range = i16::try_from(range_cells).unwrap_or(i16::MAX);
-        let (first, last) = (self.first, self.last);
+        let (first, last) = (centre.at_offset(-range, -range), centre.at_offset(range, range));
         Self::new(
-            Cell::new(
-                first.x.max(centre.x.saturating_sub(range)),
-                first.y.max(centre.y.saturating_sub(range)),
-            ),
-            Cell::new(last.x.min(centre.x.saturating_add(range)), last.y.min(centre.y.saturating_add(range))),
+            Cell::new(first.x.max(self.first.x), first.y.max(self.first.y)),
+            Cell::new(last.x.min(self.last.x), last.y.min(self.last.y)),
         )
     }
 
@@ -183,13 +180,11 @@ impl Area {
     }
 
     /// Number of columns.
-    #[inline]
     pub const fn width(self) -> usize {
         self.last.x.wrapping_sub(self.first.x) as u16 as usize + 1
     }
 
     /// Number of rows.
-    #[inline]
     pub const fn height(self) -> usize {
         self.last.y.wrapping_sub(self.first.y) as u16 as usize + 1
     }
@@ -201,6 +196,15 @@ impl Area {
         let (column, row) = (cell.x.wrapping_sub(self.first.x), cell.y.wrapping_sub(self.first.y));
         let (column, row) = (column as u16 as usize, row as u16 as usize);
         if column < self.width() && row < self.height() { Some((column, row)) } else { None }
+    }
+
+    /// The place of `cell` among all cells, row by row; `None` outside.
+    #[inline]
+    pub const fn place(self, cell: Cell) -> Option<usize> {
+        match self.locate(cell) {
+            Some((column, row)) => Some(row * self.width() + column),
+            None => None,
+        }
     }
 
     /// Whether `cell` is in the area.

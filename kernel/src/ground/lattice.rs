@@ -21,7 +21,6 @@ pub struct Cell {
 
 impl Cell {
     /// The cell in column `x` and row `y`.
-    #[inline]
     pub const fn new(x: i16, y: i16) -> Self {
         Self { x, y }
     }
@@ -45,6 +44,12 @@ impl Cell {
     pub const fn after(self, step: Step) -> Self {
         const OFFSETS: [(i16, i16); 8] = [(1, 0), (0, 1), (-1, 0), (0, -1), (0, 0), (0, 0), (0, 0), (0, 0)];
         self.moved(OFFSETS[step.place() % OFFSETS.len()])
+    }
+
+    /// The cell so many columns and rows away, or the nearest one that has coordinates.
+    #[inline]
+    pub const fn at_offset(self, columns: i16, rows: i16) -> Self {
+        Self::new(self.x.saturating_add(columns), self.y.saturating_add(rows))
     }
 
     /// Columns and rows between two cells, without sign.
@@ -198,7 +203,6 @@ enum Axis {
 
 impl Edge {
     /// The edge on this `side` of `cell`.
-    #[inline]
     pub const fn new(cell: Cell, side: Side) -> Self {
         // From a cell to the western or northern one of the two.
         const OFFSETS: [(i16, i16); 4] = [(0, 0), (0, 0), (-1, 0), (0, -1)];
@@ -207,7 +211,6 @@ impl Edge {
     }
 
     /// The western or northern cell of the two.
-    #[inline]
     pub const fn cell(self) -> Cell {
         self.cell
     }
@@ -242,7 +245,6 @@ impl Circle {
     pub const COVERED: Self = Self { four_radius_squared: 26 };
 
     /// The circle whose radius r satisfies 4·r² = `four_radius_squared`.
-    #[inline]
     pub const fn new(four_radius_squared: u64) -> Self {
         Self { four_radius_squared }
     }

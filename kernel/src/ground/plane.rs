@@ -1,6 +1,6 @@
 //! Sets of cells in machine words, one bit each, moved about all at once.
 
-use core::ops::{BitAnd, BitOr, Not, Shl, Shr};
+use core::ops::{BitAnd, BitOr};
 
 use super::Steps;
 
@@ -122,134 +122,107 @@ macro_rules! in_one_word {
 }
 in_one_word!(u64: 8, u128: 11);
 
-/// A row of cells, one bit each.
-pub trait Word:
-    Copy
-    + Eq
-    + BitAnd<Output = Self>
-    + BitOr<Output = Self>
-    + Not<Output = Self>
-    + Shl<usize, Output = Self>
-    + Shr<usize, Output = Self>
-{
-    /// Cells in a row.
-    const BITS: usize;
-    /// No cell.
-    const NONE: Self;
-    /// The westernmost cell alone.
-    const FIRST: Self;
-
-    /// Whether the cell in this column is in the row; the last stands before the first.
-    fn has(self, column: usize) -> bool;
-}
-
-macro_rules! words {
-    ($($word:ty),*) => {$(
-        impl Word for $word {
-            const BITS: usize = <$word>::BITS as usize;
-            const NONE: Self = 0;
-            const FIRST: Self = 1;
-
-            #[inline]
-            fn has(self, column: usize) -> bool {
-                self.rotate_right(column as u32) & 1 == 1
-            }
-        }
-    )*};
-}
-words!(u16, u32, u64, u128);
-
 /// Adds to each row those cells of another that have an open side in between.
 #[inline]
-fn add_open<W: Word>(rows: &mut [W], others: &[W], open: &[W]) {
+fn add_open<W>(rows: &mut [W], others: &[W], open: &[W])
+where
+    W: Copy + BitAnd<Output = W> + BitOr<Output = W>,
+{
     for ((row, &other), &open) in rows.iter_mut().zip(others).zip(open) {
         *row = *row | other & open;
     }
 }
 
-impl<W: Word, const HEIGHT: usize> Plane for [W; HEIGHT] {
-    const COLUMNS: usize = W::BITS;
-    const ROWS: usize = HEIGHT;
-    const NONE: Self = [W::NONE; HEIGHT];
+/// Larger planes, a word for each row.
+macro_rules! in_rows {
+    ($($word:ty),*) => {$(
+        impl<const HEIGHT: usize> Plane for [$word; HEIGHT] {
+            const COLUMNS: usize = <$word>::BITS as usize;
+            const ROWS: usize = HEIGHT;
+            const NONE: Self = [0; HEIGHT];
 
-    #[inline]
-    fn has(&self, column: usize, row: usize) -> bool {
-        self[row] & W::FIRST << column != W::NONE
-    }
+            #[inline]
+            fn has(&self, column: usize, row: usize) -> bool {
+                self[row] >> column & 1 == 1
+            }
 
-    #[inline]
-    fn put(&mut self, column: usize, row: usize) {
-        self[row] = self[row] | W::FIRST << column;
-    }
+            #[inline]
+            fn put(&mut self, column: usize, row: usize) {
+                self[row] |= 1 << column;
+            }
 
-    #[inline]
-    fn take(&mut self, column: usize, row: usize) {
-        self[row] = self[row] & !(W::FIRST << column);
-    }
+            #[inline]
+            fn take(&mut self, column: usize, row: usize) {
+                self[row] &= !(1 << column);
+            }
 
-    #[inline]
-    fn steps_from(&self, column: usize, row: usize) -> Steps {
-        let at = self[row];
-        let south = self[(row + 1) % HEIGHT];
-        let north = self[(row + HEIGHT - 1) % HEIGHT];
-        let [east, south] = [at.has(column + 1), south.has(column)];
-        let [west, north] = [at.has(column + W::BITS - 1), north.has(column)];
-        let bits = [east, south, west, north, at.has(column)];
-        Steps::of_bits(bits.iter().rev().fold(0, |bits, &bit| bits << 1 | u8::from(bit)))
-    }
+            #[inline]
+            fn steps_from(&self, column: usize, row: usize) -> Steps {
+                let at = self[row];
+                let south = self[(row + 1) % HEIGHT];
+                let north = self[(row + HEIGHT - 1) % HEIGHT];
+                let bit = |row: $word, column: usize| (row.rotate_right(column as u32) & 1) as u8;
+                let [east, south] = [bit(at, column + 1), bit(south, column)];
+                let [west, north] = [bit(at, column + Self::COLUMNS - 1), bit(north, column)];
+                Steps::of_bits(east | south << 1 | west << 2 | north << 3 | bit(at, column) << 4)
+            }
 
-    #[inline]
-    fn steps_across(east: &Self, south: &Self, column: usize, row: usize) -> Steps {
-        let at = east[row];
-        let (south, north) = (south[row], south[(row + HEIGHT - 1) % HEIGHT]);
-        let bits = [at.has(column), south.has(column), at.has(column + W::BITS - 1), north.has(column)];
-        Steps::of_bits(bits.iter().rev().fold(0, |bits, &bit| bits << 1 | u8::from(bit)))
-    }
+            #[inline]
+            fn steps_across(east: &Self, south: &Self, column: usize, row: usize) -> Steps {
+                let at = east[row];
+                let (south, north) = (south[row], south[(row + HEIGHT - 1) % HEIGHT]);
+                let bit = |row: $word, column: usize| (row.rotate_right(column as u32) & 1) as u8;
+                let west = bit(at, column + Self::COLUMNS - 1);
+                Steps::of_bits(bit(at, column) | bit(south, column) << 1 | west << 2 | bit(north, column) << 3)
+            }
 
-    #[inline]
-    fn and(&self, other: &Self) -> Self {
-        core::array::from_fn(|row| self[row] & other[row])
-    }
+            #[inline]
+            fn and(&self, other: &Self) -> Self {
+                core::array::from_fn(|row| self[row] & other[row])
+            }
 
-    #[inline]
-    fn or(&self, other: &Self) -> Self {
-        core::array::from_fn(|row| self[row] | other[row])
-    }
+            #[inline]
+            fn or(&self, other: &Self) -> Self {
+                core::array::from_fn(|row| self[row] | other[row])
+            }
 
-    #[inline]
-    fn not(&self) -> Self {
-        self.map(W::not)
-    }
+            #[inline]
+            fn not(&self) -> Self {
+                self.map(|row| !row)
+            }
 
-    #[inline]
-    fn along_rows(&self, open: &Self) -> Self {
-        core::array::from_fn(|row| (self[row] & open[row]) << 1 | self[row] >> 1 & open[row])
-    }
+            #[inline]
+            fn along_rows(&self, open: &Self) -> Self {
+                core::array::from_fn(|row| (self[row] & open[row]) << 1 | self[row] >> 1 & open[row])
+            }
 
-    #[inline]
-    fn spread(&mut self, east: &Self, south: &Self, (first, last): (usize, usize)) -> Option<(usize, usize)> {
-        let (last, old) = (last.min(HEIGHT - 1), *self);
-        let rows = || first..=last;
-        // No row waits for what comes of another: as many are done at once as the machine can.
-        for ((wider, &old), &open) in self[rows()].iter_mut().zip(&old[rows()]).zip(&east[rows()]) {
-            *wider = old | (old & open) << 1 | old >> 1 & open;
+            #[inline]
+            fn spread(&mut self, east: &Self, south: &Self, (first, last): (usize, usize)) -> Option<(usize, usize)> {
+                let (last, old) = (last.min(HEIGHT - 1), *self);
+                let rows = || first..=last;
+                // No row waits for what comes of another: as many are done at once as the machine can.
+                for ((wider, &old), &open) in self[rows()].iter_mut().zip(&old[rows()]).zip(&east[rows()]) {
+                    *wider = old | (old & open) << 1 | old >> 1 & open;
+                }
+                let below = first.max(1);
+                add_open(&mut self[below..=last], &old[below - 1..last], &south[below - 1..last]);
+                let above = first..(last + 1).min(HEIGHT - 1);
+                add_open(&mut self[above.clone()], &old[above.start + 1..], &south[above]);
+                let mut changed = rows().filter(|&row| self[row] != old[row]);
+                let first = changed.next()?;
+                Some((first, changed.next_back().unwrap_or(first)))
+            }
+
+            #[inline]
+            fn along_columns(&self, open: &Self) -> Self {
+                let mut beyond = Self::NONE;
+                for row in 1..HEIGHT {
+                    beyond[row] = self[row - 1] & open[row - 1];
+                    beyond[row - 1] = beyond[row - 1] | self[row] & open[row - 1];
+                }
+                beyond
+            }
         }
-        let below = first.max(1);
-        add_open(&mut self[below..=last], &old[below - 1..last], &south[below - 1..last]);
-        let above = first..(last + 1).min(HEIGHT - 1);
-        add_open(&mut self[above.clone()], &old[above.start + 1..], &south[above]);
-        let mut changed = rows().filter(|&row| self[row] != old[row]);
-        let first = changed.next()?;
-        Some((first, changed.next_back().unwrap_or(first)))
-    }
-
-    #[inline]
-    fn along_columns(&self, open: &Self) -> Self {
-        let mut beyond = Self::NONE;
-        for row in 1..HEIGHT {
-            beyond[row] = self[row - 1] & open[row - 1];
-            beyond[row - 1] = beyond[row - 1] | self[row] & open[row - 1];
-        }
-        beyond
-    }
+    )*};
 }
+in_rows!(u16, u32, u64, u128);

@@ -3,7 +3,7 @@
 use super::Step;
 
 /// A set of steps, one bit each in direction order.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Steps(u8);
 
@@ -38,19 +38,16 @@ impl Steps {
     }
 
     /// The steps of either set.
-    #[inline]
     pub const fn or(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
     /// The steps of both sets.
-    #[inline]
     pub const fn and(self, other: Self) -> Self {
         Self(self.0 & other.0)
     }
 
     /// These but not the `other` steps.
-    #[inline]
     pub const fn minus(self, other: Self) -> Self {
         Self(self.0 & !other.0)
     }
@@ -78,7 +75,6 @@ impl Steps {
     }
 
     /// Whether there is none.
-    #[inline]
     pub const fn is_empty(self) -> bool {
         self.0 == 0
     }
@@ -90,9 +86,13 @@ impl Steps {
     }
 
     /// A bit for each by its place, the first lowest; more bits than there are steps are left out.
-    #[inline]
     pub const fn of_bits(bits: u8) -> Self {
         Self(bits & Self::ALL.0)
+    }
+
+    /// A bit for each, as [`Steps::of_bits`] has them.
+    pub const fn bits(self) -> u8 {
+        self.0
     }
 
     /// In direction order.

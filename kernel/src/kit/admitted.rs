@@ -7,16 +7,16 @@ use crate::ground::{Cell, Edge, EdgeMark, Grid, Step, Steps};
 
 /// What is known, and what is admitted.
 impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
-    /// This team with other records, as they were kept or told.
+    /// This team with another record of each robot, as they were kept or told.
     #[must_use]
-    pub fn with_records(mut self, records: [G; ROBOTS]) -> Self
+    pub fn with_records(mut self, record: impl Fn(usize) -> G) -> Self
     where
         G: Copy,
     {
-        self.records = records;
-        self.union = records[0];
-        for record in &records[1..] {
-            self.union.add_edges(record);
+        self.union = record(0);
+        for (robot, kept) in self.records.iter_mut().enumerate().take(self.count.into()) {
+            *kept = record(robot);
+            self.union.add_edges(kept);
         }
         self
     }
@@ -28,16 +28,14 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     }
 
     /// The sides of `node` that carry `mark` in any record.
-    #[inline]
     pub fn known(&self, mark: EdgeMark, node: Cell) -> Steps {
         self.union.sides(mark, node)
     }
 
     /// The sides of `node` that are known to be open: driven, or seen free by robots at both ends.
-    #[inline]
     pub(super) fn paths(&self, node: Cell) -> Steps {
         let driven = self.union.sides(EdgeMark::Open, node);
-        if ROBOTS > 2 { driven.or(self.union.sides(SEEN, node)) } else { driven }
+        if self.count > 2 { driven.or(self.union.sides(SEEN, node)) } else { driven }
     }
 
     /// The sides of `node` that count as covered for `robot`, or are known to be blocked.
@@ -45,7 +43,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         let covered = match self.rule.records {
             Records::Union => self.known(EdgeMark::Open, node),
             Records::Others => {
-                let others = self.records.iter().enumerate().filter(|&(other, _)| other != robot);
+                let others = self.records().iter().enumerate().filter(|&(other, _)| other != robot);
                 others.fold(Steps::NONE, |sides, (_, record)| sides.or(record.sides(EdgeMark::Open, node)))
             }
         };
@@ -53,13 +51,11 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     }
 
     /// The sides of `node` that are uncovered for `robot`.
-    #[inline]
     pub fn uncovered(&self, robot: usize, node: Cell) -> Steps {
         Steps::ALL.without(Step::Stay).minus(self.covered(robot, node))
     }
 
     /// The sides of `node` that nobody has covered.
-    #[inline]
     pub fn uncovered_by_all(&self, node: Cell) -> Steps {
         let known = self.known(EdgeMark::Open, node).or(self.known(EdgeMark::Wall, node));
         Steps::ALL.without(Step::Stay).minus(known)
@@ -72,7 +68,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 
     /// Whether another one drives a path that was new when it left.
     pub(super) fn another_drives_a_new_path(&self, robot: usize) -> bool {
-        let others = self.robots.iter().enumerate().filter(|&(other, _)| other != robot);
+        let others = self.robots().iter().enumerate().filter(|&(other, _)| other != robot);
         others.into_iter().any(|(_, other)| other.is_new && !other.stance.stands())
     }
 

@@ -72,14 +72,13 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 
     /// The place of a node in rows.
     pub(super) fn place(&self, node: Cell) -> Option<usize> {
-        let area = self.union.area();
-        area.locate(node).map(|(column, row)| row * area.width() + column).filter(|&place| place < NODES)
+        self.union.area().place(node).filter(|&place| place < NODES)
     }
 
     /// The node in this place.
     pub(super) fn node(&self, place: usize) -> Cell {
         let area = self.union.area();
         let (column, row) = (place % area.width(), place / area.width());
-        Cell::new(area.first().x.wrapping_add(column as i16), area.first().y.wrapping_add(row as i16))
+        area.first().at_offset(column as i16, row as i16)
     }
 }

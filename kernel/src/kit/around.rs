@@ -66,8 +66,3 @@ pub(super) fn offsets(places: Places) -> impl Iterator<Item = (i16, i16)> {
         (place < 64).then_some((place % 8 - 3, place / 8 - 3))
     })
 }
-
-/// The node at this offset of `node`.
-pub(super) const fn at_offset(node: Cell, (columns, rows): (i16, i16)) -> Cell {
-    Cell::new(node.x.saturating_add(columns), node.y.saturating_add(rows))
-}

@@ -11,7 +11,7 @@
 
 use super::alone::Way;
 use super::rule::Condition;
-use super::sets::robots;
+use super::sets::{first_robots, robots};
 use super::team::Kit;
 use super::tether::Formation;
 use crate::ground::{Cell, Grid, Step, Steps};
@@ -33,7 +33,10 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// The part of `robot` in a team of any number but two. `None` if nobody has one.
     pub(super) fn together(&self, robot: usize) -> Option<Steps> {
         let formation = self.planned();
-        let ways = core::array::from_fn(|other| self.alone(other, &formation, u16::MAX));
+        let is_robot = |other: &usize| *other < formation.count;
+        let way =
+            |other| Some(other).filter(is_robot).and_then(|other| self.alone(other, &formation, u16::MAX));
+        let ways = core::array::from_fn(way);
         if ways.iter().any(Option::is_some) {
             let sides = self.going_alone(robot, &ways, &formation);
             return Some(self.admitted(robot, sides));
@@ -44,7 +47,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         let lead = self.lead(&formation)?;
         let part = |robot: usize| self.part_of(robot, &lead, &formation);
         let own = part(robot);
-        let is_any = !own.is_empty() || (0..ROBOTS).any(|other| !part(other).is_empty());
+        let is_any = !own.is_empty() || (0..formation.count).any(|other| !part(other).is_empty());
         is_any.then_some(own)
     }
 
@@ -73,12 +76,12 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 
     /// Who leads: of those nearest to an uncovered side the first. `None` if nobody has a way to one.
     fn lead(&self, formation: &Formation<ROBOTS>) -> Option<Lead> {
-        let (drives, leader, node) = self.nearest(&formation.ends)?;
+        let (drives, leader, node) = self.nearest(formation.ends())?;
         let sides = self.uncovered_by_all(node);
-        let is_taken = |step: Step| formation.ends.contains(&node.after(step));
+        let is_taken = |step: Step| formation.ends().contains(&node.after(step));
         let is_stuck = drives == 0 && sides.iter().all(is_taken) && self.rule.has(Condition::MakesRoom);
         let other_end = sides.iter().next().filter(|_| is_stuck).map(|step| node.after(step));
-        let shift = other_end.and_then(|other_end| self.shift(&formation.ends, [node, other_end]));
+        let shift = other_end.and_then(|other_end| self.shift(formation.ends(), [node, other_end]));
         Some(Lead { leader, shift })
     }
 
@@ -97,13 +100,13 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         let now = drives_to(lead.leader, formation);
         let is_nearer =
             |step: Step| drives_to(lead.leader, &self.with_robot_at(formation, robot, at.after(step))) < now;
-        let free = self.paths(at).filter(|step| !formation.ends.contains(&at.after(step)));
+        let free = self.paths(at).filter(|step| !formation.ends().contains(&at.after(step)));
         self.admitted(robot, free).filter(is_nearer)
     }
 
     /// The fewest drives of a robot over known paths to a node with an uncovered side, the first of the robots that have no
     /// more, and this node.
-    fn nearest(&self, ends: &[Cell; ROBOTS]) -> Option<(u16, usize, Cell)> {
+    fn nearest(&self, ends: &[Cell]) -> Option<(u16, usize, Cell)> {
         let mut from = [NOBODY; NODES];
         let mut queue = [(0_u16, 0_u16); NODES];
         let (mut first, mut last) = (0, 0);
@@ -134,7 +137,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     }
 
     /// Who shifts so that one of the two nodes is left, where robots are: the one beside the nearest free node.
-    fn shift(&self, ends: &[Cell; ROBOTS], nodes: [Cell; 2]) -> Option<(usize, Step)> {
+    fn shift(&self, ends: &[Cell], nodes: [Cell; 2]) -> Option<(usize, Step)> {
         let mut queue = [0_usize; ROBOTS];
         let (mut first, mut last) = (0, 0);
         let mut seen = 0;
@@ -163,8 +166,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     }
 
     /// Whether known paths join all robots, over their own nodes and a free one.
-    fn is_whole_with(&self, ends: &[Cell; ROBOTS], free: Cell) -> bool {
-        let all = (1_u32 << ROBOTS).wrapping_sub(1) as u16;
+    fn is_whole_with(&self, ends: &[Cell], free: Cell) -> bool {
         let beside = |node: Cell| {
             let paths = self.paths(node);
             let is_beside = |end: Cell| paths.iter().any(|step| node.after(step) == end);
@@ -175,7 +177,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             reached |= new;
             new = robots(new).fold(0, |next, robot| next | beside(ends[robot])) & !reached;
         }
-        reached == all
+        reached == first_robots(ends.len())
     }
 }
 
@@ -184,15 +186,15 @@ fn drives_to<const ROBOTS: usize>(leader: usize, formation: &Formation<ROBOTS>) 
     let between = |one: usize, other: usize| formation.near[one].drives(formation.ends[other]).unwrap_or(FAR);
     let mut to_leader = [FAR; ROBOTS];
     to_leader[leader] = 0;
-    for _ in 1..ROBOTS {
-        for one in 0..ROBOTS {
-            for other in 0..ROBOTS {
+    for _ in 1..formation.count {
+        for one in 0..formation.count {
+            for other in 0..formation.count {
                 let over = to_leader[other].saturating_add(between(one, other)).min(FAR);
                 to_leader[one] = to_leader[one].min(over);
             }
         }
     }
-    to_leader.iter().sum()
+    to_leader[..formation.count].iter().sum()
 }
 
 #[cfg(test)]
@@ -224,7 +226,7 @@ mod tests {
         let is_blocked =
             |path: &Edge| ![driven, seen, unknown].into_iter().flatten().any(|free| edge(free) == *path);
         area.edges().filter(is_blocked).for_each(|path| map.put_edge(EdgeMark::Wall, path));
-        Trio::new(rule, map, starts.map(Cell::from)).expect("a team")
+        Trio::new(rule, map, &starts.map(Cell::from)).expect("a team")
     }
 
     /// Who shifts, and whereto.

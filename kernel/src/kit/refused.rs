@@ -3,15 +3,19 @@
 use core::fmt;
 
 use super::stance::Reach;
-use super::team::MAX_ROBOTS;
 use crate::ground::Cell;
 
 /// Why a team cannot start.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Refused {
-    /// A team has 1 to [`MAX_ROBOTS`] robots.
-    Robots(usize),
+    /// A team has at least one robot, and no more than it holds.
+    Robots {
+        /// Robots asked for.
+        robots: usize,
+        /// Robots that it holds.
+        most: usize,
+    },
     /// A robot starts outside of the map.
     Outside(Cell),
     /// The map has more nodes than a plan has room for.
@@ -32,7 +36,9 @@ pub enum Refused {
 impl fmt::Display for Refused {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Robots(robots) => write!(f, "a team has 1 to {MAX_ROBOTS} robots, and not {robots}"),
+            Self::Robots { robots, most } => {
+                write!(f, "a team has 1 to {most} robots, and not {robots}")
+            }
             Self::Outside(start) => write!(f, "the start {start} is outside of the map"),
             Self::TooManyNodes { nodes, most } => {
                 write!(f, "the map has {nodes} nodes, and there is room for {most}")

@@ -4,64 +4,45 @@
 use super::stance::Reach;
 use crate::conditions;
 
-/// One condition of the rule, by the sentence it stands for.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Condition {
-    /// A robot drives to a node in reach of the node where the other one goes (section 4).
-    NextInReach,
-    /// Repair: and in reach of the node that the other one has left, so that both hear each other at any speeds.
-    FromInReach,
-    /// Repair: it never drives to either end of the other one's path.
-    Apart,
-    /// Repair: a robot for which no side is admitted stays; as published it takes the one that leads nearest to the other.
-    Stays,
-    /// Repair: only the robot whose turn it is decides. The turn passes on request, when it drives or stays.
-    Turn,
-    /// Repair: a robot without an admitted uncovered side drives its part of the shortest joint way to one.
-    Regroup,
-    /// Repair: a side that is seen blocked counts as covered, and all know.
-    Marked,
-    /// Repair: while another one drives a new path, it may go alone to an uncovered side, the others where they go.
-    Meanwhile,
-    /// Repair: the four messages have four flags, where the paper has three.
-    Flags,
-    /// Repair: a request without an answer is repeated, and numbered so that what comes late or twice does no harm.
-    Repeats,
-    /// Repair, of three robots and more: a robot looks at an unknown side where another one stands. If it sees that one, the
-    /// path is known to be free.
-    Beside,
-    /// Repair, of three robots and more: those that known paths within one field of nodes join, directly or over others, stay
-    /// so.
-    Tether,
-    /// Repair, of three robots and more: where none can come to an uncovered side alone, the nearest to one leads and the
-    /// others draw together behind it.
-    Caravan,
-    /// Repair, of three robots and more: where both ends of an uncovered path are taken, robots shift to a free node.
-    MakesRoom,
+conditions! {
+    /// One condition of the rule, by the sentence it stands for.
+    #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+    pub enum Condition of Rule {
+        /// A robot drives to a node in reach of the node where the other one goes (section 4).
+        NextInReach,
+        /// Repair: and in reach of the node that the other one has left, so that both hear each other at any speeds.
+        FromInReach,
+        /// Repair: it never drives to either end of the other one's path.
+        Apart,
+        /// Repair: a robot for which no side is admitted stays; as published it takes the one that leads nearest to the
+        /// other.
+        Stays,
+        /// Repair: only the robot whose turn it is decides. The turn passes on request, when it drives or stays.
+        Turn,
+        /// Repair: a robot without an admitted uncovered side drives its part of the shortest joint way to one.
+        Regroup,
+        /// Repair: a side that is seen blocked counts as covered, and all know.
+        Marked,
+        /// Repair: while another one drives a new path, it may go alone to an uncovered side, the others where they go.
+        Meanwhile,
+        /// Repair: the four messages have four flags, where the paper has three.
+        Flags,
+        /// Repair: a request without an answer is repeated, and numbered so that what comes late or twice does no harm.
+        Repeats,
+        /// Repair, of three robots and more: a robot looks at an unknown side where another one stands. If it sees that
+        /// one, the path is known to be free.
+        Beside,
+        /// Repair, of three robots and more: those that known paths within one field of nodes join, directly or over
+        /// others, stay so.
+        Tether,
+        /// Repair, of three robots and more: where none can come to an uncovered side alone, the nearest to one leads
+        /// and the others draw together behind it.
+        Caravan,
+        /// Repair, of three robots and more: where both ends of an uncovered path are taken, robots shift to a free
+        /// node.
+        MakesRoom,
+    }
 }
-
-impl Condition {
-    /// Every condition.
-    pub const ALL: [Self; 14] = [
-        Self::NextInReach,
-        Self::FromInReach,
-        Self::Apart,
-        Self::Stays,
-        Self::Turn,
-        Self::Regroup,
-        Self::Marked,
-        Self::Meanwhile,
-        Self::Flags,
-        Self::Repeats,
-        Self::Beside,
-        Self::Tether,
-        Self::Caravan,
-        Self::MakesRoom,
-    ];
-}
-
-conditions!(Condition);
 
 /// Where a robot runs KIT.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -153,22 +134,4 @@ impl Rule {
 
     /// With all repairs, in a network that loses messages.
     pub const ROBUST: Self = Self::REPAIRED.with(Condition::Repeats);
-
-    /// This rule with one condition taken out.
-    #[must_use]
-    pub const fn without(self, condition: Condition) -> Self {
-        Self { conditions: self.conditions.without(condition), ..self }
-    }
-
-    /// This rule with one condition put in.
-    #[must_use]
-    pub const fn with(self, condition: Condition) -> Self {
-        Self { conditions: self.conditions.with(condition), ..self }
-    }
-
-    /// Whether the rule has `condition`.
-    #[inline]
-    pub const fn has(&self, condition: Condition) -> bool {
-        self.conditions.has(condition)
-    }
 }

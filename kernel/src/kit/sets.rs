@@ -3,6 +3,11 @@
 /// Robots, a bit for each.
 pub(super) type Set = u16;
 
+/// So many robots, from the first one on.
+pub(super) const fn first_robots(robots: usize) -> Set {
+    (1_u32 << robots).wrapping_sub(1) as Set
+}
+
 /// The sets into which `all` fall, two being together if they are `linked` directly or over others; the rest are empty.
 pub(super) fn sets<const ROBOTS: usize>(all: Set, linked: impl Fn(usize, usize) -> bool) -> [Set; ROBOTS] {
     let mut sets = [0; ROBOTS];

@@ -29,24 +29,16 @@ impl Reach {
     }
 
     /// The largest squared distance of two nodes in contact, in squared paths: at most 11.
-    #[inline]
     pub const fn squared(self) -> u8 {
         self.squared
     }
 
     /// Whether robots at these nodes hear each other.
-    #[inline]
     pub const fn joins(self, one: Cell, other: Cell) -> bool {
         let (dx, dy) = one.apart(other);
         let (dx, dy) = (dx as u64, dy as u64);
         dx * dx + dy * dy <= self.squared as u64
     }
-}
-
-/// Whether robots at these nodes hear each other within the paper's 10 m.
-#[inline]
-pub const fn in_reach(one: Cell, other: Cell) -> bool {
-    Reach::PAPER.joins(one, other)
 }
 
 /// Where a robot is.
@@ -66,7 +58,6 @@ pub enum Stance {
 
 impl Stance {
     /// The node that it has left last, or where it stands.
-    #[inline]
     pub const fn from(self) -> Cell {
         match self {
             Self::Stands(at) => at,
@@ -75,7 +66,6 @@ impl Stance {
     }
 
     /// The node where it will be next, or where it stands.
-    #[inline]
     pub const fn to(self) -> Cell {
         match self {
             Self::Stands(at) => at,
@@ -84,26 +74,22 @@ impl Stance {
     }
 
     /// Whether it stands.
-    #[inline]
     pub const fn stands(self) -> bool {
         matches!(self, Self::Stands(_))
     }
 
     /// Whether `node` is one of its ends.
-    #[inline]
     pub fn has(self, node: Cell) -> bool {
         self.from() == node || self.to() == node
     }
 
     /// Whether robots with these stances hear each other at whatever speeds they drive. Their distance is a convex function
     /// of how far each has come, so it is largest where both are at an end: the four corners decide.
-    #[inline]
     pub const fn is_sure_of(self, other: Self) -> bool {
         self.is_sure_within(other, Reach::PAPER)
     }
 
     /// The same with another reach.
-    #[inline]
     pub const fn is_sure_within(self, other: Self, reach: Reach) -> bool {
         reach.joins(self.from(), other.from())
             && reach.joins(self.from(), other.to())
@@ -113,7 +99,6 @@ impl Stance {
 
     /// Whether robots with these stances are at least one path, 3 m, apart at whatever speeds they drive: two paths of the
     /// lattice that have no end in common are.
-    #[inline]
     pub fn is_apart_from(self, other: Self) -> bool {
         !other.has(self.from()) && !other.has(self.to())
     }
@@ -142,6 +127,10 @@ mod tests {
     use super::*;
 
     const HERE: Cell = Cell::new(0, 0);
+
+    fn in_reach(one: Cell, other: Cell) -> bool {
+        Reach::PAPER.joins(one, other)
+    }
 
     #[test]
     fn ten_metres_are_three_paths_and_one_to_the_side() {

@@ -2,12 +2,12 @@
 
 use super::refused::{NotNow, Refused};
 use super::rule::{Condition, Fallback, Filter, Rule, Runs};
-use super::sets::{Set, sets};
+use super::sets::{first_robots, sets};
 use super::stance::{Reach, SEEN, Stance};
 use crate::choice::Oracle;
 use crate::ground::{Cell, Edge, EdgeMark, Grid, Side, Step, Steps};
 
-/// The most robots of a team.
+/// The most robots that a team can hold.
 pub const MAX_ROBOTS: usize = 16;
 
 /// What a robot does next.
@@ -66,18 +66,20 @@ pub(super) enum Task {
     Done,
 }
 
+/// A robot of a team. Whoever keeps a team as far as it was told puts down here where the others are.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct Robot {
-    pub(super) stance: Stance,
+pub struct Robot {
+    /// Where it is.
+    pub stance: Stance,
     pub(super) task: Task,
     /// The way that it drove last.
-    pub(super) heading: Option<Side>,
+    pub heading: Option<Side>,
     /// Whether the path that it drives was new when it left.
-    pub(super) is_new: bool,
+    pub is_new: bool,
 }
 
-/// A team of robots on a map of at most `NODES` nodes.
+/// A team of at most `ROBOTS` robots on a map of at most `NODES` nodes.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Kit<G, const ROBOTS: usize, const NODES: usize> {
@@ -87,50 +89,60 @@ pub struct Kit<G, const ROBOTS: usize, const NODES: usize> {
     /// What any of them has recorded.
     pub(super) union: G,
     pub(super) robots: [Robot; ROBOTS],
+    pub(super) count: u8,
     /// Robots that have entered. Of those that start at one node each enters when the one before has left.
     pub(super) entered: u8,
     pub(super) turn: u8,
 }
 
 impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
-    /// A team that knows nothing of `map` but its border, each robot at its start.
+    const CAPACITY: () = assert!(ROBOTS <= MAX_ROBOTS, "a team holds at most 16 robots");
+
+    /// A team that knows nothing of `map` but its border, a robot in each of `starts`.
     ///
     /// # Errors
     /// [`Refused`] if it cannot start so.
-    pub fn new(rule: Rule, map: G, starts: [Cell; ROBOTS]) -> Result<Self, Refused>
+    pub fn new(rule: Rule, map: G, starts: &[Cell]) -> Result<Self, Refused>
     where
         G: Copy,
     {
+        const { Self::CAPACITY };
         let area = map.area();
         let nodes = area.width() * area.height();
-        if ROBOTS == 0 || ROBOTS > MAX_ROBOTS {
-            return Err(Refused::Robots(ROBOTS));
+        let robots = starts.len();
+        if robots == 0 || robots > ROBOTS {
+            return Err(Refused::Robots { robots, most: ROBOTS });
         }
         if nodes > NODES {
             return Err(Refused::TooManyNodes { nodes, most: NODES });
         }
-        if ROBOTS > 2 && rule.reach != Reach::PAPER && rule.has(Condition::Tether) {
-            return Err(Refused::ShortReach(ROBOTS));
+        if robots > 2 && rule.reach != Reach::PAPER && rule.has(Condition::Tether) {
+            return Err(Refused::ShortReach(robots));
         }
         if let Some(&outside) = starts.iter().find(|&&start| !area.contains(start)) {
             return Err(Refused::Outside(outside));
         }
-        let robot =
-            |start| Robot { stance: Stance::Stands(start), task: Task::None, heading: None, is_new: false };
-        let is_taken = |place: usize| starts.iter().take(place).any(|start| *start == starts[place]);
-        let taken = (0..ROBOTS).find(|&place| is_taken(place));
+        let taken = (0..robots).find(|&place| starts[..place].contains(&starts[place]));
         if let Some(place) = taken.filter(|_| rule.has(Condition::Apart)) {
             return Err(Refused::OneNode(starts[place]));
         }
-        let entered = if taken.is_some() { 1 } else { ROBOTS as u8 };
-        let kit =
-            Self { rule, records: [map; ROBOTS], union: map, robots: starts.map(robot), entered, turn: 0 };
-        let all = (1_u32 << ROBOTS).wrapping_sub(1) as Set;
-        let sure = |one: usize, other: usize| {
-            kit.robots[one].stance.is_sure_within(kit.robots[other].stance, rule.reach)
+        let sure = |one: usize, other: usize| rule.reach.joins(starts[one], starts[other]);
+        if sets::<ROBOTS>(first_robots(robots), sure).iter().skip(1).any(|&set| set != 0) {
+            return Err(Refused::OutOfContact(rule.reach));
+        }
+        let robot = |place: usize| {
+            let stance = Stance::Stands(starts.get(place).copied().unwrap_or(area.first()));
+            Robot { stance, task: Task::None, heading: None, is_new: false }
         };
-        let [_, apart @ ..] = &sets::<ROBOTS>(all, sure)[..] else { return Err(Refused::Robots(ROBOTS)) };
-        if apart.iter().all(|&set| set == 0) { Ok(kit) } else { Err(Refused::OutOfContact(rule.reach)) }
+        Ok(Self {
+            rule,
+            records: [map; ROBOTS],
+            union: map,
+            robots: core::array::from_fn(robot),
+            count: robots as u8,
+            entered: if taken.is_some() { 1 } else { robots as u8 },
+            turn: 0,
+        })
     }
 
     /// Its rule.
@@ -143,14 +155,24 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         self.robots.iter().take(self.entered.into()).map(|robot| robot.stance)
     }
 
+    /// Every robot, also those that have not entered.
+    pub fn robots(&self) -> &[Robot] {
+        &self.robots[..self.count.into()]
+    }
+
+    /// Every robot, for a team that is told where they are.
+    pub fn robots_mut(&mut self) -> &mut [Robot] {
+        &mut self.robots[..self.count.into()]
+    }
+
     /// Where `robot` is.
     pub fn stance(&self, robot: usize) -> Option<Stance> {
-        Some(self.robots.get(robot)?.stance)
+        Some(self.robots().get(robot)?.stance)
     }
 
     /// What each robot has driven ([`EdgeMark::Open`]) and seen blocked ([`EdgeMark::Wall`]).
-    pub const fn records(&self) -> &[G; ROBOTS] {
-        &self.records
+    pub fn records(&self) -> &[G] {
+        &self.records[..self.count.into()]
     }
 
     /// Whose turn it is, where robots take turns.
@@ -158,14 +180,20 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         self.rule.has(Condition::Turn).then_some(self.turn.into())
     }
 
+    /// This team with the turn at `robot`, as it was told.
+    #[must_use]
+    pub fn with_turn(self, robot: u8) -> Self {
+        Self { turn: robot, ..self }
+    }
+
     /// Whether `robot` knows that it is done.
     pub fn is_done(&self, robot: usize) -> bool {
-        self.robots.get(robot).is_some_and(|robot| robot.task == Task::Done)
+        self.robots().get(robot).is_some_and(|robot| robot.task == Task::Done)
     }
 
     /// Whether every robot knows that it is done: the run is over.
     pub fn is_over(&self) -> bool {
-        (0..ROBOTS).all(|robot| self.is_done(robot))
+        self.robots().iter().all(|robot| robot.task == Task::Done)
     }
 
     /// Whether `robot` stands, has been answered, and has not decided yet.
@@ -182,7 +210,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 
     /// Whether `robot` stands and has something to decide, whoever has the turn.
     pub fn asks(&self, robot: usize) -> bool {
-        self.robots.get(robot).is_some_and(|robot| robot.stance.stands() && robot.task == Task::None)
+        self.robots().get(robot).is_some_and(|robot| robot.stance.stands() && robot.task == Task::None)
     }
 
     /// Begins the decision of `robot`. Where several sides are as good, `oracle` picks one.
@@ -205,7 +233,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// # Errors
     /// [`NotNow`] if it looks at no side.
     pub fn looked(&mut self, robot: usize, sight: Sight, oracle: &mut dyn Oracle) -> Result<Next, NotNow> {
-        let Some(Task::Looks { side, left, why }) = self.robots.get(robot).map(|robot| robot.task) else {
+        let Some(Task::Looks { side, left, why }) = self.robots().get(robot).map(|robot| robot.task) else {
             return Err(NotNow::Looks);
         };
         let from = self.robots[robot].stance.to();
@@ -216,9 +244,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             self.record(robot, EdgeMark::Open, edge);
             self.robots[robot] =
                 Robot { stance: Stance::Drives { from, to }, task: Task::None, heading: Some(side), is_new };
-            if usize::from(self.entered) < ROBOTS {
-                self.entered += 1;
-            }
+            self.entered = self.count.min(self.entered + 1);
             self.tell_of_change(robot);
             return Ok(Next::Drives(to));
         }
@@ -257,7 +283,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// First the sides at which other robots stand, if it is unknown whether they are free.
     fn look_beside(&mut self, robot: usize, oracle: &mut dyn Oracle) -> Next {
         let mut sides = Steps::NONE;
-        if ROBOTS > 2 && self.rule.has(Condition::Beside) {
+        if self.count > 2 && self.rule.has(Condition::Beside) {
             let at = self.robots[robot].stance.to();
             let unknown = self.uncovered_by_all(at).minus(self.known(SEEN, at));
             sides =
@@ -344,7 +370,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 
     /// Whoever stays decides anew when another robot leaves, arrives, or marks a side.
     fn tell_of_change(&mut self, robot: usize) {
-        for (other, Robot { task, .. }) in self.robots.iter_mut().enumerate() {
+        for (other, Robot { task, .. }) in self.robots_mut().iter_mut().enumerate() {
             if other != robot && *task == Task::Stays {
                 *task = Task::None;
             }
@@ -357,7 +383,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         let asks =
             |robot: &Robot| robot.stance.stands() && matches!(robot.task, Task::None | Task::Looks { .. });
         let turn = usize::from(self.turn);
-        let after = (turn..ROBOTS).chain(0..turn);
+        let after = (turn..self.count.into()).chain(0..turn);
         if let Some(next) = after.into_iter().find(|&robot| asks(&self.robots[robot])) {
             self.turn = next as u8;
         }
@@ -399,14 +425,14 @@ mod tests {
     }
 
     fn pair(rule: Rule, starts: [Cell; 2]) -> Pair {
-        Pair::new(rule, map(8, 8), starts).expect("a team")
+        Pair::new(rule, map(8, 8), &starts).expect("a team")
     }
 
     /// Robots drive and arrive in turn, and see nothing but `walls`, until all are done; the drives that they have made.
     fn run<const ROBOTS: usize>(kit: &mut Kit<TinyGrid, ROBOTS, 64>, walls: impl Fn(Edge) -> bool) -> usize {
         let mut drives = 0;
         for _ in 0..2000 {
-            for robot in 0..ROBOTS {
+            for robot in 0..kit.robots().len() {
                 if !kit.may_decide(robot) {
                     let _ = kit.arrived(robot);
                     continue;
@@ -432,15 +458,15 @@ mod tests {
         let mut two = pair(Rule::REPAIRED, [Cell::new(0, 0), Cell::new(1, 0)]);
         assert!(run(&mut two, |_| false) >= 112);
         assert!(two.is_over() && is_covered(&two));
-        let mut one = Kit::<_, 1, 64>::new(Rule::REPAIRED, map(8, 8), [Cell::new(3, 3)]).expect("a team");
+        let mut one = Kit::<_, 1, 64>::new(Rule::REPAIRED, map(8, 8), &[Cell::new(3, 3)]).expect("a team");
         assert!(run(&mut one, |_| false) >= 112);
         assert!(one.is_over() && is_covered(&one));
         let starts = [0, 1, 2].map(|x| Cell::new(x, 0));
-        let mut three = Kit::<_, 3, 64>::new(Rule::REPAIRED, map(8, 8), starts).expect("a team");
+        let mut three = Kit::<_, 3, 64>::new(Rule::REPAIRED, map(8, 8), &starts).expect("a team");
         assert!(run(&mut three, |_| false) >= 112);
         assert!(three.is_over() && is_covered(&three));
         let one_by_one = Rule::REPAIRED.without(Condition::Meanwhile);
-        let mut three = Kit::<_, 3, 64>::new(one_by_one, map(8, 8), starts).expect("a team");
+        let mut three = Kit::<_, 3, 64>::new(one_by_one, map(8, 8), &starts).expect("a team");
         assert!(run(&mut three, |_| false) >= 112);
         assert!(three.is_over() && is_covered(&three));
     }
@@ -471,12 +497,12 @@ mod tests {
 
     #[test]
     fn a_team_that_cannot_start_is_refused() {
-        let start = |starts| Pair::new(Rule::REPAIRED, map(5, 1), starts).err();
+        let start = |starts: [Cell; 2]| Pair::new(Rule::REPAIRED, map(5, 1), &starts).err();
         let (first, last) = (Cell::new(0, 0), Cell::new(4, 0));
         assert_eq!(start([first, last]), Some(Refused::OutOfContact(Reach::PAPER)));
         assert_eq!(start([first, first]), Some(Refused::OneNode(first)));
         assert_eq!(start([first, Cell::new(5, 0)]), Some(Refused::Outside(Cell::new(5, 0))));
-        let small = Kit::<_, 1, 4>::new(Rule::REPAIRED, map(5, 1), [first]).err();
+        let small = Kit::<_, 1, 4>::new(Rule::REPAIRED, map(5, 1), &[first]).err();
         assert_eq!(small, Some(Refused::TooManyNodes { nodes: 5, most: 4 }));
     }
 

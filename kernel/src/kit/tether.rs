@@ -5,9 +5,9 @@
 //! field join their nodes. So a robot that comes nearer to one that it is tied to, along such paths, is in contact with
 //! it all the way; radio alone, through a wall, promises no way back.
 
-use super::around::{HERE, IN_REACH, Places, at_offset, bit, offsets, place_of};
+use super::around::{HERE, IN_REACH, Places, bit, offsets, place_of};
 use super::rule::Condition;
-use super::sets::{Set, robots, sets};
+use super::sets::{Set, first_robots, robots, sets};
 use super::stance::Stance;
 use super::team::Kit;
 use crate::ground::{Cell, Grid, Side, Step};
@@ -65,6 +65,14 @@ pub(super) struct Formation<const ROBOTS: usize> {
     pub(super) stances: [Stance; ROBOTS],
     pub(super) ends: [Cell; ROBOTS],
     pub(super) near: [Near; ROBOTS],
+    pub(super) count: usize,
+}
+
+impl<const ROBOTS: usize> Formation<ROBOTS> {
+    /// Where the robots of the team go.
+    pub(super) fn ends(&self) -> &[Cell] {
+        &self.ends[..self.count]
+    }
 }
 
 /// What binds one robot to the others.
@@ -79,17 +87,19 @@ pub(super) struct Bonds<const ROBOTS: usize> {
 impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// Whether robots have to stay tied.
     fn ties(&self) -> bool {
-        ROBOTS > 2 && self.rule.has(Condition::Tether)
+        self.count > 2 && self.rule.has(Condition::Tether)
     }
 
     /// Where all robots are.
     pub(super) fn formation(&self) -> Formation<ROBOTS> {
         let stances = self.robots.map(|robot| robot.stance);
         let ends = stances.map(Stance::to);
-        let near = ends.map(|node| {
-            if self.ties() { self.near(node, None) } else { Near { node, within: [HERE; MAX_DRIVES + 1] } }
+        let near = core::array::from_fn(|robot| {
+            let node = ends[robot];
+            let is_alone = robot >= self.count.into() || !self.ties();
+            if is_alone { Near { node, within: [HERE; MAX_DRIVES + 1] } } else { self.near(node, None) }
         });
-        Formation { stances, ends, near }
+        Formation { stances, ends, near, count: self.count.into() }
     }
 
     /// Where all robots will stand.
@@ -116,7 +126,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     pub(super) fn near(&self, node: Cell, also: Option<Step>) -> Near {
         let (mut east, mut south): (Places, Places) = (0, 0);
         for offset in offsets(IN_REACH | HERE) {
-            let paths = self.paths(at_offset(node, offset));
+            let paths = self.paths(node.at_offset(offset.0, offset.1));
             let place = 1 << bit(offset.0, offset.1);
             east |= if paths.has(Step::Cross(Side::East)) { place } else { 0 };
             south |= if paths.has(Step::Cross(Side::South)) { place } else { 0 };
@@ -142,9 +152,8 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 
     /// What binds `robot` to the others of this formation.
     pub(super) fn bonds(&self, robot: usize, formation: &Formation<ROBOTS>) -> Bonds<ROBOTS> {
-        let entered = (1_u32 << self.entered).wrapping_sub(1) as Set;
-        let others = entered & !(1 << robot);
-        let Formation { stances, ends, near } = formation;
+        let others = first_robots(self.entered.into()) & !(1 << robot);
+        let Formation { stances, ends, near, .. } = formation;
         let heard = sets(others, |one, other| self.hears(stances[one], stances[other]));
         let mut tied = [0; ROBOTS];
         if self.ties() {
@@ -161,7 +170,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// Whether the conditions let the robot of these bonds be on `path`.
     pub(super) fn lets(&self, bonds: &Bonds<ROBOTS>, formation: &Formation<ROBOTS>, path: Stance) -> bool {
         let (from, to) = (path.from(), path.to());
-        let Formation { stances, ends, near } = formation;
+        let Formation { stances, ends, near, .. } = formation;
         let is_taken = |(other, stance): (usize, &Stance)| other != bonds.robot && stance.has(to);
         let entered = stances.iter().take(self.entered.into());
         if self.rule.has(Condition::Apart) && entered.enumerate().any(is_taken) {
@@ -198,7 +207,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
 #[cfg(test)]
 mod tests {
     use super::super::rule::Rule;
-    use super::super::stance::in_reach;
+    use super::super::stance::Reach;
     use super::*;
     use crate::ground::{Area, EdgeMark, TinyGrid};
 
@@ -251,7 +260,7 @@ mod tests {
                 }
             }
             let starts = [2, 3, 4].map(|x| Cell::new(x, 3));
-            let kit = Kit::<_, 3, 49>::new(Rule::REPAIRED, map, starts).expect("a team");
+            let kit = Kit::<_, 3, 49>::new(Rule::REPAIRED, map, &starts).expect("a team");
             let near = kit.near(middle, None);
             for node in area.cells() {
                 let drives = least[node.y as usize][node.x as usize];
@@ -267,8 +276,9 @@ mod tests {
             assert!(field & HERE != 0);
             for one in offsets(field) {
                 for other in offsets(field) {
-                    let [one, other] = [one, other].map(|offset| at_offset(Cell::new(0, 0), offset));
-                    assert!(in_reach(one, other), "{one} {other}");
+                    let [one, other] =
+                        [one, other].map(|offset| Cell::new(0, 0).at_offset(offset.0, offset.1));
+                    assert!(Reach::PAPER.joins(one, other), "{one} {other}");
                 }
             }
         }

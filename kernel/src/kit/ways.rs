@@ -10,7 +10,7 @@
 //! Three robots and more have too many places for that. There the robot goes that can come to an uncovered side alone, the
 //! others staying where they go; if there is none, all go together: see `caravan.rs`. So does a robot that has no others.
 
-use super::around::{HERE, Places, at_offset, bit, in_reach, moved, offsets, place_of};
+use super::around::{HERE, Places, bit, in_reach, moved, offsets, place_of};
 use super::rule::Condition;
 use super::team::Kit;
 use crate::ground::{Cell, EdgeMark, Grid, Steps};
@@ -53,22 +53,16 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// The sides that `robot`, which stands, can take as its part of a shortest way of the team to an uncovered side: none if
     /// others have to go first. `None` if there is no way.
     pub(super) fn part(&self, robot: usize) -> Option<Steps> {
-        if ROBOTS != 2 {
+        if self.count != 2 {
             return self.together(robot);
         }
         let goes_alone = self.rule().has(Condition::Meanwhile) && self.another_drives_a_new_path(robot);
         let alone = if goes_alone { self.alone(robot, &self.formation(), u16::MAX) } else { None };
-        alone.map(|way| way.sides).or_else(|| self.joint(robot).map(|(_, sides)| sides))
+        alone.map(|way| way.sides).or_else(|| self.joint(robot))
     }
 
-    /// The single drives of a shortest joint way of two robots from where they go, before an uncovered side is admitted for
-    /// one of them; `None` if there is none, or there are not two robots.
-    pub fn joint_way(&self) -> Option<u32> {
-        if ROBOTS == 2 { self.joint(0).map(|(length, _)| length) } else { None }
-    }
-
-    /// The length of a shortest joint way from where both robots go, and the sides with which `robot` can begin one.
-    fn joint(&self, robot: usize) -> Option<(u32, Steps)> {
+    /// The sides with which `robot` can begin a shortest joint way from where both robots go; `None` if there is none.
+    fn joint(&self, robot: usize) -> Option<Steps> {
         let at = self.stance(robot)?.to();
         let other = self.others(robot).next()?.to();
         let around = in_reach(self.rule().reach);
@@ -78,7 +72,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         let ends = [at, other];
         let length = self.joint_length((place, pair), admitted, ends)?;
         if length == 0 {
-            return Some((0, Steps::NONE));
+            return Some(Steps::NONE);
         }
         let mut near: Pairs<NODES> = [0; NODES];
         let mut levels = [Level::<NODES>::NONE, Level::NONE];
@@ -98,7 +92,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
             let node = self.place(at.after(step));
             node.is_some_and(|node| near[node] & moved(pair, step.reverse()) & admitted != 0)
         });
-        Some((length, self.admitted(robot, nearer)))
+        Some(self.admitted(robot, nearer))
     }
 
     /// The single drives from this pair of nodes to the nearest one with an uncovered side.
@@ -116,7 +110,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
                 near[node] |= places;
                 let at = self.node(node);
                 let is_goal = |offset: (i16, i16)| {
-                    let goals = self.goals(at_offset(at, offset), admitted, ends);
+                    let goals = self.goals(at.at_offset(offset.0, offset.1), admitted, ends);
                     goals & 1 << bit(-offset.0, -offset.1) != 0
                 };
                 if self.goals(at, admitted, ends) & places != 0 || offsets(places).any(is_goal) {
@@ -158,7 +152,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
                 let Some(place) = self.place(node).filter(|_| goals != 0) else { continue };
                 level.add(place, goals);
                 for offset in offsets(goals) {
-                    if let Some(place) = self.place(at_offset(node, offset)) {
+                    if let Some(place) = self.place(node.at_offset(offset.0, offset.1)) {
                         level.add(place, 1 << bit(-offset.0, -offset.1));
                     }
                 }
@@ -177,7 +171,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
                 }
             }
             for offset in offsets(places) {
-                for step in self.known(EdgeMark::Open, at_offset(node, offset)).iter() {
+                for step in self.known(EdgeMark::Open, node.at_offset(offset.0, offset.1)).iter() {
                     next.add(place, moved(1 << bit(offset.0, offset.1), step) & admitted & !near[place]);
                 }
             }

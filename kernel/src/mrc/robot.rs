@@ -74,10 +74,14 @@ impl<const CALLS: usize> Robot<CALLS> {
         Self { rule, id, requests: [None; CALLS], task: Task::Free }
     }
 
-    /// The same robot before it has heard anything.
-    #[must_use]
-    pub const fn anew(self) -> Self {
-        Self::new(self.rule, self.id)
+    /// A robot as it was kept: with these records, in the order heard, and this task.
+    pub const fn kept(rule: Rule, id: RobotId, requests: [Option<Request>; CALLS], task: Task) -> Self {
+        Self { rule, id, requests, task }
+    }
+
+    /// Its rule.
+    pub const fn rule(&self) -> &Rule {
+        &self.rule
     }
 
     /// Its identity.
@@ -98,28 +102,6 @@ impl<const CALLS: usize> Robot<CALLS> {
     /// Its record of a WFR.
     pub fn request(&self, wfr: NodeId) -> Option<&Request> {
         self.requests().find(|request| request.call.wfr == wfr)
-    }
-
-    /// The robot with the calls that it knows under other epochs, and its records in the order of their WFRs where ties are
-    /// settled by identity. Rules compare epochs of one WFR and do nothing else with them, and the order of records tells
-    /// which one goes when the table is full: if `rename` keeps the order of epochs and there are at most `CALLS` WFRs, the
-    /// robot goes on as before.
-    #[must_use]
-    pub fn renamed(mut self, rename: impl Fn(Call) -> Call) -> Self {
-        if self.rule.has(Condition::LeastIdentity) {
-            self.requests.sort_unstable_by_key(|request| match request {
-                Some(Request { call, .. }) => (false, call.wfr),
-                None => (true, NodeId(0)),
-            });
-        }
-        for request in self.requests.iter_mut().flatten() {
-            request.call = rename(request.call);
-        }
-        match &mut self.task {
-            Task::Free => {}
-            Task::Asking { call, .. } | Task::Leased { call } => *call = rename(*call),
-        }
-        self
     }
 
     /// The timer that runs.
@@ -312,24 +294,6 @@ mod tests {
 
     fn word(sent: Option<Upward>) -> Option<(u32, u32, Word)> {
         sent.map(|sent| (sent.call.wfr.0, sent.call.epoch.0, sent.word))
-    }
-
-    #[test]
-    fn records_are_put_in_order_where_ties_are_settled_by_identity_and_a_robot_anew_has_none() {
-        let heard = [notice(call(9, 4), 1, 3), notice(call(8, 7), 6, 3)];
-        let earlier = |Call { wfr, epoch }| Call { wfr, epoch: Epoch(epoch.0 - 3) };
-        let by_first_heard = Rule::REPAIRED.without(Condition::LeastIdentity);
-        let in_order =
-            [(Rule::REPAIRED, [call(8, 4), call(9, 1)]), (by_first_heard, [call(9, 1), call(8, 4)])];
-        for (rule, calls) in in_order {
-            let (robot, _) = after(rule, &heard);
-            let renamed = robot.renamed(earlier);
-            assert!(renamed.requests().map(|request| request.call).eq(calls));
-            assert!(matches!(renamed.task(), Task::Asking { call: asked, .. } if asked == call(9, 1)));
-            assert_eq!(robot.anew(), Robot::new(rule, ME));
-        }
-        let one = after(Rule::REPAIRED, &heard[..1]).0;
-        assert_eq!(one.renamed(|call| call), one);
     }
 
     #[test]

@@ -4,56 +4,39 @@
 
 use crate::conditions;
 
-/// One condition of the rule, by the sentence it stands for.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Condition {
-    /// A free robot asks for the call of least HC.
-    NearestCall,
-    /// A WFR chooses the robot of least MHC.
-    NearestRobot,
-    /// Where that leaves several, a robot takes the call of least SN and a WFR the robot of least MID, not the first heard.
-    LeastIdentity,
-    /// Repair: a WFR chooses when its window closes, not when the first MOVE arrives.
-    Window,
-    /// Repair: a MOVE that arrives after the choice does not change it.
-    ChoiceStands,
-    /// Repair: a MOVE that arrives after the choice is answered with it, each time that it arrives.
-    AnswersAgain,
-    /// Repair: what belongs to another epoch is ignored. A call under a newer one is a new call: its SBit is clear, and
-    /// whatever a robot had to do with the older one is over.
-    Epochs,
-    /// Repair: the robot that is chosen accepts or, on its way elsewhere, declines; the WFR counts on it when it has
-    /// accepted. One that has accepted heeds no other choice.
-    Consent,
-    /// Repair: a robot that no longer asks for the call declines, too.
-    StillAsks,
-    /// Repair: a window without a MOVE, a choice that is declined or not answered, and a lease that lapses make the WFR
-    /// call again under a new epoch.
-    Renewal,
-    /// Repair: a MOVE, and the RESB to the robot chosen, are repeated when nobody answers; a robot that is never answered
-    /// leaves the call to others.
-    Repetition,
+conditions! {
+    /// One condition of the rule, by the sentence it stands for.
+    #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+    pub enum Condition of Rule {
+        /// A free robot asks for the call of least HC.
+        NearestCall,
+        /// A WFR chooses the robot of least MHC.
+        NearestRobot,
+        /// Where that leaves several, a robot takes the call of least SN and a WFR the robot of least MID, not the
+        /// first heard.
+        LeastIdentity,
+        /// Repair: a WFR chooses when its window closes, not when the first MOVE arrives.
+        Window,
+        /// Repair: a MOVE that arrives after the choice does not change it.
+        ChoiceStands,
+        /// Repair: a MOVE that arrives after the choice is answered with it, each time that it arrives.
+        AnswersAgain,
+        /// Repair: what belongs to another epoch is ignored. A call under a newer one is a new call: its SBit is clear,
+        /// and whatever a robot had to do with the older one is over.
+        Epochs,
+        /// Repair: the robot that is chosen accepts or, on its way elsewhere, declines; the WFR counts on it when it
+        /// has accepted. One that has accepted heeds no other choice.
+        Consent,
+        /// Repair: a robot that no longer asks for the call declines, too.
+        StillAsks,
+        /// Repair: a window without a MOVE, a choice that is declined or not answered, and a lease that lapses make the
+        /// WFR call again under a new epoch.
+        Renewal,
+        /// Repair: a MOVE, and the RESB to the robot chosen, are repeated when nobody answers; a robot that is never
+        /// answered leaves the call to others.
+        Repetition,
+    }
 }
-
-impl Condition {
-    /// Every condition.
-    pub const ALL: [Self; 11] = [
-        Self::NearestCall,
-        Self::NearestRobot,
-        Self::LeastIdentity,
-        Self::Window,
-        Self::ChoiceStands,
-        Self::AnswersAgain,
-        Self::Epochs,
-        Self::Consent,
-        Self::StillAsks,
-        Self::Renewal,
-        Self::Repetition,
-    ];
-}
-
-conditions!(Condition);
 
 /// The rule of a rescue.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -79,23 +62,6 @@ impl Rule {
 
     /// MRC with all repairs; a message without an answer is repeated once.
     pub const REPAIRED: Self = Self { conditions: Conditions::of(&Condition::ALL), repeats: 1 };
-
-    /// This rule with one condition taken out.
-    #[must_use]
-    pub const fn without(self, condition: Condition) -> Self {
-        Self { conditions: self.conditions.without(condition), ..self }
-    }
-
-    /// This rule with one condition put in.
-    #[must_use]
-    pub const fn with(self, condition: Condition) -> Self {
-        Self { conditions: self.conditions.with(condition), ..self }
-    }
-
-    /// Whether the rule has `condition`.
-    pub const fn has(&self, condition: Condition) -> bool {
-        self.conditions.has(condition)
-    }
 
     /// How often a message without an answer is sent again.
     pub(super) const fn repeats(self) -> u8 {

@@ -84,6 +84,16 @@ impl<const ROBOTS: usize> Wfr<ROBOTS> {
         Self { rule, call, phase: Phase::Idle, asked: [None; ROBOTS] }
     }
 
+    /// A node as it was kept: with this call, so far, and asked by these robots, in the order heard.
+    pub const fn kept(rule: Rule, call: Call, phase: Phase, asked: [Option<RobotId>; ROBOTS]) -> Self {
+        Self { rule, call, phase, asked }
+    }
+
+    /// Its rule.
+    pub const fn rule(&self) -> &Rule {
+        &self.rule
+    }
+
     /// Its latest call; in [`Phase::Idle`] there was none.
     pub const fn call(&self) -> Call {
         self.call
@@ -105,28 +115,6 @@ impl<const ROBOTS: usize> Wfr<ROBOTS> {
             Phase::Idle | Phase::Rescued { .. } => false,
             Phase::Collecting { .. } | Phase::Offered { .. } | Phase::Leased { .. } => true,
         }
-    }
-
-    /// The WFR with its call under another epoch and without what plays no part any more: in which order robots have asked,
-    /// which ones if none of them is told again, and by whom it was rescued. If `rename` keeps the order of epochs, the WFR
-    /// goes on as before.
-    #[must_use]
-    pub fn renamed(mut self, rename: impl Fn(Call) -> Call) -> Self {
-        self.call = rename(self.call);
-        let tells_again = match self.phase {
-            Phase::Idle | Phase::Collecting { .. } => true,
-            Phase::Offered { .. } | Phase::Leased { .. } => !self.rule.has(Condition::ChoiceStands),
-            Phase::Rescued { .. } => false,
-        };
-        if tells_again {
-            self.asked.sort_unstable_by_key(|robot| (robot.is_none(), *robot));
-        } else {
-            self.asked = [None; ROBOTS];
-        }
-        if let Phase::Rescued { by } = &mut self.phase {
-            *by = RobotId(0);
-        }
-        self
     }
 
     /// The timer that runs.
@@ -334,34 +322,6 @@ mod tests {
         let (wfr, _) = wfr.receive(word(2, 2, Word::Move { hops: 5 }));
         let told = Resb { call: wfr.call(), ..resb(2, 2) };
         assert_eq!(closed(wfr).1, Sent::All([Some(told), None]));
-    }
-
-    #[test]
-    fn who_has_asked_is_kept_in_order_as_long_as_somebody_is_told_again() {
-        let asked = |wfr: Wfr<2>| -> [Option<RobotId>; 2] {
-            let renamed = wfr.renamed(|call| call);
-            let mut asked = renamed.asked();
-            core::array::from_fn(|_| asked.next())
-        };
-        let both = [Some(RobotId(1)), Some(RobotId(2))];
-        let stands = (Rule::REPAIRED, [None, None]);
-        for (rule, told) in [stands, (Rule::REPAIRED.without(Condition::ChoiceStands), both)] {
-            let (collecting, _) = after(rule, &[bid(2, 3), bid(1, 3)]);
-            assert_eq!(
-                (asked(collecting), collecting.renamed(|call| call).call()),
-                (both, collecting.call())
-            );
-            let offered = closed(collecting).0;
-            let leased = offered.receive(word(1, 1, Word::Accept)).0;
-            assert!(matches!(
-                (offered.phase(), leased.phase()),
-                (Phase::Offered { .. }, Phase::Leased { .. })
-            ));
-            assert_eq!((asked(offered), asked(leased)), (told, told));
-            let rescued = [RobotId(1), RobotId(2)].map(|by| leased.reach(by).renamed(|call| call));
-            assert_eq!((asked(rescued[0]), rescued[0]), ([None, None], rescued[1]));
-            assert!(matches!(rescued[0].phase(), Phase::Rescued { .. }));
-        }
     }
 
     #[test]

@@ -6,36 +6,24 @@ use core::num::NonZeroU32;
 
 use crate::conditions;
 
-/// One condition of the rule, by the sentence it stands for.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Condition {
-    /// From forwarding on, a node's parent and hop count stay what they are. Without it, a NOTICE with a hop count up to
-    /// the node's own makes its sender the parent.
-    FrozenOnceForwarded,
-    /// The parent is a sender with the least hop count. Without it, the last heard, whatever its hop count.
-    LeastHops,
-    /// Of several senders with the least hop count the parent is the first heard. Without it, the last.
-    FirstHeard,
-    /// A node that has forwarded an event takes no later NOTICE of it as a first one.
-    RememberEvent,
-    /// Repair: a NOTICE of a newer event of the same source is a first one. Without it, whoever has heard of one event
-    /// of a source is deaf to the next.
-    NumberedEvents,
+conditions! {
+    /// One condition of the rule, by the sentence it stands for.
+    #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+    pub enum Condition of Rule {
+        /// From forwarding on, a node's parent and hop count stay what they are. Without it, a NOTICE with a hop count
+        /// up to the node's own makes its sender the parent.
+        FrozenOnceForwarded,
+        /// The parent is a sender with the least hop count. Without it, the last heard, whatever its hop count.
+        LeastHops,
+        /// Of several senders with the least hop count the parent is the first heard. Without it, the last.
+        FirstHeard,
+        /// A node that has forwarded an event takes no later NOTICE of it as a first one.
+        RememberEvent,
+        /// Repair: a NOTICE of a newer event of the same source is a first one. Without it, whoever has heard of one
+        /// event of a source is deaf to the next.
+        NumberedEvents,
+    }
 }
-
-impl Condition {
-    /// Every condition.
-    pub const ALL: [Self; 5] = [
-        Self::FrozenOnceForwarded,
-        Self::LeastHops,
-        Self::FirstHeard,
-        Self::RememberEvent,
-        Self::NumberedEvents,
-    ];
-}
-
-conditions!(Condition);
 
 impl Conditions {
     /// The conditions of the paper.
@@ -64,7 +52,6 @@ impl Count {
     }
 
     /// The number.
-    #[inline]
     pub const fn get(self) -> u8 {
         self.0
     }
@@ -117,15 +104,8 @@ impl Rule {
         Self { scheme, conditions: Conditions::REPAIRED, range_um, longest_wait_ns }
     }
 
-    /// Whether the rule has `condition`.
-    #[inline]
-    pub const fn has(&self, condition: Condition) -> bool {
-        self.conditions.has(condition)
-    }
-
     /// Equation (2), in nanoseconds: ((L − D) / L)·B, rounded down. D is at most L: who hears a sender from beyond its
     /// range takes it to be at the rim.
-    #[inline]
     pub const fn backoff_ns(&self, distance_um: u32) -> u64 {
         let range = self.range_um.get() as u64;
         let inside = range.saturating_sub(distance_um as u64);

@@ -93,14 +93,12 @@ impl<W: AsRef<[[u64; 2]]>> Chart<W> {
     }
 
     /// The place of a cell's word, and its bit.
-    #[inline]
     fn place(&self, cell: Cell) -> Option<(usize, u64)> {
         let (column, row) = self.area.locate(cell)?;
         Some((row * stride(self.area) + column / WORD, 1 << (column % WORD)))
     }
 
     /// What is known of `cell`.
-    #[inline]
     pub fn status(&self, cell: Cell) -> Status {
         let Some((place, bit)) = self.place(cell) else { return Status::Obstacle };
         match self.words.as_ref().get(place) {

@@ -1,7 +1,7 @@
 //! A flood over the cells that are known to be free: nearest first, each with the side through which it was entered.
 
 use super::chart::{Chart, Status};
-use crate::ground::{Area, Cell, Side};
+use crate::ground::{Cell, Side};
 
 /// The memory of floods, for as many cells as the area has; with less, cells are left out.
 #[derive(Debug)]
@@ -46,14 +46,10 @@ impl<'f, 'm, W: AsRef<[[u64; 2]]>> Flood<'f, 'm, W> {
         flood
     }
 
-    fn place(area: Area, cell: Cell) -> Option<usize> {
-        area.locate(cell).map(|(column, row)| row * area.width() + column)
-    }
-
     /// Reaches `cell` through the side `by` of the cell before it, if it is new.
     #[inline]
     fn reach(&mut self, cell: Cell, by: Side) {
-        let Some(place) = Self::place(self.chart.area(), cell) else { return };
+        let Some(place) = self.chart.area().place(cell) else { return };
         let Some(reached) = self.memory.reached.get_mut(place) else { return };
         if *reached >> SIDE_BITS == *self.memory.rounds {
             return;
@@ -91,13 +87,13 @@ impl<'f, 'm, W: AsRef<[[u64; 2]]>> Flood<'f, 'm, W> {
 
     /// No less than the visibility gain of `cell`, by what was noted of it; `None` if nothing was.
     pub(super) fn bound(&self, cell: Cell) -> Option<u32> {
-        let noted = *self.memory.gains.get(Self::place(self.chart.area(), cell)?)?;
+        let noted = *self.memory.gains.get(self.chart.area().place(cell)?)?;
         noted.checked_sub(1).map(u32::from)
     }
 
     /// Notes the visibility gain of `cell`.
     pub(super) fn note(&mut self, cell: Cell, gain: u32) {
-        let place = Self::place(self.chart.area(), cell);
+        let place = self.chart.area().place(cell);
         if let Some(noted) = place.and_then(|place| self.memory.gains.get_mut(place)) {
             *noted = u16::try_from(gain + 1).unwrap_or(u16::MAX);
         }
@@ -105,7 +101,7 @@ impl<'f, 'm, W: AsRef<[[u64; 2]]>> Flood<'f, 'm, W> {
 
     /// The side of the cell before `cell` through which the flood came to it; `None` at the start, and where it did not come.
     pub(super) fn side_before(&self, cell: Cell) -> Option<Side> {
-        let reached = *self.memory.reached.get(Self::place(self.chart.area(), cell)?)?;
+        let reached = *self.memory.reached.get(self.chart.area().place(cell)?)?;
         let is_after_start = cell != self.start && reached >> SIDE_BITS == *self.memory.rounds;
         is_after_start.then_some(())?;
         Side::ALL.get((reached & SIDES) as usize).copied()

@@ -5,28 +5,29 @@ use core::fmt;
 use super::sight::Sight;
 use crate::ground::{Cell, Circle};
 
-/// A condition of the rule.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Condition {
-    /// A robot takes a step only if the team is connected after it: the links join all robots, so they have a spanning tree.
-    Connect,
-    /// Two robots have a link only if all four corners of the cell of the one are within R_c of the midpoint of the cell of the
-    /// other; else, as the paper defines it, if the midpoints are.
-    Corners,
-    /// A robot enters no cell in which another robot is.
-    Single,
-    /// A team of which no robot can take its step follows one robot, the leader, to a frontier cell.
-    Lead,
-    /// If nobody can follow the leader, the team takes its last team moves back; at last, side by side, it goes on as a caterpillar.
-    Back,
-    /// Each time for the same frontier cell it takes twice as many back.
-    Double,
-    /// After a team move is taken back each robot looks for its way anew: the one that it knew began elsewhere.
-    Anew,
+crate::conditions! {
+    /// A condition of the rule.
+    #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+    pub enum Condition of Rule {
+        /// A robot takes a step only if the team is connected after it: the links join all robots, so they have a
+        /// spanning tree.
+        Connect,
+        /// Two robots have a link only if all four corners of the cell of the one are within R_c of the midpoint of the
+        /// cell of the other; else, as the paper defines it, if the midpoints are.
+        Corners,
+        /// A robot enters no cell in which another robot is.
+        Single,
+        /// A team of which no robot can take its step follows one robot, the leader, to a frontier cell.
+        Lead,
+        /// If nobody can follow the leader, the team takes its last team moves back; at last, side by side, it goes on
+        /// as a caterpillar.
+        Back,
+        /// Each time for the same frontier cell it takes twice as many back.
+        Double,
+        /// After a team move is taken back each robot looks for its way anew: the one that it knew began elsewhere.
+        Anew,
+    }
 }
-
-crate::conditions!(Condition);
 
 /// What a pack does, how far its robots see, and how far they hear.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -77,18 +78,7 @@ impl Rule {
     };
 
     /// With four corners, and a leader where nobody can go on.
-    pub const REPAIRED: Self = Self {
-        conditions: Conditions::of(&[
-            Condition::Connect,
-            Condition::Corners,
-            Condition::Single,
-            Condition::Lead,
-            Condition::Back,
-            Condition::Double,
-            Condition::Anew,
-        ]),
-        ..Self::PUBLISHED
-    };
+    pub const REPAIRED: Self = Self { conditions: Conditions::of(&Condition::ALL), ..Self::PUBLISHED };
 
     /// The same conditions for robots that see and hear so far.
     ///
@@ -102,18 +92,6 @@ impl Rule {
         Ok(Self { sight, range_cells, ..self })
     }
 
-    /// The same without a condition.
-    #[must_use]
-    pub const fn without(self, condition: Condition) -> Self {
-        Self { conditions: self.conditions.without(condition), ..self }
-    }
-
-    /// Whether `condition` is in force.
-    #[inline]
-    pub const fn has(&self, condition: Condition) -> bool {
-        self.conditions.has(condition)
-    }
-
     /// How far its robots see.
     pub const fn sight(&self) -> &Sight {
         &self.sight
@@ -125,7 +103,6 @@ impl Rule {
     }
 
     /// Whether robots in these cells have a link.
-    #[inline]
     pub const fn links(&self, one: Cell, other: Cell) -> bool {
         let circle = Circle::new(4 * (self.range_cells as u64) * (self.range_cells as u64));
         if self.has(Condition::Corners) { circle.covers(one, other) } else { circle.reaches(one, other) }

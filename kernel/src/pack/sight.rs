@@ -156,19 +156,11 @@ impl Window {
             while left != 0 {
                 let column = left.trailing_zeros() as i32 - self.radius;
                 left &= left - 1;
-                tell(
-                    column,
-                    row,
-                    Cell::new(
-                        self.from.x.saturating_add(column as i16),
-                        self.from.y.saturating_add(row as i16),
-                    ),
-                );
+                tell(column, row, self.from.at_offset(column as i16, row as i16));
             }
         }
     }
 
-    #[inline]
     fn has_obstacle(&self, columns: i32, rows: i32) -> bool {
         let row = self.obstacles.get((rows + self.radius) as usize);
         row.is_some_and(|row| row >> ((columns + self.radius) & 63) & 1 == 1)

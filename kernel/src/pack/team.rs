@@ -191,11 +191,13 @@ impl Team {
                 self.aims = [None; MAX_ROBOTS];
                 (self.stage, self.back, self.was_home) = (Stage::Spread, 1, false);
             }
-            let made = match self.stage {
-                Stage::Spread => self.spread(chart, memory, steps)?,
-                Stage::Lead { goal, .. } => self.lead(goal, chart, memory, steps),
-                Stage::Back { goal, moves } => self.take_back(goal, moves, chart, past, memory, steps)?,
-                Stage::March { goal } => Some(self.march(goal, chart, memory, steps).ok_or(End::Stuck)?),
+            let stage = self.stage;
+            let mut making = Making { team: self, chart, memory, steps };
+            let made = match stage {
+                Stage::Spread => making.spread()?,
+                Stage::Lead { goal, .. } => making.lead(goal),
+                Stage::Back { goal, moves } => making.take_back(goal, moves, past)?,
+                Stage::March { goal } => Some(making.march(goal).ok_or(End::Stuck)?),
             };
             let Some(made) = made else { continue };
             if made != Made::TakenBack {
@@ -204,70 +206,6 @@ impl Team {
             return Ok(made);
         }
         Err(End::Stuck)
-    }
-
-    /// A team move in which each robot goes its own way; `None` if the team goes on otherwise.
-    fn spread<W: AsRef<[[u64; 2]]>>(
-        &mut self,
-        chart: &Chart<W>,
-        memory: &mut Scratch<'_>,
-        steps: &mut [Step; MAX_ROBOTS],
-    ) -> Result<Option<Made>, End> {
-        for aim in &mut self.aims {
-            *aim = aim.filter(|aim| chart.is_frontier(aim.cell));
-        }
-        for robot in 0..self.robots {
-            if self.aim(robot).is_some() {
-                continue;
-            }
-            let Some(&from) = self.cells().get(robot) else { break };
-            let aim = choose(&self.rule, chart, from, &self.aims().flatten(), memory);
-            self.set_aim(robot, aim);
-        }
-        for robot in 0..self.robots {
-            self.take_own_step(robot, chart, memory, steps);
-        }
-        if steps.iter().any(|&step| step != Step::Stay) {
-            return Ok(Some(Made::Spread));
-        }
-        let nearest = (0..self.robots)
-            .filter_map(|robot| Some((self.aim(robot)?, robot)))
-            .min_by_key(|(aim, _)| aim.far);
-        let (aim, leader) = nearest.ok_or(End::Explored)?;
-        if !self.rule.has(Condition::Lead) {
-            return Err(End::Stuck);
-        }
-        self.stage = Stage::Lead { leader, goal: aim.cell };
-        Ok(None)
-    }
-
-    /// The robot takes the next step on its own way, if it is admitted.
-    fn take_own_step<W: AsRef<[[u64; 2]]>>(
-        &mut self,
-        robot: usize,
-        chart: &Chart<W>,
-        memory: &mut Scratch<'_>,
-        steps: &mut [Step; MAX_ROBOTS],
-    ) {
-        let (Some(aim), Some(&from)) = (self.aim(robot), self.cells().get(robot)) else { return };
-        let aim = match aim.side() {
-            Some(_) => Some(aim),
-            None => way(chart, from, aim.cell, memory),
-        };
-        self.set_aim(robot, aim);
-        let Some((aim, side)) = aim.and_then(|aim| Some((aim, aim.side()?))) else { return };
-        if let Some(other) = self.who_is_in(from.beyond(side)).filter(|_| self.rule.has(Condition::Single)) {
-            // Two robots that want into each other's cells go on as each other would.
-            let is_back = |aim: &Aim| aim.side() == Some(side.opposite());
-            if let Some(back) = self.aim(other).filter(is_back) {
-                self.set_aim(robot, Some(back.after_step()));
-                self.set_aim(other, Some(aim.after_step()));
-            }
-            return;
-        }
-        if self.go(robot, side, steps) {
-            self.set_aim(robot, Some(aim.after_step()));
-        }
     }
 
     fn who_is_in(&self, cell: Cell) -> Option<usize> {
@@ -297,125 +235,169 @@ impl Team {
             *cell = to;
         }
     }
+}
+
+/// A team move in the making.
+struct Making<'a, 'm, W> {
+    team: &'a mut Team,
+    chart: &'a Chart<W>,
+    memory: &'a mut Scratch<'m>,
+    steps: &'a mut [Step; MAX_ROBOTS],
+}
+
+impl<W: AsRef<[[u64; 2]]>> Making<'_, '_, W> {
+    /// A team move in which each robot goes its own way; `None` if the team goes on otherwise.
+    fn spread(&mut self) -> Result<Option<Made>, End> {
+        for aim in &mut self.team.aims {
+            *aim = aim.filter(|aim| self.chart.is_frontier(aim.cell));
+        }
+        for robot in 0..self.team.robots {
+            if self.team.aim(robot).is_some() {
+                continue;
+            }
+            let Some(&from) = self.team.cells().get(robot) else { break };
+            let aim = choose(&self.team.rule, self.chart, from, &self.team.aims().flatten(), self.memory);
+            self.team.set_aim(robot, aim);
+        }
+        for robot in 0..self.team.robots {
+            self.take_own_step(robot);
+        }
+        if self.steps.iter().any(|&step| step != Step::Stay) {
+            return Ok(Some(Made::Spread));
+        }
+        let nearest = (0..self.team.robots)
+            .filter_map(|robot| Some((self.team.aim(robot)?, robot)))
+            .min_by_key(|(aim, _)| aim.far);
+        let (aim, leader) = nearest.ok_or(End::Explored)?;
+        if !self.team.rule.has(Condition::Lead) {
+            return Err(End::Stuck);
+        }
+        self.team.stage = Stage::Lead { leader, goal: aim.cell };
+        Ok(None)
+    }
+
+    /// The robot takes the next step on its own way, if it is admitted.
+    fn take_own_step(&mut self, robot: usize) {
+        let (Some(aim), Some(&from)) = (self.team.aim(robot), self.team.cells().get(robot)) else { return };
+        let aim = match aim.side() {
+            Some(_) => Some(aim),
+            None => way(self.chart, from, aim.cell, self.memory),
+        };
+        self.team.set_aim(robot, aim);
+        let Some((aim, side)) = aim.and_then(|aim| Some((aim, aim.side()?))) else { return };
+        if let Some(other) =
+            self.team.who_is_in(from.beyond(side)).filter(|_| self.team.rule.has(Condition::Single))
+        {
+            // Two robots that want into each other's cells go on as each other would.
+            let is_back = |aim: &Aim| aim.side() == Some(side.opposite());
+            if let Some(back) = self.team.aim(other).filter(is_back) {
+                self.team.set_aim(robot, Some(back.after_step()));
+                self.team.set_aim(other, Some(aim.after_step()));
+            }
+            return;
+        }
+        if self.team.go(robot, side, self.steps) {
+            self.team.set_aim(robot, Some(aim.after_step()));
+        }
+    }
 
     /// A team move in which the leader goes on and the others go to it; `None` if nobody can go.
-    fn lead<W: AsRef<[[u64; 2]]>>(
-        &mut self,
-        goal: Cell,
-        chart: &Chart<W>,
-        memory: &mut Scratch<'_>,
-        steps: &mut [Step; MAX_ROBOTS],
-    ) -> Option<Made> {
+    fn lead(&mut self, goal: Cell) -> Option<Made> {
         // A robot that is in the leader's way leads from there: it is nearer.
-        let leader = self.hand_over(goal, chart, memory);
-        self.take_own_step(leader, chart, memory, steps);
-        let to = *self.cells().get(leader)?;
-        let mut flood = Flood::new(chart, memory, to);
-        let mut left = self.robots;
+        let leader = self.hand_over(goal);
+        self.take_own_step(leader);
+        let to = *self.team.cells().get(leader)?;
+        let mut flood = Flood::new(self.chart, self.memory, to);
+        let mut left = self.team.robots;
         while let Some((cell, ..)) = flood.next() {
             // Robots that have taken their steps are not asked again.
             let is_here = |&robot: &usize| {
                 robot != leader
-                    && self.cells().get(robot) == Some(&cell)
-                    && steps.get(robot) == Some(&Step::Stay)
+                    && self.team.cells().get(robot) == Some(&cell)
+                    && self.steps.get(robot) == Some(&Step::Stay)
             };
-            let here = (0..self.robots).find(is_here);
-            left = left.saturating_sub(usize::from(self.cells().contains(&cell)));
+            let here = (0..self.team.robots).find(is_here);
+            left = left.saturating_sub(usize::from(self.team.cells().contains(&cell)));
             if let Some((robot, side)) = here.and_then(|robot| Some((robot, flood.side_before(cell)?))) {
-                self.go(robot, side.opposite(), steps);
+                self.team.go(robot, side.opposite(), self.steps);
             }
             if left == 0 {
                 break;
             }
         }
-        if steps.iter().any(|&step| step != Step::Stay) {
+        if self.steps.iter().any(|&step| step != Step::Stay) {
             return Some(Made::Led(leader));
         }
-        let moves = self.back;
-        if self.rule.has(Condition::Double) {
-            self.back = self.back.saturating_mul(2);
+        let moves = self.team.back;
+        if self.team.rule.has(Condition::Double) {
+            self.team.back = self.team.back.saturating_mul(2);
         }
-        self.stage = Stage::Back { goal, moves };
+        self.team.stage = Stage::Back { goal, moves };
         None
     }
 
     /// The robot that leads now, with its way to the goal.
-    fn hand_over<W: AsRef<[[u64; 2]]>>(
-        &mut self,
-        goal: Cell,
-        chart: &Chart<W>,
-        memory: &mut Scratch<'_>,
-    ) -> usize {
-        let mut leader = match self.stage {
+    fn hand_over(&mut self, goal: Cell) -> usize {
+        let mut leader = match self.team.stage {
             Stage::Lead { leader, .. } => leader,
             Stage::Spread | Stage::Back { .. } | Stage::March { .. } => 0,
         };
-        for _ in 0..self.robots {
-            let Some(&from) = self.cells().get(leader) else { break };
-            let known = self.aim(leader).filter(|aim| aim.cell == goal && aim.side().is_some());
-            let Some(aim) = known.or_else(|| way(chart, from, goal, memory)) else { break };
-            self.set_aim(leader, Some(aim));
-            let Some(other) = aim.side().and_then(|side| self.who_is_in(from.beyond(side))) else { break };
-            self.set_aim(leader, None);
-            self.set_aim(other, Some(aim.after_step()));
+        for _ in 0..self.team.robots {
+            let Some(&from) = self.team.cells().get(leader) else { break };
+            let known = self.team.aim(leader).filter(|aim| aim.cell == goal && aim.side().is_some());
+            let Some(aim) = known.or_else(|| way(self.chart, from, goal, self.memory)) else { break };
+            self.team.set_aim(leader, Some(aim));
+            let Some(other) = aim.side().and_then(|side| self.team.who_is_in(from.beyond(side))) else {
+                break;
+            };
+            self.team.set_aim(leader, None);
+            self.team.set_aim(other, Some(aim.after_step()));
             leader = other;
         }
-        self.stage = Stage::Lead { leader, goal };
+        self.team.stage = Stage::Lead { leader, goal };
         leader
     }
 
     /// A team move that takes the last one back; `None` if the team goes on otherwise.
-    fn take_back<W: AsRef<[[u64; 2]]>>(
-        &mut self,
-        goal: Cell,
-        moves: u32,
-        chart: &Chart<W>,
-        past: &mut impl Past,
-        memory: &mut Scratch<'_>,
-        steps: &mut [Step; MAX_ROBOTS],
-    ) -> Result<Option<Made>, End> {
-        if !self.rule.has(Condition::Back) {
+    fn take_back(&mut self, goal: Cell, moves: u32, past: &mut impl Past) -> Result<Option<Made>, End> {
+        if !self.team.rule.has(Condition::Back) {
             return Err(End::Stuck);
         }
         let mut taken = [Step::Stay; MAX_ROBOTS];
-        let is_back = moves > 0 && taken.get_mut(..self.robots).is_some_and(|taken| past.pop(taken));
+        let is_back = moves > 0 && taken.get_mut(..self.team.robots).is_some_and(|taken| past.pop(taken));
         if is_back {
-            for (robot, (step, taken)) in steps.iter_mut().zip(taken).enumerate().take(self.robots) {
-                if let (Step::Cross(side), Some(&from)) = (taken, self.cells().get(robot)) {
+            for (robot, (step, taken)) in self.steps.iter_mut().zip(taken).enumerate().take(self.team.robots)
+            {
+                if let (Step::Cross(side), Some(&from)) = (taken, self.team.cells().get(robot)) {
                     *step = Step::Cross(side.opposite());
-                    self.put(robot, from.beyond(side.opposite()));
+                    self.team.put(robot, from.beyond(side.opposite()));
                 }
             }
-            if self.rule.has(Condition::Anew) {
-                self.aims = [None; MAX_ROBOTS];
+            if self.team.rule.has(Condition::Anew) {
+                self.team.aims = [None; MAX_ROBOTS];
             }
-            self.stage = Stage::Back { goal, moves: moves - 1 };
+            self.team.stage = Stage::Back { goal, moves: moves - 1 };
             return Ok(Some(Made::TakenBack));
         }
         let is_home = moves > 0;
-        if is_home && is_side_by_side(self.cells()) {
-            self.stage = Stage::March { goal };
+        if is_home && is_side_by_side(self.team.cells()) {
+            self.team.stage = Stage::March { goal };
             return Ok(None);
         }
-        if is_home && self.was_home {
+        if is_home && self.team.was_home {
             return Err(End::Stuck);
         }
-        self.was_home |= is_home;
-        let leader = self.nearest(goal, chart, memory).map_or(0, |(robot, _)| robot);
-        self.stage = Stage::Lead { leader, goal };
+        self.team.was_home |= is_home;
+        let leader = self.nearest(goal).map_or(0, |(robot, _)| robot);
+        self.team.stage = Stage::Lead { leader, goal };
         Ok(None)
     }
 
     /// The robot nearest to a cell, and the side through which it goes there; `None` if no robot can.
-    fn nearest<W: AsRef<[[u64; 2]]>>(
-        &self,
-        to: Cell,
-        chart: &Chart<W>,
-        memory: &mut Scratch<'_>,
-    ) -> Option<(usize, Side)> {
-        let mut flood = Flood::new(chart, memory, to);
+    fn nearest(&mut self, to: Cell) -> Option<(usize, Side)> {
+        let mut flood = Flood::new(self.chart, self.memory, to);
         while let Some((cell, ..)) = flood.next() {
-            if let Some(robot) = self.who_is_in(cell) {
+            if let Some(robot) = self.team.who_is_in(cell) {
                 return flood.side_before(cell).map(|side| (robot, side.opposite()));
             }
         }
@@ -423,21 +405,15 @@ impl Team {
     }
 
     /// A team move as a caterpillar.
-    fn march<W: AsRef<[[u64; 2]]>>(
-        &mut self,
-        goal: Cell,
-        chart: &Chart<W>,
-        memory: &mut Scratch<'_>,
-        steps: &mut [Step; MAX_ROBOTS],
-    ) -> Option<Made> {
-        let (head, side) = self.nearest(goal, chart, memory)?;
-        let (length, path) = caterpillar(self.cells(), head);
-        let mut left = *self.cells().get(head)?;
-        self.go(head, side, steps).then_some(())?;
+    fn march(&mut self, goal: Cell) -> Option<Made> {
+        let (head, side) = self.nearest(goal)?;
+        let (length, path) = caterpillar(self.team.cells(), head);
+        let mut left = *self.team.cells().get(head)?;
+        self.team.go(head, side, self.steps).then_some(())?;
         for &robot in path.get(1..length).unwrap_or_default() {
-            let from = *self.cells().get(robot)?;
+            let from = *self.team.cells().get(robot)?;
             let side = Side::ALL.into_iter().find(|&side| from.beyond(side) == left)?;
-            self.go(robot, side, steps).then_some(())?;
+            self.team.go(robot, side, self.steps).then_some(())?;
             left = from;
         }
         Some(Made::Marched)

@@ -55,7 +55,6 @@ impl Descent<'_> {
     }
 
     /// Where the next step leads. A coordinate that is pressed against the rim stays there.
-    #[inline]
     fn step(&self, at: Point, normal: &Normal, damping: f64) -> Point {
         let (dx, dy) = match self.area.map_or([false; 2], |area| pressed(area, at, normal)) {
             [false, false] => normal.step(damping),

@@ -44,14 +44,12 @@ impl Layout {
     }
 
     /// Where `place` is, along and across the line.
-    #[inline]
     pub(super) fn about_centre(&self, place: Point) -> (f64, f64) {
         let (x, y) = (place.x_m - self.centre.x_m, place.y_m - self.centre.y_m);
         (self.along.x_m * x + self.along.y_m * y, self.along.x_m * y - self.along.y_m * x)
     }
 
     /// The place that is so far along and across the line.
-    #[inline]
     pub(super) fn place(&self, along_m: f64, across_m: f64) -> Point {
         Point {
             x_m: self.centre.x_m + self.along.x_m * along_m - self.along.y_m * across_m,

@@ -6,7 +6,6 @@ use super::{Point, Range, Residual, Symmetric};
 /// At one position: the sum of the squared residuals, the normal matrix JᵀJ, half of the sum's second derivatives, and Jᵀr, which
 /// leads downhill. Residuals in decibels are in units of [`Signal::decibels`](super::Signal::decibels).
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Normal {
     pub(super) cost: f64,
     pub(super) matrix: Symmetric,

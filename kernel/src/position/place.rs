@@ -22,7 +22,6 @@ impl Point {
     }
 
     /// The square of that.
-    #[inline]
     pub(super) fn squared_distance(self, other: Self) -> f64 {
         let (x, y) = (self.x_m - other.x_m, self.y_m - other.y_m);
         x * x + y * y
@@ -61,7 +60,6 @@ impl Area {
     }
 
     /// The place of the rectangle that is nearest to `point`.
-    #[inline]
     pub fn nearest(self, point: Point) -> Point {
         Point {
             x_m: point.x_m.clamp(self.least.x_m, self.greatest.x_m),
@@ -84,19 +82,16 @@ pub struct Symmetric {
 
 impl Symmetric {
     /// This matrix with `weight` times the outer product of (x, y) added.
-    #[inline]
     pub(super) const fn plus(self, weight: f64, x: f64, y: f64) -> Self {
         Self { xx: self.xx + weight * x * x, xy: self.xy + weight * x * y, yy: self.yy + weight * y * y }
     }
 
     /// The sum of both.
-    #[inline]
     pub(super) const fn and(self, other: Self) -> Self {
         Self { xx: self.xx + other.xx, xy: self.xy + other.xy, yy: self.yy + other.yy }
     }
 
     /// This matrix with `damping` times its trace added to its diagonal.
-    #[inline]
     pub(super) const fn damped(self, damping: f64) -> Self {
         let more = damping * self.trace();
         Self { xx: self.xx + more, xy: self.xy, yy: self.yy + more }
@@ -107,26 +102,22 @@ impl Symmetric {
         self.xx + self.yy
     }
 
-    #[inline]
     const fn determinant(self) -> f64 {
         self.xx * self.yy - self.xy * self.xy
     }
 
     /// Whether it is positive definite to the precision of the numbers, if its diagonal is positive.
-    #[inline]
     pub(super) const fn is_regular(self) -> bool {
         self.determinant() > 4.0 * f64::EPSILON * self.xx * self.yy
     }
 
     /// Its inverse; `None` if it is singular to the precision of the numbers, or has a number that is not finite.
-    #[inline]
     pub(super) fn inverse(self) -> Option<Self> {
         let inverse = Self { xx: self.yy, xy: -self.xy, yy: self.xx }.times(1.0 / self.determinant());
         (self.is_regular() && inverse.is_finite()).then_some(inverse)
     }
 
     /// Its inverse times (x, y); `None` as for the inverse.
-    #[inline]
     pub(super) fn solve(self, (x, y): (f64, f64)) -> Option<(f64, f64)> {
         let factor = 1.0 / self.determinant();
         let (x, y) = ((self.yy * x - self.xy * y) * factor, (self.xx * y - self.xy * x) * factor);
@@ -134,7 +125,6 @@ impl Symmetric {
     }
 
     /// Whether all of it are numbers, and not too large for their sum.
-    #[inline]
     pub(super) fn is_finite(self) -> bool {
         (self.trace().abs() + self.xy.abs()).is_finite()
     }

@@ -129,13 +129,11 @@ pub struct Swarm<'a> {
 const DRAWS: u32 = 1 << 31;
 
 /// A number from 0 to below 1.
-#[inline]
 fn draw<O: Oracle + ?Sized>(oracle: &mut O) -> f64 {
     f64::from(oracle.pick(DRAWS)) / f64::from(DRAWS)
 }
 
 /// The fitness of a position: the sum of the squared residuals of the distances, in m².
-#[inline]
 fn cost(ranges: &[Range], at: Point) -> f64 {
     ranges.iter().fold(0.0, |sum, range| {
         let residual_m = range.distance_m - at.distance_m(range.anchor);

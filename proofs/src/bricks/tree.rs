@@ -4,10 +4,11 @@
 pub(super) mod checks;
 mod floors;
 mod labels;
+pub mod mdfs;
 mod state;
 mod team;
 
-use tautline_kernel::bricks::tree::{Act, Agent, Condition, Rule, View, carry_out, mdfs};
+use tautline_kernel::bricks::tree::{Act, Agent, Condition, Rule, View, carry_out};
 use tautline_kernel::bricks::tree::{Next, Notes};
 use tautline_kernel::ground::Cell;
 

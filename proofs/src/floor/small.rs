@@ -3,8 +3,8 @@
 use std::array;
 
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::floor::{Floor, Mark, Sensor, Sides, settle};
-use tautline_kernel::ground::{Cell, Edge, Side};
+use tautline_kernel::floor::{Floor, Mark, Sensor, settle};
+use tautline_kernel::ground::{Cell, Edge, Side, Step, Steps};
 
 use super::plans::{CELLS, Edges, FloorPlan};
 use crate::engine::states::Places;
@@ -16,13 +16,10 @@ pub(crate) struct Stored(u64);
 
 impl Stored {
     const NOTHING: Sensor =
-        Sensor { mark: Mark::Unexplored, crossings: 0, agents: 0, shut: Sides::NONE, claim: None, serial: 0 };
+        Sensor { mark: Mark::Unexplored, crossings: 0, agents: 0, shut: Steps::NONE, claim: None, serial: 0 };
     const MARK: u64 = 0b111;
     const CROSSINGS: u64 = Sensor { crossings: u32::MAX, ..Self::NOTHING }.to_bits();
-    const SHUT: u64 = {
-        let all = Sides::NONE.with(Side::East).with(Side::South).with(Side::West).with(Side::North);
-        Sensor { shut: all, ..Self::NOTHING }.to_bits()
-    };
+    const SHUT: u64 = Sensor { shut: Steps::ALL.without(Step::Stay), ..Self::NOTHING }.to_bits();
     /// The bits of the identifier.
     const SERIAL: u64 = u64::MAX << (u64::BITS - u8::BITS);
 
@@ -39,8 +36,8 @@ impl Stored {
         Sensor::from_bits(self.0 & Self::MARK).unwrap_or_default().mark
     }
 
-    fn shut(self) -> Sides {
-        if self.0 & Self::SHUT == 0 { Sides::NONE } else { self.sensor().shut }
+    fn shut(self) -> Steps {
+        if self.0 & Self::SHUT == 0 { Steps::NONE } else { self.sensor().shut }
     }
 
     /// Whether two floors differ in a mark or in a side that is shut.
@@ -203,7 +200,9 @@ pub(crate) fn marked(plan: &FloorPlan, sensors: &[Stored; CELLS], is: impl Fn(Ma
 /// The sides that the sensors on both sides of them say are shut.
 pub(crate) fn shut(plan: &FloorPlan, sensors: &[Stored; CELLS]) -> Edges {
     let says = |side: Side| {
-        (0..CELLS).filter(|&place| sensors[place].shut().has(side)).fold(0, |set, place| set | 1 << place)
+        (0..CELLS)
+            .filter(|&place| sensors[place].shut().has(Step::Cross(side)))
+            .fold(0, |set, place| set | 1 << place)
     };
     if sensors.iter().all(|sensor| sensor.0 & Stored::SHUT == 0) {
         return Edges::default();

@@ -4,10 +4,10 @@
 use std::cell::Cell as Counter;
 
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, TinyGrid};
-use tautline_kernel::kit::{Condition, Stance};
+use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, TinyGrid};
+use tautline_kernel::kit::{Condition, Robot, Runs, Stance};
 
-use super::world::{Demand, Part, SITUATIONS, Setting, Speeds, Turned, World};
+use super::world::{Demand, Part, SITUATIONS, Setting, Speeds, Team, Turned, World};
 use crate::engine::states::{Bits, Places, System};
 use crate::engine::world::{self, Turn};
 
@@ -55,6 +55,22 @@ impl Image {
         Cell::new(if flips_columns { last.x - x } else { x }, if flips_rows { last.y - y } else { y })
     }
 
+    /// Where a robot is taken that does not look at a side.
+    fn robot(&self, area: Area, mut robot: Robot) -> Robot {
+        let node = |node| self.node(area, node);
+        let at = robot.stance.to();
+        robot.stance = match robot.stance {
+            Stance::Stands(at) => Stance::Stands(node(at)),
+            Stance::Drives { from, to } => Stance::Drives { from: node(from), to: node(to) },
+        };
+        let side = |side| {
+            let beyond = node(at.beyond(side));
+            Side::ALL.into_iter().find(|&side| node(at).beyond(side) == beyond)
+        };
+        robot.heading = robot.heading.and_then(side);
+        robot
+    }
+
     /// Where the edges of a set are taken.
     pub(super) fn set(&self, edges: u64) -> u64 {
         let mut rest = edges;
@@ -65,6 +81,17 @@ impl Image {
         }
         image
     }
+}
+
+/// A team without what no robot asks for any more: where it went last, if it runs KIT at every node, and whether the path was
+/// new at the end of which it stands.
+pub(super) fn stripped<const ROBOTS: usize>(mut team: Team<ROBOTS>) -> Team<ROBOTS> {
+    let runs = team.rule().runs;
+    for robot in team.robots_mut() {
+        robot.is_new &= !robot.stance.stands();
+        robot.heading = robot.heading.filter(|_| runs != Runs::Every);
+    }
+    team
 }
 
 /// By what images of a state are compared: of each robot where it was, where it goes, whether it is done, whether it
@@ -102,19 +129,32 @@ impl Symmetric {
         self.drives.get()
     }
 
-    /// The image of a state.
-    fn image(&self, world: &World<2>, image: &Image, order: [usize; 2]) -> World<2> {
-        let area = self.setting.area;
-        let Some(blank) = TinyGrid::new(area) else { return *world };
-        let mut truth = blank;
-        for (edge, &taken) in self.edges.iter().zip(&image.edges) {
-            for mark in [EdgeMark::Wall, EdgeMark::Open] {
-                if world.truth.edge_has(mark, *edge) {
-                    truth.put_edge(mark, self.edges[usize::from(taken)]);
+    /// The image of a map.
+    fn map(&self, map: &TinyGrid, image: &Image) -> TinyGrid {
+        let mut taken = TinyGrid::new(self.setting.area).unwrap_or(*map);
+        for (edge, &to) in self.edges.iter().zip(&image.edges) {
+            for mark in [EdgeMark::Wall, EdgeMark::Open, EdgeMark::Virtual] {
+                if map.edge_has(mark, *edge) {
+                    taken.put_edge(mark, self.edges[usize::from(to)]);
                 }
             }
         }
-        let team = world.team.image(blank, |node| image.node(area, node), order);
+        taken
+    }
+
+    /// The image of a team, in which the robot `order[n]` has the number n.
+    fn team(&self, team: &Team<2>, image: &Image, order: [usize; 2]) -> Team<2> {
+        let mut taken = team.with_records(|robot| self.map(&team.records()[order[robot]], image));
+        for (robot, old) in taken.robots_mut().iter_mut().zip(order) {
+            *robot = image.robot(self.setting.area, team.robots()[old]);
+        }
+        let turn = team.turn().and_then(|turn| order.iter().position(|&robot| robot == turn));
+        turn.map_or(taken, |turn| taken.with_turn(turn as u8))
+    }
+
+    /// The image of a state.
+    fn image(&self, world: &World<2>, image: &Image, order: [usize; 2]) -> World<2> {
+        let (team, truth) = (self.team(&world.team, image, order), self.map(&world.truth, image));
         let swapped = |bits: u8| bits >> 1 & 1 | (bits & 1) << 1;
         let is_swapped = order == [1, 0];
         let fresh = if is_swapped { swapped(world.fresh) } else { world.fresh };
@@ -126,7 +166,7 @@ impl Symmetric {
     /// A state without what nobody asks for any more.
     fn stripped(&self, world: &World<2>) -> World<2> {
         let first = if self.setting.speeds == Speeds::Equal { world.first } else { 0 };
-        World { team: world.team.settled(), first, ..*world }
+        World { team: stripped(world.team), first, ..*world }
     }
 
     fn robots(&self, world: &World<2>, image: &Image, order: [usize; 2]) -> Robots {
@@ -146,7 +186,7 @@ impl Symmetric {
             marked.fold(0, |set: u64, (number, _)| set | 1 << number)
         };
         let truth = &world.truth;
-        let [record, _] = world.team.records();
+        let record = &world.team.records()[0];
         [set(truth, EdgeMark::Wall), set(truth, EdgeMark::Open), set(record, EdgeMark::Open)]
     }
 }
@@ -255,7 +295,8 @@ mod tests {
     use std::collections::HashSet;
     use std::time::Instant;
 
-    use tautline_kernel::kit::{Reach, Rule};
+    use tautline_kernel::ground as kernel;
+    use tautline_kernel::kit::{Next, Reach, Rule, Sight};
 
     use super::super::world::Starts;
     use super::*;
@@ -299,6 +340,36 @@ mod tests {
                 is_alike
             })
         })
+    }
+
+    /// Answers 0.
+    struct First;
+
+    impl Oracle for First {
+        fn pick(&mut self, _: u32) -> u32 {
+            0
+        }
+    }
+
+    #[test]
+    fn an_image_has_its_drives_and_walls_where_they_are_taken() {
+        let setting = Setting::new(Rule::REPAIRED, (3, 3)).expect("a lattice");
+        let lattice = Symmetric::new(setting);
+        let mut team = setting.start([Cell::new(0, 0), Cell::new(2, 0)]).expect("a start").team;
+        assert_eq!(team.decide(0, &mut First), Ok(Next::Looks(Side::East)));
+        assert_eq!(team.looked(0, Sight::Obstacle, &mut First), Ok(Next::Looks(Side::South)));
+        assert_eq!(team.looked(0, Sight::Free, &mut First), Ok(Next::Drives(Cell::new(0, 1))));
+        let turned = |flips| {
+            let is_turned = |image: &&Image| image.transposes && image.flips == flips;
+            lattice.images.iter().find(is_turned).expect("a square")
+        };
+        let image = lattice.team(&team, turned([true, false]), [1, 0]);
+        assert_eq!(image.stance(0), Some(Stance::Stands(Cell::new(2, 2))));
+        assert_eq!(image.stance(1), Some(Stance::Drives { from: Cell::new(2, 0), to: Cell::new(1, 0) }));
+        assert_eq!(image.turn(), Some(0), "the second one has the turn, and is the first now");
+        assert!(image.known(EdgeMark::Wall, Cell::new(2, 0)).has(kernel::Step::Cross(Side::South)));
+        assert!(image.known(EdgeMark::Open, Cell::new(2, 0)).has(kernel::Step::Cross(Side::West)));
+        assert_eq!(lattice.team(&image, turned([false, true]), [1, 0]), team);
     }
 
     #[test]

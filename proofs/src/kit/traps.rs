@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, HashMap};
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side, TinyGrid};
 use tautline_kernel::kit::Rule;
 
-use super::symmetry::Image;
+use super::symmetry::{Image, stripped};
 use super::world::{Answers, Setting, Speeds, World};
 
 /// What robots are to cover.
@@ -91,8 +91,8 @@ fn fate(setting: &Setting<2>, start: Cell, goal: Goal) -> [bool; FATES.len()] {
             })
         }
     };
-    let stripped = |world: World<2>| World { team: world.team.settled(), ..world };
-    let mut worlds = vec![stripped(setting.start([start; 2]).expect("a start"))];
+    let without = |world: World<2>| World { team: stripped(world.team), ..world };
+    let mut worlds = vec![without(setting.start([start; 2]).expect("a start"))];
     let mut known: HashMap<World<2>, usize> = HashMap::from([(worlds[0], 0)]);
     let mut before: Vec<Vec<usize>> = vec![Vec::new()];
     let (mut done, mut stuck) = (Vec::new(), Vec::new());
@@ -105,7 +105,7 @@ fn fate(setting: &Setting<2>, start: Cell, goal: Goal) -> [bool; FATES.len()] {
             (false, false) => {}
         }
         for turned in turns {
-            let after = stripped(turned.world);
+            let after = without(turned.world);
             let number = *known.entry(after).or_insert_with(|| {
                 worlds.push(after);
                 before.push(Vec::new());

@@ -171,7 +171,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     /// The start with the robots at these nodes, if the rule lets them start there.
     pub fn start(&self, cells: [Cell; ROBOTS]) -> Option<World<ROBOTS>> {
         let map = TinyGrid::new(self.area)?;
-        let team = Team::new(self.rule, map, cells).ok()?;
+        let team = Team::new(self.rule, map, &cells).ok()?;
         Some(World { team, truth: map, walls: 0, fresh: 0, first: 0 })
     }
 
@@ -347,15 +347,14 @@ impl<const ROBOTS: usize> System for Setting<ROBOTS> {
         match part {
             Part::Map(map) if place == ROBOTS => state.truth = *map,
             Part::Map(map) => {
-                let mut records = *state.team.records();
-                records[place] = *map;
-                state.team = state.team.with_records(records);
+                let team = state.team;
+                let record = |robot| if robot == place { *map } else { team.records()[robot] };
+                state.team = team.with_records(record);
             }
             Part::Rest(rest) => {
-                let (records, truth) = (*state.team.records(), state.truth);
-                *state = **rest;
-                state.team = state.team.with_records(records);
-                state.truth = truth;
+                let World { team, truth, .. } = *state;
+                *state =
+                    World { team: rest.team.with_records(|robot| team.records()[robot]), truth, ..**rest };
             }
         }
     }
@@ -386,6 +385,6 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     /// `world` without its maps.
     fn bare(&self, world: &World<ROBOTS>) -> World<ROBOTS> {
         let blank = TinyGrid::new(self.area).unwrap_or(world.truth);
-        World { team: world.team.with_records([blank; ROBOTS]), truth: blank, ..*world }
+        World { team: world.team.with_records(|_| blank), truth: blank, ..*world }
     }
 }

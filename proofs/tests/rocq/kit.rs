@@ -3,7 +3,7 @@
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, MediumGrid, Step};
-use tautline_kernel::kit::{Condition, Kit, Next, Rule, Sight, Stance, in_reach};
+use tautline_kernel::kit::{Condition, Kit, Next, Reach, Rule, Sight, Stance};
 
 use super::term::{at, bits, definition, everywhere, offsets};
 
@@ -46,7 +46,7 @@ fn drives(rule: Rule) -> [String; 2] {
     let here = Cell::new(7, 7);
     for (offset, there) in offsets(REACH).flat_map(|offset| Step::ALL.map(move |there| (offset, there))) {
         let map = MediumGrid::new(area).expect("it is small");
-        let kit = Pair::new(rule, map, [at(here, offset), here]).ok().filter(|_| offset != (0, 0));
+        let kit = Pair::new(rule, map, &[at(here, offset), here]).ok().filter(|_| offset != (0, 0));
         let kit = kit.and_then(|kit| comes_to(&kit, stance(at(here, offset), there)));
         for side in Step::ALL.into_iter().filter(|&step| step != Step::Stay) {
             asked.push(kit.is_some());
@@ -69,8 +69,8 @@ fn comes_to(kit: &Pair, wanted: Stance) -> Option<Pair> {
 }
 
 pub(super) fn terms() -> String {
-    let in_reach: Vec<bool> =
-        offsets(REACH).map(|offset| everywhere(|cell| in_reach(cell, at(cell, offset)))).collect();
+    let is_in_reach = |offset| everywhere(|cell| Reach::PAPER.joins(cell, at(cell, offset)));
+    let in_reach: Vec<bool> = offsets(REACH).map(is_in_reach).collect();
     let mut text = definition("reach", "Z", &format!("{REACH}%Z"));
     text += &definition("reached", "N", &bits(&in_reach));
     text += &definition("sure", "N", &of_stances(Stance::is_sure_of));

@@ -13,7 +13,6 @@ use tautline_kernel::chain::Kind;
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::floor::{Claim, Mark, Scan, Sensor, settle};
 use tautline_kernel::ground::{Cell, Edge, Step};
-use tautline_kernel::perception::time;
 pub use tautline_proofs::floor::trap::Way;
 use tautline_proofs::run::Frame;
 
@@ -21,6 +20,7 @@ use super::clause::ClauseId;
 use super::floor::{self, Component, SensorFloor, Stored, is_visited};
 use super::run::{End, Team};
 use super::run_config::Look;
+use super::scan_time;
 use super::scene::{Layer, Scene};
 use super::setup::{By, Drawn, Profile, Senses, Setup, Starts};
 use super::survey::Survey;
@@ -208,8 +208,8 @@ struct Body<M> {
 /// How long an agent scans and goes in a team move, by the paper's means.
 fn milliseconds(scan: &Scan, step: Step) -> u64 {
     u64::from(match step {
-        Step::Cross(_) => time::step_milliseconds(scan.detected),
-        Step::Stay => time::scan_milliseconds(scan.detected),
+        Step::Cross(_) => scan_time::step_milliseconds(scan.detected),
+        Step::Stay => scan_time::scan_milliseconds(scan.detected),
     })
 }
 

@@ -155,7 +155,7 @@ fn pace(setup: &Setup) -> Pace {
 /// The fault of a team that is refused.
 fn fault(refused: Refused) -> Diagnostic {
     let (field, remedy) = match refused {
-        Refused::Robots(_) => ("robots", format!("give `robots` a number from 1 to {MOST_ROBOTS}")),
+        Refused::Robots { .. } => ("robots", format!("give `robots` a number from 1 to {MOST_ROBOTS}")),
         Refused::TooManyNodes { .. } => ("layout", "take a layout of at most 64 columns and rows".to_owned()),
         Refused::ShortReach(_) => ("range", "leave `range` out, or give `robots` 1 or 2".to_owned()),
         Refused::Outside(_) | Refused::OneNode(_) | Refused::OutOfContact(_) => {

@@ -80,7 +80,6 @@ impl Note {
     pub const MOST_CROSSINGS: u16 = (1 << 11) - 1;
 
     /// The cell as other schemes name it: one of a tree is explored.
-    #[inline]
     pub const fn mark(self) -> Mark {
         match self.state {
             State::Unexplored => Mark::Unexplored,
@@ -90,46 +89,39 @@ impl Note {
     }
 
     /// Whether an agent has just placed it, and no other has been here since.
-    #[inline]
     pub const fn is_new(self) -> bool {
         self.crossings == 1
     }
 
     /// Whether the cell, beyond `side` of another, is a child of that one.
-    #[inline]
     pub fn is_child_beyond(self, side: Side) -> bool {
         self.state == State::Open && self.side == Some(side.opposite())
     }
 
     /// The label, if the cell belongs to a tree.
-    #[inline]
     pub fn tree(self) -> Option<Label> {
         (self.state == State::Open).then_some(self.label)
     }
 
     /// What it stores as a cell of the tree `label`, with its parent beyond `side`.
-    #[inline]
     #[must_use]
     pub const fn of_tree(self, label: Label, side: Option<Side>) -> Self {
         Self { state: State::Open, label, side, ..self }
     }
 
     /// The same so deep in its tree, at most as deep as fits.
-    #[inline]
     #[must_use]
     pub const fn at_depth(self, depth: u32) -> Self {
         Self { depth: if depth < Label::TREES { depth } else { Label::TREES - 1 }, ..self }
     }
 
     /// What it stores once it is done with, `side` leading to where more is left to do.
-    #[inline]
     #[must_use]
     pub const fn visited(self, side: Option<Side>) -> Self {
         Self { state: State::Visited, label: Label(0), side, depth: 0, ..self }
     }
 
     /// What it stores once one agent more has entered.
-    #[inline]
     pub(super) const fn entered(self) -> Self {
         let crossings =
             if self.crossings < Self::MOST_CROSSINGS { self.crossings + 1 } else { self.crossings };
@@ -141,7 +133,6 @@ impl Note {
     }
 
     /// All that it stores but its depth, in the lowest [`Note::BITS`] bits.
-    #[inline]
     pub const fn to_bits(self) -> u64 {
         let side = match self.side {
             None => 0,
@@ -151,7 +142,6 @@ impl Note {
     }
 
     /// The sensor that stores `bits`, and no depth; `None` if no sensor does.
-    #[inline]
     pub const fn from_bits(bits: u64) -> Option<Self> {
         let state = match bits & 0b11 {
             0 => State::Unexplored,
@@ -179,7 +169,6 @@ impl Note {
 
 /// In two words, not field by field: searches spend much of their time hashing floors.
 impl Hash for Note {
-    #[inline]
     fn hash<H: Hasher>(&self, hasher: &mut H) {
         hasher.write_u64(self.to_bits());
         hasher.write_u32(self.depth);

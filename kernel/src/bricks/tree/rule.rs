@@ -2,30 +2,31 @@
 
 use crate::conditions;
 
-/// One condition of the rule, by the sentence it stands for.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Condition {
-    /// An agent marks its cell as soon as the cell does not block (BRICKS-1), and a cell joins a tree only if it blocks.
-    Bricks,
-    /// A cell that has a child is not marked.
-    Childless,
-    /// A cell of a tree is marked only if all cells of trees beside it are of its own.
-    OneLabel,
-    /// A cell becomes another one's child only if it belongs to no tree, or to one with a lower label.
-    LowerOnly,
-    /// A cell that is marked says which side leads to where more is left to do.
-    Exit,
-    /// Robustness: an agent remembers which cells around it have sensors. What reads as unexplored and is none it scans again.
-    Remembers,
-    /// Robustness: an agent that has come into a cell places a sensor only if there is none underfoot.
-    Underfoot,
-    /// Robustness: a cell of a tree stores how deep it is, and one whose children are less deep than its own children would be, or
-    /// have a greater label, has been replaced: it is made their parent again.
-    Restores,
+conditions! {
+    /// One condition of the rule, by the sentence it stands for.
+    #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+    pub enum Condition of Rule {
+        /// An agent marks its cell as soon as the cell does not block (BRICKS-1), and a cell joins a tree only if it
+        /// blocks.
+        Bricks,
+        /// A cell that has a child is not marked.
+        Childless,
+        /// A cell of a tree is marked only if all cells of trees beside it are of its own.
+        OneLabel,
+        /// A cell becomes another one's child only if it belongs to no tree, or to one with a lower label.
+        LowerOnly,
+        /// A cell that is marked says which side leads to where more is left to do.
+        Exit,
+        /// Robustness: an agent remembers which cells around it have sensors. What reads as unexplored and is none it
+        /// scans again.
+        Remembers,
+        /// Robustness: an agent that has come into a cell places a sensor only if there is none underfoot.
+        Underfoot,
+        /// Robustness: a cell of a tree stores how deep it is, and one whose children are less deep than its own
+        /// children would be, or have a greater label, has been replaced: it is made their parent again.
+        Restores,
+    }
 }
-
-conditions!(Condition);
 
 /// The rule of a team of agents.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -58,16 +59,13 @@ impl Rule {
     pub const HELPERS: Self = Self::TREE.without(Condition::Bricks);
 
     /// Helpers, robust against missed sensors.
-    pub const ROBUST: Self = Self {
-        conditions: Self::HELPERS.conditions.with(Condition::Remembers).with(Condition::Underfoot),
-        ..Self::TREE
-    };
+    pub const ROBUST: Self = Self::HELPERS.with(Condition::Remembers).with(Condition::Underfoot);
 
     /// Helpers that place sensors unasked, as the paper's agents do, and doubt what they miss: being done is likely to be right.
     pub const DOUBTING: Self = Self {
-        conditions: Self::HELPERS.conditions.with(Condition::Remembers).with(Condition::Restores),
         label_bits: 24,
         readings: 3,
+        ..Self::HELPERS.with(Condition::Remembers).with(Condition::Restores)
     };
 
     /// The most scans that an agent counts for a cell.
@@ -77,16 +75,5 @@ impl Rule {
     #[must_use]
     pub const fn reading(self, readings: u8) -> Self {
         Self { readings, ..self }
-    }
-
-    /// The rule without `condition`.
-    pub const fn without(self, condition: Condition) -> Self {
-        Self { conditions: self.conditions.without(condition), ..self }
-    }
-
-    /// Whether `condition` is in force.
-    #[inline]
-    pub const fn has(self, condition: Condition) -> bool {
-        self.conditions.has(condition)
     }
 }

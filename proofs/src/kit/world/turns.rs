@@ -146,11 +146,9 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     pub(in crate::kit) fn settled(&self, mut world: World<ROBOTS>) -> World<ROBOTS> {
         if self.rule.records == Records::Union {
             let blank = TinyGrid::new(self.area).unwrap_or(world.truth);
-            let mut records = [blank; ROBOTS];
-            for record in world.team.records() {
-                records[0].add_edges(record);
-            }
-            world.team = world.team.with_records(records);
+            let mut union = blank;
+            world.team.records().iter().for_each(|record| union.add_edges(record));
+            world.team = world.team.with_records(|robot| if robot == 0 { union } else { blank });
         }
         world
     }

@@ -1,9 +1,10 @@
 //! What tells one state from another: its parts, with epochs by their order among those of the same WFR.
 
+use std::array;
 use std::hash::{Hash, Hasher};
 
-use tautline_kernel::mrc::{Bid, Robot, Task, Wfr};
-use tautline_kernel::net::{Call, Epoch};
+use tautline_kernel::mrc::{Bid, Condition, Phase, Request, Robot, Task, Wfr};
+use tautline_kernel::net::{Call, Epoch, NodeId, RobotId};
 
 use super::action::Message;
 use super::demand::Notes;
@@ -62,15 +63,15 @@ impl State {
     /// look at. Then states that differ in no other way are one. What comes of them is one, too.
     pub(in crate::mrc) fn make_canonical(&mut self) {
         for robot in (0..ROBOTS).filter(|&robot| self.failed[robot]) {
-            self.robots[robot] = self.robots[robot].anew();
+            self.robots[robot] = Robot::new(*self.robots[robot].rule(), self.robots[robot].id());
             self.cut[robot] = [None; WFRS];
         }
         for wfr in (0..WFRS).filter(|&wfr| !self.wfrs[wfr].is_waiting()) {
             self.notes.taken.iter_mut().for_each(|taken| taken[wfr] = None);
         }
         if self.is_renamed() {
-            self.robots.iter_mut().for_each(|robot| *robot = robot.renamed(|call| call));
-            self.wfrs.iter_mut().for_each(|wfr| *wfr = wfr.renamed(|call| call));
+            self.robots.iter_mut().for_each(|robot| *robot = renamed_robot(robot, |call| call));
+            self.wfrs.iter_mut().for_each(|wfr| *wfr = renamed_wfr(wfr, |call| call));
         } else {
             *self = self.renamed();
         }
@@ -177,8 +178,8 @@ impl State {
                 taken[wfr] = taken[wfr].filter(|&of| of == current).map(|of| epoch(wfr, of));
             }
         }
-        state.robots.iter_mut().for_each(|robot| *robot = robot.renamed(rename));
-        state.wfrs.iter_mut().for_each(|wfr| *wfr = wfr.renamed(rename));
+        state.robots.iter_mut().for_each(|robot| *robot = renamed_robot(robot, rename));
+        state.wfrs.iter_mut().for_each(|wfr| *wfr = renamed_wfr(wfr, rename));
         state.network.iter_mut().for_each(|message| *message = message.renamed(rename));
         state
     }
@@ -268,5 +269,105 @@ impl Hash for State {
     fn hash<H: Hasher>(&self, hasher: &mut H) {
         let state = self.canonical();
         (0..Self::PARTS).for_each(|place| state.part(place).hash(hasher));
+    }
+}
+
+/// The robot with the calls that it knows under other epochs, and its records in the order of their WFRs where ties are
+/// settled by identity. Rules compare epochs of one WFR and do nothing else with them, and the order of records tells
+/// which one goes when the table is full: if `rename` keeps the order of epochs and there are at most `CALLS` WFRs, the
+/// robot goes on as before.
+fn renamed_robot<const CALLS: usize>(robot: &Robot<CALLS>, rename: impl Fn(Call) -> Call) -> Robot<CALLS> {
+    let mut heard = robot.requests().map(|&request| Request { call: rename(request.call), ..request });
+    let mut requests: [Option<Request>; CALLS] = array::from_fn(|_| heard.next());
+    if robot.rule().has(Condition::LeastIdentity) {
+        requests.sort_unstable_by_key(|request| match request {
+            Some(Request { call, .. }) => (false, call.wfr),
+            None => (true, NodeId(0)),
+        });
+    }
+    let task = match robot.task() {
+        Task::Free => Task::Free,
+        Task::Asking { call, repeats_left } => Task::Asking { call: rename(call), repeats_left },
+        Task::Leased { call } => Task::Leased { call: rename(call) },
+    };
+    Robot::kept(*robot.rule(), robot.id(), requests, task)
+}
+
+/// The WFR with its call under another epoch and without what plays no part any more: in which order robots have asked,
+/// which ones if none of them is told again, and by whom it was rescued. If `rename` keeps the order of epochs, the WFR
+/// goes on as before.
+fn renamed_wfr<const ROBOTS: usize>(wfr: &Wfr<ROBOTS>, rename: impl Fn(Call) -> Call) -> Wfr<ROBOTS> {
+    let tells_again = match wfr.phase() {
+        Phase::Idle | Phase::Collecting { .. } => true,
+        Phase::Offered { .. } | Phase::Leased { .. } => !wfr.rule().has(Condition::ChoiceStands),
+        Phase::Rescued { .. } => false,
+    };
+    let mut heard = wfr.asked().filter(|_| tells_again);
+    let mut asked: [Option<RobotId>; ROBOTS] = array::from_fn(|_| heard.next());
+    asked.sort_unstable_by_key(|robot| (robot.is_none(), *robot));
+    let phase = match wfr.phase() {
+        Phase::Rescued { .. } => Phase::Rescued { by: RobotId(0) },
+        phase @ (Phase::Idle | Phase::Collecting { .. } | Phase::Offered { .. } | Phase::Leased { .. }) => {
+            phase
+        }
+    };
+    Wfr::kept(*wfr.rule(), rename(wfr.call()), phase, asked)
+}
+
+#[cfg(test)]
+mod tests {
+    use tautline_kernel::mrc::{Downward, Rule, Upward, Word};
+    use tautline_kernel::net::Notice;
+
+    use super::*;
+
+    const fn call(wfr: u32, epoch: u32) -> Call {
+        Call { wfr: NodeId(wfr), epoch: Epoch(epoch) }
+    }
+
+    #[test]
+    fn records_are_put_in_order_where_ties_are_settled_by_identity() {
+        let notice = |call, hops| Downward::Notice(Notice { call, hops, sender: NodeId(3) });
+        let heard = [notice(call(9, 4), 1), notice(call(8, 7), 6)];
+        let earlier = |Call { wfr, epoch }| Call { wfr, epoch: Epoch(epoch.0 - 3) };
+        let by_first_heard = Rule::REPAIRED.without(Condition::LeastIdentity);
+        let in_order =
+            [(Rule::REPAIRED, [call(8, 4), call(9, 1)]), (by_first_heard, [call(9, 1), call(8, 4)])];
+        for (rule, calls) in in_order {
+            let fresh = Robot::<2>::new(rule, RobotId(5));
+            let robot = heard.iter().fold(fresh, |robot, &message| robot.receive(message).0);
+            let renamed = renamed_robot(&robot, earlier);
+            assert!(renamed.requests().map(|request| request.call).eq(calls));
+            assert!(matches!(renamed.task(), Task::Asking { call: asked, .. } if asked == call(9, 1)));
+            let one = fresh.receive(heard[0]).0;
+            assert_eq!(renamed_robot(&one, |call| call), one);
+        }
+    }
+
+    #[test]
+    fn who_has_asked_is_kept_in_order_as_long_as_somebody_is_told_again() {
+        let same = |wfr: Wfr<2>| renamed_wfr(&wfr, |call| call);
+        let asked = |wfr: Wfr<2>| -> [Option<RobotId>; 2] {
+            let renamed = same(wfr);
+            let mut asked = renamed.asked();
+            array::from_fn(|_| asked.next())
+        };
+        let up = |robot, word| Upward { call: call(7, 1), robot: RobotId(robot), word, parent: NodeId(7) };
+        let both = [Some(RobotId(1)), Some(RobotId(2))];
+        let stands = (Rule::REPAIRED, [None, None]);
+        for (rule, told) in [stands, (Rule::REPAIRED.without(Condition::ChoiceStands), both)] {
+            let raised = Wfr::<2>::new(rule, NodeId(7)).raise().0;
+            let bids = [2, 1].map(|robot| up(robot, Word::Move { hops: 3 }));
+            let collecting = bids.into_iter().fold(raised, |wfr, bid| wfr.receive(bid).0);
+            assert_eq!((asked(collecting), same(collecting).call()), (both, collecting.call()));
+            let offered = collecting.expire(collecting.timer().expect("a window")).0;
+            let leased = offered.receive(up(1, Word::Accept)).0;
+            let phases = (offered.phase(), leased.phase());
+            assert!(matches!(phases, (Phase::Offered { .. }, Phase::Leased { .. })));
+            assert_eq!((asked(offered), asked(leased)), (told, told));
+            let rescued = [RobotId(1), RobotId(2)].map(|by| same(leased.reach(by)));
+            assert_eq!((asked(rescued[0]), rescued[0]), ([None, None], rescued[1]));
+            assert!(matches!(rescued[0].phase(), Phase::Rescued { .. }));
+        }
     }
 }

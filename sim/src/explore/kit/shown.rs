@@ -1,7 +1,7 @@
 //! What a page shows of robots that keep in touch: the radio circle, who hears whom at all speeds, each robot's record,
 //! and who asks before it drives.
 
-use tautline_kernel::kit::in_reach;
+use tautline_kernel::kit::Reach;
 
 use crate::explore::{Change, Hearers, Ink, Joins, Kind, Layer, Place, Scene, Shape, Value, Zone};
 use crate::kit::{Course, Drive, PATH_MILLIMETRES, REACH_MILLIMETRES};
@@ -21,7 +21,11 @@ const DRIVEN: u8 = 1;
 const BLOCKED: u8 = 2;
 
 pub(super) fn layers() -> Vec<Layer> {
-    const REACH: Zone = Zone { name: "in reach", about: "at most 10 m from node to node", has: in_reach };
+    const REACH: Zone = Zone {
+        name: "in reach",
+        about: "at most 10 m from node to node",
+        has: |one, other| Reach::PAPER.joins(one, other),
+    };
     const RECORD: &[Value] =
         &[Value { name: "driven", ink: Ink::Open }, Value { name: "seen blocked", ink: Ink::Wall }];
     let layer = |name, about: &str, shape| Layer { name, about: about.to_owned(), shape };

@@ -1,14 +1,11 @@
 //! Multiple depth first search, the rival that Brick&Mortar was first compared with: each agent has a tree of its own, and
 //! an agent with no way on takes itself for done. Our reading of a rule that the text we have names and does not print.
 
-use super::agent::{Act, Next};
-use super::note::{Label, State};
-use super::view::View;
-use crate::ground::Side;
+use tautline_kernel::bricks::tree::{Act, Label, Next, State, View};
+use tautline_kernel::ground::Side;
 
 /// An agent: its id, and the side that it went through last.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Agent {
     /// No two agents have the same.
     pub id: u8,
