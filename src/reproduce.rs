@@ -206,8 +206,8 @@ impl FromArgMatches for Wanted {
                 Some((option.name.to_owned(), texts.cloned().collect()))
             }
         };
-        let picture = |(name, _): (&'static str, _)| (name, matches.get_one::<PathBuf>(name).cloned());
-        let pictures: (Vec<_>, Vec<_>) = table.pictures().into_iter().map(picture).unzip();
+        let picture = |&(name, _): &(&'static str, _)| (name, matches.get_one::<PathBuf>(name).cloned());
+        let pictures: (Vec<_>, Vec<_>) = table.about().pictures.iter().map(picture).unzip();
         let dealt =
             matches.get_one::<PathBuf>("plan").cloned().zip(matches.get_one::<u32>("shards").copied());
         Ok(Self {
@@ -231,8 +231,7 @@ impl FromArgMatches for Wanted {
 fn subcommand(table: &'static dyn Entry) -> Command {
     let options = table.options().into_iter().map(|(option, default)| argument(table, option, default));
     let mut command = Command::new(table.about().id).args(options);
-    let pictures = table.pictures();
-    let picture = |(name, about)| {
+    let picture = |&(name, about): &(&'static str, &'static str)| {
         let path = clap::value_parser!(PathBuf);
         Arg::new(name).long(name).value_name("FILE").help(about).value_parser(path)
     };
@@ -241,7 +240,7 @@ fn subcommand(table: &'static dyn Entry) -> Command {
     let plan = plan.value_parser(clap::value_parser!(PathBuf));
     let shards =
         Arg::new("shards").long("shards").value_name("N").requires("plan").value_parser(whole::<u32>);
-    command = command.args(pictures.into_iter().map(picture)).args([
+    command = command.args(table.about().pictures.iter().map(picture)).args([
         csv.help("Store the values of the table as comma-separated values"),
         plan.help("Measure nothing yet, but store a plan in FILE"),
         shards.help("Deal the jobs out among N shards, each to be run on any machine"),

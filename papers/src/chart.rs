@@ -4,6 +4,7 @@
 
 use std::fmt::Write;
 
+use tautline_field::stats::Estimate;
 use tautline_sim::draw::svg::{MARGIN, SERIES, SERIES_STYLE, document, escaped, text_width};
 
 /// The size of the area of the points.
@@ -93,6 +94,30 @@ pub struct Point {
     pub interval: Option<[f64; 2]>,
 }
 
+impl Series {
+    /// A series of points that are measured.
+    pub fn measured(name: impl Into<String>, points: impl IntoIterator<Item = Point>) -> Self {
+        Self { name: name.into(), stroke: Stroke::Solid, points: points.into_iter().collect() }
+    }
+
+    /// A series of points that a paper prints.
+    pub fn printed(name: impl Into<String>, points: impl IntoIterator<Item = Point>) -> Self {
+        Self { stroke: Stroke::Dashed, ..Self::measured(name, points) }
+    }
+}
+
+impl Point {
+    /// A point without an interval.
+    pub const fn plain(x: f64, y: f64) -> Self {
+        Self { x, y, interval: None }
+    }
+
+    /// A mean or a share with its interval, at `x`.
+    pub const fn of(x: f64, estimate: Estimate) -> Self {
+        Self { x, y: estimate.mean, interval: estimate.interval }
+    }
+}
+
 impl Axis {
     /// An axis of `name` in `unit`, as long as the points need.
     pub fn new(name: impl Into<String>, unit: impl Into<String>) -> Self {
@@ -113,6 +138,18 @@ impl Axis {
 }
 
 impl LineChart {
+    /// A chart of these series.
+    pub fn new(title: impl Into<String>, x: Axis, y: Axis, series: impl IntoIterator<Item = Series>) -> Self {
+        Self { title: title.into(), x, y, series: series.into_iter().collect() }
+    }
+
+    /// The chart without series that have no point.
+    #[must_use]
+    pub fn without_empty(mut self) -> Self {
+        self.series.retain(|series| !series.points.is_empty());
+        self
+    }
+
     /// The whole picture.
     pub fn svg(&self) -> String {
         let across =

@@ -3,13 +3,11 @@
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Serialize};
 use tautline_proofs::chain::reach::CellSet;
 
+use super::super::prelude::*;
 use super::area::{Area, WallSet, solve};
 use super::{Line, Worst};
-use tautline_field::stats::hundredths;
-use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::{RuleName, Survey, explore};
 
 /// Sums over layouts.
