@@ -104,6 +104,15 @@ impl Series {
     pub fn printed(name: impl Into<String>, points: impl IntoIterator<Item = Point>) -> Self {
         Self { stroke: Stroke::Dashed, ..Self::measured(name, points) }
     }
+
+    /// The points that can be drawn. An interval that cannot be drawn is left out.
+    fn shown(&self) -> impl Iterator<Item = Point> {
+        let points = self.points.iter().filter(|point| is_drawn(point.x) && is_drawn(point.y));
+        points.map(|&point| Point {
+            interval: point.interval.filter(|ends| ends.iter().all(|&end| is_drawn(end))),
+            ..point
+        })
+    }
 }
 
 impl Point {
@@ -152,11 +161,10 @@ impl LineChart {
 
     /// The whole picture.
     pub fn svg(&self) -> String {
-        let across =
-            Scale::of(self.shown().map(|(_, point)| point.x).chain(self.x.shows.iter().copied()), WIDTH);
-        let up = self
-            .shown()
-            .flat_map(|(_, point)| [point.y].into_iter().chain(point.interval.into_iter().flatten()));
+        let shown = || self.series.iter().flat_map(Series::shown);
+        let across = shown().map(|point| point.x);
+        let up = shown().flat_map(|point| [Some([point.y; 2]), point.interval]).flatten().flatten();
+        let across = Scale::of(across.chain(self.x.shows.iter().copied()), WIDTH);
         let up = Scale::of(up.chain(self.y.shows.iter().copied()), HEIGHT);
 
         let (title, x_name, y_name) = (escaped(&self.title), self.x.words(), self.y.words());
@@ -177,9 +185,7 @@ impl LineChart {
                 Stroke::Dashed => 0,
             };
             let look = solid.saturating_sub(1);
-            let points: Vec<Point> =
-                self.shown().filter(|&(of, _)| of == place).map(|(_, point)| point).collect();
-            let _ = writeln!(body, "{}", drawn(look, series, points, &across, &up));
+            let _ = writeln!(body, "{}", drawn(look, series, &across, &up));
             let y = below + LINE * place as i32;
             let sample = legend(look, series);
             let _ = writeln!(body, "<g transform=\"translate(0,{y})\">{sample}</g>");
@@ -200,22 +206,6 @@ impl LineChart {
             (width, top + below + LINE * self.series.len() as i32),
             &body,
         )
-    }
-
-    /// The points that can be drawn, with the places of their series. An interval that cannot be drawn is left out.
-    fn shown(&self) -> impl Iterator<Item = (usize, Point)> {
-        let of_series = self.series.iter().enumerate();
-        let points =
-            of_series.flat_map(|(place, series)| series.points.iter().map(move |&point| (place, point)));
-        points.filter(|(_, point)| is_drawn(point.x) && is_drawn(point.y)).map(|(place, point)| {
-            (
-                place,
-                Point {
-                    interval: point.interval.filter(|ends| ends.iter().all(|&end| is_drawn(end))),
-                    ..point
-                },
-            )
-        })
     }
 }
 
@@ -315,7 +305,8 @@ fn axes(across: &Scale, up: &Scale) -> String {
 }
 
 /// A series: its intervals, its line and its marks.
-fn drawn(look: usize, series: &Series, mut points: Vec<Point>, across: &Scale, up: &Scale) -> String {
+fn drawn(look: usize, series: &Series, across: &Scale, up: &Scale) -> String {
+    let mut points: Vec<Point> = series.shown().collect();
     points.sort_by(|one, other| one.x.total_cmp(&other.x));
     let (mut line, mut intervals, mut marks) = (String::new(), String::new(), String::new());
     for point in points {

@@ -31,7 +31,7 @@ pub struct Team {
     /// Its rule.
     pub rule: RuleId,
     #[serde(skip)]
-    way: Explorer,
+    pub(super) way: Explorer,
 }
 
 /// How the agents of a team decide.
@@ -41,15 +41,13 @@ pub(super) enum Explorer {
     Trees(tree::Way),
 }
 
+/// How likely a sensor is missed, and the seed of what is left to chance.
+type Chance = (Probability, u64);
+
 impl Explorer {
     /// A run of agents that start in these cells of `layout`, of at most so many steps of all of them.
-    pub(super) fn run(
-        self,
-        layout: &Layout,
-        starts: &[Cell],
-        (miss, seed): (Probability, u64),
-        max_steps: u32,
-    ) -> Outcome {
+    pub(super) fn run(self, layout: &Layout, starts: &[Cell], chance: Chance, max_steps: u32) -> Outcome {
+        let (miss, seed) = chance;
         match self {
             Self::Marks(way) => follow(explore::Agents::new(way, layout, starts, miss, seed), max_steps),
             Self::Trees(way) => follow(explore::Agents::new(way, layout, starts, miss, seed), max_steps),
@@ -62,15 +60,12 @@ impl Team {
         Self { scheme, rule, way }
     }
 
-    /// A run of its agents, as [`Explorer::run`] has it.
-    pub(super) fn run(
-        self,
-        layout: &Layout,
-        starts: &[Cell],
-        chance: (Probability, u64),
-        max_steps: u32,
-    ) -> Outcome {
-        self.way.run(layout, starts, chance, max_steps)
+    /// Its name: the scheme, with its rule where that is not the repaired one.
+    pub fn name(self) -> String {
+        match self.rule {
+            RuleId::REPAIRED => self.scheme.name.to_owned(),
+            rule => format!("{} ({rule})", self.scheme.name),
+        }
     }
 }
 
@@ -259,11 +254,7 @@ impl Outcome {
     }
 
     /// The mean of that over the runs that have such a moment.
-    pub(super) fn mean_ratio(
-        all: &[&Self],
-        of: fn(&Self) -> Option<Moment>,
-        agents: u16,
-    ) -> Option<Estimate> {
+    pub(super) fn ratios(all: &[&Self], of: fn(&Self) -> Option<Moment>, agents: u16) -> Option<Estimate> {
         mean(all.iter().filter_map(|outcome| outcome.ratio(of(outcome), agents)))
     }
 }
@@ -291,7 +282,7 @@ impl Table for Agents {
         let layout = generated(&format!("office:{side}x{side}:4x4"), seed)?;
         let starts = vec![fit(layout.default_base())?; agents.into()];
         let chance = (self.figure.miss(), seed);
-        Ok(TEAMS.map(|team| team.run(&layout, &starts, chance, settings.max_steps)))
+        Ok(TEAMS.map(|team| team.way.run(&layout, &starts, chance, settings.max_steps)))
     }
 
     fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
@@ -338,16 +329,6 @@ fn follow<K: Crew>(mut team: explore::Agents<K>, max_steps: u32) -> Outcome {
     }
 }
 
-impl Team {
-    /// Its name: the scheme, with its rule where that is not the repaired one.
-    pub fn name(self) -> String {
-        match self.rule {
-            RuleId::REPAIRED => self.scheme.name.to_owned(),
-            rule => format!("{} ({rule})", self.scheme.name),
-        }
-    }
-}
-
 impl Line {
     fn of(team: Team, side: u16, agents: u16, outcomes: &[&Outcome]) -> Option<Self> {
         let percent = |number: fn(&Outcome) -> u32| {
@@ -371,11 +352,10 @@ impl Line {
 }
 
 impl Duration {
-    #[expect(clippy::cast_precision_loss, reason = "no run takes 2⁵³ milliseconds")]
     fn of(moments: impl Iterator<Item = Moment> + Clone) -> Option<Self> {
         Some(Self {
             team_moves: mean(moments.clone().map(|moment| f64::from(moment.team_moves)))?,
-            seconds: mean(moments.map(|moment| moment.milliseconds as f64 / 1000.0))?,
+            seconds: mean(moments.map(|moment| seconds(moment.milliseconds)))?,
         })
     }
 }

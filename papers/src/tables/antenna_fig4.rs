@@ -226,17 +226,13 @@ impl Table for AntennaFig4 {
     }
 
     fn draw(&self, _: usize, _: &Settings, merged: &Merged) -> Result<String, Halt> {
-        Ok(chart(merged).svg())
+        let point = |angle: &Angle| Some(chart::Point::plain(angle.degrees.into(), angle.level_db?));
+        let chart = LineChart::new(
+            format!("What a robot hears of a node {} m off", merged.distance_m),
+            Axis::new("angle between antenna and node", "degrees").showing([-180.0, 180.0]),
+            Axis::new("above the weakest signal heard all round", "dB").showing([0.0, 10.0]),
+            [Series::measured("directional antenna", merged.pattern.iter().filter_map(point))],
+        );
+        Ok(chart.svg())
     }
-}
-
-/// The pattern as a chart.
-fn chart(merged: &Merged) -> LineChart {
-    let point = |angle: &Angle| Some(chart::Point::plain(angle.degrees.into(), angle.level_db?));
-    LineChart::new(
-        format!("What a robot hears of a node {} m off", merged.distance_m),
-        Axis::new("angle between antenna and node", "degrees").showing([-180.0, 180.0]),
-        Axis::new("above the weakest signal heard all round", "dB").showing([0.0, 10.0]),
-        [Series::measured("directional antenna", merged.pattern.iter().filter_map(point))],
-    )
 }

@@ -1,8 +1,6 @@
 //! The atlas of the chain: for each rule and number of robots, what becomes of all runs in all layouts within a bound
 //! on the walls met. All counts are exact.
 
-use std::fmt::Write;
-
 use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::chain::invariant::Invariant;
@@ -45,12 +43,8 @@ impl Depth {
     }
 }
 
-/// One rule on one sheet.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-pub struct Job {
-    sheet: Sheet,
-    rule: RuleName,
-}
+/// A sheet, and a rule on it.
+type Job = (Sheet, RuleName);
 
 /// What a search found.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
@@ -208,12 +202,10 @@ impl Table for Atlas {
     }
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
-        let jobs = pairs(settings.depth.sheets(), RuleName::ALL);
-        Ok(jobs.map(|(sheet, rule)| Job { sheet, rule }).collect())
+        Ok(pairs(settings.depth.sheets(), RuleName::ALL).collect())
     }
 
-    fn measure(&self, _: &Settings, job: &Job, observer: &dyn Observer) -> Result<Searched, Halt> {
-        let Job { sheet, rule } = *job;
+    fn measure(&self, _: &Settings, &(sheet, rule): &Job, observer: &dyn Observer) -> Result<Searched, Halt> {
         let mut bounds = Bounds::new(rule.observed(), sheet.robots.into(), sheet.max_walls);
         if sheet.reach == Reach::Counted {
             bounds.invariants.push(Invariant::Exhausts);
@@ -235,7 +227,7 @@ impl Table for Atlas {
     }
 
     fn merge(&self, _: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
-        let line = |(Job { sheet, rule }, searched): (Job, Searched)| {
+        let line = |((sheet, rule), searched): (Job, Searched)| {
             let Searched { edges, runs, moves, longest, broken } = searched;
             let Sheet { robots, max_walls, reach } = sheet;
             let layouts = layouts(edges, max_walls);
@@ -270,12 +262,8 @@ impl Table for Atlas {
                 let between: Vec<String> =
                     walls.iter().map(|[one, other]| format!("{one}|{other}")).collect();
                 let (walls, moves) = (counted(walls.len(), "wall"), counted(*steps, "team move"));
-                // Writing to a string cannot fail.
-                let _ = writeln!(
-                    text,
-                    "{robots} robots, {rule}: {clause}, {walls}, {moves}: {}",
-                    between.join(" ")
-                );
+                let between = between.join(" ");
+                text += &format!("{robots} robots, {rule}: {clause}, {walls}, {moves}: {between}\n");
             }
         }
         Ok(text)

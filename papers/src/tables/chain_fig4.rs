@@ -37,12 +37,8 @@ pub enum Place {
     Obstacles,
 }
 
-/// A run.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-pub struct Job {
-    place: Place,
-    rule: RuleName,
-}
+/// A run in an area by a rule.
+type Job = (Place, RuleName);
 
 /// What comes of it.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
@@ -122,12 +118,10 @@ impl Table for ChainFig4 {
     }
 
     fn jobs(&self, _: &Settings) -> Result<Vec<Job>, Halt> {
-        let jobs = pairs(Place::ALL, RuleName::ALL);
-        Ok(jobs.map(|(place, rule)| Job { place, rule }).collect())
+        Ok(pairs(Place::ALL, RuleName::ALL).collect())
     }
 
-    fn measure(&self, _: &Settings, job: &Job, _: &dyn Observer) -> Result<Run, Halt> {
-        let Job { place, rule } = *job;
+    fn measure(&self, _: &Settings, &(place, rule): &Job, _: &dyn Observer) -> Result<Run, Halt> {
         let setup = place.setup(rule)?;
         let mut odometer = Odometer::new(Body::NXT, ROBOTS.into());
         let mut ways = vec![vec![setup.base]; usize::from(ROBOTS) - 1];

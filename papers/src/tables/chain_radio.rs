@@ -40,11 +40,8 @@ settings! {
     }
 }
 
-/// The runs of a chain of so many.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-pub struct Job {
-    robots: u16,
-}
+/// The runs of a chain of so many robots.
+type Job = u16;
 
 /// What comes of them.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
@@ -103,19 +100,19 @@ impl Table for ChainRadio {
     }
 
     fn jobs(&self, _: &Settings) -> Result<Vec<Job>, Halt> {
-        Ok(TEAMS.map(|robots| Job { robots }).into())
+        Ok(TEAMS.into())
     }
 
-    fn measure(&self, settings: &Settings, job: &Job, _: &dyn Observer) -> Result<Measured, Halt> {
-        let side = u64::from(2 * job.robots - 1);
+    fn measure(&self, settings: &Settings, &robots: &Job, _: &dyn Observer) -> Result<Measured, Halt> {
+        let side = u64::from(2 * robots - 1);
         let (layout, base) = based(fit(Layout::open(side, side))?)?;
-        let setup = Setup::new(&CHAIN, RuleName::Repaired, job.robots, layout, base);
-        let mut odometer = Odometer::new(Body::NXT, job.robots.into());
+        let setup = Setup::new(&CHAIN, RuleName::Repaired, robots, layout, base);
+        let mut odometer = Odometer::new(Body::NXT, robots.into());
         let (mut log, mut cut) = (Vec::new(), 0);
         let report = explore(&setup, &mut |made| {
             odometer.make(made.before, made.frame);
-            let robots = made.frame.steps.iter().zip(&made.frame.blocked).skip(1);
-            log.extend(robots.map(|(&step, &blocked)| {
+            let moved = made.frame.steps.iter().zip(&made.frame.blocked).skip(1);
+            log.extend(moved.map(|(&step, &blocked)| {
                 let outcome = if blocked { Outcome::Blocked } else { Outcome::Arrived };
                 Message { step, outcome }.encode()
             }));
@@ -123,10 +120,10 @@ impl Table for ChainRadio {
                 u32::from(made.frame.cells.windows(2).any(|pair| !Circle::COVERED.covers(pair[0], pair[1])));
             Ok(())
         })?;
-        let mut dice = generate::source(settings.seed.wrapping_add(job.robots.into()), *b"switches");
-        let bridges = u32::from(job.robots) - 2;
+        let mut dice = generate::source(settings.seed.wrapping_add(robots.into()), *b"switches");
+        let bridges = u32::from(robots) - 2;
         let run = || (0..report.steps * bridges).map(|_| switch(&mut dice)).sum::<u64>();
-        let hops = u64::from(report.steps) * u64::from(job.robots - 1) * settings.hop_ms;
+        let hops = u64::from(report.steps) * u64::from(robots - 1) * settings.hop_ms;
         let waiting_ms: Vec<u64> =
             std::iter::repeat_with(run).take(settings.runs as usize).map(|ms| ms + hops).collect();
         let (team_moves, driving_ms) = (report.steps, odometer.milliseconds);
@@ -134,8 +131,10 @@ impl Table for ChainRadio {
     }
 
     fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
-        let lines =
-            results.into_iter().map(|(job, measured)| Line::of(job, &measured, settings.hop_ms)).collect();
+        let lines = results
+            .into_iter()
+            .map(|(robots, measured)| Line::of(robots, &measured, settings.hop_ms))
+            .collect();
         Ok(Merged { settings: *settings, switch_ms: SWITCH_MS, lines })
     }
 
@@ -197,16 +196,16 @@ fn of_ms(ms: u64, unit_ms: f64) -> f64 {
 }
 
 impl Line {
-    fn of(job: Job, measured: &Measured, hop_ms: u64) -> Self {
+    fn of(robots: u16, measured: &Measured, hop_ms: u64) -> Self {
         let Measured { team_moves, bytes, cut, driving_ms, waiting_ms } = measured;
-        let dual_ms = u64::from(job.robots - 1) * hop_ms;
+        let dual_ms = u64::from(robots - 1) * hop_ms;
         let mean = |of: &dyn Fn(u64) -> f64| {
             mean(waiting_ms.iter().map(|&ms| of(ms))).map(|mean| rounded(mean, 100.0))
         };
         let moves = f64::from(*team_moves);
         let hops = u64::from(*team_moves) * dual_ms;
         Self {
-            robots: job.robots,
+            robots,
             team_moves: *team_moves,
             bytes: *bytes,
             cut: *cut,

@@ -13,6 +13,12 @@ pub(super) fn ratio(pairs: impl IntoIterator<Item = (f64, f64)>) -> Option<Estim
     Some(rounded(ratio, 1e4))
 }
 
+/// Seconds.
+#[expect(clippy::cast_precision_loss, reason = "no run takes 2⁵³ milliseconds")]
+pub(super) const fn seconds(milliseconds: u64) -> f64 {
+    milliseconds as f64 / 1000.0
+}
+
 /// How many are such.
 pub(super) fn count<T>(all: impl IntoIterator<Item = T>, is_such: impl Fn(T) -> bool) -> u32 {
     all.into_iter().filter_map(|one| is_such(one).then_some(())).count() as u32

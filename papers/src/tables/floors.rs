@@ -36,7 +36,7 @@ settings! {
 }
 
 /// A run of every team: in which layout, and of how many agents.
-type Job = Run<(usize, u16)>;
+pub(super) type Job = Run<(usize, u16)>;
 
 /// A team in a layout.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
@@ -103,11 +103,9 @@ impl Table for Floors {
 
     fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Measured, Halt> {
         let Settings { maps, seed, miss, max_steps, .. } = settings;
-        let (map, agents) = run.at;
-        let layout = layout::load(maps.get(map).map_or("", String::as_str), *seed, None)?;
-        let starts = vec![start(&layout, *seed, run.number); agents.into()];
+        let (layout, starts) = floor(maps, run, *seed)?;
         let miss = Probability::new(*miss).unwrap_or(Probability::NEVER);
-        Ok(TEAMS.map(|team| team.run(&layout, &starts, (miss, run.seed(*seed)), *max_steps)))
+        Ok(TEAMS.map(|team| team.way.run(&layout, &starts, (miss, run.seed(*seed)), *max_steps)))
     }
 
     fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
@@ -139,8 +137,22 @@ impl Table for Floors {
         ))
     }
 
+    /// The share of an agent's moves that the lower bound needs, by the number of agents: all layouts together.
     fn draw(&self, _: usize, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
-        Ok(chart(settings, &merged.lines).svg())
+        let series = |team: Team| {
+            let at = |&agents: &u16| {
+                let lines = merged.lines.iter().filter(|line| (line.team, line.agents) == (team, agents));
+                let needed = mean(lines.flat_map(|line| line.needed.iter().copied()))?;
+                Some(Point::of(agents.into(), needed))
+            };
+            Series::measured(team.name(), settings.agents.iter().filter_map(at))
+        };
+        let title = format!(
+            "Moves that are needed, of those made until all agents know rightly that they are done: {} layouts",
+            settings.maps.len()
+        );
+        let (x, y) = (Axis::new("agents", ""), Axis::new("moves", "%").showing([0.0, 100.0]));
+        Ok(LineChart::new(title, x, y, TEAMS.map(series)).without_empty().svg())
     }
 }
 
@@ -155,8 +167,8 @@ impl Line {
             cells: outcomes.iter().map(|outcome| outcome.cells).max().unwrap_or(0),
             agents,
             team,
-            explored: Outcome::mean_ratio(outcomes, |outcome| outcome.exploration, agents),
-            known: Outcome::mean_ratio(outcomes, |outcome| outcome.termination, agents),
+            explored: Outcome::ratios(outcomes, |outcome| outcome.exploration, agents),
+            known: Outcome::ratios(outcomes, |outcome| outcome.termination, agents),
             early: count(outcomes, |outcome| outcome.is_early),
             ended: count(outcomes, |outcome| outcome.is_ended),
             needed: outcomes.iter().map(needed).collect(),
@@ -196,8 +208,16 @@ fn largest_part(layout: &Layout) -> Vec<Cell> {
     parts.reduce(|largest, part| if part.len() > largest.len() { part } else { largest }).unwrap_or_default()
 }
 
+/// The layout of a run with this seed, and the cells in which its agents start.
+pub(super) fn floor(maps: &[String], run: &Job, seed: u64) -> Result<(Layout, Vec<Cell>), Halt> {
+    let (map, agents) = run.at;
+    let layout = layout::load(maps.get(map).map_or("", String::as_str), seed, None)?;
+    let starts = vec![start(&layout, seed, run.number); agents.into()];
+    Ok((layout, starts))
+}
+
 /// The start with this number in the largest part of `layout`.
-pub(super) fn start(layout: &Layout, seed: u64, number: u32) -> Cell {
+fn start(layout: &Layout, seed: u64, number: u32) -> Cell {
     let part = largest_part(layout);
     let centre = Cell::new(layout.width() / 2, layout.height() / 2);
     let apart = |cell: &&Cell| {
@@ -211,26 +231,4 @@ pub(super) fn start(layout: &Layout, seed: u64, number: u32) -> Cell {
     let mut generator = generate::source(seed.wrapping_add(number.into()), *b"start   ");
     let place = generate::below(part.len() as u32, &mut generator);
     part.get(place as usize).copied().unwrap_or(base)
-}
-
-/// The share of an agent's moves that the lower bound needs, by the number of agents: all layouts together.
-fn chart(settings: &Settings, lines: &[Line]) -> LineChart {
-    let series = |team: Team| {
-        let at = |&agents: &u16| {
-            let lines = lines.iter().filter(|line| (line.team, line.agents) == (team, agents));
-            let needed = mean(lines.flat_map(|line| line.needed.iter().copied()))?;
-            Some(Point::of(agents.into(), needed))
-        };
-        Series::measured(team.name(), settings.agents.iter().filter_map(at))
-    };
-    LineChart::new(
-        format!(
-            "Moves that are needed, of those made until all agents know rightly that they are done: {} layouts",
-            settings.maps.len()
-        ),
-        Axis::new("agents", ""),
-        Axis::new("moves", "%").showing([0.0, 100.0]),
-        TEAMS.map(series),
-    )
-    .without_empty()
 }

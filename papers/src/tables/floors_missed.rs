@@ -5,9 +5,8 @@ use tautline_kernel::bricks::tree::Rule;
 use tautline_proofs::bricks::tree::Way;
 
 use super::agents::{Explorer, Outcome, ROBUST};
-use super::floors::{file_name, points, probability, start};
+use super::floors::{Job, file_name, floor, points, probability};
 use super::prelude::*;
-use tautline_sim::layout;
 use tautline_sim::layout::generate::Probability;
 
 /// Who is compared: what is robust by going over the floor again, what is robust by looking underfoot, and what doubts.
@@ -46,9 +45,6 @@ settings! {
         pub max_steps: u32 = 200_000, one("max-steps", "STEPS", from_to(1..=u32::MAX.into()));
     }
 }
-
-/// A run of every team: in which layout, and of how many agents.
-type Job = Run<(usize, u16)>;
 
 /// A team in a layout.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
@@ -111,9 +107,8 @@ impl Table for FloorsMissed {
 
     fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Measured, Halt> {
         let Settings { maps, miss, max_steps, .. } = settings;
-        let ((map, agents), seed) = (run.at, run.seed(settings.seed));
-        let layout = layout::load(maps.get(map).map_or("", String::as_str), seed, None)?;
-        let starts = vec![start(&layout, seed, run.number); agents.into()];
+        let seed = run.seed(settings.seed);
+        let (layout, starts) = floor(maps, run, seed)?;
         let miss = Probability::new(*miss).unwrap_or(Probability::NEVER);
         Ok(TEAMS.map(|(_, way)| way.run(&layout, &starts, (miss, seed), *max_steps)))
     }
@@ -125,8 +120,8 @@ impl Table for FloorsMissed {
                 map: settings.maps[map].clone(),
                 agents,
                 team,
-                explored: Outcome::mean_ratio(&outcomes, |outcome| outcome.exploration, agents),
-                known: Outcome::mean_ratio(&outcomes, |outcome| outcome.termination, agents),
+                explored: Outcome::ratios(&outcomes, |outcome| outcome.exploration, agents),
+                known: Outcome::ratios(&outcomes, |outcome| outcome.termination, agents),
                 early: share(&outcomes, |outcome| outcome.is_early),
                 ended: share(&outcomes, |outcome| outcome.is_ended),
             })

@@ -169,9 +169,7 @@ impl Table for FrontierFig7 {
                 "Team moves more than the repaired rule takes on the same layouts, of which both explore every cell",
                 |line| line.behind,
             ),
-            ("Runs that explore every cell, in %; the others are in no mean of team moves", |line| {
-                line.whole
-            }),
+            ("Runs that explore every cell, in %; the others are in no mean of team moves", |one| one.whole),
             ("Runs in which two robots are in one cell, in %", |line| line.double),
         ];
         let part = |(title, of): (&str, fn(&Line) -> Option<Estimate>)| {
@@ -186,8 +184,20 @@ impl Table for FrontierFig7 {
         Ok(parts.map(part).concat() + &merged.judged.iter().map(said).collect::<String>())
     }
 
+    /// Team moves over robots, a line for each rule.
     fn draw(&self, _: usize, _: &Settings, merged: &Merged) -> Result<String, Halt> {
-        Ok(chart(&merged.lines).svg())
+        let series = |lines: &[Line]| {
+            let is_whole = |line: &&Line| line.whole.is_some_and(|whole| whole.mean > 50.0);
+            let whole = lines.iter().filter(is_whole);
+            let points = whole.filter_map(|line| Some(Point::of(line.robots.into(), line.moves?)));
+            match lines[0].rule {
+                RuleId::REPAIRED => Series::measured("repaired", points),
+                rule => Series::printed(rule.as_str(), points),
+            }
+        };
+        let (x, y) = (Axis::new("robots", ""), Axis::new("team moves", "").showing([0.0, 0.0]));
+        let series = merged.lines.chunks(TEAMS.len()).map(series);
+        Ok(LineChart::new("Team moves until every cell is explored", x, y, series).without_empty().svg())
     }
 
     /// A repaired team explores every cell, and never has two robots in one.
@@ -294,23 +304,4 @@ fn judged(lines: &[Line]) -> Vec<Judged> {
             ),
         },
     ]
-}
-
-/// Team moves over robots, a line for each rule.
-fn chart(lines: &[Line]) -> LineChart {
-    let series = |lines: &[Line]| {
-        let is_whole = |line: &&Line| line.whole.is_some_and(|whole| whole.mean > 50.0);
-        let whole = lines.iter().filter(is_whole);
-        let points = whole.filter_map(|line| Some(Point::of(line.robots.into(), line.moves?)));
-        let rule = lines[0].rule;
-        let series = if rule == RuleId::REPAIRED { Series::measured } else { Series::printed };
-        series(rule.to_string(), points.collect::<Vec<_>>())
-    };
-    LineChart::new(
-        "Team moves until every cell is explored",
-        Axis::new("robots", ""),
-        Axis::new("team moves", "").showing([0.0, 0.0]),
-        lines.chunks(TEAMS.len()).map(series),
-    )
-    .without_empty()
 }

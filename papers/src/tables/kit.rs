@@ -265,12 +265,6 @@ fn follow(team: Team, layout: &Layout, start: Cell, pace: Pace, seed: u64) -> Ou
     outcome
 }
 
-/// Seconds.
-#[expect(clippy::cast_precision_loss, reason = "no run takes 2⁵³ milliseconds")]
-const fn seconds(milliseconds: u64) -> f64 {
-    milliseconds as f64 / 1000.0
-}
-
 impl Outcome {
     fn is_whole(&self) -> bool {
         self.paths.len() == PATHS

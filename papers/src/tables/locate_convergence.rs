@@ -56,26 +56,18 @@ settings! {
 
 /// The anchors of a field, and how they are heard.
 pub(super) fn field(settings: &Field) -> Result<(Anchors, Signal), Halt> {
-    let propagation = Propagation::new(settings.exponent).ok_or_else(|| {
-        Diagnostic::usage(
-            format_args!("the exponent {} is none", settings.exponent),
-            "give an exponent from 2 to 5",
-        )
-    })?;
-    let signal = Signal::new(propagation, settings.noise_db).ok_or_else(|| {
-        Diagnostic::usage(
-            format_args!("a noise of {} dB is none", settings.noise_db),
-            "give decibels from 0 to 100",
-        )
-    })?;
+    let Field { exponent, noise_db, .. } = settings;
+    let no_exponent =
+        || Diagnostic::usage(format!("the exponent {exponent} is none"), "give an exponent from 2 to 5");
+    let no_noise =
+        || Diagnostic::usage(format!("a noise of {noise_db} dB is none"), "give decibels from 0 to 100");
+    let propagation = Propagation::new(*exponent).ok_or_else(no_exponent)?;
+    let signal = Signal::new(propagation, *noise_db).ok_or_else(no_noise)?;
     Ok((Anchors::new(SQUARE.to_vec()).map_err(refused)?, signal))
 }
 
-/// One way to read the paper.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-pub struct Job {
-    variant: usize,
-}
+/// One way to read the paper, by its place in [`VARIANTS`].
+type Job = usize;
 
 /// What came of it.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
@@ -141,13 +133,13 @@ impl Table for LocateConvergence {
 
     fn jobs(&self, settings: &Field) -> Result<Vec<Job>, Halt> {
         field(settings)?;
-        Ok((0..VARIANTS.len()).map(|variant| Job { variant }).collect())
+        Ok((0..VARIANTS.len()).collect())
     }
 
-    fn measure(&self, settings: &Field, job: &Job, _: &dyn Observer) -> Result<Course, Halt> {
+    fn measure(&self, settings: &Field, &variant: &Job, _: &dyn Observer) -> Result<Course, Halt> {
         let (anchors, signal) = field(settings)?;
         let unknown = || Diagnostic::usage("there is no such reading", "take the job as tautline wrote it");
-        let &(_, order, draws, parameters) = VARIANTS.get(job.variant).ok_or_else(unknown)?;
+        let &(_, order, draws, parameters) = VARIANTS.get(variant).ok_or_else(unknown)?;
         let after = |iterations: u32| {
             let parameters = Parameters { order, draws, iterations, ..parameters };
             after(settings, (&anchors, &signal), parameters)
@@ -188,8 +180,18 @@ impl Table for LocateConvergence {
         Ok(figures.with_notes(&format!("{}\n±, […]: the 95 % interval", compared(merged))))
     }
 
-    fn draw(&self, _: usize, _: &Field, merged: &Merged) -> Result<String, Halt> {
-        Ok(chart(merged).svg())
+    /// The medians of each reading.
+    fn draw(&self, _: usize, settings: &Field, merged: &Merged) -> Result<String, Halt> {
+        let point = |after: &After| chart::Point {
+            x: after.iterations.into(),
+            y: 1e2 * after.optimum_m,
+            interval: Some(after.interval_m.map(|end| 1e2 * end)),
+        };
+        let series = |one: &Variant| Series::measured(one.reading, one.course.after.iter().map(point));
+        let title = format!("Particles on their way to the optimum, noise {} dB", settings.noise_db);
+        let x = Axis::new("iterations", "").showing([0.0, 50.0]);
+        let y = Axis::new("median distance to the optimum", "cm").showing([0.0, 5.0]);
+        Ok(LineChart::new(title, x, y, merged.variants.iter().map(series)).svg())
     }
 }
 
@@ -247,21 +249,4 @@ fn after(
         below_5_cm: rounded(below, 1e4),
         error_m: decimals(quantile(&to_robot, 0.5).0, 1e4),
     })
-}
-
-/// The medians of each reading as a chart.
-fn chart(merged: &Merged) -> LineChart {
-    let point = |after: &After| chart::Point {
-        x: after.iterations.into(),
-        y: 1e2 * after.optimum_m,
-        interval: Some(after.interval_m.map(|end| 1e2 * end)),
-    };
-    let series =
-        |Variant { reading, course }: &Variant| Series::measured(*reading, course.after.iter().map(point));
-    LineChart::new(
-        format!("Particles on their way to the optimum, noise {} dB", merged.field.noise_db),
-        Axis::new("iterations", "").showing([0.0, 50.0]),
-        Axis::new("median distance to the optimum", "cm").showing([0.0, 5.0]),
-        merged.variants.iter().map(series),
-    )
 }

@@ -98,20 +98,6 @@ fn estimate(teams: &[Team], value: impl Fn(&Team) -> f64) -> Estimate {
     rounded(mean(teams.iter().map(value)).unwrap_or(Estimate::NOTHING), 1e3)
 }
 
-impl Sentence {
-    /// A sentence about what it is that changes `from` one number of robots and one solver `to` others.
-    fn of(
-        paper: &'static str,
-        teams: &[Team],
-        of: Of,
-        [from, to]: [(usize, usize); 2],
-        is_so: fn([f64; 2]) -> bool,
-    ) -> Self {
-        let difference_m = estimate(teams, |team| of(team, to.0, to.1) - of(team, from.0, from.1));
-        Self { paper, difference_m, is_so: difference_m.interval.is_some_and(is_so) }
-    }
-}
-
 impl Table for LocateFig8 {
     type Settings = Field;
     type Job = Job;
@@ -158,21 +144,20 @@ impl Table for LocateFig8 {
             robots,
             solvers: (0..SOLVERS.len()).map(|number| errors(robots, number)).collect(),
         };
-        let [closed, pso] = [0, 1];
-        let falls = |[_, most]: [f64; 2]| most < 0.0;
-        let grows = |[least, _]: [f64; 2]| least > 0.0;
-        let team = [(1, pso), (MOST, pso)];
-        let sentences = vec![
-            Sentence::of(
-                "the error falls with the swarm (8 robots, mean)",
-                &teams,
-                mean_of,
-                [(MOST, closed), (MOST, pso)],
-                falls,
-            ),
-            Sentence::of("the error grows from 1 robot to 8 (pso, mean)", &teams, mean_of, team, grows),
-            Sentence::of("the same of the worst robot of the team", &teams, worst_of, team, grows),
+        let (without, with) = ((MOST, 0), (MOST, 1));
+        let one: (usize, usize) = (1, 1);
+        let sentences: [(&str, Of, [(usize, usize); 2], f64); 3] = [
+            ("the error falls with the swarm (8 robots, mean)", mean_of, [without, with], -1.0),
+            ("the error grows from 1 robot to 8 (pso, mean)", mean_of, [one, with], 1.0),
+            ("the same of the worst robot of the team", worst_of, [one, with], 1.0),
         ];
+        let sentence = |(paper, of, [before, after], sign): (&'static str, Of, [(usize, usize); 2], f64)| {
+            let difference_m =
+                estimate(&teams, |team| of(team, after.0, after.1) - of(team, before.0, before.1));
+            let has_sign = |ends: [f64; 2]| ends.iter().all(|end| sign * end > 0.0);
+            Sentence { paper, difference_m, is_so: difference_m.interval.is_some_and(has_sign) }
+        };
+        let sentences = sentences.map(sentence).into();
         Ok(Merged { field: settings.clone(), sizes: ROBOTS.map(size).into(), sentences })
     }
 
@@ -204,8 +189,19 @@ impl Table for LocateFig8 {
         Ok(figures.with_notes(&notes))
     }
 
-    fn draw(&self, _: usize, _: &Field, merged: &Merged) -> Result<String, Halt> {
-        Ok(chart(merged).svg())
+    fn draw(&self, _: usize, settings: &Field, merged: &Merged) -> Result<String, Halt> {
+        let series = |number: usize, what: &str, of: fn(&Errors) -> Estimate| {
+            let point =
+                |size: &Size| chart::Point::of((size.robots as u32).into(), of(&size.solvers[number]));
+            Series::measured(format!("{}, {what}", SOLVERS[number].word()), merged.sizes.iter().map(point))
+        };
+        let drawn = [0, 1, 3];
+        let means = drawn.map(|number| series(number, "mean", |errors| errors.mean_m));
+        let worst = drawn.map(|number| series(number, "worst robot", |errors| errors.worst_m));
+        let title = format!("Localisation error, noise {} dB", settings.noise_db);
+        let x = Axis::new("robots", "").showing([0.0, 8.0]);
+        let y = Axis::new("error", "m").showing([0.0, 1.0]);
+        Ok(LineChart::new(title, x, y, means.into_iter().chain(worst)).svg())
     }
 }
 
@@ -222,21 +218,4 @@ fn one_team(anchors: &Anchors, signal: &Signal, seed: u64, team: u32) -> Result<
         }
     }
     Ok(errors)
-}
-
-/// The figure as a chart.
-fn chart(merged: &Merged) -> LineChart {
-    let series = |number: usize, what: &str, of: fn(&Errors) -> Estimate| {
-        let point = |size: &Size| chart::Point::of((size.robots as u32).into(), of(&size.solvers[number]));
-        Series::measured(format!("{}, {what}", SOLVERS[number].word()), merged.sizes.iter().map(point))
-    };
-    let drawn = [0, 1, 3];
-    let means = drawn.map(|number| series(number, "mean", |errors| errors.mean_m));
-    let worst = drawn.map(|number| series(number, "worst robot", |errors| errors.worst_m));
-    LineChart::new(
-        format!("Localisation error, noise {} dB", merged.field.noise_db),
-        Axis::new("robots", "").showing([0.0, 8.0]),
-        Axis::new("error", "m").showing([0.0, 1.0]),
-        means.into_iter().chain(worst),
-    )
 }

@@ -124,23 +124,21 @@ impl Settings {
         Radio::new(self.range_m, Model::Disc)
     }
 
-    /// The topology has a stream of answers to itself; each scheme draws its waits from another.
-    fn sample(&self, nodes: usize, topology: u32, extent: Extent) -> Result<Sample, Problem> {
-        let area = Area::new(self.side_m, self.side_m)?;
-        let radio = self.radio()?;
-        let range_um = radio.range_um();
-        let stream = 2 * u64::from(topology);
-        let chance = &mut Seeded::new(self.seed, stream);
+    /// A topology and its source, with a stream of answers to themselves.
+    fn topology(&self, nodes: usize, topology: u32) -> Result<(Network, NodeId), Problem> {
+        let (area, radio) = (Area::new(self.side_m, self.side_m)?, self.radio()?);
+        let chance = &mut Seeded::new(self.seed, 2 * u64::from(topology));
         let field = Field::random(area, Vec::new(), nodes, chance)?;
-        let network = Network::new(&field, radio, chance)?;
-        let source = NodeId(chance.pick(nodes as u32));
-        let schemes = match extent {
-            Extent::Topology => Vec::new(),
-            Extent::Broadcasts => self.schemes(range_um.get()),
-        };
-        let schemes = schemes.into_iter().map(|(_, scheme)| {
+        Ok((Network::new(&field, radio, chance)?, NodeId(chance.pick(nodes as u32))))
+    }
+
+    /// A broadcast by every scheme in a topology; each scheme draws its waits from a stream of its own.
+    fn sample(&self, nodes: usize, topology: u32) -> Result<Sample, Problem> {
+        let (network, source) = self.topology(nodes, topology)?;
+        let range_um = self.radio()?.range_um();
+        let schemes = self.schemes(range_um.get()).into_iter().map(|(_, scheme)| {
             let rule = Rule::new(scheme, range_um, LONGEST_WAIT_NS);
-            let chance = &mut Seeded::new(self.seed, stream + 1);
+            let chance = &mut Seeded::new(self.seed, 2 * u64::from(topology) + 1);
             let channel = self.channel.channel();
             let (report, _) = broadcast(&network, &rule, channel, &Faults::NONE, source, chance)?;
             Ok((report.reached, report.rebroadcasts))
@@ -180,15 +178,6 @@ impl Settings {
     }
 }
 
-/// How much is measured of a topology.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Extent {
-    /// Itself.
-    Topology,
-    /// A broadcast by every scheme, too.
-    Broadcasts,
-}
-
 impl Table for NoticeFig5 {
     type Settings = Settings;
     type Job = Job;
@@ -219,14 +208,14 @@ impl Table for NoticeFig5 {
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
         for &nodes in &settings.nodes {
-            settings.sample(nodes, 0, Extent::Topology).map_err(usage)?;
+            settings.topology(nodes, 0).map_err(usage)?;
         }
         Ok(runs(0..settings.nodes.len(), |_| settings.topologies))
     }
 
     fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Sample, Halt> {
         let nodes = settings.nodes.get(run.at).copied().unwrap_or_default();
-        settings.sample(nodes, run.number, Extent::Broadcasts).map_err(usage)
+        settings.sample(nodes, run.number).map_err(usage)
     }
 
     fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
@@ -277,25 +266,25 @@ impl Table for NoticeFig5 {
         ))
     }
 
+    /// A part of the figure by the number of nodes: (a) the reach of all nodes, (b) the rebroadcasts.
     fn draw(&self, picture: usize, _: &Settings, merged: &Merged) -> Result<String, Halt> {
-        let part: fn(&Line) -> Estimate =
-            if picture == 0 { |line| line.reach.times(100.0) } else { |line| line.rebroadcasts };
-        let (title, y) = match picture {
-            0 => ("Nodes that a broadcast reaches", Axis::new("reach", "%").showing([0.0, 100.0])),
-            _ => ("Nodes that forward a broadcast", Axis::new("rebroadcasts", "").showing([0.0, 0.0])),
+        let (title, y, of): (_, _, fn(&Line) -> Estimate) = match picture {
+            0 => {
+                let y = Axis::new("reach", "%").showing([0.0, 100.0]);
+                ("Nodes that a broadcast reaches", y, |line| line.reach.times(100.0))
+            }
+            _ => {
+                let y = Axis::new("rebroadcasts", "").showing([0.0, 0.0]);
+                ("Nodes that forward a broadcast", y, |line| line.rebroadcasts)
+            }
         };
-        Ok(chart(title, y, &merged.densities, part).svg())
+        let schemes = merged.densities.first().map_or(&[][..], |density| &density.schemes);
+        let series = |(place, line): (usize, &Line)| {
+            let point = |density: &Density| {
+                Some(Point::of(f64::from(density.nodes as u32), of(density.schemes.get(place)?)))
+            };
+            Series::measured(&line.scheme, merged.densities.iter().filter_map(point))
+        };
+        Ok(LineChart::new(title, Axis::new("nodes", ""), y, schemes.iter().enumerate().map(series)).svg())
     }
-}
-
-/// A part of the figure as a chart: `of` each scheme by the number of nodes.
-fn chart(title: &str, y: Axis, densities: &[Density], of: fn(&Line) -> Estimate) -> LineChart {
-    let schemes = densities.first().map_or(&[][..], |density| &density.schemes);
-    let series = |(place, line): (usize, &Line)| {
-        let point = |density: &Density| {
-            Some(Point::of(f64::from(density.nodes as u32), of(density.schemes.get(place)?)))
-        };
-        Series::measured(&line.scheme, densities.iter().filter_map(point))
-    };
-    LineChart::new(title, Axis::new("nodes", ""), y, schemes.iter().enumerate().map(series))
 }

@@ -178,12 +178,29 @@ impl Table for Optimum {
     }
 
     fn text(&self, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+        let walls = |line: &Line| match line.walls {
+            [fewest, most] if fewest == most => most.to_string(),
+            [fewest, most] => format!("{fewest}…{most}"),
+        };
+        // The heading of the rules is as wide as the longer of them; the shorter one pulls on what follows it.
+        let columns = Columns::of(&merged.lines)
+            .left("robots", 6, |line| line.robots)
+            .left("walls", 5, walls)
+            .left("rule     ", 0, |line| line.rule)
+            .right("layouts", 7, |line| line.layouts)
+            .right("walled in", 9, |line| line.walled_in)
+            .right("missed", 6, |line| line.missed)
+            .right("beyond", 6, |line| line.beyond)
+            .right("below", 5, |line| line.below)
+            .right("optimal", 7, |line| line.optimal)
+            .right("mean", 4, |line| line.mean.map_or("-".to_owned(), |mean| format!("{mean:.2}")))
+            .left("worst", Fit, |line| line.worst.as_ref().map_or("-".to_owned(), Worst::ratio));
         let mut text = format!(
             "Team moves until the last chain-reachable cell is explored, by the fewest of a team that knows the walls,\n\
              in all layouts of (2N−1)² cells with so many walls\n\n{}\n\
              walled in: nothing to explore · missed: the chain leaves a chain-reachable cell unexplored; not compared ·\n\
              beyond: it explores one that is not chain-reachable · below, optimal: it takes fewer, as few\n",
-            columns(&merged.lines)
+            columns.text()
         );
         for robots in [2, 3] {
             let lines = merged.lines.iter().filter(|line| line.robots == robots);
@@ -200,27 +217,6 @@ impl Table for Optimum {
     fn is_broken(&self, merged: &Merged) -> bool {
         merged.lines.iter().any(|line| line.below > 0)
     }
-}
-
-fn columns(lines: &[Line]) -> String {
-    let walls = |line: &Line| match line.walls {
-        [fewest, most] if fewest == most => most.to_string(),
-        [fewest, most] => format!("{fewest}…{most}"),
-    };
-    // The heading of the rules is as wide as the longer of them; the shorter one pulls on what follows it.
-    Columns::of(lines)
-        .left("robots", 6, |line| line.robots)
-        .left("walls", 5, walls)
-        .left("rule     ", 0, |line| line.rule)
-        .right("layouts", 7, |line| line.layouts)
-        .right("walled in", 9, |line| line.walled_in)
-        .right("missed", 6, |line| line.missed)
-        .right("beyond", 6, |line| line.beyond)
-        .right("below", 5, |line| line.below)
-        .right("optimal", 7, |line| line.optimal)
-        .right("mean", 4, |line| line.mean.map_or("-".to_owned(), |mean| format!("{mean:.2}")))
-        .left("worst", Fit, |line| line.worst.as_ref().map_or("-".to_owned(), Worst::ratio))
-        .text()
 }
 
 /// When each cell is explored, by the chain and in the optimum.

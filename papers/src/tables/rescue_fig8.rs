@@ -142,22 +142,19 @@ impl Settings {
     /// The ways in the first topology in which each WFR has a robot of its own, or else in the first of all, under the
     /// repaired rule.
     fn picture(&self) -> Result<String, Halt> {
-        let mut drawn = None;
+        let drawn = |seed, report: &Report| {
+            let team = counted(self.robots, "robot");
+            let title = format!("{team} for {}, seed {seed}", counted(self.wfrs, "WFR"));
+            picture(&title, &[map(String::new(), report)])
+        };
         for run in runs([RuleName::Repaired], |_| self.topologies) {
-            let seed = run.seed(self.seed);
-            let report = self.rescue(run.at, seed).map_err(Diagnostic::from)?;
-            let is_fit = Sample::of(&report).assigned_m.is_some();
-            if is_fit || drawn.is_none() {
-                drawn = Some((seed, report));
-            }
-            if is_fit {
-                break;
+            let report = self.rescue(run.at, run.seed(self.seed)).map_err(Diagnostic::from)?;
+            if Sample::of(&report).assigned_m.is_some() {
+                return Ok(drawn(run.seed(self.seed), &report));
             }
         }
-        let Some((seed, report)) = drawn else { return Ok(picture("", &[])) };
-        let team = counted(self.robots, "robot");
-        let title = format!("{team} for {}, seed {seed}", counted(self.wfrs, "WFR"));
-        Ok(picture(&title, &[map(String::new(), &report)]))
+        let first = self.rescue(RuleName::Repaired, self.seed).map_err(Diagnostic::from)?;
+        Ok(drawn(self.seed, &first))
     }
 }
 

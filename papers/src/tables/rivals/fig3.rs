@@ -141,44 +141,23 @@ impl Table for ChainFig3 {
         Ok(text + &claims::text(&merged.sentences))
     }
 
-    fn draw(&self, milestone: usize, _: &Settings, merged: &Merged) -> Result<String, Halt> {
-        Ok(chart(merged, milestone).svg())
+    /// The medians by density.
+    fn draw(&self, place: usize, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+        let teams = merged.areas.first().map_or(&[][..], |area| &area.teams);
+        let series = |(team, line): (usize, &Line)| {
+            let points = merged.areas.iter().filter_map(move |Area { area, teams }| {
+                let Times { mean, median, .. } = teams.get(team)?.milestones[place];
+                let x = area.parse().ok()?;
+                mean.map(|mean| Point::of(x, mean)).or(median.map(|median| Point::plain(x, median.into())))
+            });
+            Series::measured(line.who.name(), points)
+        };
+        let percent = MILESTONES[place].percent();
+        let title =
+            format!("Until {percent} % is explored; a line ends where half of the runs never get there");
+        let (x, y) = (Axis::new("density of walls", ""), Axis::new("team moves", "").showing([0.0, 0.0]));
+        Ok(LineChart::new(title, x, y, teams.iter().enumerate().map(series)).svg())
     }
-}
-
-/// The medians by density.
-fn chart(merged: &Merged, place: usize) -> LineChart {
-    let teams = merged.areas.first().map_or(&[][..], |area| &area.teams);
-    let series = |(team, line): (usize, &Line)| {
-        let points = merged.areas.iter().filter_map(move |Area { area, teams }| {
-            let Times { mean, median, .. } = teams.get(team)?.milestones[place];
-            let x = area.parse().ok()?;
-            mean.map(|mean| Point::of(x, mean)).or(median.map(|median| Point::plain(x, median.into())))
-        });
-        Series::measured(line.who.name(), points)
-    };
-    let percent = MILESTONES[place].percent();
-    LineChart::new(
-        format!("Until {percent} % is explored; a line ends where half of the runs never get there"),
-        Axis::new("density of walls", ""),
-        Axis::new("team moves", "").showing([0.0, 0.0]),
-        teams.iter().enumerate().map(series),
-    )
-}
-
-/// Where a sentence is about.
-type Where = fn(&str) -> bool;
-
-fn is_open(area: &str) -> bool {
-    matches!(area, "0" | "0.01")
-}
-
-fn is_low(area: &str) -> bool {
-    matches!(area, "0" | "0.01" | "0.02")
-}
-
-fn is_density(area: &str) -> bool {
-    DENSITIES.contains(&area)
 }
 
 /// What a sentence says of the chain and a rival.
@@ -193,68 +172,44 @@ enum Says {
 fn judged(areas: &[Area], pool: u32) -> Vec<Judged> {
     type Rival = fn(u32, Links) -> Who;
     let (full, reference): (Rival, Rival) = (|_, links| Who::full(links), Who::pool);
-    let sentences: [(&'static str, usize, Rival, Where, Says); 8] = [
+    let sentences: [(&'static str, (usize, Rival, &[&str], Says)); 8] = [
         (
             "50 %: “definitely better than the reference … for an obstacle-free area or low obstacle density”",
-            0,
-            reference,
-            is_low,
-            Says::Sooner,
+            (0, reference, &DENSITIES[..3], Says::Sooner),
         ),
         (
             "50 %: “for higher obstacle densities the performances of the two methods are similar”",
-            0,
-            reference,
-            |area| is_density(area) && !is_low(area),
-            Says::Alike,
+            (0, reference, &DENSITIES[3..], Says::Alike),
         ),
         (
             "50 %: “at zero and 0.01 densities” chain and Full search take “almost the same” time",
-            0,
-            full,
-            is_open,
-            Says::Alike,
+            (0, full, &DENSITIES[..2], Says::Alike),
         ),
         (
             "50 %: “for higher densities the Full search method performs better”",
-            0,
-            full,
-            |area| is_density(area) && !is_open(area),
-            Says::Later,
+            (0, full, &DENSITIES[2..], Says::Later),
         ),
         (
             "75 %: “for low densities (zero and 0.01) … better than the other two”: Full search",
-            1,
-            full,
-            is_open,
-            Says::Sooner,
+            (1, full, &DENSITIES[..2], Says::Sooner),
         ),
         (
             "75 %: “for low densities (zero and 0.01) … better than the other two”: the reference",
-            1,
-            reference,
-            is_open,
-            Says::Sooner,
+            (1, reference, &DENSITIES[..2], Says::Sooner),
         ),
         (
             "75 %: “beyond ρ=0.01 the Full search method achieves the best results”",
-            1,
-            full,
-            |area| is_density(area) && !is_open(area),
-            Says::Later,
+            (1, full, &DENSITIES[2..], Says::Later),
         ),
         (
             "75 %: “definitely better than the reference method for all examined obstacle densities”",
-            1,
-            reference,
-            is_density,
-            Says::Sooner,
+            (1, reference, &DENSITIES, Says::Sooner),
         ),
     ];
     let mut judged = Vec::new();
-    for (sentence, place, rival, is_about, says) in sentences {
+    for (sentence, (place, rival, densities, says)) in sentences {
         for links in [Links::Safe, Links::Covered] {
-            for Area { area, teams } in areas.iter().filter(|area| is_about(area.area)) {
+            for Area { area, teams } in areas.iter().filter(|area| densities.contains(&area.area)) {
                 let find = |who| teams.iter().find(|line| line.who == who);
                 let chain = find(Who::Chain(RuleName::Published));
                 let (Some(chain), Some(rival)) = (chain, find(rival(pool, links))) else { continue };

@@ -256,12 +256,10 @@ fn judged(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Judged> {
         share.and_then(|share| share.explored).map_or(0.0, |explored| explored.mean)
     };
     for room in ROOMS {
-        let never =
-            rooms.iter().filter(|share| share.room == room && share.who != Who::Chain(RuleName::Repaired));
-        let (mut all, mut runs) = (0, 0);
-        for share in never {
-            (all, runs) = (all + share.whole, runs + share.runs);
-        }
+        let said = |share: &&Share| share.room == room && share.who != Who::Chain(RuleName::Repaired);
+        let shares = || rooms.iter().filter(said);
+        let (all, runs): (u32, u32) =
+            (shares().map(|share| share.whole).sum(), shares().map(|share| share.runs).sum());
         judged.push(Judged {
             sentence: "“all three algorithms stopped before the 100 % exploration success”",
             of: room.to_owned(),
