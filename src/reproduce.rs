@@ -53,8 +53,8 @@ struct Wanted {
     table: &'static dyn Entry,
     /// The options that are given, with their values.
     given: Vec<(String, Vec<String>)>,
-    /// The names of its pictures, and where each is to be stored.
-    pictures: (Vec<&'static str>, Vec<Option<PathBuf>>),
+    /// Its pictures.
+    pictures: Pictures,
     /// Where its values are to be stored.
     csv: Option<PathBuf>,
     /// The plan to be made instead, and its shards.
@@ -111,15 +111,14 @@ impl Wanted {
         if let Some((path, shards)) = &self.dealt {
             return self.deal(&*asked, path, *shards, out);
         }
-        let (names, paths) = &self.pictures;
-        let files = Files::of(names, paths, self.csv.as_deref(), &self.force)?;
+        let files = Files::of(self.pictures.clone(), self.csv.clone(), &self.force)?;
         let made = Show::over(self.table.about().doing, |show| asked.run(show))?;
         tell(&*made, files, self.format.format, out)
     }
 
     /// Deals the jobs of the table out among shards.
     fn deal(&self, asked: &dyn Asked, path: &Path, shards: u32, out: &mut Output) -> Result<Exit, Halt> {
-        if self.csv.is_some() || self.pictures.1.iter().any(Option::is_some) {
+        if self.csv.is_some() || self.pictures.iter().any(|(_, path)| path.is_some()) {
             let remedy = "leave them out, and give tautline merge a --picture and --csv";
             return Err(Diagnostic::usage("a plan has no pictures and no values", remedy).into());
         }
@@ -137,6 +136,9 @@ pub(super) struct Planned {
     jobs: usize,
 }
 
+/// The names of pictures, and where each is to be stored.
+pub(super) type Pictures = Vec<(String, Option<PathBuf>)>;
+
 /// The files that a table is stored in, begun.
 pub(super) struct Files {
     /// By the name of a picture.
@@ -145,20 +147,20 @@ pub(super) struct Files {
 }
 
 impl Files {
-    /// The pictures of these names, where they have a place, and the values.
+    /// The pictures that have a place, and the values.
     ///
     /// # Errors
     /// A [`Diagnostic`] if one of them has none, or there is nothing to force.
     pub(super) fn of(
-        names: &[impl ToString],
-        paths: &[Option<PathBuf>],
-        csv: Option<&Path>,
+        pictures: Pictures,
+        csv: Option<PathBuf>,
         force: &ForceArgs,
     ) -> Result<Self, Diagnostic> {
-        let paths: Vec<_> = paths.iter().cloned().chain([csv.map(Path::to_owned)]).collect();
+        let (names, mut paths): (Vec<String>, Vec<_>) = pictures.into_iter().unzip();
+        paths.push(csv);
         let mut files = force.each(&paths)?;
         let csv = files.pop().flatten();
-        let pictures = names.iter().map(ToString::to_string).zip(files);
+        let pictures = names.into_iter().zip(files);
         Ok(Self { pictures: pictures.filter_map(|(name, file)| Some((name, file?))).collect(), csv })
     }
 }
@@ -206,15 +208,14 @@ impl FromArgMatches for Wanted {
                 Some((option.name.to_owned(), texts.cloned().collect()))
             }
         };
-        let picture = |(name, _): (&'static str, _)| (name, matches.get_one::<PathBuf>(name).cloned());
-        let pictures: (Vec<_>, Vec<_>) = table.pictures().into_iter().map(picture).unzip();
-        let dealt =
-            matches.get_one::<PathBuf>("plan").cloned().zip(matches.get_one::<u32>("shards").copied());
+        let path = |name: &str| matches.get_one::<PathBuf>(name).cloned();
+        let pictures = table.about().pictures.iter().map(|&(name, _)| (name.to_owned(), path(name)));
+        let dealt = path("plan").zip(matches.get_one::<u32>("shards").copied());
         Ok(Self {
             table,
             given: table.options().into_iter().filter_map(|(option, _)| given(option)).collect(),
-            pictures,
-            csv: matches.get_one::<PathBuf>("csv").cloned(),
+            pictures: pictures.collect(),
+            csv: path("csv"),
             dealt,
             force: ForceArgs::from_arg_matches(matches)?,
             format: FormatArgs::from_arg_matches(matches)?,
@@ -231,19 +232,15 @@ impl FromArgMatches for Wanted {
 fn subcommand(table: &'static dyn Entry) -> Command {
     let options = table.options().into_iter().map(|(option, default)| argument(table, option, default));
     let mut command = Command::new(table.about().id).args(options);
-    let pictures = table.pictures();
-    let picture = |(name, about)| {
+    let file = |&(name, about): &(&'static str, &'static str)| {
         let path = clap::value_parser!(PathBuf);
         Arg::new(name).long(name).value_name("FILE").help(about).value_parser(path)
     };
-    let csv = Arg::new("csv").long("csv").value_name("FILE").value_parser(clap::value_parser!(PathBuf));
-    let plan = Arg::new("plan").long("plan").value_name("FILE").requires("shards");
-    let plan = plan.value_parser(clap::value_parser!(PathBuf));
     let shards =
         Arg::new("shards").long("shards").value_name("N").requires("plan").value_parser(whole::<u32>);
-    command = command.args(pictures.into_iter().map(picture)).args([
-        csv.help("Store the values of the table as comma-separated values"),
-        plan.help("Measure nothing yet, but store a plan in FILE"),
+    command = command.args(table.about().pictures.iter().map(file)).args([
+        file(&("csv", "Store the values of the table as comma-separated values")),
+        file(&("plan", "Measure nothing yet, but store a plan in FILE")).requires("shards"),
         shards.help("Deal the jobs out among N shards, each to be run on any machine"),
     ]);
     command = ForceArgs::augment_args(command);

@@ -253,12 +253,10 @@ impl Merge {
             Of::Table { .. } => {
                 let asked = restored(&plan)?;
                 let made = asked.merge(&merge_table(&plan, &*asked, &shards)?)?;
-                let (names, paths): (Vec<_>, Vec<_>) = self
-                    .pictures
-                    .chunks(2)
-                    .map(|pair| (pair[0].to_string_lossy().into_owned(), Some(pair[1].clone())))
-                    .unzip();
-                let files = Files::of(&names, &paths, self.csv.as_deref(), &self.force)?;
+                let picture =
+                    |pair: &[PathBuf]| (pair[0].to_string_lossy().into_owned(), Some(pair[1].clone()));
+                let pictures = self.pictures.chunks(2).map(picture).collect();
+                let files = Files::of(pictures, self.csv.clone(), &self.force)?;
                 tell(&*made, files, self.format.format.plain()?, out)
             }
         }

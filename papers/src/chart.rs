@@ -4,6 +4,7 @@
 
 use std::fmt::Write;
 
+use tautline_field::stats::Estimate;
 use tautline_sim::draw::svg::{MARGIN, SERIES, SERIES_STYLE, document, escaped, text_width};
 
 /// The size of the area of the points.
@@ -93,6 +94,39 @@ pub struct Point {
     pub interval: Option<[f64; 2]>,
 }
 
+impl Series {
+    /// A series of points that are measured.
+    pub fn measured(name: impl Into<String>, points: impl IntoIterator<Item = Point>) -> Self {
+        Self { name: name.into(), stroke: Stroke::Solid, points: points.into_iter().collect() }
+    }
+
+    /// A series of points that a paper prints.
+    pub fn printed(name: impl Into<String>, points: impl IntoIterator<Item = Point>) -> Self {
+        Self { stroke: Stroke::Dashed, ..Self::measured(name, points) }
+    }
+
+    /// The points that can be drawn. An interval that cannot be drawn is left out.
+    fn shown(&self) -> impl Iterator<Item = Point> {
+        let points = self.points.iter().filter(|point| is_drawn(point.x) && is_drawn(point.y));
+        points.map(|&point| Point {
+            interval: point.interval.filter(|ends| ends.iter().all(|&end| is_drawn(end))),
+            ..point
+        })
+    }
+}
+
+impl Point {
+    /// A point without an interval.
+    pub const fn plain(x: f64, y: f64) -> Self {
+        Self { x, y, interval: None }
+    }
+
+    /// A mean or a share with its interval, at `x`.
+    pub const fn of(x: f64, estimate: Estimate) -> Self {
+        Self { x, y: estimate.mean, interval: estimate.interval }
+    }
+}
+
 impl Axis {
     /// An axis of `name` in `unit`, as long as the points need.
     pub fn new(name: impl Into<String>, unit: impl Into<String>) -> Self {
@@ -113,13 +147,24 @@ impl Axis {
 }
 
 impl LineChart {
+    /// A chart of these series.
+    pub fn new(title: impl Into<String>, x: Axis, y: Axis, series: impl IntoIterator<Item = Series>) -> Self {
+        Self { title: title.into(), x, y, series: series.into_iter().collect() }
+    }
+
+    /// The chart without series that have no point.
+    #[must_use]
+    pub fn without_empty(mut self) -> Self {
+        self.series.retain(|series| !series.points.is_empty());
+        self
+    }
+
     /// The whole picture.
     pub fn svg(&self) -> String {
-        let across =
-            Scale::of(self.shown().map(|(_, point)| point.x).chain(self.x.shows.iter().copied()), WIDTH);
-        let up = self
-            .shown()
-            .flat_map(|(_, point)| [point.y].into_iter().chain(point.interval.into_iter().flatten()));
+        let shown = || self.series.iter().flat_map(Series::shown);
+        let across = shown().map(|point| point.x);
+        let up = shown().flat_map(|point| [Some([point.y; 2]), point.interval]).flatten().flatten();
+        let across = Scale::of(across.chain(self.x.shows.iter().copied()), WIDTH);
         let up = Scale::of(up.chain(self.y.shows.iter().copied()), HEIGHT);
 
         let (title, x_name, y_name) = (escaped(&self.title), self.x.words(), self.y.words());
@@ -140,9 +185,7 @@ impl LineChart {
                 Stroke::Dashed => 0,
             };
             let look = solid.saturating_sub(1);
-            let points: Vec<Point> =
-                self.shown().filter(|&(of, _)| of == place).map(|(_, point)| point).collect();
-            let _ = writeln!(body, "{}", drawn(look, series, points, &across, &up));
+            let _ = writeln!(body, "{}", drawn(look, series, &across, &up));
             let y = below + LINE * place as i32;
             let sample = legend(look, series);
             let _ = writeln!(body, "<g transform=\"translate(0,{y})\">{sample}</g>");
@@ -163,22 +206,6 @@ impl LineChart {
             (width, top + below + LINE * self.series.len() as i32),
             &body,
         )
-    }
-
-    /// The points that can be drawn, with the places of their series. An interval that cannot be drawn is left out.
-    fn shown(&self) -> impl Iterator<Item = (usize, Point)> {
-        let of_series = self.series.iter().enumerate();
-        let points =
-            of_series.flat_map(|(place, series)| series.points.iter().map(move |&point| (place, point)));
-        points.filter(|(_, point)| is_drawn(point.x) && is_drawn(point.y)).map(|(place, point)| {
-            (
-                place,
-                Point {
-                    interval: point.interval.filter(|ends| ends.iter().all(|&end| is_drawn(end))),
-                    ..point
-                },
-            )
-        })
     }
 }
 
@@ -278,7 +305,8 @@ fn axes(across: &Scale, up: &Scale) -> String {
 }
 
 /// A series: its intervals, its line and its marks.
-fn drawn(look: usize, series: &Series, mut points: Vec<Point>, across: &Scale, up: &Scale) -> String {
+fn drawn(look: usize, series: &Series, across: &Scale, up: &Scale) -> String {
+    let mut points: Vec<Point> = series.shown().collect();
     points.sort_by(|one, other| one.x.total_cmp(&other.x));
     let (mut line, mut intervals, mut marks) = (String::new(), String::new(), String::new());
     for point in points {

@@ -7,8 +7,10 @@ pub mod antenna_fig4;
 pub mod atlas;
 pub mod chain_fig4;
 pub mod chain_radio;
+mod columns;
 mod csv;
 mod entry;
+mod estimates;
 pub mod floors;
 pub mod floors_missed;
 pub mod frontier_fig7;
@@ -18,11 +20,14 @@ pub mod locate_convergence;
 pub mod locate_fig8;
 pub mod notice_fig5;
 pub mod optimum;
+mod paper;
 pub mod parameter;
+mod prelude;
 pub mod reel;
 pub mod repair_cost;
 pub mod rescue_fig8;
 pub mod rivals;
+mod runs;
 
 use std::fmt;
 
@@ -33,11 +38,12 @@ use serde::de::DeserializeOwned;
 use tautline_proofs::engine::tree::Progress;
 
 pub use self::entry::{Asked, Entry, Made};
-use self::parameter::Parameter;
-use crate::chart::Point;
+use self::parameter::{Parameter, Settings};
 use tautline_field::radio::Problem;
-use tautline_field::stats::Estimate;
+use tautline_kernel::ground::Cell;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
+use tautline_sim::explore::Setup;
+use tautline_sim::layout::{self, Generator, Layout};
 
 /// Every table, in the order in which they are listed.
 pub const TABLES: &[&dyn Entry] = &[
@@ -72,7 +78,7 @@ pub const TABLES: &[&dyn Entry] = &[
 /// its jobs, or in which order.
 pub trait Table: fmt::Debug + Sync + 'static {
     /// What can be asked of it.
-    type Settings: Default + Serialize + DeserializeOwned + Sync;
+    type Settings: Settings;
     /// A part of the work, independent of all others.
     type Job: Serialize + DeserializeOwned + Send + Sync;
     /// What comes of a job.
@@ -84,11 +90,8 @@ pub trait Table: fmt::Debug + Sync + 'static {
     fn about(&self) -> About;
 
     /// Its settings, as a person gives them, in the order in which a help text has them.
-    fn parameters(&self) -> Vec<Parameter<Self::Settings>>;
-
-    /// The pictures that can be drawn of it.
-    fn charts(&self) -> Vec<Chart<Self>> {
-        Vec::new()
+    fn parameters(&self) -> Vec<Parameter<Self::Settings>> {
+        Self::Settings::parameters()
     }
 
     /// How its jobs share the threads.
@@ -122,17 +125,26 @@ pub trait Table: fmt::Debug + Sync + 'static {
     ///
     /// # Errors
     /// [`Halt`] if there is none.
-    fn merge(
-        &self,
-        settings: &Self::Settings,
-        results: Vec<(Self::Job, Self::Measured)>,
-    ) -> Result<Self::Merged, Halt>;
+    fn merge(&self, settings: &Self::Settings, results: Results<Self>) -> Result<Self::Merged, Halt>;
 
     /// The table for people. Ends with a newline.
     ///
     /// # Errors
     /// [`Halt`] if what is drawn in it cannot be found again.
     fn text(&self, settings: &Self::Settings, merged: &Self::Merged) -> Result<String, Halt>;
+
+    /// The picture with this place among those that [`About`] names, as SVG.
+    ///
+    /// # Errors
+    /// [`Halt`] if there is nothing to draw.
+    fn draw(
+        &self,
+        _picture: usize,
+        _settings: &Self::Settings,
+        _merged: &Self::Merged,
+    ) -> Result<String, Halt> {
+        Ok(String::new())
+    }
 
     /// Whether a clause is broken that was to hold.
     fn is_broken(&self, _merged: &Self::Merged) -> bool {
@@ -155,21 +167,18 @@ pub struct About {
     pub examples: &'static [&'static str],
     /// What is done while it is measured.
     pub doing: &'static str,
+    /// The names of its pictures, and what they show, as a help text has it.
+    pub pictures: &'static [(&'static str, &'static str)],
 }
 
-/// Draws a table with these settings as SVG.
-pub type Draw<T> = fn(&T, &<T as Table>::Settings, &<T as Table>::Merged) -> Result<String, Halt>;
-
-/// A picture of a table.
-#[derive(Debug)]
-pub struct Chart<T: Table + ?Sized> {
-    /// What it is asked for by.
-    pub name: &'static str,
-    /// What it shows, as a help text has it.
-    pub about: &'static str,
-    /// What draws it.
-    pub draw: Draw<T>,
+impl About {
+    /// Nothing, which a table fills in.
+    const NOTHING: Self =
+        Self { id: "", shows: "", help: "", more: "", examples: &[], doing: "", pictures: &[] };
 }
+
+/// Jobs of a table with their results, in their order.
+pub type Results<T> = Vec<(<T as Table>::Job, <T as Table>::Measured)>;
 
 /// How the jobs of a table share the threads.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -244,12 +253,19 @@ fn usage(problem: Problem) -> Halt {
     Diagnostic::usage(problem, problem.remedy()).into()
 }
 
-/// What is wrong with a layout that was asked for.
-fn unfit(problem: &tautline_sim::layout::Problem) -> Diagnostic {
-    Diagnostic::usage(problem, problem.remedy())
+/// What came of a layout, or what is wrong with it.
+fn fit<T>(result: Result<T, layout::Problem>) -> Result<T, Halt> {
+    Ok(result.map_err(|problem| Diagnostic::usage(&problem, problem.remedy()))?)
 }
 
-/// A mean or a share with its interval, at `x` in a chart.
-const fn point(x: f64, estimate: Estimate) -> Point {
-    Point { x, y: estimate.mean, interval: estimate.interval }
+/// The layout of this seed that a description stands for.
+fn generated(description: &str, seed: u64) -> Result<Layout, Halt> {
+    let generator: Generator = fit(description.parse())?;
+    fit(generator.generate(seed))
+}
+
+/// A layout with the base where it is, or else in the middle, and its cell.
+fn based(mut layout: Layout) -> Result<(Layout, Cell), Halt> {
+    let base = fit(Setup::choose_base(&mut layout, None))?;
+    Ok((layout, base))
 }

@@ -34,7 +34,7 @@ fn small(table: &dyn Entry) -> Box<dyn Asked + '_> {
 
 /// Everything that a person or a program is given of it.
 fn told(table: &dyn Entry, made: &dyn Made) -> Vec<String> {
-    let pictures = table.pictures().into_iter().map(|(name, _)| match made.picture(name) {
+    let pictures = table.about().pictures.iter().map(|&(name, _)| match made.picture(name) {
         Ok(picture) => picture,
         Err(halt) => format!("{halt:?}"),
     });
@@ -172,7 +172,7 @@ fn every_table_has_a_name_of_its_own() {
 fn options_and_pictures_of_a_table_have_names_of_their_own() {
     for table in TABLES {
         let options = table.options().into_iter().map(|(option, _)| option.name);
-        let names: Vec<&str> = options.chain(table.pictures().into_iter().map(|(name, _)| name)).collect();
+        let names: Vec<&str> = options.chain(table.about().pictures.iter().map(|&(name, _)| name)).collect();
         assert_eq!(names.iter().collect::<BTreeSet<_>>().len(), names.len(), "{:?}", table.about());
     }
 }

@@ -28,6 +28,12 @@ pub enum Width {
     Of(usize),
 }
 
+impl From<usize> for Width {
+    fn from(characters: usize) -> Self {
+        Self::Of(characters)
+    }
+}
+
 impl Column {
     /// The characters between two columns.
     const GAP: usize = 2;

@@ -9,26 +9,19 @@
 mod drawn;
 mod printed;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::Cell;
 use tautline_kernel::{ants, bricks};
 use tautline_proofs::bricks::tree;
 
-use self::printed::Printed;
-use super::parameter::{Parameter, put, shown};
-use super::{About, Chart, Observer, Table, unfit};
-use tautline_field::stats::Estimate;
-use tautline_sim::diagnostic::Halt;
+use super::prelude::*;
 use tautline_sim::explore::agents::{self as explore, Crew, Way};
 use tautline_sim::explore::ants::ANTS;
 use tautline_sim::explore::bricks::{BRICKS, BRICKS_ANTS};
 use tautline_sim::explore::depth_first::{HELPERS, MDFS};
 use tautline_sim::explore::trees::{HELPERS_ROBUST, TREE};
 use tautline_sim::explore::{Profile, RuleId};
+use tautline_sim::layout::Layout;
 use tautline_sim::layout::generate::Probability;
-use tautline_sim::layout::{Generator, Layout};
-use tautline_sim::value_parser::{number, within};
 
 /// A scheme under one of its rules.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
@@ -38,7 +31,7 @@ pub struct Team {
     /// Its rule.
     pub rule: RuleId,
     #[serde(skip)]
-    way: Explorer,
+    pub(super) way: Explorer,
 }
 
 /// How the agents of a team decide.
@@ -48,15 +41,13 @@ pub(super) enum Explorer {
     Trees(tree::Way),
 }
 
+/// How likely a sensor is missed, and the seed of what is left to chance.
+type Chance = (Probability, u64);
+
 impl Explorer {
     /// A run of agents that start in these cells of `layout`, of at most so many steps of all of them.
-    pub(super) fn run(
-        self,
-        layout: &Layout,
-        starts: &[Cell],
-        (miss, seed): (Probability, u64),
-        max_steps: u32,
-    ) -> Outcome {
+    pub(super) fn run(self, layout: &Layout, starts: &[Cell], chance: Chance, max_steps: u32) -> Outcome {
+        let (miss, seed) = chance;
         match self {
             Self::Marks(way) => follow(explore::Agents::new(way, layout, starts, miss, seed), max_steps),
             Self::Trees(way) => follow(explore::Agents::new(way, layout, starts, miss, seed), max_steps),
@@ -69,15 +60,12 @@ impl Team {
         Self { scheme, rule, way }
     }
 
-    /// A run of its agents, as [`Explorer::run`] has it.
-    pub(super) fn run(
-        self,
-        layout: &Layout,
-        starts: &[Cell],
-        chance: (Probability, u64),
-        max_steps: u32,
-    ) -> Outcome {
-        self.way.run(layout, starts, chance, max_steps)
+    /// Its name: the scheme, with its rule where that is not the repaired one.
+    pub fn name(self) -> String {
+        match self.rule {
+            RuleId::REPAIRED => self.scheme.name.to_owned(),
+            rule => format!("{} ({rule})", self.scheme.name),
+        }
     }
 }
 
@@ -105,39 +93,48 @@ const SIDE: u16 = 30;
 const AGENTS: u16 = 20;
 
 /// Figure 11.
-pub const BRICKS_FIG11: Agents = Agents {
-    figure: Figure::Agents,
-    id: "bricks-fig11",
-    shows: "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what they explore and mark as \
-            visited, by the number of agents",
-    help: "What agents explore by their number, with missed sensors",
-};
+pub const BRICKS_FIG11: Agents = Agents::of(
+    Figure::Agents,
+    "bricks-fig11",
+    "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what they explore and mark as \
+     visited, by the number of agents",
+    "What agents explore by their number, with missed sensors",
+);
 
 /// Figure 12.
-pub const BRICKS_FIG12: Agents = Agents {
-    figure: Figure::Area,
-    id: "bricks-fig12",
-    shows: "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what 20 agents explore and mark \
-            as visited, by the area",
-    help: "What agents explore by the area, with missed sensors",
-};
+pub const BRICKS_FIG12: Agents = Agents::of(
+    Figure::Area,
+    "bricks-fig12",
+    "Brick&Mortar, Ants and both together in offices, 5.56 % of the sensors missed: what 20 agents explore and mark \
+     as visited, by the area",
+    "What agents explore by the area, with missed sensors",
+);
 
 /// What agents do where no sensor is missed.
-pub const BRICKS_IDEAL: Agents = Agents {
-    figure: Figure::Ideal,
-    id: "bricks-ideal",
-    shows: "Brick&Mortar, Ants and both together in offices, no sensor missed: how long until everything is explored, and \
-            until all agents know it, by the number of agents",
-    help: "How long agents take, with none missed",
-};
+pub const BRICKS_IDEAL: Agents = Agents::of(
+    Figure::Ideal,
+    "bricks-ideal",
+    "Brick&Mortar, Ants and both together in offices, no sensor missed: how long until everything is explored, and \
+     until all agents know it, by the number of agents",
+    "How long agents take, with none missed",
+);
 
 /// Agents on the floors of offices.
 #[derive(Clone, Copy, Debug)]
 pub struct Agents {
     figure: Figure,
-    id: &'static str,
-    shows: &'static str,
-    help: &'static str,
+    about: About,
+}
+
+impl Agents {
+    const fn of(figure: Figure, id: &'static str, shows: &'static str, help: &'static str) -> Self {
+        let examples = &["bricks-fig11 --svg fig11.svg", "bricks-ideal --layouts 20 --format json"];
+        let pictures = &[("svg", "Store a chart")];
+        Self {
+            figure,
+            about: About { id, shows, help, examples, doing: "exploring", pictures, ..About::NOTHING },
+        }
+    }
 }
 
 /// What is varied.
@@ -170,30 +167,21 @@ impl Figure {
     }
 }
 
-/// How much is measured.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct Settings {
-    /// Layouts at each point.
-    pub layouts: u32,
-    /// The seed of the first one.
-    pub seed: u64,
-    /// Steps of all agents after which a run is ended.
-    pub max_steps: u32,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self { layouts: 200, seed: 0, max_steps: 200_000 }
+settings! {
+    /// How much is measured.
+    #[derive(Copy, Eq)]
+    pub struct Settings {
+        /// Random layouts at each point
+        pub layouts: u32 = 200, one("layouts", "COUNT", from_to(1..=100_000));
+        /// The seed of the first layout and its runs; the others have the seeds after it
+        pub seed: u64 = 0, one("seed", "SEED", number);
+        /// Steps of all agents together after which a run is ended
+        pub max_steps: u32 = 200_000, one("max-steps", "STEPS", from_to(1..=u32::MAX.into()));
     }
 }
 
-/// One layout with so many agents, for every team.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-pub struct Job {
-    side: u16,
-    agents: u16,
-    seed: u64,
-}
+/// A run of every team in one layout with so many cells on a side, and of so many agents.
+type Job = Run<(u16, u16)>;
 
 /// The whole figure.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
@@ -266,9 +254,8 @@ impl Outcome {
     }
 
     /// The mean of that over the runs that have such a moment.
-    pub(super) fn mean_ratio(all: &[Self], of: fn(&Self) -> Option<Moment>, agents: u16) -> Option<Estimate> {
-        let ratios = all.iter().filter_map(|outcome| outcome.ratio(of(outcome), agents));
-        Estimate::of_values(&ratios.collect::<Vec<_>>())
+    pub(super) fn ratios(all: &[&Self], of: fn(&Self) -> Option<Moment>, agents: u16) -> Option<Estimate> {
+        mean(all.iter().filter_map(|outcome| outcome.ratio(of(outcome), agents)))
     }
 }
 
@@ -279,85 +266,30 @@ impl Table for Agents {
     type Merged = Merged;
 
     fn about(&self) -> About {
-        About {
-            id: self.id,
-            shows: self.shows,
-            help: self.help,
-            more: "",
-            examples: &["bricks-fig11 --svg fig11.svg", "bricks-ideal --layouts 20 --format json"],
-            doing: "exploring",
-        }
-    }
-
-    fn parameters(&self) -> Vec<Parameter<Settings>> {
-        vec![
-            Parameter::one(
-                "layouts",
-                "COUNT",
-                "Random layouts at each point",
-                |all| shown(&all.layouts),
-                |all, texts| put(&mut all.layouts, texts, |text| within(text, &(1..=100_000_i64))),
-            ),
-            Parameter::one(
-                "seed",
-                "SEED",
-                "The seed of the first layout and its runs; the others have the seeds after it",
-                |all| shown(&all.seed),
-                |all, texts| put(&mut all.seed, texts, number),
-            ),
-            Parameter::one(
-                "max-steps",
-                "STEPS",
-                "Steps of all agents together after which a run is ended",
-                |all| shown(&all.max_steps),
-                |all, texts| put(&mut all.max_steps, texts, |text| within(text, &(1..=i64::from(u32::MAX)))),
-            ),
-        ]
-    }
-
-    fn charts(&self) -> Vec<Chart<Self>> {
-        let draw = |agents: &Self, _: &Settings, merged: &Merged| {
-            Ok(drawn::chart(agents.figure, &merged.lines).svg())
-        };
-        vec![Chart { name: "svg", about: "Store a chart", draw }]
+        self.about
     }
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
-        let at = |(side, agents)| {
-            let first = settings.seed;
-            let job = move |index| Job { side, agents, seed: first.wrapping_add(index) };
-            (0..u64::from(settings.layouts)).map(job)
-        };
-        Ok(self.figure.points().into_iter().flat_map(at).collect())
+        Ok(runs(self.figure.points(), |_| settings.layouts))
     }
 
     fn parts(&self, _: &Job) -> u64 {
         TEAMS.len() as u64
     }
 
-    fn measure(&self, settings: &Settings, job: &Job, _: &dyn Observer) -> Result<Self::Measured, Halt> {
-        let Job { side, agents, seed } = *job;
-        let description = format!("office:{side}x{side}:4x4");
-        let generator: Generator = description.parse().map_err(|problem| unfit(&problem))?;
-        let layout = generator.generate(seed).map_err(|problem| unfit(&problem))?;
-        let start = layout.default_base().map_err(|problem| unfit(&problem))?;
-        let miss = self.figure.miss();
-        let run = |team: Team| {
-            let starts = vec![start; agents.into()];
-            team.run(&layout, &starts, (miss, seed), settings.max_steps)
-        };
-        Ok(TEAMS.map(run))
+    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Measured, Halt> {
+        let ((side, agents), seed) = (run.at, run.seed(settings.seed));
+        let layout = generated(&format!("office:{side}x{side}:4x4"), seed)?;
+        let starts = vec![fit(layout.default_base())?; agents.into()];
+        let chance = (self.figure.miss(), seed);
+        Ok(TEAMS.map(|team| team.way.run(&layout, &starts, chance, settings.max_steps)))
     }
 
-    fn merge(&self, settings: &Settings, results: Vec<(Job, Self::Measured)>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
         let Settings { layouts, seed, max_steps } = *settings;
-        let at = |(side, agents): (u16, u16)| {
-            let here = results.iter().filter(move |(job, _)| (job.side, job.agents) == (side, agents));
-            let line = move |(place, team): (usize, Team)| {
-                let outcomes: Vec<Outcome> = here.clone().map(|(_, outcomes)| outcomes[place]).collect();
-                Line::of(team, side, agents, &outcomes)
-            };
-            TEAMS.into_iter().enumerate().filter_map(line)
+        let at = |(side, agents)| {
+            let teams = TEAMS.into_iter().zip(of_teams(&results, (side, agents)));
+            teams.filter_map(move |(team, outcomes)| Line::of(team, side, agents, &outcomes))
         };
         let lines: Vec<Line> = self.figure.points().into_iter().flat_map(at).collect();
         let paper = printed::of(self.figure, &lines);
@@ -366,6 +298,10 @@ impl Table for Agents {
 
     fn text(&self, _: &Settings, merged: &Merged) -> Result<String, Halt> {
         Ok(printed::text(self.figure, merged))
+    }
+
+    fn draw(&self, _: usize, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+        Ok(drawn::chart(self.figure, &merged.lines).svg())
     }
 }
 
@@ -393,21 +329,10 @@ fn follow<K: Crew>(mut team: explore::Agents<K>, max_steps: u32) -> Outcome {
     }
 }
 
-impl Team {
-    /// Its name: the scheme, with its rule where that is not the repaired one.
-    pub fn name(self) -> String {
-        match self.rule {
-            RuleId::REPAIRED => self.scheme.name.to_owned(),
-            rule => format!("{} ({rule})", self.scheme.name),
-        }
-    }
-}
-
 impl Line {
-    fn of(team: Team, side: u16, agents: u16, outcomes: &[Outcome]) -> Option<Self> {
+    fn of(team: Team, side: u16, agents: u16, outcomes: &[&Outcome]) -> Option<Self> {
         let percent = |number: fn(&Outcome) -> u32| {
-            let share = |outcome: &Outcome| 100.0 * f64::from(number(outcome)) / f64::from(outcome.cells);
-            Estimate::of_values(&outcomes.iter().map(share).collect::<Vec<_>>())
+            mean(outcomes.iter().map(|outcome| 100.0 * f64::from(number(outcome)) / f64::from(outcome.cells)))
         };
         let visited = match team.way {
             Explorer::Marks(Way::Ants(_)) => None,
@@ -421,16 +346,16 @@ impl Line {
             visited,
             exploration: Duration::of(outcomes.iter().filter_map(|outcome| outcome.exploration)),
             termination: Duration::of(outcomes.iter().filter_map(|outcome| outcome.termination)),
-            ended: outcomes.iter().filter(|outcome| outcome.is_ended).count() as u32,
+            ended: count(outcomes, |outcome| outcome.is_ended),
         })
     }
 }
 
 impl Duration {
-    #[expect(clippy::cast_precision_loss, reason = "no run takes 2⁵³ milliseconds")]
-    fn of(moments: impl Iterator<Item = Moment>) -> Option<Self> {
-        let (moves, seconds): (Vec<f64>, Vec<f64>) =
-            moments.map(|moment| (f64::from(moment.team_moves), moment.milliseconds as f64 / 1000.0)).unzip();
-        Some(Self { team_moves: Estimate::of_values(&moves)?, seconds: Estimate::of_values(&seconds)? })
+    fn of(moments: impl Iterator<Item = Moment> + Clone) -> Option<Self> {
+        Some(Self {
+            team_moves: mean(moments.clone().map(|moment| f64::from(moment.team_moves)))?,
+            seconds: mean(moments.map(|moment| seconds(moment.milliseconds)))?,
+        })
     }
 }

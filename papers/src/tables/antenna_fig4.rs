@@ -3,22 +3,15 @@
 //! the greatest straight ahead. The pattern here is the one that [`Antenna`] says. Beside it: how far the strongest of
 //! 24 directions is off the node's, by the noise of the measurements, from nodes in every direction.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::tan::{Heading, Scan};
 use tautline_proofs::engine::Seeded;
 
 use super::notice_fig5::RANGE_M;
-use super::parameter::{Parameter, all_shown, put, put_all, shown};
-use super::{About, Chart, Observer, Table, usage};
-use crate::chart::{Axis, LineChart, Point as Mark, Series, Stroke};
+use super::prelude::*;
+use crate::chart;
 use tautline_field::radio::{Area, Field, MAX_RANGE_M, Model, Point, Problem, Radio};
-use tautline_field::stats::{Estimate, rounded};
 use tautline_field::tan::{Antenna, Ear, NEAREST_M, Signal};
-use tautline_sim::diagnostic::Halt;
-use tautline_sim::text_table::{Column, TextTable, Width};
-use tautline_sim::value_parser::{number, real, within};
 
 /// The paper's distance, in metres.
 const DISTANCE_M: f64 = 20.0;
@@ -30,22 +23,17 @@ const NOISES_DB: [f64; 5] = [0.0, 0.5, 1.0, 2.0, 4.0];
 #[derive(Clone, Copy, Debug)]
 pub struct AntennaFig4;
 
-/// What is measured.
-#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct Settings {
-    /// How far off the node is, in metres.
-    pub distance_m: f64,
-    /// The standard deviations of the strengths measured, in dB.
-    pub noises_db: Vec<f64>,
-    /// Scans with each.
-    pub scans: u32,
-    /// The seed of all of them.
-    pub seed: u64,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self { distance_m: DISTANCE_M, noises_db: NOISES_DB.into(), scans: 10_000, seed: 0 }
+settings! {
+    /// What is measured.
+    pub struct Settings {
+        /// How far off the node is, in metres
+        pub distance_m: f64 = DISTANCE_M, one("distance", "METRES", distance);
+        /// Standard deviations of the strengths measured, in dB
+        pub noises_db: Vec<f64> = NOISES_DB.into(), list("noise-db", real);
+        /// Scans with each, of nodes in random directions
+        pub scans: u32 = 10_000, one("scans", "COUNT", from_to(1..=1_000_000));
+        /// The seed of all scans
+        pub seed: u64 = 0, one("seed", "SEED", number);
     }
 }
 
@@ -178,44 +166,8 @@ impl Table for AntennaFig4 {
                 "antenna-fig4 --distance 5 --noise-db 0,3,6 --format json",
             ],
             doing: "scanning",
+            pictures: &[("svg", "Store the pattern as a picture")],
         }
-    }
-
-    fn parameters(&self) -> Vec<Parameter<Settings>> {
-        vec![
-            Parameter::one(
-                "distance",
-                "METRES",
-                "How far off the node is, in metres",
-                |all| shown(&all.distance_m),
-                |all, texts| put(&mut all.distance_m, texts, distance),
-            ),
-            Parameter::list(
-                "noise-db",
-                "Standard deviations of the strengths measured, in dB",
-                |all| all_shown(&all.noises_db),
-                |all, texts| put_all(&mut all.noises_db, texts, real),
-            ),
-            Parameter::one(
-                "scans",
-                "COUNT",
-                "Scans with each, of nodes in random directions",
-                |all| shown(&all.scans),
-                |all, texts| put(&mut all.scans, texts, |text| within(text, &(1..=1_000_000_i64))),
-            ),
-            Parameter::one(
-                "seed",
-                "SEED",
-                "The seed of all scans",
-                |all| shown(&all.seed),
-                |all, texts| put(&mut all.seed, texts, number),
-            ),
-        ]
-    }
-
-    fn charts(&self) -> Vec<Chart<Self>> {
-        let draw = |_: &Self, _: &Settings, merged: &Merged| Ok(chart(merged).svg());
-        vec![Chart { name: "svg", about: "Store the pattern as a picture", draw }]
     }
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
@@ -233,37 +185,33 @@ impl Table for AntennaFig4 {
                 stand.scan(&ear, degrees, chance)
             })
             .collect();
-        let share = |beside: f64| {
-            let hits = scans.iter().filter(|(off, nearest)| *off <= nearest + beside).count() as u32;
-            rounded(Estimate::share(hits, settings.scans).unwrap_or(Estimate::NOTHING), 1e4)
+        let within = |beside: f64| {
+            let share = share(&scans, |(off, nearest)| *off <= nearest + beside);
+            rounded(share.unwrap_or(Estimate::NOTHING), 1e4)
         };
-        let off: Vec<f64> = scans.iter().map(|&(off, _)| off).collect();
-        Ok(Noise {
-            noise_db,
-            right: share(0.0),
-            beside: share(15.0),
-            degrees_off: rounded(Estimate::of_values(&off).unwrap_or(Estimate::NOTHING), 1e2),
-        })
+        let off = mean(scans.iter().map(|&(off, _)| off)).unwrap_or(Estimate::NOTHING);
+        Ok(Noise { noise_db, right: within(0.0), beside: within(15.0), degrees_off: rounded(off, 1e2) })
     }
 
-    fn merge(&self, settings: &Settings, results: Vec<(Job, Noise)>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
         let Settings { distance_m, scans, seed, .. } = *settings;
         let noises = results.into_iter().map(|(_, noise)| noise).collect();
         Ok(Merged { distance_m, scans, seed, pattern: settings.pattern()?, noises })
     }
 
     fn text(&self, _: &Settings, merged: &Merged) -> Result<String, Halt> {
-        let mut pattern = TextTable::new([5, 8].map(|width| Column::right(Width::Of(width))));
-        for angle in merged.pattern.iter().filter(|angle| angle.degrees >= 0) {
-            let level = angle.level_db.map_or("nothing".to_owned(), |level_db| format!("{level_db:.2}"));
-            pattern.row([format!("{}°", angle.degrees), level]);
-        }
-        let mut noises = TextTable::new([9, 23, 23, 14].map(|width| Column::right(Width::Of(width))));
-        noises.row(["noise, dB", "right, %", "one beside, %", "off, degrees"]);
-        let percent = |estimate: Estimate| estimate.times(100.0).text(2);
-        for Noise { noise_db, right, beside, degrees_off } in &merged.noises {
-            noises.row([noise_db.to_string(), percent(*right), percent(*beside), degrees_off.text(2)]);
-        }
+        let level = |angle: &Angle| match angle.level_db {
+            Some(level_db) => format!("{level_db:.2}"),
+            None => "nothing".to_owned(),
+        };
+        let pattern = Columns::of(merged.pattern.iter().filter(|angle| angle.degrees >= 0))
+            .right("", 5, |angle| format!("{}°", angle.degrees))
+            .right("", 8, level);
+        let noises = Columns::of(&merged.noises)
+            .right("noise, dB", 9, |noise| noise.noise_db)
+            .percent("right, %", 23, 2, |noise| noise.right)
+            .percent("one beside, %", 23, 2, |noise| noise.beside)
+            .estimate("off, degrees", 14, 2, |noise| noise.degrees_off);
         Ok(format!(
             "A node {} m off: dB above the weakest signal that is heard all round\n\n{}\n\
              Scans of nodes in random directions, {} for each noise, seed {}\n\n{}\n\
@@ -276,22 +224,15 @@ impl Table for AntennaFig4 {
             noises.text()
         ))
     }
-}
 
-/// The pattern as a chart.
-fn chart(merged: &Merged) -> LineChart {
-    let point = |angle: &Angle| {
-        let y = angle.level_db?;
-        Some(Mark { x: f64::from(angle.degrees), y, interval: None })
-    };
-    LineChart {
-        title: format!("What a robot hears of a node {} m off", merged.distance_m),
-        x: Axis::new("angle between antenna and node", "degrees").showing([-180.0, 180.0]),
-        y: Axis::new("above the weakest signal heard all round", "dB").showing([0.0, 10.0]),
-        series: vec![Series {
-            name: "directional antenna".to_owned(),
-            stroke: Stroke::Solid,
-            points: merged.pattern.iter().filter_map(point).collect(),
-        }],
+    fn draw(&self, _: usize, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+        let point = |angle: &Angle| Some(chart::Point::plain(angle.degrees.into(), angle.level_db?));
+        let chart = LineChart::new(
+            format!("What a robot hears of a node {} m off", merged.distance_m),
+            Axis::new("angle between antenna and node", "degrees").showing([-180.0, 180.0]),
+            Axis::new("above the weakest signal heard all round", "dB").showing([0.0, 10.0]),
+            [Series::measured("directional antenna", merged.pattern.iter().filter_map(point))],
+        );
+        Ok(chart.svg())
     }
 }

@@ -1,41 +1,34 @@
 //! The atlas of the chain: for each rule and number of robots, what becomes of all runs in all layouts within a bound
 //! on the walls met. All counts are exact.
 
-use std::fmt::Write;
-
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::chain::invariant::Invariant;
 use tautline_proofs::chain::search::{Bounds, Counterexample};
-use tautline_proofs::plural::counted;
 use tautline_proofs::run::walls;
 
-use super::parameter::Parameter;
-use super::{About, Observer, Table, Threads};
-use tautline_sim::diagnostic::Halt;
+use super::prelude::*;
 use tautline_sim::explore::RuleName;
 use tautline_sim::explore::chain::hunt::start;
 use tautline_sim::schema::CellWritten;
-use tautline_sim::text_table::{Column, TextTable, Width};
 
 /// The atlas.
 #[derive(Clone, Copy, Debug)]
 pub struct Atlas;
 
-/// How far is searched.
-#[derive(Clone, Copy, PartialEq, Eq, Default, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct Settings {
-    /// Which sheets.
-    pub depth: Depth,
+settings! {
+    /// How far is searched.
+    #[derive(Copy, Eq)]
+    pub struct Settings {
+        /// More walls: many minutes instead of seconds
+        pub depth: Depth = Depth::Quick, flag("deep", Depth::Deep);
+    }
 }
 
 /// How many walls are allowed.
-#[derive(Clone, Copy, PartialEq, Eq, Default, Debug, JsonSchema, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub enum Depth {
     /// What takes seconds.
-    #[default]
     Quick,
     /// What takes the better part of an hour.
     Deep,
@@ -50,12 +43,8 @@ impl Depth {
     }
 }
 
-/// One rule on one sheet.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-pub struct Job {
-    sheet: Sheet,
-    rule: RuleName,
-}
+/// A sheet, and a rule on it.
+type Job = (Sheet, RuleName);
 
 /// What a search found.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
@@ -201,17 +190,10 @@ impl Table for Atlas {
             shows: "all runs of the chain in all layouts with few walls, by rule and number of robots: how many there are, \
                     how long, and how many break which clause",
             help: "What becomes of all runs in all layouts with few walls, by rule and number of robots",
-            more: "",
             examples: &["atlas", "atlas --deep --format json"],
             doing: "searching",
+            ..About::NOTHING
         }
-    }
-
-    fn parameters(&self) -> Vec<Parameter<Settings>> {
-        vec![Parameter::flag("deep", "More walls: many minutes instead of seconds", |all, _| {
-            all.depth = Depth::Deep;
-            Ok(())
-        })]
     }
 
     /// A search uses all threads by itself, and one takes most of the time.
@@ -220,12 +202,10 @@ impl Table for Atlas {
     }
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
-        let of = |sheet| RuleName::ALL.map(|rule| Job { sheet, rule });
-        Ok(settings.depth.sheets().into_iter().flat_map(of).collect())
+        Ok(pairs(settings.depth.sheets(), RuleName::ALL).collect())
     }
 
-    fn measure(&self, _: &Settings, job: &Job, observer: &dyn Observer) -> Result<Searched, Halt> {
-        let Job { sheet, rule } = *job;
+    fn measure(&self, _: &Settings, &(sheet, rule): &Job, observer: &dyn Observer) -> Result<Searched, Halt> {
         let mut bounds = Bounds::new(rule.observed(), sheet.robots.into(), sheet.max_walls);
         if sheet.reach == Reach::Counted {
             bounds.invariants.push(Invariant::Exhausts);
@@ -246,8 +226,8 @@ impl Table for Atlas {
         })
     }
 
-    fn merge(&self, _: &Settings, results: Vec<(Job, Searched)>) -> Result<Merged, Halt> {
-        let line = |(Job { sheet, rule }, searched): (Job, Searched)| {
+    fn merge(&self, _: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+        let line = |((sheet, rule), searched): (Job, Searched)| {
             let Searched { edges, runs, moves, longest, broken } = searched;
             let Sheet { robots, max_walls, reach } = sheet;
             let layouts = layouts(edges, max_walls);
@@ -258,12 +238,16 @@ impl Table for Atlas {
     }
 
     fn text(&self, _: &Settings, merged: &Merged) -> Result<String, Halt> {
-        let heads = ["N", "walls", "rule", "layouts", "runs", "team moves", "longest"];
-        let heads = heads.into_iter().chain(CLAUSES);
-        let mut columns = TextTable::new(heads.clone().map(|_| Column::right(Width::Fit)));
-        columns.row(heads);
-        for line in &merged.lines {
-            columns.row(line.cells());
+        let mut columns = Columns::of(&merged.lines)
+            .right("N", Fit, |line| line.robots)
+            .right("walls", Fit, |line| line.max_walls)
+            .right("rule", Fit, |line| line.rule)
+            .right("layouts", Fit, |line| line.layouts)
+            .right("runs", Fit, |line| line.runs)
+            .right("team moves", Fit, |line| line.moves)
+            .right("longest", Fit, |line| line.longest);
+        for clause in CLAUSES {
+            columns = columns.right(clause, Fit, |line| line.runs_that_break(clause));
         }
         let mut text = format!(
             "All runs in all layouts of (2N−1)² cells, the base in the middle, by the walls that a run meets at most\n\n{}\n\
@@ -278,12 +262,8 @@ impl Table for Atlas {
                 let between: Vec<String> =
                     walls.iter().map(|[one, other]| format!("{one}|{other}")).collect();
                 let (walls, moves) = (counted(walls.len(), "wall"), counted(*steps, "team move"));
-                // Writing to a string cannot fail.
-                let _ = writeln!(
-                    text,
-                    "{robots} robots, {rule}: {clause}, {walls}, {moves}: {}",
-                    between.join(" ")
-                );
+                let between = between.join(" ");
+                text += &format!("{robots} robots, {rule}: {clause}, {walls}, {moves}: {between}\n");
             }
         }
         Ok(text)
@@ -297,18 +277,12 @@ impl Table for Atlas {
 }
 
 impl Line {
-    fn cells(&self) -> Vec<String> {
-        let Self { rule, robots, max_walls, layouts, runs, moves, longest, .. } = self;
-        let counts = CLAUSES.map(|clause| match self.broken.iter().find(|broken| broken.clause == clause) {
+    fn runs_that_break(&self, clause: &str) -> String {
+        match self.broken.iter().find(|broken| broken.clause == clause) {
             Some(broken) => broken.runs.to_string(),
             None if clause == BEYOND && !self.looked_beyond => "-".to_owned(),
             None => "0".to_owned(),
-        });
-        let mut cells =
-            vec![robots.to_string(), max_walls.to_string(), rule.to_string(), layouts.to_string()];
-        cells.extend([runs.to_string(), moves.to_string(), longest.to_string()]);
-        cells.extend(counts);
-        cells
+        }
     }
 }
 

@@ -2,21 +2,15 @@
 //! cells of 4 m a side, an even number, so that no cell is its middle: the area with obstacles has 7×7 cells. Where its
 //! obstacles are the figure shows, and not the text: ours are two rectangles.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::{Area, Cell};
-use tautline_proofs::plural::counted;
 
-use super::parameter::Parameter;
-use super::{About, Chart, Observer, Table, unfit};
+use super::prelude::*;
 use crate::nxt::{Body, Odometer};
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::svg;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::{RuleName, Setup, explore, team};
 use tautline_sim::layout::Layout;
 use tautline_sim::schema::CellWritten;
-use tautline_sim::text_table::{Column, TextTable, Width};
 
 /// Fig. 4.
 #[derive(Clone, Copy, Debug)]
@@ -27,9 +21,11 @@ const ROBOTS: u16 = 8;
 /// The cells that obstacles fill, by their corners.
 const OBSTACLES: [[(i16, i16); 2]; 2] = [[(1, 1), (2, 1)], [(4, 5), (5, 5)]];
 
-/// Nothing can be asked.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize, Deserialize)]
-pub struct Settings {}
+settings! {
+    /// Nothing can be asked.
+    #[derive(Copy, Eq)]
+    pub struct Settings {}
+}
 
 /// Where the robots are.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
@@ -41,12 +37,8 @@ pub enum Place {
     Obstacles,
 }
 
-/// A run.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-pub struct Job {
-    place: Place,
-    rule: RuleName,
-}
+/// A run in an area by a rule.
+type Job = (Place, RuleName);
 
 /// What comes of it.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
@@ -79,20 +71,7 @@ pub struct Merged {
 }
 
 impl Place {
-    fn layout(self) -> Result<Layout, Halt> {
-        let side = match self {
-            Self::Open => 15,
-            Self::Obstacles => 7,
-        };
-        let mut layout = Layout::open(side, side).map_err(|problem| unfit(&problem))?;
-        if self == Self::Obstacles {
-            for [(left, top), (right, bottom)] in OBSTACLES {
-                (top..=bottom).for_each(|y| (left..=right).for_each(|x| layout.block(Cell::new(x, y))));
-            }
-        }
-        Setup::choose_base(&mut layout, None).map_err(|problem| unfit(&problem))?;
-        Ok(layout)
-    }
+    const ALL: [Self; 2] = [Self::Open, Self::Obstacles];
 
     const fn words(self) -> &'static str {
         match self {
@@ -102,8 +81,15 @@ impl Place {
     }
 
     fn setup(self, rule: RuleName) -> Result<Setup, Halt> {
-        let layout = self.layout()?;
-        let base = layout.base().unwrap_or(Cell::new(0, 0));
+        let (side, obstacles) = match self {
+            Self::Open => (15, &[][..]),
+            Self::Obstacles => (7, &OBSTACLES[..]),
+        };
+        let mut layout = fit(Layout::open(side, side))?;
+        for &[(left, top), (right, bottom)] in obstacles {
+            (top..=bottom).for_each(|y| (left..=right).for_each(|x| layout.block(Cell::new(x, y))));
+        }
+        let (layout, base) = based(layout)?;
         Ok(Setup::new(&CHAIN, rule, ROBOTS, layout, base))
     }
 }
@@ -124,35 +110,18 @@ impl Table for ChainFig4 {
                    The team waits for its last robot; the radio's time is not counted (see chain-radio).",
             examples: &["chain-fig4", "chain-fig4 --svg-open open.svg --svg-obstacles obstacles.svg"],
             doing: "driving",
+            pictures: &[
+                ("svg-open", "Store the trajectories without obstacles as a picture"),
+                ("svg-obstacles", "Store the trajectories with obstacles as a picture"),
+            ],
         }
     }
 
-    fn parameters(&self) -> Vec<Parameter<Settings>> {
-        Vec::new()
-    }
-
-    fn charts(&self) -> Vec<Chart<Self>> {
-        vec![
-            Chart {
-                name: "svg-open",
-                about: "Store the trajectories without obstacles as a picture",
-                draw: |_, _, merged| picture(merged, Place::Open),
-            },
-            Chart {
-                name: "svg-obstacles",
-                about: "Store the trajectories with obstacles as a picture",
-                draw: |_, _, merged| picture(merged, Place::Obstacles),
-            },
-        ]
-    }
-
     fn jobs(&self, _: &Settings) -> Result<Vec<Job>, Halt> {
-        let places = [Place::Open, Place::Obstacles].into_iter();
-        Ok(places.flat_map(|place| RuleName::ALL.map(|rule| Job { place, rule })).collect())
+        Ok(pairs(Place::ALL, RuleName::ALL).collect())
     }
 
-    fn measure(&self, _: &Settings, job: &Job, _: &dyn Observer) -> Result<Run, Halt> {
-        let Job { place, rule } = *job;
+    fn measure(&self, _: &Settings, &(place, rule): &Job, _: &dyn Observer) -> Result<Run, Halt> {
         let setup = place.setup(rule)?;
         let mut odometer = Odometer::new(Body::NXT, ROBOTS.into());
         let mut ways = vec![vec![setup.base]; usize::from(ROBOTS) - 1];
@@ -186,7 +155,7 @@ impl Table for ChainFig4 {
         })
     }
 
-    fn merge(&self, _: &Settings, results: Vec<(Job, Run)>) -> Result<Merged, Halt> {
+    fn merge(&self, _: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
         let runs = results.into_iter().map(|(_, run)| run).collect();
         Ok(Merged { robots: ROBOTS, runs })
     }
@@ -197,39 +166,23 @@ impl Table for ChainFig4 {
             "{ROBOTS} robots: cells of {} m, {speed_mm} mm/s, error {drift_per_mille} ‰ of the way\n\n",
             cell_mm / 1000
         );
-        let numbers = [Column::right(Width::Fit); 9];
-        let mut columns = TextTable::new([Column::left(Width::Fit)].into_iter().chain(numbers));
-        columns.row([
-            "area",
-            "rule",
-            "team moves",
-            "explored",
-            "minutes",
-            "s a move",
-            "longest way m",
-            "error m",
-            "walls",
-            "robots passed",
-        ]);
-        for run in &merged.runs {
-            let tenths = |number: u64, unit: u64| {
-                let tenths = (number * 10 + unit / 2) / unit;
-                format!("{}.{}", tenths / 10, tenths % 10)
-            };
-            columns.row([
-                run.place.words().to_owned(),
-                run.rule.to_string(),
-                run.team_moves.to_string(),
-                format!("{}/{}", run.explored, run.cells),
-                tenths(run.milliseconds, 60_000),
-                tenths(run.milliseconds, 1000 * u64::from(run.team_moves.max(1))),
-                tenths(run.longest_way_mm, 1000),
-                tenths(run.drift_mm, 1000),
-                run.walls.to_string(),
-                run.passed.to_string(),
-            ]);
-        }
-        text += &columns.text();
+        let tenths = |number: u64, unit: u64| {
+            let tenths = (number * 10 + unit / 2) / unit;
+            format!("{}.{}", tenths / 10, tenths % 10)
+        };
+        let a_move = |run: &Run| tenths(run.milliseconds, 1000 * u64::from(run.team_moves.max(1)));
+        text += &Columns::of(&merged.runs)
+            .left("area", Fit, |run| run.place.words())
+            .right("rule", Fit, |run| run.rule)
+            .right("team moves", Fit, |run| run.team_moves)
+            .right("explored", Fit, |run| format!("{}/{}", run.explored, run.cells))
+            .right("minutes", Fit, |run| tenths(run.milliseconds, 60_000))
+            .right("s a move", Fit, a_move)
+            .right("longest way m", Fit, |run| tenths(run.longest_way_mm, 1000))
+            .right("error m", Fit, |run| tenths(run.drift_mm, 1000))
+            .right("walls", Fit, |run| run.walls)
+            .right("robots passed", Fit, |run| run.passed)
+            .text();
         text += "\nThe paper prints no figure of these runs. What it says of them:\n";
         for run in merged.runs.iter().filter(|run| run.rule == RuleName::Published) {
             let Run { on_squares, places, passed, .. } = run;
@@ -248,6 +201,10 @@ impl Table for ChainFig4 {
             text.push_str(&said);
         }
         Ok(text)
+    }
+
+    fn draw(&self, number: usize, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+        picture(merged, Place::ALL[number])
     }
 }
 

@@ -8,22 +8,14 @@
 //! switches once before the first byte of one end is at the other; that is the least, since bytes go both ways.
 
 use rand_chacha::ChaCha8Rng;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use tautline_kernel::chain::{Message, Outcome};
 use tautline_kernel::ground::Circle;
-use tautline_proofs::plural::counted;
 
-use super::parameter::{Parameter, put, shown};
-use super::{About, Observer, Table, unfit};
+use super::prelude::*;
 use crate::nxt::{Body, Odometer};
-use tautline_field::stats::{Estimate, rounded};
-use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::{RuleName, Setup, explore};
 use tautline_sim::layout::{Layout, generate};
-use tautline_sim::text_table::{Column, TextTable, Width};
-use tautline_sim::value_parser::{number, within};
 
 /// The radio chain.
 #[derive(Clone, Copy, Debug)]
@@ -35,26 +27,21 @@ const TEAMS: [u16; 6] = [3, 4, 5, 6, 7, 8];
 /// How long a bridge's switch takes, in milliseconds.
 const SWITCH_MS: [u64; 2] = [3000, 6000];
 
-/// What is measured.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct Settings {
-    runs: u32,
-    seed: u64,
-    /// One byte over one link.
-    hop_ms: u64,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self { runs: 200, seed: 0, hop_ms: 30 }
+settings! {
+    /// What is measured.
+    #[derive(Copy, Eq)]
+    pub struct Settings {
+        /// Runs of each chain
+        runs: u32 = 200, one("runs", "COUNT", from_to(1..=100_000));
+        /// The seed of the durations
+        seed: u64 = 0, one("seed", "SEED", number);
+        /// How long a byte takes over one link; the paper does not say
+        hop_ms: u64 = 30, one("hop-ms", "MS", from_to(1..=60_000));
     }
 }
 
-/// The runs of a chain of so many.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-pub struct Job {
-    robots: u16,
-}
+/// The runs of a chain of so many robots.
+type Job = u16;
 
 /// What comes of them.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
@@ -108,50 +95,24 @@ impl Table for ChainRadio {
                    team move are the least that bridges need.",
             examples: &["chain-radio", "chain-radio --hop-ms 5 --format json"],
             doing: "sending",
+            ..About::NOTHING
         }
     }
 
-    fn parameters(&self) -> Vec<Parameter<Settings>> {
-        vec![
-            Parameter::one(
-                "runs",
-                "COUNT",
-                "Runs of each chain",
-                |all| shown(&all.runs),
-                |all, texts| put(&mut all.runs, texts, |text| within(text, &(1..=100_000_i64))),
-            ),
-            Parameter::one(
-                "seed",
-                "SEED",
-                "The seed of the durations",
-                |all| shown(&all.seed),
-                |all, texts| put(&mut all.seed, texts, number),
-            ),
-            Parameter::one(
-                "hop-ms",
-                "MS",
-                "How long a byte takes over one link; the paper does not say",
-                |all| shown(&all.hop_ms),
-                |all, texts| put(&mut all.hop_ms, texts, |text| within(text, &(1..=60_000_i64))),
-            ),
-        ]
-    }
-
     fn jobs(&self, _: &Settings) -> Result<Vec<Job>, Halt> {
-        Ok(TEAMS.map(|robots| Job { robots }).into())
+        Ok(TEAMS.into())
     }
 
-    fn measure(&self, settings: &Settings, job: &Job, _: &dyn Observer) -> Result<Measured, Halt> {
-        let side = u64::from(2 * job.robots - 1);
-        let mut layout = Layout::open(side, side).map_err(|problem| unfit(&problem))?;
-        let base = Setup::choose_base(&mut layout, None).map_err(|problem| unfit(&problem))?;
-        let setup = Setup::new(&CHAIN, RuleName::Repaired, job.robots, layout, base);
-        let mut odometer = Odometer::new(Body::NXT, job.robots.into());
+    fn measure(&self, settings: &Settings, &robots: &Job, _: &dyn Observer) -> Result<Measured, Halt> {
+        let side = u64::from(2 * robots - 1);
+        let (layout, base) = based(fit(Layout::open(side, side))?)?;
+        let setup = Setup::new(&CHAIN, RuleName::Repaired, robots, layout, base);
+        let mut odometer = Odometer::new(Body::NXT, robots.into());
         let (mut log, mut cut) = (Vec::new(), 0);
         let report = explore(&setup, &mut |made| {
             odometer.make(made.before, made.frame);
-            let robots = made.frame.steps.iter().zip(&made.frame.blocked).skip(1);
-            log.extend(robots.map(|(&step, &blocked)| {
+            let moved = made.frame.steps.iter().zip(&made.frame.blocked).skip(1);
+            log.extend(moved.map(|(&step, &blocked)| {
                 let outcome = if blocked { Outcome::Blocked } else { Outcome::Arrived };
                 Message { step, outcome }.encode()
             }));
@@ -159,19 +120,21 @@ impl Table for ChainRadio {
                 u32::from(made.frame.cells.windows(2).any(|pair| !Circle::COVERED.covers(pair[0], pair[1])));
             Ok(())
         })?;
-        let mut dice = generate::source(settings.seed.wrapping_add(job.robots.into()), *b"switches");
-        let bridges = u32::from(job.robots) - 2;
+        let mut dice = generate::source(settings.seed.wrapping_add(robots.into()), *b"switches");
+        let bridges = u32::from(robots) - 2;
         let run = || (0..report.steps * bridges).map(|_| switch(&mut dice)).sum::<u64>();
-        let hops = u64::from(report.steps) * u64::from(job.robots - 1) * settings.hop_ms;
+        let hops = u64::from(report.steps) * u64::from(robots - 1) * settings.hop_ms;
         let waiting_ms: Vec<u64> =
             std::iter::repeat_with(run).take(settings.runs as usize).map(|ms| ms + hops).collect();
         let (team_moves, driving_ms) = (report.steps, odometer.milliseconds);
         Ok(Measured { team_moves, bytes: log.len() as u32, cut, driving_ms, waiting_ms })
     }
 
-    fn merge(&self, settings: &Settings, results: Vec<(Job, Measured)>) -> Result<Merged, Halt> {
-        let lines =
-            results.into_iter().map(|(job, measured)| Line::of(job, &measured, settings.hop_ms)).collect();
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+        let lines = results
+            .into_iter()
+            .map(|(robots, measured)| Line::of(robots, &measured, settings.hop_ms))
+            .collect();
         Ok(Merged { settings: *settings, switch_ms: SWITCH_MS, lines })
     }
 
@@ -182,34 +145,18 @@ impl Table for ChainRadio {
             settings.hop_ms,
             counted(settings.runs, "run")
         );
-        let mut columns = TextTable::new([Column::right(Width::Fit); 10]);
-        columns.row([
-            "robots",
-            "moves",
-            "bytes",
-            "moves cut",
-            "driving min",
-            "dual s a move",
-            "min",
-            "bridges s a move",
-            "min",
-            "switching %",
-        ]);
-        for line in &merged.lines {
-            columns.row([
-                line.robots.to_string(),
-                line.team_moves.to_string(),
-                line.bytes.to_string(),
-                line.cut.to_string(),
-                format!("{:.1}", line.driving_minutes),
-                format!("{:.2}", line.dual_s),
-                format!("{:.2}", line.dual_minutes),
-                Estimate::text_or_dash(line.bridges_s, 1),
-                Estimate::text_or_dash(line.bridges_minutes, 1),
-                Estimate::text_or_dash(line.switching, 0),
-            ]);
-        }
-        text += &columns.text();
+        text += &Columns::of(&merged.lines)
+            .right("robots", Fit, |line| line.robots)
+            .right("moves", Fit, |line| line.team_moves)
+            .right("bytes", Fit, |line| line.bytes)
+            .right("moves cut", Fit, |line| line.cut)
+            .right("driving min", Fit, |line| format!("{:.1}", line.driving_minutes))
+            .right("dual s a move", Fit, |line| format!("{:.2}", line.dual_s))
+            .right("min", Fit, |line| format!("{:.2}", line.dual_minutes))
+            .estimate("bridges s a move", Fit, 1, |line| line.bridges_s)
+            .estimate("min", Fit, 1, |line| line.bridges_minutes)
+            .estimate("switching %", Fit, 0, |line| line.switching)
+            .text();
         text += "\nmoves cut: after which two neighbours are out of E_C · switching: of driving and waiting, the share in which a \
                  bridge switches\n\nWhat the paper says\n\n";
         let cut: u32 = merged.lines.iter().map(|line| line.cut).sum();
@@ -227,11 +174,11 @@ impl Table for ChainRadio {
                 format!("at most {most:.0} % of the time"),
             ),
         ];
-        let mut columns = TextTable::new([Width::Fit, Width::Fit, Width::Fit].map(Column::left));
-        for (sentence, holds, measured) in judged {
-            columns.row([if holds { "holds" } else { "fails" }.to_owned(), sentence.to_owned(), measured]);
-        }
-        Ok(text + &columns.text())
+        let judged = Columns::of(&judged)
+            .left("", Fit, |(_, holds, _)| if *holds { "holds" } else { "fails" })
+            .left("", Fit, |(sentence, ..)| sentence)
+            .left("", Fit, |(.., measured)| measured);
+        Ok(text + &judged.text())
     }
 }
 
@@ -249,17 +196,16 @@ fn of_ms(ms: u64, unit_ms: f64) -> f64 {
 }
 
 impl Line {
-    fn of(job: Job, measured: &Measured, hop_ms: u64) -> Self {
+    fn of(robots: u16, measured: &Measured, hop_ms: u64) -> Self {
         let Measured { team_moves, bytes, cut, driving_ms, waiting_ms } = measured;
-        let dual_ms = u64::from(job.robots - 1) * hop_ms;
+        let dual_ms = u64::from(robots - 1) * hop_ms;
         let mean = |of: &dyn Fn(u64) -> f64| {
-            let values: Vec<f64> = waiting_ms.iter().map(|&ms| of(ms)).collect();
-            Estimate::of_values(&values).map(|mean| rounded(mean, 100.0))
+            mean(waiting_ms.iter().map(|&ms| of(ms))).map(|mean| rounded(mean, 100.0))
         };
         let moves = f64::from(*team_moves);
         let hops = u64::from(*team_moves) * dual_ms;
         Self {
-            robots: job.robots,
+            robots,
             team_moves: *team_moves,
             bytes: *bytes,
             cut: *cut,

@@ -8,86 +8,58 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde::Deserialize;
+use serde::de::{Deserializer, MapAccess, Visitor};
 
 use tautline_sim::atomic_file::CSV_HEAD;
 use tautline_sim::diagnostic::Diagnostic;
 
-/// A value of JSON, with the members of an object in their order.
+/// A value of JSON.
+#[derive(Deserialize)]
+#[serde(untagged)]
 enum Node {
-    /// A plain value, as text; nothing for null.
-    Plain(Option<String>),
-    List(Vec<Node>),
-    Object(Vec<(String, Node)>),
+    Bool(bool),
+    Number(serde_json::Number),
+    Text(String),
+    List(Vec<Self>),
+    Object(Members),
+    Null(()),
 }
 
 impl Node {
-    const fn is_plain(&self) -> bool {
-        matches!(self, Self::Plain(_))
-    }
-
     /// Whether its elements make rows.
     fn has_rows(&self) -> bool {
         match self {
-            Self::List(items) => items.iter().any(|item| !item.is_plain()),
-            Self::Plain(_) | Self::Object(_) => false,
+            Self::List(items) => items.iter().any(|item| matches!(item, Self::List(_) | Self::Object(_))),
+            Self::Bool(_) | Self::Number(_) | Self::Text(_) | Self::Object(_) | Self::Null(()) => false,
         }
     }
 }
 
-impl<'de> Deserialize<'de> for Node {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Any;
+/// The members of an object, in their order.
+struct Members(Vec<(String, Node)>);
 
-        impl<'de> Visitor<'de> for Any {
-            type Value = Node;
+impl<'de> Deserialize<'de> for Members {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct InOrder;
+
+        impl<'de> Visitor<'de> for InOrder {
+            type Value = Members;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str("any value")
             }
 
-            fn visit_unit<E>(self) -> Result<Node, E> {
-                Ok(Node::Plain(None))
-            }
-
-            fn visit_bool<E>(self, value: bool) -> Result<Node, E> {
-                Ok(Node::Plain(Some(value.to_string())))
-            }
-
-            fn visit_i64<E>(self, value: i64) -> Result<Node, E> {
-                Ok(Node::Plain(Some(value.to_string())))
-            }
-
-            fn visit_u64<E>(self, value: u64) -> Result<Node, E> {
-                Ok(Node::Plain(Some(value.to_string())))
-            }
-
-            fn visit_f64<E>(self, value: f64) -> Result<Node, E> {
-                Ok(Node::Plain(Some(serde_json::Value::from(value).to_string())))
-            }
-
-            fn visit_str<E>(self, value: &str) -> Result<Node, E> {
-                Ok(Node::Plain(Some(value.to_owned())))
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Node, A::Error> {
-                let mut items = Vec::new();
-                while let Some(item) = list.next_element()? {
-                    items.push(item);
-                }
-                Ok(Node::List(items))
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, mut object: A) -> Result<Node, A::Error> {
+            fn visit_map<A: MapAccess<'de>>(self, mut object: A) -> Result<Members, A::Error> {
                 let mut members = Vec::new();
                 while let Some(member) = object.next_entry()? {
                     members.push(member);
                 }
-                Ok(Node::Object(members))
+                Ok(Members(members))
             }
         }
 
-        deserializer.deserialize_any(Any)
+        deserializer.deserialize_map(InOrder)
     }
 }
 
@@ -102,9 +74,10 @@ type Cells = Vec<(String, String)>;
 /// Adds what stands in `node`, but for its lists of rows.
 fn plain(path: &str, node: &Node, cells: &mut Cells) {
     match node {
-        Node::Plain(value) => {
-            cells.extend(value.iter().map(|value| (path.to_owned(), value.clone())));
-        }
+        Node::Bool(value) => cells.push((path.to_owned(), value.to_string())),
+        Node::Number(value) => cells.push((path.to_owned(), value.to_string())),
+        Node::Text(value) => cells.push((path.to_owned(), value.clone())),
+        Node::Null(()) => {}
         Node::List(items) => {
             if !node.has_rows() {
                 for (number, item) in (1..).zip(items) {
@@ -112,7 +85,7 @@ fn plain(path: &str, node: &Node, cells: &mut Cells) {
                 }
             }
         }
-        Node::Object(members) => {
+        Node::Object(Members(members)) => {
             for (name, member) in members {
                 plain(&below(path, name), member, cells);
             }
@@ -123,8 +96,8 @@ fn plain(path: &str, node: &Node, cells: &mut Cells) {
 /// The rows of all lists in `node`, each beginning with `before`, the cells of what it is within.
 fn rows(path: &str, node: &Node, before: &Cells, found: &mut Vec<(String, Cells)>) {
     match node {
-        Node::Plain(_) => {}
-        Node::Object(members) => {
+        Node::Bool(_) | Node::Number(_) | Node::Text(_) | Node::Null(()) => {}
+        Node::Object(Members(members)) => {
             for (name, member) in members {
                 rows(&below(path, name), member, before, found);
             }

@@ -21,9 +21,6 @@ pub trait Entry: fmt::Debug + Sync {
     /// Its options, in the order of its help, each with the texts that stand for it where it is not given.
     fn options(&self) -> Vec<(Given, Vec<String>)>;
 
-    /// The names of its pictures, and what they show.
-    fn pictures(&self) -> Vec<(&'static str, &'static str)>;
-
     /// Whether `text` is a value of the option `name`.
     ///
     /// # Errors
@@ -120,10 +117,6 @@ impl<T: Table> Entry for T {
         let settings = T::Settings::default();
         let parameters = self.parameters().into_iter();
         parameters.map(|parameter| (parameter.option, (parameter.show)(&settings))).collect()
-    }
-
-    fn pictures(&self) -> Vec<(&'static str, &'static str)> {
-        self.charts().iter().map(|chart| (chart.name, chart.about)).collect()
     }
 
     fn check(&self, name: &str, text: &str) -> Result<(), String> {
@@ -224,15 +217,12 @@ impl<T: Table> Made for Whole<'_, T> {
 
     fn picture(&self, name: &str) -> Result<String, Halt> {
         let With { table, settings } = self.asked;
-        let chart = table.charts().into_iter().find(|chart| chart.name == name);
-        let chart = chart.ok_or_else(|| {
-            let names: Vec<&str> = table.charts().iter().map(|chart| chart.name).collect();
-            Diagnostic::usage(
-                format_args!("there is no picture {name}"),
-                format_args!("ask for one of {names:?}"),
-            )
+        let names: Vec<&str> = Table::about(*table).pictures.iter().map(|&(name, _)| name).collect();
+        let place = names.iter().position(|&known| known == name).ok_or_else(|| {
+            let remedy = format!("ask for one of {names:?}");
+            Diagnostic::usage(format_args!("there is no picture {name}"), remedy)
         })?;
-        (chart.draw)(table, settings, &self.merged)
+        table.draw(place, settings, &self.merged)
     }
 
     fn is_broken(&self) -> bool {

@@ -2,64 +2,41 @@
 //! over the lower bound, cells by agents. Layouts are files of maps, or generated; the agents of a run start in one
 //! cell.
 
-use rand_chacha::rand_core::Rng;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+
 use tautline_kernel::ground::{Cell, Edge, Side};
 
 use super::agents::{Outcome, TEAMS, Team};
-use super::parameter::{Given, Parameter, Values, all_shown, put, put_all, shown};
-use super::{About, Chart, Observer, Table, point};
-use crate::chart::{Axis, LineChart, Point, Series, Stroke};
-use tautline_field::stats::Estimate;
-use tautline_sim::diagnostic::Halt;
+use super::prelude::*;
 use tautline_sim::layout::generate::{self, Probability};
 use tautline_sim::layout::{self, Layout};
-use tautline_sim::text_table::{Column, TextTable, Width};
-use tautline_sim::value_parser::{number, real, within};
 
 /// The price of a floor.
 #[derive(Clone, Copy, Debug)]
 pub struct Floors;
 
-/// How much is measured.
-#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct Settings {
-    /// Files of layouts, or descriptions of generated ones.
-    pub maps: Vec<String>,
-    /// Agents of the teams.
-    pub agents: Vec<u16>,
-    /// Cells in which the teams start, in each layout.
-    pub starts: u32,
-    /// The seed of what is drawn.
-    pub seed: u64,
-    /// How likely it is that a sensor is missed.
-    pub miss: f64,
-    /// Steps of all agents after which a run is ended.
-    pub max_steps: u32,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        let maps = ["office:30x30:4x4", "cells:48x48:0.2", "open:32x32", "walls:32x32:0.3"];
-        Self {
-            maps: maps.map(str::to_owned).into(),
-            agents: vec![1, 4, 20],
-            starts: 5,
-            seed: 0,
-            miss: 0.0,
-            max_steps: 20_000_000,
-        }
+settings! {
+    /// How much is measured.
+    pub struct Settings {
+        /// A file of a layout, or a description of a generated one; once for each
+        pub maps: Vec<String> = [
+            "office:30x30:4x4", "cells:48x48:0.2", "open:32x32", "walls:32x32:0.3",
+        ].map(str::to_owned).into(), repeated("map", "LAYOUT", String::clone, layout_name);
+        /// Agents of the teams
+        pub agents: Vec<u16> = vec![1, 4, 20], list("agents", from_to(1..=255));
+        /// Cells in which the teams start, in each layout
+        pub starts: u32 = 5, one("starts", "COUNT", from_to(1..=10_000));
+        /// The seed of generated layouts, of the starts and of the sensors that are missed
+        pub seed: u64 = 0, one("seed", "SEED", number);
+        /// How likely it is that a sensor is missed, from 0 to 0.5
+        pub miss: f64 = 0.0, one("miss", "P", probability);
+        /// Steps of all agents together after which a run is ended
+        pub max_steps: u32 = 20_000_000, one("max-steps", "STEPS", from_to(1..=u32::MAX.into()));
     }
 }
 
-/// One start of so many agents, for every team.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-pub struct Job {
-    map: usize,
-    agents: u16,
-    start: u32,
-}
+/// A run of every team: in which layout, and of how many agents.
+pub(super) type Job = Run<(usize, u16)>;
 
 /// A team in a layout.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
@@ -112,123 +89,88 @@ impl Table for Floors {
                 "floors --map den312d.map --map room-64-64-8.map --agents 4,20 --miss 0.0556",
             ],
             doing: "exploring",
+            pictures: &[("svg", "Store a chart of the share of the moves that are needed")],
         }
     }
 
-    fn parameters(&self) -> Vec<Parameter<Settings>> {
-        let map = Given {
-            name: "map",
-            value: "LAYOUT",
-            about: "A file of a layout, or a description of a generated one; once for each",
-            values: Values::Repeated,
-        };
-        vec![
-            Parameter::new(
-                map,
-                |all| all_shown(&all.maps),
-                |all, texts| put_all(&mut all.maps, texts, |text| loaded(text, 0).map(|_| text.to_owned())),
-            ),
-            Parameter::list(
-                "agents",
-                "Agents of the teams",
-                |all| all_shown(&all.agents),
-                |all, texts| put_all(&mut all.agents, texts, |text| within(text, &(1..=255_i64))),
-            ),
-            Parameter::one(
-                "starts",
-                "COUNT",
-                "Cells in which the teams start, in each layout",
-                |all| shown(&all.starts),
-                |all, texts| put(&mut all.starts, texts, |text| within(text, &(1..=10_000_i64))),
-            ),
-            Parameter::one(
-                "seed",
-                "SEED",
-                "The seed of generated layouts, of the starts and of the sensors that are missed",
-                |all| shown(&all.seed),
-                |all, texts| put(&mut all.seed, texts, number),
-            ),
-            Parameter::one(
-                "miss",
-                "P",
-                "How likely it is that a sensor is missed, from 0 to 0.5",
-                |all| shown(&all.miss),
-                |all, texts| put(&mut all.miss, texts, probability),
-            ),
-            Parameter::one(
-                "max-steps",
-                "STEPS",
-                "Steps of all agents together after which a run is ended",
-                |all| shown(&all.max_steps),
-                |all, texts| put(&mut all.max_steps, texts, |text| within(text, &(1..=i64::from(u32::MAX)))),
-            ),
-        ]
-    }
-
-    fn charts(&self) -> Vec<Chart<Self>> {
-        let draw = |_: &Self, settings: &Settings, merged: &Merged| Ok(chart(settings, &merged.lines).svg());
-        vec![Chart { name: "svg", about: "Store a chart of the share of the moves that are needed", draw }]
-    }
-
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
-        let starts = |(map, agents)| (0..settings.starts).map(move |start| Job { map, agents, start });
-        Ok(points(&settings.maps, &settings.agents).flat_map(starts).collect())
+        Ok(runs(points(&settings.maps, &settings.agents), |_| settings.starts))
     }
 
     fn parts(&self, _: &Job) -> u64 {
         TEAMS.len() as u64
     }
 
-    fn measure(&self, settings: &Settings, job: &Job, _: &dyn Observer) -> Result<Self::Measured, Halt> {
+    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Measured, Halt> {
         let Settings { maps, seed, miss, max_steps, .. } = settings;
-        let name = maps.get(job.map).map_or("", String::as_str);
-        let layout = layout::load(name, *seed, None)?;
-        let part = largest_part(&layout);
-        let start = start(&layout, &part, (*seed, job.start));
-        let starts = vec![start; job.agents.into()];
+        let (layout, starts) = floor(maps, run, *seed)?;
         let miss = Probability::new(*miss).unwrap_or(Probability::NEVER);
-        let seed = seed.wrapping_add(job.start.into());
-        Ok(TEAMS.map(|team| team.run(&layout, &starts, (miss, seed), *max_steps)))
+        Ok(TEAMS.map(|team| team.way.run(&layout, &starts, (miss, run.seed(*seed)), *max_steps)))
     }
 
-    fn merge(&self, settings: &Settings, results: Vec<(Job, Self::Measured)>) -> Result<Merged, Halt> {
-        let of = |(map, agents): (usize, u16)| {
-            let here: Vec<&Self::Measured> = results
-                .iter()
-                .filter(|(job, _)| (job.map, job.agents) == (map, agents))
-                .map(|(_, outcomes)| outcomes)
-                .collect();
-            let line = |(place, team): (usize, Team)| {
-                let outcomes: Vec<Outcome> = here.iter().map(|outcomes| outcomes[place]).collect();
-                Line::of(settings.maps[map].clone(), team, agents, &outcomes)
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+        let lines = points(&settings.maps, &settings.agents).flat_map(|(map, agents)| {
+            let teams = TEAMS.into_iter().zip(of_teams(&results, (map, agents)));
+            teams.map(move |(team, outcomes)| Line::of(&settings.maps[map], team, agents, &outcomes))
+        });
+        Ok(Merged { settings: settings.clone(), lines: lines.collect() })
+    }
+
+    fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
+        let Settings { starts, seed, miss, max_steps, .. } = settings;
+        let columns = Columns::of(&merged.lines)
+            .left("layout", Fit, |line| file_name(&line.map))
+            .right("cells", Fit, |line| line.cells)
+            .right("agents", Fit, |line| line.agents)
+            .left("team", Fit, |line| line.team.name())
+            .estimate("until explored", Fit, 2, |line| line.explored)
+            .estimate("until known", Fit, 2, |line| line.known)
+            .right("early", Fit, |line| line.early)
+            .right("ended", Fit, |line| line.ended);
+        Ok(format!(
+            "Team moves over the lower bound, cells by agents; {starts} starts, seed {seed}, {} % of the sensors missed; means with\n\
+             95 % intervals over the starts\n\n{}\n\
+             until known: of the runs in which all agents were done. early: runs in which an agent was done although it could\n\
+             have got to an unexplored cell. ended: runs that were stopped after {max_steps} steps of all agents.\n",
+            miss * 100.0,
+            columns.text()
+        ))
+    }
+
+    /// The share of an agent's moves that the lower bound needs, by the number of agents: all layouts together.
+    fn draw(&self, _: usize, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
+        let series = |team: Team| {
+            let at = |&agents: &u16| {
+                let lines = merged.lines.iter().filter(|line| (line.team, line.agents) == (team, agents));
+                let needed = mean(lines.flat_map(|line| line.needed.iter().copied()))?;
+                Some(Point::of(agents.into(), needed))
             };
-            TEAMS.into_iter().enumerate().map(line).collect::<Vec<_>>()
+            Series::measured(team.name(), settings.agents.iter().filter_map(at))
         };
-        let lines = points(&settings.maps, &settings.agents).flat_map(of).collect();
-        Ok(Merged { settings: settings.clone(), lines })
-    }
-
-    fn text(&self, _: &Settings, merged: &Merged) -> Result<String, Halt> {
-        Ok(text(merged))
+        let title = format!(
+            "Moves that are needed, of those made until all agents know rightly that they are done: {} layouts",
+            settings.maps.len()
+        );
+        let (x, y) = (Axis::new("agents", ""), Axis::new("moves", "%").showing([0.0, 100.0]));
+        Ok(LineChart::new(title, x, y, TEAMS.map(series)).without_empty().svg())
     }
 }
 
 impl Line {
-    fn of(map: String, team: Team, agents: u16, outcomes: &[Outcome]) -> Self {
-        let needed = |outcome: &Outcome| {
+    fn of(map: &str, team: Team, agents: u16, outcomes: &[&Outcome]) -> Self {
+        let needed = |outcome: &&Outcome| {
             let known = outcome.termination.filter(|_| !outcome.is_early);
             outcome.ratio(known, agents).map_or(0.0, |ratio| 100.0 / ratio)
         };
-        let count = |is: fn(&Outcome) -> bool| outcomes.iter().filter(|outcome| is(outcome)).count() as u32;
         Self {
-            map,
+            map: map.to_owned(),
             cells: outcomes.iter().map(|outcome| outcome.cells).max().unwrap_or(0),
             agents,
             team,
-            explored: Outcome::mean_ratio(outcomes, |outcome| outcome.exploration, agents),
-            known: Outcome::mean_ratio(outcomes, |outcome| outcome.termination, agents),
-            early: count(|outcome| outcome.is_early),
-            ended: count(|outcome| outcome.is_ended),
+            explored: Outcome::ratios(outcomes, |outcome| outcome.exploration, agents),
+            known: Outcome::ratios(outcomes, |outcome| outcome.termination, agents),
+            early: count(outcomes, |outcome| outcome.is_early),
+            ended: count(outcomes, |outcome| outcome.is_ended),
             needed: outcomes.iter().map(needed).collect(),
         }
     }
@@ -236,7 +178,7 @@ impl Line {
 
 /// The numbers of the layouts, each with every number of agents.
 pub(super) fn points(maps: &[String], agents: &[u16]) -> impl Iterator<Item = (usize, u16)> {
-    (0..maps.len()).flat_map(|map| agents.iter().map(move |&agents| (map, agents)))
+    pairs(0..maps.len(), agents.iter().copied())
 }
 
 /// How likely it is that a sensor is missed.
@@ -244,41 +186,39 @@ pub(super) fn probability(text: &str) -> Result<f64, &'static str> {
     real(text).and_then(|miss| Some(miss).filter(|miss| (0.0..=0.5).contains(miss)).ok_or("write 0 to 0.5"))
 }
 
-/// The layout that a text stands for.
-pub(super) fn loaded(text: &str, seed: u64) -> Result<Layout, String> {
-    layout::load(text, seed, None).map_err(|fault| fault.to_string())
+/// The name of a layout without its folders.
+pub(super) fn file_name(map: &str) -> &str {
+    map.rsplit('/').next().unwrap_or_default()
 }
 
 /// The cells of the largest part of `layout`, the first such part.
-pub(super) fn largest_part(layout: &Layout) -> Vec<Cell> {
-    let (width, mut largest) = (usize::from(layout.width().unsigned_abs()), Vec::new());
-    let place = |cell: Cell| cell.y as usize * width + cell.x as usize;
-    let mut is_seen = vec![false; layout.size().cells()];
-    for first in layout.cells().filter(|&cell| layout.is_free(cell)) {
-        if is_seen[place(first)] {
-            continue;
-        }
-        is_seen[place(first)] = true;
-        let (mut part, mut next) = (vec![first], 0);
+fn largest_part(layout: &Layout) -> Vec<Cell> {
+    let mut seen = BTreeSet::new();
+    let mut part_from = |first: Cell| {
+        let mut part: Vec<Cell> = Some(first).into_iter().filter(|&first| seen.insert(first)).collect();
+        let mut next = 0;
         while let Some(&cell) = part.get(next) {
             next += 1;
-            for side in Side::ALL {
-                let beyond = cell.beyond(side);
-                if layout.is_open(Edge::new(cell, side)) && !is_seen[place(beyond)] {
-                    is_seen[place(beyond)] = true;
-                    part.push(beyond);
-                }
-            }
+            let open = Side::ALL.into_iter().filter(|&side| layout.is_open(Edge::new(cell, side)));
+            part.extend(open.map(|side| cell.beyond(side)).filter(|&beyond| seen.insert(beyond)));
         }
-        if part.len() > largest.len() {
-            largest = part;
-        }
-    }
-    largest
+        part
+    };
+    let parts = layout.cells().filter(|&cell| layout.is_free(cell)).map(&mut part_from);
+    parts.reduce(|largest, part| if part.len() > largest.len() { part } else { largest }).unwrap_or_default()
 }
 
-/// The start with this number among the cells of `part`.
-pub(super) fn start(layout: &Layout, part: &[Cell], (seed, number): (u64, u32)) -> Cell {
+/// The layout of a run with this seed, and the cells in which its agents start.
+pub(super) fn floor(maps: &[String], run: &Job, seed: u64) -> Result<(Layout, Vec<Cell>), Halt> {
+    let (map, agents) = run.at;
+    let layout = layout::load(maps.get(map).map_or("", String::as_str), seed, None)?;
+    let starts = vec![start(&layout, seed, run.number); agents.into()];
+    Ok((layout, starts))
+}
+
+/// The start with this number in the largest part of `layout`.
+fn start(layout: &Layout, seed: u64, number: u32) -> Cell {
+    let part = largest_part(layout);
     let centre = Cell::new(layout.width() / 2, layout.height() / 2);
     let apart = |cell: &&Cell| {
         let (columns, rows) = cell.apart(centre);
@@ -289,63 +229,6 @@ pub(super) fn start(layout: &Layout, part: &[Cell], (seed, number): (u64, u32)) 
         return base;
     }
     let mut generator = generate::source(seed.wrapping_add(number.into()), *b"start   ");
-    let place = (u128::from(generator.next_u64()) * part.len() as u128) >> 64;
+    let place = generate::below(part.len() as u32, &mut generator);
     part.get(place as usize).copied().unwrap_or(base)
-}
-
-fn text(merged: &Merged) -> String {
-    let Settings { starts, seed, miss, max_steps, .. } = &merged.settings;
-    let numbers = [Column::right(Width::Fit); 4].map(|column| column.after(2));
-    let names = [
-        Column::left(Width::Fit),
-        Column::right(Width::Fit).after(2),
-        Column::right(Width::Fit).after(2),
-        Column::left(Width::Fit).after(2),
-    ];
-    let mut columns = TextTable::new(names.into_iter().chain(numbers));
-    columns.row(["layout", "cells", "agents", "team", "until explored", "until known", "early", "ended"]);
-    for line in &merged.lines {
-        columns.row([
-            line.map.rsplit('/').next().unwrap_or_default().to_owned(),
-            line.cells.to_string(),
-            line.agents.to_string(),
-            line.team.name(),
-            Estimate::text_or_dash(line.explored, 2),
-            Estimate::text_or_dash(line.known, 2),
-            line.early.to_string(),
-            line.ended.to_string(),
-        ]);
-    }
-    format!(
-        "Team moves over the lower bound, cells by agents; {starts} starts, seed {seed}, {} % of the sensors missed; means with\n\
-         95 % intervals over the starts\n\n{}\n\
-         until known: of the runs in which all agents were done. early: runs in which an agent was done although it could\n\
-         have got to an unexplored cell. ended: runs that were stopped after {max_steps} steps of all agents.\n",
-        miss * 100.0,
-        columns.text()
-    )
-}
-
-/// The share of an agent's moves that the lower bound needs, by the number of agents: all layouts together.
-fn chart(settings: &Settings, lines: &[Line]) -> LineChart {
-    let series = |team: Team| {
-        let at = |&agents: &u16| {
-            let lines = lines.iter().filter(|line| (line.team, line.agents) == (team, agents));
-            let needed: Vec<f64> = lines.flat_map(|line| line.needed.iter().copied()).collect();
-            Estimate::of_values(&needed).map(|estimate| point(agents.into(), estimate))
-        };
-        let points: Vec<Point> = settings.agents.iter().filter_map(at).collect();
-        Series { name: team.name(), stroke: Stroke::Solid, points }
-    };
-    let drawn: Vec<Series> =
-        TEAMS.into_iter().map(series).filter(|series| !series.points.is_empty()).collect();
-    LineChart {
-        title: format!(
-            "Moves that are needed, of those made until all agents know rightly that they are done: {} layouts",
-            settings.maps.len()
-        ),
-        x: Axis::new("agents", ""),
-        y: Axis::new("moves", "%").showing([0.0, 100.0]),
-        series: drawn,
-    }
 }

@@ -5,27 +5,26 @@
 //! Blocked cells are drawn at random, so that the free ones are connected; so are the starts, each robot in a cell of
 //! its own.
 
-use std::fmt::Write;
+use std::num::NonZeroU32;
 
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::Rng;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::Cell;
 
-use super::parameter::{Parameter, put, shown};
-use super::{About, Chart, Observer, Table, point, unfit};
-use crate::chart::{Axis, LineChart, Series, Stroke};
-use tautline_field::stats::Estimate;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
+use super::prelude::*;
 use tautline_sim::explore::frontier::{ALONE, FRONTIER, reachable};
 use tautline_sim::explore::{Limits, Milestone, RuleId, Setup, explore};
 use tautline_sim::layout::{Layout, generate};
-use tautline_sim::text_table::{Column, TextTable, Width};
-use tautline_sim::value_parser::{number, within};
 
 /// Team sizes that the paper compares.
 pub const TEAMS: [u16; 5] = [1, 2, 4, 6, 8];
+
+/// The largest of them.
+const MOST_ROBOTS: u16 = TEAMS[TEAMS.len() - 1];
+
+/// Every rule, with every team size.
+fn teams() -> impl Iterator<Item = (RuleId, u16)> {
+    FRONTIER.rules.iter().flat_map(|rule| TEAMS.map(|robots| (rule.name, robots)))
+}
 
 /// The most cells that robots enter in a run.
 const MOST_MOVES: u32 = 5000;
@@ -34,32 +33,25 @@ const MOST_MOVES: u32 = 5000;
 #[derive(Clone, Copy, Debug)]
 pub struct FrontierFig7;
 
-/// How much is measured.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct Settings {
-    /// Layouts.
-    pub layouts: u32,
-    /// The seed of the first one.
-    pub seed: u64,
-    /// TextTable.
-    pub columns: u16,
-    /// Rows.
-    pub rows: u16,
-    /// Blocked cells of each.
-    pub blocked: u16,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self { layouts: 1000, seed: 0, columns: 6, rows: 7, blocked: 4 }
+settings! {
+    /// How much is measured.
+    #[derive(Copy, Eq)]
+    pub struct Settings {
+        /// Random layouts
+        pub layouts: u32 = 1000, one("layouts", "COUNT", from_to(1..=100_000));
+        /// The seed of the first layout and its runs; the others have the seeds after it
+        pub seed: u64 = 0, one("seed", "SEED", number);
+        /// TextTable of each layout
+        pub columns: u16 = 6, one("columns", "COLUMNS", from_to(1..=32));
+        /// Rows of each layout
+        pub rows: u16 = 7, one("rows", "ROWS", from_to(1..=32));
+        /// Blocked cells of each layout
+        pub blocked: u16 = 4, one("blocked", "CELLS", from_to(0..=512));
     }
 }
 
-/// One layout, for every team.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-pub struct Job {
-    seed: u64,
-}
+/// A run of every team in one layout.
+type Job = Run<()>;
 
 /// What came of one run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
@@ -123,101 +115,89 @@ impl Table for FrontierFig7 {
             id: "frontier-fig7",
             shows: "frontier cells: how many team moves 1 to 8 robots take to explore every cell, by every rule and rival",
             help: "How many team moves robots take that go from frontier cell to frontier cell",
-            more: "",
             examples: &[
                 "frontier-fig7 --svg moves.svg",
                 "frontier-fig7 --blocked 12 --layouts 100 --format json",
             ],
             doing: "exploring",
+            pictures: &[("svg", "Store a chart of the team moves")],
+            ..About::NOTHING
         }
-    }
-
-    fn parameters(&self) -> Vec<Parameter<Settings>> {
-        vec![
-            Parameter::one(
-                "layouts",
-                "COUNT",
-                "Random layouts",
-                |all| shown(&all.layouts),
-                |all, texts| put(&mut all.layouts, texts, |text| within(text, &(1..=100_000_i64))),
-            ),
-            Parameter::one(
-                "seed",
-                "SEED",
-                "The seed of the first layout and its runs; the others have the seeds after it",
-                |all| shown(&all.seed),
-                |all, texts| put(&mut all.seed, texts, number),
-            ),
-            Parameter::one(
-                "columns",
-                "COLUMNS",
-                "TextTable of each layout",
-                |all| shown(&all.columns),
-                |all, texts| put(&mut all.columns, texts, |text| within(text, &(1..=32_i64))),
-            ),
-            Parameter::one(
-                "rows",
-                "ROWS",
-                "Rows of each layout",
-                |all| shown(&all.rows),
-                |all, texts| put(&mut all.rows, texts, |text| within(text, &(1..=32_i64))),
-            ),
-            Parameter::one(
-                "blocked",
-                "CELLS",
-                "Blocked cells of each layout",
-                |all| shown(&all.blocked),
-                |all, texts| put(&mut all.blocked, texts, |text| within(text, &(0..=512_i64))),
-            ),
-        ]
-    }
-
-    fn charts(&self) -> Vec<Chart<Self>> {
-        vec![Chart {
-            name: "svg",
-            about: "Store a chart of the team moves",
-            draw: |_, _, merged| Ok(chart(&merged.lines).svg()),
-        }]
     }
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
-        let Settings { layouts, seed, columns, rows, blocked } = *settings;
+        let Settings { layouts, columns, rows, blocked, .. } = *settings;
         let cells = columns * rows;
-        let most = TEAMS.into_iter().max().unwrap_or(0);
-        if blocked + most > cells {
-            let what = format!("{blocked} blocked of {cells} cells leave no room for {most} robots");
+        if blocked + MOST_ROBOTS > cells {
+            let what = format!("{blocked} blocked of {cells} cells leave no room for {MOST_ROBOTS} robots");
             return Err(Diagnostic::usage(what, "give fewer blocked cells, or more columns and rows").into());
         }
-        Ok((0..u64::from(layouts)).map(|index| Job { seed: seed.wrapping_add(index) }).collect())
+        Ok(runs([()], |()| layouts))
     }
 
     fn parts(&self, _: &Job) -> u64 {
-        (FRONTIER.rules.len() * TEAMS.len()) as u64
+        teams().count() as u64
     }
 
-    fn measure(&self, settings: &Settings, job: &Job, _: &dyn Observer) -> Result<Vec<Outcome>, Halt> {
-        let (layout, starts) = drawn(settings, job.seed)?;
-        let teams = FRONTIER.rules.iter().flat_map(|rule| TEAMS.map(|robots| (rule.name, robots)));
-        teams.map(|(rule, robots)| follow(rule, &layout, &starts[..robots.into()], job.seed)).collect()
+    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Vec<Outcome>, Halt> {
+        let seed = run.seed(settings.seed);
+        let (layout, starts) = drawn(settings, seed)?;
+        teams().map(|(rule, robots)| follow(rule, &layout, &starts[..robots.into()], seed)).collect()
     }
 
-    fn merge(&self, settings: &Settings, results: Vec<(Job, Vec<Outcome>)>) -> Result<Merged, Halt> {
-        let teams: Vec<(RuleId, u16)> =
-            FRONTIER.rules.iter().flat_map(|rule| TEAMS.map(|robots| (rule.name, robots))).collect();
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
         let outcomes = |wanted: (RuleId, u16)| -> Vec<Outcome> {
-            let place = teams.iter().position(|&team| team == wanted);
+            let place = teams().position(|team| team == wanted);
             results.iter().filter_map(|(_, outcomes)| outcomes.get(place?).copied()).collect()
         };
-        let lines = teams.iter().map(|&(rule, robots)| {
+        let line = |(rule, robots)| {
             Line::of(rule, robots, &outcomes((rule, robots)), &outcomes((RuleId::REPAIRED, robots)))
-        });
-        let lines: Vec<Line> = lines.collect();
+        };
+        let lines: Vec<Line> = teams().map(line).collect();
         let judged = judged(&lines);
         Ok(Merged { settings: *settings, lines, judged })
     }
 
     fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
-        Ok(text(settings, merged))
+        let Settings { layouts, columns, rows, blocked, .. } = settings;
+        let moves = format!(
+            "Team moves until every cell is explored: {layouts} layouts of {columns}×{rows} cells, {blocked} blocked"
+        );
+        let parts: [(&str, fn(&Line) -> Option<Estimate>); 4] = [
+            (&moves, |line| line.moves),
+            (
+                "Team moves more than the repaired rule takes on the same layouts, of which both explore every cell",
+                |line| line.behind,
+            ),
+            ("Runs that explore every cell, in %; the others are in no mean of team moves", |one| one.whole),
+            ("Runs in which two robots are in one cell, in %", |line| line.double),
+        ];
+        let part = |(title, of): (&str, fn(&Line) -> Option<Estimate>)| {
+            let rules = merged.lines.chunks(TEAMS.len());
+            let mut columns = Columns::of(rules).title(title).left("rule", 15, |teams| teams[0].rule);
+            for (place, robots) in TEAMS.into_iter().enumerate() {
+                columns = columns.estimate(counted(robots, "robot"), 15, 1, move |teams| of(&teams[place]));
+            }
+            columns.text()
+        };
+        let said = |Judged { sentence, outcome }: &Judged| format!("“{sentence}”: {outcome}.\n");
+        Ok(parts.map(part).concat() + &merged.judged.iter().map(said).collect::<String>())
+    }
+
+    /// Team moves over robots, a line for each rule.
+    fn draw(&self, _: usize, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+        let series = |lines: &[Line]| {
+            let is_whole = |line: &&Line| line.whole.is_some_and(|whole| whole.mean > 50.0);
+            let whole = lines.iter().filter(is_whole);
+            let points = whole.filter_map(|line| Some(Point::of(line.robots.into(), line.moves?)));
+            match lines[0].rule {
+                RuleId::REPAIRED => Series::measured("repaired", points),
+                rule => Series::printed(rule.as_str(), points),
+            }
+        };
+        let (x, y) = (Axis::new("robots", ""), Axis::new("team moves", "").showing([0.0, 0.0]));
+        let series = merged.lines.chunks(TEAMS.len()).map(series);
+        Ok(LineChart::new("Team moves until every cell is explored", x, y, series).without_empty().svg())
     }
 
     /// A repaired team explores every cell, and never has two robots in one.
@@ -234,10 +214,9 @@ impl Table for FrontierFig7 {
 fn drawn(settings: &Settings, seed: u64) -> Result<(Layout, Vec<Cell>), Halt> {
     let Settings { columns, rows, blocked, .. } = *settings;
     let mut dice = generate::source(seed, *b"fig7    ");
-    let below =
-        |of: usize, dice: &mut ChaCha8Rng| ((u128::from(dice.next_u64()) * of as u128) >> 64) as usize;
+    let below = |of: usize, dice: &mut ChaCha8Rng| generate::below(of as u32, dice) as usize;
     for _ in 0..MOST_DRAWN {
-        let mut layout = Layout::open(columns.into(), rows.into()).map_err(|problem| unfit(&problem))?;
+        let mut layout = fit(Layout::open(columns.into(), rows.into()))?;
         let mut cells: Vec<Cell> = layout.cells().collect();
         for _ in 0..blocked {
             layout.block(cells.swap_remove(below(cells.len(), &mut dice)));
@@ -245,8 +224,7 @@ fn drawn(settings: &Settings, seed: u64) -> Result<(Layout, Vec<Cell>), Halt> {
         if reachable(&layout, &cells[..1]).len() < cells.len() {
             continue;
         }
-        let most = TEAMS.into_iter().max().unwrap_or(0);
-        let starts = (0..most).map(|_| cells.swap_remove(below(cells.len(), &mut dice)));
+        let starts = (0..MOST_ROBOTS).map(|_| cells.swap_remove(below(cells.len(), &mut dice)));
         return Ok((layout, starts.collect()));
     }
     let what = format!("of {MOST_DRAWN} layouts with {blocked} blocked cells none is connected");
@@ -259,8 +237,8 @@ const MOST_DRAWN: u32 = 100_000;
 fn follow(rule: RuleId, layout: &Layout, starts: &[Cell], seed: u64) -> Result<Outcome, Halt> {
     let mut layout = layout.clone();
     let base = starts[0];
-    layout.place_base(base).map_err(|problem| unfit(&problem))?;
-    let limits = Limits { max_moves: std::num::NonZeroU32::new(MOST_MOVES), ..Limits::default() };
+    fit(layout.place_base(base))?;
+    let limits = Limits { max_moves: NonZeroU32::new(MOST_MOVES), ..Limits::default() };
     let setup = Setup::new(&FRONTIER, rule, starts.len() as u16, layout, base);
     let setup = Setup { starts: Some(starts.to_vec()), seed, limits, ..setup };
     let report = explore(&setup, &mut |_| Ok(()))?;
@@ -273,19 +251,17 @@ fn follow(rule: RuleId, layout: &Layout, starts: &[Cell], seed: u64) -> Result<O
 
 impl Line {
     fn of(rule: RuleId, robots: u16, outcomes: &[Outcome], repaired: &[Outcome]) -> Self {
-        let values = |values: Vec<f64>| Estimate::of_values(&values);
-        let share =
-            |hits: usize| Estimate::share(hits as u32, outcomes.len() as u32).map(|share| share.times(100.0));
-        let moves = outcomes.iter().filter_map(|outcome| outcome.moves.map(f64::from));
+        let percent =
+            |is_such: fn(&Outcome) -> bool| share(outcomes, is_such).map(|share| share.times(100.0));
         let more = |(own, other): (&Outcome, &Outcome)| Some(f64::from(own.moves?) - f64::from(other.moves?));
         Self {
             rule,
             robots,
-            moves: values(moves.collect()),
-            behind: values(outcomes.iter().zip(repaired).filter_map(more).collect()),
-            whole: share(outcomes.iter().filter(|outcome| outcome.moves.is_some()).count()),
-            explored: values(outcomes.iter().map(|outcome| f64::from(outcome.explored) / 10.0).collect()),
-            double: share(outcomes.iter().filter(|outcome| outcome.is_double).count()),
+            moves: mean(outcomes.iter().filter_map(|outcome| outcome.moves.map(f64::from))),
+            behind: mean(outcomes.iter().zip(repaired).filter_map(more)),
+            whole: percent(|outcome| outcome.moves.is_some()),
+            explored: mean(outcomes.iter().map(|outcome| f64::from(outcome.explored) / 10.0)),
+            double: percent(|outcome| outcome.is_double),
         }
     }
 }
@@ -295,10 +271,9 @@ fn judged(lines: &[Line]) -> Vec<Judged> {
     let of = |rule: &str, robots: u16| {
         lines.iter().find(|line| line.rule.as_str() == rule && line.robots == robots)
     };
-    let moves = |rule: &str, robots| Estimate::text_or_dash(of(rule, robots).and_then(|line| line.moves), 1);
-    let percent = |part: fn(&Line) -> Option<Estimate>, rule: &str, robots| {
-        Estimate::text_or_dash(of(rule, robots).and_then(part), 1)
-    };
+    let moves = |rule: &str, robots| text(of(rule, robots).and_then(|line| line.moves), 1);
+    let percent =
+        |part: fn(&Line) -> Option<Estimate>, rule: &str, robots| text(of(rule, robots).and_then(part), 1);
     vec![
         Judged {
             sentence: "performs better when team of robots has 8 members",
@@ -329,61 +304,4 @@ fn judged(lines: &[Line]) -> Vec<Judged> {
             ),
         },
     ]
-}
-
-fn text(settings: &Settings, merged: &Merged) -> String {
-    let Settings { layouts, columns, rows, blocked, .. } = settings;
-    let widths = TEAMS.map(|_| Column::right(Width::Of(15)));
-    let mut table = TextTable::new([Column::left(Width::Of(15))].into_iter().chain(widths));
-    let heads =
-        TEAMS.map(|robots| if robots == 1 { "1 robot".to_owned() } else { format!("{robots} robots") });
-    let mut part = |title: String, of: fn(&Line) -> Option<Estimate>| {
-        table.title(title);
-        table.row(std::iter::once("rule".to_owned()).chain(heads.clone()));
-        for lines in merged.lines.chunks(TEAMS.len()) {
-            let name = lines.first().map_or("", |line| line.rule.as_str()).to_owned();
-            let values = lines.iter().map(|line| Estimate::text_or_dash(of(line), 1));
-            table.row(std::iter::once(name).chain(values));
-        }
-    };
-    part(
-        format!(
-            "Team moves until every cell is explored: {layouts} layouts of {columns}×{rows} cells, {blocked} blocked"
-        ),
-        |line| line.moves,
-    );
-    part(
-        "Team moves more than the repaired rule takes on the same layouts, of which both explore every cell"
-            .to_owned(),
-        |line| line.behind,
-    );
-    part("Runs that explore every cell, in %; the others are in no mean of team moves".to_owned(), |line| {
-        line.whole
-    });
-    part("Runs in which two robots are in one cell, in %".to_owned(), |line| line.double);
-    let mut text = table.text();
-    for Judged { sentence, outcome } in &merged.judged {
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "“{sentence}”: {outcome}.");
-    }
-    text
-}
-
-/// Team moves over robots, a line for each rule.
-fn chart(lines: &[Line]) -> LineChart {
-    let series = lines.chunks(TEAMS.len()).filter_map(|lines| {
-        let rule = lines.first()?.rule;
-        let is_whole = |line: &&Line| line.whole.is_some_and(|whole| whole.mean > 50.0);
-        let points =
-            lines.iter().filter(is_whole).filter_map(|line| Some(point(line.robots.into(), line.moves?)));
-        let stroke = if rule == RuleId::REPAIRED { Stroke::Solid } else { Stroke::Dashed };
-        Some(Series { name: rule.to_string(), stroke, points: points.collect() })
-    });
-    let series: Vec<Series> = series.filter(|series| !series.points.is_empty()).collect();
-    LineChart {
-        title: "Team moves until every cell is explored".to_owned(),
-        x: Axis::new("robots", ""),
-        y: Axis::new("team moves", "").showing([0.0, 0.0]),
-        series,
-    }
 }

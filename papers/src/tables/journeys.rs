@@ -14,59 +14,53 @@ mod drawn;
 mod text;
 mod world;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-pub use self::claims::{Claim, Decision, Verdict};
+pub use self::claims::{Claim, Decision};
 pub use self::density::{Density, Line};
 pub use self::world::Sample;
 use self::world::World;
 use super::notice_fig5::{NODES, RANGE_M, SIDE_M};
-use super::parameter::{Given, Parameter, Senders, Values, all_shown, put, put_all, shown};
-use super::{About, Chart, Observer, Table, usage};
-use tautline_sim::diagnostic::Halt;
-use tautline_sim::value_parser::{Metres, number, real, whole, within};
+pub use super::paper::Verdict;
+use super::prelude::*;
+use tautline_sim::value_parser::Metres;
 
 /// Figure 6.
-pub const RESCUE_FIG6: Journeys = Journeys {
-    figure: Figure::Trajectories,
-    id: "rescue-fig6",
-    shows: "the ways of a robot to the node that waits for rescue by Reich's scheme, TAN and Verma's, as a picture",
-    help: "The ways of a robot by Reich's scheme, TAN and Verma's, as a picture",
-};
+pub const RESCUE_FIG6: Journeys = Journeys::of(
+    Figure::Trajectories,
+    "rescue-fig6",
+    "the ways of a robot to the node that waits for rescue by Reich's scheme, TAN and Verma's, as a picture",
+    "The ways of a robot by Reich's scheme, TAN and Verma's, as a picture",
+);
 
 /// Figure 7.
-pub const RESCUE_FIG7: Journeys = Journeys {
-    figure: Figure::Ratios,
-    id: "rescue-fig7",
-    shows: "how many metres a robot walks for each metre of the shortest way by TAN, Verma's, Reich's and Sheu's schemes, \
-            by the number of nodes, and what becomes of the paper's words about it",
-    help: "How far a robot walks by TAN and its rivals, by the number of nodes",
-};
+pub const RESCUE_FIG7: Journeys = Journeys::of(
+    Figure::Ratios,
+    "rescue-fig7",
+    "how many metres a robot walks for each metre of the shortest way by TAN, Verma's, Reich's and Sheu's schemes, \
+     by the number of nodes, and what becomes of the paper's words about it",
+    "How far a robot walks by TAN and its rivals, by the number of nodes",
+);
 
 /// Figure 9.
-pub const RESCUE_FIG9: Journeys = Journeys {
-    figure: Figure::OneObstacle,
-    id: "rescue-fig9",
-    shows: "the ways of a robot round a large obstacle: how many arrive, and how far they walk",
-    help: "How far a robot walks round a large obstacle",
-};
+pub const RESCUE_FIG9: Journeys = Journeys::of(
+    Figure::OneObstacle,
+    "rescue-fig9",
+    "the ways of a robot round a large obstacle: how many arrive, and how far they walk",
+    "How far a robot walks round a large obstacle",
+);
 
 /// Figure 10.
-pub const RESCUE_FIG10: Journeys = Journeys {
-    figure: Figure::FourObstacles,
-    id: "rescue-fig10",
-    shows: "the ways of a robot round four large obstacles: how many arrive, and how far they walk",
-    help: "How far a robot walks round four large obstacles",
-};
+pub const RESCUE_FIG10: Journeys = Journeys::of(
+    Figure::FourObstacles,
+    "rescue-fig10",
+    "the ways of a robot round four large obstacles: how many arrive, and how far they walk",
+    "How far a robot walks round four large obstacles",
+);
 
 /// Journeys of a robot to the node that waits for rescue.
 #[derive(Clone, Copy, Debug)]
 pub struct Journeys {
     figure: Figure,
-    id: &'static str,
-    shows: &'static str,
-    help: &'static str,
+    about: About,
 }
 
 /// The figures.
@@ -144,49 +138,35 @@ impl Way {
     }
 }
 
-/// What is measured.
-#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct Settings {
-    /// Numbers of nodes; none for those of the figure.
-    pub nodes: Vec<usize>,
-    /// The side of the square, in metres.
-    pub side_m: f64,
-    /// The radio range, in metres.
-    pub range_m: f64,
-    /// West, north, east and south of what stops signals and robots, in metres; none for those of the figure.
-    pub obstacles_m: Vec<[f64; 4]>,
-    /// The k of the broadcast that leaves TAN its tree.
-    pub k: Senders,
-    /// The standard deviation of the strengths that robots measure, in dB.
-    pub noise_db: f64,
-    /// Topologies for each number of nodes.
-    pub topologies: u32,
-    /// The seed of all of them.
-    pub seed: u64,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            nodes: Vec::new(),
-            side_m: SIDE_M,
-            range_m: RANGE_M,
-            obstacles_m: Vec::new(),
-            k: Senders::ONE,
-            noise_db: 0.0,
-            topologies: 200,
-            seed: 0,
-        }
+settings! {
+    /// What is measured; an empty list stands for what the figure has.
+    pub struct Settings {
+        /// Numbers of nodes [default: 300,500,700,900,1100 for figure 7, else 700]
+        pub nodes: Vec<usize> = Vec::new(), list("nodes", whole);
+        /// The side of the square, in metres
+        pub side_m: f64 = SIDE_M, one("side", "METRES", real);
+        /// The radio range, in metres
+        pub range_m: f64 = RANGE_M, one("range", "METRES", real);
+        /// An obstacle by its sides; may be given again [default: those of the figure]
+        pub obstacles_m: Vec<[f64; 4]> = Vec::new(),
+            repeated("obstacle", "W,N,E,S", |sides| format!("{sides:?}"), sides);
+        /// The k of k-FNF, whose tree TAN uses
+        pub k: Senders = Senders::ONE, one("k", "K", Senders::read);
+        /// The standard deviation of the strengths that robots measure, in dB
+        pub noise_db: f64 = 0.0, one("noise-db", "DB", real);
+        /// Topologies for each number of nodes
+        pub topologies: u32 = 200, one("topologies", "COUNT", from_to(1..=100_000));
+        /// The seed of all topologies
+        pub seed: u64 = 0, one("seed", "SEED", number);
     }
 }
 
-/// One topology at one number of nodes.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-pub struct Job {
-    /// The place of the number of nodes.
-    density: usize,
-    topology: u32,
+fn sides(text: &str) -> Result<[f64; 4], String> {
+    text.parse().map(|Metres(sides)| sides)
 }
+
+/// One topology, by the place of the number of nodes.
+type Job = Run<usize>;
 
 /// The whole figure.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
@@ -204,6 +184,23 @@ pub struct Merged {
 }
 
 impl Journeys {
+    const fn of(figure: Figure, id: &'static str, shows: &'static str, help: &'static str) -> Self {
+        let examples = &[
+            "rescue-fig7 --svg ratios.svg",
+            "rescue-fig7 --nodes 700 --k 8 --format json",
+            "rescue-fig6 --svg ways.svg",
+            "rescue-fig10 --noise-db 2 --obstacle 40,50,130,120 --obstacle 170,30,240,130",
+        ];
+        let pictures = &[(
+            "svg",
+            "Store a picture: of figure 7 a chart, else the ways in the topology in which the shortest is the longest",
+        )];
+        Self {
+            figure,
+            about: About { id, shows, help, examples, doing: "walking", pictures, ..About::NOTHING },
+        }
+    }
+
     /// The settings with what the figure has where nothing was asked for.
     fn whole(&self, settings: &Settings) -> Settings {
         let mut whole = settings.clone();
@@ -224,97 +221,7 @@ impl Table for Journeys {
     type Merged = Merged;
 
     fn about(&self) -> About {
-        About {
-            id: self.id,
-            shows: self.shows,
-            help: self.help,
-            more: "",
-            examples: &[
-                "rescue-fig7 --svg ratios.svg",
-                "rescue-fig7 --nodes 700 --k 8 --format json",
-                "rescue-fig6 --svg ways.svg",
-                "rescue-fig10 --noise-db 2 --obstacle 40,50,130,120 --obstacle 170,30,240,130",
-            ],
-            doing: "walking",
-        }
-    }
-
-    fn parameters(&self) -> Vec<Parameter<Settings>> {
-        let obstacle = Given {
-            name: "obstacle",
-            value: "W,N,E,S",
-            about: "An obstacle by its sides; may be given again [default: those of the figure]",
-            values: Values::Repeated,
-        };
-        vec![
-            Parameter::list(
-                "nodes",
-                "Numbers of nodes [default: 300,500,700,900,1100 for figure 7, else 700]",
-                |all| all_shown(&all.nodes),
-                |all, texts| put_all(&mut all.nodes, texts, whole),
-            ),
-            Parameter::one(
-                "side",
-                "METRES",
-                "The side of the square, in metres",
-                |all| shown(&all.side_m),
-                |all, texts| put(&mut all.side_m, texts, real),
-            ),
-            Parameter::one(
-                "range",
-                "METRES",
-                "The radio range, in metres",
-                |all| shown(&all.range_m),
-                |all, texts| put(&mut all.range_m, texts, real),
-            ),
-            Parameter::new(
-                obstacle,
-                |_| Vec::new(),
-                |all, texts| {
-                    put_all(&mut all.obstacles_m, texts, |text| text.parse().map(|Metres(sides)| sides))
-                },
-            ),
-            Parameter::one(
-                "k",
-                "K",
-                "The k of k-FNF, whose tree TAN uses",
-                |all| shown(&all.k.0.get()),
-                |all, texts| put(&mut all.k, texts, Senders::read),
-            ),
-            Parameter::one(
-                "noise-db",
-                "DB",
-                "The standard deviation of the strengths that robots measure, in dB",
-                |all| shown(&all.noise_db),
-                |all, texts| put(&mut all.noise_db, texts, real),
-            ),
-            Parameter::one(
-                "topologies",
-                "COUNT",
-                "Topologies for each number of nodes",
-                |all| shown(&all.topologies),
-                |all, texts| put(&mut all.topologies, texts, |text| within(text, &(1..=100_000_i64))),
-            ),
-            Parameter::one(
-                "seed",
-                "SEED",
-                "The seed of all topologies",
-                |all| shown(&all.seed),
-                |all, texts| put(&mut all.seed, texts, number),
-            ),
-        ]
-    }
-
-    fn charts(&self) -> Vec<Chart<Self>> {
-        let about = "Store a picture: of figure 7 a chart, else the ways in the topology in which the shortest is the \
-                     longest";
-        let draw = |journeys: &Self, settings: &Settings, merged: &Merged| match journeys.figure {
-            Figure::Ratios => Ok(drawn::chart(&merged.densities).svg()),
-            Figure::Trajectories | Figure::OneObstacle | Figure::FourObstacles => {
-                drawn::picture(&journeys.whole(settings), journeys.figure.drawn(), &merged.densities)
-            }
-        };
-        vec![Chart { name: "svg", about, draw }]
+        self.about
     }
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
@@ -322,29 +229,34 @@ impl Table for Journeys {
         for &nodes in &settings.nodes {
             World::new(&settings, nodes, 0).map_err(usage)?;
         }
-        let topologies = |density| (0..settings.topologies).map(move |topology| Job { density, topology });
-        Ok((0..settings.nodes.len()).flat_map(topologies).collect())
+        Ok(runs(0..settings.nodes.len(), |_| settings.topologies))
     }
 
-    fn measure(&self, settings: &Settings, job: &Job, _: &dyn Observer) -> Result<Sample, Halt> {
+    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Sample, Halt> {
         let settings = self.whole(settings);
-        let nodes = settings.nodes.get(job.density).copied().unwrap_or_default();
-        let world = World::new(&settings, nodes, job.topology).map_err(usage)?;
+        let nodes = settings.nodes.get(run.at).copied().unwrap_or_default();
+        let world = World::new(&settings, nodes, run.number).map_err(usage)?;
         Sample::of(&world).map_err(usage)
     }
 
-    fn merge(&self, settings: &Settings, results: Vec<(Job, Sample)>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
         let Settings { nodes, side_m, range_m, obstacles_m, k, noise_db, topologies, seed } =
             self.whole(settings);
-        let density = |(density, nodes): (usize, usize)| {
-            let samples = results.iter().filter(|(job, _)| job.density == density);
-            Density::of(nodes, &samples.map(|(_, sample)| sample).collect::<Vec<_>>())
-        };
-        let densities = nodes.into_iter().enumerate().map(density).collect();
+        let nodes = nodes.into_iter().enumerate();
+        let densities = nodes.map(|(density, nodes)| Density::of(nodes, &at(&results, density))).collect();
         Ok(Merged { side_m, range_m, obstacles: obstacles_m, k, noise_db, topologies, seed, densities })
     }
 
     fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
-        Ok(text::text(&self.whole(settings), &merged.densities))
+        Ok(text::figures(&self.whole(settings), &merged.densities))
+    }
+
+    fn draw(&self, _: usize, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
+        match self.figure {
+            Figure::Ratios => Ok(drawn::chart(&merged.densities).svg()),
+            Figure::Trajectories | Figure::OneObstacle | Figure::FourObstacles => {
+                drawn::picture(&self.whole(settings), self.figure.drawn(), &merged.densities)
+            }
+        }
     }
 }

@@ -14,20 +14,14 @@ mod printed;
 
 use std::num::NonZeroU32;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::Cell;
 use tautline_kernel::kit::Rule;
 
 use self::lattice::FAMILIES;
-use super::parameter::{Parameter, put, shown};
-use super::{About, Chart, Observer, Table, unfit};
-use tautline_field::stats::Estimate;
-use tautline_sim::diagnostic::Halt;
+use super::prelude::*;
 use tautline_sim::explore::RuleName;
 use tautline_sim::kit::{self, Pace, REACH_MILLIMETRES};
 use tautline_sim::layout::Layout;
-use tautline_sim::value_parser::{number, within};
 
 /// Paths of every layout, and how many of them are explored at the paper's 88 %.
 pub const PATHS: usize = 26;
@@ -60,28 +54,37 @@ const TWO: usize = 1;
 const PATIENCE: usize = 1000 * PATHS;
 
 /// How long it takes to find the nodes.
-pub const KIT_FIG9: Kit = Kit {
-    figure: Figure::Time,
-    id: "kit-fig9",
-    shows: "KIT: how long one robot and two take to find the nodes of random lattices",
-    help: "How long robots that keep in touch take to find the nodes",
-};
+pub const KIT_FIG9: Kit = Kit::of(
+    Figure::Time,
+    "kit-fig9",
+    "KIT: how long one robot and two take to find the nodes of random lattices",
+    "How long robots that keep in touch take to find the nodes",
+);
 
 /// What is driven by both.
-pub const KIT_FIG14: Kit = Kit {
-    figure: Figure::Overlap,
-    id: "kit-fig14",
-    shows: "KIT: how many of the explored paths are driven by both robots when 88 % are explored, and how long all take",
-    help: "How much robots that keep in touch overlap",
-};
+pub const KIT_FIG14: Kit = Kit::of(
+    Figure::Overlap,
+    "kit-fig14",
+    "KIT: how many of the explored paths are driven by both robots when 88 % are explored, and how long all take",
+    "How much robots that keep in touch overlap",
+);
 
 /// Robots that keep in touch on random lattices.
 #[derive(Clone, Copy, Debug)]
 pub struct Kit {
     figure: Figure,
-    id: &'static str,
-    shows: &'static str,
-    help: &'static str,
+    about: About,
+}
+
+impl Kit {
+    const fn of(figure: Figure, id: &'static str, shows: &'static str, help: &'static str) -> Self {
+        let examples = &["kit-fig14 --svg overlap.svg", "kit-fig9 --layouts 100 --format json"];
+        let pictures = &[("svg", "Store a chart")];
+        Self {
+            figure,
+            about: About { id, shows, help, examples, doing: "driving", pictures, ..About::NOTHING },
+        }
+    }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -90,31 +93,28 @@ enum Figure {
     Overlap,
 }
 
-/// How much is measured.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct Settings {
-    /// Layouts of each family.
-    pub layouts: u32,
-    /// The seed of the first one.
-    pub seed: u64,
-    /// Millimetres a second.
-    pub speed: NonZeroU32,
-    /// How much faster or slower a drive may be, in thousandths.
-    pub spread: u32,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self { layouts: 1000, seed: 0, speed: Pace::STEADY.speed, spread: 100 }
+settings! {
+    /// How much is measured.
+    #[derive(Copy, Eq)]
+    pub struct Settings {
+        /// Random layouts of each family
+        pub layouts: u32 = 1000, one("layouts", "COUNT", from_to(1..=100_000));
+        /// The seed of the first layout and its runs; the others have the seeds after it
+        pub seed: u64 = 0, one("seed", "SEED", number);
+        /// How fast robots drive, in millimetres a second
+        pub speed: NonZeroU32 = Pace::STEADY.speed, one("speed", "MM/S", speed);
+        /// How much faster or slower a drive may be, in thousandths
+        pub spread: u32 = 100, one("spread", "THOUSANDTHS", from_to(0..=900));
     }
 }
 
-/// One layout, for every team.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-pub struct Job {
-    family: usize,
-    seed: u64,
+fn speed(text: &str) -> Result<NonZeroU32, String> {
+    let speed = from_to(1..=100_000)(text)?;
+    NonZeroU32::new(speed).ok_or_else(|| "a robot that stands still finds nothing".to_owned())
 }
+
+/// A run of every team in one layout of a family.
+type Job = Run<usize>;
 
 /// What came of one run.
 #[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
@@ -138,7 +138,7 @@ pub struct Merged {
     pub lines: Vec<Line>,
     /// Two robots against one, as published, for each family.
     pub races: Vec<Race>,
-    paper: Vec<printed::Printed>,
+    paper: Vec<Printed>,
 }
 
 /// A team in a family.
@@ -183,99 +183,42 @@ impl Table for Kit {
     type Merged = Merged;
 
     fn about(&self) -> About {
-        About {
-            id: self.id,
-            shows: self.shows,
-            help: self.help,
-            more: "",
-            examples: &["kit-fig14 --svg overlap.svg", "kit-fig9 --layouts 100 --format json"],
-            doing: "driving",
-        }
-    }
-
-    fn parameters(&self) -> Vec<Parameter<Settings>> {
-        vec![
-            Parameter::one(
-                "layouts",
-                "COUNT",
-                "Random layouts of each family",
-                |all| shown(&all.layouts),
-                |all, texts| put(&mut all.layouts, texts, |text| within(text, &(1..=100_000_i64))),
-            ),
-            Parameter::one(
-                "seed",
-                "SEED",
-                "The seed of the first layout and its runs; the others have the seeds after it",
-                |all| shown(&all.seed),
-                |all, texts| put(&mut all.seed, texts, number),
-            ),
-            Parameter::one(
-                "speed",
-                "MM/S",
-                "How fast robots drive, in millimetres a second",
-                |all| shown(&all.speed),
-                |all, texts| {
-                    put(&mut all.speed, texts, |text| {
-                        let speed: u32 = within(text, &(1..=100_000_i64))?;
-                        NonZeroU32::new(speed)
-                            .ok_or_else(|| "a robot that stands still finds nothing".to_owned())
-                    })
-                },
-            ),
-            Parameter::one(
-                "spread",
-                "THOUSANDTHS",
-                "How much faster or slower a drive may be, in thousandths",
-                |all| shown(&all.spread),
-                |all, texts| put(&mut all.spread, texts, |text| within(text, &(0..=900_i64))),
-            ),
-        ]
-    }
-
-    fn charts(&self) -> Vec<Chart<Self>> {
-        let draw =
-            |kit: &Self, _: &Settings, merged: &Merged| Ok(drawn::chart(kit.figure, &merged.lines).svg());
-        vec![Chart { name: "svg", about: "Store a chart", draw }]
+        self.about
     }
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
-        let Settings { layouts, seed, .. } = *settings;
-        let of =
-            |family| (0..u64::from(layouts)).map(move |index| Job { family, seed: seed.wrapping_add(index) });
-        Ok((0..FAMILIES.len()).flat_map(of).collect())
+        Ok(runs(0..FAMILIES.len(), |_| settings.layouts))
     }
 
     fn parts(&self, _: &Job) -> u64 {
         TEAMS.len() as u64
     }
 
-    fn measure(&self, settings: &Settings, job: &Job, _: &dyn Observer) -> Result<Self::Measured, Halt> {
-        let family = FAMILIES.get(job.family).copied().unwrap_or(FAMILIES[0]);
-        let (layout, start) = family.layout(job.seed).map_err(|problem| unfit(&problem))?;
+    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Measured, Halt> {
+        let family = FAMILIES.get(run.at).copied().unwrap_or(FAMILIES[0]);
+        let seed = run.seed(settings.seed);
+        let (layout, start) = fit(family.layout(seed))?;
         let pace = Pace { speed: settings.speed, spread: settings.spread };
-        Ok(TEAMS.map(|team| follow(team, &layout, start, pace, job.seed)))
+        Ok(TEAMS.map(|team| follow(team, &layout, start, pace, seed)))
     }
 
-    fn merge(&self, settings: &Settings, results: Vec<(Job, Self::Measured)>) -> Result<Merged, Halt> {
-        let of = |family: usize| results.iter().filter(move |(job, _)| job.family == family);
-        let lines = (0..FAMILIES.len()).flat_map(|family| {
-            (0..TEAMS.len()).map(move |team| {
-                let outcomes: Vec<&Outcome> = of(family).map(|(_, outcomes)| &outcomes[team]).collect();
-                Line::of(FAMILIES[family].name, TEAMS[team], &outcomes)
-            })
-        });
-        let lines: Vec<Line> = lines.collect();
-        let race = |family: usize| {
-            let pairs = of(family).map(|(_, outcomes)| (&outcomes[ONE], &outcomes[TWO]));
-            Race::of(FAMILIES[family].name, &pairs.collect::<Vec<_>>())
-        };
-        let races: Vec<Race> = (0..FAMILIES.len()).map(race).collect();
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+        let (mut lines, mut races) = (Vec::new(), Vec::new());
+        for (place, family) in FAMILIES.into_iter().enumerate() {
+            let teams = of_teams(&results, place);
+            lines.extend(TEAMS.into_iter().zip(&teams).map(|(team, all)| Line::of(family.name, team, all)));
+            races.push(Race::of(family.name, &teams[ONE], &teams[TWO]));
+        }
         let paper = printed::of(self.figure, &lines, &races);
         Ok(Merged { settings: *settings, lines, races, paper })
     }
 
     fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
         Ok(printed::text(self.figure, settings, merged))
+    }
+
+    fn draw(&self, _: usize, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+        Ok(drawn::chart(self.figure, &merged.lines).svg())
     }
 
     /// A repaired team always keeps in touch, and one or two of its robots drive every path.
@@ -322,17 +265,6 @@ fn follow(team: Team, layout: &Layout, start: Cell, pace: Pace, seed: u64) -> Ou
     outcome
 }
 
-/// Seconds.
-#[expect(clippy::cast_precision_loss, reason = "no run takes 2⁵³ milliseconds")]
-const fn seconds(milliseconds: u64) -> f64 {
-    milliseconds as f64 / 1000.0
-}
-
-/// The mean of those that are there.
-fn mean(values: impl Iterator<Item = f64>) -> Option<Estimate> {
-    Estimate::of_values(&values.collect::<Vec<_>>())
-}
-
 impl Outcome {
     fn is_whole(&self) -> bool {
         self.paths.len() == PATHS
@@ -358,16 +290,15 @@ impl Line {
         let node = |number: usize| {
             mean(whole().filter_map(|outcome| outcome.nodes.get(number)).map(|&end| seconds(end)))
         };
-        let count = outcomes.len() as u32;
-        let cut = outcomes.iter().filter(|outcome| outcome.is_cut).count() as u32;
+        let cut = share(outcomes, |outcome| outcome.is_cut).filter(|_| is_team);
         Self {
             family,
             team,
             efficiency: efficiency(EXPLORED).filter(|_| is_team),
             most: path(EXPLORED),
             all: path(PATHS),
-            cut: Estimate::share(cut, count).map(|share| share.times(100.0)).filter(|_| is_team),
-            ended: count - whole().count() as u32,
+            cut: cut.map(|share| share.times(100.0)),
+            ended: count(outcomes, |outcome| !outcome.is_whole()),
             nodes: (0..nodes).filter_map(node).collect(),
             efficiencies: if is_team { (1..=PATHS).filter_map(efficiency).collect() } else { Vec::new() },
         }
@@ -375,16 +306,14 @@ impl Line {
 }
 
 impl Race {
-    fn of(family: &'static str, pairs: &[(&Outcome, &Outcome)]) -> Self {
-        let whole = || pairs.iter().filter(|(one, two)| one.is_whole() && two.is_whole());
+    fn of(family: &'static str, one: &[&Outcome], two: &[&Outcome]) -> Self {
         let last = |outcome: &Outcome| outcome.nodes.last().copied().unwrap_or(0);
-        let gain = |&(one, two): &(&Outcome, &Outcome)| seconds(last(one)) - seconds(last(two));
-        let sooner = whole().filter(|(one, two)| last(two) < last(one)).count() as u32;
-        let count = whole().count() as u32;
+        let whole = one.iter().zip(two).filter(|(one, two)| one.is_whole() && two.is_whole());
+        let lasts: Vec<(u64, u64)> = whole.map(|(one, two)| (last(one), last(two))).collect();
         Self {
             family,
-            gain: mean(whole().map(gain)),
-            sooner: Estimate::share(sooner, count).map(|share| share.times(100.0)),
+            gain: mean(lasts.iter().map(|&(one, two)| seconds(one) - seconds(two))),
+            sooner: share(&lasts, |(one, two)| two < one).map(|share| share.times(100.0)),
         }
     }
 }

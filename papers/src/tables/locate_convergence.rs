@@ -3,22 +3,16 @@
 //! random numbers are drawn for, and by the inertia. Beside it the distance to where the robot is, which is another
 //! thing.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{
     Draws, Order, Parameters, Particle, Point, Residual, Signal, Swarm, closed_form, locate,
 };
 use tautline_proofs::engine::Seeded;
 
-use super::parameter::{Parameter, put, shown};
-use super::{About, Chart, Observer, Table};
-use crate::chart::{Axis, LineChart, Point as Mark, Series, Stroke};
+use super::prelude::*;
+use crate::chart;
 use tautline_field::position::{Anchors, PARTICLES, distances, refused};
-use tautline_field::stats::{Estimate, decimals, quantile, rounded};
-use tautline_sim::diagnostic::{Diagnostic, Halt};
-use tautline_sim::text_table::{Column, Figures, TextTable, Width};
-use tautline_sim::value_parser::{number, real, within};
+use tautline_field::stats::quantile;
 
 /// The anchors, as in `tautline locate`.
 const SQUARE: [Point; 3] = [Point::new(0.0, 0.0), Point::new(20.0, 0.0), Point::new(0.0, 20.0)];
@@ -46,81 +40,34 @@ const VARIANTS: [(&str, Order, Draws, Parameters); 6] = [
 #[derive(Clone, Copy, Debug)]
 pub struct LocateConvergence;
 
-/// A square with anchors in three corners, and what is tried in it.
-#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct Field {
-    /// The standard deviation of the levels, in dB.
-    pub noise_db: f64,
-    /// The exponent of the path loss.
-    pub exponent: f64,
-    /// How often it is tried.
-    pub trials: u32,
-    /// The seed of all of it.
-    pub seed: u64,
-}
-
-impl Default for Field {
-    fn default() -> Self {
-        Self { noise_db: 1.0, exponent: 2.0, trials: 10_000, seed: 0 }
+settings! {
+    /// A square with anchors in three corners, and what is tried in it.
+    pub struct Field {
+        /// The standard deviation of the levels, in dB
+        pub noise_db: f64 = 1.0, one("noise-db", "DB", real);
+        /// Power falls with the distance to the power of this, from 2 to 5
+        pub exponent: f64 = 2.0, one("exponent", "ALPHA", real);
+        /// Positions that are found
+        pub trials: u32 = 10_000, one("trials", "COUNT", from_to(2..=1_000_000));
+        /// The seed of whatever is left to chance
+        pub seed: u64 = 0, one("seed", "SEED", number);
     }
-}
-
-/// The options of a field; `tried` says what is tried how often.
-pub(super) fn parameters(tried: &'static str) -> Vec<Parameter<Field>> {
-    vec![
-        Parameter::one(
-            "noise-db",
-            "DB",
-            "The standard deviation of the levels, in dB",
-            |all| shown(&all.noise_db),
-            |all, texts| put(&mut all.noise_db, texts, real),
-        ),
-        Parameter::one(
-            "exponent",
-            "ALPHA",
-            "Power falls with the distance to the power of this, from 2 to 5",
-            |all| shown(&all.exponent),
-            |all, texts| put(&mut all.exponent, texts, real),
-        ),
-        Parameter::one(
-            "trials",
-            "COUNT",
-            tried,
-            |all| shown(&all.trials),
-            |all, texts| put(&mut all.trials, texts, |text| within(text, &(2..=1_000_000_i64))),
-        ),
-        Parameter::one(
-            "seed",
-            "SEED",
-            "The seed of whatever is left to chance",
-            |all| shown(&all.seed),
-            |all, texts| put(&mut all.seed, texts, number),
-        ),
-    ]
 }
 
 /// The anchors of a field, and how they are heard.
 pub(super) fn field(settings: &Field) -> Result<(Anchors, Signal), Halt> {
-    let propagation = Propagation::new(settings.exponent).ok_or_else(|| {
-        Diagnostic::usage(
-            format_args!("the exponent {} is none", settings.exponent),
-            "give an exponent from 2 to 5",
-        )
-    })?;
-    let signal = Signal::new(propagation, settings.noise_db).ok_or_else(|| {
-        Diagnostic::usage(
-            format_args!("a noise of {} dB is none", settings.noise_db),
-            "give decibels from 0 to 100",
-        )
-    })?;
+    let Field { exponent, noise_db, .. } = settings;
+    let no_exponent =
+        || Diagnostic::usage(format!("the exponent {exponent} is none"), "give an exponent from 2 to 5");
+    let no_noise =
+        || Diagnostic::usage(format!("a noise of {noise_db} dB is none"), "give decibels from 0 to 100");
+    let propagation = Propagation::new(*exponent).ok_or_else(no_exponent)?;
+    let signal = Signal::new(propagation, *noise_db).ok_or_else(no_noise)?;
     Ok((Anchors::new(SQUARE.to_vec()).map_err(refused)?, signal))
 }
 
-/// One way to read the paper.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-pub struct Job {
-    variant: usize,
-}
+/// One way to read the paper, by its place in [`VARIANTS`].
+type Job = usize;
 
 /// What came of it.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
@@ -180,27 +127,19 @@ impl Table for LocateConvergence {
                 "locate-convergence --noise-db 4 --trials 1000 --format json",
             ],
             doing: "locating",
+            pictures: &[("svg", "Store the medians as a picture")],
         }
-    }
-
-    fn parameters(&self) -> Vec<Parameter<Field>> {
-        parameters("Positions that are found")
-    }
-
-    fn charts(&self) -> Vec<Chart<Self>> {
-        let draw = |_: &Self, _: &Field, merged: &Merged| Ok(chart(merged).svg());
-        vec![Chart { name: "svg", about: "Store the medians as a picture", draw }]
     }
 
     fn jobs(&self, settings: &Field) -> Result<Vec<Job>, Halt> {
         field(settings)?;
-        Ok((0..VARIANTS.len()).map(|variant| Job { variant }).collect())
+        Ok((0..VARIANTS.len()).collect())
     }
 
-    fn measure(&self, settings: &Field, job: &Job, _: &dyn Observer) -> Result<Course, Halt> {
+    fn measure(&self, settings: &Field, &variant: &Job, _: &dyn Observer) -> Result<Course, Halt> {
         let (anchors, signal) = field(settings)?;
         let unknown = || Diagnostic::usage("there is no such reading", "take the job as tautline wrote it");
-        let &(_, order, draws, parameters) = VARIANTS.get(job.variant).ok_or_else(unknown)?;
+        let &(_, order, draws, parameters) = VARIANTS.get(variant).ok_or_else(unknown)?;
         let after = |iterations: u32| {
             let parameters = Parameters { order, draws, iterations, ..parameters };
             after(settings, (&anchors, &signal), parameters)
@@ -208,7 +147,7 @@ impl Table for LocateConvergence {
         Ok(Course { after: ITERATIONS.into_iter().map(after).collect::<Result<_, _>>()? })
     }
 
-    fn merge(&self, settings: &Field, results: Vec<(Job, Course)>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Field, results: Results<Self>) -> Result<Merged, Halt> {
         let named = |((reading, ..), (_, course)): (&(&'static str, _, _, _), (Job, Course))| Variant {
             reading,
             course,
@@ -221,53 +160,62 @@ impl Table for LocateConvergence {
             "{PARTICLES} particles, medians of {} positions, noise {} dB, exponent {}, seed {}; after iterations:",
             settings.trials, settings.noise_db, settings.exponent, settings.seed
         );
+        let optimum = |After { optimum_m, interval_m: [least, most], .. }: After| {
+            format!("{:.1} [{:.1}, {:.1}]", 1e3 * optimum_m, 1e3 * least, 1e3 * most)
+        };
+        let parts: [(&str, &dyn Fn(After) -> String); 3] = [
+            ("distance to the optimum, mm", &optimum),
+            ("less than 5 cm from the optimum, % of runs", &|after| percent(after.below_5_cm, 1)),
+            ("distance to the robot, m", &|after| format!("{:.2}", after.error_m)),
+        ];
         let places: Vec<usize> = (0..ITERATIONS.len()).collect();
         let mut figures = Figures::new(heading, &places);
         figures.row("iterations", |&place| ITERATIONS[place].to_string());
-        figures.title("distance to the optimum, mm");
-        for Variant { reading, course } in &merged.variants {
-            figures.row(*reading, |&place| {
-                let After { optimum_m, interval_m: [least, most], .. } = course.after[place];
-                format!("{:.1} [{:.1}, {:.1}]", 1e3 * optimum_m, 1e3 * least, 1e3 * most)
-            });
-        }
-        figures.title("less than 5 cm from the optimum, % of runs");
-        for Variant { reading, course } in &merged.variants {
-            figures.row(*reading, |&place| course.after[place].below_5_cm.times(100.0).text(1));
-        }
-        figures.title("distance to the robot, m");
-        for Variant { reading, course } in &merged.variants {
-            figures.row(*reading, |&place| format!("{:.2}", course.after[place].error_m));
+        for (title, of) in parts {
+            figures.title(title);
+            for Variant { reading, course } in &merged.variants {
+                figures.row(*reading, |&place| of(course.after[place]));
+            }
         }
         Ok(figures.with_notes(&format!("{}\n±, […]: the 95 % interval", compared(merged))))
+    }
+
+    /// The medians of each reading.
+    fn draw(&self, _: usize, settings: &Field, merged: &Merged) -> Result<String, Halt> {
+        let point = |after: &After| chart::Point {
+            x: after.iterations.into(),
+            y: 1e2 * after.optimum_m,
+            interval: Some(after.interval_m.map(|end| 1e2 * end)),
+        };
+        let series = |one: &Variant| Series::measured(one.reading, one.course.after.iter().map(point));
+        let title = format!("Particles on their way to the optimum, noise {} dB", settings.noise_db);
+        let x = Axis::new("iterations", "").showing([0.0, 50.0]);
+        let y = Axis::new("median distance to the optimum", "cm").showing([0.0, 5.0]);
+        Ok(LineChart::new(title, x, y, merged.variants.iter().map(series)).svg())
     }
 }
 
 /// The paper's numbers beside ours.
 fn compared(merged: &Merged) -> String {
-    let mut columns =
-        TextTable::new([Column::left(Width::Fit)].into_iter().chain([Column::right(Width::Fit); 3]));
-    columns.row(["metres", "paper", "ours", "difference"]);
     let last = ITERATIONS.len() - 1;
     // The place of 20 among the iterations.
     let twenty = ITERATIONS.iter().position(|&iterations| iterations == 20).unwrap_or(last);
-    for Variant { reading, course } in &merged.variants {
+    let numbers = |Variant { reading, course }: &Variant| {
         let After { optimum_m, error_m, .. } = course.after[twenty];
-        let conclusion = course.after[last].optimum_m;
-        for (what, paper_m, ours_m) in [
+        let conclusion = format!("{reading}: to the optimum, {} iterations", ITERATIONS[last]);
+        [
             (format!("{reading}: to the optimum, 20 iterations"), PAPER_M, optimum_m),
-            (format!("{reading}: to the optimum, {} iterations", ITERATIONS[last]), CONCLUSION_M, conclusion),
+            (conclusion, CONCLUSION_M, course.after[last].optimum_m),
             (format!("{reading}: to the robot, 20 iterations"), PAPER_M, error_m),
-        ] {
-            columns.row([
-                what,
-                format!("< {paper_m}"),
-                format!("{ours_m:.4}"),
-                format!("{:+.4}", ours_m - paper_m),
-            ]);
-        }
-    }
-    columns.text()
+        ]
+    };
+    let numbers: Vec<(String, f64, f64)> = merged.variants.iter().flat_map(numbers).collect();
+    Columns::of(&numbers)
+        .left("metres", Fit, |(what, ..)| what)
+        .right("paper", Fit, |(_, paper_m, _)| format!("< {paper_m}"))
+        .right("ours", Fit, |(_, _, ours_m)| format!("{ours_m:.4}"))
+        .right("difference", Fit, |(_, paper_m, ours_m)| format!("{:+.4}", ours_m - paper_m))
+        .text()
 }
 
 /// Many swarms after so many iterations.
@@ -293,35 +241,12 @@ fn after(
     to_optimum.sort_by(f64::total_cmp);
     to_robot.sort_by(f64::total_cmp);
     let (optimum_m, interval_m) = quantile(&to_optimum, 0.5);
-    let below = to_optimum.iter().filter(|&&distance_m| distance_m < PAPER_M).count() as u32;
-    let share = Estimate::share(below, settings.trials).unwrap_or(Estimate::NOTHING);
+    let below = share(&to_optimum, |&distance_m| distance_m < PAPER_M).unwrap_or(Estimate::NOTHING);
     Ok(After {
         iterations: parameters.iterations,
         optimum_m: decimals(optimum_m, 1e6),
         interval_m: interval_m.map(|end| decimals(end, 1e6)),
-        below_5_cm: rounded(share, 1e4),
+        below_5_cm: rounded(below, 1e4),
         error_m: decimals(quantile(&to_robot, 0.5).0, 1e4),
     })
-}
-
-/// The medians of each reading as a chart.
-fn chart(merged: &Merged) -> LineChart {
-    let series = |variant: &Variant| {
-        let mark = |after: &After| Mark {
-            x: after.iterations.into(),
-            y: 1e2 * after.optimum_m,
-            interval: Some(after.interval_m.map(|end| 1e2 * end)),
-        };
-        Series {
-            name: variant.reading.to_owned(),
-            stroke: Stroke::Solid,
-            points: variant.course.after.iter().map(mark).collect(),
-        }
-    };
-    LineChart {
-        title: format!("Particles on their way to the optimum, noise {} dB", merged.field.noise_db),
-        x: Axis::new("iterations", "").showing([0.0, 50.0]),
-        y: Axis::new("median distance to the optimum", "cm").showing([0.0, 5.0]),
-        series: merged.variants.iter().map(series).collect(),
-    }
 }

@@ -3,21 +3,16 @@
 //! swarm, and that it grows with the number of robots. Robots stand at random places of a square with anchors in three
 //! corners.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use tautline_kernel::position::{Point, Signal};
 use tautline_proofs::engine::Seeded;
 
-use super::locate_convergence::{Field, field, parameters};
-use super::parameter::Parameter;
-use super::{About, Chart, Observer, Table, point};
-use crate::chart::{Axis, LineChart, Series, Stroke};
+use super::locate_convergence::{Field, field};
+use super::parameter::{Parameter, Settings};
+use super::prelude::*;
+use crate::chart;
 use tautline_field::position::{Anchors, Solver, distances, refused};
-use tautline_field::stats::{Estimate, rounded};
-use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::RuleName;
 use tautline_sim::named_values::NamedValues;
-use tautline_sim::text_table::{Column, Figures, TextTable, Width};
 
 /// The numbers of robots of the paper.
 const ROBOTS: [usize; 5] = [1, 2, 4, 6, 8];
@@ -87,18 +82,20 @@ pub struct Sentence {
     pub is_so: bool,
 }
 
-fn mean(team: &Team, robots: usize, solver: usize) -> f64 {
+/// What of a team's errors is told: of so many robots, by one solver.
+type Of = fn(&Team, robots: usize, solver: usize) -> f64;
+
+fn mean_of(team: &Team, robots: usize, solver: usize) -> f64 {
     let sum: f64 = team.iter().take(robots).map(|errors| errors[solver]).sum();
-    sum / f64::from(u32::try_from(robots).unwrap_or(1))
+    sum / f64::from(robots as u32)
 }
 
-fn worst(team: &Team, robots: usize, solver: usize) -> f64 {
+fn worst_of(team: &Team, robots: usize, solver: usize) -> f64 {
     team.iter().take(robots).map(|errors| errors[solver]).fold(0.0, f64::max)
 }
 
 fn estimate(teams: &[Team], value: impl Fn(&Team) -> f64) -> Estimate {
-    let values: Vec<f64> = teams.iter().map(value).collect();
-    rounded(Estimate::of_values(&values).unwrap_or(Estimate::NOTHING), 1e3)
+    rounded(mean(teams.iter().map(value)).unwrap_or(Estimate::NOTHING), 1e3)
 }
 
 impl Table for LocateFig8 {
@@ -116,16 +113,12 @@ impl Table for LocateFig8 {
             more: "Anchors stand at 0,0, at 20,0 and at 0,20 metres, robots at random places between 0,0 and 20,20.",
             examples: &["locate-fig8 --svg fig8.svg", "locate-fig8 --noise-db 2 --format json"],
             doing: "locating",
+            pictures: &[("svg", "Store the figure as a picture")],
         }
     }
 
     fn parameters(&self) -> Vec<Parameter<Field>> {
-        parameters("Teams of eight robots")
-    }
-
-    fn charts(&self) -> Vec<Chart<Self>> {
-        let draw = |_: &Self, _: &Field, merged: &Merged| Ok(chart(merged).svg());
-        vec![Chart { name: "svg", about: "Store the figure as a picture", draw }]
+        renamed(Field::parameters(), "trials", ["trials", "Teams of eight robots"])
     }
 
     fn jobs(&self, settings: &Field) -> Result<Vec<Job>, Halt> {
@@ -140,45 +133,32 @@ impl Table for LocateFig8 {
             .collect()
     }
 
-    fn merge(&self, settings: &Field, results: Vec<(Job, Vec<Team>)>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Field, results: Results<Self>) -> Result<Merged, Halt> {
         let teams: Vec<Team> = results.into_iter().flat_map(|(_, teams)| teams).collect();
         let errors = |robots: usize, number: usize| Errors {
             solver: SOLVERS[number],
-            mean_m: estimate(&teams, |team| mean(team, robots, number)),
-            worst_m: estimate(&teams, |team| worst(team, robots, number)),
+            mean_m: estimate(&teams, |team| mean_of(team, robots, number)),
+            worst_m: estimate(&teams, |team| worst_of(team, robots, number)),
         };
-        let size = |&robots: &usize| Size {
+        let size = |robots: usize| Size {
             robots,
             solvers: (0..SOLVERS.len()).map(|number| errors(robots, number)).collect(),
         };
-        let sentence = |paper, difference_m: Estimate, is_so: fn([f64; 2]) -> bool| Sentence {
-            paper,
-            difference_m,
-            is_so: difference_m.interval.is_some_and(is_so),
+        let (without, with) = ((MOST, 0), (MOST, 1));
+        let one: (usize, usize) = (1, 1);
+        let sentences: [(&str, Of, [(usize, usize); 2], f64); 3] = [
+            ("the error falls with the swarm (8 robots, mean)", mean_of, [without, with], -1.0),
+            ("the error grows from 1 robot to 8 (pso, mean)", mean_of, [one, with], 1.0),
+            ("the same of the worst robot of the team", worst_of, [one, with], 1.0),
+        ];
+        let sentence = |(paper, of, [before, after], sign): (&'static str, Of, [(usize, usize); 2], f64)| {
+            let difference_m =
+                estimate(&teams, |team| of(team, after.0, after.1) - of(team, before.0, before.1));
+            let has_sign = |ends: [f64; 2]| ends.iter().all(|end| sign * end > 0.0);
+            Sentence { paper, difference_m, is_so: difference_m.interval.is_some_and(has_sign) }
         };
-        let grows: fn([f64; 2]) -> bool = |[least, _]| least > 0.0;
-        let falls: fn([f64; 2]) -> bool = |[_, most]| most < 0.0;
-        Ok(Merged {
-            field: settings.clone(),
-            sizes: ROBOTS.iter().map(size).collect(),
-            sentences: vec![
-                sentence(
-                    "the error falls with the swarm (8 robots, mean)",
-                    estimate(&teams, |team| mean(team, MOST, 1) - mean(team, MOST, 0)),
-                    falls,
-                ),
-                sentence(
-                    "the error grows from 1 robot to 8 (pso, mean)",
-                    estimate(&teams, |team| mean(team, MOST, 1) - mean(team, 1, 1)),
-                    grows,
-                ),
-                sentence(
-                    "the same of the worst robot of the team",
-                    estimate(&teams, |team| worst(team, MOST, 1) - worst(team, 1, 1)),
-                    grows,
-                ),
-            ],
-        })
+        let sentences = sentences.map(sentence).into();
+        Ok(Merged { field: settings.clone(), sizes: ROBOTS.map(size).into(), sentences })
     }
 
     fn text(&self, settings: &Field, merged: &Merged) -> Result<String, Halt> {
@@ -186,27 +166,42 @@ impl Table for LocateFig8 {
             "Localisation error in metres, {} teams, noise {} dB, exponent {}, seed {}; robots:",
             settings.trials, settings.noise_db, settings.exponent, settings.seed
         );
+        let parts: [(&str, fn(&Errors) -> Estimate); 2] = [
+            ("mean of the team", |errors| errors.mean_m),
+            ("worst robot of the team", |errors| errors.worst_m),
+        ];
         let mut figures = Figures::new(heading, &merged.sizes);
         figures.row("robots", |size| size.robots.to_string());
-        for (title, of) in [("mean of the team", false), ("worst robot of the team", true)] {
+        for (title, of) in parts {
             figures.title(title);
             for (number, solver) in SOLVERS.iter().enumerate() {
-                figures.row(solver.word(), |size| {
-                    let errors = size.solvers[number];
-                    if of { errors.worst_m } else { errors.mean_m }.text(2)
-                });
+                figures.row(solver.word(), |size| of(&size.solvers[number]).text(2));
             }
         }
-        let mut sentences = TextTable::new([Column::left(Width::Fit); 3]);
-        sentences.row(["paper", "ours: difference, m", "so?"]);
-        for Sentence { paper, difference_m, is_so } in &merged.sentences {
-            sentences.row([*paper, &difference_m.text(3), if *is_so { "yes" } else { "no" }]);
-        }
+        let sentences = Columns::of(&merged.sentences)
+            .left("paper", Fit, |sentence| sentence.paper)
+            .left("ours: difference, m", Fit, |sentence| sentence.difference_m.text(3))
+            .left("so?", Fit, |sentence| if sentence.is_so { "yes" } else { "no" });
         let notes = format!(
             "{}\n±, […]: the 95 % interval; the text of the paper that we have prints no number of its figure",
             sentences.text()
         );
         Ok(figures.with_notes(&notes))
+    }
+
+    fn draw(&self, _: usize, settings: &Field, merged: &Merged) -> Result<String, Halt> {
+        let series = |number: usize, what: &str, of: fn(&Errors) -> Estimate| {
+            let point =
+                |size: &Size| chart::Point::of((size.robots as u32).into(), of(&size.solvers[number]));
+            Series::measured(format!("{}, {what}", SOLVERS[number].word()), merged.sizes.iter().map(point))
+        };
+        let drawn = [0, 1, 3];
+        let means = drawn.map(|number| series(number, "mean", |errors| errors.mean_m));
+        let worst = drawn.map(|number| series(number, "worst robot", |errors| errors.worst_m));
+        let title = format!("Localisation error, noise {} dB", settings.noise_db);
+        let x = Axis::new("robots", "").showing([0.0, 8.0]);
+        let y = Axis::new("error", "m").showing([0.0, 1.0]);
+        Ok(LineChart::new(title, x, y, means.into_iter().chain(worst)).svg())
     }
 }
 
@@ -223,30 +218,4 @@ fn one_team(anchors: &Anchors, signal: &Signal, seed: u64, team: u32) -> Result<
         }
     }
     Ok(errors)
-}
-
-/// The figure as a chart.
-fn chart(merged: &Merged) -> LineChart {
-    let points = |number: usize, worst: bool| {
-        let sizes = merged.sizes.iter().map(move |size| {
-            let errors = size.solvers[number];
-            let robots = u32::try_from(size.robots).unwrap_or(u32::MAX);
-            point(robots.into(), if worst { errors.worst_m } else { errors.mean_m })
-        });
-        sizes.collect()
-    };
-    let series = |(number, worst): (usize, bool)| {
-        let of = if worst { ", worst robot" } else { ", mean" };
-        Series {
-            name: SOLVERS[number].word().to_owned() + of,
-            stroke: Stroke::Solid,
-            points: points(number, worst),
-        }
-    };
-    LineChart {
-        title: format!("Localisation error, noise {} dB", merged.field.noise_db),
-        x: Axis::new("robots", "").showing([0.0, 8.0]),
-        y: Axis::new("error", "m").showing([0.0, 1.0]),
-        series: [(0, false), (1, false), (3, false), (0, true), (1, true), (3, true)].map(series).into(),
-    }
 }

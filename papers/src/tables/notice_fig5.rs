@@ -3,25 +3,16 @@
 //! within the source's component stands beside it. Every scheme broadcasts over the same topologies, from the same
 //! sources.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::NodeId;
 use tautline_kernel::notice::{Count, Rule, Scheme};
 use tautline_proofs::engine::Seeded;
-use tautline_proofs::plural::counted;
 
-use super::parameter::{Given, Parameter, Senders, Values, all_shown, put, put_all, shown};
-use super::{About, Chart, Observer, Table, point, usage};
-use crate::chart::{Axis, LineChart, Series, Stroke};
+use super::prelude::*;
 use tautline_field::radio::{
     Area, ChannelName, Faults, Field, LONGEST_WAIT_NS, Model, Network, Problem, Radio, broadcast,
 };
-use tautline_field::stats::{Estimate, decimals, rounded};
-use tautline_sim::diagnostic::Halt;
 use tautline_sim::named_values::NamedValues;
-use tautline_sim::text_table::Figures;
-use tautline_sim::value_parser::{number, real, whole, within};
 
 /// The numbers of nodes of the paper.
 pub const NODES: [usize; 5] = [300, 500, 700, 900, 1100];
@@ -40,46 +31,29 @@ const PAPER: (Count, f64) = (Count::ONE, 1.0);
 #[derive(Clone, Copy, Debug)]
 pub struct NoticeFig5;
 
-/// What is measured.
-#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct Settings {
-    /// Numbers of nodes.
-    pub nodes: Vec<usize>,
-    /// The side of the square, in metres.
-    pub side_m: f64,
-    /// The radio range, in metres.
-    pub range_m: f64,
-    /// The k of k-FNF.
-    pub ks: Vec<Senders>,
-    /// Topologies for each number of nodes.
-    pub topologies: u32,
-    /// The seed of all of them.
-    pub seed: u64,
-    /// What lies between the nodes.
-    pub channel: ChannelName,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            nodes: NODES.into(),
-            side_m: SIDE_M,
-            range_m: RANGE_M,
-            ks: [1, 2, 3].into_iter().filter_map(Count::new).map(Senders).collect(),
-            topologies: 200,
-            seed: 0,
-            channel: ChannelName::Ideal,
-        }
+settings! {
+    /// What is measured.
+    pub struct Settings {
+        /// Numbers of nodes
+        pub nodes: Vec<usize> = NODES.into(), list("nodes", whole);
+        /// The side of the square, in metres
+        pub side_m: f64 = SIDE_M, one("side", "METRES", real);
+        /// The radio range, in metres
+        pub range_m: f64 = RANGE_M, one("range", "METRES", real);
+        /// The k of k-FNF: how many senders, the first not counted, make a node silent
+        pub ks: Vec<Senders> = [1, 2, 3].into_iter().filter_map(Count::new).map(Senders).collect(),
+            joined("k", Senders::read);
+        /// Topologies for each number of nodes
+        pub topologies: u32 = 200, one("topologies", "COUNT", from_to(1..=100_000));
+        /// The seed of all topologies
+        pub seed: u64 = 0, one("seed", "SEED", number);
+        /// What lies between the nodes
+        pub channel: ChannelName = ChannelName::Ideal, word("channel", "CHANNEL");
     }
 }
 
-/// One topology at one number of nodes.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-pub struct Job {
-    /// The place of the number of nodes.
-    density: usize,
-    topology: u32,
-}
+/// One topology, by the place of the number of nodes.
+type Job = Run<usize>;
 
 /// The whole figure.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
@@ -150,23 +124,21 @@ impl Settings {
         Radio::new(self.range_m, Model::Disc)
     }
 
-    /// The topology has a stream of answers to itself; each scheme draws its waits from another.
-    fn sample(&self, nodes: usize, topology: u32, extent: Extent) -> Result<Sample, Problem> {
-        let area = Area::new(self.side_m, self.side_m)?;
-        let radio = self.radio()?;
-        let range_um = radio.range_um();
-        let stream = 2 * u64::from(topology);
-        let chance = &mut Seeded::new(self.seed, stream);
+    /// A topology and its source, with a stream of answers to themselves.
+    fn topology(&self, nodes: usize, topology: u32) -> Result<(Network, NodeId), Problem> {
+        let (area, radio) = (Area::new(self.side_m, self.side_m)?, self.radio()?);
+        let chance = &mut Seeded::new(self.seed, 2 * u64::from(topology));
         let field = Field::random(area, Vec::new(), nodes, chance)?;
-        let network = Network::new(&field, radio, chance)?;
-        let source = NodeId(chance.pick(nodes as u32));
-        let schemes = match extent {
-            Extent::Topology => Vec::new(),
-            Extent::Broadcasts => self.schemes(range_um.get()),
-        };
-        let schemes = schemes.into_iter().map(|(_, scheme)| {
+        Ok((Network::new(&field, radio, chance)?, NodeId(chance.pick(nodes as u32))))
+    }
+
+    /// A broadcast by every scheme in a topology; each scheme draws its waits from a stream of its own.
+    fn sample(&self, nodes: usize, topology: u32) -> Result<Sample, Problem> {
+        let (network, source) = self.topology(nodes, topology)?;
+        let range_um = self.radio()?.range_um();
+        let schemes = self.schemes(range_um.get()).into_iter().map(|(_, scheme)| {
             let rule = Rule::new(scheme, range_um, LONGEST_WAIT_NS);
-            let chance = &mut Seeded::new(self.seed, stream + 1);
+            let chance = &mut Seeded::new(self.seed, 2 * u64::from(topology) + 1);
             let channel = self.channel.channel();
             let (report, _) = broadcast(&network, &rule, channel, &Faults::NONE, source, chance)?;
             Ok((report.reached, report.rebroadcasts))
@@ -175,47 +147,35 @@ impl Settings {
         Ok(Sample { component: network.component(source) as u32, schemes })
     }
 
-    fn density(&self, nodes: usize, samples: &[&Sample], schemes: &[(String, Scheme)]) -> Density {
+    fn density(&self, nodes: usize, samples: &[&Sample], schemes: Vec<(String, Scheme)>) -> Density {
         let all = f64::from(nodes as u32);
         let mean = |value: &dyn Fn(&Sample) -> f64| {
-            let values: Vec<f64> = samples.iter().map(|sample| value(sample)).collect();
-            Estimate::of_values(&values).unwrap_or(Estimate::NOTHING)
+            mean(samples.iter().map(|sample| value(sample))).unwrap_or(Estimate::NOTHING)
         };
-        let connected = samples.iter().filter(|sample| sample.component as usize == nodes).count() as u32;
+        let connected = share(samples, |sample| sample.component as usize == nodes);
         let is_papers = self.side_m == SIDE_M && self.range_m == RANGE_M && NODES.contains(&nodes);
-        let line = |(place, (name, scheme)): (usize, &(String, Scheme))| {
+        let line = |(place, (name, scheme)): (usize, (String, Scheme))| {
             let (paper_k, paper_reach) = PAPER;
-            let reach = mean(&|sample| f64::from(sample.schemes[place].0) / all);
-            let is_paper = is_papers && *scheme == Scheme::Farthest { k: Some(paper_k) };
+            let is_paper = is_papers && scheme == Scheme::Farthest { k: Some(paper_k) };
+            let reached = |sample: &Sample| f64::from(sample.schemes[place].0);
             let paper = is_paper.then_some(paper_reach);
+            let reach = mean(&|sample| reached(sample) / all);
             Line {
-                scheme: name.clone(),
+                scheme: name,
                 reach: rounded(reach, 1e4),
                 paper,
                 difference: paper.map(|paper| decimals(reach.mean - paper, 1e4)),
-                reach_component: rounded(
-                    mean(&|sample| f64::from(sample.schemes[place].0) / f64::from(sample.component)),
-                    1e4,
-                ),
+                reach_component: rounded(mean(&|sample| reached(sample) / f64::from(sample.component)), 1e4),
                 rebroadcasts: rounded(mean(&|sample| f64::from(sample.schemes[place].1)), 1e2),
             }
         };
         Density {
             nodes,
-            connected: rounded(Estimate::share(connected, self.topologies).unwrap_or(Estimate::NOTHING), 1e4),
+            connected: rounded(connected.unwrap_or(Estimate::NOTHING), 1e4),
             component: rounded(mean(&|sample| f64::from(sample.component) / all), 1e4),
-            schemes: schemes.iter().enumerate().map(line).collect(),
+            schemes: schemes.into_iter().enumerate().map(line).collect(),
         }
     }
-}
-
-/// How much is measured of a topology.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Extent {
-    /// Itself.
-    Topology,
-    /// A broadcast by every scheme, too.
-    Broadcasts,
 }
 
 impl Table for NoticeFig5 {
@@ -239,104 +199,30 @@ impl Table for NoticeFig5 {
                 "notice-fig5 --channel shared",
             ],
             doing: "broadcasting",
+            pictures: &[
+                ("svg-reach", "Store the reach as a picture"),
+                ("svg-rebroadcasts", "Store the rebroadcasts as a picture"),
+            ],
         }
-    }
-
-    fn parameters(&self) -> Vec<Parameter<Settings>> {
-        let channel = Given {
-            name: "channel",
-            value: "CHANNEL",
-            about: "What lies between the nodes",
-            values: Values::words::<ChannelName>(),
-        };
-        vec![
-            Parameter::list(
-                "nodes",
-                "Numbers of nodes",
-                |all| all_shown(&all.nodes),
-                |all, texts| put_all(&mut all.nodes, texts, whole),
-            ),
-            Parameter::one(
-                "side",
-                "METRES",
-                "The side of the square, in metres",
-                |all| shown(&all.side_m),
-                |all, texts| put(&mut all.side_m, texts, real),
-            ),
-            Parameter::one(
-                "range",
-                "METRES",
-                "The radio range, in metres",
-                |all| shown(&all.range_m),
-                |all, texts| put(&mut all.range_m, texts, real),
-            ),
-            Parameter::list(
-                "k",
-                "The k of k-FNF: how many senders, the first not counted, make a node silent",
-                |all| shown(&all.ks.iter().map(|k| k.0.get().to_string()).collect::<Vec<_>>().join(",")),
-                |all, texts| put_all(&mut all.ks, texts, Senders::read),
-            ),
-            Parameter::one(
-                "topologies",
-                "COUNT",
-                "Topologies for each number of nodes",
-                |all| shown(&all.topologies),
-                |all, texts| put(&mut all.topologies, texts, |text| within(text, &(1..=100_000_i64))),
-            ),
-            Parameter::one(
-                "seed",
-                "SEED",
-                "The seed of all topologies",
-                |all| shown(&all.seed),
-                |all, texts| put(&mut all.seed, texts, number),
-            ),
-            Parameter::new(
-                channel,
-                |all| shown(all.channel.word()),
-                |all, texts| {
-                    put(&mut all.channel, texts, |word| {
-                        ChannelName::of(word).ok_or("it is none of the words")
-                    })
-                },
-            ),
-        ]
-    }
-
-    fn charts(&self) -> Vec<Chart<Self>> {
-        vec![
-            Chart {
-                name: "svg-reach",
-                about: "Store the reach as a picture",
-                draw: |_, _, merged| Ok(chart(Part::Reach, &merged.densities).svg()),
-            },
-            Chart {
-                name: "svg-rebroadcasts",
-                about: "Store the rebroadcasts as a picture",
-                draw: |_, _, merged| Ok(chart(Part::Rebroadcasts, &merged.densities).svg()),
-            },
-        ]
     }
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
         for &nodes in &settings.nodes {
-            settings.sample(nodes, 0, Extent::Topology).map_err(usage)?;
+            settings.topology(nodes, 0).map_err(usage)?;
         }
-        let topologies = |density| (0..settings.topologies).map(move |topology| Job { density, topology });
-        Ok((0..settings.nodes.len()).flat_map(topologies).collect())
+        Ok(runs(0..settings.nodes.len(), |_| settings.topologies))
     }
 
-    fn measure(&self, settings: &Settings, job: &Job, _: &dyn Observer) -> Result<Sample, Halt> {
-        let nodes = settings.nodes.get(job.density).copied().unwrap_or_default();
-        settings.sample(nodes, job.topology, Extent::Broadcasts).map_err(usage)
+    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Sample, Halt> {
+        let nodes = settings.nodes.get(run.at).copied().unwrap_or_default();
+        settings.sample(nodes, run.number).map_err(usage)
     }
 
-    fn merge(&self, settings: &Settings, results: Vec<(Job, Sample)>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
         let Settings { side_m, range_m, topologies, seed, channel, .. } = *settings;
-        let schemes = settings.schemes(settings.radio().map_err(usage)?.range_um().get());
+        let range_um = settings.radio().map_err(usage)?.range_um().get();
         let densities = settings.nodes.iter().enumerate().map(|(density, &nodes)| {
-            let samples = results.iter().filter(|(job, _)| job.density == density);
-            let samples: Vec<&Sample> = samples.map(|(_, sample)| sample).collect();
-            settings.density(nodes, &samples, &schemes)
+            settings.density(nodes, &at(&results, density), settings.schemes(range_um))
         });
         Ok(Merged { side_m, range_m, topologies, seed, channel, densities: densities.collect() })
     }
@@ -351,15 +237,14 @@ impl Table for NoticeFig5 {
             settings.channel.word(),
             side = settings.side_m,
         );
-        let percent = |estimate: Estimate| estimate.times(100.0).text(2);
         let mut table = Figures::new(heading, densities);
         table.row("nodes", |density| density.nodes.to_string());
-        table.row("connected", |density| density.connected.times(100.0).text(1));
-        table.row("component", |density| percent(density.component));
+        table.row("connected", |density| percent(density.connected, 1));
+        table.row("component", |density| percent(density.component, 2));
         let schemes = densities.first().map_or(&[][..], |density| &density.schemes);
         table.title("Reach, % of all nodes");
         for (place, line) in schemes.iter().enumerate() {
-            table.row(line.scheme.as_str(), |density| percent(density.schemes[place].reach));
+            table.row(line.scheme.as_str(), |density| percent(density.schemes[place].reach, 2));
             if densities.iter().any(|density| density.schemes[place].paper.is_some()) {
                 let said =
                     |part: Option<f64>| part.map_or("-".to_owned(), |part| format!("{:.2}", 100.0 * part));
@@ -369,7 +254,7 @@ impl Table for NoticeFig5 {
         }
         table.title("Reach, % of the nodes connected to the source");
         for (place, line) in schemes.iter().enumerate() {
-            table.row(line.scheme.as_str(), |density| percent(density.schemes[place].reach_component));
+            table.row(line.scheme.as_str(), |density| percent(density.schemes[place].reach_component, 2));
         }
         table.title("Rebroadcasts");
         for (place, line) in schemes.iter().enumerate() {
@@ -380,46 +265,26 @@ impl Table for NoticeFig5 {
              to the\nsource · ±, […]: the 95 % interval · paper: “near 100 %” at every density; all else it draws only",
         ))
     }
-}
 
-/// The two parts of the figure.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Part {
-    /// (a): the reach of all nodes, in percent.
-    Reach,
-    /// (b): the rebroadcasts.
-    Rebroadcasts,
-}
-
-/// A part of the figure as a chart.
-fn chart(part: Part, densities: &[Density]) -> LineChart {
-    let names = densities.first().map_or(&[][..], |density| &density.schemes);
-    let points = |place: usize| {
-        let point = |density: &Density| {
-            let line = density.schemes.get(place)?;
-            let estimate = match part {
-                Part::Reach => line.reach.times(100.0),
-                Part::Rebroadcasts => line.rebroadcasts,
-            };
-            Some(point(f64::from(density.nodes as u32), estimate))
+    /// A part of the figure by the number of nodes: (a) the reach of all nodes, (b) the rebroadcasts.
+    fn draw(&self, picture: usize, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+        let (title, y, of): (_, _, fn(&Line) -> Estimate) = match picture {
+            0 => {
+                let y = Axis::new("reach", "%").showing([0.0, 100.0]);
+                ("Nodes that a broadcast reaches", y, |line| line.reach.times(100.0))
+            }
+            _ => {
+                let y = Axis::new("rebroadcasts", "").showing([0.0, 0.0]);
+                ("Nodes that forward a broadcast", y, |line| line.rebroadcasts)
+            }
         };
-        densities.iter().filter_map(point).collect()
-    };
-    let series = |(place, line): (usize, &Line)| Series {
-        name: line.scheme.clone(),
-        stroke: Stroke::Solid,
-        points: points(place),
-    };
-    let (title, y) = match part {
-        Part::Reach => ("Nodes that a broadcast reaches", Axis::new("reach", "%").showing([0.0, 100.0])),
-        Part::Rebroadcasts => {
-            ("Nodes that forward a broadcast", Axis::new("rebroadcasts", "").showing([0.0, 0.0]))
-        }
-    };
-    LineChart {
-        title: title.to_owned(),
-        x: Axis::new("nodes", ""),
-        y,
-        series: names.iter().enumerate().map(series).collect(),
+        let schemes = merged.densities.first().map_or(&[][..], |density| &density.schemes);
+        let series = |(place, line): (usize, &Line)| {
+            let point = |density: &Density| {
+                Some(Point::of(f64::from(density.nodes as u32), of(density.schemes.get(place)?)))
+            };
+            Series::measured(&line.scheme, merged.densities.iter().filter_map(point))
+        };
+        Ok(LineChart::new(title, Axis::new("nodes", ""), y, schemes.iter().enumerate().map(series)).svg())
     }
 }

@@ -7,34 +7,25 @@
 mod area;
 mod sums;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize, Serializer};
+use serde::Serializer;
 
 use self::area::{Area, WallSet, solve};
 use self::sums::Sums;
-use super::parameter::{Parameter, put, shown};
-use super::{About, Observer, Table};
-use tautline_sim::diagnostic::Halt;
+use super::prelude::*;
 use tautline_sim::draw::{self, Block};
 use tautline_sim::explore::{RuleName, Setup, Survey, explore};
 use tautline_sim::layout::Layout;
-use tautline_sim::text_table::{Column, TextTable, Width};
-use tautline_sim::value_parser::within;
 
 /// The table.
 #[derive(Clone, Copy, Debug)]
 pub struct Optimum;
 
-/// How far it goes.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct Settings {
-    /// Most walls of a layout of three robots.
-    pub max_walls: u32,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self { max_walls: 4 }
+settings! {
+    /// How far it goes.
+    #[derive(Copy, Eq)]
+    pub struct Settings {
+        /// Most walls of a layout of three robots; one more takes ten times as long
+        pub max_walls: u32 = 4, one("max-walls", "WALLS", from_to(0..=6));
     }
 }
 
@@ -141,17 +132,8 @@ impl Table for Optimum {
             more: "Two robots in all layouts of 3×3 cells, three in those of 5×5 cells with few walls.",
             examples: &["optimum", "optimum --max-walls 2 --format json"],
             doing: "solving",
+            ..About::NOTHING
         }
-    }
-
-    fn parameters(&self) -> Vec<Parameter<Settings>> {
-        vec![Parameter::one(
-            "max-walls",
-            "WALLS",
-            "Most walls of a layout of three robots; one more takes ten times as long",
-            |all| shown(&all.max_walls),
-            |all, texts| put(&mut all.max_walls, texts, |text| within(text, &(0..=6_i64))),
-        )]
     }
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
@@ -178,7 +160,7 @@ impl Table for Optimum {
         Ok(sums)
     }
 
-    fn merge(&self, settings: &Settings, results: Vec<(Job, Self::Measured)>) -> Result<Merged, Halt> {
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
         let mut results = results.into_iter().peekable();
         let mut lines = Vec::new();
         for field in settings.fields() {
@@ -196,12 +178,29 @@ impl Table for Optimum {
     }
 
     fn text(&self, _: &Settings, merged: &Merged) -> Result<String, Halt> {
+        let walls = |line: &Line| match line.walls {
+            [fewest, most] if fewest == most => most.to_string(),
+            [fewest, most] => format!("{fewest}…{most}"),
+        };
+        // The heading of the rules is as wide as the longer of them; the shorter one pulls on what follows it.
+        let columns = Columns::of(&merged.lines)
+            .left("robots", 6, |line| line.robots)
+            .left("walls", 5, walls)
+            .left("rule     ", 0, |line| line.rule)
+            .right("layouts", 7, |line| line.layouts)
+            .right("walled in", 9, |line| line.walled_in)
+            .right("missed", 6, |line| line.missed)
+            .right("beyond", 6, |line| line.beyond)
+            .right("below", 5, |line| line.below)
+            .right("optimal", 7, |line| line.optimal)
+            .right("mean", 4, |line| line.mean.map_or("-".to_owned(), |mean| format!("{mean:.2}")))
+            .left("worst", Fit, |line| line.worst.as_ref().map_or("-".to_owned(), Worst::ratio));
         let mut text = format!(
             "Team moves until the last chain-reachable cell is explored, by the fewest of a team that knows the walls,\n\
              in all layouts of (2N−1)² cells with so many walls\n\n{}\n\
              walled in: nothing to explore · missed: the chain leaves a chain-reachable cell unexplored; not compared ·\n\
              beyond: it explores one that is not chain-reachable · below, optimal: it takes fewer, as few\n",
-            columns(&merged.lines).text()
+            columns.text()
         );
         for robots in [2, 3] {
             let lines = merged.lines.iter().filter(|line| line.robots == robots);
@@ -218,27 +217,6 @@ impl Table for Optimum {
     fn is_broken(&self, merged: &Merged) -> bool {
         merged.lines.iter().any(|line| line.below > 0)
     }
-}
-
-fn columns(lines: &[Line]) -> TextTable {
-    // The head of the rules is as wide as the longer of them; the shorter one pulls on what follows it.
-    let words = [6, 5, 0].map(|width| Column::left(Width::Of(width)));
-    let numbers = [7, 9, 6, 6, 5, 7, 4].map(|width| Column::right(Width::Of(width)));
-    let worst = Column::left(Width::Fit);
-    let mut columns = TextTable::new(words.into_iter().chain(numbers).chain([worst]));
-    let layouts = ["layouts", "walled in", "missed", "beyond", "below", "optimal"];
-    columns.row(["robots", "walls", "rule     "].into_iter().chain(layouts).chain(["mean", "worst"]));
-    for line in lines {
-        let [fewest, most] = line.walls;
-        let walls = if fewest == most { most.to_string() } else { format!("{fewest}…{most}") };
-        let layouts = [line.layouts, line.walled_in, line.missed, line.beyond, line.below, line.optimal];
-        let mean = line.mean.map_or("-".to_owned(), |mean| format!("{mean:.2}"));
-        let worst = line.worst.as_ref().map_or("-".to_owned(), Worst::ratio);
-        let words = [line.robots.to_string(), walls, line.rule.to_string()];
-        let layouts = layouts.map(|layouts| layouts.to_string());
-        columns.row(words.into_iter().chain(layouts).chain([mean, worst]));
-    }
-    columns
 }
 
 /// When each cell is explored, by the chain and in the optimum.

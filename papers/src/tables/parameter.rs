@@ -1,21 +1,41 @@
-//! What can be asked of a table, as a person asks it: options with values, from which its settings are read.
+//! What can be asked of a table, as a person asks it: options with values, from which its settings are read. A table
+//! lists its settings with the macro [`settings`], each with its type, its default, and how a person gives it.
+
+use std::fmt;
+use std::ops::RangeInclusive;
 
 use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::notice::Count;
 
+use tautline_sim::layout;
 use tautline_sim::named_values::NamedValues;
-use tautline_sim::value_parser;
+use tautline_sim::value_parser::{self, within};
+
+/// What can be asked of a table.
+pub trait Settings: Default + Serialize + DeserializeOwned + Sync + 'static {
+    /// The settings as a person gives them, in the order in which a help text has them.
+    fn parameters() -> Vec<Parameter<Self>>;
+}
 
 /// A setting of a table, among its settings of type `S`.
-#[derive(Debug)]
 pub struct Parameter<S> {
     /// How it is given.
     pub option: Given,
     /// The texts that stand for it where it is not given. None if that is said elsewhere.
-    pub show: fn(&S) -> Vec<String>,
+    pub show: Show<S>,
     /// Reads it.
-    pub read: fn(&mut S, &[&str]) -> Result<(), String>,
+    pub read: Read<S>,
+}
+
+type Show<S> = Box<dyn Fn(&S) -> Vec<String>>;
+type Read<S> = Box<dyn Fn(&mut S, &[&str]) -> Result<(), String>>;
+
+impl<S> fmt::Debug for Parameter<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.option.fmt(f)
+    }
 }
 
 /// An option of a table.
@@ -46,90 +66,164 @@ pub enum Values {
     Repeated,
 }
 
-impl<S> Parameter<S> {
-    /// What is given or not.
-    pub const fn flag(
-        name: &'static str,
-        about: &'static str,
-        read: fn(&mut S, &[&str]) -> Result<(), String>,
-    ) -> Self {
-        Self::new(Given { name, value: "", about, values: Values::None }, |_| Vec::new(), read)
-    }
+/// Makes a structure of settings, its default and its parameters. A setting has a line of documentation, which is its
+/// help text as well, a field, its default, and how a person gives it: by one of the functions below.
+macro_rules! settings {
+    ($(#[$meta:meta])* $pub:vis struct $name:ident {$(
+        #[doc = $about:literal]
+        $vis:vis $field:ident: $type:ty = $default:expr, $how:expr;
+    )*}) => {
+        $(#[$meta])*
+        #[derive(Clone, PartialEq, Debug, schemars::JsonSchema, serde::Serialize, serde::Deserialize)]
+        $pub struct $name {
+            $(#[doc = $about] $vis $field: $type,)*
+        }
 
-    /// What has one value.
-    pub const fn one(
-        name: &'static str,
-        value: &'static str,
-        about: &'static str,
-        show: fn(&S) -> Vec<String>,
-        read: fn(&mut S, &[&str]) -> Result<(), String>,
-    ) -> Self {
-        Self::new(Given { name, value, about, values: Values::One }, show, read)
-    }
+        impl Default for $name {
+            fn default() -> Self {
+                Self { $($field: $default),* }
+            }
+        }
 
-    /// What has several values, with commas between them.
-    pub const fn list(
-        name: &'static str,
-        about: &'static str,
-        show: fn(&S) -> Vec<String>,
-        read: fn(&mut S, &[&str]) -> Result<(), String>,
-    ) -> Self {
-        Self::new(Given { name, value: "LIST", about, values: Values::List }, show, read)
-    }
+        impl $crate::tables::parameter::Settings for $name {
+            fn parameters() -> Vec<$crate::tables::parameter::Parameter<Self>> {
+                let parameters: Vec<Vec<_>> = vec![
+                    $($crate::tables::parameter::of_field(
+                        $about,
+                        |all: &Self| &all.$field,
+                        |all: &mut Self| &mut all.$field,
+                        $how,
+                    )),*
+                ];
+                parameters.into_iter().flatten().collect()
+            }
+        }
+    };
+}
+pub(super) use settings;
 
-    /// One with other things about it.
-    pub const fn new(
-        option: Given,
-        show: fn(&S) -> Vec<String>,
-        read: fn(&mut S, &[&str]) -> Result<(), String>,
-    ) -> Self {
-        Self { option, show, read }
-    }
+/// Parameters of a field as those of the settings that have it. Where they do not say what they are, it is `about`.
+pub(super) fn of_field<S: 'static, T: 'static>(
+    about: &'static str,
+    of: fn(&S) -> &T,
+    of_mut: fn(&mut S) -> &mut T,
+    parameters: Vec<Parameter<T>>,
+) -> Vec<Parameter<S>> {
+    let outer = |Parameter { option, show, read }: Parameter<T>| Parameter {
+        option: Given {
+            about: if option.about.is_empty() { about.trim_ascii() } else { option.about },
+            ..option
+        },
+        show: Box::new(move |all: &S| show(of(all))),
+        read: Box::new(move |all: &mut S, texts: &[&str]| read(of_mut(all), texts)),
+    };
+    parameters.into_iter().map(outer).collect()
 }
 
-impl Values {
-    /// The words of `T`.
-    pub fn words<T: NamedValues>() -> Self {
-        Self::Word(T::WORDS.iter().map(|&(_, word, about)| (word, about)).collect())
+/// What is given as other settings are.
+pub(super) fn nested<T: Settings>() -> Vec<Parameter<T>> {
+    T::parameters()
+}
+
+/// What is given or not; `given` is its value if it is.
+pub(super) fn flag<T: Copy + 'static>(name: &'static str, given: T) -> Vec<Parameter<T>> {
+    let read = move |value: &mut T, _: &[&str]| {
+        *value = given;
+        Ok(())
+    };
+    let option = Given { name, value: "", about: "", values: Values::None };
+    vec![Parameter { option, show: Box::new(|_| Vec::new()), read: Box::new(read) }]
+}
+
+/// What has one value.
+pub(super) fn one<T: ToString + 'static, E: Into<String>>(
+    name: &'static str,
+    value: &'static str,
+    read: impl Fn(&str) -> Result<T, E> + 'static,
+) -> Vec<Parameter<T>> {
+    single((name, value, Values::One), T::to_string, read)
+}
+
+/// What is chosen by a word.
+pub(super) fn word<T: NamedValues>(name: &'static str, value: &'static str) -> Vec<Parameter<T>> {
+    let words = Values::Word(T::WORDS.iter().map(|&(_, word, about)| (word, about)).collect());
+    let read = |word: &str| T::of(word).ok_or("it is none of the words");
+    single((name, value, words), |value| value.word().to_owned(), read)
+}
+
+/// What has several values, with commas between them.
+pub(super) fn list<T: ToString + 'static, E: Into<String>>(
+    name: &'static str,
+    read: impl Fn(&str) -> Result<T, E> + 'static,
+) -> Vec<Parameter<Vec<T>>> {
+    several((name, "LIST", Values::List), |all| all.iter().map(T::to_string).collect(), read)
+}
+
+/// What [`list`] has, with commas between the values that stand for it, too.
+pub(super) fn joined<T: ToString + 'static, E: Into<String>>(
+    name: &'static str,
+    read: impl Fn(&str) -> Result<T, E> + 'static,
+) -> Vec<Parameter<Vec<T>>> {
+    let show = |all: &Vec<T>| vec![all.iter().map(T::to_string).collect::<Vec<_>>().join(",")];
+    several((name, "LIST", Values::List), show, read)
+}
+
+/// What has one value each time that it is given.
+pub(super) fn repeated<T: 'static, E: Into<String>>(
+    name: &'static str,
+    value: &'static str,
+    show: fn(&T) -> String,
+    read: impl Fn(&str) -> Result<T, E> + 'static,
+) -> Vec<Parameter<Vec<T>>> {
+    several((name, value, Values::Repeated), move |all| all.iter().map(show).collect(), read)
+}
+
+/// The last text counts.
+fn single<T: 'static, E: Into<String>>(
+    (name, value, values): (&'static str, &'static str, Values),
+    show: fn(&T) -> String,
+    read: impl Fn(&str) -> Result<T, E> + 'static,
+) -> Vec<Parameter<T>> {
+    let read = move |value: &mut T, texts: &[&str]| {
+        for text in texts {
+            *value = read(text).map_err(Into::into)?;
+        }
+        Ok(())
+    };
+    let option = Given { name, value, about: "", values };
+    vec![Parameter { option, show: Box::new(move |value| vec![show(value)]), read: Box::new(read) }]
+}
+
+/// All texts count.
+fn several<T: 'static, E: Into<String>>(
+    (name, value, values): (&'static str, &'static str, Values),
+    show: impl Fn(&Vec<T>) -> Vec<String> + 'static,
+    read: impl Fn(&str) -> Result<T, E> + 'static,
+) -> Vec<Parameter<Vec<T>>> {
+    let read = move |all: &mut Vec<T>, texts: &[&str]| {
+        *all = texts.iter().map(|text| read(text).map_err(Into::into)).collect::<Result<_, _>>()?;
+        Ok(())
+    };
+    let option = Given { name, value, about: "", values };
+    vec![Parameter { option, show: Box::new(show), read: Box::new(read) }]
+}
+
+/// Parameters of which the option `old` has another name, and is something else.
+pub(super) fn renamed<S>(mut all: Vec<Parameter<S>>, old: &str, new: [&'static str; 2]) -> Vec<Parameter<S>> {
+    for Parameter { option, .. } in all.iter_mut().filter(|parameter| parameter.option.name == old) {
+        [option.name, option.about] = new;
     }
+    all
 }
 
-/// Puts the last of the texts, read by `read`, into a place.
-///
-/// # Errors
-/// As `read`.
-pub(super) fn put<T, E: Into<String>>(
-    place: &mut T,
-    texts: &[&str],
-    read: impl Fn(&str) -> Result<T, E>,
-) -> Result<(), String> {
-    for text in texts {
-        *place = read(text).map_err(Into::into)?;
-    }
-    Ok(())
+/// Reads a whole number of `range`.
+pub(super) fn from_to<T: TryFrom<i64>>(range: RangeInclusive<i64>) -> impl Fn(&str) -> Result<T, String> {
+    move |text| within(text, &range)
 }
 
-/// Puts all texts, read by `read`, into a list.
-///
-/// # Errors
-/// As `read`.
-pub(super) fn put_all<T, E: Into<String>>(
-    list: &mut Vec<T>,
-    texts: &[&str],
-    read: impl Fn(&str) -> Result<T, E>,
-) -> Result<(), String> {
-    *list = texts.iter().map(|text| read(text).map_err(Into::into)).collect::<Result<_, _>>()?;
-    Ok(())
-}
-
-/// The text of one value.
-pub(super) fn shown<T: ToString + ?Sized>(value: &T) -> Vec<String> {
-    vec![value.to_string()]
-}
-
-/// The texts of several values.
-pub(super) fn all_shown(values: &[impl ToString]) -> Vec<String> {
-    values.iter().map(ToString::to_string).collect()
+/// Reads the name of a layout that can be loaded.
+pub(super) fn layout_name(text: &str) -> Result<String, String> {
+    layout::load(text, 0, None).map(|_| text.to_owned()).map_err(|fault| fault.to_string())
 }
 
 /// How many senders make a node silent: a [`Count`] that is stored.
@@ -148,6 +242,12 @@ impl TryFrom<u8> for Senders {
 impl From<Senders> for u8 {
     fn from(Senders(count): Senders) -> Self {
         count.get()
+    }
+}
+
+impl fmt::Display for Senders {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.get().fmt(f)
     }
 }
 

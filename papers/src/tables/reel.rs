@@ -2,21 +2,12 @@
 //! the cells, to everything within reach, and of whole runs, and how many cells they explore. Sums are whole numbers,
 //! so that the result is the same on any number of threads.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::links::within_reach;
-use tautline_proofs::plural::counted;
 
-use super::parameter::{Parameter, put, shown};
-use super::{About, Observer, Table, unfit};
-use tautline_field::stats::{Estimate, Moments, hundredths};
-use tautline_sim::diagnostic::{Diagnostic, Halt};
+use super::prelude::*;
 use tautline_sim::explore::chain::{CHAIN, REEL, UNHELD};
 use tautline_sim::explore::{Milestone, Report, RuleId, Setup, explore};
-use tautline_sim::layout::Generator;
-use tautline_sim::text_table::{Column, TextTable, Width};
-use tautline_sim::value_parser::{number, within};
 
 /// The team of the paper.
 const ROBOTS: u16 = 8;
@@ -45,28 +36,19 @@ const GOALS: [&str; 4] = ["50 %", "75 %", "everything within reach", "the end of
 #[derive(Clone, Copy, Debug)]
 pub struct Reel;
 
-/// How much is measured.
-#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct Settings {
-    /// Layouts at each density.
-    pub layouts: u32,
-    /// The seed of the first one; the others have the seeds after it.
-    pub seed: u64,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self { layouts: 100, seed: 0 }
+settings! {
+    /// How much is measured.
+    #[derive(Copy, Eq)]
+    pub struct Settings {
+        /// Random layouts at each density
+        pub layouts: u32 = 100, one("layouts", "COUNT", from_to(1..=1_000_000));
+        /// The seed of the first layout; the others have the seeds after it
+        pub seed: u64 = 0, one("seed", "SEED", number);
     }
 }
 
-/// One layout.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-pub struct Job {
-    /// The place in [`GROUNDS`].
-    ground: usize,
-    seed: u64,
-}
+/// A run of every rule in one layout of a ground, by its place in [`GROUNDS`].
+type Job = Run<usize>;
 
 /// What came of one run.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug, Serialize, Deserialize)]
@@ -154,53 +136,29 @@ impl Table for Reel {
             shows: "the reel against the repaired chain on the same layouts: mean team moves to 50 %, to 75 %, and to \
                     everything within reach, and the cells that it explores",
             help: "How many team moves the reel saves, and what holding contact costs",
-            more: "",
             examples: &["reel", "reel --layouts 1000 --format json"],
             doing: "comparing",
+            ..About::NOTHING
         }
     }
 
-    fn parameters(&self) -> Vec<Parameter<Settings>> {
-        vec![
-            Parameter::one(
-                "layouts",
-                "COUNT",
-                "Random layouts at each density",
-                |all| shown(&all.layouts),
-                |all, texts| put(&mut all.layouts, texts, |text| within(text, &(1..=1_000_000_i64))),
-            ),
-            Parameter::one(
-                "seed",
-                "SEED",
-                "The seed of the first layout; the others have the seeds after it",
-                |all| shown(&all.seed),
-                |all, texts| put(&mut all.seed, texts, number),
-            ),
-        ]
-    }
-
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
-        let seeds = |ground: usize| {
-            let is_random = GROUNDS[ground].starts_with("walls");
-            let count = if is_random { settings.layouts } else { 1 };
-            (0..count).map(move |index| Job { ground, seed: settings.seed.wrapping_add(index.into()) })
-        };
-        Ok((0..GROUNDS.len()).flat_map(seeds).collect())
+        let is_random = |ground: usize| GROUNDS[ground].starts_with("walls");
+        Ok(runs(0..GROUNDS.len(), |ground| if is_random(ground) { settings.layouts } else { 1 }))
     }
 
-    fn measure(&self, _: &Settings, job: &Job, _: &dyn Observer) -> Result<Self::Measured, Halt> {
-        let ground = GROUNDS.get(job.ground).copied().unwrap_or_default();
-        let generator: Generator = ground.parse().map_err(|problem| unfit(&problem))?;
-        let mut layout = generator.generate(job.seed).map_err(|problem| unfit(&problem))?;
-        let base = Setup::choose_base(&mut layout, None).map_err(|problem| unfit(&problem))?;
+    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Self::Measured, Halt> {
+        let ground = GROUNDS.get(run.at).copied().unwrap_or_default();
+        let seed = run.seed(settings.seed);
+        let (layout, base) = based(generated(ground, seed)?)?;
         let mut outcomes = Self::Measured::default();
         for (outcome, rule) in outcomes.iter_mut().zip(RULES) {
-            let setup = Setup { seed: job.seed, ..Setup::new(&CHAIN, rule, ROBOTS, layout.clone(), base) };
+            let setup = Setup { seed, ..Setup::new(&CHAIN, rule, ROBOTS, layout.clone(), base) };
             let report = explore(&setup, &mut |_| Ok(()))?;
             if let Some(violation) = report.violations.first() {
                 let broken = format_args!("the rule {rule} breaks {} in {ground}", violation.clause);
                 let remedy =
-                    format!("look at it with `tautline explore {ground} --rule {rule} --seed {}`", job.seed);
+                    format!("look at it with `tautline explore {ground} --rule {rule} --seed {seed}`");
                 return Err(Diagnostic::of_field("reel", broken, remedy).into());
             }
             let due = within_reach(report.chart.area(), base, ROBOTS.into(), |edge| layout.is_open(edge));
@@ -209,24 +167,21 @@ impl Table for Reel {
         Ok(outcomes)
     }
 
-    fn merge(&self, settings: &Settings, results: Vec<(Job, Self::Measured)>) -> Result<Merged, Halt> {
-        let of_ground = |ground: usize| {
-            let of_ground = results.iter().filter(move |(job, _)| job.ground == ground);
-            of_ground.map(|(_, outcomes)| outcomes)
-        };
-        let line = |goal: usize, ground: usize| {
-            let moves: Vec<[Option<u32>; RULES.len()]> =
-                of_ground(ground).map(|outcomes| outcomes.map(|outcome| outcome.moves[goal])).collect();
-            let rules = (0..RULES.len()).map(|rule| OfRule::of(rule, &moves)).collect();
-            Line { goal: GOALS[goal], ground: GROUNDS[ground], runs: moves.len() as u32, rules }
-        };
-        let places = (0..GOALS.len()).flat_map(|goal| (0..GROUNDS.len()).map(move |ground| (goal, ground)));
-        let lines = places.map(|(goal, ground)| line(goal, ground)).collect();
-        let cells = (0..GROUNDS.len()).map(|ground| {
-            let explored: Vec<[u32; RULES.len()]> =
-                of_ground(ground).map(|outcomes| outcomes.map(|outcome| outcome.explored)).collect();
-            let rules = (0..RULES.len()).map(|rule| Explored::of(rule, &explored)).collect();
-            Cells { ground: GROUNDS[ground], rules }
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+        let grounds: Vec<[Vec<&Outcome>; RULES.len()]> =
+            (0..GROUNDS.len()).map(|ground| of_teams(&results, ground)).collect();
+        let mut lines = Vec::new();
+        for (place, goal) in GOALS.into_iter().enumerate() {
+            for (ground, outcomes) in GROUNDS.into_iter().zip(&grounds) {
+                let rules = RULES.iter().zip(outcomes);
+                let rules = rules.map(|(rule, own)| OfRule::of(*rule, place, own, &outcomes[0])).collect();
+                lines.push(Line { goal, ground, runs: outcomes[0].len() as u32, rules });
+            }
+        }
+        let cells = GROUNDS.into_iter().zip(&grounds).map(|(ground, outcomes)| {
+            let rules = RULES.iter().zip(outcomes);
+            let rules = rules.map(|(rule, own)| Explored::of(*rule, own, &outcomes[0])).collect();
+            Cells { ground, rules }
         });
         Ok(Merged { robots: ROBOTS, seed: settings.seed, lines, cells: cells.collect() })
     }
@@ -238,60 +193,56 @@ impl Table for Reel {
             settings.seed
         );
         for goal in GOALS {
-            let numbers = [9, 9, 15, 7, 9, 15, 7, 15].map(|width| Column::right(Width::Of(width)));
-            let mut columns = TextTable::new([Column::left(Width::Of(17))].into_iter().chain(numbers));
-            columns.title(format!(
-                "Mean team moves to {goal}; ratios to the repaired rule with their 95 % intervals; layouts in which \
-                 a rule is slower"
-            ));
-            columns.row([
-                "layouts",
-                "repaired",
-                "reel",
-                "ratio",
-                "slower",
-                "unheld",
-                "ratio",
-                "slower",
-                "reached/runs",
-            ]);
-            for line in merged.lines.iter().filter(|line| line.goal == goal) {
-                let reached: Vec<String> = line.rules.iter().map(|rule| rule.reached.to_string()).collect();
-                let mut cells = vec![line.ground.to_owned(), mean(&line.rules[0])];
-                for rule in &line.rules[1..] {
-                    cells.extend([mean(rule), ratio(rule), rule.slower.to_string()]);
-                }
-                cells.push(format!("{} of {}", reached.join(", "), line.runs));
-                columns.row(cells);
-            }
-            text.push_str(&columns.text());
+            let lines = merged.lines.iter().filter(|line| line.goal == goal);
+            text += &moves(goal, lines);
         }
-        text.push_str(&cells(&merged.cells));
-        Ok(text)
+        Ok(text + &cells(&merged.cells))
     }
+}
+
+/// The team moves to a goal, for people.
+fn moves<'a>(goal: &str, lines: impl Iterator<Item = &'a Line>) -> String {
+    let reached = |line: &Line| -> String {
+        let reached: Vec<String> = line.rules.iter().map(|rule| rule.reached.to_string()).collect();
+        format!("{} of {}", reached.join(", "), line.runs)
+    };
+    let mut columns = Columns::of(lines)
+        .title(format!(
+            "Mean team moves to {goal}; ratios to the repaired rule with their 95 % intervals; layouts in which a rule \
+             is slower"
+        ))
+        .left("layouts", 17, |line| line.ground)
+        .right("repaired", 9, |line| tenths(line.rules[0].mean));
+    for (place, rule) in RULES.iter().enumerate().skip(1) {
+        columns = columns
+            .right(rule.as_str(), 9, move |line| tenths(line.rules[place].mean))
+            .right("ratio", 15, move |line| line.rules[place].ratio())
+            .right("slower", 7, move |line| line.rules[place].slower);
+    }
+    columns.right("reached/runs", 15, reached).text()
 }
 
 /// The cells that runs explore, for people.
 fn cells(cells: &[Cells]) -> String {
-    let numbers = [9, 9, 16, 7, 6, 9, 16, 7, 6].map(|width| Column::right(Width::Of(width)));
-    let mut columns = TextTable::new([Column::left(Width::Of(17))].into_iter().chain(numbers));
-    columns.title(
-        "Mean cells explored; in % of those of the repaired rule with their 95 % intervals; layouts in which a rule explores \
-         fewer cells, and more"
-            .to_owned(),
-    );
-    let heads = ["layouts", "repaired", "reel", "in %", "fewer", "more", "unheld", "in %", "fewer", "more"];
-    columns.row(heads.map(str::to_owned));
-    for Cells { ground, rules } in cells {
-        let mean = |rule: &Explored| rule.mean.map_or("-".to_owned(), |mean| format!("{mean:.1}"));
-        let mut row = vec![(*ground).to_owned(), mean(&rules[0])];
-        for rule in &rules[1..] {
-            let percent = Estimate::text_or_dash(rule.percent, 2);
-            row.extend([mean(rule), percent, rule.fewer.to_string(), rule.more.to_string()]);
-        }
-        columns.row(row);
+    let mut columns = Columns::of(cells)
+        .title(
+            "Mean cells explored; in % of those of the repaired rule with their 95 % intervals; layouts in which a rule \
+             explores fewer cells, and more",
+        )
+        .left("layouts", 17, |line| line.ground)
+        .right("repaired", 9, |line| tenths(line.rules[0].mean));
+    for (place, rule) in RULES.iter().enumerate().skip(1) {
+        columns = columns
+            .right(rule.as_str(), 9, move |line| tenths(line.rules[place].mean))
+            .estimate("in %", 16, 2, move |line| line.rules[place].percent)
+            .right("fewer", 7, move |line| line.rules[place].fewer)
+            .right("more", 6, move |line| line.rules[place].more);
     }
     columns.text()
+}
+
+fn tenths(mean: Option<f64>) -> String {
+    mean.map_or("-".to_owned(), |mean| format!("{mean:.1}"))
 }
 
 /// The team moves to each of [`GOALS`], if it is reached.
@@ -302,46 +253,42 @@ fn reached(report: &Report, due: &[Cell]) -> [Option<u32>; GOALS.len()] {
 }
 
 impl OfRule {
-    fn of(rule: usize, moves: &[[Option<u32>; RULES.len()]]) -> Self {
-        let reached = moves.iter().filter(|moves| moves[rule].is_some()).count() as u32;
-        let pairs: Vec<(u32, u32)> = moves.iter().filter_map(|moves| moves[rule].zip(moves[0])).collect();
-        let sums = pairs.iter().fold(Moments::default(), |sums, &(own, _)| sums.and(Moments::of(own.into())));
-        let real: Vec<(f64, f64)> = pairs.iter().map(|&(own, other)| (own.into(), other.into())).collect();
-        let ratio = Estimate::of_ratio(&real);
+    /// The team moves of runs to a goal, against those of the repaired rule.
+    fn of(rule: RuleId, goal: usize, own: &[&Outcome], repaired: &[&Outcome]) -> Self {
+        let both = own.iter().zip(repaired).filter_map(|(own, other)| own.moves[goal].zip(other.moves[goal]));
+        let pairs: Vec<(f64, f64)> = both.map(|(own, other)| (own.into(), other.into())).collect();
+        let ratio = Estimate::of_ratio(&pairs);
         Self {
-            rule: RULES[rule].as_str(),
-            reached,
-            mean: sums.estimate().map(|estimate| hundredths(estimate.mean)),
+            rule: rule.as_str(),
+            reached: count(own, |own| own.moves[goal].is_some()),
+            mean: mean(pairs.iter().map(|&(own, _)| own)).map(|mean| hundredths(mean.mean)),
             ratio: ratio.map(|ratio| hundredths(ratio.mean)),
             interval: ratio.and_then(|ratio| ratio.interval).map(|interval| interval.map(hundredths)),
-            slower: pairs.iter().filter(|(own, other)| own > other).count() as u32,
+            slower: count(&pairs, |(own, other)| own > other),
+        }
+    }
+
+    fn ratio(&self) -> String {
+        match (self.ratio, self.interval) {
+            (Some(ratio), Some([_, high])) => format!("{ratio:.2} ± {:.2}", high - ratio),
+            (Some(ratio), None) => format!("{ratio:.2}"),
+            (None, _) => "-".to_owned(),
         }
     }
 }
 
 impl Explored {
-    fn of(rule: usize, explored: &[[u32; RULES.len()]]) -> Self {
+    /// The cells that runs explore, against those of the repaired rule.
+    fn of(rule: RuleId, own: &[&Outcome], repaired: &[&Outcome]) -> Self {
+        let both = own.iter().zip(repaired);
         let pairs: Vec<(f64, f64)> =
-            explored.iter().map(|explored| (explored[rule].into(), explored[0].into())).collect();
-        let own = pairs.iter().map(|&(own, _)| own).collect::<Vec<_>>();
+            both.map(|(own, other)| (own.explored.into(), other.explored.into())).collect();
         Self {
-            rule: RULES[rule].as_str(),
-            mean: Estimate::of_values(&own).map(|estimate| hundredths(estimate.mean)),
+            rule: rule.as_str(),
+            mean: mean(pairs.iter().map(|&(own, _)| own)).map(|mean| hundredths(mean.mean)),
             percent: Estimate::of_ratio(&pairs).map(|ratio| ratio.times(100.0)),
-            fewer: pairs.iter().filter(|(own, other)| own < other).count() as u32,
-            more: pairs.iter().filter(|(own, other)| own > other).count() as u32,
+            fewer: count(&pairs, |(own, other)| own < other),
+            more: count(&pairs, |(own, other)| own > other),
         }
-    }
-}
-
-fn mean(rule: &OfRule) -> String {
-    rule.mean.map_or("-".to_owned(), |mean| format!("{mean:.1}"))
-}
-
-fn ratio(rule: &OfRule) -> String {
-    match (rule.ratio, rule.interval) {
-        (Some(ratio), Some([_, high])) => format!("{ratio:.2} ± {:.2}", high - ratio),
-        (Some(ratio), None) => format!("{ratio:.2}"),
-        (None, _) => "-".to_owned(),
     }
 }

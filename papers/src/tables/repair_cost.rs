@@ -3,20 +3,12 @@
 //! rule breaks a clause. Sums are whole numbers, so that the result is
 //! the same on any number of threads.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use tautline_proofs::chain::breach::Breach;
-use tautline_proofs::plural::counted;
 
-use super::parameter::{Parameter, put, shown};
-use super::{About, Observer, Table, unfit};
-use tautline_field::stats::{Estimate, Moments, hundredths};
-use tautline_sim::diagnostic::Halt;
+use super::prelude::*;
+use tautline_field::stats::Moments;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::{Milestone, Report, RuleName, Setup, explore};
-use tautline_sim::layout::Generator;
-use tautline_sim::text_table::{Column, TextTable, Width};
-use tautline_sim::value_parser::{number, within};
 
 /// The team of the paper.
 pub const ROBOTS: u16 = 8;
@@ -35,18 +27,14 @@ const MOST_JOBS: u32 = 1000;
 #[derive(Clone, Copy, Debug)]
 pub struct RepairCost;
 
-/// How much is measured.
-#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct Settings {
-    /// Layouts at each density.
-    pub layouts: u32,
-    /// The seed of the first one; the others have the seeds after it.
-    pub seed: u64,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self { layouts: 300, seed: 0 }
+settings! {
+    /// How much is measured.
+    #[derive(Copy, Eq)]
+    pub struct Settings {
+        /// Random layouts at each density
+        pub layouts: u32 = 300, one("layouts", "COUNT", from_to(1..=1_000_000));
+        /// The seed of the first layout; the others have the seeds after it
+        pub seed: u64 = 0, one("seed", "SEED", number);
     }
 }
 
@@ -152,29 +140,10 @@ impl Table for RepairCost {
             shows: "the chain as published against the chain repaired on the same random layouts: mean team moves to 50 % \
                     and 75 %, and runs that break a clause",
             help: "What the chain's repairs cost in team moves, and what they prevent",
-            more: "",
             examples: &["repair-cost", "repair-cost --layouts 10000 --format json"],
             doing: "comparing",
+            ..About::NOTHING
         }
-    }
-
-    fn parameters(&self) -> Vec<Parameter<Settings>> {
-        vec![
-            Parameter::one(
-                "layouts",
-                "COUNT",
-                "Random layouts at each density",
-                |all| shown(&all.layouts),
-                |all, texts| put(&mut all.layouts, texts, |text| within(text, &(1..=1_000_000_i64))),
-            ),
-            Parameter::one(
-                "seed",
-                "SEED",
-                "The seed of the first layout; the others have the seeds after it",
-                |all| shown(&all.seed),
-                |all, texts| put(&mut all.seed, texts, number),
-            ),
-        ]
     }
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
@@ -197,10 +166,8 @@ impl Table for RepairCost {
 
     fn measure(&self, _: &Settings, job: &Job, _: &dyn Observer) -> Result<Sums, Halt> {
         let density = DENSITIES.get(job.density).copied().unwrap_or_default();
-        let generator: Generator =
-            format!("walls:15x15:{density}").parse().map_err(|problem| unfit(&problem))?;
         let seeds = (0..job.layouts).map(|index| job.seed.wrapping_add(index.into()));
-        seeds.map(|seed| Sums::of(&generator, seed)).try_fold(Sums::default(), |sums, one| Ok(sums.and(one?)))
+        seeds.map(|seed| Sums::of(density, seed)).try_fold(Sums::default(), |sums, one| Ok(sums.and(one?)))
     }
 
     fn merge(&self, settings: &Settings, results: Vec<(Job, Sums)>) -> Result<Merged, Halt> {
@@ -226,15 +193,18 @@ impl Table for RepairCost {
         }
         text.push_str(&compared("Mean team moves of whole runs", lines, |line| &line.moves));
         text.push_str(&compared("Mean cells explored when a run ends", lines, |line| &line.explored));
-        let clauses = Breach::CHAIN.map(|_| Column::right(Width::Of(12)));
-        let mut columns = TextTable::new([Column::left(Width::Of(8))].into_iter().chain(clauses));
-        columns.title("Runs that break a clause, published / repaired");
-        columns.row(["density"].into_iter().chain(Breach::CHAIN.map(Breach::clause)));
-        for line in lines {
-            let runs = line.violations.map(|runs| format!("{} / {}", runs.published, runs.repaired));
-            columns.row([line.density.to_owned()].into_iter().chain(runs));
+        let mut clauses = Columns::of(lines).title("Runs that break a clause, published / repaired").left(
+            "density",
+            8,
+            |line| line.density,
+        );
+        for (place, breach) in Breach::CHAIN.into_iter().enumerate() {
+            clauses = clauses.right(breach.clause(), 12, move |line| {
+                let runs = line.violations[place];
+                format!("{} / {}", runs.published, runs.repaired)
+            });
         }
-        Ok(text + &columns.text())
+        Ok(text + &clauses.text())
     }
 
     fn is_broken(&self, merged: &Merged) -> bool {
@@ -243,29 +213,21 @@ impl Table for RepairCost {
 }
 
 /// A table of one number of both rules.
-fn compared<'a>(title: &str, lines: &'a [Line], number: impl Fn(&'a Line) -> &'a Comparison) -> String {
-    let numbers = [9, 9, 15, 7, 8].map(|width| Column::right(Width::Of(width)));
-    let mut columns = TextTable::new([Column::left(Width::Of(7))].into_iter().chain(numbers));
-    columns.title(format!("{title}; the difference with its 95 % interval"));
-    columns.row(["density", "published", "repaired", "difference", "layouts", "left out"]);
-    for line in lines {
-        let Comparison { pairs, left_out, published, repaired, difference, margin } = number(line);
-        columns.row([
-            line.density.to_owned(),
-            format!("{published:.2}"),
-            format!("{repaired:.2}"),
-            format!("{difference:+.2} ± {margin:.2}"),
-            pairs.to_string(),
-            left_out.to_string(),
-        ]);
-    }
-    columns.text()
+fn compared(title: &str, lines: &[Line], number: impl Fn(&Line) -> &Comparison) -> String {
+    Columns::of(lines.iter().map(|line| (line.density, number(line))))
+        .title(format!("{title}; the difference with its 95 % interval"))
+        .left("density", 7, |(density, _)| density)
+        .right("published", 9, |(_, both)| format!("{:.2}", both.published))
+        .right("repaired", 9, |(_, both)| format!("{:.2}", both.repaired))
+        .right("difference", 15, |(_, both)| format!("{:+.2} ± {:.2}", both.difference, both.margin))
+        .right("layouts", 7, |(_, both)| both.pairs)
+        .right("left out", 8, |(_, both)| both.left_out)
+        .text()
 }
 
 impl Sums {
-    fn of(generator: &Generator, seed: u64) -> Result<Self, Halt> {
-        let mut layout = generator.generate(seed).map_err(|problem| unfit(&problem))?;
-        let base = Setup::choose_base(&mut layout, None).map_err(|problem| unfit(&problem))?;
+    fn of(density: &str, seed: u64) -> Result<Self, Halt> {
+        let (layout, base) = based(generated(&format!("walls:15x15:{density}"), seed)?)?;
         let run = |rule| {
             let layout = layout.clone();
             let setup = Setup { seed, ..Setup::new(&CHAIN, rule, ROBOTS, layout, base) };

@@ -3,23 +3,15 @@
 //! often that is so in many networks, under MRC as published and repaired, without any fault, and how much farther the
 //! robots have to go than under the best of all assignments. Both rules have the same networks.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use tautline_proofs::plural::counted;
-
 use super::notice_fig5::{RANGE_M, SIDE_M};
-use super::parameter::{Parameter, Senders, put, shown};
-use super::{About, Chart, Observer, Table};
+use super::prelude::*;
 use tautline_field::draw::field::picture;
 use tautline_field::draw::rescue::map;
 use tautline_field::radio::{ChannelName, FREE_SPACE, Point};
 use tautline_field::rescue::{CallTimes, Fate, Problem, Report, SchemeName, rescue};
-use tautline_field::stats::{Estimate, decimals, rounded};
 use tautline_field::tan::shortest_m;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::RuleName;
-use tautline_sim::text_table::Figures;
-use tautline_sim::value_parser::{number, whole, within};
+use tautline_sim::value_parser::within;
 
 /// The robots of the figure.
 const ROBOTS: usize = 3;
@@ -40,35 +32,27 @@ const PAPER: f64 = 1.0;
 #[derive(Clone, Copy, Debug)]
 pub struct RescueFig8;
 
-/// What is measured.
-#[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct Settings {
-    /// Nodes.
-    pub nodes: usize,
-    /// Robots.
-    pub robots: usize,
-    /// WFRs.
-    pub wfrs: usize,
-    /// The k of k-FNF.
-    pub k: Senders,
-    /// Topologies.
-    pub topologies: u32,
-    /// The seed of the first; the others follow.
-    pub seed: u64,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self { nodes: NODES, robots: ROBOTS, wfrs: WFRS, k: Senders::ONE, topologies: 200, seed: 0 }
+settings! {
+    /// What is measured.
+    #[derive(Eq)]
+    pub struct Settings {
+        /// Nodes
+        pub nodes: usize = NODES, one("nodes", "N", whole);
+        /// Robots
+        pub robots: usize = ROBOTS, one("robots", "N", |text| within(text, &(1..=MOST)));
+        /// WFRs
+        pub wfrs: usize = WFRS, one("wfr", "N", |text| within(text, &(1..=MOST)));
+        /// The k of k-FNF
+        pub k: Senders = Senders::ONE, one("k", "K", Senders::read);
+        /// Topologies
+        pub topologies: u32 = 200, one("topologies", "COUNT", from_to(1..=100_000));
+        /// The seed of the first topology; the others follow
+        pub seed: u64 = 0, one("seed", "SEED", number);
     }
 }
 
 /// One topology under one rule.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-pub struct Job {
-    rule: RuleName,
-    seed: u64,
-}
+type Job = Run<RuleName>;
 
 /// The whole figure.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
@@ -111,9 +95,8 @@ pub struct Compared {
 }
 
 impl Compared {
-    fn of(hits: usize, count: usize) -> Self {
-        let share = Estimate::share(hits as u32, count as u32).unwrap_or(Estimate::NOTHING);
-        let ours = rounded(share, 1e4);
+    fn of(samples: &[&Sample], is_such: impl Fn(&Sample) -> bool) -> Self {
+        let ours = rounded(share(samples, |sample| is_such(sample)).unwrap_or(Estimate::NOTHING), 1e4);
         Self { paper: PAPER, ours, difference: decimals(ours.mean - PAPER, 1e4) }
     }
 }
@@ -156,29 +139,22 @@ impl Settings {
         rescue(&setting, seed)
     }
 
-    fn seeds(&self) -> impl Iterator<Item = u64> {
-        let first = self.seed;
-        (0..u64::from(self.topologies)).map(move |topology| first.wrapping_add(topology))
-    }
-
     /// The ways in the first topology in which each WFR has a robot of its own, or else in the first of all, under the
     /// repaired rule.
     fn picture(&self) -> Result<String, Halt> {
-        let mut drawn = None;
-        for seed in self.seeds() {
-            let report = self.rescue(RuleName::Repaired, seed).map_err(Diagnostic::from)?;
-            let is_fit = Sample::of(&report).assigned_m.is_some();
-            if is_fit || drawn.is_none() {
-                drawn = Some((seed, report));
-            }
-            if is_fit {
-                break;
+        let drawn = |seed, report: &Report| {
+            let team = counted(self.robots, "robot");
+            let title = format!("{team} for {}, seed {seed}", counted(self.wfrs, "WFR"));
+            picture(&title, &[map(String::new(), report)])
+        };
+        for run in runs([RuleName::Repaired], |_| self.topologies) {
+            let report = self.rescue(run.at, run.seed(self.seed)).map_err(Diagnostic::from)?;
+            if Sample::of(&report).assigned_m.is_some() {
+                return Ok(drawn(run.seed(self.seed), &report));
             }
         }
-        let Some((seed, report)) = drawn else { return Ok(picture("", &[])) };
-        let team = counted(self.robots, "robot");
-        let title = format!("{team} for {}, seed {seed}", counted(self.wfrs, "WFR"));
-        Ok(picture(&title, &[map(String::new(), &report)]))
+        let first = self.rescue(RuleName::Repaired, self.seed).map_err(Diagnostic::from)?;
+        Ok(drawn(self.seed, &first))
     }
 }
 
@@ -202,78 +178,25 @@ impl Table for RescueFig8 {
                 "rescue-fig8 --robots 2 --wfr 4",
             ],
             doing: "rescuing",
+            pictures: &[(
+                "svg",
+                "Store the ways of the first topology in which each WFR has a robot of its own as a picture",
+            )],
         }
-    }
-
-    fn parameters(&self) -> Vec<Parameter<Settings>> {
-        vec![
-            Parameter::one(
-                "nodes",
-                "N",
-                "Nodes",
-                |all| shown(&all.nodes),
-                |all, texts| put(&mut all.nodes, texts, whole),
-            ),
-            Parameter::one(
-                "robots",
-                "N",
-                "Robots",
-                |all| shown(&all.robots),
-                |all, texts| put(&mut all.robots, texts, |text| within(text, &(1..=MOST))),
-            ),
-            Parameter::one(
-                "wfr",
-                "N",
-                "WFRs",
-                |all| shown(&all.wfrs),
-                |all, texts| put(&mut all.wfrs, texts, |text| within(text, &(1..=MOST))),
-            ),
-            Parameter::one(
-                "k",
-                "K",
-                "The k of k-FNF",
-                |all| shown(&all.k.0.get()),
-                |all, texts| put(&mut all.k, texts, Senders::read),
-            ),
-            Parameter::one(
-                "topologies",
-                "COUNT",
-                "Topologies",
-                |all| shown(&all.topologies),
-                |all, texts| put(&mut all.topologies, texts, |text| within(text, &(1..=100_000_i64))),
-            ),
-            Parameter::one(
-                "seed",
-                "SEED",
-                "The seed of the first topology; the others follow",
-                |all| shown(&all.seed),
-                |all, texts| put(&mut all.seed, texts, number),
-            ),
-        ]
-    }
-
-    fn charts(&self) -> Vec<Chart<Self>> {
-        let about =
-            "Store the ways of the first topology in which each WFR has a robot of its own as a picture";
-        vec![Chart { name: "svg", about, draw: |_, settings, _| settings.picture() }]
     }
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
         settings.rescue(RuleName::Published, settings.seed).map_err(Diagnostic::from)?;
-        let seeds = |rule| settings.seeds().map(move |seed| Job { rule, seed });
-        Ok(RuleName::ALL.into_iter().flat_map(seeds).collect())
+        Ok(runs(RuleName::ALL, |_| settings.topologies))
     }
 
-    fn measure(&self, settings: &Settings, job: &Job, _: &dyn Observer) -> Result<Sample, Halt> {
-        Ok(Sample::of(&settings.rescue(job.rule, job.seed).map_err(Diagnostic::from)?))
+    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Sample, Halt> {
+        Ok(Sample::of(&settings.rescue(run.at, run.seed(settings.seed)).map_err(Diagnostic::from)?))
     }
 
-    fn merge(&self, settings: &Settings, results: Vec<(Job, Sample)>) -> Result<Merged, Halt> {
-        let line = |rule: RuleName| {
-            let samples = results.iter().filter(|(job, _)| job.rule == rule);
-            Line::of(rule, &samples.map(|(_, sample)| sample).collect::<Vec<_>>())
-        };
-        Ok(Merged { settings: settings.clone(), rules: RuleName::ALL.map(line).into() })
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
+        let rules = RuleName::ALL.map(|rule| Line::of(rule, &at(&results, rule)));
+        Ok(Merged { settings: settings.clone(), rules: rules.into() })
     }
 
     fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
@@ -285,21 +208,21 @@ impl Table for RescueFig8 {
             k.0.get(),
             counted(*topologies, "topology")
         );
-        let percent = |share: f64| format!("{:.2}", 100.0 * share);
+        let paper = |share: f64| format!("{:.2}", 100.0 * share);
         let mut table = Figures::new(heading, &merged.rules);
         table.row("MRC", |line| line.rule.to_string());
-        table.row("served, %", |line| line.served.ours.times(100.0).text(2));
-        table.row("  paper", |line| percent(line.served.paper));
-        table.row("  difference", |line| percent(line.served.difference));
-        table.row("a robot each, %", |line| line.own.ours.times(100.0).text(2));
-        table.row("  paper", |line| percent(line.own.paper));
-        table.row("  difference", |line| percent(line.own.difference));
-        table.row("RD", |line| Estimate::text_or_dash(line.distance_ratio, 3));
-        table.row("over the best assignment", |line| Estimate::text_or_dash(line.over_best, 3));
-        table.row("the best assignment, %", |line| {
-            Estimate::text_or_dash(line.best.map(|share| share.times(100.0)), 2)
-        });
-        table.row("seconds to the last", |line| Estimate::text_or_dash(line.last_s, 1));
+        for (name, of) in [
+            ("served, %", (|line| line.served) as fn(&Line) -> Compared),
+            ("a robot each, %", |line| line.own),
+        ] {
+            table.row(name, |line| percent(of(line).ours, 2));
+            table.row("  paper", |line| paper(of(line).paper));
+            table.row("  difference", |line| paper(of(line).difference));
+        }
+        table.row("RD", |line| text(line.distance_ratio, 3));
+        table.row("over the best assignment", |line| text(line.over_best, 3));
+        table.row("the best assignment, %", |line| percent(line.best, 2));
+        table.row("seconds to the last", |line| text(line.last_s, 1));
         Ok(table.with_notes(
             "served: % of the topologies in which one robot comes to each WFR, and one only · a robot each: a different one \
              to each ·\npaper: a picture of one topology in which it is so, and “for all simulated scenarios” · RD: metres \
@@ -307,6 +230,10 @@ impl Table for RescueFig8 {
              off the WFRs that they come to as\nunder the best of all assignments, where each WFR has a robot of its own · \
              the best assignment: % of these in which it is\nthat one · ±, […]: the 95 % interval",
         ))
+    }
+
+    fn draw(&self, _: usize, settings: &Settings, _: &Merged) -> Result<String, Halt> {
+        settings.picture()
     }
 }
 
@@ -361,19 +288,16 @@ const SAME_M: f64 = 1e-6;
 impl Line {
     fn of(rule: RuleName, samples: &[&Sample]) -> Self {
         let own: Vec<(f64, f64)> = samples.iter().filter_map(|sample| sample.assigned_m).collect();
-        let ways: Vec<(f64, f64)> =
-            samples.iter().map(|sample| sample.way_m).filter(|&(_, shortest_m)| shortest_m > 0.0).collect();
-        let lasts: Vec<f64> = samples.iter().filter_map(|sample| sample.last_s).collect();
-        let best = own.iter().filter(|&&(ours_m, best_m)| ours_m - best_m <= SAME_M).count();
-        let ratio = |pairs: &[(f64, f64)]| Estimate::of_ratio(pairs).map(|ratio| rounded(ratio, 1e4));
+        let ways = samples.iter().map(|sample| sample.way_m).filter(|&(_, shortest_m)| shortest_m > 0.0);
+        let best = share(&own, |(ours_m, best_m)| ours_m - best_m <= SAME_M);
         Self {
             rule,
-            served: Compared::of(samples.iter().filter(|sample| sample.is_served).count(), samples.len()),
-            own: Compared::of(own.len(), samples.len()),
-            distance_ratio: ratio(&ways),
-            over_best: ratio(&own),
-            best: Estimate::share(best as u32, own.len() as u32).map(|share| rounded(share, 1e4)),
-            last_s: Estimate::of_values(&lasts).map(|last| rounded(last, 1e2)),
+            served: Compared::of(samples, |sample| sample.is_served),
+            own: Compared::of(samples, |sample| sample.assigned_m.is_some()),
+            distance_ratio: ratio(ways),
+            over_best: ratio(own.iter().copied()),
+            best: best.map(|share| rounded(share, 1e4)),
+            last_s: mean(samples.iter().filter_map(|sample| sample.last_s)).map(|last| rounded(last, 1e2)),
         }
     }
 }

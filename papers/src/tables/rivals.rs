@@ -9,18 +9,12 @@ mod table1;
 
 use std::num::NonZeroU32;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use tautline_kernel::ground::Cell;
-
 use self::asked::Told;
-use super::unfit;
-use tautline_field::stats::{Estimate, rounded};
-use tautline_sim::diagnostic::Halt;
+use super::prelude::*;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::rivals::rival;
 use tautline_sim::explore::{Limits, Milestone, Report, RuleName, Setup, explore, run};
-use tautline_sim::layout::{Generator, Layout};
+use tautline_sim::layout::Layout;
 use tautline_sim::rivals::{Cells, Links, Search};
 
 pub use fig3::ChainFig3;
@@ -38,11 +32,18 @@ const ROOMS: [&str; 2] = ["rooms-a", "rooms-b"];
 /// Who explores.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum Who {
+pub enum Who {
     /// A chain of this rule.
     Chain(RuleName),
     /// A rival.
-    Rival { search: Search, links: Links, cells: Cells },
+    Rival {
+        /// How it chooses.
+        search: Search,
+        /// What its links are.
+        links: Links,
+        /// Whether robots share cells.
+        cells: Cells,
+    },
 }
 
 impl Who {
@@ -95,8 +96,7 @@ impl Who {
 
     /// A run in `layout`, the base in its middle.
     fn run(self, told: &Told, layout: &Layout, seed: u64, limits: Limits) -> Result<Outcome, Halt> {
-        let mut layout = layout.clone();
-        let base: Cell = Setup::choose_base(&mut layout, None).map_err(|problem| unfit(&problem))?;
+        let (layout, base) = based(layout.clone())?;
         let report = match self {
             Self::Chain(rule) => {
                 let setup = Setup { seed, limits, ..Setup::new(&CHAIN, rule, ROBOTS, layout, base) };
@@ -113,7 +113,7 @@ impl Who {
 
 /// What comes of a run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
-struct Outcome {
+pub struct Outcome {
     /// The team moves to each milestone that it reached.
     milestones: [Option<u32>; Milestone::ALL.len()],
     explored: u32,
@@ -151,8 +151,7 @@ impl Times {
     fn of(outcomes: &[&Outcome], milestone: Milestone) -> Self {
         let mut moves: Vec<u32> = outcomes.iter().filter_map(|outcome| outcome.reached(milestone)).collect();
         moves.sort_unstable();
-        let values: Vec<f64> = moves.iter().map(|&moves| f64::from(moves)).collect();
-        let mean = Estimate::of_values(&values).filter(|_| moves.len() == outcomes.len());
+        let mean = mean(moves.iter().copied().map(f64::from)).filter(|_| moves.len() == outcomes.len());
         Self {
             runs: outcomes.len() as u32,
             reached: moves.len() as u32,
@@ -176,11 +175,6 @@ impl Times {
     fn middle(&self) -> Option<f64> {
         self.mean.map(|mean| mean.mean).or(self.median.map(f64::from))
     }
-}
-
-fn generated(description: &str, seed: u64) -> Result<Layout, Halt> {
-    let generator: Generator = description.parse().map_err(|problem| unfit(&problem))?;
-    Ok(generator.generate(seed).map_err(|problem| unfit(&problem))?)
 }
 
 /// Runs that stop when a robot has entered so many cells, as the paper's do.

@@ -1,10 +1,7 @@
 //! What the paper says of TAN and its rivals, and what is so.
 
-use schemars::JsonSchema;
-use serde::Serialize;
-
+use super::super::prelude::*;
 use super::Way;
-use tautline_field::stats::Estimate;
 
 /// What the paper says of RD.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
@@ -18,18 +15,6 @@ pub enum Claim {
     SmallerThanReich,
     /// “About the same moving distance … as Reich's scheme” (4.4).
     LikeReich,
-}
-
-/// What has come of a claim.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Verdict {
-    /// The whole interval says so.
-    Holds,
-    /// The whole interval says the contrary.
-    Fails,
-    /// Part of it does.
-    Open,
 }
 
 /// A claim with its verdict.
@@ -80,22 +65,7 @@ impl Claim {
             }
             Self::ShorterThanVerma | Self::SmallerThanReich => (high < 0.0, low > 0.0),
         };
-        match (holds, fails) {
-            (true, _) => Verdict::Holds,
-            (false, true) => Verdict::Fails,
-            (false, false) => Verdict::Open,
-        }
-    }
-}
-
-impl Verdict {
-    /// In a word.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Holds => "holds",
-            Self::Fails => "fails",
-            Self::Open => "open",
-        }
+        Verdict::decided(holds, fails)
     }
 }
 

@@ -1,12 +1,10 @@
 //! All ways at one number of nodes, over all topologies.
 
-use schemars::JsonSchema;
-use serde::Serialize;
-
+use super::super::estimates;
+use super::super::prelude::*;
 use super::Way;
 use super::claims::{Claim, Decision};
 use super::world::{Sample, Walked};
-use tautline_field::stats::{Estimate, rounded};
 
 /// All ways at one number of nodes.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
@@ -46,56 +44,44 @@ pub struct Line {
 impl Density {
     /// Of all topologies with so many nodes.
     pub(super) fn of(nodes: usize, samples: &[&Sample]) -> Self {
-        let linked = samples.iter().filter(|sample| sample.fewest_hops.is_some()).count() as u32;
-        let told = samples.iter().filter(|sample| sample.tree_hops.is_some()).count() as u32;
+        let part = |share: Option<Estimate>| share.map(|share| rounded(share, 1e4));
+        let linked = count(samples, |sample| sample.fewest_hops.is_some());
+        let of_linked = |is_such: &dyn Fn(&Sample) -> bool| {
+            part(Estimate::share(count(samples, |sample| is_such(sample)), linked))
+        };
         let all: Vec<(f64, [Walked; 4])> = samples.iter().filter_map(|sample| sample.all()).collect();
         let ratio = |value: &dyn Fn(&[Walked; 4]) -> Option<f64>| {
             let pairs = all.iter().map(|(shortest_m, walked)| Some((value(walked)?, *shortest_m)));
-            let ratio = Estimate::of_ratio(&pairs.collect::<Option<Vec<_>>>()?)?;
-            Some(rounded(ratio, 1e4))
+            estimates::ratio(pairs.collect::<Option<Vec<_>>>()?)
         };
-        let longer = |rival: Way| {
-            ratio(&|[tan, verma, reich, sheu]| {
-                let rival = match rival {
-                    Way::Tan => tan,
-                    Way::Verma => verma,
-                    Way::Reich => reich,
-                    Way::Sheu => sheu,
-                };
-                Some(tan.length_m - rival.length_m)
-            })
+        let line = |(place, way): (usize, Way)| Line {
+            way,
+            arrivals: of_linked(&|sample| sample.walked[place].is_some()),
+            ratio: ratio(&|walked| Some(walked[place].length_m)),
+            seconds: ratio(&|walked| walked[place].time_s),
         };
-        let line = |(place, &way): (usize, &Way)| {
-            let arrived = samples.iter().filter(|sample| sample.walked[place].is_some()).count() as u32;
-            Line {
-                way,
-                arrivals: Estimate::share(arrived, linked).map(|share| rounded(share, 1e4)),
-                ratio: ratio(&|walked| Some(walked[place].length_m)),
-                seconds: ratio(&|walked| walked[place].time_s),
-            }
-        };
+        let [tan, reich] = [Way::Tan, Way::Reich].map(|way| way as usize);
         let decision = |paper: Claim| {
-            let difference = longer(paper.rival());
+            let rival = paper.rival() as usize;
+            let difference = ratio(&|walked| Some(walked[tan].length_m - walked[rival].length_m));
             Decision { paper, difference, verdict: paper.verdict(difference) }
         };
-        let hops = samples
-            .iter()
-            .filter(|sample| sample.walked[0].is_some())
-            .filter_map(|sample| Some((f64::from(sample.tree_hops?), f64::from(sample.fewest_hops?))));
-        let shorter =
-            all.iter().filter(|(_, [tan, _, reich, _])| tan.length_m < reich.length_m).count() as u32;
+        let arrived = samples.iter().filter(|sample| sample.walked[tan].is_some());
+        let hops =
+            arrived.filter_map(|sample| Some((f64::from(sample.tree_hops?), f64::from(sample.fewest_hops?))));
         let longest = (0..).zip(samples).filter_map(|(topology, sample)| Some((sample.all()?.0, topology)));
+        let longest = longest.max_by(|(one, _), (other, _)| one.total_cmp(other));
         Self {
             nodes,
-            linked: rounded(Estimate::share(linked, samples.len() as u32).unwrap_or(Estimate::NOTHING), 1e4),
-            told: Estimate::share(told, linked).map(|share| rounded(share, 1e4)),
-            ways: Way::ALL.iter().enumerate().map(line).collect(),
-            hops: Estimate::of_ratio(&hops.collect::<Vec<_>>()).map(|ratio| rounded(ratio, 1e4)),
+            linked: part(Estimate::share(linked, samples.len() as u32)).unwrap_or(Estimate::NOTHING),
+            told: of_linked(&|sample| sample.tree_hops.is_some()),
+            ways: Way::ALL.into_iter().enumerate().map(line).collect(),
+            hops: estimates::ratio(hops),
             claims: Claim::ALL.map(decision).into(),
-            shorter_than_reich: Estimate::share(shorter, all.len() as u32).map(|share| rounded(share, 1e4)),
-            longest: longest
-                .max_by(|(one, _), (other, _)| one.total_cmp(other))
-                .map(|(_, topology)| topology),
+            shorter_than_reich: part(share(&all, |(_, walked)| {
+                walked[tan].length_m < walked[reich].length_m
+            })),
+            longest: longest.map(|(_, topology)| topology),
         }
     }
 }

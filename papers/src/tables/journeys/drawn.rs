@@ -2,14 +2,12 @@
 
 use tautline_kernel::net::NodeId;
 
-use super::super::{point, usage};
+use super::super::prelude::*;
 use super::density::Density;
 use super::world::World;
 use super::{Settings, Way};
-use crate::chart::{Axis, LineChart, Series, Stroke};
 use tautline_field::draw::field::{self, Map, Terminus, Trail};
 use tautline_field::tan::End;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
 
 /// The journeys by some ways in the topology in which the shortest is the longest.
 pub(super) fn picture(settings: &Settings, ways: &[Way], densities: &[Density]) -> Result<String, Halt> {
@@ -49,18 +47,16 @@ pub(super) fn picture(settings: &Settings, ways: &[Way], densities: &[Density]) 
 
 /// RD by the number of nodes, as a chart.
 pub(super) fn chart(densities: &[Density]) -> LineChart {
-    let series = |(place, way): (usize, &Way)| {
+    let series = |(place, way): (usize, Way)| {
         let point = |density: &Density| {
-            let ratio = density.ways.get(place)?.ratio?;
-            Some(point(f64::from(density.nodes as u32), ratio))
+            Some(Point::of(f64::from(density.nodes as u32), density.ways.get(place)?.ratio?))
         };
-        let points = densities.iter().filter_map(point).collect();
-        Series { name: way.word().to_owned(), stroke: Stroke::Solid, points }
+        Series::measured(way.word(), densities.iter().filter_map(point))
     };
-    LineChart {
-        title: "Metres walked for each metre of the shortest way".to_owned(),
-        x: Axis::new("nodes", ""),
-        y: Axis::new("RD", "").showing([1.0, 1.0]),
-        series: Way::ALL.iter().enumerate().map(series).collect(),
-    }
+    LineChart::new(
+        "Metres walked for each metre of the shortest way",
+        Axis::new("nodes", ""),
+        Axis::new("RD", "").showing([1.0, 1.0]),
+        Way::ALL.into_iter().enumerate().map(series),
+    )
 }

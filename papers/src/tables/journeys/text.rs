@@ -1,15 +1,12 @@
 //! The figures of journeys as text.
 
-use tautline_proofs::plural::counted;
-
+use super::super::prelude::*;
 use super::claims::{CLOSE, Claim};
 use super::density::Density;
 use super::{Settings, Way};
-use tautline_field::stats::Estimate;
-use tautline_sim::text_table::Figures;
 
 /// The figure for people.
-pub(super) fn text(settings: &Settings, densities: &[Density]) -> String {
+pub(super) fn figures(settings: &Settings, densities: &[Density]) -> String {
     let obstacles = match settings.obstacles_m.len() {
         0 => "no obstacle".to_owned(),
         some => counted(some, "obstacle"),
@@ -24,35 +21,33 @@ pub(super) fn text(settings: &Settings, densities: &[Density]) -> String {
         side = settings.side_m,
     );
     let mut table = Figures::new(heading, densities);
-    let or_dash = |estimate: Option<Estimate>| Estimate::text_or_dash(estimate, 2);
-    let percent = |share: Option<Estimate>| Estimate::text_or_dash(share.map(|share| share.times(100.0)), 1);
     table.row("nodes", |density| density.nodes.to_string());
-    table.row("linked", |density| percent(Some(density.linked)));
-    table.row("told", |density| percent(density.told));
+    table.row("linked", |density| percent(density.linked, 1));
+    table.row("told", |density| percent(density.told, 1));
     table.title("Arrivals, % of those linked");
     for (place, way) in Way::ALL.into_iter().enumerate() {
-        table.row(way.word(), |density| percent(density.ways[place].arrivals));
+        table.row(way.word(), |density| percent(density.ways[place].arrivals, 1));
     }
     table.title("RD where all arrive");
     table.row("topologies", |density| density.ways[0].ratio.map_or(0, |ratio| ratio.count).to_string());
     for (place, way) in Way::ALL.into_iter().enumerate() {
-        table.row(way.word(), |density| or_dash(density.ways[place].ratio));
+        table.row(way.word(), |density| text(density.ways[place].ratio, 2));
     }
     table.title("Seconds for each metre of the shortest way");
     for (place, way) in Way::ALL.into_iter().enumerate() {
         if densities.iter().any(|density| density.ways[place].seconds.is_some()) {
-            table.row(way.word(), |density| or_dash(density.ways[place].seconds));
+            table.row(way.word(), |density| text(density.ways[place].seconds, 2));
         }
     }
     table.title("TAN");
-    table.row("hops", |density| or_dash(density.hops));
-    table.row("shorter, %", |density| percent(density.shorter_than_reich));
+    table.row("hops", |density| text(density.hops, 2));
+    table.row("shorter, %", |density| percent(density.shorter_than_reich, 1));
     table.title("RD of TAN, in the paper's words, and the difference");
     let mut rival = None;
     for (place, claim) in Claim::ALL.into_iter().enumerate() {
         if rival.replace(claim.rival()) != Some(claim.rival()) {
             table.row(format!("TAN less {}", claim.rival().word()), |density| {
-                or_dash(density.claims[place].difference)
+                text(density.claims[place].difference, 2)
             });
         }
         table.row(format!("  {}", claim.words()), |density| density.claims[place].verdict.word().to_owned());

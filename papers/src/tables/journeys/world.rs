@@ -1,13 +1,11 @@
 //! One topology, and what comes of the journeys in it.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::NodeId;
 use tautline_kernel::notice::{Rule, Scheme};
 use tautline_proofs::engine::Seeded;
 
-use super::super::parameter::Senders;
+use super::super::prelude::*;
 use super::{Settings, Way};
 use tautline_field::radio::{
     Area, Channel, Faults, Field, LONGEST_WAIT_NS, Model, Network, Obstacle, Point, Problem, Radio,

@@ -1,42 +1,20 @@
 //! The figures of KIT as text, with what the paper prints beside it.
 
-use schemars::JsonSchema;
-use serde::Serialize;
-use tautline_proofs::plural::counted;
-
+use super::super::paper;
+use super::super::prelude::*;
 use super::{EXPLORED, Figure, Line, Merged, PATHS, Race, Settings, TEAMS, TWO, Team};
-use tautline_field::stats::Estimate;
-use tautline_sim::text_table::{Column, TextTable, Width};
-
-/// A figure that the paper prints, and ours.
-#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
-pub(super) struct Printed {
-    what: String,
-    paper: f64,
-    ours: Estimate,
-    difference: f64,
-}
 
 /// The paper's two numbers: 78 % efficiency at 88 % (5 of 23 paths driven by both), and 7 min 24 s between one robot
 /// and two.
 pub(super) fn of(figure: Figure, lines: &[Line], races: &[Race]) -> Vec<Printed> {
-    let two = lines.iter().filter(|line| line.team == TEAMS[TWO]);
-    let claims: Vec<(String, f64, Option<Estimate>)> = match figure {
-        Figure::Time => {
-            let gain =
-                |race: &Race| (format!("s by which two are sooner, {}", race.family), 444.0, race.gain);
-            races.iter().map(gain).collect()
-        }
-        Figure::Overlap => {
-            let share =
-                |line: &Line| (format!("% efficiency of two, {}", line.family), 78.0, line.efficiency);
-            two.map(share).collect()
-        }
-    };
-    let printed = claims.into_iter().filter_map(|(what, paper, ours)| {
-        ours.map(|ours| Printed { what, paper, ours, difference: ours.mean - paper })
-    });
-    printed.collect()
+    let gain =
+        |race: &Race| Printed::of(format!("s by which two are sooner, {}", race.family), 444.0, race.gain);
+    let share =
+        |line: &Line| Printed::of(format!("% efficiency of two, {}", line.family), 78.0, line.efficiency);
+    match figure {
+        Figure::Time => races.iter().filter_map(gain).collect(),
+        Figure::Overlap => lines.iter().filter(|line| line.team == TEAMS[TWO]).filter_map(share).collect(),
+    }
 }
 
 impl Team {
@@ -60,7 +38,7 @@ pub(super) fn text(figure: Figure, settings: &Settings, merged: &Merged) -> Stri
     };
     format!(
         "{head}{body}\nended: runs that went to and fro, or stood still, before all paths were driven; they are in no mean.\n\n{}",
-        paper(&merged.paper)
+        paper::text(&merged.paper, 0, [38, 7, 15, 11])
     )
 }
 
@@ -75,72 +53,38 @@ fn named(merged: &Merged) -> impl Iterator<Item = (&'static str, &Line)> {
 }
 
 fn times(merged: &Merged) -> String {
-    let mut columns = TextTable::new([
-        Column::left(Width::Of(11)),
-        Column::left(Width::Of(20)),
-        Column::right(Width::Of(13)),
-        Column::right(Width::Of(13)),
-        Column::right(Width::Of(6)),
-    ]);
-    columns.title("Seconds until half of the nodes are found, and all");
-    columns.row(["family", "team", "half", "all", "ended"]);
-    for (family, line) in named(merged) {
-        let half = line.nodes.len().div_ceil(2).checked_sub(1).and_then(|half| line.nodes.get(half));
-        columns.row([
-            family.to_owned(),
-            line.team.name(),
-            Estimate::text_or_dash(half.copied(), 0),
-            Estimate::text_or_dash(line.nodes.last().copied(), 0),
-            line.ended.to_string(),
-        ]);
-    }
-    let mut races = TextTable::new([
-        Column::left(Width::Of(11)),
-        Column::right(Width::Of(15)),
-        Column::right(Width::Of(18)),
-    ]);
-    races.title(
-        "Two robots as published against one: seconds by which they find all nodes sooner, and how often",
-    );
-    races.row(["family", "sooner by s", "in % of layouts"]);
-    for Race { family, gain, sooner } in &merged.races {
-        races.row([
-            (*family).to_owned(),
-            Estimate::text_or_dash(*gain, 0),
-            Estimate::text_or_dash(*sooner, 1),
-        ]);
-    }
-    columns.text() + &races.text()
+    let half = |line: &Line| -> Option<Estimate> {
+        line.nodes.get(line.nodes.len().div_ceil(2).checked_sub(1)?).copied()
+    };
+    let nodes = Columns::of(named(merged))
+        .title("Seconds until half of the nodes are found, and all")
+        .left("family", 11, |(family, _)| family)
+        .left("team", 20, |(_, line)| line.team.name())
+        .estimate("half", 13, 0, move |(_, line)| half(line))
+        .estimate("all", 13, 0, |(_, line)| line.nodes.last().copied())
+        .right("ended", 6, |(_, line)| line.ended);
+    let races = Columns::of(&merged.races)
+        .title(
+            "Two robots as published against one: seconds by which they find all nodes sooner, and how often",
+        )
+        .left("family", 11, |race| race.family)
+        .estimate("sooner by s", 15, 0, |race| race.gain)
+        .estimate("in % of layouts", 18, 1, |race| race.sooner);
+    nodes.text() + &races.text()
 }
 
 fn overlaps(merged: &Merged) -> String {
-    let widths = [13, 13, 13, 18, 6].map(|width| Column::right(Width::Of(width)));
-    let left = [Column::left(Width::Of(11)), Column::left(Width::Of(20))];
-    let mut columns = TextTable::new(left.into_iter().chain(widths));
-    columns.title(format!(
+    let title = format!(
         "When {EXPLORED} paths are explored: % of them driven by one robot alone, and seconds; seconds until all are"
-    ));
-    columns.row(["family", "team", "efficiency", "s to 88 %", "s to all", "out of contact %", "ended"]);
-    for (family, line) in named(merged) {
-        columns.row([
-            family.to_owned(),
-            line.team.name(),
-            Estimate::text_or_dash(line.efficiency, 1),
-            Estimate::text_or_dash(line.most, 0),
-            Estimate::text_or_dash(line.all, 0),
-            Estimate::text_or_dash(line.cut, 1),
-            line.ended.to_string(),
-        ]);
-    }
-    columns.text()
-}
-
-fn paper(printed: &[Printed]) -> String {
-    let numbers = [7, 15, 11].map(|width| Column::right(Width::Of(width)));
-    let mut columns = TextTable::new([Column::left(Width::Of(38))].into_iter().chain(numbers));
-    columns.row(["", "paper", "ours", "difference"]);
-    for Printed { what, paper, ours, difference } in printed {
-        columns.row([what.clone(), format!("{paper:.0}"), ours.text(1), format!("{difference:+.1}")]);
-    }
-    columns.text()
+    );
+    Columns::of(named(merged))
+        .title(title)
+        .left("family", 11, |(family, _)| family)
+        .left("team", 20, |(_, line)| line.team.name())
+        .estimate("efficiency", 13, 1, |(_, line)| line.efficiency)
+        .estimate("s to 88 %", 13, 0, |(_, line)| line.most)
+        .estimate("s to all", 13, 0, |(_, line)| line.all)
+        .estimate("out of contact %", 18, 1, |(_, line)| line.cut)
+        .right("ended", 6, |(_, line)| line.ended)
+        .text()
 }

@@ -5,8 +5,7 @@ use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::chain::optimum::{Guide, Optimum, explore_all};
 use tautline_proofs::chain::reach::{CellSet, Ground};
 
-use super::super::unfit;
-use tautline_sim::diagnostic::{Diagnostic, Halt};
+use super::super::prelude::*;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::{RuleName, Setup};
 use tautline_sim::layout::{Layout, Size};
@@ -51,9 +50,9 @@ pub(super) struct Area {
 impl Area {
     pub(super) fn new(robots: u16) -> Result<Self, Halt> {
         let side = 2 * u64::from(robots) - 1;
-        let mut open = Layout::of(Size::new(side, side).map_err(|problem| unfit(&problem))?);
-        let base = open.default_base().map_err(|problem| unfit(&problem))?;
-        open.place_base(base).map_err(|problem| unfit(&problem))?;
+        let mut open = Layout::of(fit(Size::new(side, side))?);
+        let base = fit(open.default_base())?;
+        fit(open.place_base(base))?;
         let edges: Vec<Edge> = open.edges().collect();
         let symmetries = std::array::from_fn(|symmetry| {
             let image = |cell: Cell| {

@@ -3,13 +3,11 @@
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Serialize};
 use tautline_proofs::chain::reach::CellSet;
 
+use super::super::prelude::*;
 use super::area::{Area, WallSet, solve};
 use super::{Line, Worst};
-use tautline_field::stats::hundredths;
-use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::{RuleName, Survey, explore};
 
 /// Sums over layouts.
@@ -19,30 +17,24 @@ pub struct Sums {
     walled_in: u64,
     missed: u64,
     beyond: u64,
-    /// By team moves of the chain and of the optimum: how many layouts, and the first by number of walls.
-    #[serde(with = "pairs")]
-    compared: BTreeMap<(u32, u32), (u64, (u32, WallSet))>,
+    #[serde(with = "as_list")]
+    compared: Compared,
 }
 
+/// By team moves of the chain and of the optimum: how many layouts, and the first by number of walls.
+type Compared = BTreeMap<(u32, u32), (u64, (u32, WallSet))>;
+
 /// Maps in JSON have words for keys; these are numbers.
-mod pairs {
-    use std::collections::BTreeMap;
+mod as_list {
+    use serde::{Deserialize, Deserializer, Serializer};
 
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+    use super::Compared;
 
-    pub(super) fn serialize<K: Serialize, V: Serialize, S: Serializer>(
-        map: &BTreeMap<K, V>,
-        serializer: S,
-    ) -> Result<S::Ok, S::Error> {
-        map.iter().collect::<Vec<_>>().serialize(serializer)
+    pub(super) fn serialize<S: Serializer>(map: &Compared, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(map)
     }
 
-    pub(super) fn deserialize<'de, K, V, D>(deserializer: D) -> Result<BTreeMap<K, V>, D::Error>
-    where
-        K: Deserialize<'de> + Ord,
-        V: Deserialize<'de>,
-        D: Deserializer<'de>,
-    {
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Compared, D::Error> {
         Ok(Vec::deserialize(deserializer)?.into_iter().collect())
     }
 }

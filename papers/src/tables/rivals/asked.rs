@@ -1,37 +1,31 @@
 //! What can be asked of the rivals' tables: the parameters of the rivals that are numbers.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use super::super::parameter::{Parameter, put, shown};
-use tautline_sim::diagnostic::Halt;
+use super::super::parameter::{Parameter, of_field};
+use super::super::prelude::*;
 use tautline_sim::explore::rivals::fault;
+use tautline_sim::rivals::parameters::POOL;
 use tautline_sim::rivals::{Cells, Deadlock, Links, Parameters, Search, Weights};
-use tautline_sim::value_parser::{number, real};
 
-/// What the rivals are told, but for what the tables vary.
-#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct Told {
-    /// Runs of each line, or layouts of each point.
-    pub runs: u32,
-    /// The seed of the first one; the others have the seeds after it.
-    pub seed: u64,
-    /// Team moves in a pool.
-    pub pool: u32,
-    /// The weights of a side on the way to an unexplored cell, and of a new cell.
-    pub weights: Weights,
-    /// Team moves without gain after which a team scatters; 0 for never.
-    pub scatter: u32,
-    /// Team moves without gain after which a run ends.
-    pub patience: u32,
+settings! {
+    /// What the rivals are told, but for what the tables vary.
+    #[derive(Copy)]
+    pub(super) struct Told {
+        /// Runs of each rival
+        pub runs: u32 = 50, one("runs", "COUNT", from_to(1..=100_000));
+        /// The seed of the first run; the others have the seeds after it
+        pub seed: u64 = 0, one("seed", "SEED", number);
+        /// Team moves in the pool of Rooker and Birk
+        pub pool: u32 = POOL, one("pool", "MOVES", pool);
+        /// The weights of a side on the way to an unexplored cell, and of a new cell
+        pub weights: Weights = Parameters::POOL.weights, both();
+        /// Team moves without gain after which a rival makes 5 legal ones at random; 0 for never
+        pub scatter: u32 = 0, one("scatter", "MOVES", number);
+        /// Team moves without gain after which a rival's run ends
+        pub patience: u32 = Parameters::POOL.patience, one("patience", "MOVES", at_least_one);
+    }
 }
 
 impl Told {
-    pub(super) const fn new(runs: u32) -> Self {
-        let Parameters { weights, patience, .. } = Parameters::POOL;
-        Self { runs, seed: 0, pool: tautline_sim::rivals::parameters::POOL, weights, scatter: 0, patience }
-    }
-
     pub(super) const fn parameters(&self, search: Search, links: Links, cells: Cells) -> Parameters {
         let deadlock = match self.scatter {
             0 => Deadlock::Wait,
@@ -46,6 +40,16 @@ impl Told {
         let parameters = self.parameters(Search::Pool(self.pool), Links::Safe, Cells::Distinct);
         Ok(parameters.check(super::ROBOTS.into()).map_err(|unfit| fault(&unfit))?)
     }
+}
+
+/// Both weights, each by an option of its own.
+fn both() -> Vec<Parameter<Weights>> {
+    let price = "What a rival's robot pays for each side on its way to an unexplored cell";
+    let gain = "What a rival's robot gains in an unexplored cell";
+    let [price_by, gain_by] = ["distance-weight", "new-cell-weight"].map(|name| one(name, "WEIGHT", weight));
+    let mut both = of_field(price, |all: &Weights| &all.distance, |all| &mut all.distance, price_by);
+    both.extend(of_field(gain, |all: &Weights| &all.new_cell, |all| &mut all.new_cell, gain_by));
+    both
 }
 
 fn weight(text: &str) -> Result<f64, String> {
@@ -66,52 +70,4 @@ fn at_least_one(text: &str) -> Result<u32, String> {
         0 => Err("give 1 or more".to_owned()),
         more => Ok(more),
     }
-}
-
-/// The options of settings that hold what the rivals are told.
-pub(super) fn parameters<S: AsRef<Told> + AsMut<Told>>() -> Vec<Parameter<S>> {
-    vec![
-        Parameter::one(
-            "seed",
-            "SEED",
-            "The seed of the first run; the others have the seeds after it",
-            |all| shown(&all.as_ref().seed),
-            |all, texts| put(&mut all.as_mut().seed, texts, number),
-        ),
-        Parameter::one(
-            "pool",
-            "MOVES",
-            "Team moves in the pool of Rooker and Birk",
-            |all| shown(&all.as_ref().pool),
-            |all, texts| put(&mut all.as_mut().pool, texts, pool),
-        ),
-        Parameter::one(
-            "distance-weight",
-            "WEIGHT",
-            "What a rival's robot pays for each side on its way to an unexplored cell",
-            |all| shown(&all.as_ref().weights.distance),
-            |all, texts| put(&mut all.as_mut().weights.distance, texts, weight),
-        ),
-        Parameter::one(
-            "new-cell-weight",
-            "WEIGHT",
-            "What a rival's robot gains in an unexplored cell",
-            |all| shown(&all.as_ref().weights.new_cell),
-            |all, texts| put(&mut all.as_mut().weights.new_cell, texts, weight),
-        ),
-        Parameter::one(
-            "scatter",
-            "MOVES",
-            "Team moves without gain after which a rival makes 5 legal ones at random; 0 for never",
-            |all| shown(&all.as_ref().scatter),
-            |all, texts| put(&mut all.as_mut().scatter, texts, number),
-        ),
-        Parameter::one(
-            "patience",
-            "MOVES",
-            "Team moves without gain after which a rival's run ends",
-            |all| shown(&all.as_ref().patience),
-            |all, texts| put(&mut all.as_mut().patience, texts, at_least_one),
-        ),
-    ]
 }

@@ -1,22 +1,7 @@
 //! What the paper says of the chain and its rivals, and what is so.
 
-use schemars::JsonSchema;
-use serde::Serialize;
-
-use tautline_field::stats::Estimate;
+use super::super::prelude::*;
 use tautline_sim::text_table::{Column, TextTable, Width};
-
-/// What has come of a sentence.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum Verdict {
-    /// It is so.
-    Holds,
-    /// The contrary is so.
-    Fails,
-    /// The runs do not tell.
-    Open,
-}
 
 /// A sentence of the paper, and what is so.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
@@ -36,31 +21,17 @@ const ABOUT: f64 = 0.25;
 /// How far from each other “almost the same” and “similar” are: a tenth.
 const ALIKE: f64 = 0.1;
 
-impl Verdict {
-    pub(super) const fn of(is_so: bool) -> Self {
-        if is_so { Self::Holds } else { Self::Fails }
-    }
+/// Whether `ours` is about `paper`; of no figure it is not.
+pub(super) fn about(paper: f64, ours: Option<f64>) -> Verdict {
+    Verdict::of(ours.is_some_and(|ours| (ours - paper).abs() <= ABOUT * paper))
+}
 
-    /// Whether `ours` is about `paper`; of no figure it is not.
-    pub(super) fn about(paper: f64, ours: Option<f64>) -> Self {
-        Self::of(ours.is_some_and(|ours| (ours - paper).abs() <= ABOUT * paper))
-    }
-
-    /// Whether two figures are alike; if there is one only, they are not.
-    pub(super) fn alike(one: Option<f64>, other: Option<f64>) -> Self {
-        match (one, other) {
-            (Some(one), Some(other)) => Self::of((one - other).abs() <= ALIKE * one.max(other)),
-            (None, None) => Self::Open,
-            (Some(_), None) | (None, Some(_)) => Self::Fails,
-        }
-    }
-
-    const fn word(self) -> &'static str {
-        match self {
-            Self::Holds => "holds",
-            Self::Fails => "fails",
-            Self::Open => "open",
-        }
+/// Whether two figures are alike; if there is one only, they are not.
+pub(super) fn alike(one: Option<f64>, other: Option<f64>) -> Verdict {
+    match (one, other) {
+        (Some(one), Some(other)) => Verdict::of((one - other).abs() <= ALIKE * one.max(other)),
+        (None, None) => Verdict::Open,
+        (Some(_), None) | (None, Some(_)) => Verdict::Fails,
     }
 }
 
@@ -87,11 +58,9 @@ impl Race {
 
     /// Whether the first is sooner more often than not, by the whole 95 % interval.
     pub(super) fn is_won(self) -> Verdict {
-        match Estimate::share(self.sooner, self.sooner + self.later).and_then(|share| share.interval) {
-            Some([low, _]) if low > 0.5 => Verdict::Holds,
-            Some([_, high]) if high < 0.5 => Verdict::Fails,
-            Some(_) | None => Verdict::Open,
-        }
+        let share = Estimate::share(self.sooner, self.sooner + self.later);
+        let [low, high] = share.and_then(|share| share.interval).unwrap_or([0.0, 1.0]);
+        Verdict::decided(low > 0.5, high < 0.5)
     }
 
     pub(super) fn text(self) -> String {
@@ -131,14 +100,11 @@ mod tests {
     #[test]
     fn about_is_a_quarter_and_alike_a_tenth() {
         assert_eq!(
-            [1.5, 2.5, 1.4, 2.6].map(|ours| Verdict::about(2.0, Some(ours)) == Verdict::Holds),
+            [1.5, 2.5, 1.4, 2.6].map(|ours| about(2.0, Some(ours)) == Verdict::Holds),
             [true, true, false, false]
         );
-        assert_eq!(Verdict::about(2.0, None), Verdict::Fails);
-        assert_eq!(Verdict::alike(Some(90.0), Some(100.0)), Verdict::Holds);
-        assert_eq!(
-            [Verdict::alike(Some(89.0), Some(100.0)), Verdict::alike(None, Some(1.0))],
-            [Verdict::Fails; 2]
-        );
+        assert_eq!(about(2.0, None), Verdict::Fails);
+        assert_eq!(alike(Some(90.0), Some(100.0)), Verdict::Holds);
+        assert_eq!([alike(Some(89.0), Some(100.0)), alike(None, Some(1.0))], [Verdict::Fails; 2]);
     }
 }

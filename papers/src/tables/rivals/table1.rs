@@ -1,21 +1,12 @@
 //! Table I: team moves without walls, and how much of two buildings is explored when MAX_MOVES ends the run; and how
 //! far the rivals' figures depend on what the paper does not say.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-use tautline_proofs::plural::counted;
-
-use super::super::parameter::{Parameter, put, shown};
-use super::super::{About, Observer, Table};
-use super::asked::{Told, parameters};
-use super::claims::{self, Judged, Verdict};
-use super::{OPEN, Outcome, ROBOTS, ROOMS, Times, Who, generated, stopping};
-use tautline_field::stats::{Estimate, rounded};
-use tautline_sim::diagnostic::Halt;
+use super::super::prelude::*;
+use super::asked::Told;
+use super::claims::{self, Judged, about, alike};
+use super::{OPEN, Outcome, ROBOTS, ROOMS, Times, Who, stopping};
 use tautline_sim::explore::{Limits, Milestone, RuleName};
 use tautline_sim::rivals::{Cells, Links, Search};
-use tautline_sim::text_table::{Column, TextTable, Width};
-use tautline_sim::value_parser::within;
 
 /// Table I.
 #[derive(Clone, Copy, Debug)]
@@ -24,50 +15,26 @@ pub struct ChainTable1;
 /// The pools whose results are compared.
 const POOLS: [u32; 4] = [50, 200, 1000, 10_000];
 
-/// How much is measured.
-#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
-pub struct Settings {
-    told: Told,
-    /// MAX_MOVES of the runs in buildings.
-    max_moves: u32,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self { told: Told::new(50), max_moves: 400 }
+settings! {
+    /// How much is measured.
+    #[derive(Copy)]
+    pub struct Settings {
+        /// What the rivals are told
+        told: Told = Told::default(), nested();
+        /// In buildings a run stops when a robot has entered so many cells
+        max_moves: u32 = 400, one("max-moves", "CELLS", from_to(1..=1_000_000));
     }
 }
 
-impl AsRef<Told> for Settings {
-    fn as_ref(&self) -> &Told {
-        &self.told
-    }
-}
-
-impl AsMut<Told> for Settings {
-    fn as_mut(&mut self) -> &mut Told {
-        &mut self.told
-    }
-}
-
-/// A run.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-pub struct Job {
-    place: Place,
-    who: Who,
-    seed: u64,
-}
+/// A run of a team in an area.
+type Job = Run<(Place, Who)>;
 
 /// Where it is.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
-enum Place {
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub enum Place {
     Open,
     Rooms(usize),
 }
-
-/// What comes of a run.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub struct Measured(Outcome);
 
 /// The whole table.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
@@ -113,7 +80,7 @@ struct Printed {
 impl Table for ChainTable1 {
     type Settings = Settings;
     type Job = Job;
-    type Measured = Measured;
+    type Measured = Outcome;
     type Merged = Merged;
 
     fn about(&self) -> About {
@@ -126,126 +93,83 @@ impl Table for ChainTable1 {
                    all runs get there, the median counts the others as later than any.",
             examples: &["chain-table1", "chain-table1 --runs 200 --pool 200 --format json"],
             doing: "comparing",
+            ..About::NOTHING
         }
-    }
-
-    fn parameters(&self) -> Vec<Parameter<Settings>> {
-        let runs = Parameter::one(
-            "runs",
-            "COUNT",
-            "Runs of each rival",
-            |all: &Settings| shown(&all.told.runs),
-            |all, texts| put(&mut all.told.runs, texts, |text| within(text, &(1..=100_000_i64))),
-        );
-        let most = Parameter::one(
-            "max-moves",
-            "CELLS",
-            "In buildings a run stops when a robot has entered so many cells",
-            |all: &Settings| shown(&all.max_moves),
-            |all, texts| put(&mut all.max_moves, texts, |text| within(text, &(1..=1_000_000_i64))),
-        );
-        [runs].into_iter().chain(parameters()).chain([most]).collect()
     }
 
     fn jobs(&self, settings: &Settings) -> Result<Vec<Job>, Halt> {
         settings.told.check()?;
-        let Told { runs, seed, pool, .. } = settings.told;
+        let Told { runs: count, pool, .. } = settings.told;
         let open = teams(pool).into_iter().map(|who| (Place::Open, who));
-        let rooms = (0..ROOMS.len()).flat_map(|room| Who::all(pool).map(|who| (Place::Rooms(room), who)));
-        let all = open.chain(rooms).flat_map(|(place, who)| {
-            let runs = if who.is_chancy() { runs } else { 1 };
-            (0..runs).map(move |run| Job { place, who, seed: seed.wrapping_add(run.into()) })
-        });
-        Ok(all.collect())
+        let rooms = pairs((0..ROOMS.len()).map(Place::Rooms), Who::all(pool));
+        Ok(runs(open.chain(rooms), |(_, who)| if who.is_chancy() { count } else { 1 }))
     }
 
-    fn measure(&self, settings: &Settings, job: &Job, _: &dyn Observer) -> Result<Measured, Halt> {
-        let (layout, limits) = match job.place {
+    fn measure(&self, settings: &Settings, run: &Job, _: &dyn Observer) -> Result<Outcome, Halt> {
+        let (place, who) = run.at;
+        let (layout, limits) = match place {
             Place::Open => (OPEN, Limits::default()),
             Place::Rooms(room) => (ROOMS.get(room).copied().unwrap_or(OPEN), stopping(settings.max_moves)),
         };
-        job.who.run(&settings.told, &generated(layout, 0)?, job.seed, limits).map(Measured)
+        who.run(&settings.told, &generated(layout, 0)?, run.seed(settings.told.seed), limits)
     }
 
-    fn merge(&self, settings: &Settings, results: Vec<(Job, Measured)>) -> Result<Merged, Halt> {
-        let of = |place: Place, who: Who| -> Vec<&Outcome> {
-            let these = results.iter().filter(|(job, _)| job.place == place && job.who == who);
-            these.map(|(_, Measured(outcome))| outcome).collect()
-        };
+    fn merge(&self, settings: &Settings, results: Results<Self>) -> Result<Merged, Halt> {
         let pool = settings.told.pool;
         let line = |who| {
-            let outcomes = of(Place::Open, who);
+            let outcomes = at(&results, (Place::Open, who));
             Line { who, milestones: Milestone::ALL.map(|milestone| Times::of(&outcomes, milestone)) }
         };
         let open: Vec<Line> = teams(pool).into_iter().map(line).collect();
-        let share = |room: usize, who| {
-            let outcomes = of(Place::Rooms(room), who);
-            let explored: Vec<f64> = outcomes.iter().map(|outcome| outcome.explored()).collect();
-            let whole = outcomes.iter().filter(|outcome| outcome.explored == outcome.cells).count() as u32;
-            let explored = Estimate::of_values(&explored).map(|explored| rounded(explored, 100.0));
-            Share { room: ROOMS[room], who, explored, whole, runs: outcomes.len() as u32 }
+        let share = |(room, who)| {
+            let outcomes = at(&results, (Place::Rooms(room), who));
+            Share {
+                room: ROOMS[room],
+                who,
+                explored: mean(outcomes.iter().map(|outcome| outcome.explored()))
+                    .map(|explored| rounded(explored, 100.0)),
+                whole: count(&outcomes, |outcome| outcome.explored == outcome.cells),
+                runs: outcomes.len() as u32,
+            }
         };
-        let rooms: Vec<Share> =
-            (0..ROOMS.len()).flat_map(|room| Who::all(pool).map(|who| share(room, who))).collect();
+        let rooms: Vec<Share> = pairs(0..ROOMS.len(), Who::all(pool)).map(share).collect();
         let (paper, sentences) = (printed(&open, &rooms, pool), judged(&open, &rooms, pool));
         Ok(Merged { settings: *settings, open, rooms, paper, sentences })
     }
 
     fn text(&self, settings: &Settings, merged: &Merged) -> Result<String, Halt> {
         let Settings { told: Told { runs, seed, patience, .. }, max_moves } = settings;
-        let mut text = format!(
+        let heading = format!(
             "{ROBOTS} robots, {} of each rival, seeds from {seed}; means with 95 % intervals (reached / runs); stuck after {} \
              without gain\n",
             counted(*runs, "run"),
             counted(*patience, "team move"),
         );
-        let numbers = [9, 14, 11, 10].map(|width| Column::right(Width::Of(width)));
-        let mut columns = TextTable::new([Column::left(Width::Fit)].into_iter().chain(numbers));
-        columns.title("What the paper prints");
-        columns.row(["", "paper", "ours", "difference", "reached"]);
-        for Printed { what, paper, ours, difference, reached, runs } in &merged.paper {
-            let or_dash = |number: Option<String>| number.unwrap_or_else(|| "-".to_owned());
-            columns.row([
-                what.clone(),
-                format!("{paper:.0}"),
-                or_dash(ours.map(|ours| format!("{ours:.1}"))),
-                or_dash(difference.map(|difference| format!("{difference:+.1}"))),
-                format!("{reached}/{runs}"),
-            ]);
+        let or_dash = |number: Option<String>| number.unwrap_or_else(|| "-".to_owned());
+        let paper = Columns::of(&merged.paper)
+            .title("What the paper prints")
+            .left("", Fit, |line| &line.what)
+            .right("paper", 9, |line| format!("{:.0}", line.paper))
+            .right("ours", 14, move |line| or_dash(line.ours.map(|ours| format!("{ours:.1}"))))
+            .right("difference", 11, move |line| or_dash(line.difference.map(|off| format!("{off:+.1}"))))
+            .right("reached", 10, |line| format!("{}/{}", line.reached, line.runs));
+        let mut open = Columns::of(&merged.open)
+            .title(format!("Team moves in {OPEN} until so much is explored"))
+            .left("team", Fit, |line| line.who.name());
+        for (place, milestone) in Milestone::ALL.into_iter().enumerate() {
+            let percent = format!("{} %", milestone.percent());
+            open = open.right(percent, Fit, move |line| line.milestones[place].text());
         }
-        text += &columns.text();
-        let mut columns = TextTable::new([
-            Column::left(Width::Fit),
-            Column::right(Width::Fit),
-            Column::right(Width::Fit),
-            Column::right(Width::Fit),
-        ]);
-        columns.title(format!("Team moves in {OPEN} until so much is explored"));
-        columns.row(["team", "50 %", "75 %", "100 %"]);
-        for Line { who, milestones } in &merged.open {
-            columns.row([who.name()].into_iter().chain(milestones.iter().map(Times::text)));
-        }
-        text += &columns.text();
-        let mut columns = TextTable::new([
-            Column::left(Width::Fit),
-            Column::left(Width::Fit),
-            Column::right(Width::Fit),
-            Column::right(Width::Fit),
-        ]);
-        columns.title(format!(
-            "Percent explored when a robot has entered {max_moves} cells, or the team is stuck"
-        ));
-        columns.row(["area", "team", "explored %", "all explored"]);
-        for Share { room, who, explored, whole, runs } in &merged.rooms {
-            columns.row([
-                (*room).to_owned(),
-                who.name(),
-                Estimate::text_or_dash(*explored, 1),
-                format!("{whole}/{runs}"),
-            ]);
-        }
-        text += &columns.text();
-        Ok(text + "\nWhat the paper says\n" + &claims::text(&merged.sentences))
+        let rooms = Columns::of(&merged.rooms)
+            .title(format!(
+                "Percent explored when a robot has entered {max_moves} cells, or the team is stuck"
+            ))
+            .left("area", Fit, |share| share.room)
+            .left("team", Fit, |share| share.who.name())
+            .estimate("explored %", Fit, 1, |share| share.explored)
+            .right("all explored", Fit, |share| format!("{}/{}", share.whole, share.runs));
+        let said = claims::text(&merged.sentences);
+        Ok([&heading, &paper.text(), &open.text(), &rooms.text(), "\nWhat the paper says\n", &said].concat())
     }
 }
 
@@ -270,52 +194,33 @@ fn whole(open: &[Line], who: Who) -> Option<Times> {
 
 /// The paper's figures: 62, and by its words about twice and six times that; 70 and 80 %, 25 and 43 %.
 fn printed(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Printed> {
-    let times = |who: Who, paper: f64| {
-        let Times { runs, reached, .. } = whole(open, who)?;
-        let ours = whole(open, who).and_then(|times| times.middle());
+    let printed = |what, paper: f64, ours: Option<f64>, reached, runs| {
         let difference = ours.map(|ours| ours - paper);
-        Some(Printed {
-            what: format!("team moves to 100 %: {}", who.name()),
-            paper,
-            ours,
-            difference,
-            reached,
-            runs,
-        })
+        Printed { what, paper, ours, difference, reached, runs }
     };
-    let chain = Who::Chain(RuleName::Published);
     let moves = [
-        times(chain, 62.0),
-        times(Who::full(Links::Safe), 124.0),
-        times(Who::full(Links::Covered), 124.0),
-        times(Who::pool(pool, Links::Safe), 372.0),
-        times(Who::pool(pool, Links::Covered), 372.0),
+        (Who::Chain(RuleName::Published), 62.0),
+        (Who::full(Links::Safe), 124.0),
+        (Who::full(Links::Covered), 124.0),
+        (Who::pool(pool, Links::Safe), 372.0),
+        (Who::pool(pool, Links::Covered), 372.0),
     ];
+    let moves = moves.into_iter().filter_map(|(who, paper)| {
+        let times = whole(open, who)?;
+        let what = format!("team moves to 100 %: {}", who.name());
+        Some(printed(what, paper, times.middle(), times.reached, times.runs))
+    });
     let shares = rooms.iter().filter_map(|share| {
-        let first = share.room == ROOMS[0];
-        let paper = match share.who {
-            Who::Chain(RuleName::Published) | Who::Rival { search: Search::Full, .. } => {
-                if first {
-                    70.0
-                } else {
-                    80.0
-                }
-            }
-            Who::Rival { search: Search::Pool(_), .. } => {
-                if first {
-                    25.0
-                } else {
-                    43.0
-                }
-            }
+        let [first, second] = match share.who {
+            Who::Chain(RuleName::Published) | Who::Rival { search: Search::Full, .. } => [70.0, 80.0],
+            Who::Rival { search: Search::Pool(_), .. } => [25.0, 43.0],
             Who::Chain(RuleName::Repaired) => return None,
         };
-        let ours = share.explored.map(|explored| explored.mean);
+        let paper = if share.room == ROOMS[0] { first } else { second };
         let what = format!("% of {}: {}", share.room, share.who.name());
-        let difference = ours.map(|ours| ours - paper);
-        Some(Printed { what, paper, ours, difference, reached: share.runs, runs: share.runs })
+        Some(printed(what, paper, share.explored.map(|explored| explored.mean), share.runs, share.runs))
     });
-    moves.into_iter().flatten().chain(shares).collect()
+    moves.chain(shares).collect()
 }
 
 /// The sentences of Section E about Table I.
@@ -343,7 +248,7 @@ fn judged(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Judged> {
                 (None, _) => "-".to_owned(),
             };
             let of = format!("links by {}", links.symbol());
-            judged.push(Judged { sentence, of, measured, verdict: Verdict::about(factor, ratio) });
+            judged.push(Judged { sentence, of, measured, verdict: about(factor, ratio) });
         }
     }
     let explored = |room: &str, who: Who| {
@@ -351,12 +256,10 @@ fn judged(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Judged> {
         share.and_then(|share| share.explored).map_or(0.0, |explored| explored.mean)
     };
     for room in ROOMS {
-        let never =
-            rooms.iter().filter(|share| share.room == room && share.who != Who::Chain(RuleName::Repaired));
-        let (mut all, mut runs) = (0, 0);
-        for share in never {
-            (all, runs) = (all + share.whole, runs + share.runs);
-        }
+        let said = |share: &&Share| share.room == room && share.who != Who::Chain(RuleName::Repaired);
+        let shares = || rooms.iter().filter(said);
+        let (all, runs): (u32, u32) =
+            (shares().map(|share| share.whole).sum(), shares().map(|share| share.runs).sum());
         judged.push(Judged {
             sentence: "“all three algorithms stopped before the 100 % exploration success”",
             of: room.to_owned(),
@@ -373,7 +276,7 @@ fn judged(open: &[Line], rooms: &[Share], pool: u32) -> Vec<Judged> {
                 sentence: "“the proposed and the Full search algorithms have similar success rates”",
                 of: of.clone(),
                 measured: format!("chain {ours:.0} %, Full search {full:.0} %"),
-                verdict: Verdict::alike(Some(ours), Some(full)),
+                verdict: alike(Some(ours), Some(full)),
             });
             judged.push(Judged {
                 sentence: "“much better … than the reference algorithm having only 25% and 43%”",

@@ -1,0 +1,96 @@
+//! Tables of text whose columns are data: each has a heading, a width, and what of a line stands in it.
+
+use tautline_field::stats::Estimate;
+use tautline_sim::text_table::{Column, TextTable, Width};
+
+use super::estimates::{percent, text};
+
+/// Lines, and the columns in which they are told.
+pub(super) struct Columns<'a, L> {
+    title: Option<String>,
+    lines: Vec<L>,
+    gap: usize,
+    columns: Vec<(String, Column, Cell<'a, L>)>,
+}
+
+/// What of a line stands in a column.
+type Cell<'a, L> = Box<dyn Fn(L) -> String + 'a>;
+
+impl<'a, L: Copy + 'a> Columns<'a, L> {
+    /// A row for each of `lines`, and no column yet.
+    pub(super) fn of(lines: impl IntoIterator<Item = L>) -> Self {
+        Self { title: None, lines: lines.into_iter().collect(), gap: 2, columns: Vec::new() }
+    }
+
+    /// A line above the table, after an empty one.
+    pub(super) fn title(self, title: impl Into<String>) -> Self {
+        Self { title: Some(title.into()), ..self }
+    }
+
+    /// So many characters stand before each column that follows.
+    pub(super) fn gap(self, gap: usize) -> Self {
+        Self { gap, ..self }
+    }
+
+    /// A column of text.
+    pub(super) fn left<D: ToString>(
+        self,
+        heading: impl Into<String>,
+        width: impl Into<Width>,
+        cell: impl Fn(L) -> D + 'a,
+    ) -> Self {
+        self.column(heading.into(), Column::left(width.into()), Box::new(move |line| cell(line).to_string()))
+    }
+
+    /// A column of numbers.
+    pub(super) fn right<D: ToString>(
+        self,
+        heading: impl Into<String>,
+        width: impl Into<Width>,
+        cell: impl Fn(L) -> D + 'a,
+    ) -> Self {
+        self.column(heading.into(), Column::right(width.into()), Box::new(move |line| cell(line).to_string()))
+    }
+
+    /// A column of estimates with so many decimals.
+    pub(super) fn estimate<E: Into<Option<Estimate>>>(
+        self,
+        heading: impl Into<String>,
+        width: impl Into<Width>,
+        decimals: usize,
+        cell: impl Fn(L) -> E + 'a,
+    ) -> Self {
+        self.right(heading, width, move |line| text(cell(line), decimals))
+    }
+
+    /// A column of shares in percent with so many decimals.
+    pub(super) fn percent<E: Into<Option<Estimate>>>(
+        self,
+        heading: impl Into<String>,
+        width: impl Into<Width>,
+        decimals: usize,
+        cell: impl Fn(L) -> E + 'a,
+    ) -> Self {
+        self.right(heading, width, move |line| percent(cell(line), decimals))
+    }
+
+    fn column(mut self, heading: String, column: Column, cell: Cell<'a, L>) -> Self {
+        self.columns.push((heading, column.after(self.gap), cell));
+        self
+    }
+
+    /// The whole table. Where no column has a heading, there is no row of them.
+    pub(super) fn text(&self) -> String {
+        let mut table = TextTable::new(self.columns.iter().map(|&(_, column, _)| column));
+        if let Some(title) = &self.title {
+            table.title(title);
+        }
+        if self.columns.iter().any(|(heading, ..)| !heading.is_empty()) {
+            table.row(self.columns.iter().map(|(heading, ..)| heading));
+        }
+        for &line in &self.lines {
+            table.row(self.columns.iter().map(|(.., cell)| cell(line)));
+        }
+        table.text()
+    }
+}

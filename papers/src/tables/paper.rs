@@ -1,0 +1,74 @@
+//! What papers print and say, beside what is measured.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+use tautline_field::stats::Estimate;
+
+use super::columns::Columns;
+
+/// A figure that the paper prints, and ours.
+#[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
+pub(super) struct Printed {
+    what: String,
+    paper: f64,
+    ours: Estimate,
+    difference: f64,
+}
+
+impl Printed {
+    /// What the paper prints, and what is measured; nothing if that is not.
+    pub(super) fn of(what: impl Into<String>, paper: f64, ours: Option<Estimate>) -> Option<Self> {
+        ours.map(|ours| Self { what: what.into(), paper, ours, difference: ours.mean - paper })
+    }
+}
+
+/// The figures for people, the paper's with so many decimals.
+pub(super) fn text(
+    printed: &[Printed],
+    decimals: usize,
+    [what, paper, ours, difference]: [usize; 4],
+) -> String {
+    Columns::of(printed)
+        .left("", what, |line| &line.what)
+        .right("paper", paper, |line| format!("{:.decimals$}", line.paper))
+        .estimate("ours", ours, 1, |line| line.ours)
+        .right("difference", difference, |line| format!("{:+.1}", line.difference))
+        .text()
+}
+
+/// What has come of a sentence of a paper.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// It is so, and where there is an interval, its whole says so.
+    Holds,
+    /// The contrary is so.
+    Fails,
+    /// The runs do not tell.
+    Open,
+}
+
+impl Verdict {
+    /// Whether it is so, where the runs tell.
+    pub(super) const fn of(is_so: bool) -> Self {
+        Self::decided(is_so, !is_so)
+    }
+
+    /// Whether the runs say so, or else the contrary.
+    pub(super) const fn decided(is_so: bool, is_not: bool) -> Self {
+        match (is_so, is_not) {
+            (true, _) => Self::Holds,
+            (false, true) => Self::Fails,
+            (false, false) => Self::Open,
+        }
+    }
+
+    /// In a word.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::Fails => "fails",
+            Self::Open => "open",
+        }
+    }
+}

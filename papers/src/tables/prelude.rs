@@ -1,0 +1,19 @@
+//! What most tables use: their settings, runs and estimates, and the columns and series in which they are told.
+
+pub(super) use schemars::JsonSchema;
+pub(super) use serde::{Deserialize, Serialize};
+pub(super) use tautline_proofs::plural::counted;
+
+pub(super) use super::columns::Columns;
+pub(super) use super::estimates::{count, mean, percent, ratio, seconds, share, text};
+pub(super) use super::paper::{Printed, Verdict};
+pub(super) use super::parameter::{
+    Senders, flag, from_to, joined, layout_name, list, nested, one, renamed, repeated, settings, word,
+};
+pub(super) use super::runs::{Run, at, of_teams, pairs, runs};
+pub(super) use super::{About, Observer, Results, Table, Threads, based, fit, generated, usage};
+pub(super) use crate::chart::{Axis, LineChart, Point, Series};
+pub(super) use tautline_field::stats::{Estimate, decimals, hundredths, rounded};
+pub(super) use tautline_sim::diagnostic::{Diagnostic, Halt};
+pub(super) use tautline_sim::text_table::{Figures, Width::Fit};
+pub(super) use tautline_sim::value_parser::{number, real, whole};
