@@ -8,12 +8,13 @@ use tautline_proofs::engine::Seeded;
 use tautline_sim::explore::frontier::FRONTIER;
 use tautline_sim::explore::hunt::{Asked, HuntReport, Shown};
 use tautline_sim::explore::{RuleId, Setup, SetupError, Stopped, explore};
-use tautline_sim::frontier::{Assigned, Assignment, Ended, Explorers, Options};
+use tautline_sim::frontier::{Assigned, Assignment, Ended, Explorers};
 use tautline_sim::layout::{Generator, Layout, Size};
+use tautline_sim::options::Options;
 
 fn asked(rule: &'static str, robots: u64, (width, height): (u64, u64), max_losses: u8) -> Asked<'static> {
     Asked {
-        scheme: &FRONTIER,
+        scheme: (&FRONTIER).into(),
         rule: RuleId::new(rule),
         robots: Some(robots),
         size: Some(Size::new(width, height).expect("a size")),
@@ -95,9 +96,15 @@ fn what_does_not_fit_is_refused() {
     let with = |options| Setup { options, ..setup(2, (3, 3)) }.check().err();
     let usual = Options::default();
     assert_eq!(with(usual), None);
-    assert_eq!(with(Options { threshold: 1.5, ..usual }), Some(SetupError::Threshold));
-    assert_eq!(with(Options { threshold: f64::NAN, ..usual }), Some(SetupError::Threshold));
-    assert_eq!(with(Options { noise_db: -1.0, ..usual }), Some(SetupError::Noise));
+    let wrong = |options| match with(options) {
+        Some(SetupError::Wrong(extra, (what, _))) => (extra.field, what),
+        other => panic!("{other:?}"),
+    };
+    let no_threshold = ("threshold", "a threshold of the occupancy probability is from 0 to 1".to_owned());
+    assert_eq!(wrong(Options { threshold: 1.5, ..usual }), no_threshold);
+    assert_eq!(wrong(Options { threshold: f64::NAN, ..usual }), no_threshold);
+    let no_noise = ("noise-db", "a standard deviation of noise is from 0 to 100 dB".to_owned());
+    assert_eq!(wrong(Options { noise_db: -1.0, ..usual }), no_noise);
     let cell = Cell::new(0, 0);
     let together = Setup { starts: Some(vec![cell, cell]), ..setup(2, (3, 3)) };
     assert_eq!(together.check().err(), Some(SetupError::Together(cell)));

@@ -15,13 +15,13 @@ use tautline_kernel::ground::Cell;
 
 use self::asked::Told;
 use super::unfit;
+use crate::rivals::rival;
+use crate::rivals::{Cells, Links, Search};
 use tautline_field::stats::{Estimate, rounded};
 use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::chain::CHAIN;
-use tautline_sim::explore::rivals::rival;
 use tautline_sim::explore::{Limits, Milestone, Report, RuleName, Setup, explore, run};
 use tautline_sim::layout::{Generator, Layout};
-use tautline_sim::rivals::{Cells, Links, Search};
 
 pub use fig3::ChainFig3;
 pub use table1::ChainTable1;

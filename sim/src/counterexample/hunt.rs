@@ -42,7 +42,7 @@ pub fn store_at(
     replaceable: &Replaceable,
 ) -> Result<(AtomicFile, Report), Halt> {
     let aside = AtomicFile::late(path, replaceable);
-    let mut writer = trace::Writer::new(aside, &setup.stage(), Some(clause)).map_err(Diagnostic::from)?;
+    let mut writer = trace::Writer::new(aside, setup, Some(clause)).map_err(Diagnostic::from)?;
     let report = explore(setup, &mut |made| {
         writer.add(made);
         Ok(())

@@ -9,7 +9,7 @@ use tautline_proofs::team::{self, Layouts};
 use crate::atomic_file::{AtomicFile, Replaceable};
 use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::hunt::layout as layout_of;
-use crate::explore::{ClauseId, Limits, Own, Report, RunConfig, run};
+use crate::explore::{ClauseId, Limits, Own, Report, Setup, run};
 use crate::trace::Writer;
 
 /// A rule of one's own, in the layout of a run that was found.
@@ -32,15 +32,15 @@ impl<R, T: team::Team<ROBOTS>, const ROBOTS: usize> Found<'_, R, T, ROBOTS> {
         let clause = self.run.breaks.map(ClauseId::new);
         let limits = Limits::stopping_at(clause);
         let (layout, starts) = layout_of(self.run).map_err(Diagnostic::from)?;
-        let stage =
-            RunConfig { limits, ..RunConfig::new(self.layouts.scheme, self.rule.0, &layout, &starts) };
+        let setup = Setup { limits, ..Setup::named(self.layouts.scheme, self.rule.0, layout, &starts) };
         let aside = AtomicFile::new(path, replaceable)?;
-        let mut writer = Writer::new(aside, &stage, clause).map_err(Diagnostic::from)?;
+        let mut writer = Writer::new(aside, &setup, clause).map_err(Diagnostic::from)?;
         let (team, cells) = (self.layouts.start)(self.rule.1);
-        let report = run(&mut Own::new(team, cells, self.layouts.demands), &layout, limits, &mut |made| {
-            writer.add(made);
-            Ok(())
-        })?;
+        let report =
+            run(&mut Own::new(team, cells, self.layouts.demands), &setup.layout, limits, &mut |made| {
+                writer.add(made);
+                Ok(())
+            })?;
         Ok((writer.end(&report), report))
     }
 }

@@ -32,7 +32,7 @@ pub fn of(run: &dyn Play, chart: &Survey, made: &TeamMove<'_>) -> String {
         let _ = writeln!(text, "Team move {} breaks {}", made.step, with_sentence(clause));
     }
     text.push('\n');
-    let look = run.stage().look;
+    let look = run.setup().scheme.look;
     let who = match look {
         Look::Linked { .. } | Look::Tree { .. } => "R_",
         Look::Robots => "Robot ",
@@ -119,7 +119,7 @@ pub fn of_trap(run: &dyn Play) -> Result<String, Halt> {
         }
         Ok(())
     })?;
-    Ok(format!("{}\n\n{words}\n{}", legend(run.stage().look), beside(blocks)))
+    Ok(format!("{}\n\n{words}\n{}", legend(run.setup().scheme.look), beside(blocks)))
 }
 
 /// What agents do in `course`, turn by turn: every turn before it is made, with what the agent tries and the sensors

@@ -22,14 +22,13 @@ use self::hunt::Walls;
 use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::{End, Team, TeamMove};
-use super::run_config::Look;
 use super::scene::{Layer, Scene};
-use super::setup::{By, Clause, Drawn, Extra, Judge, Profile, Rule, Senses, Setup, Starts};
+use super::setup::{By, Clause, Drawn, Judge, Look, Profile, Rule, Senses, Setup, Starts};
 use super::survey::Survey;
 use crate::diagnostic::Diagnostic;
-use crate::frontier::Options;
 use crate::heap_grid::HeapGrid;
 use crate::layout::Layout;
+use crate::options::{Extra, Options};
 
 /// The rule that reels the chain in and out instead of backtracking, and holds contact whoever fails.
 pub const REEL: RuleId = RuleId::new("reel");
@@ -60,10 +59,10 @@ pub static CHAIN: Profile = Profile {
     robots: 2..=MAX_ROBOTS,
     starts: Starts::Base,
     senses: Senses::Bumps,
-    extras: &[Extra::Loss, Extra::Fail, Extra::Wall, Extra::Speeds],
+    extras: &[Extra::LOSS, Extra::FAIL, Extra::WALL, Extra::SPEEDS],
     drawn: &[
-        Drawn { what: "which bytes are lost", by: By::Told(Extra::Loss) },
-        Drawn { what: "in which order the robots go", by: By::Told(Extra::Speeds) },
+        Drawn { what: "which bytes are lost", by: By::Told(Extra::LOSS) },
+        Drawn { what: "in which order the robots go", by: By::Told(Extra::SPEEDS) },
     ],
     look: Look::Linked {
         is_lost: |from, to| Breach::Contact.is_in(from, to) || Breach::Coverage.is_in(from, to),

@@ -15,13 +15,13 @@ use self::hunt::{Searched, Simulated};
 use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::{End, Team};
-use super::run_config::Look;
 use super::scene::{Layer, Scene};
-use super::setup::{By, Clause, Drawn, Extra, Profile, Rule, Senses, Setup, Starts};
+use super::setup::{By, Clause, Drawn, Look, Profile, Rule, Senses, Setup, Starts};
 use super::survey::Survey;
 use crate::diagnostic::Diagnostic;
-use crate::frontier::{Assigned, Assignment, Ended, Explorers, Options};
+use crate::frontier::{Assigned, Assignment, Ended, Explorers};
 use crate::layout::Layout;
+use crate::options::{Extra, Options};
 
 /// The run ends, and a cell in reach is unexplored.
 pub const COVERS: ClauseId = ClauseId::new("FRONTIER-1");
@@ -88,10 +88,10 @@ pub static FRONTIER: Profile = Profile {
     robots: 1..=MAX_ROBOTS,
     starts: Starts::Alone,
     senses: Senses::Bumps,
-    extras: &[Extra::Range, Extra::Loss, Extra::Noise, Extra::Threshold],
+    extras: &[Extra::RANGE, Extra::LOSS, Extra::NOISE, Extra::THRESHOLD],
     drawn: &[
-        Drawn { what: "which messages are lost", by: By::Told(Extra::Loss) },
-        Drawn { what: "how far off each position is", by: By::Told(Extra::Noise) },
+        Drawn { what: "which messages are lost", by: By::Told(Extra::LOSS) },
+        Drawn { what: "how far off each position is", by: By::Told(Extra::NOISE) },
         Drawn { what: "to which of the nearest cells a robot goes", by: By::Rule(PLAIN) },
         Drawn { what: "where a robot wanders", by: By::Rule(WANDERS) },
     ],

@@ -14,10 +14,11 @@ use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::plural::counted;
 use tautline_proofs::run::Run;
 
+use super::catalogue::Scheme;
 use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::Limits;
-use super::setup::{Profile, Setup};
+use super::setup::Setup;
 use crate::diagnostic::Diagnostic;
 use crate::layout::{Layout, Problem, Size};
 use crate::resumable::Resumable;
@@ -136,7 +137,7 @@ impl Bound {
 #[derive(Clone, Copy, Debug)]
 pub struct Asked<'a> {
     /// The scheme.
-    pub scheme: &'static Profile,
+    pub scheme: Scheme,
     /// Its rule.
     pub rule: RuleId,
     /// Robots.
@@ -161,9 +162,9 @@ pub struct Asked<'a> {
 
 impl Asked<'_> {
     /// The hunt of a scheme by a rule, everything else being its own to choose.
-    pub const fn new(scheme: &'static Profile, rule: RuleId) -> Self {
+    pub fn new(scheme: impl Into<Scheme>, rule: RuleId) -> Self {
         Self {
-            scheme,
+            scheme: scheme.into(),
             rule,
             robots: None,
             size: None,
@@ -373,7 +374,7 @@ pub(super) fn outcome(found: &[Finding], is_whole: bool, covered: Option<String>
 ///
 /// # Errors
 /// [`Problem`] if the area is too large for a layout, or the base is outside.
-pub fn setup(scheme: &'static Profile, rule: impl Into<RuleId>, found: &Run) -> Result<Setup, Problem> {
+pub fn setup(scheme: Scheme, rule: impl Into<RuleId>, found: &Run) -> Result<Setup, Problem> {
     let (mut layout, starts) = layout(found)?;
     let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
     layout.place_base(base)?;

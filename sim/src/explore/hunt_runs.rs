@@ -9,11 +9,11 @@ use tautline_proofs::engine::lots::Lots;
 use tautline_proofs::floor::trap::{End, Found, Look, Stage, Trap, stages, weight};
 
 use super::agents::{Agents, Crew};
+use super::catalogue::Scheme;
 use super::each::Each;
 use super::hunt::{Asked, Bound, HuntReport};
 use super::hunt_states::{Sought, TAKEN, hunted, refusal, setup, so_far, sought};
 use super::rule::RuleId;
-use super::setup::Profile;
 use crate::diagnostic::Diagnostic;
 use crate::layout::Layout;
 
@@ -51,7 +51,7 @@ impl<K: Crew + Sync + Send + fmt::Debug> Each for Tries<K> {
 /// Every run of these agents in every layout.
 pub(super) struct Runs<K> {
     crew: K,
-    scheme: &'static Profile,
+    scheme: Scheme,
     rule: RuleId,
     sought: Sought,
 }

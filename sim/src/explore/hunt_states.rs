@@ -5,11 +5,12 @@ use tautline_proofs::floor::trap::{Bounds, End, Found, MAX_AGENTS, MAX_CELLS, Tr
 use tautline_proofs::plural::counted;
 
 use super::agents::PREMATURE;
+use super::catalogue::Scheme;
 use super::each::Each;
 use super::hunt::{Asked, Bound, Done, Facts, Finding, HuntReport, RunSize, Shown};
 use super::rule::RuleId;
 use super::run::{Limits, OnViolation};
-use super::setup::{Profile, Setup};
+use super::setup::Setup;
 use crate::diagnostic::Diagnostic;
 use crate::layout::{Layout, Problem, Size};
 
@@ -162,7 +163,7 @@ pub(super) fn so_far(asked: &Asked<'_>, found: &Found) -> String {
 ///
 /// # Errors
 /// [`Problem`] if the trap does not fit into a layout.
-pub(super) fn setup(scheme: &'static Profile, rule: RuleId, trap: &Trap) -> Result<Setup, Problem> {
+pub(super) fn setup(scheme: Scheme, rule: RuleId, trap: &Trap) -> Result<Setup, Problem> {
     let mut layout = Layout::open(trap.width as u64, trap.height as u64)?;
     for &cell in &trap.blocked {
         layout.block(cell);

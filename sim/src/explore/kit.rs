@@ -21,13 +21,13 @@ use self::hunt::Searched;
 
 use super::clause::ClauseId;
 use super::run::{End, Team};
-use super::run_config::Look;
 use super::scene::{Layer, Scene};
-use super::setup::{By, Clause, Drawn, Extra, Profile, Rule, Senses, Setup, Starts};
+use super::setup::{By, Clause, Drawn, Look, Profile, Rule, Senses, Setup, Starts};
 use super::survey::Survey;
 use crate::diagnostic::Diagnostic;
 use crate::kit::{Course, Drive, MOST_ROBOTS, Pace, course, paths};
 use crate::layout::Layout;
+use crate::options::Extra;
 
 /// Of two robots, one may not hear the other at all speeds.
 pub const CONTACT: ClauseId = ClauseId::new("KIT-1");
@@ -79,7 +79,7 @@ pub static KIT: Profile = Profile {
     robots: 1..=MOST_ROBOTS,
     starts: Starts::Beside,
     senses: Senses::Bumps,
-    extras: &[Extra::Range, Extra::Speed, Extra::Spread],
+    extras: &[Extra::RANGE, Extra::SPEED, Extra::SPREAD],
     drawn: &[Drawn { what: "which of several sides a robot takes, and how fast it drives", by: By::Every }],
     look: Look::Robots,
     knowledge: None,

@@ -17,12 +17,12 @@ use tautline_proofs::run::Frame;
 use super::clause::ClauseId;
 use super::frontier::reachable;
 use super::run::{End, Team};
-use super::run_config::Look;
 use super::scene::{Layer, Scene};
-use super::setup::{Clause, Extra, Profile, Rule, Senses, Setup, Starts};
+use super::setup::{Clause, Look, Profile, Rule, Senses, Setup, Starts};
 use super::survey::Survey;
 use crate::diagnostic::Diagnostic;
 use crate::layout::Layout;
+use crate::options::Extra;
 
 /// The team is not connected after a team move.
 pub const CONNECTED: ClauseId = ClauseId::new("PACK-1");
@@ -61,7 +61,7 @@ pub static PACK: Profile = Profile {
     robots: 1..=MAX_ROBOTS,
     starts: Starts::Alone,
     senses: Senses::Bumps,
-    extras: &[Extra::Range, Extra::Sight],
+    extras: &[Extra::RANGE, Extra::SIGHT],
     drawn: &[],
     look: Look::Robots,
     knowledge: None,

@@ -1,28 +1,17 @@
 //! What of a setup does not fit its scheme, wherever it comes from.
 
 use std::fmt;
-use std::ops::RangeInclusive;
 
-use tautline_kernel::frontier::Threshold;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::plural::counted;
 
-use super::catalogue::{SCHEMES, sensing};
+use super::catalogue::Scheme;
+use super::hunt::Hunt;
 use super::rule::RuleId;
-use super::setup::{Drawn, Extra, Profile, Rule, Senses, Setup, Starts};
+use super::setup::{Drawn, Profile, Rule, Senses, Setup, Starts};
 use crate::diagnostic::Diagnostic;
-use crate::failures::Failure;
-use crate::frontier::Options;
 use crate::layout::Problem;
-
-/// The greatest standard deviation of the noise of positions, in dB.
-const MOST_NOISE_DB: f64 = 100.0;
-
-/// The slowest and the fastest robots, in metres a second.
-const SPEEDS_MPS: RangeInclusive<f64> = 0.001..=1000.0;
-
-/// How much speeds may differ.
-const SPREADS: RangeInclusive<f64> = 0.0..=0.999;
+use crate::options::{Extra, Wrong};
 
 /// What does not fit: `Display` says what, [`SetupError::remedy`] what would be right.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -30,31 +19,31 @@ pub enum SetupError {
     /// No team of the scheme has so many.
     Robots {
         /// The scheme.
-        scheme: &'static Profile,
+        scheme: Scheme,
         /// So many.
         robots: u64,
     },
     /// The scheme does not offer the rule.
     Rule {
         /// The scheme.
-        scheme: &'static Profile,
+        scheme: Scheme,
         /// The rule.
         rule: RuleId,
     },
     /// The scheme has no sensors to miss.
-    Miss(&'static Profile),
+    Miss(Scheme),
     /// The same, one by one.
-    MissedByNone(&'static Profile),
+    MissedByNone(Scheme),
     /// All sensors are missed, and nothing ends the run.
     MissAll,
     /// The numbers of the sensors that are missed do not grow from 1 on.
     Missed,
     /// The scheme starts at the base.
-    StartsAtBase(&'static Profile),
+    StartsAtBase(Scheme),
     /// There are starts for another number of agents.
     Starts {
         /// The scheme.
-        scheme: &'static Profile,
+        scheme: Scheme,
         /// So many starts.
         starts: usize,
         /// So many agents or robots.
@@ -72,28 +61,11 @@ pub enum SetupError {
         cells: usize,
     },
     /// The scheme cannot be told that.
-    Extra(&'static Profile, Extra),
-    /// No threshold.
-    Threshold,
-    /// No noise.
-    Noise,
-    /// No speed.
-    Speed,
-    /// No spread of speeds.
-    Spread,
-    /// No wall can appear there.
-    Wall(Cell),
-    /// A wall that appears may shut the way over which the others re-form behind a robot that dies.
-    WallAndFail,
+    Extra(Scheme, &'static Extra),
+    /// What is told makes no run.
+    Wrong(&'static Extra, Wrong),
     /// Nothing is drawn by the seed that is given.
-    Seed(&'static Profile),
-    /// No such robot can die.
-    Fail {
-        /// The robot, numbered from 1, the base.
-        robot: u16,
-        /// Robots that there are.
-        robots: u16,
-    },
+    Seed(Scheme),
 }
 
 impl SetupError {
@@ -105,14 +77,8 @@ impl SetupError {
             Self::Miss(_) | Self::MissAll => "miss",
             Self::MissedByNone(_) | Self::Missed => "missed",
             Self::StartsAtBase(_) | Self::Starts { .. } | Self::Start(_) | Self::Together(_) => "starts",
-            Self::Extra(_, extra) => extra.field(),
-            Self::Threshold => Extra::Threshold.field(),
-            Self::Noise => Extra::Noise.field(),
-            Self::Speed => Extra::Speed.field(),
-            Self::Spread => Extra::Spread.field(),
-            Self::Wall(_) | Self::WallAndFail => Extra::Wall.field(),
+            Self::Extra(_, extra) | Self::Wrong(extra, _) => extra.field,
             Self::Seed(_) => "seed",
-            Self::Fail { .. } => Extra::Fail.field(),
         }
     }
 
@@ -120,7 +86,7 @@ impl SetupError {
     pub fn remedy(&self) -> String {
         match self {
             Self::Robots { scheme, .. } => {
-                let Profile { team, robots, look, .. } = scheme;
+                let Profile { team, robots, look, .. } = &**scheme;
                 let base = if look.has_base() { ", the base counted" } else { "" };
                 format!("a {team} has {} to {} {}s{base}", robots.start(), robots.end(), look.robot())
             }
@@ -128,11 +94,11 @@ impl SetupError {
                 let names: Vec<&str> = scheme.rules.iter().map(|rule| rule.name.as_str()).collect();
                 format!("take the rule {}, or another scheme than {}", names.join(" or "), scheme.name)
             }
-            Self::Miss(_) => {
-                format!("take {}, or leave out how likely that is", sensing(Senses::Floor, "or"))
+            Self::Miss(scheme) => {
+                format!("take {}, or leave out how likely that is", scheme.sensing(Senses::Floor))
             }
-            Self::MissedByNone(_) => {
-                format!("take {}, or leave out what is missed", sensing(Senses::Floor, "or"))
+            Self::MissedByNone(scheme) => {
+                format!("take {}, or leave out what is missed", scheme.sensing(Senses::Floor))
             }
             Self::MissAll => "give a probability below 1, or end the run by `max-moves`".to_owned(),
             Self::Missed => "number them from 1 on, in order, each once".to_owned(),
@@ -145,27 +111,22 @@ impl SetupError {
             Self::Full { cells, .. } => {
                 format!("give `robots` a number up to {cells}, or take a larger layout")
             }
-            Self::Extra(_, extra) => {
-                let fitting = SCHEMES.iter().filter(|scheme| scheme.extras.contains(extra));
-                let names: Vec<&str> = fitting.map(|scheme| scheme.name).collect();
+            Self::Extra(scheme, extra) => {
+                let names = scheme.among.names(|scheme| scheme.extras.contains(extra));
                 format!("take the scheme {}, or leave it out", names.join(" or "))
             }
-            Self::Threshold => "give `threshold` a number from 0 to 1".to_owned(),
-            Self::Noise => "give `noise-db` a number of decibels from 0 to 100".to_owned(),
-            Self::Speed => "give `speed` a number of metres a second from 0.001 to 1000".to_owned(),
-            Self::Spread => "give `spread` a share from 0 to 0.999".to_owned(),
-            Self::Wall(_) => "name a side between two cells of the layout, as in 7,6,E@20".to_owned(),
-            Self::WallAndFail => "give `wall` and `fail` to two runs".to_owned(),
-            Self::Seed(Profile { name, drawn: [], .. }) => {
-                format!(
-                    "leave it out: in runs of {name} nothing is drawn but layouts, such as cells:15x15:0.1"
-                )
+            Self::Wrong(_, (_, remedy)) => remedy.clone(),
+            Self::Seed(scheme) => {
+                let Profile { name, drawn, .. } = &**scheme;
+                let each: Vec<String> = drawn.iter().map(Drawn::to_string).collect();
+                if drawn.is_empty() {
+                    format!(
+                        "leave it out: in runs of {name} nothing is drawn but layouts, such as cells:15x15:0.1"
+                    )
+                } else {
+                    format!("leave it out; of {name} there would be drawn: {}", each.join("; "))
+                }
             }
-            Self::Seed(Profile { name, drawn, .. }) => {
-                let drawn: Vec<String> = drawn.iter().map(Drawn::to_string).collect();
-                format!("leave it out; of {name} there would be drawn: {}", drawn.join("; "))
-            }
-            Self::Fail { robots, .. } => format!("name a robot from 2 to {robots}, as in {robots}@20"),
         }
     }
 }
@@ -174,7 +135,7 @@ impl fmt::Display for SetupError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Robots { scheme, robots } => {
-                let Profile { team, look, .. } = scheme;
+                let Profile { team, look, .. } = &**scheme;
                 let robot = look.robot();
                 match (*robots, look.has_base()) {
                     (0, _) => write!(f, "no {robot}s are no {team}"),
@@ -206,23 +167,10 @@ impl fmt::Display for SetupError {
                 write!(f, "{robots} do not find room: from the base {cells} can be reached")
             }
             Self::Extra(scheme, extra) => {
-                write!(f, "`{}` says nothing to the scheme {}", extra.field(), scheme.name)
+                write!(f, "`{}` says nothing to the scheme {}", extra.field, scheme.name)
             }
-            Self::Threshold => f.write_str("a threshold of the occupancy probability is from 0 to 1"),
-            Self::Noise => f.write_str("a standard deviation of noise is from 0 to 100 dB"),
-            Self::Speed => f.write_str("a robot drives from 0.001 to 1000 m/s"),
-            Self::Spread => f.write_str("drives are faster or slower by less than the whole speed"),
-            Self::Wall(cell) => {
-                write!(f, "no wall can appear on that side of the cell {cell}: it is not between two cells")
-            }
-            Self::WallAndFail => f.write_str(
-                "a wall that appears may shut the way over which the others re-form behind a robot that dies",
-            ),
+            Self::Wrong(_, (what, _)) => f.write_str(what),
             Self::Seed(_) => f.write_str("`seed` has no effect: nothing here is left to chance"),
-            Self::Fail { robot: 1, .. } => f.write_str("the base cannot fail: there is no chain without it"),
-            Self::Fail { robot, robots } => {
-                write!(f, "there is no robot {robot} that could fail among {robots}")
-            }
         }
     }
 }
@@ -240,12 +188,32 @@ pub(super) fn of_choices(what: impl fmt::Display) -> Diagnostic {
     Diagnostic::of_field("choices", what, "hunt again: choices come from a counterexample alone")
 }
 
+impl Scheme {
+    /// The rule with this name.
+    ///
+    /// # Errors
+    /// [`SetupError::Rule`] if the scheme does not offer it.
+    pub fn find_rule(self, rule: RuleId) -> Result<&'static Rule, SetupError> {
+        self.rule(rule).ok_or(SetupError::Rule { scheme: self, rule })
+    }
+
+    /// How a rule is hunted.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if the scheme does not offer it, or it is not hunted.
+    pub fn hunt(self, rule: RuleId) -> Result<&'static dyn Hunt, Diagnostic> {
+        self.find_rule(rule)?.hunt.ok_or_else(|| {
+            Diagnostic::usage(format_args!("nothing is hunted of {}", self.name), "hunt another scheme")
+        })
+    }
+}
+
 impl Setup {
     /// `robots` as the number of a team of `scheme`.
     ///
     /// # Errors
     /// [`SetupError::Robots`].
-    pub fn count(scheme: &'static Profile, robots: u64) -> Result<u16, SetupError> {
+    pub fn count(scheme: Scheme, robots: u64) -> Result<u16, SetupError> {
         let count = u16::try_from(robots).ok().filter(|&count| scheme.robots.contains(&count.into()));
         count.ok_or(SetupError::Robots { scheme, robots })
     }
@@ -255,9 +223,9 @@ impl Setup {
     /// # Errors
     /// [`SetupError`], the first in the order of its variants.
     pub fn check(&self) -> Result<&'static Rule, SetupError> {
-        let Self { scheme, rule, robots, starts, .. } = self;
-        Self::count(scheme, (*robots).into())?;
-        let rule = scheme.rule(*rule).ok_or(SetupError::Rule { scheme, rule: *rule })?;
+        let Self { scheme, robots, starts, .. } = self;
+        Self::count(*scheme, (*robots).into())?;
+        let (rule, scheme) = (scheme.find_rule(self.rule)?, *scheme);
         match scheme.senses {
             Senses::Bumps if !self.miss.is_never() => return Err(SetupError::Miss(scheme)),
             Senses::Bumps if !self.missed.is_empty() => return Err(SetupError::MissedByNone(scheme)),
@@ -308,35 +276,13 @@ impl Setup {
 
     /// Refuses what the scheme cannot be told, and what is out of bounds.
     fn check_extras(&self) -> Result<(), SetupError> {
-        let Options { noise_db, threshold, speed_mps, spread, fail, wall, .. } = self.options;
-        let is_refused =
-            |extra: &Extra| extra.is_told_by(&self.options) && !self.scheme.extras.contains(extra);
+        let Self { scheme, robots, layout, options, .. } = self;
+        let is_refused = |extra: &&Extra| extra.is_told_by(options) && !scheme.extras.contains(extra);
         if let Some(extra) = Extra::ALL.into_iter().find(is_refused) {
-            return Err(SetupError::Extra(self.scheme, extra));
+            return Err(SetupError::Extra(*scheme, extra));
         }
-        if let Some(Failure { robot, .. }) = fail.filter(|fail| !(2..=self.robots).contains(&fail.robot)) {
-            return Err(SetupError::Fail { robot, robots: self.robots });
-        }
-        if let Some(wall) = wall {
-            let edge = wall.edge();
-            let is_between =
-                [edge.cell(), edge.cell().beyond(edge.side())].iter().all(|&cell| self.layout.contains(cell));
-            if !is_between || !self.layout.contains(wall.cell) {
-                return Err(SetupError::Wall(wall.cell));
-            }
-            if fail.is_some() {
-                return Err(SetupError::WallAndFail);
-            }
-        }
-        if Threshold::new(threshold).is_none() {
-            return Err(SetupError::Threshold);
-        }
-        if speed_mps.is_some_and(|speed| !SPEEDS_MPS.contains(&speed)) {
-            return Err(SetupError::Speed);
-        }
-        if spread.is_some_and(|spread| !SPREADS.contains(&spread)) {
-            return Err(SetupError::Spread);
-        }
-        if (0.0..=MOST_NOISE_DB).contains(&noise_db) { Ok(()) } else { Err(SetupError::Noise) }
+        let wrong =
+            |extra: &'static Extra| Some(SetupError::Wrong(extra, (extra.wrong)(options, *robots, layout)?));
+        Extra::ALL.into_iter().find_map(wrong).map_or(Ok(()), Err)
     }
 }

@@ -11,7 +11,6 @@ use sha2::{Digest, Sha256};
 use crate::atomic_file::{AtomicFile, Replaceable};
 use crate::checkpoint::{self, Checkpoint, Header, Lines};
 use crate::diagnostic::{Diagnostic, Halt};
-use crate::explore::{Profile, RuleId};
 use crate::resumable::Resumable;
 
 /// The most shards: more than there are machines.
@@ -23,10 +22,10 @@ const MAX_SHARDS: u32 = 100_000;
 pub enum Of {
     /// A hunt.
     Hunt {
-        /// The scheme.
-        scheme: &'static Profile,
-        /// Its rule.
-        rule: RuleId,
+        /// The name of the scheme.
+        scheme: String,
+        /// The name of its rule.
+        rule: String,
     },
     /// A table.
     Table {

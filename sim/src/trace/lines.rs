@@ -204,10 +204,18 @@ impl Lines {
         serde_json::from_str(text).map_err(|error| {
             let message = error.to_string();
             let message = message.split(" at line ").next().unwrap_or_default();
-            let message = format!("this is no line of a stored run: {message}");
-            let column = error.column().saturating_sub(1);
-            self.at(text, column..column + 1, message, remedy)
+            self.no_line_at(text, error.column().saturating_sub(1), message, remedy)
         })
+    }
+
+    fn no_line_at(&self, text: &str, column: usize, what: impl Display, remedy: &str) -> Diagnostic {
+        let what = format_args!("this is no line of a stored run: {what}");
+        self.at(text, column..column + 1, what, remedy)
+    }
+
+    /// A fault at the end of the value that `key` has in the line, which is none.
+    pub(crate) fn no_line(&self, text: &str, key: &str, what: impl Display, remedy: &str) -> Diagnostic {
+        self.no_line_at(text, value_of(text, key).end.saturating_sub(1), what, remedy)
     }
 
     /// A fault where `key` stands in the line.
@@ -224,12 +232,7 @@ impl Lines {
 
     /// A fault in the value that `key` has in the line.
     pub fn fault_in(&self, text: &str, key: &str, what: impl Display, remedy: impl Display) -> Diagnostic {
-        let name = format!("\"{key}\"");
-        let rest = text.find(&name).map_or(text, |start| &text[start + name.len()..]);
-        let start = text.len() - rest.trim_start_matches([' ', ':']).len();
-        let mut values = serde_json::Deserializer::from_str(&text[start..]).into_iter::<IgnoredAny>();
-        let _ = values.next();
-        self.at(text, start..start + values.byte_offset(), what, remedy)
+        self.at(text, value_of(text, key), what, remedy)
     }
 
     fn whole(&self, text: &str, what: impl Display, remedy: impl Display) -> Diagnostic {
@@ -239,4 +242,14 @@ impl Lines {
     fn at(&self, text: &str, range: Range<usize>, what: impl Display, remedy: impl Display) -> Diagnostic {
         Diagnostic::in_line(&self.path, self.count, text, range, what, remedy)
     }
+}
+
+/// Where the value stands that `key` has in a line.
+fn value_of(text: &str, key: &str) -> Range<usize> {
+    let name = format!("\"{key}\"");
+    let rest = text.find(&name).map_or(text, |start| &text[start + name.len()..]);
+    let start = text.len() - rest.trim_start_matches([' ', ':']).len();
+    let mut values = serde_json::Deserializer::from_str(&text[start..]).into_iter::<IgnoredAny>();
+    let _ = values.next();
+    start..start + values.byte_offset()
 }

@@ -4,9 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::super::parameter::{Parameter, put, shown};
+use crate::rivals::fault;
+use crate::rivals::{Cells, Deadlock, Links, Parameters, Search, Weights};
 use tautline_sim::diagnostic::Halt;
-use tautline_sim::explore::rivals::fault;
-use tautline_sim::rivals::{Cells, Deadlock, Links, Parameters, Search, Weights};
 use tautline_sim::value_parser::{number, real};
 
 /// What the rivals are told, but for what the tables vary.
@@ -29,7 +29,7 @@ pub struct Told {
 impl Told {
     pub(super) const fn new(runs: u32) -> Self {
         let Parameters { weights, patience, .. } = Parameters::POOL;
-        Self { runs, seed: 0, pool: tautline_sim::rivals::parameters::POOL, weights, scatter: 0, patience }
+        Self { runs, seed: 0, pool: crate::rivals::parameters::POOL, weights, scatter: 0, patience }
     }
 
     pub(super) const fn parameters(&self, search: Search, links: Links, cells: Cells) -> Parameters {

@@ -10,9 +10,9 @@ use super::asked::{Told, parameters};
 use super::claims::{self, Judged, Race, Verdict};
 use super::{OPEN, Outcome, ROBOTS, ROOMS, Times, Who, generated};
 use crate::chart::{Axis, LineChart, Point, Series, Stroke};
+use crate::rivals::Links;
 use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::{Limits, Milestone, RuleName};
-use tautline_sim::rivals::Links;
 use tautline_sim::text_table::{Column, TextTable, Width};
 use tautline_sim::value_parser::within;
 

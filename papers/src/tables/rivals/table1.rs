@@ -10,10 +10,10 @@ use super::super::{About, Observer, Table};
 use super::asked::{Told, parameters};
 use super::claims::{self, Judged, Verdict};
 use super::{OPEN, Outcome, ROBOTS, ROOMS, Times, Who, generated, stopping};
+use crate::rivals::{Cells, Links, Search};
 use tautline_field::stats::{Estimate, rounded};
 use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::{Limits, Milestone, RuleName};
-use tautline_sim::rivals::{Cells, Links, Search};
 use tautline_sim::text_table::{Column, TextTable, Width};
 use tautline_sim::value_parser::within;
 

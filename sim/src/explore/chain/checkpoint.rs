@@ -9,7 +9,7 @@ use tautline_proofs::chain::search::{Bounds, Search};
 use super::hunt::{fault, start};
 use crate::checkpoint::{self, Checkpoint, Header};
 use crate::diagnostic::Diagnostic;
-use crate::explore::{Profile, RuleId};
+use crate::explore::hunt::Asked;
 
 /// What to do about a file that is no hunt of ours.
 pub(super) const AGAIN: &str = "name another file, or remove it and hunt from the start";
@@ -20,8 +20,8 @@ pub(super) const AGAIN: &str = "name another file, or remove it and hunt from th
 struct HuntReport {
     format: String,
     version: u32,
-    scheme: &'static Profile,
-    rule: RuleId,
+    scheme: String,
+    rule: String,
     robots: usize,
     /// North-west and south-east corner of the area.
     area: [Cell; 2],
@@ -42,14 +42,14 @@ impl Header for HuntReport {
 pub struct Saved<'a>(Checkpoint<'a, HuntReport>);
 
 impl<'a> Saved<'a> {
-    /// The hunt within `bounds` by `scheme` and `rule`, to be kept at `path`.
-    pub fn new(path: &'a Path, scheme: &'static Profile, rule: impl Into<RuleId>, bounds: &Bounds) -> Self {
+    /// The hunt that is `asked`, within `bounds`, to be kept at `path`.
+    pub fn new(path: &'a Path, asked: &Asked<'_>, bounds: &Bounds) -> Self {
         let area = bounds.reach().unwrap_or(bounds.area);
         let header = HuntReport {
             format: HuntReport::FORMAT.to_owned(),
             version: checkpoint::VERSION,
-            scheme,
-            rule: rule.into(),
+            scheme: asked.scheme.name.to_owned(),
+            rule: asked.rule.to_string(),
             robots: bounds.robots,
             area: [area.first(), area.last()],
             base: bounds.base,

@@ -17,7 +17,7 @@ use crate::explore::hunt::{
     Asked, Bound, Deals, Dealt, Done, Facts, Far, Finding, Hunt, HuntReport, Hunter, RunSize, Shown, outcome,
     setup,
 };
-use crate::explore::{ClauseId, Profile, RuleId};
+use crate::explore::{ClauseId, RuleId, Scheme};
 use crate::layout::Size;
 use crate::resumable::{self, KEEP_EVERY, Resumable, written};
 
@@ -166,12 +166,7 @@ pub(super) fn team(asked: &Asked<'_>) -> (u64, u32) {
 }
 
 /// What is told of a search, and of each run that it found.
-fn told(
-    scheme: &'static Profile,
-    rule: RuleId,
-    bounds: &Bounds,
-    found: &Found,
-) -> Result<HuntReport, Diagnostic> {
+fn told(scheme: Scheme, rule: RuleId, bounds: &Bounds, found: &Found) -> Result<HuntReport, Diagnostic> {
     let quarries = found.counterexamples.iter().map(|counterexample| {
         let run = bounds.run(counterexample);
         let setup = setup(scheme, rule, &run)?;
@@ -219,7 +214,7 @@ fn hunted(bounds: &Bounds, found: &Found, quarries: Vec<Finding>) -> HuntReport 
 }
 
 fn search(asked: &Asked<'_>, bounds: &Bounds, hunter: &mut dyn Hunter) -> Result<Found, Diagnostic> {
-    let mut saved = asked.resume.map(|path| Saved::new(path, asked.scheme, asked.rule, bounds));
+    let mut saved = asked.resume.map(|path| Saved::new(path, asked, bounds));
     let mut search = match &mut saved {
         Some(saved) => saved.search(bounds)?,
         None => start(bounds)?,

@@ -11,7 +11,7 @@ use crate::explore::each::{Each, FoundBy};
 use crate::explore::hunt::{Asked, Bound, Finding, HuntReport, RunSize, Shown};
 use crate::explore::run::{Limits, run};
 use crate::explore::watched::Count;
-use crate::explore::{ClauseId, Profile, RuleId, Setup, team};
+use crate::explore::{ClauseId, RuleId, Scheme, Setup, team};
 use crate::layout::Layout;
 
 /// Team moves after which a rival is watched no longer.
@@ -55,7 +55,7 @@ impl Each for Simulated {
 
 /// All layouts, and all starts in each.
 pub(in crate::explore::frontier) struct Layouts {
-    scheme: &'static Profile,
+    scheme: Scheme,
     rule: RuleId,
     robots: usize,
     /// Most obstacles.
