@@ -25,7 +25,7 @@ use tautline_sim::draw::svg;
 use tautline_sim::explore::floor::Component;
 use tautline_sim::explore::{
     Asked, Knowledge, Limits, Milestone, OnViolation, Play, Profile, Report, RuleId, Scheme, Senses, Setup,
-    SetupError, Stopped, Violation, Watcher, explore, team,
+    Stopped, Violation, Watcher, explore, team,
 };
 use tautline_sim::failures::Failures;
 use tautline_sim::layout::generate::Probability;
@@ -238,7 +238,7 @@ impl Explore {
         }
         let setup = asked.setup(self.layout.load()?)?;
         if self.layout.has_other_seed() && !setup.scheme.draws(&setup) {
-            return Err(SetupError::Seed(setup.scheme).into());
+            return Err(setup.scheme.needless_seed());
         }
         Ok(setup)
     }

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use tautline_kernel::chain;
 use tautline_papers::rivals::CATALOGUE;
-use tautline_sim::explore::{Asked, Limits, Milestone, OnViolation, Profile, RuleId, Scheme, SetupError};
+use tautline_sim::explore::{Asked, Limits, Milestone, OnViolation, Profile, RuleId, Scheme};
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::named_values::NamedValues;
 use tautline_sim::options::Options;
@@ -32,8 +32,8 @@ pub(crate) fn scheme(py: Python<'_>, name: &str) -> PyResult<Scheme> {
 pub(crate) fn rule(py: Python<'_>, scheme: Scheme, name: &str) -> PyResult<RuleId> {
     let known = scheme.rules.iter().find(|rule| rule.name.as_str() == name);
     known.map(|rule| rule.name).ok_or_else(|| {
-        let remedy = SetupError::Rule { scheme, rule: RuleId::REPAIRED }.remedy();
-        error(py, Kind::Input, format_args!("{} has no rule {name:?}", scheme.name), remedy)
+        let what = format!("{} has no rule {name:?}", scheme.name);
+        error(py, Kind::Input, what, scheme.which_rule())
     })
 }
 

@@ -11,6 +11,7 @@ pub mod chain;
 mod clause;
 pub mod depth_first;
 mod each;
+mod fit;
 pub mod floor;
 pub mod frontier;
 pub mod hunt;
@@ -23,7 +24,6 @@ mod rule;
 mod run;
 mod scene;
 mod setup;
-mod setup_error;
 mod survey;
 pub mod trees;
 mod watched;
@@ -40,7 +40,6 @@ pub use self::scene::{Change, Hearers, Ink, Joins, Kind, Layer, Place, Scene, Sh
 pub use self::setup::{
     By, Clause, Drawn, Judge, Knowledge, Look, Play, Profile, Rule, Senses, Setup, Start, Starts,
 };
-pub use self::setup_error::SetupError;
 pub use self::survey::Survey;
 
 use tautline_kernel::ground::Cell;

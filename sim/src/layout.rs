@@ -14,6 +14,7 @@ pub mod ros;
 mod size;
 pub mod text;
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::num::NonZeroU16;
 use std::str::FromStr;
@@ -130,6 +131,35 @@ impl Layout {
             self.blocked.put(index);
             self.base = self.base.filter(|&base| base != cell);
         }
+    }
+
+    /// The same layout, with these cells blocked.
+    #[must_use]
+    pub fn with_blocked(mut self, cells: impl IntoIterator<Item = Cell>) -> Self {
+        cells.into_iter().for_each(|cell| self.block(cell));
+        self
+    }
+
+    /// The same layout, with walls on these edges.
+    #[must_use]
+    pub fn with_walls(mut self, edges: impl IntoIterator<Item = Edge>) -> Self {
+        edges.into_iter().for_each(|edge| self.build_wall(edge));
+        self
+    }
+
+    /// The cells that are reached from `starts`, those among them, row by row.
+    pub fn reachable(&self, starts: &[Cell]) -> Vec<Cell> {
+        let mut reached: BTreeSet<(i16, i16)> = starts.iter().map(|start| (start.y, start.x)).collect();
+        let mut left = starts.to_vec();
+        while let Some(cell) = left.pop() {
+            for side in Side::ALL {
+                let beside = cell.beyond(side);
+                if self.is_open(Edge::new(cell, side)) && reached.insert((beside.y, beside.x)) {
+                    left.push(beside);
+                }
+            }
+        }
+        reached.into_iter().map(|(y, x)| Cell::new(x, y)).collect()
     }
 
     /// Makes `cell` free. Walls beside it stay.

@@ -106,8 +106,9 @@ impl Trace {
         let clause = clause.transpose()?;
         let limits = header.limits;
         let setup = Setup { limits, ..header.setup(scheme, rule, layout) };
-        setup.check().map_err(|misfit| {
-            lines.fault(text, &format!("\"{}\"", misfit.field()), &misfit, misfit.remedy())
+        setup.check().map_err(|fault| {
+            let field = fault.field().unwrap_or_default();
+            lines.fault(text, &format!("\"{field}\""), fault.what(), fault.remedy())
         })?;
         Ok(Self { setup, clause, lines })
     }

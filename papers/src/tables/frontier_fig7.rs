@@ -18,7 +18,7 @@ use super::{About, Chart, Observer, Table, point, unfit};
 use crate::chart::{Axis, LineChart, Series, Stroke};
 use tautline_field::stats::Estimate;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
-use tautline_sim::explore::frontier::{ALONE, FRONTIER, reachable};
+use tautline_sim::explore::frontier::{ALONE, FRONTIER};
 use tautline_sim::explore::{Limits, Milestone, RuleId, Setup, explore};
 use tautline_sim::layout::{Layout, generate};
 use tautline_sim::text_table::{Column, TextTable, Width};
@@ -242,7 +242,7 @@ fn drawn(settings: &Settings, seed: u64) -> Result<(Layout, Vec<Cell>), Halt> {
         for _ in 0..blocked {
             layout.block(cells.swap_remove(below(cells.len(), &mut dice)));
         }
-        if reachable(&layout, &cells[..1]).len() < cells.len() {
+        if layout.reachable(&cells[..1]).len() < cells.len() {
             continue;
         }
         let most = TEAMS.into_iter().max().unwrap_or(0);

@@ -129,13 +129,8 @@ pub fn of_trap(run: &dyn Play) -> Result<String, Halt> {
 /// [`Problem`] if it does not fit into a layout.
 pub fn of_course(course: &Course) -> Result<String, Problem> {
     let Course { width, height, blocked, walls, turns, round, end } = course;
-    let mut layout = Layout::open(*width as u64, *height as u64)?;
-    for &cell in blocked {
-        layout.block(cell);
-    }
-    for &wall in walls {
-        layout.build_wall(wall);
-    }
+    let layout = Layout::open(*width as u64, *height as u64)?;
+    let layout = layout.with_blocked(blocked.iter().copied()).with_walls(walls.iter().copied());
     let shown = if *round == 0 { 0 } else { turns.len() - round };
     let (mut blocks, mut words) = (Vec::new(), String::new());
     for (number, turn) in (1..).zip(turns).skip(shown) {

@@ -6,7 +6,6 @@ use super::catalogue::Scheme;
 use super::rule::RuleId;
 use super::run::Limits;
 use super::setup::{Senses, Setup, Starts};
-use super::setup_error::SetupError;
 use crate::diagnostic::Diagnostic;
 use crate::layout::Layout;
 use crate::layout::generate::Probability;
@@ -61,7 +60,7 @@ impl Asked {
     /// A [`Diagnostic`] that says why.
     pub fn check(&self) -> Result<(), Diagnostic> {
         if self.scheme.senses == Senses::Bumps && self.miss.is_some() {
-            return Err(SetupError::Miss(self.scheme).into());
+            return Err(self.scheme.no_sensors("miss", "how likely that is"));
         }
         Ok(())
     }
@@ -74,7 +73,7 @@ impl Asked {
         self.check()?;
         let Self { scheme, rule, seed, starts, options, limits, .. } = self;
         let robots = self.robots.unwrap_or_else(|| layout.robots().unwrap_or(DEFAULT_ROBOTS).into());
-        let robots = Setup::count(scheme, robots)?;
+        let robots = scheme.count(robots)?;
         if let Some(&first) = starts.first() {
             layout.check_start(first)?;
         }

@@ -68,15 +68,19 @@ impl Rule {
         Self { name, about, start, hunt: None }
     }
 
+    /// The same rule, which is hunted so.
+    pub const fn hunted(self, hunt: &'static dyn Hunt) -> Self {
+        Self { hunt: Some(hunt), ..self }
+    }
+
     /// As the paper publishes it.
     pub const fn published(start: Start, hunt: &'static dyn Hunt) -> Self {
-        Self { name: RuleId::PUBLISHED, about: "As the paper publishes it", start, hunt: Some(hunt) }
+        Self::new(RuleId::PUBLISHED, "As the paper publishes it", start).hunted(hunt)
     }
 
     /// With the repairs of its refuted claims.
     pub const fn repaired(start: Start, hunt: &'static dyn Hunt) -> Self {
-        let about = "With the repairs of its refuted claims";
-        Self { name: RuleId::REPAIRED, about, start, hunt: Some(hunt) }
+        Self::new(RuleId::REPAIRED, "With the repairs of its refuted claims", start).hunted(hunt)
     }
 }
 
@@ -361,7 +365,8 @@ impl Setup {
 
     /// The same run with robots in these `starts`.
     pub(crate) fn starting_in(self, starts: Vec<Cell>) -> Self {
-        let starts = Some(starts).filter(|starts| starts.iter().any(|&start| start != self.base));
+        let is_elsewhere = starts.iter().any(|&start| start != self.base);
+        let starts = Some(starts).filter(|_| is_elsewhere || self.scheme.starts == Starts::Alone);
         Self { starts, ..self }
     }
 

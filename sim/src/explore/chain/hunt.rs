@@ -2,22 +2,21 @@
 
 use std::time::Instant;
 
-use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::Observed;
-use tautline_proofs::chain::search::{Bounds, Deal, Found, Position, Search, Unsearchable};
+use tautline_proofs::chain::search::{Bounds, Deal as Walk, Found, Position, Search, Unsearchable};
 use tautline_proofs::engine::tree::{self, Progress};
 use tautline_proofs::plural::counted;
 
 use super::areas;
 use super::checkpoint::{AGAIN, Saved};
 use crate::diagnostic::{Diagnostic, Halt};
+use crate::explore::ClauseId;
 use crate::explore::hunt::{
-    Asked, Bound, Deals, Dealt, Done, Facts, Far, Finding, Hunt, HuntReport, Hunter, RunSize, Shown, outcome,
-    setup,
+    Asked, Bound, Deal, Deals, Dealt, Done, Facts, Far, Finding, Hunt, HuntReport, Hunter, RunSize, Shown,
+    outcome, setup,
 };
-use crate::explore::{ClauseId, RuleId, Scheme};
 use crate::layout::Size;
 use crate::resumable::{self, KEEP_EVERY, Resumable, written};
 
@@ -53,11 +52,8 @@ impl Hunt for Walls {
         if let Some(cells) = asked.max_cells {
             return areas::hunt(self.0, asked, cells, hunter);
         }
-        let (robots, walls) = team(asked);
-        let mut bounds = bounds(self.0, robots, walls, asked.size)?;
-        bounds.budget_moves = asked.budget;
-        let found = search(asked, &bounds, hunter)?;
-        told(asked.scheme, asked.rule, &bounds, &found)
+        let bounds = self.bounds(asked)?;
+        told(asked, &bounds, &search(asked, &bounds, hunter)?)
     }
 
     fn deals(&self) -> Option<&dyn Deals> {
@@ -65,38 +61,20 @@ impl Hunt for Walls {
     }
 }
 
-/// A hunt dealt out.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Plan {
-    robots: u64,
-    max_walls: u32,
-    size: Option<(i16, i16)>,
-    deal: Deal,
-}
-
-impl Plan {
-    fn read(text: &RawValue) -> Result<Self, Diagnostic> {
-        serde_json::from_str(text.get()).map_err(|error| Diagnostic::usage(error, "plan anew"))
-    }
-
-    fn bounds(&self, observed: Observed) -> Result<Bounds, Diagnostic> {
-        let size = self.size.map(|(width, height)| Size::new(width as u64, height as u64)).transpose();
-        let size = size.map_err(|problem| Diagnostic::usage(problem, "plan anew"))?;
-        bounds(observed, self.robots, self.max_walls, size)
+impl Walls {
+    fn bounds(&self, asked: &Asked<'_>) -> Result<Bounds, Diagnostic> {
+        let (robots, walls) = team(asked);
+        Ok(Bounds { budget_moves: asked.budget, ..bounds(self.0, robots, walls, asked.size)? })
     }
 }
 
 impl Deals for Walls {
     fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Diagnostic> {
         areas::refuse(asked, "shards", "a hunt over areas is not dealt out")?;
-        let (robots, max_walls) = team(asked);
-        let search = start(&bounds(self.0, robots, max_walls, asked.size)?)?;
+        let search = start(&self.bounds(asked)?)?;
         let deal = search.deal(shards);
         let (left, moves) = (deal.left().to_vec(), deal.moves());
-        let size = asked.size.map(|size| (size.width(), size.height()));
-        let deal = written(&Plan { robots, max_walls, size, deal })?;
-        Ok(Dealt { deal, left, of: "team move", moves })
+        Ok(Dealt { deal: Deal::written(asked, deal)?, left, of: "team move", moves })
     }
 
     fn part<'a>(
@@ -106,11 +84,11 @@ impl Deals for Walls {
         shard: usize,
         far: Option<&RawValue>,
     ) -> Result<Box<dyn Resumable + 'a>, Diagnostic> {
-        let plan = Plan::read(deal)?;
-        let bounds = Bounds { budget_moves: asked.budget, ..plan.bounds(self.0)? };
+        let (asked, deal) = Deal::<Walk>::read(deal, asked)?;
+        let bounds = self.bounds(&asked)?;
         let search = match far {
-            None => Search::shard(&bounds, &plan.deal, shard),
-            Some(far) => Search::shard_at(&bounds, &plan.deal, shard, &position(far)?),
+            None => Search::shard(&bounds, &deal, shard),
+            Some(far) => Search::shard_at(&bounds, &deal, shard, &position(far)?),
         };
         Ok(Box::new(Shard(search.map_err(fault)?)))
     }
@@ -121,11 +99,11 @@ impl Deals for Walls {
         deal: &RawValue,
         shards: &[&RawValue],
     ) -> Result<HuntReport, Diagnostic> {
-        let plan = Plan::read(deal)?;
-        let bounds = plan.bounds(self.0)?;
+        let (asked, deal) = Deal::<Walk>::read(deal, asked)?;
+        let bounds = self.bounds(&asked)?;
         let positions = shards.iter().map(|far| position(far)).collect::<Result<Vec<_>, _>>()?;
-        let merged = Search::merged(&bounds, &plan.deal, &positions).map_err(fault)?;
-        told(asked.scheme, asked.rule, &bounds, &merged.found())
+        let merged = Search::merged(&bounds, &deal, &positions).map_err(fault)?;
+        told(&asked, &bounds, &merged.found())
     }
 }
 
@@ -166,13 +144,10 @@ pub(super) fn team(asked: &Asked<'_>) -> (u64, u32) {
 }
 
 /// What is told of a search, and of each run that it found.
-fn told(scheme: Scheme, rule: RuleId, bounds: &Bounds, found: &Found) -> Result<HuntReport, Diagnostic> {
-    let quarries = found.counterexamples.iter().map(|counterexample| {
+fn told(asked: &Asked<'_>, bounds: &Bounds, found: &Found) -> Result<HuntReport, Diagnostic> {
+    let findings = found.counterexamples.iter().map(|counterexample| {
         let run = bounds.run(counterexample);
-        let setup = setup(scheme, rule, &run)?;
-        let (walls, steps) = (run.walls.len(), counterexample.frames.len());
-        let runs = counterexample.runs;
-        let broken = counterexample.broken.breach().map(ClauseId::from);
+        let (walls, steps, runs) = (run.walls.len(), counterexample.frames.len(), counterexample.runs);
         Ok(Finding {
             clause: counterexample.broken.clause(),
             facts: RunSize::Chain { runs, walls, steps },
@@ -182,24 +157,19 @@ fn told(scheme: Scheme, rule: RuleId, bounds: &Bounds, found: &Found) -> Result<
                 counted(steps, "team move"),
                 counted(runs, "run")
             ),
-            setup,
-            shown: broken.map_or(Shown::Endless, Shown::Run),
+            setup: setup(asked.scheme, asked.rule, &run)?,
+            shown: Shown::of(counterexample.broken.breach().map(ClauseId::from)),
         })
     });
-    let quarries = quarries.collect::<Result<Vec<Finding>, Diagnostic>>()?;
-    Ok(hunted(bounds, found, quarries))
-}
-
-/// What is told of a search.
-fn hunted(bounds: &Bounds, found: &Found, quarries: Vec<Finding>) -> HuntReport {
-    let Found { runs, moves, longest, levels, .. } = found;
+    let findings = findings.collect::<Result<Vec<Finding>, Diagnostic>>()?;
+    let &Found { runs, moves, longest, ref levels, .. } = found;
     let max_walls = bounds.max_walls;
     let (robots, done) = (bounds.robots as u64, (levels.len() as u32).checked_sub(1));
     let covered = done.map(|walls| format!("with at most {}", counted(walls, "wall")));
-    let (all_runs, all_moves) = (counted(*runs, "run"), counted(*moves, "team move"));
-    HuntReport {
+    let (all_runs, all_moves) = (counted(runs, "run"), counted(moves, "team move"));
+    Ok(HuntReport {
         robots,
-        facts: Facts::Chain { runs: *runs, moves: *moves, longest: *longest, max_walls },
+        facts: Facts::Chain { runs, moves, longest, max_walls },
         is_complete: found.complete && found.given_up == 0,
         done: Done::WallsDone(done),
         title: format!(
@@ -208,9 +178,9 @@ fn hunted(bounds: &Bounds, found: &Found, quarries: Vec<Finding>) -> HuntReport 
             counted(max_walls, "wall")
         ),
         through: format!("{all_runs} and {all_moves}"),
-        outcome: outcome(&quarries, done == Some(max_walls) && found.given_up == 0, covered),
-        found: quarries,
-    }
+        outcome: outcome(&findings, done == Some(max_walls) && found.given_up == 0, covered),
+        found: findings,
+    })
 }
 
 fn search(asked: &Asked<'_>, bounds: &Bounds, hunter: &mut dyn Hunter) -> Result<Found, Diagnostic> {

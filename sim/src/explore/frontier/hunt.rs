@@ -16,7 +16,6 @@ use crate::diagnostic::Diagnostic;
 use crate::explore::hunt::{
     Asked, Bound, Done, Facts, Finding, Hunt, HuntReport, Hunter, RunSize, Shown, outcome,
 };
-use crate::explore::run::Limits;
 use crate::explore::watched::{Count, watched};
 use crate::explore::{ClauseId, Setup};
 use crate::layout::{Layout, Size};
@@ -143,9 +142,8 @@ fn drifting(
         let what = format!("areas up to {}×{}", area.0, area.1);
         let (looked, is_stopped) = watched(&system, system.starts(&[area]), what, asked, &mut count, hunter);
         if let Some(run) = looked.broken.first() {
-            let mut layout = Layout::open(area.0 as u64, area.1 as u64)?;
-            let base = layout.default_base()?;
-            layout.place_base(base)?;
+            let layout = Layout::open(area.0 as u64, area.1 as u64)?;
+            let start = layout.default_base()?;
             let size = [area.0 as usize, area.1 as usize];
             let (story, walls) = system.story(area, run);
             let clause = Demand::Marks.clause();
@@ -153,7 +151,7 @@ fn drifting(
                 clause,
                 facts: RunSize::Area { columns: size[0], rows: size[1], walls, steps: run.steps.len() },
                 title: title(size, walls, run.steps.len()),
-                setup: Setup::new(asked.scheme, asked.rule, 1, layout, base),
+                setup: asked.setup(layout, vec![start], None)?,
                 shown: Shown::Told(story),
             });
         }
@@ -214,7 +212,7 @@ fn quarry<const ROBOTS: usize>(
     found: &Counterexample<ROBOTS>,
 ) -> Result<Finding, Diagnostic> {
     let area = found.setting.area;
-    let mut layout = Layout::open(area.width() as u64, area.height() as u64)?;
+    let layout = Layout::open(area.width() as u64, area.height() as u64)?;
     let (cells, moves, blocked, choices) = match (found.steps(), found.given()) {
         (Some((start, steps, _)), Some((given, choices))) => {
             let moves = steps.iter().filter(|(event, _)| matches!(event, Event::Looks(..))).count();
@@ -224,15 +222,10 @@ fn quarry<const ROBOTS: usize>(
         _ => ([Cell::new(0, 0); ROBOTS], 0, None, Vec::new()),
     };
     let is_blocked = |cell| blocked.is_some_and(|map: TinyMap| map.status(cell) == Status::Obstacle);
-    area.cells().filter(|&cell| is_blocked(cell)).for_each(|cell| layout.block(cell));
+    let layout = layout.with_blocked(area.cells().filter(|&cell| is_blocked(cell)));
     let walls = layout.size().cells() - layout.free_cells();
-    let base = cells.first().copied().unwrap_or(Cell::new(0, 0));
-    layout.place_base(base)?;
-    // The run may break another clause before.
     let clause = ClauseId::new(demand.clause());
-    let limits = Limits::stopping_at(Some(clause));
-    let setup = Setup::new(asked.scheme, asked.rule, ROBOTS as u16, layout, base);
-    let setup = Setup { starts: Some(cells.to_vec()), choices, limits, ..setup };
+    let setup = Setup { choices, ..asked.setup(layout, cells.to_vec(), Some(clause))? };
     let is_stored = found.run.round().is_empty() && !setup.choices.is_empty();
     let story = found.story();
     let (columns, rows) = (area.width(), area.height());

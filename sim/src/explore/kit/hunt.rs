@@ -15,7 +15,6 @@ use crate::diagnostic::Diagnostic;
 use crate::explore::hunt::{
     Asked, Bound, Done, Facts, Finding, Hunt, HuntReport, Hunter, RunSize, Shown, outcome,
 };
-use crate::explore::run::Limits;
 use crate::explore::watched::{Count, watched};
 use crate::explore::{ClauseId, Setup};
 use crate::layout::{Layout, Size};
@@ -217,18 +216,10 @@ fn quarry<const ROBOTS: usize>(asked: &Asked<'_>, broken: &Broken<ROBOTS>) -> Re
     let Broken { clause, found, .. } = broken;
     let area = found.setting.area;
     let (columns, rows) = (area.width(), area.height());
-    let mut layout = Layout::open(columns as u64, rows as u64)?;
     let (walls, choices) = found.given().unwrap_or_default();
-    for &wall in &walls {
-        layout.build_wall(wall);
-    }
-    let starts = found.starts().map_or_else(Vec::new, |starts| starts.to_vec());
-    let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
-    layout.place_base(base)?;
-    // The run may break another clause before.
-    let limits = Limits::stopping_at(Some(*clause));
-    let setup = Setup::new(asked.scheme, asked.rule, ROBOTS as u16, layout, base);
-    let starts = Some(starts).filter(|starts| starts.iter().any(|&start| start != base));
+    let layout = Layout::open(columns as u64, rows as u64)?.with_walls(walls.iter().copied());
+    let starts = found.starts().unwrap_or([Cell::new(0, 0); ROBOTS]).to_vec();
+    let setup = asked.setup(layout, starts, Some(*clause))?;
     let choices = super::scripted::choices(found.setting.speeds, &choices);
     let story = found.story();
     let (drives, walls) = (found.drives(), walls.len());
@@ -237,7 +228,7 @@ fn quarry<const ROBOTS: usize>(asked: &Asked<'_>, broken: &Broken<ROBOTS>) -> Re
         facts: RunSize::Area { columns, rows, walls, steps: drives },
         title: format!("{columns}x{rows} nodes, {}, {}", counted(walls, "wall"), counted(drives, "drive")),
         shown: Shown::Story(*clause, story),
-        setup: Setup { starts, choices, limits, ..setup },
+        setup: Setup { choices, ..setup },
     })
 }
 

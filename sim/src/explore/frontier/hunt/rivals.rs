@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::engine::lots::{self, Lots};
 
-use super::super::{ENDS, reachable};
+use super::super::ENDS;
 use super::{MOST_CELLS, areas, bounds, title, told};
 use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::each::{Each, FoundBy};
@@ -132,7 +132,7 @@ impl Lots for Layouts {
         let mut tried = Tried { runs: 0, steps: 0, broken: Vec::new() };
         for (start, starts) in blocked.starts(self.robots).iter().enumerate() {
             let setup = self.setup(blocked, starts)?;
-            if reachable(&setup.layout, starts).len() < starts.len() {
+            if setup.layout.reachable(starts).len() < starts.len() {
                 continue;
             }
             let (steps, broken) = try_one(&setup)?;
@@ -187,12 +187,9 @@ impl Blocked {
 impl Layouts {
     fn setup(&self, blocked: &Blocked, starts: &[Cell]) -> Result<Setup, Diagnostic> {
         let (width, height) = blocked.area;
-        let mut layout = Layout::open(width as u64, height as u64)?;
-        blocked.cells(true).into_iter().for_each(|cell| layout.block(cell));
-        let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
-        layout.place_base(base)?;
-        let setup = Setup::new(self.scheme, self.rule, starts.len() as u16, layout, base);
-        Ok(Setup { starts: Some(starts.to_vec()), ..setup })
+        let layout = Layout::open(width as u64, height as u64)?.with_blocked(blocked.cells(true));
+        let setup = Asked::new(self.scheme, self.rule).setup(layout, starts.to_vec(), None)?;
+        Ok(Setup { limits: Limits::default(), ..setup })
     }
 }
 
