@@ -24,9 +24,9 @@ mod rule;
 mod run;
 mod scene;
 mod setup;
+mod states;
 mod survey;
 pub mod trees;
-mod watched;
 
 pub use self::asked::Asked;
 pub use self::catalogue::{Catalogue, Scheme};

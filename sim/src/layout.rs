@@ -47,7 +47,7 @@ impl Layout {
     /// An area without walls and blocked cells, `width` and `height` in cells.
     ///
     /// # Errors
-    /// [`Problem::Size`] when a side is 0 or above [`MAX_SIDE_CELLS`], or the area above [`MAX_CELLS`];
+    /// [`Problem`] when a side is 0 or above [`MAX_SIDE_CELLS`], or the area above [`MAX_CELLS`];
     /// nothing is allocated then.
     pub fn open(width: u64, height: u64) -> Result<Self, Problem> {
         Size::new(width, height).map(Self::of)
@@ -190,26 +190,18 @@ impl Layout {
     /// The free cell nearest the centre of the area, ties by row, then by column.
     ///
     /// # Errors
-    /// [`Problem::NoFreeCell`] when all cells are blocked.
+    /// [`Problem`] when all cells are blocked.
     pub fn default_base(&self) -> Result<Cell, Problem> {
         let centre = (i64::from(self.width()) - 1, i64::from(self.height()) - 1);
-        self.nearest_free(centre).ok_or(Problem::NoFreeCell)
+        self.nearest_free(centre).ok_or_else(Problem::no_free_cell)
     }
 
     /// Puts the base in `cell`.
     ///
     /// # Errors
-    /// [`Problem::BaseOutside`] and [`Problem::BaseBlocked`]; the latter names the nearest free cell. The
-    /// base stays where it was.
+    /// [`Problem`] if it is no free cell; the nearest one is named then, and the base stays where it was.
     pub fn place_base(&mut self, cell: Cell) -> Result<(), Problem> {
-        if !self.contains(cell) {
-            return Err(Problem::BaseOutside { base: cell, size: self.size });
-        }
-        if !self.is_free(cell) {
-            let nearest = self.nearest_free((2 * i64::from(cell.x), 2 * i64::from(cell.y)));
-            let blocked = |nearest| Problem::BaseBlocked { base: cell, nearest };
-            return Err(nearest.map_or(Problem::NoFreeCell, blocked));
-        }
+        self.check_free(cell, "base", "put the base on")?;
         self.base = Some(cell);
         Ok(())
     }
@@ -217,16 +209,24 @@ impl Layout {
     /// Whether a robot can start in `cell`.
     ///
     /// # Errors
-    /// [`Problem::StartOutside`] and [`Problem::StartBlocked`]; the latter names the nearest free cell.
+    /// [`Problem`] if it is no free cell; the nearest one is named then.
     pub fn check_start(&self, cell: Cell) -> Result<(), Problem> {
+        self.check_free(cell, "start", "start on")
+    }
+
+    /// Checks that `cell`, which is to be `what`, is free.
+    fn check_free(&self, cell: Cell, what: &str, remedy: &str) -> Result<(), Problem> {
         if !self.contains(cell) {
-            return Err(Problem::StartOutside { start: cell, size: self.size });
+            return Err(Problem::outside(what, cell, self.size));
         }
         if self.is_free(cell) {
             return Ok(());
         }
         let nearest = self.nearest_free((2 * i64::from(cell.x), 2 * i64::from(cell.y)));
-        Err(nearest.map_or(Problem::NoFreeCell, |nearest| Problem::StartBlocked { start: cell, nearest }))
+        Err(nearest.map_or_else(Problem::no_free_cell, |nearest| {
+            let what = format!("the {what} {cell} is on a blocked cell; the nearest free cell is {nearest}");
+            Problem::new(what, format!("{remedy} {nearest}"))
+        }))
     }
 
     /// How many robots the layout is meant for, the base counted, if it says so.

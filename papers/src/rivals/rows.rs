@@ -110,7 +110,7 @@ pub fn rival(
 ) -> Result<Box<dyn Team>, Diagnostic> {
     let robots = usize::from(robots);
     let area = chain::area(layout.size().area(), base, robots).ok_or_else(|| {
-        let outside = Problem::BaseOutside { base, size: layout.size() };
+        let outside = Problem::outside("base", base, layout.size());
         Diagnostic::of_field("base", &outside, outside.remedy())
     })?;
     let team = super::Team::new(parameters, robots, base, area, seed).map_err(|unfit| fault(&unfit))?;

@@ -13,24 +13,23 @@ use tautline_proofs::plural::counted;
 
 pub(super) use self::rivals::Simulated;
 use crate::diagnostic::Diagnostic;
-use crate::explore::hunt::{
-    Asked, Bound, Done, Facts, Finding, Hunt, HuntReport, Hunter, RunSize, Shown, outcome,
-};
-use crate::explore::watched::{Count, watched};
+use crate::explore::hunt::{Asked, Bound, Done, Facts, Finding, Hunt, HuntReport, Hunter, RunSize, Shown};
+use crate::explore::states::{Count, Small, told, watched};
 use crate::explore::{ClauseId, Setup};
 use crate::layout::{Layout, Size};
-
-/// Robots when nobody says how many.
-const DEFAULT_ROBOTS: u64 = 2;
 
 /// The most robots of which all states are searched.
 const MOST_ROBOTS: u64 = 3;
 
-/// Columns and rows at most when nobody says.
-const DEFAULT_SIZE: (u64, u64) = (3, 2);
-
-/// Cells of the largest areas.
-const MOST_CELLS: usize = 16;
+const SMALL: Small = Small {
+    cell: "cell",
+    most_cells: 16,
+    most_side: (i16::MAX, ""),
+    default_size: (3, 2),
+    examples: "4x4 or 8x2",
+    search: "this search",
+    no_robots: "a hunt without a robot finds nothing",
+};
 
 /// The kernel's robots, whose states are searched.
 #[derive(Debug)]
@@ -46,33 +45,8 @@ fn areas(size: Size) -> Vec<(i16, i16)> {
 
 /// The size and the number of robots that are asked for.
 fn bounds(asked: &Asked<'_>, most: u64) -> Result<(Size, u64), Diagnostic> {
-    let size = match asked.size {
-        Some(size) => size,
-        None => Size::new(DEFAULT_SIZE.0, DEFAULT_SIZE.1)?,
-    };
-    if size.cells() > MOST_CELLS {
-        let what = format!("{size} cells are {}, too many to search all their layouts", size.cells());
-        let remedy = format!("give `size` at most {MOST_CELLS} cells, for example 4x4 or 8x2");
-        return Err(Diagnostic::of_field("size", what, remedy));
-    }
-    let robots = asked.robots.unwrap_or(DEFAULT_ROBOTS);
-    if !(1..=most).contains(&robots) {
-        let what = match robots {
-            0 => "a hunt without a robot finds nothing".to_owned(),
-            _ => format!("this search holds {}, and not {robots}", counted(most, "robot")),
-        };
-        return Err(Diagnostic::of_field(
-            "robots",
-            what,
-            format_args!("give `robots` a number from 1 to {most}"),
-        ));
-    }
-    if robots > size.cells() as u64 {
-        let what = format!("{robots} robots do not find room in {size} cells");
-        let remedy = format!("give `robots` a number up to {}, or a larger `size`", size.cells());
-        return Err(Diagnostic::of_field("robots", what, remedy));
-    }
-    Ok((size, robots))
+    let size = SMALL.size(asked)?;
+    Ok((size, SMALL.robots(asked, most, size, &size.to_string())?))
 }
 
 impl Hunt for Searched {
@@ -97,7 +71,7 @@ impl Hunt for Searched {
             _ => searched::<3>,
         };
         let (count, found) = hunt(self.0, size, max_wrong, asked, hunter)?;
-        Ok(told(asked, (size, robots), &count, found))
+        Ok(report(asked, (size, robots), &count, found))
     }
 }
 
@@ -164,12 +138,12 @@ fn drifting(
         }
         count.cells = Some((area.0 * area.1) as usize);
     }
-    Ok(told(asked, (size, 1), &count, found))
+    Ok(report(asked, (size, 1), &count, found))
 }
 
 /// Most obstacles that one run meets.
 fn most_obstacles(asked: &Asked<'_>) -> u8 {
-    asked.max_walls.map_or(MOST_CELLS as u8, |walls| walls.min(MOST_CELLS as u32) as u8)
+    asked.max_walls.map_or(SMALL.most_cells as u8, |walls| walls.min(SMALL.most_cells as u32) as u8)
 }
 
 fn searched<const ROBOTS: usize>(
@@ -243,31 +217,18 @@ fn title([columns, rows]: [usize; 2], walls: usize, moves: usize) -> String {
 }
 
 /// What is told of a hunt.
-fn told(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Vec<Finding>) -> HuntReport {
-    let Count { states, steps, cells, is_complete } = *count;
-    let (all_states, all_steps) = (counted(states, "state"), counted(steps, "step"));
-    let losses = asked.max_losses.unwrap_or(0);
+fn report(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Vec<Finding>) -> HuntReport {
+    let &Count { states, steps, cells, .. } = count;
+    let &Asked { max_walls, error_cells: error, .. } = asked;
+    let max_losses = asked.max_losses.unwrap_or(0);
+    let lost = if max_losses == 0 { String::new() } else { format!(", at most {max_losses} lost") };
+    let walls = max_walls.map_or_else(String::new, |walls| format!(", at most {walls} blocked"));
     let covered = cells.map(|cells| format!("of at most {}", counted(cells, "cell")));
-    let lost = if losses == 0 { String::new() } else { format!(", at most {losses} lost") };
-    let walls = asked.max_walls.map_or_else(String::new, |walls| format!(", at most {walls} blocked"));
-    HuntReport {
-        robots,
-        facts: Facts::Frontier {
-            size: size.to_string(),
-            states,
-            steps,
-            max_walls: asked.max_walls,
-            max_losses: losses,
-            error: asked.error_cells,
-        },
-        is_complete,
-        done: Done::CellsDone(cells.map(|cells| cells as u32)),
-        title: format!(
-            "{}, layouts up to {size}{walls}{lost}: {all_states}, {all_steps}",
-            counted(robots, "robot")
-        ),
-        through: format!("{all_states} and {all_steps}"),
-        outcome: outcome(&found, is_complete, covered),
+    told(
+        (size, robots, &(walls + &lost)),
+        Facts::Frontier { size: size.to_string(), states, steps, max_walls, max_losses, error },
+        (Done::CellsDone(cells.map(|cells| cells as u32)), covered),
+        count,
         found,
-    }
+    )
 }

@@ -5,12 +5,12 @@ use tautline_kernel::ground::Cell;
 use tautline_proofs::engine::lots::{self, Lots};
 
 use super::super::ENDS;
-use super::{MOST_CELLS, areas, bounds, title, told};
+use super::{SMALL, areas, bounds, report, title};
 use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::each::{Each, FoundBy};
 use crate::explore::hunt::{Asked, Bound, Finding, HuntReport, RunSize, Shown};
 use crate::explore::run::{Limits, run};
-use crate::explore::watched::Count;
+use crate::explore::states::Count;
 use crate::explore::{ClauseId, RuleId, Scheme, Setup, team};
 use crate::layout::Layout;
 
@@ -27,7 +27,7 @@ impl Each for Simulated {
     const TAKES: &'static [Bound] = &[Bound::Walls];
 
     fn layouts(&self, asked: &Asked<'_>) -> Result<Layouts, Diagnostic> {
-        let (size, robots) = bounds(asked, MOST_CELLS as u64)?;
+        let (size, robots) = bounds(asked, SMALL.most_cells as u64)?;
         let &Asked { scheme, rule, max_walls, .. } = asked;
         Ok(Layouts {
             scheme,
@@ -49,7 +49,7 @@ impl Each for Simulated {
         is_complete: bool,
     ) -> Result<HuntReport, Diagnostic> {
         found.sort_by_key(|quarry| quarry.clause);
-        Ok(told(asked, bounds(asked, MOST_CELLS as u64)?, &Count { is_complete, ..count }, found))
+        Ok(report(asked, bounds(asked, SMALL.most_cells as u64)?, &Count { is_complete, ..count }, found))
     }
 }
 
