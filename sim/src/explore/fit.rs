@@ -176,7 +176,7 @@ impl Setup {
                 for &start in starts.as_deref().unwrap_or(std::slice::from_ref(&self.base)) {
                     self.layout
                         .check_start(start)
-                        .or_else(|problem| wrong(problem.to_string(), &problem.remedy()))?;
+                        .or_else(|problem| wrong(problem.to_string(), problem.remedy()))?;
                 }
             }
         }
