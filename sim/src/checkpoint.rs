@@ -13,6 +13,7 @@ use serde_json::json;
 use crate::atomic_file::{AtomicFile, Replaceable, Standing, lock};
 use crate::diagnostic::Diagnostic;
 use crate::layout::MAX_FILE_BYTES;
+use crate::trace::lines::Magic;
 
 /// The version of every such file.
 pub(crate) const VERSION: u32 = 1;
@@ -31,13 +32,6 @@ pub(crate) trait Header: Serialize + DeserializeOwned {
     const AGAIN: &'static str;
     /// What to do about one of another work.
     const ELSEWHERE: &'static str;
-}
-
-/// What every version of the first line begins with.
-#[derive(Deserialize)]
-struct Magic {
-    format: String,
-    version: u32,
 }
 
 /// The last line.
@@ -75,13 +69,8 @@ impl<H: Header> Lines<H> {
             return Err(whole(format!("{} has three lines, and this file {}", H::NOUN, lines.len())));
         };
         let magic: Magic = parse::<H, _>(path, 1, first)?;
-        if magic.format != H::FORMAT {
-            let what = format!("the format is {:?}", magic.format);
-            return Err(in_header(path, first, "format", what, H::AGAIN));
-        }
-        if magic.version != VERSION {
-            let what = format!("this is version {}, this program reads version {VERSION}", magic.version);
-            return Err(in_header(path, first, "version", what, H::AGAIN));
+        if let Some((field, what)) = magic.differs(H::FORMAT, VERSION) {
+            return Err(in_header(path, first, field, what, H::AGAIN));
         }
         let header = parse::<H, _>(path, 1, first)?;
         let seal: Seal = parse::<H, _>(path, 3, third)?;

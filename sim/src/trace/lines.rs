@@ -19,9 +19,23 @@ pub(crate) const MAX_LINE_BYTES: u64 = 1 << 16;
 
 /// What every version of the header begins with.
 #[derive(Deserialize)]
-struct Magic {
+pub(crate) struct Magic {
     format: String,
     version: u32,
+}
+
+impl Magic {
+    /// The field in which it is not that of a `format` of this `version`, and what is wrong with it.
+    pub(crate) fn differs(&self, format: &str, version: u32) -> Option<(&'static str, String)> {
+        let Self { format: found, version: other } = self;
+        if found != format {
+            Some(("format", format!("the format is {found:?}")))
+        } else if *other != version {
+            Some(("version", format!("this is version {other}, this program reads version {version}")))
+        } else {
+            None
+        }
+    }
 }
 
 /// A line of a file: `value`, and its end.
@@ -93,15 +107,13 @@ impl Lines {
         })?;
         let magic: Magic =
             self.parse(&text, "a trace begins with its header; name a file that `trace` wrote")?;
-        if magic.format != format {
-            let what = format!("the format is {:?}", magic.format);
-            return Err(self.fault(&text, "\"format\"", what, format_args!("name a {format:?}")));
+        match magic.differs(format, version) {
+            None => Ok(text),
+            Some((field @ "format", what)) => {
+                Err(self.fault(&text, &format!("{field:?}"), what, format_args!("name a {format:?}")))
+            }
+            Some((field, what)) => Err(self.fault(&text, &format!("{field:?}"), what, self.again)),
         }
-        if magic.version != version {
-            let what = format!("this is version {}, this program reads version {version}", magic.version);
-            return Err(self.fault(&text, "\"version\"", what, self.again));
-        }
-        Ok(text)
     }
 
     /// The next line without its end, at most `most` bytes; `None` after the last.
