@@ -17,12 +17,12 @@ use super::shards::{ShardArgs, Wanted};
 use super::{CATALOGUE, Exit, ForceArgs, SizeArg, interrupt, number, progress, whole};
 use crate::{report, shards, value_parser};
 use tautline_sim::atomic_file::{AtomicFile, Replaceable};
-use tautline_sim::counterexample::hunt::store;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::story;
 use tautline_sim::explore::hunt::{Asked, Done, Facts, Far, Finding, HuntReport, Hunter, RunSize, Shown};
 use tautline_sim::explore::{RuleId, Scheme, Senses};
 use tautline_sim::shards::{Plan, deal_hunt, hunt_part, hunted};
+use tautline_sim::trace::store;
 use tautline_sim::value_parser::real;
 
 const EXAMPLES: &str = "\

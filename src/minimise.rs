@@ -11,11 +11,10 @@ use tautline_proofs::plural::counted;
 use super::output::Output;
 use super::replay::draw;
 use super::{CATALOGUE, Exit, ForceArgs, Format, FormatArgs, clause, hunt, progress};
-use tautline_sim::counterexample::hunt::store;
 use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, minimise};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::{ClauseId, Report, RuleId, Scheme};
-use tautline_sim::trace::Trace;
+use tautline_sim::trace::{Trace, store};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -61,7 +61,7 @@ impl Event {
             Self::ShortSight => (asked.options.sight_cells, asked.options.range_cells) = (Some(3), Some(6)),
             Self::Death => asked.options.fail = Some(Failure { robot: 3, step }),
             Self::Wall => {
-                asked.options.wall = Some(Appearing { cell: Cell::new(3, 3), side: Compass::E, step })
+                asked.options.wall = Some(Appearing { cell: Cell::new(3, 3), side: Compass::E, step });
             }
         }
     }

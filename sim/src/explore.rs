@@ -4,7 +4,6 @@
 
 pub mod agents;
 pub mod ants;
-mod asked;
 pub mod bricks;
 pub mod catalogue;
 pub mod chain;
@@ -28,7 +27,6 @@ mod states;
 mod survey;
 pub mod trees;
 
-pub use self::asked::Asked;
 pub use self::catalogue::{Catalogue, Scheme};
 pub use self::clause::ClauseId;
 pub use self::own::Own;
@@ -38,7 +36,7 @@ pub use self::run::{
 };
 pub use self::scene::{Change, Hearers, Ink, Joins, Kind, Layer, Place, Scene, Shape, Value, Zone};
 pub use self::setup::{
-    By, Clause, Drawn, Judge, Knowledge, Look, Play, Profile, Rule, Senses, Setup, Start, Starts,
+    Asked, By, Clause, Drawn, Judge, Knowledge, Look, Play, Profile, Rule, Senses, Setup, Start, Starts,
 };
 pub use self::survey::Survey;
 

@@ -10,7 +10,6 @@ use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::judge::chain::judge;
 use tautline_sim::atomic_file::Replaceable;
-use tautline_sim::counterexample::hunt::store;
 use tautline_sim::counterexample::judge_input::exhibit;
 use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, Refused, minimise};
 use tautline_sim::diagnostic::Halt;
@@ -20,7 +19,7 @@ use tautline_sim::explore::{
     Asked, Catalogue, ClauseId, Limits, OnViolation, RuleId, RuleName, Setup, Stopped, explore,
 };
 use tautline_sim::layout::{self, Generator, Layout};
-use tautline_sim::trace::Trace;
+use tautline_sim::trace::{Trace, store};
 
 /// Column and row.
 type Place = (i16, i16);

@@ -57,10 +57,16 @@ impl Catalogue {
     /// What is wrong if none has.
     pub(crate) fn rule(self, name: &str) -> Result<RuleId, String> {
         let names: Vec<RuleId> = self.rules().into_iter().map(|rule| rule.name).collect();
-        names.iter().copied().find(|rule| rule.as_str() == name).ok_or_else(|| {
-            let quoted: Vec<String> = names.iter().map(|rule| format!("`{rule}`")).collect();
-            format!("unknown variant `{name}`, expected one of {}", quoted.join(", "))
-        })
+        let found = names.iter().copied().find(|rule| rule.as_str() == name);
+        found.ok_or_else(|| unknown(name, names.iter().map(|rule| rule.as_str())))
+    }
+
+    /// The scheme with this name.
+    ///
+    /// # Errors
+    /// What is wrong if there is none.
+    pub(crate) fn find_scheme(self, name: &str) -> Result<Scheme, String> {
+        self.scheme(name).ok_or_else(|| unknown(name, self.names(|_| true).into_iter()))
     }
 
     /// The clause with this id, if runs of a known scheme can break it.
@@ -87,6 +93,12 @@ impl Catalogue {
     pub fn names(self, is: impl Fn(&Profile) -> bool) -> Vec<&'static str> {
         self.schemes().filter(|scheme| is(scheme)).map(|scheme| scheme.name).collect()
     }
+}
+
+/// What is wrong with a name that is none of these.
+fn unknown<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
+    let quoted: Vec<String> = known.map(|known| format!("`{known}`")).collect();
+    format!("unknown variant `{name}`, expected one of {}", quoted.join(", "))
 }
 
 /// A scheme, and the catalogue that it is chosen from.

@@ -2,7 +2,6 @@
 //! how its clauses are told.
 
 mod areas;
-mod checkpoint;
 pub mod hunt;
 mod shown;
 mod team;
@@ -13,7 +12,7 @@ use tautline_proofs::chain::Observed;
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::plural::counted;
 
-pub use self::checkpoint::Saved;
+pub use self::hunt::Saved;
 use self::hunt::Walls;
 use self::team::ChainTeam;
 pub use self::team::{ANY_ORDER, DEATH};

@@ -171,7 +171,7 @@ impl Plan {
         let Some(file) = checkpoint::open::<Planned>(path)? else {
             return Err(Diagnostic::in_file(path, "there is no such file", Planned::AGAIN));
         };
-        let lines = Lines::<Planned>::read(path, &file)?;
+        let lines = Lines::<Planned>::read(path, &file, None)?;
         let Planned { of, shards, program: planned, .. } = lines.header().clone();
         if !(1..=MAX_SHARDS).contains(&shards) {
             let what = format!("there are no plans of {shards} shards");
@@ -227,7 +227,7 @@ impl Plan {
             let Some(file) = checkpoint::open::<Sharded>(path)? else {
                 return Err(Diagnostic::in_file(path, "there is no such file", "give the files of shards"));
             };
-            let lines = Lines::<Sharded>::read(path, &file)?;
+            let lines = Lines::<Sharded>::read(path, &file, None)?;
             let &Sharded { shard, done, .. } = lines.header();
             lines.check(&self.header(shard))?;
             let Some(place) = found.get_mut((shard as usize).wrapping_sub(1)) else {

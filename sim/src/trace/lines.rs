@@ -257,7 +257,7 @@ impl Lines {
 }
 
 /// Where the value stands that `key` has in a line.
-fn value_of(text: &str, key: &str) -> Range<usize> {
+pub(crate) fn value_of(text: &str, key: &str) -> Range<usize> {
     let name = format!("\"{key}\"");
     let rest = text.find(&name).map_or(text, |start| &text[start + name.len()..]);
     let start = text.len() - rest.trim_start_matches([' ', ':']).len();

@@ -1,7 +1,9 @@
-//! The hunt of chains: all layouts, decided wall by wall as the team meets them.
+//! The hunt of chains: all layouts, decided wall by wall as the team meets them; and a hunt on its way, kept in a file.
 
+use std::path::Path;
 use std::time::Instant;
 
+use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::Observed;
@@ -10,13 +12,13 @@ use tautline_proofs::engine::tree::{self, Progress};
 use tautline_proofs::plural::counted;
 
 use super::areas;
-use super::checkpoint::{AGAIN, Saved};
+use crate::checkpoint::{self, Checkpoint, Header};
 use crate::diagnostic::{Diagnostic, Halt};
-use crate::explore::ClauseId;
 use crate::explore::hunt::{
     Asked, Bound, Deal, Deals, Dealt, Done, Facts, Far, Finding, Hunt, HuntReport, Hunter, RunSize, Shown,
     outcome, setup,
 };
+use crate::explore::{Catalogue, ClauseId};
 use crate::layout::Size;
 use crate::resumable::{self, KEEP_EVERY, Resumable, written};
 
@@ -272,5 +274,83 @@ pub(super) fn fault(refused: Unsearchable) -> Diagnostic {
         tree::Unsearchable::Foreign | tree::Unsearchable::Short => {
             Diagnostic::of_field("resume", refused, AGAIN)
         }
+    }
+}
+
+/// What to do about a file that is no hunt of ours.
+const AGAIN: &str = "name another file, or remove it and hunt from the start";
+
+/// What is hunted.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Kept {
+    format: String,
+    version: u32,
+    scheme: String,
+    rule: String,
+    robots: usize,
+    /// North-west and south-east corner of the area.
+    area: [Cell; 2],
+    base: Cell,
+    /// The schemes that are known to whoever asks.
+    #[serde(skip)]
+    known: Option<Catalogue>,
+}
+
+impl Header for Kept {
+    const FORMAT: &'static str = "tautline hunt";
+    const NOUN: &'static str = "a kept hunt";
+    const OTHER: &'static str = "this is another hunt";
+    const FIELDS: &'static [&'static str] = &["scheme", "rule", "robots", "area", "base"];
+    const AGAIN: &'static str = AGAIN;
+    const ELSEWHERE: &'static str = "ask for the same, or give another `resume` file";
+
+    fn unknown(&self, kept: &Self) -> Option<(&'static str, String)> {
+        let known = self.known?;
+        let scheme = known.find_scheme(&kept.scheme).err().map(|what| ("scheme", what));
+        scheme.or_else(|| known.rule(&kept.rule).err().map(|what| ("rule", what)))
+    }
+}
+
+/// A hunt that is kept in a file.
+#[derive(Debug)]
+pub struct Saved<'a>(Checkpoint<'a, Kept>);
+
+impl<'a> Saved<'a> {
+    /// The hunt that is `asked`, within `bounds`, to be kept at `path`.
+    pub fn new(path: &'a Path, asked: &Asked<'_>, bounds: &Bounds) -> Self {
+        let area = bounds.reach().unwrap_or(bounds.area);
+        let header = Kept {
+            format: Kept::FORMAT.to_owned(),
+            version: checkpoint::VERSION,
+            scheme: asked.scheme.name.to_owned(),
+            rule: asked.rule.to_string(),
+            robots: bounds.robots,
+            area: [area.first(), area.last()],
+            base: bounds.base,
+            known: Some(asked.scheme.among),
+        };
+        Self(Checkpoint::new(path, header))
+    }
+
+    /// The search as it is in the file, or from the start if there is no file.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if the file is damaged, of another hunt or in use, or the bounds cannot be searched.
+    pub fn search(&mut self, bounds: &Bounds) -> Result<Search, Diagnostic> {
+        match self.0.read()? {
+            None => start(bounds),
+            Some(position) => {
+                Search::at(bounds, &position).map_err(|refused| fault(refused).found_in(self.0.path()))
+            }
+        }
+    }
+
+    /// Keeps where `search` is.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if it cannot be written, or another process has put a file there.
+    pub fn write(&mut self, search: &Search) -> Result<(), Diagnostic> {
+        self.0.write(&search.position())
     }
 }
