@@ -6,8 +6,9 @@ use std::hint::black_box;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use tautline_kernel::frontier::Rule;
 use tautline_kernel::ground::Cell;
-use tautline_sim::frontier::{Explorers, Options};
+use tautline_sim::frontier::Explorers;
 use tautline_sim::layout::{Generator, Layout};
+use tautline_sim::options::Options;
 
 /// The team moves of a whole run.
 fn moves(rule: Rule, layout: &Layout, starts: &[Cell]) -> u64 {

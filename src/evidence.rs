@@ -9,9 +9,10 @@ use tautline_proofs::floor_trace::Course;
 use tautline_proofs::plural::counted;
 use tautline_proofs::run::Run;
 
+use super::CATALOGUE;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw;
-use tautline_sim::explore::{ClauseId, RuleName, Setup, catalogue, hunt};
+use tautline_sim::explore::{ClauseId, RuleName, Setup, hunt};
 use tautline_sim::named_values::NamedValues;
 
 /// A refutation as JSON.
@@ -45,7 +46,7 @@ pub(super) enum Shown {
 
 /// The run of robots that a search has found, if the program can make it again.
 pub(super) fn setup(check: &dyn AnyCheck, run: &Run) -> Result<Option<Setup>, Halt> {
-    let (Some(rule), Some(scheme)) = (RuleName::of(check.rule()), catalogue::scheme(run.scheme)) else {
+    let (Some(rule), Some(scheme)) = (RuleName::of(check.rule()), CATALOGUE.scheme(run.scheme)) else {
         return Ok(None);
     };
     Ok(Some(hunt::setup(scheme, rule, run).map_err(Diagnostic::from)?))

@@ -7,15 +7,15 @@ use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use clap::{Args, ValueEnum};
+use clap::error::ErrorKind;
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches, ValueEnum};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::plural::counted;
 
 use super::output::Output;
 use super::viewers::{self, ViewerArgs};
 use super::{
-    CellArg, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless, positive, probability, progress,
-    whole,
+    CATALOGUE, CellArg, Exit, ForceArgs, Format, FormatArgs, LayoutArgs, needless, positive, progress, whole,
 };
 use crate::value_parser::{self, chosen};
 use tautline_sim::atomic_file::AtomicFile;
@@ -24,13 +24,14 @@ use tautline_sim::draw::page::Page;
 use tautline_sim::draw::svg;
 use tautline_sim::explore::floor::Component;
 use tautline_sim::explore::{
-    Asked, Knowledge, Limits, Milestone, OnViolation, Play, Profile, Report, RuleId, RunConfig, Setup,
-    SetupError, Stopped, Violation, Watcher, explore, team,
+    Asked, Knowledge, Limits, Milestone, OnViolation, Play, Profile, Report, RuleId, Scheme, Senses, Setup,
+    Stopped, Violation, Watcher, explore, team,
 };
-use tautline_sim::failures::{Appearing, Failure, Failures, Going};
+use tautline_sim::failures::Failures;
 use tautline_sim::layout::generate::Probability;
+use tautline_sim::options::{Extra, Options, Takes, Wrong};
 use tautline_sim::trace::Summary;
-use tautline_sim::value_parser::real;
+use tautline_sim::value_parser::probability;
 use tautline_sim::{draw, trace};
 
 const EXAMPLES: &str = "\
@@ -49,7 +50,7 @@ pub(super) struct Explore {
     layout: LayoutArgs,
     /// How the team explores.
     #[arg(long, value_parser = value_parser::scheme(), default_value = "chain")]
-    scheme: &'static Profile,
+    scheme: Scheme,
     /// The scheme as published, or repaired.
     #[arg(long, value_parser = value_parser::rule(), default_value = "repaired")]
     rule: RuleId,
@@ -64,39 +65,10 @@ pub(super) struct Explore {
     start: Vec<CellArg>,
     /// How likely it is that an agent misses a sensor, from 0 to 1. Without it 0.
     #[arg(long, value_name = "PROBABILITY", value_parser = probability, allow_hyphen_values = true)]
+    #[arg(help_heading = heading(|scheme| scheme.senses == Senses::Floor))]
     miss: Option<Probability>,
-    /// How many cells a message of robots that explore cells is heard; without it all hear it. Robots that keep in
-    /// touch hear 2 or 3 cells; without it 10 m, and a cell is 3 m wide. Robots of a pack hear 3 cells or more; without
-    /// it 60.
-    #[arg(long, value_name = "CELLS", value_parser = whole::<u16>)]
-    range: Option<u16>,
-    /// How many cells robots of a pack see, from 1 to 31. Without it 20.
-    #[arg(long, value_name = "CELLS", value_parser = whole::<u16>)]
-    sight: Option<u16>,
-    /// How likely it is that such a message, or a byte of a chain, is lost, from 0 to 1. Without it 0.
-    #[arg(long, alias = "lose", value_name = "PROBABILITY", value_parser = probability, allow_hyphen_values = true)]
-    loss: Option<Probability>,
-    /// The noise of the signals by which robots that explore cells find their positions, in decibels. Without it 0.
-    #[arg(long, value_name = "DECIBELS", value_parser = real, allow_hyphen_values = true)]
-    noise_db: Option<f64>,
-    /// Below which occupancy probability a cell is a candidate, from 0 to 1. Without it 0.5.
-    #[arg(long, value_name = "PROBABILITY", value_parser = real, allow_hyphen_values = true)]
-    threshold: Option<f64>,
-    /// How fast robots that keep in touch drive, in metres a second. Without it 0.3.
-    #[arg(long, value_name = "METRES", value_parser = real, allow_hyphen_values = true)]
-    speed: Option<f64>,
-    /// By which share each of their drives may be faster or slower, from 0 to 0.999. Without it 0.
-    #[arg(long, value_name = "SHARE", value_parser = real, allow_hyphen_values = true)]
-    spread: Option<f64>,
-    /// Which robot of a chain dies, and in which team move: the others go on as a chain of one fewer.
-    #[arg(long, value_name = "ROBOT@MOVE", value_parser = str::parse::<Failure>)]
-    fail: Vec<Failure>,
-    /// On which side of a cell a wall appears while a chain explores, and from which team move on: E, S, W or N.
-    #[arg(long, value_name = "X,Y,SIDE@MOVE", value_parser = str::parse::<Appearing>)]
-    wall: Option<Appearing>,
-    /// The robots of a chain go one after the other, in a new random order in each team move.
-    #[arg(long)]
-    speeds: bool,
+    #[command(flatten)]
+    told: Told,
     /// Stop when a robot has entered so many cells.
     #[arg(long, value_name = "CELLS", value_parser = positive)]
     max_moves: Option<NonZeroU32>,
@@ -123,6 +95,78 @@ pub(super) struct Explore {
     format: FormatArgs,
 }
 
+/// The heading in the help above the options that only such schemes can be told.
+fn heading(is_told: impl Fn(&Profile) -> bool) -> String {
+    let names = CATALOGUE.names(is_told);
+    match names.split_last() {
+        Some((last, before @ [_, ..])) => format!("Options of {} and {last}", before.join(", ")),
+        _ => format!("Options of {}", names.concat()),
+    }
+}
+
+/// What schemes can be told, each by an option of its own.
+#[derive(Debug, Default)]
+struct Told {
+    options: Options,
+    /// What is wrong, if something is told twice.
+    wrong: Option<Wrong>,
+}
+
+impl Args for Told {
+    fn augment_args(command: Command) -> Command {
+        command.args(Extra::ALL.map(|extra| {
+            let heading = heading(|scheme| scheme.extras.contains(&extra));
+            let arg = Arg::new(extra.field).long(extra.field).help(extra.about).help_heading(heading);
+            let arg = arg.aliases(extra.alias);
+            let read = |text: &str| (extra.read)(text, &mut Options::default()).map(|()| text.to_owned());
+            match extra.takes {
+                Takes::Nothing => arg,
+                Takes::Word(name) => arg.value_name(name).value_parser(read),
+                Takes::Real(name) => arg.value_name(name).value_parser(read).allow_hyphen_values(true),
+            }
+            .action(match (extra.takes, extra.twice) {
+                (Takes::Nothing, _) => ArgAction::SetTrue,
+                (_, None) => ArgAction::Set,
+                (_, Some(_)) => ArgAction::Append,
+            })
+        }))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for Told {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, Error> {
+        let mut told = Self::default();
+        told.update_from_arg_matches(matches)?;
+        Ok(told)
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), Error> {
+        for extra in Extra::ALL {
+            let words: Vec<&str> = match extra.takes {
+                Takes::Nothing => Some("").filter(|_| matches.get_flag(extra.field)).into_iter().collect(),
+                Takes::Word(_) | Takes::Real(_) => matches
+                    .get_many::<String>(extra.field)
+                    .into_iter()
+                    .flatten()
+                    .map(String::as_str)
+                    .collect(),
+            };
+            if let Some(word) = words.first() {
+                (extra.read)(word, &mut self.options)
+                    .map_err(|what| Error::raw(ErrorKind::ValueValidation, what))?;
+            }
+            if let ([one, other, ..], Some(twice)) = (&words[..], extra.twice) {
+                self.wrong = Some(twice(one, other));
+            }
+        }
+        Ok(())
+    }
+}
+
 /// What is drawn of a run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
 enum Draw {
@@ -144,7 +188,7 @@ impl Explore {
         if page.is_some() || picture.is_some() {
             svg::check_size(team(&setup)?.area(&setup.layout))?;
         }
-        let writer = trace.map(|aside| trace::Writer::new(aside, &setup.stage(), None));
+        let writer = trace.map(|aside| trace::Writer::new(aside, &setup, None));
         let mut writer = writer.transpose().map_err(Diagnostic::from)?;
         let (bar, start) = (progress::spinner("exploring"), Instant::now());
         let report = explore(&setup, &mut |made| {
@@ -186,16 +230,15 @@ impl Explore {
     fn setup(&self) -> Result<Setup, Diagnostic> {
         let asked = self.asked();
         asked.check()?;
-        if let [one, other, ..] = self.fail[..] {
-            let what = format!("two robots die in one run, {one} and {other}: a chain re-forms behind one");
-            return Err(Diagnostic::usage(what, "give `--fail` once"));
+        if let Some((what, remedy)) = &self.told.wrong {
+            return Err(Diagnostic::usage(what, remedy));
         }
         if self.draw.is_some() && self.format.format == Format::Json && self.svg.is_none() {
             return Err(needless("--draw", "JSON has no drawing, and no picture is stored"));
         }
         let setup = asked.setup(self.layout.load()?)?;
-        if self.layout.has_other_seed() && !setup.scheme.draws(&setup.stage()) {
-            return Err(SetupError::Seed(setup.scheme).into());
+        if self.layout.has_other_seed() && !setup.scheme.draws(&setup) {
+            return Err(setup.scheme.needless_seed());
         }
         Ok(setup)
     }
@@ -209,16 +252,7 @@ impl Explore {
             base: self.base.map(|CellArg(cell)| cell),
             starts: self.start.iter().map(|&CellArg(cell)| cell).collect(),
             miss: self.miss,
-            range_cells: self.range,
-            sight_cells: self.sight,
-            loss: self.loss,
-            noise_db: self.noise_db,
-            threshold: self.threshold,
-            speed_mps: self.speed,
-            spread: self.spread,
-            fail: self.fail.first().copied(),
-            wall: self.wall,
-            going: if self.speeds { Going::OneByOne } else { Going::AtOnce },
+            options: self.told.options,
             limits: Limits { until: self.until, max_moves: self.max_moves, violation: OnViolation::GoOn },
         }
     }
@@ -306,7 +340,7 @@ pub(super) fn draw_moves(
         Ok(())
     })?;
     let Some(columns) = columns else { return Ok(()) };
-    out.text(format_args!("\n{}\n\n", draw::legend(run.stage().look)))?;
+    out.text(format_args!("\n{}\n\n", draw::legend(run.setup().scheme.look)))?;
     let mut rows = draw::Rows::new(columns);
     among(run, moves, &mut |made| {
         if out.is_gone() {
@@ -344,7 +378,7 @@ pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
     let mut text = format!(
         "{}, {}: {layout}\n{}: {}\n{} of {} explored ({percent} %)",
         draw::title_of(run),
-        place(&run.stage()),
+        place(run.setup()),
         counted(report.steps, "team move"),
         report.stopped.words(),
         report.explored,
@@ -359,13 +393,13 @@ pub(super) fn summary(run: &dyn Play, layout: &str, report: &Report) -> String {
     }
     text.push('\n');
     if let Some(milliseconds) = report.milliseconds {
-        let robot = run.stage().look.robot();
+        let robot = run.setup().scheme.look.robot();
         let _ = writeln!(text, "the slowest {robot} took {} s", milliseconds / 1000);
     }
     if let Some(faults) = &report.faults {
         text.push_str(&failed(faults));
     }
-    match run.stage().knowledge {
+    match run.setup().scheme.knowledge {
         None => {}
         Some(Knowledge::None) => {
             text.push_str("ants never know that they are done: whoever watches them ends the run\n");
@@ -422,10 +456,10 @@ fn failed(faults: &Failures) -> String {
 }
 
 /// Where the robots start.
-fn place(stage: &RunConfig<'_>) -> String {
-    match (stage.look.has_base(), stage.starts) {
-        (true, _) => format!("base {}", stage.base),
-        (false, None) => format!("start {}", stage.base),
+fn place(setup: &Setup) -> String {
+    match (setup.scheme.look.has_base(), &setup.starts) {
+        (true, _) => format!("base {}", setup.base),
+        (false, None) => format!("start {}", setup.base),
         (false, Some(starts)) => {
             let starts: Vec<String> = starts.iter().map(Cell::to_string).collect();
             format!("starts {}", starts.join(" "))

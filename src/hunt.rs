@@ -14,15 +14,15 @@ use tautline_proofs::decide::Verdict;
 use super::findings::{self, Case, Format, FormatArgs, Outcome};
 use super::output::Output;
 use super::shards::{ShardArgs, Wanted};
-use super::{Exit, ForceArgs, SizeArg, interrupt, number, progress, whole};
+use super::{CATALOGUE, Exit, ForceArgs, SizeArg, interrupt, number, progress, whole};
 use crate::{report, shards, value_parser};
 use tautline_sim::atomic_file::{AtomicFile, Replaceable};
-use tautline_sim::counterexample::hunt::store;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::story;
 use tautline_sim::explore::hunt::{Asked, Done, Facts, Far, Finding, HuntReport, Hunter, RunSize, Shown};
-use tautline_sim::explore::{Profile, RuleId, Senses, SetupError};
-use tautline_sim::shards::{Plan, deal_hunt, hunt_part};
+use tautline_sim::explore::{RuleId, Scheme, Senses};
+use tautline_sim::shards::{Plan, deal_hunt, hunt_part, hunted};
+use tautline_sim::trace::store;
 use tautline_sim::value_parser::real;
 
 const EXAMPLES: &str = "\
@@ -49,7 +49,7 @@ Examples:
 pub(super) struct Hunt {
     /// How the team explores.
     #[arg(long, value_parser = value_parser::scheme(), default_value = "chain")]
-    scheme: &'static Profile,
+    scheme: Scheme,
     /// The scheme as published, or repaired.
     #[arg(long, value_parser = value_parser::rule(), default_value = "repaired")]
     rule: RuleId,
@@ -107,7 +107,7 @@ struct Told<'a> {
 /// The JSON of a hunt.
 #[derive(JsonSchema, Serialize)]
 pub(super) struct Printed<'a> {
-    scheme: &'static Profile,
+    scheme: Scheme,
     rule: RuleId,
     robots: u64,
     #[serde(flatten)]
@@ -165,7 +165,10 @@ impl Hunt {
             Wanted::Plan(path, shards) => self.plan(path, shards, out),
             Wanted::Shard(path, shard) => {
                 let (plan, format) = (Plan::read(path)?, self.format.format.plain()?);
-                shards::run(&plan, shard, format, out, |far| Ok(hunt_part(&plan, shard, far, self.budget)?))
+                shards::run(&plan, shard, format, out, |far| {
+                    let asked = Asked { budget: self.budget, ..hunted(&plan, CATALOGUE)? };
+                    Ok(hunt_part(&plan, &asked, shard, far)?)
+                })
             }
         }
     }
@@ -187,12 +190,7 @@ impl Hunt {
     }
 
     fn hunt(&self, out: &mut Output) -> Result<Exit, Halt> {
-        let (scheme, rule) = (self.scheme, self.rule);
-        let rule = scheme.rule(rule).ok_or(SetupError::Rule { scheme, rule }).map_err(Diagnostic::from)?;
-        let Some(hunt) = rule.hunt else {
-            let what = format!("nothing is hunted of {}", self.scheme.name);
-            return Err(Diagnostic::usage(what, "hunt another scheme").into());
-        };
+        let hunt = self.scheme.hunt(self.rule)?;
         let asked = self.asked();
         asked.check(hunt)?;
         check_folder(&self.out)?;

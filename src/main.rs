@@ -42,13 +42,20 @@ use tautline_kernel::ground::Cell;
 
 use crate::report::{Colour, render};
 use output::Output;
+#[cfg(feature = "papers")]
+use tautline_papers::rivals::CATALOGUE;
 use tautline_sim::atomic_file::{AtomicFile, Foreign, Replaceable};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
+#[cfg(not(feature = "papers"))]
+use tautline_sim::explore::Catalogue;
 use tautline_sim::explore::ClauseId;
-use tautline_sim::explore::catalogue::{self, NoClause};
-use tautline_sim::layout::generate::Probability;
-use tautline_sim::layout::{self, Generator, Layout, Problem, Size};
+use tautline_sim::explore::catalogue::NoClause;
+use tautline_sim::layout::{self, Generator, Layout, Size};
 use tautline_sim::value_parser::{number, real, whole};
+
+/// The schemes of this program: without the papers, the chain has no rivals.
+#[cfg(not(feature = "papers"))]
+const CATALOGUE: Catalogue = Catalogue::OWN;
 
 /// How a command ended. Where several are so, the last of them in this order is told.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -280,12 +287,7 @@ impl FromStr for SizeArg {
 
 /// The id of a clause that a run can break.
 fn clause(id: &str) -> Result<ClauseId, String> {
-    catalogue::clause(&id.to_ascii_uppercase()).map_err(|none: NoClause| format!("{none}; {}", none.remedy()))
-}
-
-/// A number from 0 to 1.
-fn probability(text: &str) -> Result<Probability, String> {
-    text.parse().map_err(|problem: Problem| format!("{problem}; {}", problem.remedy()))
+    CATALOGUE.clause(&id.to_ascii_uppercase()).map_err(|none: NoClause| format!("{none}; {}", none.remedy()))
 }
 
 /// A whole number above 0.

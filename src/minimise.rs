@@ -10,12 +10,11 @@ use tautline_proofs::plural::counted;
 
 use super::output::Output;
 use super::replay::draw;
-use super::{Exit, ForceArgs, Format, FormatArgs, clause, hunt, progress};
-use tautline_sim::counterexample::hunt::store;
+use super::{CATALOGUE, Exit, ForceArgs, Format, FormatArgs, clause, hunt, progress};
 use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, minimise};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
-use tautline_sim::explore::{ClauseId, Profile, Report, RuleId};
-use tautline_sim::trace::Trace;
+use tautline_sim::explore::{ClauseId, Report, RuleId, Scheme};
+use tautline_sim::trace::{Trace, store};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -47,7 +46,7 @@ pub(super) struct Minimise {
 
 #[derive(JsonSchema, Serialize)]
 pub(super) struct Minimised {
-    scheme: &'static Profile,
+    scheme: Scheme,
     rule: RuleId,
     clause: ClauseId,
     before: Extent,
@@ -61,7 +60,7 @@ pub(super) struct Minimised {
 impl Minimise {
     pub(super) fn run(&self, out: &mut Output) -> Result<Exit, Halt> {
         hunt::check_folder(&self.out)?;
-        let trace = Trace::open(&self.file)?;
+        let trace = Trace::open(&self.file, CATALOGUE)?;
         let (setup, clause) = (trace.setup.clone(), self.clause.or(trace.clause));
         trace.replay(&mut |_| Ok(()))?;
         let bar = progress::spinner("minimising");

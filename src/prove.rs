@@ -23,8 +23,9 @@ use super::hunt::keep;
 use super::output::Output;
 use super::{Exit, ForceArgs, positive, progress};
 use tautline_sim::atomic_file::Replaceable;
-use tautline_sim::counterexample::{hunt, refutation};
+use tautline_sim::counterexample::refutation;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
+use tautline_sim::trace;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -298,7 +299,7 @@ fn stored(
         Seen::Choices | Seen::Story(_) | Seen::Agents(_) | Seen::Messages { .. } => None,
     };
     let file = match run {
-        Some((setup, breach)) => hunt::store_at(&path, &setup, breach, replaceable)?.0,
+        Some((setup, breach)) => trace::store_at(&path, &setup, breach, replaceable)?.0,
         None => refutation::store(&path, clause, check, evidence, replaceable)?,
     };
     Ok(keep(file, out))

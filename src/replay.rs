@@ -21,7 +21,7 @@ use super::explore::{among, check_panels, draw_moves, panels, play, summary};
 use super::output::Output;
 use super::rescue::{Files, tell};
 use super::viewers::{self, ViewerArgs, ViewerFiles};
-use super::{Exit, ForceArgs, Format, FormatArgs};
+use super::{CATALOGUE, Exit, ForceArgs, Format, FormatArgs};
 use tautline_field::rescue;
 use tautline_sim::atomic_file::AtomicFile;
 use tautline_sim::counterexample::judge_input::{exhibit, of_agent, of_course, written_down};
@@ -30,7 +30,7 @@ use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw;
 use tautline_sim::draw::page::in_words;
 use tautline_sim::draw::svg;
-use tautline_sim::explore::{ClauseId, Judge, Play, Report, RunConfig, team};
+use tautline_sim::explore::{ClauseId, Judge, Play, Report, Setup, team};
 use tautline_sim::trace::{self, Recorded, Stored, StoredMove, Summary, Trace, lines};
 
 const EXAMPLES: &str = "\
@@ -161,12 +161,12 @@ impl Replay {
                 self.run_refutation(page, out)
             }
             Some(trace::FORMAT) => {
-                self.run_stored(trace::open(&self.file)?, Stores { page, picture, viewers }, out)
+                self.run_stored(trace::open(&self.file, CATALOGUE)?, Stores { page, picture, viewers }, out)
             }
             Some(_) | None => {
                 let foreign = |fault: Diagnostic| fault.with_remedy(REPLAYABLE);
                 self.run_stored(
-                    trace::open(&self.file).map_err(foreign)?,
+                    trace::open(&self.file, CATALOGUE).map_err(foreign)?,
                     Stores { page, picture, viewers },
                     out,
                 )
@@ -220,7 +220,8 @@ impl Replay {
 
     /// A run of a scheme that this program does not know, as it was written.
     fn run_recorded(&self, run: &Recorded, files: Stores, out: &mut Output) -> Result<Exit, Halt> {
-        let RunConfig { scheme, rule, layout, .. } = run.stage();
+        let Setup { scheme, rule, layout, .. } = run.setup();
+        let scheme = scheme.name;
         self.check_drawing(layout.size().area(), &files)?;
         let report = run.play(&mut |_| Ok(()))?;
         let said = format!(

@@ -12,16 +12,15 @@ use serde_json::value::RawValue;
 #[cfg(feature = "papers")]
 use tautline_papers::shards::{merge_table, restored};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
-use tautline_sim::explore::hunt::Asked;
 use tautline_sim::resumable::{Facts, KEEP_EVERY, Resumable};
-use tautline_sim::shards::{Gap, Keeper, Of, Plan, merge_hunt};
+use tautline_sim::shards::{Gap, Keeper, Of, Plan, hunted, merge_hunt};
 
 use super::findings::FormatArgs;
 use super::hunt::{Found, check_folder, shown};
 use super::output::Output;
 #[cfg(feature = "papers")]
 use super::reproduce::{Files, tell};
-use super::{Exit, ForceArgs, Format, complain, interrupt, progress, whole};
+use super::{CATALOGUE, Exit, ForceArgs, Format, complain, interrupt, progress, whole};
 
 /// The most gaps that are named.
 const MOST_NAMED: usize = 20;
@@ -229,16 +228,16 @@ impl Merge {
         };
         let inputs = files.into_iter().chain([self.plan.clone()]);
         match plan.of {
-            Of::Hunt { scheme, rule } => {
+            Of::Hunt { .. } => {
                 if self.csv.is_some() || !self.pictures.is_empty() {
                     return Err(
                         Diagnostic::usage("a hunt has no --picture and no --csv", "leave them out").into()
                     );
                 }
                 check_folder(&self.out)?;
-                let asked = Asked::new(scheme, rule);
-                let hunted = merge_hunt(&plan, &shards)?;
-                Found { asked: &asked, hunted: &hunted, folder: &self.out }.tell(
+                let asked = hunted(&plan, CATALOGUE)?;
+                let found = merge_hunt(&plan, &asked, &shards)?;
+                Found { asked: &asked, hunted: &found, folder: &self.out }.tell(
                     &self.force.replaceable(inputs),
                     self.format.format,
                     out,

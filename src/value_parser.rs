@@ -1,8 +1,10 @@
 //! Options whose values are words of the library.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use tautline_sim::explore::{Profile, RuleId, catalogue};
+use tautline_sim::explore::{RuleId, Scheme};
 use tautline_sim::named_values::NamedValues;
+
+use super::CATALOGUE;
 
 /// Reads one of the words for values of `T`; the help says what each of them means.
 pub(crate) fn chosen<T: NamedValues + Send + Sync>() -> impl TypedValueParser<Value = T> {
@@ -10,13 +12,13 @@ pub(crate) fn chosen<T: NamedValues + Send + Sync>() -> impl TypedValueParser<Va
 }
 
 /// Reads the name of a scheme.
-pub(crate) fn scheme() -> impl TypedValueParser<Value = &'static Profile> {
-    one_of(catalogue::SCHEMES.iter().map(|&scheme| (scheme, scheme.name, scheme.about)))
+pub(crate) fn scheme() -> impl TypedValueParser<Value = Scheme> {
+    one_of(CATALOGUE.schemes().map(|scheme| (scheme, scheme.name, scheme.about)))
 }
 
 /// Reads the name of a rule that a scheme offers.
 pub(crate) fn rule() -> impl TypedValueParser<Value = RuleId> {
-    one_of(catalogue::rules().into_iter().map(|rule| (rule.name, rule.name.as_str(), rule.about)))
+    one_of(CATALOGUE.rules().into_iter().map(|rule| (rule.name, rule.name.as_str(), rule.about)))
 }
 
 /// Reads a word as the value that stands before it; what stands behind it is the help about it.

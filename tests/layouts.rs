@@ -100,7 +100,7 @@ fn the_default_base_is_the_free_cell_nearest_the_centre() {
     layout.block(Cell::new(1, 1));
     assert_eq!(base(&layout), Ok(Cell::new(1, 0)));
     layout.cells().for_each(|cell| layout.block(cell));
-    assert_eq!(base(&layout), Err(Problem::NoFreeCell));
+    assert_eq!(base(&layout), Err(Problem::no_free_cell()));
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn the_rim_stays_closed_and_the_outside_empty() {
 #[test]
 fn sizes_out_of_bounds_are_refused() {
     for (width, height) in [(0, 5), (5, 0), (32_001, 1), (32_000, 31_250), (u64::MAX, u64::MAX)] {
-        assert_eq!(Layout::open(width, height), Err(Problem::Size { width, height }));
+        assert_eq!(Layout::open(width, height), Err(Problem::of_size(width, height)));
     }
     assert_eq!(Layout::open(4096, 4096).map(|layout| layout.free_cells()), Ok(1 << 24));
 }

@@ -32,7 +32,8 @@ use tautline_proofs::run::Frame;
 use tautline_sim::counterexample::judge_input::exhibit;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::chain::{CHAIN, Saved, hunt};
-use tautline_sim::explore::{RuleName, Setup};
+use tautline_sim::explore::hunt::Asked;
+use tautline_sim::explore::{Catalogue, RuleId, RuleName, Setup};
 use tautline_sim::heap_grid::HeapGrid;
 use tautline_sim::layout::{Layout, Misread, Size, movingai, ros, text};
 use tautline_sim::trace::Trace;
@@ -313,7 +314,7 @@ pub fn kept_hunt(bytes: &[u8]) {
             while search.wave() {}
             let folder = tempfile::tempdir().expect("a folder");
             let file = folder.path().join("hunt");
-            Saved::new(&file, &CHAIN, RuleName::Published, bounds).write(&search).expect("it can be written");
+            Saved::new(&file, &hunted(), bounds).write(&search).expect("it can be written");
             let mut kept = fs::read(&file).expect("a kept hunt");
             for _ in 0..number(4) {
                 let place = number(kept.len());
@@ -324,11 +325,16 @@ pub fn kept_hunt(bytes: &[u8]) {
     }
 }
 
+/// The hunt that is kept.
+fn hunted() -> Asked<'static> {
+    Asked::new(&CHAIN, RuleId::PUBLISHED)
+}
+
 /// What a hunt finds that goes on from a file with these bytes.
 fn hunt_on(bounds: &Bounds, bytes: &[u8]) -> Option<Found> {
     let mut file = tempfile::NamedTempFile::new().expect("a file");
     file.write_all(bytes).expect("it can be written");
-    match Saved::new(file.path(), &CHAIN, RuleName::Published, bounds).search(bounds) {
+    match Saved::new(file.path(), &hunted(), bounds).search(bounds) {
         Ok(mut search) => {
             let mut waves = 0;
             while search.wave() {
@@ -375,7 +381,7 @@ pub fn trace(bytes: &[u8]) {
     let mut file = tempfile::NamedTempFile::new().expect("a file");
     file.write_all(bytes).expect("it can be written");
     let mut left = 100;
-    let replayed = Trace::open(file.path()).map_err(Halt::Diagnostic).and_then(|trace| {
+    let replayed = Trace::open(file.path(), Catalogue::OWN).map_err(Halt::Diagnostic).and_then(|trace| {
         trace.replay(&mut |_| {
             left -= 1;
             if left == 0 { Err(Halt::Interrupted) } else { Ok(()) }

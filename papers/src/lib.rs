@@ -2,5 +2,6 @@
 
 pub mod chart;
 mod nxt;
+pub mod rivals;
 pub mod shards;
 pub mod tables;

@@ -6,33 +6,34 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use tautline_kernel::chain;
-use tautline_sim::explore::{Asked, Limits, Milestone, OnViolation, Profile, RuleId, SetupError, catalogue};
+use tautline_papers::rivals::CATALOGUE;
+use tautline_sim::explore::{Asked, Limits, Milestone, OnViolation, Profile, RuleId, Scheme};
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::named_values::NamedValues;
+use tautline_sim::options::Options;
 
 use crate::diagnostic::{Kind, error, raised};
 use crate::layout::{Given, Pair};
 use crate::run::{Run, cell};
 
 /// The scheme of this name.
-pub(crate) fn scheme(py: Python<'_>, name: &str) -> PyResult<&'static Profile> {
-    catalogue::scheme(name).ok_or_else(|| {
-        let names: Vec<&str> = catalogue::SCHEMES.iter().map(|scheme| scheme.name).collect();
+pub(crate) fn scheme(py: Python<'_>, name: &str) -> PyResult<Scheme> {
+    CATALOGUE.scheme(name).ok_or_else(|| {
         error(
             py,
             Kind::Input,
             format_args!("there is no scheme {name:?}"),
-            format_args!("take one of {}", names.join(", ")),
+            format_args!("take one of {}", CATALOGUE.names(|_| true).join(", ")),
         )
     })
 }
 
 /// The rule of this name.
-pub(crate) fn rule(py: Python<'_>, scheme: &'static Profile, name: &str) -> PyResult<RuleId> {
+pub(crate) fn rule(py: Python<'_>, scheme: Scheme, name: &str) -> PyResult<RuleId> {
     let known = scheme.rules.iter().find(|rule| rule.name.as_str() == name);
     known.map(|rule| rule.name).ok_or_else(|| {
-        let remedy = SetupError::Rule { scheme, rule: RuleId::REPAIRED }.remedy();
-        error(py, Kind::Input, format_args!("{} has no rule {name:?}", scheme.name), remedy)
+        let what = format!("{} has no rule {name:?}", scheme.name);
+        error(py, Kind::Input, what, scheme.which_rule())
     })
 }
 
@@ -86,16 +87,21 @@ pub(crate) fn explore(
 ) -> PyResult<Run> {
     let scheme = self::scheme(py, scheme)?;
     let rule = self::rule(py, scheme, rule)?;
+    let usual = Options::USUAL;
+    let options = Options {
+        range_cells: message_range,
+        loss: probability(py, "loss", loss)?.unwrap_or(usual.loss),
+        noise_db: noise_db.unwrap_or(usual.noise_db),
+        threshold: threshold.unwrap_or(usual.threshold),
+        ..usual
+    };
     let asked = Asked {
         robots,
         seed,
         base: base.map(cell),
         starts: starts.into_iter().map(cell).collect(),
         miss: probability(py, "miss", miss)?,
-        range_cells: message_range,
-        loss: probability(py, "loss", loss)?,
-        noise_db,
-        threshold,
+        options,
         limits: limits(py, until, max_moves)?,
         ..Asked::new(scheme, rule)
     };
@@ -114,7 +120,7 @@ pub(crate) fn replay(py: Python<'_>, path: PathBuf) -> PyResult<Run> {
 #[pyfunction]
 pub(crate) fn schemes() -> BTreeMap<&'static str, Vec<&'static str>> {
     let rules = |scheme: &Profile| scheme.rules.iter().map(|rule| rule.name.as_str()).collect();
-    catalogue::SCHEMES.iter().map(|scheme| (scheme.name, rules(scheme))).collect()
+    CATALOGUE.schemes().map(|scheme| (scheme.name, rules(&scheme))).collect()
 }
 
 /// Whether two robots of the repaired chain are in contact: each in E_C of the other (CHAIN-1).

@@ -10,7 +10,7 @@ use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::hunt::{Asked, Far, Finding, Hunter, Shown};
 use tautline_sim::layout::Size;
 
-use crate::diagnostic::{Kind, raised};
+use crate::diagnostic::raised;
 use crate::explore::{rule, scheme};
 use crate::layout::Layout;
 use crate::run::Run;
@@ -102,14 +102,7 @@ pub(crate) fn hunt(
 ) -> PyResult<HuntReport> {
     let scheme = self::scheme(py, scheme)?;
     let rule = self::rule(py, scheme, rule)?;
-    let hunt = scheme.rule(rule).and_then(|rule| rule.hunt).ok_or_else(|| {
-        crate::diagnostic::error(
-            py,
-            Kind::Input,
-            format_args!("nothing is hunted of {}", scheme.name),
-            "hunt another scheme",
-        )
-    })?;
+    let hunt = scheme.hunt(rule).map_err(|fault| raised(py, &fault))?;
     let size = size.map(|(width, height)| {
         Size::new(width, height).map_err(|problem| raised(py, &Diagnostic::usage(&problem, problem.remedy())))
     });

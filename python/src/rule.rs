@@ -11,6 +11,7 @@ use std::sync::atomic::Ordering;
 
 use pyo3::prelude::*;
 use rayon::ThreadPoolBuilder;
+use tautline_papers::rivals::CATALOGUE;
 use tautline_proofs::engine::Until;
 use tautline_proofs::engine::tree::{self, Limits as Bounds, Tree, Waves};
 use tautline_proofs::run::Frame;
@@ -18,7 +19,7 @@ use tautline_proofs::team::{Map, Promise, Setting};
 use tautline_sim::atomic_file::{AtomicFile, Replaceable};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::hunt::layout as layout_of;
-use tautline_sim::explore::{Limits, Own, Report, RunConfig, run};
+use tautline_sim::explore::{Limits, Own, Report, Setup, run};
 use tautline_sim::layout::Layout;
 use tautline_sim::trace::{self, Stored, Writer};
 
@@ -197,10 +198,10 @@ fn stored(
     let path = folder.path().join("run.jsonl");
     let clause = written.demands[demand].clause;
     let limits = Limits::stopping_at(Some(clause));
-    let stage =
-        RunConfig { limits, ..RunConfig::new(written.scheme, written.name, layout, written.starts()) };
+    let setup = Setup::named(written.scheme, written.name, layout.clone(), written.starts());
+    let setup = Setup { limits, ..setup };
     let aside = AtomicFile::new(&path, &Replaceable::default())?;
-    let mut writer = Writer::new(aside, &stage, Some(clause)).map_err(Diagnostic::from)?;
+    let mut writer = Writer::new(aside, &setup, Some(clause)).map_err(Diagnostic::from)?;
     let mut left = written.longest_run;
     let team = setting.in_layout(rule, written.starts(), Vec::new()).wanting(&[Promise(demand)]);
     let report = run(&mut Own::new(team, 0), layout, limits, &mut |made| {
@@ -215,7 +216,7 @@ fn stored(
     writer.end(&report).keep()?;
     let unread = |error| Diagnostic::in_file(&path, error, "make room for temporary files");
     let text = fs::read_to_string(&path).map_err(unread)?;
-    match trace::open(&path)? {
+    match trace::open(&path, CATALOGUE)? {
         Stored::Foreign(recorded) => Ok((Made::Recorded(Box::new(recorded), text), report)),
         Stored::Known(_) => {
             let what = format!("{} is a scheme of tautline", written.scheme);

@@ -11,12 +11,13 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use serde::Serialize;
 use tautline_kernel::ground::Cell;
+use tautline_papers::rivals::CATALOGUE;
 use tautline_sim::atomic_file::{AtomicFile, Foreign, Replaceable};
 use tautline_sim::counterexample::minimise::minimise;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::draw::page::Page;
 use tautline_sim::draw::{story, svg, title_of};
-use tautline_sim::explore::{ClauseId, Milestone, Play, Report, Setup, TeamMove, catalogue};
+use tautline_sim::explore::{ClauseId, Milestone, Play, Report, Setup, TeamMove};
 use tautline_sim::trace::{self, Recorded, Stored, Summary, Writer};
 
 use crate::arrays::view;
@@ -83,7 +84,7 @@ impl Run {
     /// The run in a file, checked.
     pub(crate) fn read(py: Python<'_>, path: &Path) -> PyResult<Self> {
         let name = path.display().to_string();
-        let stored = trace::open(path).map_err(|fault| raised(py, &fault))?;
+        let stored = trace::open(path, CATALOGUE).map_err(|fault| raised(py, &fault))?;
         let (made, report, clause) = match stored {
             Stored::Known(stored) => {
                 let (setup, clause) = (stored.setup.clone(), stored.clause);
@@ -136,7 +137,7 @@ impl Run {
     fn traced(&self, aside: AtomicFile) -> Result<AtomicFile, Halt> {
         match &self.made {
             Made::Known(setup) => {
-                let mut writer = Writer::new(aside, &setup.stage(), self.clause).map_err(Diagnostic::from)?;
+                let mut writer = Writer::new(aside, setup, self.clause).map_err(Diagnostic::from)?;
                 let report = setup.play(&mut |made| {
                     writer.add(made);
                     Ok(())
@@ -205,31 +206,31 @@ impl Run {
     /// The name of the scheme.
     #[getter]
     fn scheme(&self) -> String {
-        self.play().stage().scheme.to_owned()
+        self.play().setup().scheme.name.to_owned()
     }
 
     /// The name of its rule.
     #[getter]
     fn rule(&self) -> String {
-        self.play().stage().rule.to_owned()
+        self.play().setup().rule.to_string()
     }
 
     /// How many robots there are, the base counted if there is one.
     #[getter]
     fn robots(&self) -> u16 {
-        self.play().stage().robots
+        self.play().setup().robots
     }
 
     /// The seed of whatever was left to chance.
     #[getter]
     fn seed(&self) -> u64 {
-        self.play().stage().seed
+        self.play().setup().seed
     }
 
     /// Where it ran.
     #[getter]
     fn layout(&self) -> Layout {
-        Layout { ground: self.play().stage().layout.clone(), name: self.name.clone() }
+        Layout { ground: self.play().setup().layout.clone(), name: self.name.clone() }
     }
 
     /// Team moves, backtracks included.
@@ -285,14 +286,14 @@ impl Run {
             }
         };
         let (mut bytes, robots) = (Vec::new(), self.report.team.len());
-        put(&self.play().stage().starts(), &mut bytes);
+        put(&self.play().setup().starts(), &mut bytes);
         self.each(py, |made| put(&made.frame.cells, &mut bytes))?;
         view(py, &bytes, "h", &[bytes.len() / (4 * robots.max(1)), robots, 2])
     }
 
     /// In which team move each cell was first occupied, 0 for the start and -1 for never: an array of rows and columns.
     fn order<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let layout = self.play().stage().layout;
+        let layout = &self.play().setup().layout;
         let step = |cell| self.report.chart.step(cell).map_or(-1, u32::cast_signed);
         let bytes: Vec<u8> = layout.cells().flat_map(|cell| step(cell).to_ne_bytes()).collect();
         view(py, &bytes, "i", &[layout.height() as usize, layout.width() as usize])
@@ -391,7 +392,7 @@ impl Run {
             }
         };
         let asked = clause
-            .map(|id| catalogue::clause(id).map_err(|none| error(py, Kind::Input, &none, none.remedy())));
+            .map(|id| CATALOGUE.clause(id).map_err(|none| error(py, Kind::Input, &none, none.remedy())));
         let asked = asked.transpose()?.or(self.clause);
         let minimal = wait_for(py, |is_stopped| minimise(setup, asked, &mut |_| stopped(is_stopped)))?;
         let minimal = minimal.map_err(|failure| failed(py, &failure))?;
@@ -411,14 +412,14 @@ impl Run {
     }
 
     fn __repr__(&self) -> String {
-        let stage = self.play().stage();
+        let setup = self.play().setup();
         let Report { steps, explored, cells, violations, .. } = &self.report;
-        let mut text = format!("<pytautline.Run {} ({})", stage.scheme, stage.rule);
+        let mut text = format!("<pytautline.Run {} ({})", setup.scheme.name, setup.rule);
         // Writing to a string cannot fail.
         let _ = write!(
             text,
             ", {} robots: {steps} team moves, {explored} of {cells} cells explored",
-            stage.robots
+            setup.robots
         );
         if let Some(broken) = violations.first() {
             let _ = write!(text, ", {} broken in team move {}", broken.clause, broken.step);

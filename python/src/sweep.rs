@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyList};
 use rayon::prelude::*;
 use tautline_sim::diagnostic::Halt;
-use tautline_sim::explore::{Asked, Limits, Milestone, Profile, Report, RuleId, explore};
+use tautline_sim::explore::{Asked, Limits, Milestone, Profile, Report, RuleId, Scheme, explore};
 use tautline_sim::layout;
 
 use crate::diagnostic::halted;
@@ -68,7 +68,7 @@ pub(crate) fn sweep(
         jobs.par_iter().map(one).collect::<Result<Vec<(u16, Report)>, Halt>>()
     })?;
     let reports = reports.map_err(|halt| halted(py, &halt))?;
-    let batch = table(scheme, &jobs, &reports).map_err(broken)?;
+    let batch = table(&scheme, &jobs, &reports).map_err(broken)?;
     Ok(Sweep { batch })
 }
 
@@ -77,7 +77,7 @@ fn broken(error: ArrowError) -> PyErr {
 }
 
 fn made(
-    scheme: &'static Profile,
+    scheme: Scheme,
     job: &Job<'_>,
     limits: Limits,
     watch: &dyn Fn() -> Result<(), Halt>,

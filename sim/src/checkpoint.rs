@@ -2,6 +2,7 @@
 //! is written aside and put in its place, so the last good one stands there whenever the work is killed. The file that
 //! stands there is locked as long as the work goes on: no other process can go on from it meanwhile.
 
+use std::fmt::Display;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
@@ -13,6 +14,7 @@ use serde_json::json;
 use crate::atomic_file::{AtomicFile, Replaceable, Standing, lock};
 use crate::diagnostic::Diagnostic;
 use crate::layout::MAX_FILE_BYTES;
+use crate::trace::lines::{Magic, value_of};
 
 /// The version of every such file.
 pub(crate) const VERSION: u32 = 1;
@@ -31,13 +33,11 @@ pub(crate) trait Header: Serialize + DeserializeOwned {
     const AGAIN: &'static str;
     /// What to do about one of another work.
     const ELSEWHERE: &'static str;
-}
 
-/// What every version of the first line begins with.
-#[derive(Deserialize)]
-struct Magic {
-    format: String,
-    version: u32,
+    /// The field of `kept` that names what this work does not know, and what is wrong with the name.
+    fn unknown(&self, _kept: &Self) -> Option<(&'static str, String)> {
+        None
+    }
 }
 
 /// The last line.
@@ -56,11 +56,12 @@ pub(crate) struct Lines<H> {
 }
 
 impl<H: Header> Lines<H> {
-    /// The lines of `file`, called `path`, of which the first and the last are sound.
+    /// The lines of `file`, called `path`, of which the first and the last are sound. If a work is `asked` for, it knows
+    /// the names in the first one.
     ///
     /// # Errors
     /// A [`Diagnostic`] if it is no such file, or damaged.
-    pub(crate) fn read(path: &Path, file: &File) -> Result<Self, Diagnostic> {
+    pub(crate) fn read(path: &Path, file: &File, asked: Option<&H>) -> Result<Self, Diagnostic> {
         let whole = |what: String| Diagnostic::in_file(path, what, H::AGAIN);
         let mut bytes = Vec::new();
         let mut file = file.take(MAX_FILE_BYTES + 1);
@@ -75,15 +76,13 @@ impl<H: Header> Lines<H> {
             return Err(whole(format!("{} has three lines, and this file {}", H::NOUN, lines.len())));
         };
         let magic: Magic = parse::<H, _>(path, 1, first)?;
-        if magic.format != H::FORMAT {
-            let what = format!("the format is {:?}", magic.format);
-            return Err(in_header(path, first, "format", what, H::AGAIN));
+        if let Some((field, what)) = magic.differs(H::FORMAT, VERSION) {
+            return Err(in_header(path, first, field, what, H::AGAIN));
         }
-        if magic.version != VERSION {
-            let what = format!("this is version {}, this program reads version {VERSION}", magic.version);
-            return Err(in_header(path, first, "version", what, H::AGAIN));
+        let header = parse::<H, H>(path, 1, first)?;
+        if let Some((field, what)) = asked.and_then(|asked| asked.unknown(&header)) {
+            return Err(none::<H>(path, 1, first, value_of(first, field).end.saturating_sub(1), what));
         }
-        let header = parse::<H, _>(path, 1, first)?;
         let seal: Seal = parse::<H, _>(path, 3, third)?;
         let crc32 = crc32fast::hash(format!("{first}\n{second}\n").as_bytes());
         if seal.crc32 != crc32 {
@@ -154,10 +153,14 @@ fn parse<'b, H: Header, T: Deserialize<'b>>(
     serde_json::from_str(text).map_err(|error| {
         let message = error.to_string();
         let message = message.split(" at line ").next().unwrap_or_default();
-        let column = error.column().saturating_sub(1);
-        let what = format!("this is no {}: {message}", H::NOUN.trim_start_matches("a "));
-        Diagnostic::in_line(path, number, text, column..column + 1, what, H::AGAIN)
+        none::<H>(path, number, text, error.column().saturating_sub(1), message)
     })
+}
+
+/// The fault of a line that is none, in this column from 0 on.
+fn none<H: Header>(path: &Path, number: usize, text: &str, column: usize, what: impl Display) -> Diagnostic {
+    let what = format!("this is no {}: {what}", H::NOUN.trim_start_matches("a "));
+    Diagnostic::in_line(path, number, text, column..column + 1, what, H::AGAIN)
 }
 
 /// Work that is kept in a file.
@@ -214,7 +217,7 @@ impl<'a, H: Header> Checkpoint<'a, H> {
         if !stands_at(&file, self.path) {
             return self.read();
         }
-        let lines = Lines::<H>::read(self.path, &file)?;
+        let lines = Lines::<H>::read(self.path, &file, Some(&self.header))?;
         (self.standing, self.held) = (Standing::Held, Some(file));
         lines.check(&self.header)?;
         lines.far().map(Some)

@@ -164,6 +164,14 @@ impl Diagnostic {
         &self.0.place
     }
 
+    /// The field of what was asked for that is wrong, if one alone is.
+    pub const fn field(&self) -> Option<&'static str> {
+        match self.0.place {
+            Place::Request { field } => field,
+            Place::File(_) | Place::Spot { .. } => None,
+        }
+    }
+
     /// What is wrong, without the place.
     pub fn what(&self) -> &str {
         &self.0.what

@@ -15,7 +15,7 @@ use tautline_kernel::ground::{Area, Cell, Circle, Edge, Side, Step, neighbours};
 use tautline_proofs::floor_trace::{Scene, Turn};
 use tautline_proofs::plural::counted;
 
-use crate::explore::{Look, Play, RunConfig, Survey, TeamMove};
+use crate::explore::{Look, Play, Setup, Survey, TeamMove};
 use crate::layout::Layout;
 
 /// Drawings beside each other take up at most so many columns.
@@ -45,8 +45,8 @@ pub const fn legend(look: Look) -> &'static str {
 
 /// What a picture of a run is called.
 pub fn title_of(run: &dyn Play) -> String {
-    let RunConfig { scheme, rule, robots, look, .. } = run.stage();
-    format!("{scheme} ({rule}), {}", counted(robots, look.robot()))
+    let Setup { scheme, rule, robots, .. } = run.setup();
+    format!("{} ({rule}), {}", scheme.name, counted(*robots, scheme.look.robot()))
 }
 
 /// Lines of text with a title above them.
@@ -187,7 +187,7 @@ pub fn team_move(run: &dyn Play, chart: &Survey, made: &TeamMove<'_>, pose: Pose
 /// The team moves of a run, drawn one by one.
 #[derive(Debug)]
 pub struct TeamMoves<'a> {
-    stage: RunConfig<'a>,
+    setup: &'a Setup,
     chart: &'a Survey,
     is_bare: bool,
 }
@@ -195,8 +195,8 @@ pub struct TeamMoves<'a> {
 impl<'a> TeamMoves<'a> {
     /// Those of `run`. `chart` knows the explored cells.
     pub fn new(run: &'a dyn Play, chart: &'a Survey) -> Self {
-        let stage = run.stage();
-        Self { stage, chart, is_bare: is_bare(&stage, chart.area()) }
+        let setup = run.setup();
+        Self { setup, chart, is_bare: is_bare(setup, chart.area()) }
     }
 
     /// Whether one character for each cell is enough to draw a team move.
@@ -209,7 +209,7 @@ impl<'a> TeamMoves<'a> {
             Pose::Before => (made.before, Some(&made.frame.steps)),
             Pose::After => (made.frame.cells.as_slice(), None),
         };
-        Labels { look: self.stage.look, cells, steps, unseen: made.unseen }
+        Labels { look: self.setup.scheme.look, cells, steps, unseen: made.unseen }
     }
 
     /// Columns of the drawing of a team move.
@@ -225,7 +225,7 @@ impl<'a> TeamMoves<'a> {
 
     /// A team move.
     pub fn draw(&self, made: &TeamMove<'_>, pose: Pose) -> Block {
-        let Self { stage, chart, .. } = self;
+        let Self { setup, chart, .. } = self;
         let step = match pose {
             Pose::Before => made.step - 1,
             Pose::After => made.step,
@@ -233,10 +233,10 @@ impl<'a> TeamMoves<'a> {
         let labels = self.labels(made, pose);
         let bumps: Vec<Edge> = made.frame.bumps().collect();
         let lines = if self.is_bare(made, pose) {
-            bare(stage.look, chart.area(), labels.cells, |cell| chart.mark(cell, step))
+            bare(setup.scheme.look, chart.area(), labels.cells, |cell| chart.mark(cell, step))
         } else {
             let label = |cell| labels.label(cell, chart.mark(cell, step));
-            grid(stage.layout, chart.area(), labels.width(), label, |edge| bumps.contains(&edge))
+            grid(&setup.layout, chart.area(), labels.width(), label, |edge| bumps.contains(&edge))
         };
         Block { title: title(made), lines }
     }
@@ -358,8 +358,8 @@ const fn arrow(step: Step) -> &'static str {
 const SYMBOLS: &str = "123456789abcdefghijklmnopqrstuvwxyz";
 
 /// Whether one character for each cell is enough to draw the run: nothing is in the way.
-fn is_bare(stage: &RunConfig<'_>, area: Area) -> bool {
-    usize::from(stage.robots) <= SYMBOLS.len() && area.edges().all(|edge| stage.layout.is_open(edge))
+fn is_bare(setup: &Setup, area: Area) -> bool {
+    usize::from(setup.robots) <= SYMBOLS.len() && area.edges().all(|edge| setup.layout.is_open(edge))
 }
 
 /// A drawing with one character for each cell, of a team in an area with nothing in the way.
@@ -388,8 +388,8 @@ fn bare(look: Look, area: Area, team: &[Cell], mark: impl Fn(Cell) -> Mark) -> V
 
 /// The order of exploration: in each cell the team move in which it was explored.
 pub fn order(run: &dyn Play, chart: &Survey) -> String {
-    let RunConfig { layout, look, .. } = run.stage();
-    let label = |cell| match (chart.step(cell), look) {
+    let Setup { layout, scheme, .. } = run.setup();
+    let label = |cell| match (chart.step(cell), scheme.look) {
         (Some(0), Look::Linked { .. } | Look::Tree { .. }) => "B".to_owned(),
         (Some(step), _) => step.to_string(),
         (None, _) => String::new(),
@@ -400,8 +400,8 @@ pub fn order(run: &dyn Play, chart: &Survey) -> String {
 
 /// What was explored, and where the team is in the end.
 pub fn outcome(run: &dyn Play, chart: &Survey, team: &[Cell]) -> String {
-    let RunConfig { layout, look, .. } = run.stage();
-    let labels = Labels { look, cells: team, steps: None, unseen: &[] };
+    let Setup { layout, scheme, .. } = run.setup();
+    let labels = Labels { look: scheme.look, cells: team, steps: None, unseen: &[] };
     let label = |cell| labels.label(cell, chart.mark(cell, u32::MAX));
     grid(layout, chart.area(), labels.width(), label, |_| false).join("\n") + "\n"
 }

@@ -4,13 +4,13 @@
 
 pub mod agents;
 pub mod ants;
-mod asked;
 pub mod bricks;
 pub mod catalogue;
 pub mod chain;
 mod clause;
 pub mod depth_first;
 mod each;
+mod fit;
 pub mod floor;
 pub mod frontier;
 pub mod hunt;
@@ -19,29 +19,26 @@ mod hunt_states;
 pub mod kit;
 mod own;
 pub mod pack;
-pub mod rivals;
 mod rule;
 mod run;
-mod run_config;
 mod scan_time;
 mod scene;
 mod setup;
-mod setup_error;
+mod states;
 mod survey;
 pub mod trees;
-mod watched;
 
-pub use self::asked::Asked;
+pub use self::catalogue::{Catalogue, Scheme};
 pub use self::clause::ClauseId;
 pub use self::own::Own;
 pub use self::rule::{RuleId, RuleName};
 pub use self::run::{
     End, Limits, Milestone, OnViolation, Report, Stopped, Team, TeamMove, Violation, Watcher, run,
 };
-pub use self::run_config::{Knowledge, Look, Play, RunConfig};
 pub use self::scene::{Change, Hearers, Ink, Joins, Kind, Layer, Place, Scene, Shape, Value, Zone};
-pub use self::setup::{By, Clause, Drawn, Extra, Judge, Profile, Rule, Senses, Setup, Start, Starts};
-pub use self::setup_error::SetupError;
+pub use self::setup::{
+    Asked, By, Clause, Drawn, Judge, Knowledge, Look, Play, Profile, Rule, Senses, Setup, Start, Starts,
+};
 pub use self::survey::Survey;
 
 use tautline_kernel::ground::Cell;
@@ -65,8 +62,8 @@ pub fn explore(setup: &Setup, watch: &mut Watcher<'_>) -> Result<Report, Halt> {
 }
 
 impl Play for Setup {
-    fn stage(&self) -> RunConfig<'_> {
-        self.stage()
+    fn setup(&self) -> &Setup {
+        self
     }
 
     fn play(&self, watch: &mut Watcher<'_>) -> Result<Report, Halt> {

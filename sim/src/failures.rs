@@ -28,25 +28,15 @@ impl fmt::Display for Failure {
     }
 }
 
-/// Words that name no failure.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct NoFailure(String);
-
-impl fmt::Display for NoFailure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:?} is no robot and team move: write both as whole numbers from 1 on, as in 3@20", self.0)
-    }
-}
-
-impl std::error::Error for NoFailure {}
-
 impl FromStr for Failure {
-    type Err = NoFailure;
+    type Err = String;
 
-    fn from_str(text: &str) -> Result<Self, NoFailure> {
+    fn from_str(text: &str) -> Result<Self, String> {
         let parts =
             text.split_once('@').and_then(|(robot, step)| Some((robot.parse().ok()?, step.parse().ok()?)));
-        parts.map(|(robot, step)| Self { robot, step }).ok_or_else(|| NoFailure(text.to_owned()))
+        parts.map(|(robot, step)| Self { robot, step }).ok_or_else(|| {
+            format!("{text:?} is no robot and team move: write both as whole numbers from 1 on, as in 3@20")
+        })
     }
 }
 
@@ -101,26 +91,10 @@ impl fmt::Display for Appearing {
     }
 }
 
-/// Words that name no wall.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct NoWall(String);
-
-impl fmt::Display for NoWall {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{:?} is no side of a cell and team move: write column, row, one of E, S, W and N, and a whole number from 1 on, as in 7,6,E@20",
-            self.0
-        )
-    }
-}
-
-impl std::error::Error for NoWall {}
-
 impl FromStr for Appearing {
-    type Err = NoWall;
+    type Err = String;
 
-    fn from_str(text: &str) -> Result<Self, NoWall> {
+    fn from_str(text: &str) -> Result<Self, String> {
         let read = || {
             let (place, step) = text.split_once('@')?;
             let mut parts = place.split(',');
@@ -135,7 +109,12 @@ impl FromStr for Appearing {
             let is_over = parts.next().is_none();
             is_over.then_some(Self { cell, side, step: step.parse().ok()? })
         };
-        read().ok_or_else(|| NoWall(text.to_owned()))
+        read().ok_or_else(|| {
+            format!(
+                "{text:?} is no side of a cell and team move: write column, row, one of E, S, W and N, and a whole number \
+                 from 1 on, as in 7,6,E@20"
+            )
+        })
     }
 }
 

@@ -15,7 +15,6 @@ mod waves;
 
 pub use assigned::{Assigned, Assignment};
 pub use chart::Chart;
-pub use radio::Options;
 pub use team::Explorers;
 
 use tautline_kernel::chain::Kind;

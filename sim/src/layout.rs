@@ -14,6 +14,7 @@ pub mod ros;
 mod size;
 pub mod text;
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::num::NonZeroU16;
 use std::str::FromStr;
@@ -46,7 +47,7 @@ impl Layout {
     /// An area without walls and blocked cells, `width` and `height` in cells.
     ///
     /// # Errors
-    /// [`Problem::Size`] when a side is 0 or above [`MAX_SIDE_CELLS`], or the area above [`MAX_CELLS`];
+    /// [`Problem`] when a side is 0 or above [`MAX_SIDE_CELLS`], or the area above [`MAX_CELLS`];
     /// nothing is allocated then.
     pub fn open(width: u64, height: u64) -> Result<Self, Problem> {
         Size::new(width, height).map(Self::of)
@@ -132,6 +133,35 @@ impl Layout {
         }
     }
 
+    /// The same layout, with these cells blocked.
+    #[must_use]
+    pub fn with_blocked(mut self, cells: impl IntoIterator<Item = Cell>) -> Self {
+        cells.into_iter().for_each(|cell| self.block(cell));
+        self
+    }
+
+    /// The same layout, with walls on these edges.
+    #[must_use]
+    pub fn with_walls(mut self, edges: impl IntoIterator<Item = Edge>) -> Self {
+        edges.into_iter().for_each(|edge| self.build_wall(edge));
+        self
+    }
+
+    /// The cells that are reached from `starts`, those among them, row by row.
+    pub fn reachable(&self, starts: &[Cell]) -> Vec<Cell> {
+        let mut reached: BTreeSet<(i16, i16)> = starts.iter().map(|start| (start.y, start.x)).collect();
+        let mut left = starts.to_vec();
+        while let Some(cell) = left.pop() {
+            for side in Side::ALL {
+                let beside = cell.beyond(side);
+                if self.is_open(Edge::new(cell, side)) && reached.insert((beside.y, beside.x)) {
+                    left.push(beside);
+                }
+            }
+        }
+        reached.into_iter().map(|(y, x)| Cell::new(x, y)).collect()
+    }
+
     /// Makes `cell` free. Walls beside it stay.
     pub fn unblock(&mut self, cell: Cell) {
         if let Some(index) = self.size.index(cell) {
@@ -160,26 +190,18 @@ impl Layout {
     /// The free cell nearest the centre of the area, ties by row, then by column.
     ///
     /// # Errors
-    /// [`Problem::NoFreeCell`] when all cells are blocked.
+    /// [`Problem`] when all cells are blocked.
     pub fn default_base(&self) -> Result<Cell, Problem> {
         let centre = (i64::from(self.width()) - 1, i64::from(self.height()) - 1);
-        self.nearest_free(centre).ok_or(Problem::NoFreeCell)
+        self.nearest_free(centre).ok_or_else(Problem::no_free_cell)
     }
 
     /// Puts the base in `cell`.
     ///
     /// # Errors
-    /// [`Problem::BaseOutside`] and [`Problem::BaseBlocked`]; the latter names the nearest free cell. The
-    /// base stays where it was.
+    /// [`Problem`] if it is no free cell; the nearest one is named then, and the base stays where it was.
     pub fn place_base(&mut self, cell: Cell) -> Result<(), Problem> {
-        if !self.contains(cell) {
-            return Err(Problem::BaseOutside { base: cell, size: self.size });
-        }
-        if !self.is_free(cell) {
-            let nearest = self.nearest_free((2 * i64::from(cell.x), 2 * i64::from(cell.y)));
-            let blocked = |nearest| Problem::BaseBlocked { base: cell, nearest };
-            return Err(nearest.map_or(Problem::NoFreeCell, blocked));
-        }
+        self.check_free(cell, "base", "put the base on")?;
         self.base = Some(cell);
         Ok(())
     }
@@ -187,16 +209,24 @@ impl Layout {
     /// Whether a robot can start in `cell`.
     ///
     /// # Errors
-    /// [`Problem::StartOutside`] and [`Problem::StartBlocked`]; the latter names the nearest free cell.
+    /// [`Problem`] if it is no free cell; the nearest one is named then.
     pub fn check_start(&self, cell: Cell) -> Result<(), Problem> {
+        self.check_free(cell, "start", "start on")
+    }
+
+    /// Checks that `cell`, which is to be `what`, is free.
+    fn check_free(&self, cell: Cell, what: &str, remedy: &str) -> Result<(), Problem> {
         if !self.contains(cell) {
-            return Err(Problem::StartOutside { start: cell, size: self.size });
+            return Err(Problem::outside(what, cell, self.size));
         }
         if self.is_free(cell) {
             return Ok(());
         }
         let nearest = self.nearest_free((2 * i64::from(cell.x), 2 * i64::from(cell.y)));
-        Err(nearest.map_or(Problem::NoFreeCell, |nearest| Problem::StartBlocked { start: cell, nearest }))
+        Err(nearest.map_or_else(Problem::no_free_cell, |nearest| {
+            let what = format!("the {what} {cell} is on a blocked cell; the nearest free cell is {nearest}");
+            Problem::new(what, format!("{remedy} {nearest}"))
+        }))
     }
 
     /// How many robots the layout is meant for, the base counted, if it says so.

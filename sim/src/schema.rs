@@ -4,7 +4,7 @@ use schemars::transform::{Transform, transform_subschemas};
 use schemars::{JsonSchema, Schema, generate::SchemaSettings};
 use serde_json::Value;
 
-use crate::explore::{ClauseId, Profile, RuleId};
+use crate::explore::{ClauseId, Profile, RuleId, Scheme};
 
 /// A cell, as it is written: column and row.
 pub type CellWritten = [i16; 2];
@@ -72,4 +72,4 @@ macro_rules! written_as {
     )*};
 }
 
-written_as! { ClauseId as str, Profile as str, RuleId as str }
+written_as! { ClauseId as str, Profile as str, Scheme as str, RuleId as str }

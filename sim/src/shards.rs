@@ -6,5 +6,5 @@
 mod hunt;
 mod plan;
 
-pub use self::hunt::{deal_hunt, hunt_part, merge_hunt};
+pub use self::hunt::{deal_hunt, hunt_part, hunted, merge_hunt};
 pub use self::plan::{Done, Gap, Keeper, Of, Plan};

@@ -8,6 +8,9 @@ use std::str::FromStr;
 
 use tautline_kernel::notice::Count;
 
+use crate::layout::Problem;
+use crate::layout::generate::Probability;
+
 /// A whole number, as large as its type holds.
 ///
 /// # Errors
@@ -49,6 +52,14 @@ where
 /// What to write.
 pub fn real(text: &str) -> Result<f64, &'static str> {
     text.parse().map_err(|_| "write a number")
+}
+
+/// A number from 0 to 1.
+///
+/// # Errors
+/// What to write.
+pub fn probability(text: &str) -> Result<Probability, String> {
+    text.parse().map_err(|problem: Problem| format!("{problem}; {}", problem.remedy()))
 }
 
 /// How often something is counted until a node is silent.

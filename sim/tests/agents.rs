@@ -84,7 +84,7 @@ proptest! {
         setup in setups(),
         scheme in prop::sample::select(vec![&BRICKS, &BRICKS_ANTS]),
     ) {
-        let report = run(&Setup { scheme, ..setup.clone() });
+        let report = run(&Setup { scheme: scheme.into(), ..setup.clone() });
         prop_assert_eq!(&report.violations, &[]);
         prop_assert_eq!(report.stopped, Stopped::Explored);
         let due: BTreeSet<Cell> = setup.starts().iter().flat_map(|&start| connected(&setup.layout, start)).collect();
@@ -106,7 +106,7 @@ proptest! {
             (&HELPERS, RuleId::REPAIRED),
         ]),
     ) {
-        let report = run(&Setup { scheme, rule, ..setup.clone() });
+        let report = run(&Setup { scheme: scheme.into(), rule, ..setup.clone() });
         prop_assert_eq!(&report.violations, &[]);
         prop_assert_eq!(report.stopped, Stopped::Explored);
         let whole = report.whole();
@@ -119,7 +119,7 @@ proptest! {
         miss in 0.0..0.2_f64,
     ) {
         let miss = Probability::new(miss).expect("a probability");
-        let report = run(&Setup { scheme: &HELPERS, miss, ..setup });
+        let report = run(&Setup { scheme: (&HELPERS).into(), miss, ..setup });
         prop_assert_eq!(&report.violations, &[]);
         let whole = report.whole();
         prop_assert_eq!((whole.visited, whole.explored, whole.active), (report.cells, report.cells, 0));
@@ -127,7 +127,7 @@ proptest! {
 
     #[test]
     fn ants_explore_everything(setup in setups(), rule in prop::sample::select(RuleName::ALL.to_vec())) {
-        let report = run(&Setup { scheme: &ANTS, rule: rule.into(), ..setup });
+        let report = run(&Setup { scheme: (&ANTS).into(), rule: rule.into(), ..setup });
         prop_assert_eq!((report.stopped, report.explored), (Stopped::Explored, report.cells));
         prop_assert_eq!(report.violations, []);
     }
@@ -139,7 +139,7 @@ proptest! {
         scheme in prop::sample::select(vec![&ANTS, &BRICKS_ANTS]),
     ) {
         let miss = Probability::new(miss).expect("a probability");
-        let report = run(&Setup { scheme, miss, ..setup });
+        let report = run(&Setup { scheme: scheme.into(), miss, ..setup });
         prop_assert_eq!(&report.violations, &[]);
         prop_assert_eq!((report.stopped, report.explored), (Stopped::Explored, report.cells));
     }
@@ -263,7 +263,7 @@ fn no_layout_has_more_cells_than_there_are_labels_or_depths() {
 
 fn hunted(scheme: &'static Profile, rule: RuleId, (robots, max_misses): (u64, u8), side: u64) -> HuntReport {
     let asked = Asked {
-        scheme,
+        scheme: scheme.into(),
         rule,
         robots: Some(robots),
         size: Some(Size::new(side, side).expect("a size")),

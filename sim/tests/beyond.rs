@@ -17,9 +17,10 @@ use tautline_sim::explore::chain::{CHAIN, REEL};
 use tautline_sim::explore::pack::PACK;
 use tautline_sim::explore::{Asked, RuleId, Setup, Stopped, explore};
 use tautline_sim::failures::{Appearing, Compass, Failure, Going};
-use tautline_sim::frontier::{Explorers, Options};
+use tautline_sim::frontier::Explorers;
 use tautline_sim::kit::{self, Pace};
 use tautline_sim::layout::{Generator, Layout};
+use tautline_sim::options::Options;
 
 /// Runs by one rule.
 #[derive(Debug, Default)]
@@ -160,8 +161,7 @@ fn pack(rule: RuleId, runs: u64) -> Counted {
         let asked = Asked {
             robots: Some(robots as u64),
             starts: starts.clone(),
-            sight_cells: Some(sight),
-            range_cells: Some(range),
+            options: Options { sight_cells: Some(sight), range_cells: Some(range), ..Options::USUAL },
             ..Asked::new(&PACK, rule)
         };
         let setup = asked.setup(layout).expect("a pack");

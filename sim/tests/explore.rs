@@ -13,7 +13,7 @@ use tautline_sim::atomic_file::{AtomicFile, Replaceable};
 use tautline_sim::diagnostic::{Diagnostic, Halt};
 use tautline_sim::explore::chain::{CHAIN, REEL, UNHELD};
 use tautline_sim::explore::{
-    ClauseId, Limits, Milestone, OnViolation, Report, RuleName, Setup, Stopped, TeamMove, explore,
+    Catalogue, ClauseId, Limits, Milestone, OnViolation, Report, RuleName, Setup, Stopped, TeamMove, explore,
 };
 use tautline_sim::layout::{self, Generator, Layout};
 use tautline_sim::trace::{Trace, Writer};
@@ -89,7 +89,7 @@ fn is_possible(setup: &Setup, made: &TeamMove<'_>, robot: usize) -> bool {
 
 fn stored(setup: &Setup, clause: Option<ClauseId>, path: &Path) -> Report {
     let aside = AtomicFile::new(path, &Replaceable::default()).expect("a place");
-    let mut writer = Writer::new(aside, &setup.stage(), clause).expect("a free base");
+    let mut writer = Writer::new(aside, setup, clause).expect("a free base");
     let report = explore(setup, &mut |made| {
         writer.add(made);
         Ok(())
@@ -101,7 +101,7 @@ fn stored(setup: &Setup, clause: Option<ClauseId>, path: &Path) -> Report {
 
 fn replayed(path: &Path) -> Result<(Report, Vec<Frame>), Diagnostic> {
     let mut frames = Vec::new();
-    let replayed = Trace::open(path).map_err(Halt::Diagnostic).and_then(|trace| {
+    let replayed = Trace::open(path, Catalogue::OWN).map_err(Halt::Diagnostic).and_then(|trace| {
         trace.replay(&mut |made| {
             frames.push(made.frame.clone());
             Ok(())

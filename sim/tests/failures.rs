@@ -3,9 +3,9 @@
 use tautline_sim::explore::chain::{ANY_ORDER, CHAIN, REEL, UNHELD};
 use tautline_sim::explore::{Report, RuleId, Setup, Stopped, explore};
 use tautline_sim::failures::{Failure, Going};
-use tautline_sim::frontier::Options;
 use tautline_sim::layout::Generator;
 use tautline_sim::layout::generate::Probability;
+use tautline_sim::options::Options;
 
 fn ran(rule: RuleId, robots: u16, density: f64, seed: u64, options: Options) -> Report {
     let ground = format!("walls:15x15:{density}").parse::<Generator>().expect("a generator");

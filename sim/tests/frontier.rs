@@ -7,13 +7,14 @@ use tautline_kernel::ground::Cell;
 use tautline_proofs::engine::Seeded;
 use tautline_sim::explore::frontier::FRONTIER;
 use tautline_sim::explore::hunt::{Asked, HuntReport, Shown};
-use tautline_sim::explore::{RuleId, Setup, SetupError, Stopped, explore};
-use tautline_sim::frontier::{Assigned, Assignment, Ended, Explorers, Options};
+use tautline_sim::explore::{RuleId, Setup, Stopped, explore};
+use tautline_sim::frontier::{Assigned, Assignment, Ended, Explorers};
 use tautline_sim::layout::{Generator, Layout, Size};
+use tautline_sim::options::Options;
 
 fn asked(rule: &'static str, robots: u64, (width, height): (u64, u64), max_losses: u8) -> Asked<'static> {
     Asked {
-        scheme: &FRONTIER,
+        scheme: (&FRONTIER).into(),
         rule: RuleId::new(rule),
         robots: Some(robots),
         size: Some(Size::new(width, height).expect("a size")),
@@ -91,16 +92,22 @@ fn a_repaired_team_explores_an_open_area_and_knows_it() {
 
 #[test]
 fn what_does_not_fit_is_refused() {
-    assert_eq!(setup(5, (2, 2)).check().err(), Some(SetupError::Full { robots: 5, cells: 4 }));
-    let with = |options| Setup { options, ..setup(2, (3, 3)) }.check().err();
+    let wrong =
+        |setup: Setup| setup.check().map(|_| ()).map_err(|fault| (fault.field(), fault.what().to_owned()));
+    let refused = |field, what: &str| Err((Some(field), what.to_owned()));
+    let full = "5 robots do not find room: from the base 4 cells can be reached";
+    assert_eq!(wrong(setup(5, (2, 2))), refused("robots", full));
+    let with = |options| wrong(Setup { options, ..setup(2, (3, 3)) });
     let usual = Options::default();
-    assert_eq!(with(usual), None);
-    assert_eq!(with(Options { threshold: 1.5, ..usual }), Some(SetupError::Threshold));
-    assert_eq!(with(Options { threshold: f64::NAN, ..usual }), Some(SetupError::Threshold));
-    assert_eq!(with(Options { noise_db: -1.0, ..usual }), Some(SetupError::Noise));
+    assert_eq!(with(usual), Ok(()));
+    let no_threshold = refused("threshold", "a threshold of the occupancy probability is from 0 to 1");
+    assert_eq!(with(Options { threshold: 1.5, ..usual }), no_threshold);
+    assert_eq!(with(Options { threshold: f64::NAN, ..usual }), no_threshold);
+    let no_noise = refused("noise-db", "a standard deviation of noise is from 0 to 100 dB");
+    assert_eq!(with(Options { noise_db: -1.0, ..usual }), no_noise);
     let cell = Cell::new(0, 0);
     let together = Setup { starts: Some(vec![cell, cell]), ..setup(2, (3, 3)) };
-    assert_eq!(together.check().err(), Some(SetupError::Together(cell)));
+    assert_eq!(wrong(together), refused("starts", "two robots start in the cell 0,0"));
 }
 
 #[test]

@@ -12,10 +12,10 @@ use tautline_sim::counterexample::refutation;
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::hunt::{Asked, Finding, HuntReport, RunSize, Shown};
 use tautline_sim::explore::kit::{APART, CONNECTED, CONTACT, ENDS, KIT};
-use tautline_sim::explore::{Report, RuleName, Setup, Stopped, explore};
-use tautline_sim::frontier::Options;
+use tautline_sim::explore::{Catalogue, Report, RuleName, Setup, Stopped, explore};
 use tautline_sim::kit::{self, Drive, Pace, REACH_MILLIMETRES};
 use tautline_sim::layout::{Generator, Layout, Size};
+use tautline_sim::options::Options;
 use tautline_sim::trace::Trace;
 
 fn generated(description: &str, seed: u64) -> Layout {
@@ -231,7 +231,7 @@ fn teams_without_room_or_contact_say_so() {
 
 fn asked(rule: RuleName, robots: u64, (columns, rows): (u64, u64)) -> Asked<'static> {
     Asked {
-        scheme: &KIT,
+        scheme: (&KIT).into(),
         rule: rule.into(),
         robots: Some(robots),
         size: Some(Size::new(columns, rows).expect("a size")),
@@ -351,8 +351,10 @@ fn whatever_the_page_shows_can_be_played_again() {
         }
         let text = fs::read_to_string(&path).expect("a file");
         let clause = if text.starts_with("{\"format\":\"tautline run\"") {
-            let report =
-                Trace::open(&path).expect("a run").replay(&mut |_| Ok(())).expect("it is made again");
+            let report = Trace::open(&path, Catalogue::OWN)
+                .expect("a run")
+                .replay(&mut |_| Ok(()))
+                .expect("it is made again");
             report.violations.last().expect("it breaks something").clause.to_string()
         } else {
             refutation::replay(&path).expect("it is played again").clause.id.to_owned()

@@ -12,7 +12,3 @@ mod laps;
 mod minimise;
 mod own_team;
 mod pack;
-mod page;
-mod rivals;
-mod same_runs;
-mod seeds;

@@ -10,17 +10,16 @@ use tautline_kernel::ground::{Cell, Edge, Side};
 use tautline_proofs::chain::breach::Breach;
 use tautline_proofs::judge::chain::judge;
 use tautline_sim::atomic_file::Replaceable;
-use tautline_sim::counterexample::hunt::store;
 use tautline_sim::counterexample::judge_input::exhibit;
 use tautline_sim::counterexample::minimise::{Extent, Failure, Minimal, Refused, minimise};
 use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::chain::CHAIN;
 use tautline_sim::explore::kit::KIT;
 use tautline_sim::explore::{
-    Asked, ClauseId, Limits, OnViolation, RuleId, RuleName, Setup, Stopped, explore,
+    Asked, Catalogue, ClauseId, Limits, OnViolation, RuleId, RuleName, Setup, Stopped, explore,
 };
 use tautline_sim::layout::{self, Generator, Layout};
-use tautline_sim::trace::Trace;
+use tautline_sim::trace::{Trace, store};
 
 /// Column and row.
 type Place = (i16, i16);
@@ -255,7 +254,7 @@ fn a_minimal_run_that_breaks_another_clause_before_replays_to_its_own() {
     assert_eq!(path.file_name(), Some("chain-2-published-n10.jsonl".as_ref()));
     let broken: Vec<ClauseId> = report.violations.iter().map(|violation| violation.clause).collect();
     assert_eq!(broken, [Breach::Contact, Breach::Crowding]);
-    let trace = Trace::open(&path).expect("a stored run");
+    let trace = Trace::open(&path, Catalogue::OWN).expect("a stored run");
     assert_eq!(trace.clause, Some(Breach::Crowding.into()));
     assert_eq!(trace.replay(&mut |_| Ok(())), Ok(report));
 }

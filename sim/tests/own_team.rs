@@ -14,7 +14,7 @@ use tautline_sim::counterexample::minimise::{Broken, Case, Met, minimise, shrink
 use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::draw::{story, svg};
 use tautline_sim::explore::{
-    Clause, ClauseId, End, Limits, Look, OnViolation, Play, Profile, Report, Rule, RuleId, RunConfig, Senses,
+    Catalogue, Clause, ClauseId, End, Limits, Look, OnViolation, Play, Profile, Report, Rule, RuleId, Senses,
     Setup, Starts, Stopped, Team, run,
 };
 use tautline_sim::layout::{self, Layout};
@@ -107,8 +107,8 @@ fn store(path: &Path, layout: &Layout, start: Cell, limits: Limits) -> Report {
     let starts = [start; 2];
     let aside = AtomicFile::new(path, &Replaceable::default()).expect("a place");
     let clause = (limits.violation == OnViolation::Stop).then_some(ALONE);
-    let mut writer =
-        Writer::new(aside, &RunConfig::new("pair", "eager", layout, &starts), clause).expect("a free cell");
+    let mut writer = Writer::new(aside, &Setup::named("pair", "eager", layout.clone(), &starts), clause)
+        .expect("a free cell");
     let report = run(&mut Pair::new(layout, start), layout, limits, &mut |made| {
         writer.add(made);
         Ok(())
@@ -127,7 +127,7 @@ fn loaded(name: &str) -> (Layout, Cell) {
 const STOP: Limits = Limits { until: None, max_moves: None, violation: OnViolation::Stop };
 
 fn foreign(path: &Path) -> Result<trace::Recorded, Diagnostic> {
-    match trace::open(path)? {
+    match trace::open(path, Catalogue::OWN)? {
         Stored::Foreign(run) => Ok(run),
         Stored::Known(trace) => panic!("{trace:?}"),
     }

@@ -5,12 +5,12 @@ use tautline_sim::diagnostic::Diagnostic;
 use tautline_sim::explore::pack::PACK;
 use tautline_sim::explore::{Asked, Report, RuleId, Stopped, explore};
 use tautline_sim::layout::Generator;
+use tautline_sim::options::Options;
 
 fn asked(rule: RuleId, sight_cells: u16, range_cells: u16) -> Asked {
     Asked {
         robots: Some(4),
-        sight_cells: Some(sight_cells),
-        range_cells: Some(range_cells),
+        options: Options { sight_cells: Some(sight_cells), range_cells: Some(range_cells), ..Options::USUAL },
         ..Asked::new(&PACK, rule)
     }
 }

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use tautline_sim::explore::catalogue::SCHEMES;
+use tautline_papers::rivals::CATALOGUE;
 use tautline_sim::explore::{RuleId, Starts};
 
 use super::{folder, json, names, printed, ran, refused};
@@ -100,7 +100,7 @@ fn an_area_too_small_for_the_team_is_refused_with_what_would_be_right() {
     let folder = folder();
     let folder = folder.path();
     let mut told = 0;
-    for scheme in SCHEMES {
+    for scheme in CATALOGUE.schemes() {
         for rule in scheme.rules {
             let has_own_cells = match scheme.starts {
                 Starts::Alone => true,

@@ -1,6 +1,6 @@
 //! Seeds: each scheme takes one in any layout where it draws something, and the command on a page has it.
 
-use tautline_sim::explore::catalogue::SCHEMES;
+use tautline_papers::rivals::CATALOGUE;
 use tautline_sim::explore::{By, Profile};
 
 use super::*;
@@ -10,7 +10,7 @@ fn told(scheme: &Profile) -> Vec<Vec<String>> {
     let words = |by: &By| match by {
         By::Every => String::new(),
         By::Miss => "--miss 0.2".to_owned(),
-        By::Told(extra) => match extra.field() {
+        By::Told(extra) => match extra.field {
             "speeds" => "--speeds".to_owned(),
             "loss" => "--loss 0.3".to_owned(),
             field => format!("--{field} 6"),
@@ -31,8 +31,8 @@ fn on_page(page: &str, key: &str) -> String {
 #[test]
 fn the_command_on_a_page_makes_its_run_again_in_an_own_map() {
     let mut again = 0;
-    for scheme in SCHEMES {
-        for told in told(scheme) {
+    for scheme in CATALOGUE.schemes() {
+        for told in told(&scheme) {
             let folder = folder();
             let folder = folder.path();
             let explore =
@@ -58,15 +58,15 @@ fn the_command_on_a_page_makes_its_run_again_in_an_own_map() {
             again += 1;
         }
     }
-    assert!(again >= SCHEMES.len(), "{again}");
+    assert!(again >= CATALOGUE.schemes().count(), "{again}");
 }
 
 #[test]
 fn a_seed_that_draws_nothing_is_refused_with_what_would_be_drawn() {
     let folder = folder();
     let folder = folder.path();
-    let said: Vec<String> = SCHEMES
-        .iter()
+    let said: Vec<String> = CATALOGUE
+        .schemes()
         .filter(|scheme| scheme.drawn.iter().all(|drawn| drawn.by != By::Every))
         .map(|scheme| {
             let rule = scheme.rules[0].name;

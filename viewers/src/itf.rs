@@ -78,22 +78,22 @@ impl State {
 /// # Errors
 /// [`Halt`] if the run cannot be made.
 pub fn write(file: &mut AtomicFile, run: &dyn Play) -> Result<(), Halt> {
-    let stage = run.stage();
+    let setup = run.setup();
     let types: serde_json::Map<String, Value> =
         VARIABLES.iter().map(|&(name, kind)| (name.to_owned(), json!(kind))).collect();
     let meta = json!({
         "format": "ITF",
         "format-description": "https://apalache-mc.org/docs/adr/015adr-trace.html",
         "varTypes": types,
-        "scheme": stage.scheme,
-        "rule": stage.rule,
-        "layout": stage.layout.to_string(),
+        "scheme": setup.scheme.name,
+        "rule": setup.rule.as_str(),
+        "layout": setup.layout.to_string(),
     });
     let names: Vec<&str> = VARIABLES.iter().map(|&(name, _)| name).collect();
     file.append(ITF_HEAD);
     file.append(meta.to_string().trim_start_matches('{'));
     file.append(format!(",\n\"vars\":{},\n\"states\":[\n", json!(names)));
-    let mut last = State::start(stage.starts());
+    let mut last = State::start(setup.starts());
     let report = run.play(&mut |made| {
         let before = replace(&mut last, State::after(made));
         file.append(format!("{},\n", before.json()));

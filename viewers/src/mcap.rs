@@ -14,7 +14,7 @@ use self::file::{BLUE, Drawing, File, Ink, ORANGE, PURPLE, headed, stamp};
 use self::points::{Points, Rectangle};
 use tautline_sim::atomic_file::AtomicFile;
 use tautline_sim::diagnostic::{Diagnostic, Halt};
-use tautline_sim::explore::{Joins, Layer, Play, Report, RunConfig, Scene, Shape, TeamMove, Zone};
+use tautline_sim::explore::{Joins, Layer, Play, Report, Scene, Setup, Shape, TeamMove, Zone};
 use tautline_sim::trace::StoredMove;
 
 /// The points of a map are so many metres wide, of cells of one metre. The first is a post, whose middle is at 0, 0.
@@ -38,8 +38,7 @@ const fn at_ns(step: u32) -> u64 {
 /// # Errors
 /// [`Halt`] if the run cannot be made, or has more messages than the format can count.
 pub fn write(file: &mut AtomicFile, run: &dyn Play) -> Result<(), Halt> {
-    let stage = run.stage();
-    let mut recording = Recording::begin(file, &stage)?;
+    let mut recording = Recording::begin(file, run.setup())?;
     let report = run.play(&mut |made| Ok(recording.add(made)?))?;
     Ok(recording.end(&report)?)
 }
@@ -56,18 +55,18 @@ struct Recording<'f> {
 
 impl<'f> Recording<'f> {
     /// What stands still, and the start.
-    fn begin(file: &'f mut AtomicFile, stage: &RunConfig<'_>) -> Result<Self, Diagnostic> {
+    fn begin(file: &'f mut AtomicFile, setup: &Setup) -> Result<Self, Diagnostic> {
         let facts = [
-            ("scheme", stage.scheme.to_owned()),
-            ("rule", stage.rule.to_owned()),
-            ("robots", stage.robots.to_string()),
-            ("seed", stage.seed.to_string()),
-            ("layout", stage.layout.to_string()),
+            ("scheme", setup.scheme.name.to_owned()),
+            ("rule", setup.rule.to_string()),
+            ("robots", setup.robots.to_string()),
+            ("seed", setup.seed.to_string()),
+            ("layout", setup.layout.to_string()),
         ];
-        let (file, starts) = (File::begin(file, &facts)?, stage.starts());
-        let known = Points::at_start(stage.layout, &starts);
-        let mut recording = Self { file, rows: stage.layout.height(), known, sent: 0, links: None };
-        recording.send("/layout", "nav_msgs/OccupancyGrid", 0, &grid(&Points::whole(stage.layout), 0))?;
+        let (file, starts) = (File::begin(file, &facts)?, setup.starts());
+        let known = Points::at_start(&setup.layout, &starts);
+        let mut recording = Self { file, rows: setup.layout.height(), known, sent: 0, links: None };
+        recording.send("/layout", "nav_msgs/OccupancyGrid", 0, &grid(&Points::whole(&setup.layout), 0))?;
         recording.known.changed();
         recording.map(0)?;
         let faces: Vec<(Cell, Option<Side>)> = starts.into_iter().map(|cell| (cell, None)).collect();

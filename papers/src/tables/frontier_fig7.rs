@@ -11,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 use tautline_kernel::ground::Cell;
 
 use super::prelude::*;
-use tautline_sim::explore::frontier::{ALONE, FRONTIER, reachable};
+use tautline_sim::explore::frontier::{ALONE, FRONTIER};
 use tautline_sim::explore::{Limits, Milestone, RuleId, Setup, explore};
 use tautline_sim::layout::{Layout, generate};
 
@@ -221,7 +221,7 @@ fn drawn(settings: &Settings, seed: u64) -> Result<(Layout, Vec<Cell>), Halt> {
         for _ in 0..blocked {
             layout.block(cells.swap_remove(below(cells.len(), &mut dice)));
         }
-        if reachable(&layout, &cells[..1]).len() < cells.len() {
+        if layout.reachable(&cells[..1]).len() < cells.len() {
             continue;
         }
         let starts = (0..MOST_ROBOTS).map(|_| cells.swap_remove(below(cells.len(), &mut dice)));

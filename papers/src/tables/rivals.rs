@@ -11,11 +11,11 @@ use std::num::NonZeroU32;
 
 use self::asked::Told;
 use super::prelude::*;
+use crate::rivals::rival;
+use crate::rivals::{Cells, Links, Search};
 use tautline_sim::explore::chain::CHAIN;
-use tautline_sim::explore::rivals::rival;
 use tautline_sim::explore::{Limits, Milestone, Report, RuleName, Setup, explore, run};
 use tautline_sim::layout::Layout;
-use tautline_sim::rivals::{Cells, Links, Search};
 
 pub use fig3::ChainFig3;
 pub use table1::ChainTable1;

@@ -10,7 +10,8 @@ use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use tautline_kernel::ground::{Area, Cell, Side, SmallGrid, Step};
-use tautline_sim::explore::{ClauseId, catalogue};
+use tautline_papers::rivals::CATALOGUE;
+use tautline_sim::explore::ClauseId;
 
 use super::moved::Moved;
 use crate::diagnostic::{Kind, error};
@@ -143,7 +144,7 @@ impl Written {
     pub(super) fn read(rule: &Bound<'_, PyAny>) -> PyResult<Self> {
         let py = rule.py();
         let scheme: String = attribute(rule, "scheme", "a scheme, the name of what it is a rule of")?;
-        if catalogue::scheme(&scheme).is_some() {
+        if CATALOGUE.scheme(&scheme).is_some() {
             let what = format!("{scheme} is a scheme of tautline");
             return Err(error(py, Kind::Input, what, "give the rule's scheme another name"));
         }

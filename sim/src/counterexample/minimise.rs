@@ -29,9 +29,8 @@ use serde::Serialize;
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
 
 use crate::diagnostic::{Diagnostic, Halt};
-use crate::explore::catalogue::sensing;
 use crate::explore::{
-    ClauseId, Limits, OnViolation, Report, Senses, Setup, TeamMove, Violation, explore, run, team,
+    ClauseId, Limits, OnViolation, Report, Scheme, Senses, Setup, TeamMove, Violation, explore, run, team,
 };
 use crate::layout::{Layout, Problem};
 
@@ -96,7 +95,7 @@ pub enum Refused {
     /// The run breaks no clause.
     Unbroken,
     /// The run is one of agents: what they never met, their sensors may still have seen.
-    OfAgents,
+    OfAgents(Scheme),
     /// The run is made by the choices of a search, which looks for the smallest itself.
     Chosen,
     /// The run breaks other clauses than the one asked for.
@@ -115,7 +114,7 @@ impl Refused {
             Self::Unbroken => "name a counterexample of `tautline hunt`, or a trace of a run that ended \
                                `tautline explore` with exit code 1"
                 .to_owned(),
-            Self::OfAgents => format!("name a run of the scheme {}", sensing(Senses::Bumps, "or")),
+            Self::OfAgents(scheme) => format!("name a run of the scheme {}", scheme.sensing(Senses::Bumps)),
             Self::Chosen => "draw it with `tautline replay`".to_owned(),
             Self::Otherwise { broken, .. } => {
                 let broken: Vec<&str> = broken.iter().map(|clause| clause.as_str()).collect();
@@ -129,7 +128,7 @@ impl fmt::Display for Refused {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unbroken => f.write_str("this run breaks no clause: there is nothing to minimise"),
-            Self::OfAgents => f.write_str("this is a run of agents: they are not minimised"),
+            Self::OfAgents(_) => f.write_str("this is a run of agents: they are not minimised"),
             Self::Chosen => f.write_str("a search has found this run: none in fewer cells breaks the clause"),
             Self::Otherwise { asked, .. } => {
                 write!(f, "this run does not break {asked}: there is nothing to minimise")
@@ -240,7 +239,7 @@ pub fn minimise(
 ) -> Result<Minimal, Failure> {
     match setup.scheme.senses {
         Senses::Bumps => {}
-        Senses::Floor => return Err(Refused::OfAgents.into()),
+        Senses::Floor => return Err(Refused::OfAgents(setup.scheme).into()),
     }
     if !setup.choices.is_empty() {
         return Err(Refused::Chosen.into());

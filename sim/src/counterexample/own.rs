@@ -10,7 +10,7 @@ use tautline_proofs::team::{Rule, Setting, Strategy};
 use crate::atomic_file::{AtomicFile, Replaceable};
 use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::hunt::layout as layout_of;
-use crate::explore::{ClauseId, End, Limits, Own, Report, RunConfig, Survey, Team, TeamMove, run};
+use crate::explore::{ClauseId, End, Limits, Own, Report, Setup, Survey, Team, TeamMove, run};
 use crate::layout::Layout;
 use crate::trace::Writer;
 
@@ -34,10 +34,9 @@ impl<R: Rule> Found<'_, R> {
         let clause = self.run.breaks.map(ClauseId::new);
         let limits = Limits::stopping_at(clause);
         let (layout, starts) = layout_of(self.run).map_err(Diagnostic::from)?;
-        let stage =
-            RunConfig { limits, ..RunConfig::new(self.setting.scheme, self.rule.0, &layout, &starts) };
+        let setup = Setup { limits, ..Setup::named(self.setting.scheme, self.rule.0, layout, &starts) };
         let aside = AtomicFile::new(path, replaceable)?;
-        let mut writer = Writer::new(aside, &stage, clause).map_err(Diagnostic::from)?;
+        let mut writer = Writer::new(aside, &setup, clause).map_err(Diagnostic::from)?;
         let mut add = |made: &TeamMove<'_>| {
             writer.add(made);
             Ok(())
@@ -45,9 +44,9 @@ impl<R: Rule> Found<'_, R> {
         let is_alone = self.setting.strategy() == Strategy::Tree && self.run.ending != Ending::Endless;
         let report = if is_alone {
             let playing = self.setting.in_layout(self.rule.1, &starts, Vec::new());
-            run(&mut Own::new(playing, 0), &layout, limits, &mut add)?
+            run(&mut Own::new(playing, 0), &setup.layout, limits, &mut add)?
         } else {
-            run(&mut Told::new(self.run, starts), &layout, limits, &mut add)?
+            run(&mut Told::new(self.run, starts), &setup.layout, limits, &mut add)?
         };
         Ok((writer.end(&report), report))
     }

@@ -18,8 +18,8 @@ use self::line::Line;
 use super::story;
 use crate::atomic_file::AtomicFile;
 use crate::diagnostic::Diagnostic;
-use crate::explore::{Layer, Look, Milestone, Play, Report, RunConfig, Scene, Starts, TeamMove, catalogue};
-use crate::frontier::Options;
+use crate::explore::{Layer, Look, Milestone, Play, Report, Scene, Setup, Starts, TeamMove};
+use crate::options::{Extra, Takes};
 
 /// Bytes of a page. Larger ones take a browser too long.
 const MAX_BYTES: usize = 10_000_000;
@@ -99,7 +99,7 @@ impl<'a> Page<'a> {
             return;
         }
         self.begin(made.before);
-        let mut text = self.line.of(self.run.stage().look, made, &scene);
+        let mut text = self.line.of(self.run.setup().scheme.look, made, &scene);
         self.broken = made.broken.iter().map(|clause| clause.as_str()).collect();
         if !made.broken.is_empty() {
             let told: Vec<(&str, Vec<String>)> = made
@@ -133,7 +133,8 @@ impl<'a> Page<'a> {
     }
 
     fn film(&mut self) -> Film {
-        let (stage, report) = (self.run.stage(), self.report);
+        let (setup, report) = (self.run.setup(), self.report);
+        let scheme = setup.scheme;
         let area = report.chart.area();
         let start = self.start.take().unwrap_or_default();
         let ends = self.ends();
@@ -141,19 +142,19 @@ impl<'a> Page<'a> {
             title: super::title_of(self.run),
             outcome: outcome(report),
             unit: "team move",
-            robot: stage.look.robot(),
+            robot: scheme.look.robot(),
             robots: start.len(),
-            has_base: stage.look.has_base(),
-            has_leader: matches!(stage.look, Look::Linked { .. }),
+            has_base: scheme.look.has_base(),
+            has_leader: matches!(scheme.look, Look::Linked { .. }),
             first: self.first(),
             of: report.steps,
             share: Share { of: report.cells, what: "cells explored" },
-            board: Board::cells(stage.layout, area, &start, stage.knowledge.is_some()),
+            board: Board::cells(&setup.layout, area, &start, scheme.knowledge.is_some()),
             layers: self.layers.iter().map(film::layer).collect(),
             clauses: self.clauses.iter().map(|(&id, &says)| (id, says)).collect(),
             ends,
             notes: notes(report),
-            again: again(&stage),
+            again: again(setup),
         }
     }
 
@@ -220,25 +221,24 @@ fn notes(report: &Report) -> Vec<(u32, String)> {
 }
 
 /// How to make the run again, and others.
-fn again(stage: &RunConfig<'_>) -> Again {
-    let RunConfig {
-        scheme, rule, robots, seed, base, starts, miss, missed, options, choices, limits, ..
-    } = *stage;
-    let is_small = stage.layout.size().area().cells().nth(MOST_PRINTED).is_none();
+fn again(setup: &Setup) -> Again {
+    let Setup { scheme, rule, robots, seed, base, starts, miss, missed, options, choices, limits, .. } =
+        setup;
+    let is_small = setup.layout.size().area().cells().nth(MOST_PRINTED).is_none();
     let layout = is_small.then(|| {
-        let mut layout = stage.layout.clone();
+        let mut layout = setup.layout.clone();
         // Without a base where none can stand, the drawing is as good.
-        let _ = layout.place_base(base);
+        let _ = layout.place_base(*base);
         layout.to_string()
     });
     let by_search = Again { command: None, layout };
-    let Some(profile) = catalogue::scheme(scheme) else { return by_search };
-    if !choices.is_empty() || !missed.is_empty() {
+    if !scheme.is_known() || !choices.is_empty() || !missed.is_empty() {
         return by_search;
     }
-    let mut command = format!("tautline explore LAYOUT --scheme {scheme} --rule {rule} --robots {robots}");
+    let name = scheme.name;
+    let mut command = format!("tautline explore LAYOUT --scheme {name} --rule {rule} --robots {robots}");
     // Writing to a string cannot fail.
-    match (profile.starts, starts) {
+    match (scheme.starts, starts) {
         (Starts::Base, _) | (_, None) => {
             let _ = write!(command, " --base {},{}", base.x, base.y);
         }
@@ -251,34 +251,12 @@ fn again(stage: &RunConfig<'_>) -> Again {
     if !miss.is_never() {
         let _ = write!(command, " --miss {miss}");
     }
-    let usual = Options::default();
-    if let Some(range) = options.range_cells {
-        let _ = write!(command, " --range {range}");
-    }
-    if let Some(sight) = options.sight_cells {
-        let _ = write!(command, " --sight {sight}");
-    }
-    if options.loss != usual.loss {
-        let _ = write!(command, " --loss {}", options.loss);
-    }
-    for (name, given, usual) in [
-        ("noise-db", Some(options.noise_db), Some(usual.noise_db)),
-        ("threshold", Some(options.threshold), Some(usual.threshold)),
-        ("speed", options.speed_mps, usual.speed_mps),
-        ("spread", options.spread, usual.spread),
-    ] {
-        if let Some(given) = given.filter(|_| given != usual) {
-            let _ = write!(command, " --{name} {given}");
-        }
-    }
-    if let Some(failure) = options.fail {
-        let _ = write!(command, " --fail {failure}");
-    }
-    if let Some(wall) = options.wall {
-        let _ = write!(command, " --wall {wall}");
-    }
-    if !options.going.is_usual() {
-        command += " --speeds";
+    for extra in Extra::ALL {
+        let _ = match ((extra.typed)(options), extra.takes) {
+            (None, _) => Ok(()),
+            (Some(_), Takes::Nothing) => write!(command, " --{}", extra.field),
+            (Some(word), Takes::Word(_) | Takes::Real(_)) => write!(command, " --{} {word}", extra.field),
+        };
     }
     if let Some(milestone) = limits.until {
         let _ = write!(command, " --until {}", milestone.percent());
@@ -286,7 +264,7 @@ fn again(stage: &RunConfig<'_>) -> Again {
     if let Some(most) = limits.max_moves {
         let _ = write!(command, " --max-moves {most}");
     }
-    if profile.draws(stage) {
+    if scheme.draws(setup) {
         let _ = write!(command, " --seed {seed}");
     }
     Again { command: Some(command + " --replay run.html"), ..by_search }

@@ -32,7 +32,7 @@ pub fn of(run: &dyn Play, chart: &Survey, made: &TeamMove<'_>) -> String {
         let _ = writeln!(text, "Team move {} breaks {}", made.step, with_sentence(clause));
     }
     text.push('\n');
-    let look = run.stage().look;
+    let look = run.setup().scheme.look;
     let who = match look {
         Look::Linked { .. } | Look::Tree { .. } => "R_",
         Look::Robots => "Robot ",
@@ -119,7 +119,7 @@ pub fn of_trap(run: &dyn Play) -> Result<String, Halt> {
         }
         Ok(())
     })?;
-    Ok(format!("{}\n\n{words}\n{}", legend(run.stage().look), beside(blocks)))
+    Ok(format!("{}\n\n{words}\n{}", legend(run.setup().scheme.look), beside(blocks)))
 }
 
 /// What agents do in `course`, turn by turn: every turn before it is made, with what the agent tries and the sensors
@@ -129,13 +129,8 @@ pub fn of_trap(run: &dyn Play) -> Result<String, Halt> {
 /// [`Problem`] if it does not fit into a layout.
 pub fn of_course(course: &Course) -> Result<String, Problem> {
     let Course { width, height, blocked, walls, turns, round, end } = course;
-    let mut layout = Layout::open(*width as u64, *height as u64)?;
-    for &cell in blocked {
-        layout.block(cell);
-    }
-    for &wall in walls {
-        layout.build_wall(wall);
-    }
+    let layout = Layout::open(*width as u64, *height as u64)?;
+    let layout = layout.with_blocked(blocked.iter().copied()).with_walls(walls.iter().copied());
     let shown = if *round == 0 { 0 } else { turns.len() - round };
     let (mut blocks, mut words) = (Vec::new(), String::new());
     for (number, turn) in (1..).zip(turns).skip(shown) {

@@ -9,7 +9,7 @@ use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
 use super::{Environment, REACH, first_drawn};
 use crate::atomic_file::SVG_HEAD;
 use crate::diagnostic::Diagnostic;
-use crate::explore::{Look, Play, RunConfig, Survey, TeamMove};
+use crate::explore::{Look, Play, Setup, Survey, TeamMove};
 use crate::layout::Layout;
 
 /// The side of a cell.
@@ -145,7 +145,7 @@ pub fn layout(layout: &Layout) -> Panel {
 
 /// The order of exploration.
 pub fn order(run: &dyn Play, chart: &Survey) -> Panel {
-    let RunConfig { layout, base, look, .. } = run.stage();
+    let Setup { layout, base, scheme, .. } = run.setup();
     let area = chart.area();
     let frame = Frame(area);
     let last = area.cells().filter_map(|cell| chart.step(cell)).max().unwrap_or(0).max(1);
@@ -162,8 +162,8 @@ pub fn order(run: &dyn Play, chart: &Survey) -> Panel {
             let _ = write!(body, "<text class=\"small\" x=\"{cx}\" y=\"{cy}\">{step}</text>");
         }
     }
-    if look.has_base() {
-        body.push_str(&base_mark(frame, base));
+    if scheme.look.has_base() {
+        body.push_str(&base_mark(frame, *base));
     }
     panel(area, String::new(), body + &walls(layout, area))
 }
@@ -172,13 +172,13 @@ pub fn order(run: &dyn Play, chart: &Survey) -> Panel {
 pub fn team_move(run: &dyn Play, chart: &Survey, made: &TeamMove<'_>) -> Panel {
     let area = chart.area();
     let frame = Frame(area);
-    let RunConfig { layout, look, .. } = run.stage();
+    let Setup { layout, scheme, .. } = run.setup();
     let mut body = ground(layout, area);
     for cell in area.cells() {
         body.push_str(&marked_cell(frame, cell, chart.mark(cell, made.step)));
     }
     body.push_str(&walls(layout, area));
-    body.push_str(&team(look, frame, made));
+    body.push_str(&team(scheme.look, frame, made));
     panel(area, super::title(made), body)
 }
 

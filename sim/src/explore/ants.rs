@@ -5,8 +5,7 @@ use tautline_proofs::floor::trap::Way;
 
 use super::agents::{AGENTS, start};
 use super::hunt_states::Traps;
-use super::run_config::Knowledge;
-use super::setup::{Profile, Rule};
+use super::setup::{Knowledge, Profile, Rule};
 
 const PUBLISHED: Way = Way::Ants(Ants::Published);
 const REPAIRED: Way = Way::Ants(Ants::Repaired);

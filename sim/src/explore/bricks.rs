@@ -12,8 +12,7 @@ use super::hunt_runs::Tries;
 use super::hunt_states::Traps;
 use super::rule::RuleId;
 use super::run::TeamMove;
-use super::run_config::Knowledge;
-use super::setup::{Clause, Judge, Profile, Rule, Setup};
+use super::setup::{Clause, Judge, Knowledge, Profile, Rule, Setup};
 use super::survey::Survey;
 use super::trees::TREE;
 

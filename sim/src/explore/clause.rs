@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::{Mutex, PoisonError};
 
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use tautline_proofs::chain::breach::Breach;
 
 /// An id such as `CHAIN-1`: a family and a number, of letters, digits and hyphens. Ids are ordered by family, then by
@@ -13,8 +13,20 @@ use tautline_proofs::chain::breach::Breach;
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub struct ClauseId(&'static str);
 
-/// The ids that were read in files of other programs. A file names few, and they are kept as long as the process.
+/// The ids and the names of rules that were read in files of other programs. A file names few, and they are kept as
+/// long as the process.
 static READ: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
+
+/// A word that was read, kept once.
+pub(super) fn kept(word: &str) -> &'static str {
+    let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+    let known = read.get(word).copied();
+    known.unwrap_or_else(|| {
+        let kept: &'static str = Box::leak(word.into());
+        read.insert(kept);
+        kept
+    })
+}
 
 impl ClauseId {
     /// The clause with this id.
@@ -29,13 +41,7 @@ impl ClauseId {
 
     /// The clause with the id that stands in a file.
     pub(crate) fn read(id: &str) -> Self {
-        let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = read.get(id).copied();
-        Self(known.unwrap_or_else(|| {
-            let kept: &'static str = Box::leak(id.into());
-            read.insert(kept);
-            kept
-        }))
+        Self(kept(id))
     }
 
     /// The family, and the number if there is one.
@@ -73,6 +79,13 @@ impl fmt::Debug for ClauseId {
 impl Serialize for ClauseId {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(self.0)
+    }
+}
+
+/// Whether a run can break it, a catalogue says.
+impl<'de> Deserialize<'de> for ClauseId {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Ok(Self::read(&String::deserialize(deserializer)?))
     }
 }
 

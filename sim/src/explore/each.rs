@@ -2,15 +2,14 @@
 
 use std::fmt;
 
+use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use tautline_proofs::engine::lots::{self, Look, Lots, Shard};
 use tautline_proofs::plural::counted;
 
-use super::hunt::{Asked, Bound, Deals, Dealt, Far, Hunt, HuntReport, Hunter};
+use super::hunt::{Asked, Bound, Deal, Deals, Dealt, Far, Hunt, HuntReport, Hunter};
 use crate::diagnostic::{Diagnostic, Halt};
-use crate::layout::Size;
 use crate::resumable::{Facts, Resumable, written};
 
 /// A hunt that looks at each layout by itself.
@@ -72,38 +71,6 @@ impl<E: Each> Hunt for E {
     }
 }
 
-/// A hunt dealt out: what is asked of it, and among how many shards.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Deal {
-    robots: Option<u64>,
-    size: Option<(i16, i16)>,
-    max_walls: Option<u32>,
-    max_misses: Option<u8>,
-    max_losses: Option<u8>,
-    error_cells: Option<f64>,
-    shards: usize,
-}
-
-impl Deal {
-    fn of(asked: &Asked<'_>, shards: usize) -> Self {
-        let &Asked { robots, max_walls, max_misses, max_losses, error_cells, .. } = asked;
-        let size = asked.size.map(|size| (size.width(), size.height()));
-        Self { robots, size, max_walls, max_misses, max_losses, error_cells, shards }
-    }
-
-    /// What it is a deal of: the scheme, the rule and the budget stand in `asked`.
-    fn read<'a>(text: &RawValue, asked: &Asked<'a>) -> Result<(Asked<'a>, usize), Diagnostic> {
-        let deal: Self =
-            serde_json::from_str(text.get()).map_err(|error| Diagnostic::usage(error, "plan anew"))?;
-        let Self { robots, size, max_walls, max_misses, max_losses, error_cells, shards } = deal;
-        let size = size.map(|(width, height)| Size::new(width as u64, height as u64)).transpose();
-        let size = size.map_err(|problem| Diagnostic::usage(problem, "plan anew"))?;
-        let asked = Asked { robots, size, max_walls, max_misses, max_losses, error_cells, ..*asked };
-        Ok((asked, shards))
-    }
-}
-
 /// The looks that a shard has taken, stage by stage.
 fn taken<L: DeserializeOwned>(far: &RawValue) -> Result<Vec<Vec<L>>, Diagnostic> {
     serde_json::from_str(far.get()).map_err(|error| Diagnostic::usage(error, "run the shard again"))
@@ -112,7 +79,7 @@ fn taken<L: DeserializeOwned>(far: &RawValue) -> Result<Vec<Vec<L>>, Diagnostic>
 impl<E: Each> Deals for E {
     fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Diagnostic> {
         let left = lots::dealt(&self.layouts(asked)?, shards).map_err(Into::into)?;
-        Ok(Dealt { deal: written(&Deal::of(asked, shards))?, left, of: "layout", moves: 0 })
+        Ok(Dealt { deal: Deal::written(asked, shards)?, left, of: "layout", moves: 0 })
     }
 
     fn part<'a>(
@@ -122,7 +89,7 @@ impl<E: Each> Deals for E {
         shard: usize,
         far: Option<&RawValue>,
     ) -> Result<Box<dyn Resumable + 'a>, Diagnostic> {
-        let (asked, shards) = Deal::read(deal, asked)?;
+        let (asked, shards) = Deal::<usize>::read(deal, asked)?;
         let looks = far.map(taken).transpose()?.unwrap_or_default();
         let shard = Shard::new(self.layouts(&asked)?, (shard, shards), looks, asked.budget);
         let shard = shard.map_err(Into::into)?;
@@ -139,7 +106,7 @@ impl<E: Each> Deals for E {
         deal: &RawValue,
         shards: &[&RawValue],
     ) -> Result<HuntReport, Diagnostic> {
-        let (asked, _) = Deal::read(deal, asked)?;
+        let (asked, _) = Deal::<usize>::read(deal, asked)?;
         let looks = shards.iter().map(|far| taken(far)).collect::<Result<Vec<_>, _>>()?;
         let (found, is_complete) = lots::merged(&self.layouts(&asked)?, looks).map_err(Into::into)?;
         self.told(&asked, found, is_complete)

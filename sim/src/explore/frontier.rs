@@ -5,23 +5,23 @@ mod hunt;
 mod scripted;
 mod shown;
 
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::BTreeSet;
 
 use tautline_kernel::frontier::Rule as Frontier;
-use tautline_kernel::ground::{Cell, Edge, Side};
+use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::run::Frame;
 
 use self::hunt::{Searched, Simulated};
 use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::{End, Team};
-use super::run_config::Look;
 use super::scene::{Layer, Scene};
-use super::setup::{By, Clause, Drawn, Extra, Profile, Rule, Senses, Setup, Starts};
+use super::setup::{By, Clause, Drawn, Look, Profile, Rule, Setup, Starts};
 use super::survey::Survey;
 use crate::diagnostic::Diagnostic;
-use crate::frontier::{Assigned, Assignment, Ended, Explorers, Options};
+use crate::frontier::{Assigned, Assignment, Ended, Explorers};
 use crate::layout::Layout;
+use crate::options::{Extra, Options};
 
 /// The run ends, and a cell in reach is unexplored.
 pub const COVERS: ClauseId = ClauseId::new("FRONTIER-1");
@@ -52,25 +52,19 @@ const MISSED: &str = "Within reach and unexplored";
 /// A rule of the kernel, hunted through all states.
 macro_rules! searched {
     ($name:expr, $about:expr, $rule:expr) => {
-        Rule { name: $name, about: $about, start: |setup| start(setup, $rule), hunt: Some(&Searched($rule)) }
+        Rule::new($name, $about, |setup| start(setup, $rule)).hunted(&Searched($rule))
     };
 }
 
 /// A rival, of which every layout is tried.
 macro_rules! assigned {
     ($name:expr, $about:expr, $assignment:expr) => {
-        Rule {
-            name: RuleId::new($name),
-            about: $about,
-            start: |setup| start_assigned(setup, $assignment),
-            hunt: Some(&Simulated),
-        }
+        Rule::new(RuleId::new($name), $about, |setup| start_assigned(setup, $assignment)).hunted(&Simulated)
     };
 }
 
 /// Robots that go to unexplored neighbours of their cells.
 pub static FRONTIER: Profile = Profile {
-    name: "frontier",
     about: "Frontier cells: robots that go to unexplored cells beside explored ones and tell each other",
     rules: &[
         searched!(RuleId::PUBLISHED, "As the paper publishes it", Frontier::PUBLISHED),
@@ -84,19 +78,16 @@ pub static FRONTIER: Profile = Profile {
         assigned!("hungarian-anew", "The same, anew at every move", Assignment::HungarianAnew),
         assigned!("earlier", "The nearest frontier cell that no earlier robot takes", Assignment::Earlier),
     ],
-    team: "team",
     robots: 1..=MAX_ROBOTS,
     starts: Starts::Alone,
-    senses: Senses::Bumps,
-    extras: &[Extra::Range, Extra::Loss, Extra::Noise, Extra::Threshold],
+    extras: &[Extra::RANGE, Extra::LOSS, Extra::NOISE, Extra::THRESHOLD],
     drawn: &[
-        Drawn { what: "which messages are lost", by: By::Told(Extra::Loss) },
-        Drawn { what: "how far off each position is", by: By::Told(Extra::Noise) },
+        Drawn { what: "which messages are lost", by: By::Told(Extra::LOSS) },
+        Drawn { what: "how far off each position is", by: By::Told(Extra::NOISE) },
         Drawn { what: "to which of the nearest cells a robot goes", by: By::Rule(PLAIN) },
         Drawn { what: "where a robot wanders", by: By::Rule(WANDERS) },
     ],
     look: Look::Apart,
-    knowledge: None,
     clauses: &[
         Clause { missed: Some(MISSED), ..Clause::new(COVERS.as_str()) },
         Clause::new(ALONE.as_str()),
@@ -104,6 +95,7 @@ pub static FRONTIER: Profile = Profile {
         Clause::new(KNOWS.as_str()),
         Clause::new(MARKS.as_str()),
     ],
+    ..Profile::named("frontier")
 };
 
 /// Who explores.
@@ -148,7 +140,7 @@ fn start_assigned(setup: &Setup, assignment: Assignment) -> Result<Box<dyn Team>
 
 fn team(setup: &Setup, who: Who) -> Box<dyn Team> {
     let starts = setup.starts();
-    let due = reachable(&setup.layout, &starts);
+    let due = setup.layout.reachable(&starts);
     let left = due.iter().copied().filter(|cell| !starts.contains(cell)).collect();
     Box::new(FrontierTeam { who, due, left, ended: None })
 }
@@ -164,21 +156,6 @@ fn check(setup: &Setup) -> Result<(), Diagnostic> {
         ));
     }
     Ok(())
-}
-
-/// The free cells of a layout that are reached from the starts, row by row.
-pub fn reachable(layout: &Layout, starts: &[Cell]) -> Vec<Cell> {
-    let mut reached: BTreeSet<(i16, i16)> = starts.iter().map(|start| (start.y, start.x)).collect();
-    let mut queue: VecDeque<Cell> = starts.iter().copied().collect();
-    while let Some(cell) = queue.pop_front() {
-        for side in Side::ALL {
-            let beside = cell.beyond(side);
-            if layout.is_open(Edge::new(cell, side)) && reached.insert((beside.y, beside.x)) {
-                queue.push_back(beside);
-            }
-        }
-    }
-    reached.into_iter().map(|(y, x)| Cell::new(x, y)).collect()
 }
 
 impl Team for FrontierTeam {

@@ -7,20 +7,22 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::engine::tree::Progress;
 use tautline_proofs::plural::counted;
 use tautline_proofs::run::Run;
 
+use super::catalogue::Scheme;
 use super::clause::ClauseId;
 use super::rule::RuleId;
 use super::run::Limits;
-use super::setup::{Profile, Setup};
+use super::setup::Setup;
 use crate::diagnostic::Diagnostic;
 use crate::layout::{Layout, Problem, Size};
-use crate::resumable::Resumable;
+use crate::resumable::{Resumable, written};
 
 /// A search of all layouts within bounds for runs that break a clause.
 pub trait Hunt: fmt::Debug + Sync {
@@ -90,6 +92,38 @@ pub struct Dealt {
     pub moves: u64,
 }
 
+/// What is asked of a hunt that is dealt out, and how it is: a deal, as a plan has it.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Deal<T> {
+    robots: Option<u64>,
+    size: Option<(i16, i16)>,
+    max_walls: Option<u32>,
+    max_misses: Option<u8>,
+    max_losses: Option<u8>,
+    error_cells: Option<f64>,
+    how: T,
+}
+
+impl<T: Serialize + DeserializeOwned> Deal<T> {
+    /// The deal of what is `asked`.
+    pub(super) fn written(asked: &Asked<'_>, how: T) -> Result<Box<RawValue>, Diagnostic> {
+        let &Asked { robots, max_walls, max_misses, max_losses, error_cells, .. } = asked;
+        let size = asked.size.map(|size| (size.width(), size.height()));
+        written(&Self { robots, size, max_walls, max_misses, max_losses, error_cells, how })
+    }
+
+    /// What it is a deal of, and how: the scheme, the rule and the budget stand in `asked`.
+    pub(super) fn read<'a>(text: &RawValue, asked: &Asked<'a>) -> Result<(Asked<'a>, T), Diagnostic> {
+        let deal: Self =
+            serde_json::from_str(text.get()).map_err(|error| Diagnostic::usage(error, "plan anew"))?;
+        let Self { robots, size, max_walls, max_misses, max_losses, error_cells, how } = deal;
+        let size = size.map(|(width, height)| Size::new(width as u64, height as u64)).transpose();
+        let size = size.map_err(|problem| Diagnostic::usage(problem, "plan anew"))?;
+        Ok((Asked { robots, size, max_walls, max_misses, max_losses, error_cells, ..*asked }, how))
+    }
+}
+
 /// A bound that some hunts take and others do not.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Bound {
@@ -136,7 +170,7 @@ impl Bound {
 #[derive(Clone, Copy, Debug)]
 pub struct Asked<'a> {
     /// The scheme.
-    pub scheme: &'static Profile,
+    pub scheme: Scheme,
     /// Its rule.
     pub rule: RuleId,
     /// Robots.
@@ -161,9 +195,9 @@ pub struct Asked<'a> {
 
 impl Asked<'_> {
     /// The hunt of a scheme by a rule, everything else being its own to choose.
-    pub const fn new(scheme: &'static Profile, rule: RuleId) -> Self {
+    pub fn new(scheme: impl Into<Scheme>, rule: RuleId) -> Self {
         Self {
-            scheme,
+            scheme: scheme.into(),
             rule,
             robots: None,
             size: None,
@@ -175,6 +209,22 @@ impl Asked<'_> {
             error_cells: None,
             resume: None,
         }
+    }
+
+    /// The run of robots from `starts` in `layout`. It stops where it breaks `clause`, and may break others before; if
+    /// none is named, it stops at its first violation.
+    ///
+    /// # Errors
+    /// [`Problem`] if the base is no free cell.
+    pub(super) fn setup(
+        &self,
+        mut layout: Layout,
+        starts: Vec<Cell>,
+        clause: Option<ClauseId>,
+    ) -> Result<Setup, Problem> {
+        let base = Setup::choose_base(&mut layout, starts.first().copied())?;
+        let setup = Setup::new(self.scheme, self.rule, starts.len() as u16, layout, base);
+        Ok(Setup { limits: Limits::stopping_at(clause), ..setup.starting_in(starts) })
     }
 
     /// Refuses a bound that is given and that `hunt` does not take.
@@ -352,6 +402,13 @@ pub enum Shown {
     Told(String),
 }
 
+impl Shown {
+    /// Of a run that breaks `clause`, or of one without end.
+    pub(super) fn of(clause: Option<ClauseId>) -> Self {
+        clause.map_or(Self::Endless, Self::Run)
+    }
+}
+
 /// What follows from what a hunt has found: within its whole bound, or, where it was ended before, among the layouts
 /// that it had `covered` by then, if any.
 pub(super) fn outcome(found: &[Finding], is_whole: bool, covered: Option<String>) -> String {
@@ -373,12 +430,9 @@ pub(super) fn outcome(found: &[Finding], is_whole: bool, covered: Option<String>
 ///
 /// # Errors
 /// [`Problem`] if the area is too large for a layout, or the base is outside.
-pub fn setup(scheme: &'static Profile, rule: impl Into<RuleId>, found: &Run) -> Result<Setup, Problem> {
-    let (mut layout, starts) = layout(found)?;
-    let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
-    layout.place_base(base)?;
-    let limits = Limits::stopping_at(found.breaks.map(ClauseId::new));
-    Ok(Setup { limits, ..Setup::new(scheme, rule, starts.len() as u16, layout, base) })
+pub fn setup(scheme: Scheme, rule: impl Into<RuleId>, found: &Run) -> Result<Setup, Problem> {
+    let (layout, starts) = layout(found)?;
+    Asked::new(scheme, rule.into()).setup(layout, starts, found.breaks.map(ClauseId::new))
 }
 
 /// The layout of a run that was found, which has the walls that were met and no others; and where the robots start in
@@ -387,12 +441,10 @@ pub fn setup(scheme: &'static Profile, rule: impl Into<RuleId>, found: &Run) -> 
 /// # Errors
 /// [`Problem`] if the area is too large for a layout.
 pub fn layout(found: &Run) -> Result<(Layout, Vec<Cell>), Problem> {
-    let mut layout = Layout::open(found.area.width() as u64, found.area.height() as u64)?;
     let origin = found.area.first();
     let shifted = |cell: Cell| Cell::new(cell.x - origin.x, cell.y - origin.y);
-    for wall in &found.walls {
-        layout.build_wall(Edge::new(shifted(wall.cell()), wall.side()));
-    }
+    let walls = found.walls.iter().map(|wall| Edge::new(shifted(wall.cell()), wall.side()));
+    let mut layout = Layout::open(found.area.width() as u64, found.area.height() as u64)?.with_walls(walls);
     found.obstacles.iter().for_each(|&cell| layout.block(shifted(cell)));
     Ok((layout, found.starts.iter().copied().map(shifted).collect()))
 }

@@ -9,11 +9,11 @@ use tautline_proofs::engine::lots::Lots;
 use tautline_proofs::floor::trap::{End, Found, Look, Stage, Trap, stages, weight};
 
 use super::agents::{Agents, Crew};
+use super::catalogue::Scheme;
 use super::each::Each;
 use super::hunt::{Asked, Bound, HuntReport};
 use super::hunt_states::{Sought, TAKEN, hunted, refusal, setup, so_far, sought};
 use super::rule::RuleId;
-use super::setup::Profile;
 use crate::diagnostic::Diagnostic;
 use crate::layout::Layout;
 
@@ -51,7 +51,7 @@ impl<K: Crew + Sync + Send + fmt::Debug> Each for Tries<K> {
 /// Every run of these agents in every layout.
 pub(super) struct Runs<K> {
     crew: K,
-    scheme: &'static Profile,
+    scheme: Scheme,
     rule: RuleId,
     sought: Sought,
 }
@@ -152,39 +152,19 @@ pub(super) struct Plan {
 
 /// Every layout of an area, blocked cells read as a binary number with the north-western one last.
 fn plans((width, height): (i16, i16)) -> Result<Vec<Plan>, Diagnostic> {
-    let cells: Vec<Cell> = (0..height).flat_map(|y| (0..width).map(move |x| Cell::new(x, y))).collect();
+    let open = Layout::open(width as u64, height as u64)?;
+    let cells: Vec<Cell> = open.cells().collect();
     let mut plans = Vec::new();
     for set in 0..(1_u32 << cells.len()) - 1 {
-        let mut layout = Layout::open(width as u64, height as u64)?;
-        let (mut blocked, mut free) = (Vec::new(), Vec::new());
-        for (place, &cell) in cells.iter().enumerate() {
-            if set >> place & 1 == 1 {
-                layout.block(cell);
-                blocked.push(cell);
-            } else {
-                free.push(cell);
-            }
-        }
-        let plan = Plan { layout, free, blocked };
-        if plan.is_one() {
-            plans.push(plan);
+        let with_bit = |bit: u32| {
+            let cells = cells.iter().enumerate().filter(move |(place, _)| set >> place & 1 == bit);
+            cells.map(|(_, &cell)| cell).collect::<Vec<Cell>>()
+        };
+        let (blocked, free) = (with_bit(1), with_bit(0));
+        let layout = open.clone().with_blocked(blocked.iter().copied());
+        if layout.reachable(&free[..1]).len() == free.len() {
+            plans.push(Plan { layout, free, blocked });
         }
     }
     Ok(plans)
-}
-
-impl Plan {
-    /// Whether all free cells are connected.
-    fn is_one(&self) -> bool {
-        let Some(&first) = self.free.first() else { return false };
-        let (mut reached, mut next) = (vec![first], 0);
-        while let Some(&cell) = reached.get(next) {
-            next += 1;
-            let beside =
-                self.free.iter().filter(|&&other| cell.apart(other) == (1, 0) || cell.apart(other) == (0, 1));
-            let new: Vec<Cell> = beside.copied().filter(|other| !reached.contains(other)).collect();
-            reached.extend(new);
-        }
-        reached.len() == self.free.len()
-    }
 }

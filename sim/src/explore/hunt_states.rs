@@ -5,11 +5,11 @@ use tautline_proofs::floor::trap::{Bounds, End, Found, MAX_AGENTS, MAX_CELLS, Tr
 use tautline_proofs::plural::counted;
 
 use super::agents::PREMATURE;
+use super::catalogue::Scheme;
 use super::each::Each;
 use super::hunt::{Asked, Bound, Done, Facts, Finding, HuntReport, RunSize, Shown};
 use super::rule::RuleId;
-use super::run::{Limits, OnViolation};
-use super::setup::{Profile, Setup};
+use super::setup::Setup;
 use crate::diagnostic::Diagnostic;
 use crate::layout::{Layout, Problem, Size};
 
@@ -162,18 +162,9 @@ pub(super) fn so_far(asked: &Asked<'_>, found: &Found) -> String {
 ///
 /// # Errors
 /// [`Problem`] if the trap does not fit into a layout.
-pub(super) fn setup(scheme: &'static Profile, rule: RuleId, trap: &Trap) -> Result<Setup, Problem> {
-    let mut layout = Layout::open(trap.width as u64, trap.height as u64)?;
-    for &cell in &trap.blocked {
-        layout.block(cell);
-    }
-    let base = match trap.starts.first() {
-        Some(&start) => start,
-        None => layout.default_base()?,
-    };
-    layout.place_base(base)?;
-    let starts = Some(trap.starts.clone()).filter(|starts| starts.iter().any(|&start| start != base));
-    let limits = Limits { violation: OnViolation::Stop, ..Limits::default() };
-    let setup = Setup::new(scheme, rule, trap.starts.len() as u16, layout, base);
-    Ok(Setup { starts, missed: trap.missed.clone(), limits, ..setup })
+pub(super) fn setup(scheme: Scheme, rule: RuleId, trap: &Trap) -> Result<Setup, Problem> {
+    let layout = Layout::open(trap.width as u64, trap.height as u64)?;
+    let layout = layout.with_blocked(trap.blocked.iter().copied());
+    let setup = Asked::new(scheme, rule).setup(layout, trap.starts.clone(), None)?;
+    Ok(Setup { missed: trap.missed.clone(), ..setup })
 }

@@ -21,13 +21,13 @@ use self::hunt::Searched;
 
 use super::clause::ClauseId;
 use super::run::{End, Team};
-use super::run_config::Look;
 use super::scene::{Layer, Scene};
-use super::setup::{By, Clause, Drawn, Extra, Profile, Rule, Senses, Setup, Starts};
+use super::setup::{By, Clause, Drawn, Profile, Rule, Setup, Starts};
 use super::survey::Survey;
 use crate::diagnostic::Diagnostic;
 use crate::kit::{Course, Drive, MOST_ROBOTS, Pace, course, paths};
 use crate::layout::Layout;
+use crate::options::Extra;
 
 /// Of two robots, one may not hear the other at all speeds.
 pub const CONTACT: ClauseId = ClauseId::new("KIT-1");
@@ -69,20 +69,15 @@ const PATIENCE: usize = 20;
 
 /// Robots that drive every path between two nodes, and keep in touch.
 pub static KIT: Profile = Profile {
-    name: "kit",
     about: "Keep In Touch: robots that drive every path between two cells, and keep in radio contact",
     rules: &[
         Rule::published(|setup| start(setup, Kit::PUBLISHED), &Searched(Kit::PUBLISHED)),
         Rule::repaired(|setup| start(setup, Kit::REPAIRED), &Searched(Kit::REPAIRED)),
     ],
-    team: "team",
     robots: 1..=MOST_ROBOTS,
     starts: Starts::Beside,
-    senses: Senses::Bumps,
-    extras: &[Extra::Range, Extra::Speed, Extra::Spread],
+    extras: &[Extra::RANGE, Extra::SPEED, Extra::SPREAD],
     drawn: &[Drawn { what: "which of several sides a robot takes, and how fast it drives", by: By::Every }],
-    look: Look::Robots,
-    knowledge: None,
     clauses: &[
         Clause::new(CONTACT.as_str()),
         Clause::new(EQUAL.as_str()),
@@ -96,6 +91,7 @@ pub static KIT: Profile = Profile {
         Clause { missed: Some(MISSED), ..Clause::new(WHOLE.as_str()) },
         Clause::new(ANY_SHORTEST.as_str()),
     ],
+    ..Profile::named("kit")
 };
 
 struct KitTeam {

@@ -15,14 +15,14 @@ use tautline_kernel::pack::{
 use tautline_proofs::run::Frame;
 
 use super::clause::ClauseId;
-use super::frontier::reachable;
+use super::rule::RuleId;
 use super::run::{End, Team};
-use super::run_config::Look;
 use super::scene::{Layer, Scene};
-use super::setup::{Clause, Extra, Profile, Rule, Senses, Setup, Starts};
+use super::setup::{Clause, Profile, Rule, Setup, Starts};
 use super::survey::Survey;
 use crate::diagnostic::Diagnostic;
 use crate::layout::Layout;
+use crate::options::Extra;
 
 /// The team is not connected after a team move.
 pub const CONNECTED: ClauseId = ClauseId::new("PACK-1");
@@ -41,36 +41,24 @@ const PATIENCE: usize = 100;
 
 /// Robots that see, and stay connected.
 pub static PACK: Profile = Profile {
-    name: "pack",
     about: "Robots that see, go where most is to be seen for the way, and stay connected without a base",
     rules: &[
-        Rule {
-            name: super::RuleId::PUBLISHED,
-            about: "As the paper publishes it",
-            start: |setup| start(setup, Pack::PUBLISHED),
-            hunt: None,
-        },
-        Rule {
-            name: super::RuleId::REPAIRED,
-            about: "With the repairs of its refuted claims",
-            start: |setup| start(setup, Pack::REPAIRED),
-            hunt: None,
-        },
+        Rule::new(RuleId::PUBLISHED, "As the paper publishes it", |setup| start(setup, Pack::PUBLISHED)),
+        Rule::new(RuleId::REPAIRED, "With the repairs of its refuted claims", |setup| {
+            start(setup, Pack::REPAIRED)
+        }),
     ],
     team: "pack",
     robots: 1..=MAX_ROBOTS,
     starts: Starts::Alone,
-    senses: Senses::Bumps,
-    extras: &[Extra::Range, Extra::Sight],
-    drawn: &[],
-    look: Look::Robots,
-    knowledge: None,
+    extras: &[Extra::RANGE, Extra::SIGHT],
     clauses: &[
         Clause::new(CONNECTED.as_str()),
         Clause::new(SINGLE.as_str()),
         Clause { missed: Some("Within reach and unexplored"), ..Clause::new(COVERS.as_str()) },
         Clause::new(ENDS.as_str()),
     ],
+    ..Profile::named("pack")
 };
 
 /// The history of a pack, a step for each robot and team move.
@@ -229,11 +217,11 @@ impl Team for PackTeam {
     }
 
     fn due(&self, layout: &Layout) -> u32 {
-        reachable(layout, self.cells()).len() as u32
+        layout.reachable(self.cells()).len() as u32
     }
 
     fn missed(&self, layout: &Layout, chart: &Survey) -> Vec<Cell> {
-        let due = reachable(layout, self.cells());
+        let due = layout.reachable(self.cells());
         due.into_iter().filter(|&cell| chart.step(cell).is_none()).collect()
     }
 

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use tautline_kernel::chain::Rule;
 use tautline_proofs::chain::Observed;
 
+use super::clause::kept;
 use crate::named_values::NamedValues;
 
 /// Whether a scheme is taken as its paper has it.
@@ -63,6 +64,11 @@ impl RuleId {
     /// The rule with this name.
     pub const fn new(name: &'static str) -> Self {
         Self(name)
+    }
+
+    /// The rule with the name that stands in a file.
+    pub(crate) fn read(name: &str) -> Self {
+        Self(kept(name))
     }
 
     /// The name as it is typed, printed and stored.

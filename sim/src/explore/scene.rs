@@ -1,6 +1,7 @@
 //! What a team shows beside its robots and the cells that they enter: named layers, and what each team move changes in
 //! them. A page draws a layer by its shape; it knows no scheme.
 
+use serde::Serialize;
 use tautline_kernel::ground::{Cell, Edge};
 
 /// What can be shown or hidden on a page.
@@ -36,7 +37,7 @@ pub enum Shape {
 }
 
 /// What a cell or a side can be in a layer.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct Value {
     /// What it is called in the legend.
     pub name: &'static str,
@@ -45,11 +46,12 @@ pub struct Value {
 }
 
 /// A kind of message.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct Kind {
     /// What it is called.
     pub name: &'static str,
     /// Whether it comes to those whom it is for.
+    #[serde(rename = "heard")]
     pub is_heard: bool,
 }
 
@@ -66,7 +68,8 @@ impl Kind {
 }
 
 /// How something is painted. No two inks differ by their colours alone.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Ink {
     /// Free to go through.
     Open,
@@ -86,24 +89,9 @@ pub enum Ink {
     Sealed,
 }
 
-impl Ink {
-    /// Its name on a page.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Open => "open",
-            Self::Wall => "wall",
-            Self::Barred => "barred",
-            Self::Aim => "aim",
-            Self::Goal => "goal",
-            Self::Closing => "closing",
-            Self::Closed => "closed",
-            Self::Sealed => "sealed",
-        }
-    }
-}
-
 /// Which robots have links.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Joins {
     /// Each with the next, in the order of their numbers.
     Next,
@@ -111,17 +99,6 @@ pub enum Joins {
     Tree,
     /// All that are in a zone.
     All,
-}
-
-impl Joins {
-    /// Its name on a page.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Next => "next",
-            Self::Tree => "tree",
-            Self::All => "all",
-        }
-    }
 }
 
 /// The cells round a robot in which another one is.

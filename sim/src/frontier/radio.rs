@@ -2,79 +2,15 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::Rng;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use tautline_kernel::choice::Oracle;
-use tautline_kernel::frontier::{Place, SIDE, Threshold};
+use tautline_kernel::frontier::{Place, SIDE};
 use tautline_kernel::ground::{Area, Cell};
 use tautline_kernel::net::Propagation;
 use tautline_kernel::position::{self, Point, Range, Residual, Signal, locate};
 
-use crate::failures::{Appearing, Failure, Going};
-use crate::layout::generate::{self, Probability};
+use crate::layout::generate;
 use crate::noise::deviation_db;
-
-/// What a run is told besides, if its scheme can be told that. The default is what it is without a word.
-#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Options {
-    /// Farther than so many cells no message is heard. Without it all are; robots that keep in touch hear 10 m, those
-    /// of a pack 60 cells.
-    pub range_cells: Option<u16>,
-    /// How many cells robots see; without it 20.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub sight_cells: Option<u16>,
-    /// How likely it is that a message is lost, for each robot that could hear it.
-    pub loss: Probability,
-    /// The standard deviation of the noise with which a robot hears each anchor, in dB.
-    pub noise_db: f64,
-    /// The threshold T of the occupancy probability, from 0 to 1.
-    pub threshold: f64,
-    /// How fast robots that keep in touch drive, in metres a second; without it 0.3.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub speed_mps: Option<f64>,
-    /// By which share of it each of their drives may be faster or slower, below 1; without it 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub spread: Option<f64>,
-    /// Which robot dies, and when.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub fail: Option<Failure>,
-    /// Which wall appears, and when.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub wall: Option<Appearing>,
-    /// In what order robots go.
-    #[serde(default, skip_serializing_if = "Going::is_usual")]
-    pub going: Going,
-}
-
-impl Options {
-    /// What it is without a word.
-    pub const USUAL: Self = Self {
-        range_cells: None,
-        sight_cells: None,
-        loss: Probability::NEVER,
-        noise_db: 0.0,
-        threshold: 0.5,
-        speed_mps: None,
-        spread: None,
-        fail: None,
-        wall: None,
-        going: Going::AtOnce,
-    };
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self::USUAL
-    }
-}
-
-impl Options {
-    /// The threshold; ½ if it is none.
-    pub fn threshold(&self) -> Threshold {
-        Threshold::new(self.threshold).unwrap_or(Threshold::HALF)
-    }
-}
+use crate::options::Options;
 
 /// The radio of a run.
 #[derive(Clone, Debug)]

@@ -8,10 +8,11 @@ use tautline_kernel::ground::{Area, Cell, Side};
 use tautline_proofs::run::Frame;
 
 use super::chart::{Chart, Memory};
-use super::radio::{Options, Radio};
+use super::radio::Radio;
 use super::waves::{Knowledge, Waves};
 use super::{Ended, Moves, PATIENCE};
 use crate::layout::Layout;
+use crate::options::Options;
 
 /// A team of robots that explore cells.
 #[derive(Clone, Debug)]

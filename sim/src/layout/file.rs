@@ -30,7 +30,7 @@ pub fn load(description: &str, seed: u64, image: Option<&Path>) -> Result<Layout
 fn make(description: &str, seed: u64, image: Option<&Path>) -> Result<Layout, Diagnostic> {
     let file = Path::new(description);
     match description.parse::<Generator>() {
-        Ok(_) if image.is_some() => Err(Problem::NeedlessImage.into()),
+        Ok(_) if image.is_some() => Err(Problem::needless_image().into()),
         Ok(generator) => generator.generate(seed).map_err(Diagnostic::from),
         Err(problem) if means_generator(description) && !file.exists() => Err(problem.into()),
         Err(_) => load_file(file, image),
@@ -63,6 +63,11 @@ fn means_generator(description: &str) -> bool {
     Form::of(description).is_some() || description.contains(':') && !description.contains(['/', '\\'])
 }
 
+/// The problem of an image in place of the YAML file that describes it.
+fn bare_image() -> Problem {
+    Problem::new("this is an image alone", "name the .yaml file that describes it")
+}
+
 fn load_file(file: &Path, image: Option<&Path>) -> Result<Layout, Diagnostic> {
     if is_ros(file) {
         let (layout, frame) = ros::load(file, image)?;
@@ -73,12 +78,12 @@ fn load_file(file: &Path, image: Option<&Path>) -> Result<Layout, Diagnostic> {
         return Ok(layout);
     }
     let read: fn(&str) -> Result<Layout, Misread> = match extension(file).to_str() {
-        Some("pgm" | "png") => return Err(in_file(file, &Problem::BareImage)),
+        Some("pgm" | "png") => return Err(in_file(file, &bare_image())),
         Some("map") => movingai::read,
         Some(_) | None => text::read,
     };
     if image.is_some() {
-        return Err(Problem::NeedlessImage.into());
+        return Err(Problem::needless_image().into());
     }
     let source = read_text(file)?;
     read(&source).map_err(|misread| at(file, &source, &misread))

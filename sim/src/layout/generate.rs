@@ -13,6 +13,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::{Cell, Edge, Side};
 
+use super::problem::examples;
 use super::{Layout, Problem, Size, text};
 
 const ROOMS_A: &str = include_str!("generate/rooms-a.txt");
@@ -99,7 +100,7 @@ impl Generator {
     /// The layout for `seed`; those without chance are the same for all seeds.
     ///
     /// # Errors
-    /// [`Problem::NoFreeCell`] when chance blocked every cell.
+    /// [`Problem`] when chance blocked every cell.
     pub fn generate(&self, seed: u64) -> Result<Layout, Problem> {
         match *self {
             Self::Open(size) => Ok(Layout::of(size)),
@@ -178,7 +179,7 @@ fn cells(size: Size, probability: Probability, rng: &mut ChaCha8Rng) -> Result<L
             layout.block(cell);
         }
     }
-    if layout.free_cells() == 0 { Err(Problem::NoFreeCell) } else { Ok(layout) }
+    if layout.free_cells() == 0 { Err(Problem::no_free_cell()) } else { Ok(layout) }
 }
 
 fn office(size: Size, rooms: Rooms, rng: &mut ChaCha8Rng) -> Layout {
@@ -226,8 +227,16 @@ impl FromStr for Generator {
     type Err = Problem;
 
     fn from_str(description: &str) -> Result<Self, Problem> {
-        let form = Form::of(description).ok_or_else(|| Problem::NoSuchGenerator(description.to_owned()))?;
-        let wrong = || Problem::Generator { description: description.to_owned(), form };
+        let form = Form::of(description).ok_or_else(|| {
+            let what = format!("{description:?} names no generator");
+            Problem::new(what, format!("the generators are {}", examples()))
+        })?;
+        let wrong = || {
+            let example = if form.pattern == form.example { "" } else { form.example };
+            let example = if example.is_empty() { String::new() } else { format!(", for example {example}") };
+            let what = format!("{description:?} is not a whole description");
+            Problem::new(what, format!("write {}{example}", form.pattern))
+        };
         let parts: Vec<&str> = description.split(':').collect();
         match parts.as_slice() {
             ["open", size] => Ok(Self::Open(parse_size(size, wrong)?)),
@@ -237,7 +246,11 @@ impl FromStr for Generator {
             ["office", size, rooms] => {
                 let size = parse_size(size, wrong)?;
                 let (across, down) = parse_pair(rooms).ok_or_else(wrong)?;
-                let rooms = Rooms::new(across, down, size).ok_or(Problem::Rooms { across, down, size })?;
+                let rooms = Rooms::new(across, down, size).ok_or_else(|| {
+                    let what = format!("{size} cells cannot hold {across}x{down} rooms");
+                    let remedy = "at least one room each way, and at most one for each column and row";
+                    Problem::new(what, remedy)
+                })?;
                 Ok(Self::Office(size, rooms))
             }
             ["cells", size, p] => Ok(Self::Cells(parse_size(size, wrong)?, p.parse()?)),
@@ -256,11 +269,15 @@ fn parse_size(size: &str, wrong: impl FnOnce() -> Problem) -> Result<Size, Probl
     Size::new(width, height)
 }
 
+fn no_probability(p: &str) -> Problem {
+    Problem::new(format!("{p:?} is no probability"), "write a number from 0 to 1, for example 0.1")
+}
+
 impl FromStr for Probability {
     type Err = Problem;
 
     fn from_str(p: &str) -> Result<Self, Problem> {
-        p.parse().ok().and_then(Self::new).ok_or_else(|| Problem::Probability(p.to_owned()))
+        p.parse().ok().and_then(Self::new).ok_or_else(|| no_probability(p))
     }
 }
 
@@ -268,7 +285,7 @@ impl TryFrom<f64> for Probability {
     type Error = Problem;
 
     fn try_from(p: f64) -> Result<Self, Problem> {
-        Self::new(p).ok_or_else(|| Problem::Probability(p.to_string()))
+        Self::new(p).ok_or_else(|| no_probability(&p.to_string()))
     }
 }
 

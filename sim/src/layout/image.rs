@@ -13,7 +13,7 @@ pub(super) type Pixel = [u8; 4];
 /// them is decoded.
 ///
 /// # Errors
-/// [`Problem::Image`], or what `begin` returns.
+/// [`Problem`] if it is none, or what `begin` returns.
 pub(super) fn decode<T>(
     bytes: &[u8],
     begin: impl FnOnce(u32, u32) -> Result<T, Problem>,
@@ -21,7 +21,7 @@ pub(super) fn decode<T>(
     match bytes {
         [b'P', b'2' | b'3' | b'5' | b'6', ..] => decode_pnm(bytes, begin),
         [0x89, b'P', b'N', b'G', ..] => decode_png(bytes, begin),
-        _ => Err(Problem::Image("it is neither PGM nor PNG".to_owned())),
+        _ => Err(Problem::unread_image("it is neither PGM nor PNG")),
     }
 }
 
@@ -29,13 +29,13 @@ fn decode_png<T>(
     bytes: &[u8],
     begin: impl FnOnce(u32, u32) -> Result<T, Problem>,
 ) -> Result<(T, Vec<Pixel>), Problem> {
-    let undecoded = |error: png::DecodingError| Problem::Image(error.to_string());
+    let undecoded = |error: png::DecodingError| Problem::unread_image(error);
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: 16 * MAX_CELLS as usize });
     decoder.set_transformations(Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(undecoded)?;
     let (width, height) = reader.info().size();
     let begun = begin(width, height)?;
-    let size = reader.output_buffer_size().ok_or_else(|| Problem::Image("it is too large".to_owned()))?;
+    let size = reader.output_buffer_size().ok_or_else(|| Problem::unread_image("it is too large"))?;
     let mut samples = vec![0; size];
     let frame = reader.next_frame(&mut samples).map_err(undecoded)?;
     samples.truncate(frame.buffer_size());
@@ -75,7 +75,7 @@ fn decode_pnm<T>(
     bytes: &[u8],
     begin: impl FnOnce(u32, u32) -> Result<T, Problem>,
 ) -> Result<(T, Vec<Pixel>), Problem> {
-    let wrong = |what: &str| Problem::Image(what.to_owned());
+    let wrong = |what: &str| Problem::unread_image(what);
     let mut numbers = Numbers(&bytes[2..]);
     let mut positive = |what: &str| numbers.next().filter(|&number| number > 0).ok_or_else(|| wrong(what));
     let (width, height) =

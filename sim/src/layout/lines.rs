@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use tautline_proofs::plural::counted;
+
 use super::{Misread, Problem};
 use crate::diagnostic::BOM;
 
@@ -45,13 +47,17 @@ impl Line<'_> {
     pub(super) fn unknown(&self, range: Range<usize>, known: &'static str) -> Misread {
         let (start, end) =
             (self.text.floor_char_boundary(range.start), self.text.ceil_char_boundary(range.end));
-        let found = self.text[start..end].to_owned();
-        self.misread_at(start..end, Problem::Symbol { found, known })
+        let what = format!("the symbol {:?} is unknown", &self.text[start..end]);
+        self.misread_at(start..end, Problem::new(what, known))
     }
 
     /// Checks that the line has `expected` characters.
     pub(super) fn check_length(&self, expected: usize) -> Result<(), Misread> {
         let found = self.text.chars().count();
-        if found == expected { Ok(()) } else { Err(self.misread(Problem::RowLength { found, expected })) }
+        if found == expected {
+            return Ok(());
+        }
+        let what = format!("this row has {}, not {expected}", counted(found, "character"));
+        Err(self.misread(Problem::new(what, "make all rows equally long")))
     }
 }

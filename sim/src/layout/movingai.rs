@@ -6,11 +6,20 @@
 //! read.
 
 use tautline_kernel::ground::Cell;
+use tautline_proofs::plural::counted;
 
 use super::lines::{Line, end, lines};
-use super::{Layout, Misread, Problem};
+use super::{Layout, MAX_SIDE_CELLS, Misread, Problem};
 
 const SYMBOLS: &str = "a cell is `.`, `G` or `S` (free), `@`, `O`, `T` or `W` (blocked)";
+
+const ROWS: &str = "make `height` the number of rows that follow `map`";
+
+/// A header line is not as it should be.
+fn no_header(expected: &str) -> Problem {
+    let remedy = "a map begins with the lines `type octile`, `height N`, `width N` and `map`";
+    Problem::new(format!("the header line `{expected}` is missing here"), remedy)
+}
 
 /// Reads a map.
 ///
@@ -20,7 +29,7 @@ const SYMBOLS: &str = "a cell is `.`, `G` or `S` (free), `@`, `O`, `T` or `W` (b
 /// says, an unknown symbol, or no free cell.
 pub fn read(source: &str) -> Result<Layout, Misread> {
     let mut lines = lines(source);
-    let cut = |expected| Misread { at: end(source), problem: Problem::Header { expected } };
+    let cut = |expected| Misread { at: end(source), problem: no_header(expected) };
     let mut header = |expected| lines.next().ok_or_else(|| cut(expected));
 
     literal(&header("type octile")?, "type octile")?;
@@ -31,13 +40,19 @@ pub fn read(source: &str) -> Result<Layout, Misread> {
 
     let mut layout = Layout::open(width, height).map_err(|problem| first.misread(problem))?;
     for y in 0..layout.height() {
-        let missing = Problem::TooFewRows { found: y as usize, expected: layout.height() as usize };
-        let line = lines.next().ok_or_else(|| Misread { at: end(source), problem: missing })?;
+        let line = lines.next().ok_or_else(|| {
+            let what = format!("the map has {}, not {}", counted(y as usize, "row"), layout.height());
+            Misread { at: end(source), problem: Problem::new(what, ROWS) }
+        })?;
         read_row(&line, y, &mut layout)?;
     }
     match lines.next() {
-        Some(line) => Err(line.misread(Problem::TooManyRows { expected: layout.height() as usize })),
-        None if layout.free_cells() == 0 => Err(first.misread(Problem::NoFreeCell)),
+        Some(line) => {
+            let height = layout.height();
+            let what = format!("this is row {}, but `height` is {height}", height + 1);
+            Err(line.misread(Problem::new(what, ROWS)))
+        }
+        None if layout.free_cells() == 0 => Err(first.misread(Problem::no_free_cell())),
         None => Ok(layout),
     }
 }
@@ -55,17 +70,18 @@ fn read_row(line: &Line<'_>, y: i16, layout: &mut Layout) -> Result<(), Misread>
 }
 
 fn literal(line: &Line<'_>, expected: &'static str) -> Result<(), Misread> {
-    if line.text.trim_end() == expected { Ok(()) } else { Err(line.misread(Problem::Header { expected })) }
+    if line.text.trim_end() == expected { Ok(()) } else { Err(line.misread(no_header(expected))) }
 }
 
 /// The number of a header line such as `height 32`.
 fn count(line: &Line<'_>, expected: &'static str) -> Result<u64, Misread> {
     let name = expected.trim_end_matches([' ', 'N']);
     let number = line.text.strip_prefix(name).filter(|rest| rest.is_empty() || rest.starts_with(' '));
-    let number = number.ok_or_else(|| line.misread(Problem::Header { expected }))?.trim();
+    let number = number.ok_or_else(|| line.misread(no_header(expected)))?.trim();
     number.parse().map_err(|_| {
         let start = line.text.trim_end().len() - number.len();
-        let problem = Problem::Count { found: number.to_owned(), expected };
+        let what = format!("{number:?} is not the number N of the header line `{expected}`");
+        let problem = Problem::new(what, format!("write a whole number from 1 to {MAX_SIDE_CELLS}"));
         line.misread_at(start..start + number.len(), problem)
     })
 }

@@ -71,6 +71,10 @@ enum Negate {
     Number(u8),
 }
 
+/// What there is in a description.
+const FIELDS: &str =
+    "a map has the fields image, resolution, origin: [x, y, yaw], negate, occupied_thresh and free_thresh";
+
 /// Reads the map that `file` describes; `image` takes the place of the image named there, whose path is
 /// relative to the folder of `file`.
 ///
@@ -82,14 +86,15 @@ pub fn load(file: &Path, image: Option<&Path>) -> Result<(Layout, Frame), Diagno
     let beside = file.with_file_name(&description.image);
     let path = image.unwrap_or(&beside);
     let bytes = read_bytes(path).map_err(|problem| match (problem, image) {
-        (Problem::NoFile, given) => {
-            let problem = Problem::NoImage { tried: path.display().to_string() };
+        (_, given) if !path.exists() => {
+            let what = format!("the image {} is not there", path.display());
+            let problem = Problem::of_image(what, "name another image with `image` FILE");
             match given {
                 Some(_) => problem.into(),
                 None => at(file, &source, &Misread { at: description.image_at.clone(), problem }),
             }
         }
-        (problem, _) => in_file(path, &Problem::Image(problem.to_string())),
+        (problem, _) => in_file(path, &Problem::unread_image(problem)),
     })?;
     let layout = read(&description, &bytes).map_err(|problem| in_file(path, &problem))?;
     Ok((layout, description.frame))
@@ -119,11 +124,14 @@ pub fn describe(source: &str) -> Result<Description, Misread> {
         // One line of it, without the place, which the fault tells.
         let message =
             message.lines().next().and_then(|line| line.split(" at line ").next()).unwrap_or_default();
-        Misread { at, problem: Problem::Yaml(message.to_owned()) }
+        Misread { at, problem: Problem::new(format!("this does not describe a map: {message}"), FIELDS) }
     })?;
     let Fields { image, resolution, origin, negate, occupied_thresh, free_thresh, mode } = fields;
-    let wrong = |location, field, allowed| {
-        Err(Misread { at: bytes_of(location), problem: Problem::Number { field, allowed } })
+    let wrong = |location, field: &str, allowed: &str| {
+        Err(Misread {
+            at: bytes_of(location),
+            problem: Problem::new(format!("`{field}` is out of bounds"), allowed),
+        })
     };
     let (metres, occupied_above, free_below) = (resolution.value, occupied_thresh.value, free_thresh.value);
     if !(metres > 0.0 && metres.is_finite()) {
@@ -144,7 +152,9 @@ pub fn describe(source: &str) -> Result<Description, Misread> {
         Negate::Number(_) => return wrong(negate.referenced, "negate", "write 0 or 1"),
     };
     if let Some(mode) = mode.filter(|mode| !matches!(mode.value.as_str(), "trinary" | "scale")) {
-        return Err(Misread { at: bytes_of(mode.referenced), problem: Problem::Mode(mode.value) });
+        let what = format!("the mode {:?} is not supported", mode.value);
+        let problem = Problem::new(what, "save the map in mode trinary or scale");
+        return Err(Misread { at: bytes_of(mode.referenced), problem });
     }
     let [x_m, y_m, yaw_rad] = origin.value;
     Ok(Description {
@@ -160,7 +170,7 @@ pub fn describe(source: &str) -> Result<Description, Misread> {
 /// pixels are decoded.
 ///
 /// # Errors
-/// [`Problem::Image`], [`Problem::Size`] or [`Problem::NoFreeCell`].
+/// [`Problem`] if it cannot be read, is too large, or shows no free cell.
 pub fn read(description: &Description, bytes: &[u8]) -> Result<Layout, Problem> {
     let (mut layout, pixels) = decode(bytes, |width, height| Layout::open(width.into(), height.into()))?;
     let width = layout.width() as usize;
@@ -169,7 +179,7 @@ pub fn read(description: &Description, bytes: &[u8]) -> Result<Layout, Problem> 
             layout.block(Cell::new((place % width) as i16, (place / width) as i16));
         }
     }
-    if layout.free_cells() == 0 { Err(Problem::NoFreeCell) } else { Ok(layout) }
+    if layout.free_cells() == 0 { Err(Problem::no_free_cell()) } else { Ok(layout) }
 }
 
 impl Description {

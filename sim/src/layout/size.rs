@@ -22,13 +22,13 @@ impl Size {
     /// `width` columns and `height` rows.
     ///
     /// # Errors
-    /// [`Problem::Size`] when a side is 0 or above [`MAX_SIDE_CELLS`], or the area above [`MAX_CELLS`].
-    pub const fn new(width: u64, height: u64) -> Result<Self, Problem> {
+    /// [`Problem`] when a side is 0 or above [`MAX_SIDE_CELLS`], or the area above [`MAX_CELLS`].
+    pub fn new(width: u64, height: u64) -> Result<Self, Problem> {
         let sides_fit = 0 < width && width <= MAX_SIDE_CELLS && 0 < height && height <= MAX_SIDE_CELLS;
         if sides_fit && width * height <= MAX_CELLS {
             Ok(Self { width: width as i16, height: height as i16 })
         } else {
-            Err(Problem::Size { width, height })
+            Err(Problem::of_size(width, height))
         }
     }
 

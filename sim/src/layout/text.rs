@@ -16,6 +16,7 @@
 use std::fmt;
 use std::num::NonZeroU16;
 
+use tautline_kernel::chain::MAX_ROBOTS;
 use tautline_kernel::ground::{Cell, Edge, Side};
 
 use super::lines::{Line, end, lines};
@@ -39,13 +40,13 @@ const CELLS: &str = "a cell is two spaces (free), `##` (blocked) or `B` and a sp
 /// The first [`Problem`] from the top and the bytes it lies in: another version, an unknown symbol, rows of
 /// unequal length, an open rim, a drawing cut short, a second base, or no free cell.
 pub fn read(source: &str) -> Result<Layout, Misread> {
-    let cut = || Misread { at: end(source), problem: Problem::CutShort };
+    let cut = || Misread { at: end(source), problem: cut_short() };
     let mut lines = lines(source);
     check_version(&lines.next().ok_or_else(cut)?)?;
     let second = lines.next().ok_or_else(cut)?;
     let robots = second.text.strip_prefix("robots ").map(|count| {
         let at = second.text.len() - count.len()..second.text.len();
-        count.parse::<NonZeroU16>().map_err(|_| second.misread_at(at, Problem::Robots(count.to_owned())))
+        count.parse::<NonZeroU16>().map_err(|_| second.misread_at(at, no_robots(count)))
     });
     let robots = robots.transpose()?;
     let rim = if robots.is_some() { lines.next().ok_or_else(cut)? } else { second };
@@ -53,7 +54,10 @@ pub fn read(source: &str) -> Result<Layout, Misread> {
 
     let width = rim.text.len().saturating_sub(1) / 3;
     if width == 0 || rim.text != format!("+{}", "--+".repeat(width)) {
-        return Err(rim.misread(Problem::NoDrawing));
+        return Err(rim.misread(Problem::new(
+            "the northern rim should be drawn here",
+            "draw it as `+--+--+`, one `--` for each column",
+        )));
     }
     let pairs = rows.chunks_exact(2);
     if rows.is_empty() || !pairs.remainder().is_empty() {
@@ -69,12 +73,28 @@ pub fn read(source: &str) -> Result<Layout, Misread> {
         }
     }
     if layout.free_cells() == 0 {
-        return Err(rim.misread(Problem::NoFreeCell));
+        return Err(rim.misread(Problem::no_free_cell()));
     }
     if let Some(robots) = robots {
         layout.set_robots(robots);
     }
     Ok(layout)
+}
+
+/// The drawing ends too early.
+fn cut_short() -> Problem {
+    let remedy = "a drawing is a line of walls, then for each row a line of cells and a line of walls";
+    Problem::new("the drawing ends before its southern rim", remedy)
+}
+
+/// The number of robots is none.
+fn no_robots(count: &str) -> Problem {
+    let remedy = format!("write `robots N` with N from 1 to {MAX_ROBOTS}, or leave the line out");
+    Problem::new(format!("{count:?} is no number of robots"), remedy)
+}
+
+fn open_rim() -> Problem {
+    Problem::new("the rim has a gap", "close it: `--` in the north and south, `|` in the east and west")
 }
 
 /// What lies south of a row.
@@ -88,8 +108,15 @@ fn check_version(line: &Line<'_>) -> Result<(), Misread> {
     let version = line.text.strip_prefix(MAGIC).and_then(|version| version.parse::<u32>().ok());
     match version {
         Some(VERSION) => Ok(()),
-        Some(other) => Err(line.misread_at(MAGIC.len()..line.text.len(), Problem::Version(other))),
-        None => Err(line.misread(Problem::NotALayout)),
+        Some(other) => {
+            let what = format!("this is version {other}, this program reads version 1");
+            let problem = Problem::new(what, "write the drawing again with this program");
+            Err(line.misread_at(MAGIC.len()..line.text.len(), problem))
+        }
+        None => Err(line.misread(Problem::new(
+            "this is not the first line of a layout",
+            "a drawing begins with `tautline layout 1`; name MovingAI maps .map and ROS maps .yaml",
+        ))),
     }
 }
 
@@ -102,7 +129,7 @@ fn read_cells(line: &Line<'_>, y: i16, layout: &mut Layout) -> Result<(), Misrea
         let at = 3 * x as usize;
         match line.text.get(at..=at) {
             Some("|") => layout.build_wall(Edge::new(cell, Side::West)),
-            Some(" ") if x == 0 || x == width => return Err(line.misread_at(at..at + 1, Problem::OpenRim)),
+            Some(" ") if x == 0 || x == width => return Err(line.misread_at(at..at + 1, open_rim())),
             Some(" ") => {}
             Some(_) | None => return Err(line.unknown(at..at + 1, CELLS)),
         }
@@ -114,7 +141,11 @@ fn read_cells(line: &Line<'_>, y: i16, layout: &mut Layout) -> Result<(), Misrea
             (Some(FREE), _) => {}
             (Some(BLOCKED), _) => layout.block(cell),
             (Some(BASE), None) => layout.place_base(cell).map_err(|problem| line.misread(problem))?,
-            (Some(BASE), Some(first)) => return Err(line.misread_at(inside, Problem::TwoBases { first })),
+            (Some(BASE), Some(first)) => {
+                let problem =
+                    Problem::new(format!("a second base; the first is {first}"), "leave one of them");
+                return Err(line.misread_at(inside, problem));
+            }
             (Some(_) | None, _) => return Err(line.unknown(inside, CELLS)),
         }
     }
@@ -137,7 +168,7 @@ fn read_walls_below(line: &Line<'_>, y: i16, below: Below, layout: &mut Layout) 
         match (line.text.get(side.clone()), below) {
             (Some("--"), _) => layout.build_wall(Edge::new(Cell::new(x, y), Side::South)),
             (Some("  "), Below::Row) => {}
-            (Some("  "), Below::Rim) => return Err(line.misread_at(side, Problem::OpenRim)),
+            (Some("  "), Below::Rim) => return Err(line.misread_at(side, open_rim())),
             (Some(_) | None, _) => return Err(line.unknown(side, CORNERS)),
         }
     }

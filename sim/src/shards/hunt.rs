@@ -4,21 +4,14 @@ use serde_json::value::RawValue;
 
 use super::{Done, Of, Plan};
 use crate::diagnostic::{Diagnostic, Halt};
-use crate::explore::hunt::{Asked, Deals, Dealt, Hunt, HuntReport};
-use crate::explore::{Profile, RuleId, SetupError};
+use crate::explore::Catalogue;
+use crate::explore::hunt::{Asked, Deals, Dealt, HuntReport};
 use crate::resumable::Resumable;
 
-/// The hunt of a rule.
-fn hunt(scheme: &'static Profile, rule: RuleId) -> Result<&'static dyn Hunt, Diagnostic> {
-    let row = scheme.rule(rule).ok_or(SetupError::Rule { scheme, rule }).map_err(Diagnostic::from)?;
-    row.hunt.ok_or_else(|| {
-        Diagnostic::usage(format_args!("nothing is hunted of {}", scheme.name), "hunt another scheme")
-    })
-}
-
-/// The hunt of a rule that can be dealt out.
-fn deals(scheme: &'static Profile, rule: RuleId) -> Result<&'static dyn Deals, Diagnostic> {
-    hunt(scheme, rule)?.deals().ok_or_else(|| {
+/// The hunt that is asked for, if it can be dealt out.
+fn deals(asked: &Asked<'_>) -> Result<&'static dyn Deals, Diagnostic> {
+    let &Asked { scheme, rule, .. } = asked;
+    scheme.hunt(rule)?.deals().ok_or_else(|| {
         let what = format!(
             "a hunt of {} by the rule {rule} is not dealt out: most of its states are led to from every start, so each shard \
              would search them again",
@@ -29,14 +22,22 @@ fn deals(scheme: &'static Profile, rule: RuleId) -> Result<&'static dyn Deals, D
     })
 }
 
-/// The scheme and the rule that a plan hunts.
-fn hunted(plan: &Plan) -> Result<(&'static Profile, RuleId), Diagnostic> {
-    match plan.of {
-        Of::Hunt { scheme, rule } => Ok((scheme, rule)),
-        Of::Table { .. } => {
-            Err(Diagnostic::usage("this plan is none of a hunt", "run it with the command that planned it"))
-        }
-    }
+/// What a plan hunts: a scheme of `catalogue` and its rule; all else its deal has.
+///
+/// # Errors
+/// A [`Diagnostic`] if it is a plan of something else.
+pub fn hunted(plan: &Plan, catalogue: Catalogue) -> Result<Asked<'static>, Diagnostic> {
+    let known = |scheme: &str, rule: &str| {
+        let scheme = catalogue.scheme(scheme)?;
+        Some(Asked::new(scheme, scheme.rules.iter().find(|row| row.name.as_str() == rule)?.name))
+    };
+    let found = match &plan.of {
+        Of::Hunt { scheme, rule } => known(scheme, rule),
+        Of::Table { .. } => None,
+    };
+    found.ok_or_else(|| {
+        Diagnostic::usage("this plan is none of a hunt", "run it with the command that planned it")
+    })
 }
 
 /// Deals a hunt out among so many shards.
@@ -45,36 +46,33 @@ fn hunted(plan: &Plan) -> Result<(&'static Profile, RuleId), Diagnostic> {
 /// A [`Diagnostic`] if it cannot be dealt out.
 pub fn deal_hunt(asked: &Asked<'_>, shards: u32) -> Result<(Of, Dealt), Diagnostic> {
     let &Asked { scheme, rule, .. } = asked;
-    asked.check(hunt(scheme, rule)?)?;
-    let dealt = deals(scheme, rule)?.deal(asked, shards as usize)?;
-    Ok((Of::Hunt { scheme, rule }, dealt))
+    asked.check(scheme.hunt(rule)?)?;
+    let dealt = deals(asked)?.deal(asked, shards as usize)?;
+    Ok((Of::Hunt { scheme: scheme.name.to_owned(), rule: rule.to_string() }, dealt))
 }
 
-/// A shard of a hunt, where it was.
+/// A shard of the hunt that is `asked` for, where it was.
 ///
 /// # Errors
 /// A [`Diagnostic`] if the plan has no such shard, or it was never there.
 pub fn hunt_part(
     plan: &Plan,
+    asked: &Asked<'_>,
     shard: u32,
     far: Option<&RawValue>,
-    budget_moves: Option<u64>,
 ) -> Result<Box<dyn Resumable>, Diagnostic> {
     plan.check_shard(shard)?;
-    let (scheme, rule) = hunted(plan)?;
-    let asked = Asked { budget: budget_moves, ..Asked::new(scheme, rule) };
-    deals(scheme, rule)?.part(&asked, &plan.deal, shard as usize - 1, far)
+    deals(asked)?.part(asked, &plan.deal, shard as usize - 1, far)
 }
 
-/// What all shards of a hunt have found.
+/// What all shards of the hunt that is `asked` for have found.
 ///
 /// # Errors
 /// [`Halt`] if they do not fit their plan, or one has done less than it was dealt.
-pub fn merge_hunt(plan: &Plan, shards: &[Done]) -> Result<HuntReport, Halt> {
-    let (scheme, rule) = hunted(plan)?;
+pub fn merge_hunt(plan: &Plan, asked: &Asked<'_>, shards: &[Done]) -> Result<HuntReport, Halt> {
     for (number, shard) in (1..).zip(shards) {
-        shard.check(hunt_part(plan, number, Some(&shard.far), None).map_err(Halt::from))?;
+        shard.check(hunt_part(plan, asked, number, Some(&shard.far)).map_err(Halt::from))?;
     }
     let fars: Vec<&RawValue> = shards.iter().map(|shard| &*shard.far).collect();
-    Ok(deals(scheme, rule)?.merge(&Asked::new(scheme, rule), &plan.deal, &fars)?)
+    Ok(deals(asked)?.merge(asked, &plan.deal, &fars)?)
 }

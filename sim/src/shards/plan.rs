@@ -11,7 +11,6 @@ use sha2::{Digest, Sha256};
 use crate::atomic_file::{AtomicFile, Replaceable};
 use crate::checkpoint::{self, Checkpoint, Header, Lines};
 use crate::diagnostic::{Diagnostic, Halt};
-use crate::explore::{Profile, RuleId};
 use crate::resumable::Resumable;
 
 /// The most shards: more than there are machines.
@@ -23,10 +22,10 @@ const MAX_SHARDS: u32 = 100_000;
 pub enum Of {
     /// A hunt.
     Hunt {
-        /// The scheme.
-        scheme: &'static Profile,
-        /// Its rule.
-        rule: RuleId,
+        /// The name of the scheme.
+        scheme: String,
+        /// The name of its rule.
+        rule: String,
     },
     /// A table.
     Table {
@@ -172,7 +171,7 @@ impl Plan {
         let Some(file) = checkpoint::open::<Planned>(path)? else {
             return Err(Diagnostic::in_file(path, "there is no such file", Planned::AGAIN));
         };
-        let lines = Lines::<Planned>::read(path, &file)?;
+        let lines = Lines::<Planned>::read(path, &file, None)?;
         let Planned { of, shards, program: planned, .. } = lines.header().clone();
         if !(1..=MAX_SHARDS).contains(&shards) {
             let what = format!("there are no plans of {shards} shards");
@@ -228,7 +227,7 @@ impl Plan {
             let Some(file) = checkpoint::open::<Sharded>(path)? else {
                 return Err(Diagnostic::in_file(path, "there is no such file", "give the files of shards"));
             };
-            let lines = Lines::<Sharded>::read(path, &file)?;
+            let lines = Lines::<Sharded>::read(path, &file, None)?;
             let &Sharded { shard, done, .. } = lines.header();
             lines.check(&self.header(shard))?;
             let Some(place) = found.get_mut((shard as usize).wrapping_sub(1)) else {

@@ -11,10 +11,10 @@ use tautline_proofs::run::Frame;
 use super::lines::{Lines, line_of};
 use crate::atomic_file::AtomicFile;
 use crate::diagnostic::Diagnostic;
-use crate::explore::{ClauseId, Report, RunConfig, Stopped, TeamMove, Violation};
-use crate::frontier::Options;
+use crate::explore::{ClauseId, Limits, Report, RuleId, Scheme, Setup, Stopped, TeamMove, Violation};
 use crate::layout::generate::Probability;
 use crate::layout::{Layout, Problem};
+use crate::options::Options;
 use crate::schema::CellWritten;
 
 /// The format of the header.
@@ -24,37 +24,47 @@ pub(super) const VERSION: u32 = 1;
 /// How to make such a file again.
 pub(super) const AGAIN: &str = "store the run again with `tautline explore `trace`` or `tautline hunt`";
 
-/// The first line. What scheme, rule and limits say is known only of the schemes of this program.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+/// The first line. What the limits say is known only of the schemes of this program.
+#[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Header<S, R, L> {
+pub(super) struct Header<L> {
     format: String,
     version: u32,
-    pub(super) scheme: S,
-    pub(super) rule: R,
+    pub(super) scheme: String,
+    pub(super) rule: String,
     pub(super) robots: u16,
-    pub(super) seed: u64,
+    seed: u64,
     pub(super) base: Cell,
     /// Where each agent starts, if not all start at the base.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) starts: Option<Vec<Cell>>,
     /// How likely it is that a sensor is missed, if that happens at all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(super) miss: Option<Probability>,
+    miss: Option<Probability>,
     /// Which sensors are missed besides.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(super) missed: Vec<u32>,
+    missed: Vec<u32>,
     /// What else the run is told, if it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(super) options: Option<Options>,
+    options: Option<Options>,
     /// The choices that make the run, where a search has found it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub(super) choices: Vec<u32>,
+    choices: Vec<u32>,
     pub(super) limits: L,
     /// The clause that the last move breaks, in a counterexample.
     pub(super) clause: Option<String>,
     /// The drawing, with the base.
     pub(super) layout: String,
+}
+
+impl<L> Header<L> {
+    /// The run that it makes, without limits.
+    pub(super) fn setup(self, scheme: Scheme, rule: RuleId, layout: Layout) -> Setup {
+        let Self { robots, seed, base, starts, miss, missed, options, choices, .. } = self;
+        let (miss, options) = (miss.unwrap_or_default(), options.unwrap_or_default());
+        let limits = Limits::default();
+        Setup { scheme, rule, robots, seed, layout, base, starts, miss, missed, options, choices, limits }
+    }
 }
 
 /// A later line.
@@ -222,33 +232,29 @@ impl From<&Report> for StoredEnd {
 pub struct Writer(AtomicFile);
 
 impl Writer {
-    /// The trace of a run on `stage` in `aside`, of any team. A counterexample names the clause that it breaks.
+    /// The trace of the run of `setup` in `aside`, of any team. A counterexample names the clause that it breaks.
     ///
     /// # Errors
     /// [`Problem`] if the base is not a free cell.
-    pub fn new(
-        mut aside: AtomicFile,
-        stage: &RunConfig<'_>,
-        clause: Option<ClauseId>,
-    ) -> Result<Self, Problem> {
-        let mut layout = Cow::Borrowed(stage.layout);
-        if layout.base() != Some(stage.base) {
-            layout.to_mut().place_base(stage.base)?;
+    pub fn new(mut aside: AtomicFile, setup: &Setup, clause: Option<ClauseId>) -> Result<Self, Problem> {
+        let mut layout = Cow::Borrowed(&setup.layout);
+        if layout.base() != Some(setup.base) {
+            layout.to_mut().place_base(setup.base)?;
         }
         aside.append(line_of(&Header {
             format: FORMAT.to_owned(),
             version: VERSION,
-            scheme: stage.scheme,
-            rule: stage.rule,
-            robots: stage.robots,
-            seed: stage.seed,
-            base: stage.base,
-            starts: stage.starts.map(<[Cell]>::to_vec),
-            miss: Some(stage.miss).filter(|miss| !miss.is_never()),
-            missed: stage.missed.to_vec(),
-            options: Some(stage.options).filter(|options| *options != Options::default()),
-            choices: stage.choices.to_vec(),
-            limits: stage.limits,
+            scheme: setup.scheme.name.to_owned(),
+            rule: setup.rule.to_string(),
+            robots: setup.robots,
+            seed: setup.seed,
+            base: setup.base,
+            starts: setup.starts.clone(),
+            miss: Some(setup.miss).filter(|miss| !miss.is_never()),
+            missed: setup.missed.clone(),
+            options: Some(setup.options).filter(|options| *options != Options::default()),
+            choices: setup.choices.clone(),
+            limits: setup.limits,
             clause: clause.map(|clause| clause.to_string()),
             layout: layout.to_string(),
         }));

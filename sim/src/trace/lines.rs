@@ -19,9 +19,23 @@ pub(crate) const MAX_LINE_BYTES: u64 = 1 << 16;
 
 /// What every version of the header begins with.
 #[derive(Deserialize)]
-struct Magic {
+pub(crate) struct Magic {
     format: String,
     version: u32,
+}
+
+impl Magic {
+    /// The field in which it is not that of a `format` of this `version`, and what is wrong with it.
+    pub(crate) fn differs(&self, format: &str, version: u32) -> Option<(&'static str, String)> {
+        let Self { format: found, version: other } = self;
+        if found != format {
+            Some(("format", format!("the format is {found:?}")))
+        } else if *other != version {
+            Some(("version", format!("this is version {other}, this program reads version {version}")))
+        } else {
+            None
+        }
+    }
 }
 
 /// A line of a file: `value`, and its end.
@@ -93,15 +107,13 @@ impl Lines {
         })?;
         let magic: Magic =
             self.parse(&text, "a trace begins with its header; name a file that `trace` wrote")?;
-        if magic.format != format {
-            let what = format!("the format is {:?}", magic.format);
-            return Err(self.fault(&text, "\"format\"", what, format_args!("name a {format:?}")));
+        match magic.differs(format, version) {
+            None => Ok(text),
+            Some((field @ "format", what)) => {
+                Err(self.fault(&text, &format!("{field:?}"), what, format_args!("name a {format:?}")))
+            }
+            Some((field, what)) => Err(self.fault(&text, &format!("{field:?}"), what, self.again)),
         }
-        if magic.version != version {
-            let what = format!("this is version {}, this program reads version {version}", magic.version);
-            return Err(self.fault(&text, "\"version\"", what, self.again));
-        }
-        Ok(text)
     }
 
     /// The next line without its end, at most `most` bytes; `None` after the last.
@@ -204,10 +216,18 @@ impl Lines {
         serde_json::from_str(text).map_err(|error| {
             let message = error.to_string();
             let message = message.split(" at line ").next().unwrap_or_default();
-            let message = format!("this is no line of a stored run: {message}");
-            let column = error.column().saturating_sub(1);
-            self.at(text, column..column + 1, message, remedy)
+            self.no_line_at(text, error.column().saturating_sub(1), message, remedy)
         })
+    }
+
+    fn no_line_at(&self, text: &str, column: usize, what: impl Display, remedy: &str) -> Diagnostic {
+        let what = format_args!("this is no line of a stored run: {what}");
+        self.at(text, column..column + 1, what, remedy)
+    }
+
+    /// A fault at the end of the value that `key` has in the line, which is none.
+    pub(crate) fn no_line(&self, text: &str, key: &str, what: impl Display, remedy: &str) -> Diagnostic {
+        self.no_line_at(text, value_of(text, key).end.saturating_sub(1), what, remedy)
     }
 
     /// A fault where `key` stands in the line.
@@ -224,12 +244,7 @@ impl Lines {
 
     /// A fault in the value that `key` has in the line.
     pub fn fault_in(&self, text: &str, key: &str, what: impl Display, remedy: impl Display) -> Diagnostic {
-        let name = format!("\"{key}\"");
-        let rest = text.find(&name).map_or(text, |start| &text[start + name.len()..]);
-        let start = text.len() - rest.trim_start_matches([' ', ':']).len();
-        let mut values = serde_json::Deserializer::from_str(&text[start..]).into_iter::<IgnoredAny>();
-        let _ = values.next();
-        self.at(text, start..start + values.byte_offset(), what, remedy)
+        self.at(text, value_of(text, key), what, remedy)
     }
 
     fn whole(&self, text: &str, what: impl Display, remedy: impl Display) -> Diagnostic {
@@ -239,4 +254,14 @@ impl Lines {
     fn at(&self, text: &str, range: Range<usize>, what: impl Display, remedy: impl Display) -> Diagnostic {
         Diagnostic::in_line(&self.path, self.count, text, range, what, remedy)
     }
+}
+
+/// Where the value stands that `key` has in a line.
+pub(crate) fn value_of(text: &str, key: &str) -> Range<usize> {
+    let name = format!("\"{key}\"");
+    let rest = text.find(&name).map_or(text, |start| &text[start + name.len()..]);
+    let start = text.len() - rest.trim_start_matches([' ', ':']).len();
+    let mut values = serde_json::Deserializer::from_str(&text[start..]).into_iter::<IgnoredAny>();
+    let _ = values.next();
+    start..start + values.byte_offset()
 }

@@ -10,7 +10,7 @@ use super::format::{Header, Line, StoredEnd, StoredViolation, drawn};
 use super::lines::{Lines, MAX_LINE_BYTES};
 use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::{
-    ClauseId, End, Limits, Look, Play, Report, RunConfig, Survey, Team, Violation, Watcher, run,
+    ClauseId, End, Limits, Play, Report, RuleId, Scheme, Setup, Survey, Team, Violation, Watcher, run,
 };
 use crate::layout::Layout;
 
@@ -33,15 +33,14 @@ fn is_word(name: &str) -> bool {
 pub struct Recorded {
     /// The clause that the file says it breaks, if it is a counterexample.
     pub clause: Option<ClauseId>,
-    header: Named,
-    layout: Layout,
+    setup: Setup,
     frames: Vec<Frame>,
     end: StoredEnd,
     violations: Vec<Violation>,
 }
 
-/// A header of which the scheme, its rule and when a run of it is stopped are only names.
-type Named = Header<String, String, IgnoredAny>;
+/// A header that does not say when a run is stopped.
+type Named = Header<IgnoredAny>;
 
 impl Recorded {
     /// Reads the lines of a run behind its header, which is `text`.
@@ -71,7 +70,9 @@ impl Recorded {
         };
         let violations = end.violations.iter().map(violation).collect();
         let clause = header.clause.as_deref().map(ClauseId::read);
-        let recorded = Self { clause, header, layout, frames, end, violations };
+        let (scheme, rule) = (Scheme::named(&header.scheme), RuleId::read(&header.rule));
+        let setup = header.setup(scheme, rule, layout);
+        let recorded = Self { clause, setup, frames, end, violations };
         recorded.check(&lines, &text)?;
         lines.end()?;
         Ok(recorded)
@@ -84,7 +85,7 @@ impl Recorded {
         if made != self.end {
             return Err(lines.differs(text, &Line::End(made), "the team moves do not make this end, but"));
         }
-        let free = self.layout.free_cells();
+        let free = self.setup.layout.free_cells();
         if !(self.end.explored..=free as u32).contains(&self.end.cells) {
             let what = format!("{} are explored, and {free} are free", self.end.explored);
             return Err(lines.fault(text, "\"cells\"", what, AGAIN));
@@ -93,32 +94,15 @@ impl Recorded {
     }
 
     fn run(&self, watch: &mut Watcher<'_>) -> Result<Report, Halt> {
-        let mut player = Player { recorded: self, made: 0, cells: starts(&self.header) };
-        let report = run(&mut player, &self.layout, Limits::default(), watch)?;
+        let mut player = Player { recorded: self, made: 0, cells: self.setup.starts() };
+        let report = run(&mut player, &self.setup.layout, Limits::default(), watch)?;
         Ok(Report { stopped: self.end.stopped, ..report })
     }
 }
 
 impl Play for Recorded {
-    fn stage(&self) -> RunConfig<'_> {
-        let Header { scheme, rule, robots, seed, base, starts, miss, missed, options, choices, .. } =
-            &self.header;
-        RunConfig {
-            scheme,
-            rule,
-            robots: *robots,
-            seed: *seed,
-            layout: &self.layout,
-            base: *base,
-            starts: starts.as_deref(),
-            miss: miss.unwrap_or_default(),
-            missed,
-            options: options.unwrap_or_default(),
-            choices,
-            limits: Limits::default(),
-            look: Look::Robots,
-            knowledge: None,
-        }
+    fn setup(&self) -> &Setup {
+        &self.setup
     }
 
     fn play(&self, watch: &mut Watcher<'_>) -> Result<Report, Halt> {

@@ -8,7 +8,7 @@ use tautline_kernel::ground::Cell;
 
 use super::StoredViolation;
 use crate::explore::floor::Component;
-use crate::explore::{Knowledge, Milestone, Play, Report, RunConfig, Stopped, Violation};
+use crate::explore::{Knowledge, Milestone, Play, Report, Setup, Stopped, Violation};
 use crate::failures::Failures;
 use crate::layout::generate::Probability;
 use crate::schema::CellWritten;
@@ -88,15 +88,15 @@ impl Marked {
 }
 
 impl<'a> FloorSummary<'a> {
-    fn of(knowledge: Knowledge, stage: &RunConfig<'a>, report: &Report) -> Self {
+    fn of(knowledge: Knowledge, setup: &'a Setup, report: &Report) -> Self {
         let part = |component: &Component| {
             let Component { robots, cells, explored, .. } = *component;
             Part { robots, cells, explored, marked: Marked::of(knowledge, component) }
         };
         let parts = if report.components.len() < 2 { &[] } else { report.components.as_slice() };
         Self {
-            miss: stage.miss,
-            starts: stage.starts,
+            miss: setup.miss,
+            starts: setup.starts.as_deref(),
             marked: Marked::of(knowledge, &report.whole()),
             seconds: seconds(report),
             components: parts.iter().map(part).collect(),
@@ -107,16 +107,16 @@ impl<'a> FloorSummary<'a> {
 impl<'a> Summary<'a> {
     /// That of a run which came out as `report`, in the layout that is called `layout`.
     pub fn new(run: &'a dyn Play, layout: &'a str, report: &Report) -> Self {
-        let stage = run.stage();
+        let setup = run.setup();
         let milestones = Milestone::ALL.map(|milestone| (milestone.percent(), report.reached(milestone)));
         Self {
-            scheme: stage.scheme,
-            rule: stage.rule,
-            robots: stage.robots,
-            seed: stage.seed,
+            scheme: setup.scheme.name,
+            rule: setup.rule.as_str(),
+            robots: setup.robots,
+            seed: setup.seed,
             layout,
-            base: stage.base,
-            floor: stage.knowledge.map(|knowledge| FloorSummary::of(knowledge, &stage, report)),
+            base: setup.base,
+            floor: setup.scheme.knowledge.map(|knowledge| FloorSummary::of(knowledge, setup, report)),
             steps: report.steps,
             explored: report.explored,
             cells: report.cells,

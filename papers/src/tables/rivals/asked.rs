@@ -2,9 +2,9 @@
 
 use super::super::parameter::{Parameter, of_field};
 use super::super::prelude::*;
-use tautline_sim::explore::rivals::fault;
-use tautline_sim::rivals::parameters::POOL;
-use tautline_sim::rivals::{Cells, Deadlock, Links, Parameters, Search, Weights};
+use crate::rivals::fault;
+use crate::rivals::parameters::POOL;
+use crate::rivals::{Cells, Deadlock, Links, Parameters, Search, Weights};
 
 settings! {
     /// What the rivals are told, but for what the tables vary.

@@ -4,8 +4,8 @@ use super::super::prelude::*;
 use super::asked::Told;
 use super::claims::{self, Judged, Race, alike};
 use super::{OPEN, Outcome, ROBOTS, ROOMS, Times, Who};
+use crate::rivals::Links;
 use tautline_sim::explore::{Limits, Milestone, RuleName};
-use tautline_sim::rivals::Links;
 
 /// Fig. 3.
 #[derive(Clone, Copy, Debug)]

@@ -5,8 +5,8 @@ use super::super::prelude::*;
 use super::asked::Told;
 use super::claims::{self, Judged, about, alike};
 use super::{OPEN, Outcome, ROBOTS, ROOMS, Times, Who, stopping};
+use crate::rivals::{Cells, Links, Search};
 use tautline_sim::explore::{Limits, Milestone, RuleName};
-use tautline_sim::rivals::{Cells, Links, Search};
 
 /// Table I.
 #[derive(Clone, Copy, Debug)]

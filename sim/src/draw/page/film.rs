@@ -8,7 +8,7 @@ use tautline_kernel::ground::{Area, Cell, Edge, Side};
 use super::line::place_of;
 use crate::atomic_file::HTML_HEAD;
 use crate::draw::svg::escaped;
-use crate::explore::{Layer, Shape, Value, Zone};
+use crate::explore::{Joins, Kind, Layer, Shape, Value, Zone};
 use crate::layout::Layout;
 
 const TEMPLATE: &str = include_str!("page.html");
@@ -145,7 +145,7 @@ impl Board {
 }
 
 /// A layer as the page reads it.
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 pub struct Shown {
     name: &'static str,
     about: String,
@@ -153,29 +153,17 @@ pub struct Shown {
     /// Whether each robot has values of its own.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     each: bool,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    values: Vec<Named>,
+    #[serde(skip_serializing_if = "<[Value]>::is_empty")]
+    values: &'static [Value],
     #[serde(skip_serializing_if = "Vec::is_empty")]
     zones: Vec<Reach>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    joins: Option<&'static str>,
+    joins: Option<Joins>,
     /// The radius of a circle, in thousandths.
     #[serde(skip_serializing_if = "Option::is_none")]
     radius: Option<u32>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    kinds: Vec<Told>,
-}
-
-#[derive(Serialize)]
-struct Named {
-    name: &'static str,
-    ink: &'static str,
-}
-
-#[derive(Serialize)]
-struct Told {
-    name: &'static str,
-    heard: bool,
+    #[serde(skip_serializing_if = "<[Kind]>::is_empty")]
+    kinds: &'static [Kind],
 }
 
 #[derive(Serialize)]
@@ -187,35 +175,18 @@ struct Reach {
 
 /// A layer as the page reads it.
 pub fn layer(layer: &Layer) -> Shown {
-    let plain = Shown {
-        name: layer.name,
-        about: layer.about.clone(),
-        shape: "",
-        each: false,
-        values: Vec::new(),
-        zones: Vec::new(),
-        joins: None,
-        radius: None,
-        kinds: Vec::new(),
-    };
-    let named = |values: &[Value]| {
-        values.iter().map(|value| Named { name: value.name, ink: value.ink.word() }).collect::<Vec<_>>()
-    };
+    let plain = Shown { name: layer.name, about: layer.about.clone(), ..Shown::default() };
     let reach = |zone: &Zone| Reach { name: zone.name, about: zone.about, cells: zone.offsets() };
     match layer.shape {
-        Shape::Cells(values) => Shown { shape: "cells", values: named(values), ..plain },
-        Shape::Sides(values) => Shown { shape: "sides", values: named(values), ..plain },
-        Shape::CellsOfEach(values) => Shown { shape: "cells", each: true, values: named(values), ..plain },
-        Shape::SidesOfEach(values) => Shown { shape: "sides", each: true, values: named(values), ..plain },
+        Shape::Cells(values) => Shown { shape: "cells", values, ..plain },
+        Shape::Sides(values) => Shown { shape: "sides", values, ..plain },
+        Shape::CellsOfEach(values) => Shown { shape: "cells", each: true, values, ..plain },
+        Shape::SidesOfEach(values) => Shown { shape: "sides", each: true, values, ..plain },
         Shape::Links(joins, zones) => {
-            let zones = zones.iter().map(reach).collect();
-            Shown { shape: "links", zones, joins: Some(joins.word()), ..plain }
+            Shown { shape: "links", zones: zones.iter().map(reach).collect(), joins: Some(joins), ..plain }
         }
         Shape::Circle(radius) => Shown { shape: "circle", radius: Some(radius), ..plain },
-        Shape::Messages(kinds) => {
-            let kinds = kinds.iter().map(|kind| Told { name: kind.name, heard: kind.is_heard }).collect();
-            Shown { shape: "messages", kinds, ..plain }
-        }
+        Shape::Messages(kinds) => Shown { shape: "messages", kinds, ..plain },
         Shape::Reports => Shown { shape: "reports", ..plain },
     }
 }

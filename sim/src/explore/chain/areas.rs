@@ -111,12 +111,11 @@ fn quarry(asked: &Asked<'_>, Smallest { bounds, found }: &Smallest) -> Result<Fi
     let setup = setup(asked.scheme, asked.rule, &run)?;
     let (columns, rows) = (bounds.area.width(), bounds.area.height());
     let (walls, steps) = (run.walls.len(), found.frames.len());
-    let broken = found.broken.breach().map(ClauseId::from);
     Ok(Finding {
         clause: found.broken.clause(),
         facts: RunSize::Area { columns, rows, walls, steps },
         title: format!("{columns}x{rows} cells, {}, {}", counted(walls, "wall"), counted(steps, "team move")),
         setup,
-        shown: broken.map_or(Shown::Endless, Shown::Run),
+        shown: Shown::of(found.broken.breach().map(ClauseId::from)),
     })
 }

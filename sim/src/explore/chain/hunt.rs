@@ -1,23 +1,24 @@
-//! The hunt of chains: all layouts, decided wall by wall as the team meets them.
+//! The hunt of chains: all layouts, decided wall by wall as the team meets them; and a hunt on its way, kept in a file.
 
+use std::path::Path;
 use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use tautline_kernel::ground::Cell;
 use tautline_proofs::chain::Observed;
-use tautline_proofs::chain::search::{Bounds, Deal, Found, Position, Search, Unsearchable};
+use tautline_proofs::chain::search::{Bounds, Deal as Walk, Found, Position, Search, Unsearchable};
 use tautline_proofs::engine::tree::{self, Progress};
 use tautline_proofs::plural::counted;
 
 use super::areas;
-use super::checkpoint::{AGAIN, Saved};
+use crate::checkpoint::{self, Checkpoint, Header};
 use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::hunt::{
-    Asked, Bound, Deals, Dealt, Done, Facts, Far, Finding, Hunt, HuntReport, Hunter, RunSize, Shown, outcome,
-    setup,
+    Asked, Bound, Deal, Deals, Dealt, Done, Facts, Far, Finding, Hunt, HuntReport, Hunter, RunSize, Shown,
+    outcome, setup,
 };
-use crate::explore::{ClauseId, Profile, RuleId};
+use crate::explore::{Catalogue, ClauseId};
 use crate::layout::Size;
 use crate::resumable::{self, KEEP_EVERY, Resumable, written};
 
@@ -53,11 +54,8 @@ impl Hunt for Walls {
         if let Some(cells) = asked.max_cells {
             return areas::hunt(self.0, asked, cells, hunter);
         }
-        let (robots, walls) = team(asked);
-        let mut bounds = bounds(self.0, robots, walls, asked.size)?;
-        bounds.budget_moves = asked.budget;
-        let found = search(asked, &bounds, hunter)?;
-        told(asked.scheme, asked.rule, &bounds, &found)
+        let bounds = self.bounds(asked)?;
+        told(asked, &bounds, &search(asked, &bounds, hunter)?)
     }
 
     fn deals(&self) -> Option<&dyn Deals> {
@@ -65,38 +63,20 @@ impl Hunt for Walls {
     }
 }
 
-/// A hunt dealt out.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Plan {
-    robots: u64,
-    max_walls: u32,
-    size: Option<(i16, i16)>,
-    deal: Deal,
-}
-
-impl Plan {
-    fn read(text: &RawValue) -> Result<Self, Diagnostic> {
-        serde_json::from_str(text.get()).map_err(|error| Diagnostic::usage(error, "plan anew"))
-    }
-
-    fn bounds(&self, observed: Observed) -> Result<Bounds, Diagnostic> {
-        let size = self.size.map(|(width, height)| Size::new(width as u64, height as u64)).transpose();
-        let size = size.map_err(|problem| Diagnostic::usage(problem, "plan anew"))?;
-        bounds(observed, self.robots, self.max_walls, size)
+impl Walls {
+    fn bounds(&self, asked: &Asked<'_>) -> Result<Bounds, Diagnostic> {
+        let (robots, walls) = team(asked);
+        Ok(Bounds { budget_moves: asked.budget, ..bounds(self.0, robots, walls, asked.size)? })
     }
 }
 
 impl Deals for Walls {
     fn deal(&self, asked: &Asked<'_>, shards: usize) -> Result<Dealt, Diagnostic> {
         areas::refuse(asked, "shards", "a hunt over areas is not dealt out")?;
-        let (robots, max_walls) = team(asked);
-        let search = start(&bounds(self.0, robots, max_walls, asked.size)?)?;
+        let search = start(&self.bounds(asked)?)?;
         let deal = search.deal(shards);
         let (left, moves) = (deal.left().to_vec(), deal.moves());
-        let size = asked.size.map(|size| (size.width(), size.height()));
-        let deal = written(&Plan { robots, max_walls, size, deal })?;
-        Ok(Dealt { deal, left, of: "team move", moves })
+        Ok(Dealt { deal: Deal::written(asked, deal)?, left, of: "team move", moves })
     }
 
     fn part<'a>(
@@ -106,11 +86,11 @@ impl Deals for Walls {
         shard: usize,
         far: Option<&RawValue>,
     ) -> Result<Box<dyn Resumable + 'a>, Diagnostic> {
-        let plan = Plan::read(deal)?;
-        let bounds = Bounds { budget_moves: asked.budget, ..plan.bounds(self.0)? };
+        let (asked, deal) = Deal::<Walk>::read(deal, asked)?;
+        let bounds = self.bounds(&asked)?;
         let search = match far {
-            None => Search::shard(&bounds, &plan.deal, shard),
-            Some(far) => Search::shard_at(&bounds, &plan.deal, shard, &position(far)?),
+            None => Search::shard(&bounds, &deal, shard),
+            Some(far) => Search::shard_at(&bounds, &deal, shard, &position(far)?),
         };
         Ok(Box::new(Shard(search.map_err(fault)?)))
     }
@@ -121,11 +101,11 @@ impl Deals for Walls {
         deal: &RawValue,
         shards: &[&RawValue],
     ) -> Result<HuntReport, Diagnostic> {
-        let plan = Plan::read(deal)?;
-        let bounds = plan.bounds(self.0)?;
+        let (asked, deal) = Deal::<Walk>::read(deal, asked)?;
+        let bounds = self.bounds(&asked)?;
         let positions = shards.iter().map(|far| position(far)).collect::<Result<Vec<_>, _>>()?;
-        let merged = Search::merged(&bounds, &plan.deal, &positions).map_err(fault)?;
-        told(asked.scheme, asked.rule, &bounds, &merged.found())
+        let merged = Search::merged(&bounds, &deal, &positions).map_err(fault)?;
+        told(&asked, &bounds, &merged.found())
     }
 }
 
@@ -166,18 +146,10 @@ pub(super) fn team(asked: &Asked<'_>) -> (u64, u32) {
 }
 
 /// What is told of a search, and of each run that it found.
-fn told(
-    scheme: &'static Profile,
-    rule: RuleId,
-    bounds: &Bounds,
-    found: &Found,
-) -> Result<HuntReport, Diagnostic> {
-    let quarries = found.counterexamples.iter().map(|counterexample| {
+fn told(asked: &Asked<'_>, bounds: &Bounds, found: &Found) -> Result<HuntReport, Diagnostic> {
+    let findings = found.counterexamples.iter().map(|counterexample| {
         let run = bounds.run(counterexample);
-        let setup = setup(scheme, rule, &run)?;
-        let (walls, steps) = (run.walls.len(), counterexample.frames.len());
-        let runs = counterexample.runs;
-        let broken = counterexample.broken.breach().map(ClauseId::from);
+        let (walls, steps, runs) = (run.walls.len(), counterexample.frames.len(), counterexample.runs);
         Ok(Finding {
             clause: counterexample.broken.clause(),
             facts: RunSize::Chain { runs, walls, steps },
@@ -187,24 +159,19 @@ fn told(
                 counted(steps, "team move"),
                 counted(runs, "run")
             ),
-            setup,
-            shown: broken.map_or(Shown::Endless, Shown::Run),
+            setup: setup(asked.scheme, asked.rule, &run)?,
+            shown: Shown::of(counterexample.broken.breach().map(ClauseId::from)),
         })
     });
-    let quarries = quarries.collect::<Result<Vec<Finding>, Diagnostic>>()?;
-    Ok(hunted(bounds, found, quarries))
-}
-
-/// What is told of a search.
-fn hunted(bounds: &Bounds, found: &Found, quarries: Vec<Finding>) -> HuntReport {
-    let Found { runs, moves, longest, levels, .. } = found;
+    let findings = findings.collect::<Result<Vec<Finding>, Diagnostic>>()?;
+    let &Found { runs, moves, longest, ref levels, .. } = found;
     let max_walls = bounds.max_walls;
     let (robots, done) = (bounds.robots as u64, (levels.len() as u32).checked_sub(1));
     let covered = done.map(|walls| format!("with at most {}", counted(walls, "wall")));
-    let (all_runs, all_moves) = (counted(*runs, "run"), counted(*moves, "team move"));
-    HuntReport {
+    let (all_runs, all_moves) = (counted(runs, "run"), counted(moves, "team move"));
+    Ok(HuntReport {
         robots,
-        facts: Facts::Chain { runs: *runs, moves: *moves, longest: *longest, max_walls },
+        facts: Facts::Chain { runs, moves, longest, max_walls },
         is_complete: found.complete && found.given_up == 0,
         done: Done::WallsDone(done),
         title: format!(
@@ -213,13 +180,13 @@ fn hunted(bounds: &Bounds, found: &Found, quarries: Vec<Finding>) -> HuntReport 
             counted(max_walls, "wall")
         ),
         through: format!("{all_runs} and {all_moves}"),
-        outcome: outcome(&quarries, done == Some(max_walls) && found.given_up == 0, covered),
-        found: quarries,
-    }
+        outcome: outcome(&findings, done == Some(max_walls) && found.given_up == 0, covered),
+        found: findings,
+    })
 }
 
 fn search(asked: &Asked<'_>, bounds: &Bounds, hunter: &mut dyn Hunter) -> Result<Found, Diagnostic> {
-    let mut saved = asked.resume.map(|path| Saved::new(path, asked.scheme, asked.rule, bounds));
+    let mut saved = asked.resume.map(|path| Saved::new(path, asked, bounds));
     let mut search = match &mut saved {
         Some(saved) => saved.search(bounds)?,
         None => start(bounds)?,
@@ -307,5 +274,83 @@ pub(super) fn fault(refused: Unsearchable) -> Diagnostic {
         tree::Unsearchable::Foreign | tree::Unsearchable::Short => {
             Diagnostic::of_field("resume", refused, AGAIN)
         }
+    }
+}
+
+/// What to do about a file that is no hunt of ours.
+const AGAIN: &str = "name another file, or remove it and hunt from the start";
+
+/// What is hunted.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Kept {
+    format: String,
+    version: u32,
+    scheme: String,
+    rule: String,
+    robots: usize,
+    /// North-west and south-east corner of the area.
+    area: [Cell; 2],
+    base: Cell,
+    /// The schemes that are known to whoever asks.
+    #[serde(skip)]
+    known: Option<Catalogue>,
+}
+
+impl Header for Kept {
+    const FORMAT: &'static str = "tautline hunt";
+    const NOUN: &'static str = "a kept hunt";
+    const OTHER: &'static str = "this is another hunt";
+    const FIELDS: &'static [&'static str] = &["scheme", "rule", "robots", "area", "base"];
+    const AGAIN: &'static str = AGAIN;
+    const ELSEWHERE: &'static str = "ask for the same, or give another `resume` file";
+
+    fn unknown(&self, kept: &Self) -> Option<(&'static str, String)> {
+        let known = self.known?;
+        let scheme = known.find_scheme(&kept.scheme).err().map(|what| ("scheme", what));
+        scheme.or_else(|| known.rule(&kept.rule).err().map(|what| ("rule", what)))
+    }
+}
+
+/// A hunt that is kept in a file.
+#[derive(Debug)]
+pub struct Saved<'a>(Checkpoint<'a, Kept>);
+
+impl<'a> Saved<'a> {
+    /// The hunt that is `asked`, within `bounds`, to be kept at `path`.
+    pub fn new(path: &'a Path, asked: &Asked<'_>, bounds: &Bounds) -> Self {
+        let area = bounds.reach().unwrap_or(bounds.area);
+        let header = Kept {
+            format: Kept::FORMAT.to_owned(),
+            version: checkpoint::VERSION,
+            scheme: asked.scheme.name.to_owned(),
+            rule: asked.rule.to_string(),
+            robots: bounds.robots,
+            area: [area.first(), area.last()],
+            base: bounds.base,
+            known: Some(asked.scheme.among),
+        };
+        Self(Checkpoint::new(path, header))
+    }
+
+    /// The search as it is in the file, or from the start if there is no file.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if the file is damaged, of another hunt or in use, or the bounds cannot be searched.
+    pub fn search(&mut self, bounds: &Bounds) -> Result<Search, Diagnostic> {
+        match self.0.read()? {
+            None => start(bounds),
+            Some(position) => {
+                Search::at(bounds, &position).map_err(|refused| fault(refused).found_in(self.0.path()))
+            }
+        }
+    }
+
+    /// Keeps where `search` is.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if it cannot be written, or another process has put a file there.
+    pub fn write(&mut self, search: &Search) -> Result<(), Diagnostic> {
+        self.0.write(&search.position())
     }
 }

@@ -20,42 +20,38 @@ const ZONES: &[Zone] = &[
     },
 ];
 
-pub(super) fn layers() -> Vec<Layer> {
-    vec![
-        Layer {
-            name: "links",
-            about: "each robot of the chain with the next: in E_S, in E_C, or lost".to_owned(),
-            shape: Shape::Links(Joins::Next, ZONES),
-        },
-        Layer {
-            name: "virtual obstacles",
-            about: "sides that the leader does not cross in this epoch".to_owned(),
-            shape: Shape::Sides(&[Value { name: "virtual obstacle", ink: Ink::Barred }]),
-        },
-        Layer {
-            name: "messages",
-            about: "after a team move every robot tells in one byte what it tried and what came of it"
-                .to_owned(),
-            shape: Shape::Reports,
-        },
-    ]
-}
-
 /// The place of the lost bytes among the layers of a chain in which something fails.
 pub(super) const LOST: usize = 3;
 
-const LOST_BYTES: &[Kind] = &[Kind::lost("lost byte")];
-
-/// The same, and the bytes that are lost.
-pub(super) fn layers_with_loss() -> Vec<Layer> {
-    let lost = Layer {
-        name: "lost bytes",
-        about: "who did not hear a byte when it was first said; it is said again until all have it"
-            .to_owned(),
-        shape: Shape::Messages(LOST_BYTES),
-    };
-    let mut layers = layers();
-    layers.push(lost);
+/// The layers; of a chain in which something is to fail there are the bytes that are lost, too.
+pub(super) fn layers(is_faulty: bool) -> Vec<Layer> {
+    const VIRTUALS: &[Value] = &[Value { name: "virtual obstacle", ink: Ink::Barred }];
+    const LOST_BYTES: &[Kind] = &[Kind::lost("lost byte")];
+    let layer = |name, about: &str, shape| Layer { name, about: about.to_owned(), shape };
+    let mut layers = vec![
+        layer(
+            "links",
+            "each robot of the chain with the next: in E_S, in E_C, or lost",
+            Shape::Links(Joins::Next, ZONES),
+        ),
+        layer(
+            "virtual obstacles",
+            "sides that the leader does not cross in this epoch",
+            Shape::Sides(VIRTUALS),
+        ),
+        layer(
+            "messages",
+            "after a team move every robot tells in one byte what it tried and what came of it",
+            Shape::Reports,
+        ),
+    ];
+    if is_faulty {
+        layers.push(layer(
+            "lost bytes",
+            "who did not hear a byte when it was first said; it is said again until all have it",
+            Shape::Messages(LOST_BYTES),
+        ));
+    }
     layers
 }
 

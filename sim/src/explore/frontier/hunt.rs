@@ -13,25 +13,23 @@ use tautline_proofs::plural::counted;
 
 pub(super) use self::rivals::Simulated;
 use crate::diagnostic::Diagnostic;
-use crate::explore::hunt::{
-    Asked, Bound, Done, Facts, Finding, Hunt, HuntReport, Hunter, RunSize, Shown, outcome,
-};
-use crate::explore::run::Limits;
-use crate::explore::watched::{Count, watched};
+use crate::explore::hunt::{Asked, Bound, Done, Facts, Finding, Hunt, HuntReport, Hunter, RunSize, Shown};
+use crate::explore::states::{Count, Small, told, watched};
 use crate::explore::{ClauseId, Setup};
 use crate::layout::{Layout, Size};
-
-/// Robots when nobody says how many.
-const DEFAULT_ROBOTS: u64 = 2;
 
 /// The most robots of which all states are searched.
 const MOST_ROBOTS: u64 = 3;
 
-/// Columns and rows at most when nobody says.
-const DEFAULT_SIZE: (u64, u64) = (3, 2);
-
-/// Cells of the largest areas.
-const MOST_CELLS: usize = 16;
+const SMALL: Small = Small {
+    cell: "cell",
+    most_cells: 16,
+    most_side: (i16::MAX, ""),
+    default_size: (3, 2),
+    examples: "4x4 or 8x2",
+    search: "this search",
+    no_robots: "a hunt without a robot finds nothing",
+};
 
 /// The kernel's robots, whose states are searched.
 #[derive(Debug)]
@@ -47,33 +45,8 @@ fn areas(size: Size) -> Vec<(i16, i16)> {
 
 /// The size and the number of robots that are asked for.
 fn bounds(asked: &Asked<'_>, most: u64) -> Result<(Size, u64), Diagnostic> {
-    let size = match asked.size {
-        Some(size) => size,
-        None => Size::new(DEFAULT_SIZE.0, DEFAULT_SIZE.1)?,
-    };
-    if size.cells() > MOST_CELLS {
-        let what = format!("{size} cells are {}, too many to search all their layouts", size.cells());
-        let remedy = format!("give `size` at most {MOST_CELLS} cells, for example 4x4 or 8x2");
-        return Err(Diagnostic::of_field("size", what, remedy));
-    }
-    let robots = asked.robots.unwrap_or(DEFAULT_ROBOTS);
-    if !(1..=most).contains(&robots) {
-        let what = match robots {
-            0 => "a hunt without a robot finds nothing".to_owned(),
-            _ => format!("this search holds {}, and not {robots}", counted(most, "robot")),
-        };
-        return Err(Diagnostic::of_field(
-            "robots",
-            what,
-            format_args!("give `robots` a number from 1 to {most}"),
-        ));
-    }
-    if robots > size.cells() as u64 {
-        let what = format!("{robots} robots do not find room in {size} cells");
-        let remedy = format!("give `robots` a number up to {}, or a larger `size`", size.cells());
-        return Err(Diagnostic::of_field("robots", what, remedy));
-    }
-    Ok((size, robots))
+    let size = SMALL.size(asked)?;
+    Ok((size, SMALL.robots(asked, most, size, &size.to_string())?))
 }
 
 impl Hunt for Searched {
@@ -98,7 +71,7 @@ impl Hunt for Searched {
             _ => searched::<3>,
         };
         let (count, found) = hunt(self.0, size, max_wrong, asked, hunter)?;
-        Ok(told(asked, (size, robots), &count, found))
+        Ok(report(asked, (size, robots), &count, found))
     }
 }
 
@@ -143,9 +116,8 @@ fn drifting(
         let what = format!("areas up to {}×{}", area.0, area.1);
         let (looked, is_stopped) = watched(&system, system.starts(&[area]), what, asked, &mut count, hunter);
         if let Some(run) = looked.broken.first() {
-            let mut layout = Layout::open(area.0 as u64, area.1 as u64)?;
-            let base = layout.default_base()?;
-            layout.place_base(base)?;
+            let layout = Layout::open(area.0 as u64, area.1 as u64)?;
+            let start = layout.default_base()?;
             let size = [area.0 as usize, area.1 as usize];
             let (story, walls) = system.story(area, run);
             let clause = Demand::Marks.clause();
@@ -153,7 +125,7 @@ fn drifting(
                 clause,
                 facts: RunSize::Area { columns: size[0], rows: size[1], walls, steps: run.steps.len() },
                 title: title(size, walls, run.steps.len()),
-                setup: Setup::new(asked.scheme, asked.rule, 1, layout, base),
+                setup: asked.setup(layout, vec![start], None)?,
                 shown: Shown::Told(story),
             });
         }
@@ -166,12 +138,12 @@ fn drifting(
         }
         count.cells = Some((area.0 * area.1) as usize);
     }
-    Ok(told(asked, (size, 1), &count, found))
+    Ok(report(asked, (size, 1), &count, found))
 }
 
 /// Most obstacles that one run meets.
 fn most_obstacles(asked: &Asked<'_>) -> u8 {
-    asked.max_walls.map_or(MOST_CELLS as u8, |walls| walls.min(MOST_CELLS as u32) as u8)
+    asked.max_walls.map_or(SMALL.most_cells as u8, |walls| walls.min(SMALL.most_cells as u32) as u8)
 }
 
 fn searched<const ROBOTS: usize>(
@@ -214,7 +186,7 @@ fn quarry<const ROBOTS: usize>(
     found: &Counterexample<ROBOTS>,
 ) -> Result<Finding, Diagnostic> {
     let area = found.setting.area;
-    let mut layout = Layout::open(area.width() as u64, area.height() as u64)?;
+    let layout = Layout::open(area.width() as u64, area.height() as u64)?;
     let (cells, moves, blocked, choices) = match (found.steps(), found.given()) {
         (Some((start, steps, _)), Some((given, choices))) => {
             let moves = steps.iter().filter(|(event, _)| matches!(event, Event::Looks(..))).count();
@@ -224,15 +196,10 @@ fn quarry<const ROBOTS: usize>(
         _ => ([Cell::new(0, 0); ROBOTS], 0, None, Vec::new()),
     };
     let is_blocked = |cell| blocked.is_some_and(|map: TinyMap| map.status(cell) == Status::Obstacle);
-    area.cells().filter(|&cell| is_blocked(cell)).for_each(|cell| layout.block(cell));
+    let layout = layout.with_blocked(area.cells().filter(|&cell| is_blocked(cell)));
     let walls = layout.size().cells() - layout.free_cells();
-    let base = cells.first().copied().unwrap_or(Cell::new(0, 0));
-    layout.place_base(base)?;
-    // The run may break another clause before.
     let clause = ClauseId::new(demand.clause());
-    let limits = Limits::stopping_at(Some(clause));
-    let setup = Setup::new(asked.scheme, asked.rule, ROBOTS as u16, layout, base);
-    let setup = Setup { starts: Some(cells.to_vec()), choices, limits, ..setup };
+    let setup = Setup { choices, ..asked.setup(layout, cells.to_vec(), Some(clause))? };
     let is_stored = found.run.round().is_empty() && !setup.choices.is_empty();
     let story = found.story();
     let (columns, rows) = (area.width(), area.height());
@@ -250,31 +217,18 @@ fn title([columns, rows]: [usize; 2], walls: usize, moves: usize) -> String {
 }
 
 /// What is told of a hunt.
-fn told(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Vec<Finding>) -> HuntReport {
-    let Count { states, steps, cells, is_complete } = *count;
-    let (all_states, all_steps) = (counted(states, "state"), counted(steps, "step"));
-    let losses = asked.max_losses.unwrap_or(0);
+fn report(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Vec<Finding>) -> HuntReport {
+    let &Count { states, steps, cells, .. } = count;
+    let &Asked { max_walls, error_cells: error, .. } = asked;
+    let max_losses = asked.max_losses.unwrap_or(0);
+    let lost = if max_losses == 0 { String::new() } else { format!(", at most {max_losses} lost") };
+    let walls = max_walls.map_or_else(String::new, |walls| format!(", at most {walls} blocked"));
     let covered = cells.map(|cells| format!("of at most {}", counted(cells, "cell")));
-    let lost = if losses == 0 { String::new() } else { format!(", at most {losses} lost") };
-    let walls = asked.max_walls.map_or_else(String::new, |walls| format!(", at most {walls} blocked"));
-    HuntReport {
-        robots,
-        facts: Facts::Frontier {
-            size: size.to_string(),
-            states,
-            steps,
-            max_walls: asked.max_walls,
-            max_losses: losses,
-            error: asked.error_cells,
-        },
-        is_complete,
-        done: Done::CellsDone(cells.map(|cells| cells as u32)),
-        title: format!(
-            "{}, layouts up to {size}{walls}{lost}: {all_states}, {all_steps}",
-            counted(robots, "robot")
-        ),
-        through: format!("{all_states} and {all_steps}"),
-        outcome: outcome(&found, is_complete, covered),
+    told(
+        (size, robots, &(walls + &lost)),
+        Facts::Frontier { size: size.to_string(), states, steps, max_walls, max_losses, error },
+        (Done::CellsDone(cells.map(|cells| cells as u32)), covered),
+        count,
         found,
-    }
+    )
 }

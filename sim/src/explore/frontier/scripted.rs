@@ -11,12 +11,12 @@ use tautline_proofs::frontier::areas::setting;
 use tautline_proofs::frontier::world::{Demand, Event, Setting, World};
 use tautline_proofs::run::Frame;
 
-use super::{COVERS, KNOWS, reachable};
+use super::{COVERS, KNOWS};
 use crate::diagnostic::Diagnostic;
 use crate::explore::ClauseId;
+use crate::explore::fit::of_choices;
 use crate::explore::run::{End, Team};
 use crate::explore::setup::Setup;
-use crate::explore::setup_error::of_choices;
 use crate::explore::survey::Survey;
 use crate::layout::Layout;
 
@@ -48,7 +48,7 @@ fn begin<const ROBOTS: usize>(setup: &Setup, rule: Frontier) -> Result<Box<dyn T
     let Some(world) = setting.start(cells) else {
         return Err(of_choices("the layout is too large for choices"));
     };
-    let due = reachable(layout, &starts);
+    let due = layout.reachable(&starts);
     let scripted = Scripted {
         setting,
         world,

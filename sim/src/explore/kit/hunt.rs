@@ -12,26 +12,23 @@ use tautline_proofs::plural::counted;
 
 use super::EQUAL;
 use crate::diagnostic::Diagnostic;
-use crate::explore::hunt::{
-    Asked, Bound, Done, Facts, Finding, Hunt, HuntReport, Hunter, RunSize, Shown, outcome,
-};
-use crate::explore::run::Limits;
-use crate::explore::watched::{Count, watched};
+use crate::explore::hunt::{Asked, Bound, Done, Facts, Finding, Hunt, HuntReport, Hunter, RunSize, Shown};
+use crate::explore::states::{Count, Small, told, watched};
 use crate::explore::{ClauseId, Setup};
 use crate::layout::{Layout, Size};
-
-/// Robots when nobody says how many.
-const DEFAULT_ROBOTS: u64 = 2;
 
 /// The most robots of which all states are searched together.
 const MOST_ROBOTS: u64 = 3;
 
-/// Columns and rows at most when nobody says.
-const DEFAULT_SIZE: (u64, u64) = (3, 2);
-
-/// Nodes of the largest lattices, and nodes on their longest side.
-const MOST_NODES: usize = 16;
-const MOST_SIDE: i16 = 8;
+const SMALL: Small = Small {
+    cell: "node",
+    most_cells: 16,
+    most_side: (8, " and 8 on a side"),
+    default_size: (3, 2),
+    examples: "4x3 or 8x2",
+    search: "the joint search",
+    no_robots: "a hunt for 0 robots",
+};
 
 /// A rule of the kernel, whose states are searched.
 #[derive(Debug)]
@@ -119,7 +116,17 @@ impl Hunt for Searched {
             2 => self.searched(&[Pass::ALL, Pass::EQUAL], in_one_image, size, asked, &mut count, hunter),
             _ => self.searched::<3>(&[Pass::ALL, Pass::WHOLE], as_it_is, size, asked, &mut count, hunter),
         }?;
-        Ok(told(asked, (size, robots), &count, found))
+        let Count { states, steps, cells, .. } = count;
+        let max_walls = asked.max_walls;
+        let within = max_walls.map(|walls| format!(", at most {}", counted(walls, "wall")));
+        let covered = cells.map(|nodes| format!("of at most {}", counted(nodes, "node")));
+        Ok(told(
+            (size, robots, &within.unwrap_or_default()),
+            Facts::Kit { size: size.to_string(), states, steps, max_walls },
+            (Done::NodesDone(cells), covered),
+            &count,
+            found,
+        ))
     }
 }
 
@@ -136,36 +143,12 @@ fn lattices(size: Size) -> Vec<(i16, i16)> {
 
 /// The size and the number of robots that are asked for.
 fn bounds(asked: &Asked<'_>) -> Result<(Size, u64), Diagnostic> {
-    let size = match asked.size {
-        Some(size) => size,
-        None => Size::new(DEFAULT_SIZE.0, DEFAULT_SIZE.1)?,
-    };
-    let nodes = size.cells();
-    if nodes == 1 {
+    let size = SMALL.size(asked)?;
+    if size.cells() == 1 {
         let what = "1x1 is one node, and no path to drive";
         return Err(Diagnostic::of_field("size", what, "give `size` at least 2 nodes, for example 2x1"));
     }
-    if nodes > MOST_NODES || size.width().max(size.height()) > MOST_SIDE {
-        let what = format!("{size} nodes are {nodes}, too many to search all their layouts");
-        let remedy = format!(
-            "give `size` at most {MOST_NODES} nodes and {MOST_SIDE} on a side, for example 4x3 or 8x2"
-        );
-        return Err(Diagnostic::of_field("size", what, remedy));
-    }
-    let robots = asked.robots.unwrap_or(DEFAULT_ROBOTS);
-    if !(1..=MOST_ROBOTS).contains(&robots) {
-        let what = match robots {
-            0 => "a hunt for 0 robots".to_owned(),
-            _ => format!("the joint search holds {MOST_ROBOTS} robots, and not {robots}"),
-        };
-        let remedy = format!("give `robots` a number from 1 to {MOST_ROBOTS}");
-        return Err(Diagnostic::of_field("robots", what, remedy));
-    }
-    if robots > nodes as u64 {
-        let what = format!("{robots} robots do not find room in {nodes} nodes");
-        let remedy = format!("give `robots` a number up to {nodes}, or a larger `size`");
-        return Err(Diagnostic::of_field("robots", what, remedy));
-    }
+    let robots = SMALL.robots(asked, MOST_ROBOTS, size, &size.cells().to_string())?;
     Ok((size, robots))
 }
 
@@ -217,18 +200,10 @@ fn quarry<const ROBOTS: usize>(asked: &Asked<'_>, broken: &Broken<ROBOTS>) -> Re
     let Broken { clause, found, .. } = broken;
     let area = found.setting.area;
     let (columns, rows) = (area.width(), area.height());
-    let mut layout = Layout::open(columns as u64, rows as u64)?;
     let (walls, choices) = found.given().unwrap_or_default();
-    for &wall in &walls {
-        layout.build_wall(wall);
-    }
-    let starts = found.starts().map_or_else(Vec::new, |starts| starts.to_vec());
-    let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
-    layout.place_base(base)?;
-    // The run may break another clause before.
-    let limits = Limits::stopping_at(Some(*clause));
-    let setup = Setup::new(asked.scheme, asked.rule, ROBOTS as u16, layout, base);
-    let starts = Some(starts).filter(|starts| starts.iter().any(|&start| start != base));
+    let layout = Layout::open(columns as u64, rows as u64)?.with_walls(walls.iter().copied());
+    let starts = found.starts().unwrap_or([Cell::new(0, 0); ROBOTS]).to_vec();
+    let setup = asked.setup(layout, starts, Some(*clause))?;
     let choices = super::scripted::choices(found.setting.speeds, &choices);
     let story = found.story();
     let (drives, walls) = (found.drives(), walls.len());
@@ -237,28 +212,6 @@ fn quarry<const ROBOTS: usize>(asked: &Asked<'_>, broken: &Broken<ROBOTS>) -> Re
         facts: RunSize::Area { columns, rows, walls, steps: drives },
         title: format!("{columns}x{rows} nodes, {}, {}", counted(walls, "wall"), counted(drives, "drive")),
         shown: Shown::Story(*clause, story),
-        setup: Setup { starts, choices, limits, ..setup },
+        setup: Setup { choices, ..setup },
     })
-}
-
-/// What is told of a hunt.
-fn told(asked: &Asked<'_>, (size, robots): (Size, u64), count: &Count, found: Vec<Finding>) -> HuntReport {
-    let Count { states, steps, cells, is_complete } = *count;
-    let (all_states, all_steps) = (counted(states, "state"), counted(steps, "step"));
-    let covered = cells.map(|nodes| format!("of at most {}", counted(nodes, "node")));
-    let walls =
-        asked.max_walls.map_or_else(String::new, |walls| format!(", at most {}", counted(walls, "wall")));
-    HuntReport {
-        robots,
-        facts: Facts::Kit { size: size.to_string(), states, steps, max_walls: asked.max_walls },
-        is_complete,
-        done: Done::NodesDone(cells),
-        title: format!(
-            "{}, layouts up to {size}{walls}: {all_states}, {all_steps}",
-            counted(robots, "robot")
-        ),
-        through: format!("{all_states} and {all_steps}"),
-        outcome: outcome(&found, is_complete, covered),
-        found,
-    }
 }

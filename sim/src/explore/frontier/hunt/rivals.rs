@@ -4,14 +4,14 @@ use serde::{Deserialize, Serialize};
 use tautline_kernel::ground::Cell;
 use tautline_proofs::engine::lots::{self, Lots};
 
-use super::super::{ENDS, reachable};
-use super::{MOST_CELLS, areas, bounds, title, told};
+use super::super::ENDS;
+use super::{SMALL, areas, bounds, report, title};
 use crate::diagnostic::{Diagnostic, Halt};
 use crate::explore::each::{Each, FoundBy};
 use crate::explore::hunt::{Asked, Bound, Finding, HuntReport, RunSize, Shown};
 use crate::explore::run::{Limits, run};
-use crate::explore::watched::Count;
-use crate::explore::{ClauseId, Profile, RuleId, Setup, team};
+use crate::explore::states::Count;
+use crate::explore::{ClauseId, RuleId, Scheme, Setup, team};
 use crate::layout::Layout;
 
 /// Team moves after which a rival is watched no longer.
@@ -27,7 +27,7 @@ impl Each for Simulated {
     const TAKES: &'static [Bound] = &[Bound::Walls];
 
     fn layouts(&self, asked: &Asked<'_>) -> Result<Layouts, Diagnostic> {
-        let (size, robots) = bounds(asked, MOST_CELLS as u64)?;
+        let (size, robots) = bounds(asked, SMALL.most_cells as u64)?;
         let &Asked { scheme, rule, max_walls, .. } = asked;
         Ok(Layouts {
             scheme,
@@ -49,13 +49,13 @@ impl Each for Simulated {
         is_complete: bool,
     ) -> Result<HuntReport, Diagnostic> {
         found.sort_by_key(|quarry| quarry.clause);
-        Ok(told(asked, bounds(asked, MOST_CELLS as u64)?, &Count { is_complete, ..count }, found))
+        Ok(report(asked, bounds(asked, SMALL.most_cells as u64)?, &Count { is_complete, ..count }, found))
     }
 }
 
 /// All layouts, and all starts in each.
 pub(in crate::explore::frontier) struct Layouts {
-    scheme: &'static Profile,
+    scheme: Scheme,
     rule: RuleId,
     robots: usize,
     /// Most obstacles.
@@ -132,7 +132,7 @@ impl Lots for Layouts {
         let mut tried = Tried { runs: 0, steps: 0, broken: Vec::new() };
         for (start, starts) in blocked.starts(self.robots).iter().enumerate() {
             let setup = self.setup(blocked, starts)?;
-            if reachable(&setup.layout, starts).len() < starts.len() {
+            if setup.layout.reachable(starts).len() < starts.len() {
                 continue;
             }
             let (steps, broken) = try_one(&setup)?;
@@ -187,12 +187,9 @@ impl Blocked {
 impl Layouts {
     fn setup(&self, blocked: &Blocked, starts: &[Cell]) -> Result<Setup, Diagnostic> {
         let (width, height) = blocked.area;
-        let mut layout = Layout::open(width as u64, height as u64)?;
-        blocked.cells(true).into_iter().for_each(|cell| layout.block(cell));
-        let base = starts.first().copied().unwrap_or(Cell::new(0, 0));
-        layout.place_base(base)?;
-        let setup = Setup::new(self.scheme, self.rule, starts.len() as u16, layout, base);
-        Ok(Setup { starts: Some(starts.to_vec()), ..setup })
+        let layout = Layout::open(width as u64, height as u64)?.with_blocked(blocked.cells(true));
+        let setup = Asked::new(self.scheme, self.rule).setup(layout, starts.to_vec(), None)?;
+        Ok(Setup { limits: Limits::default(), ..setup })
     }
 }
 

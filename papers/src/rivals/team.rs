@@ -9,7 +9,7 @@ use super::joint::{Candidate, Joint};
 use super::known::Map;
 use super::parameters::{Deadlock, Moves, Parameters, Search, Unfit, Weights};
 use super::{full, pool};
-use crate::layout::generate::source;
+use tautline_sim::layout::generate::source;
 
 /// A team.
 #[derive(Clone, Debug)]

@@ -1,20 +1,22 @@
-//! A chain in which something fails: bytes are lost at the barrier (CHAIN-20), a robot dies (CHAIN-21), robots go one
-//! after the other (CHAIN-19), a wall appears (CHAIN-22). The run is that of the kernel's chain; where nothing fails it
-//! is the run of a chain without faults.
+//! A chain as a team: the kernel's chain and the log of messages that it reads its history from. Something may fail:
+//! bytes are lost at the barrier (CHAIN-20), a robot dies (CHAIN-21), robots go one after the other (CHAIN-19), a wall
+//! appears (CHAIN-22).
 
 use std::mem::take;
 
 use rand_chacha::ChaCha8Rng;
-use tautline_kernel::chain::{Barrier, Chain, Heard, Kind, Parts, Plan, Reforming, World};
+use tautline_kernel::chain::{self, Barrier, Chain, Heard, Intent, Kind, Parts, Plan, Reforming, World};
 use tautline_kernel::ground::{Area, Cell, Edge, Grid, Step};
-use tautline_proofs::chain::breach::{Breach, frame};
+use tautline_proofs::chain::breach::{Breach, CHEAP_LOOKS, frame};
+use tautline_proofs::chain::links::within_reach;
 use tautline_proofs::run::Frame;
 
-use super::{is_costly, left_out, planned, shown};
+use super::shown;
 use crate::explore::{Change, ClauseId, End, Hearers, Layer, Scene, Setup, Survey, Team};
 use crate::failures::{Appearing, Failure, Failures, Going};
 use crate::layout::Layout;
 use crate::layout::generate::{Probability, below, source};
+use crate::options::Options;
 
 /// Neighbours are out of contact while they go.
 pub const ANY_ORDER: ClauseId = ClauseId::new("CHAIN-19");
@@ -25,10 +27,34 @@ pub const DEATH: ClauseId = ClauseId::new("CHAIN-21");
 /// How often robots say their bytes of one team move before whoever watches them ends the run.
 const PATIENCE: u32 = 1000;
 
+/// The next team move of a chain that reads its own log; its end if there is none.
+fn planned<G: Grid, const ROBOTS: usize>(
+    chain: &mut Chain<G, ROBOTS>,
+    log: &[u8],
+) -> Result<Plan<ROBOTS>, End> {
+    match chain.plan(log) {
+        Ok(Intent::Go(plan)) => Ok(plan),
+        Ok(Intent::Done(chain::End::Explored)) => Err(End::Explored),
+        Ok(Intent::Done(chain::End::Exhausted)) => Err(End::Exhausted),
+        Err(damaged) => unreachable!("the log holds what the chain has sent, but {damaged}"),
+    }
+}
+
+/// Whether the last plan of a chain looked at more candidates than its budget.
+fn is_costly<G: Grid, const ROBOTS: usize>(chain: &Chain<G, ROBOTS>) -> bool {
+    chain.looked_at() > CHEAP_LOOKS * chain.cells().len() as u32
+}
+
+/// The cells within reach of so many robots from `base` that are unexplored.
+fn left_out(layout: &Layout, chart: &Survey, base: Cell, robots: usize) -> Vec<Cell> {
+    let due = within_reach(chart.area(), base, robots, |edge| layout.is_open(edge));
+    due.into_iter().filter(|&cell| chart.step(cell).is_none()).collect()
+}
+
 /// What the robots that are left are.
 enum Whole<G, const ROBOTS: usize> {
     /// A chain.
-    Chain(Chain<G, ROBOTS>),
+    Chain(Box<Chain<G, ROBOTS>>),
     /// Two parts that take their moves back, as far as until they are in contact, or home.
     Parts(Reforming<G, ROBOTS>, Until),
 }
@@ -39,8 +65,10 @@ enum Until {
     Home,
 }
 
-/// The chain in which something fails.
-pub(super) struct Faulty<G, const ROBOTS: usize> {
+/// A chain in which something may fail.
+pub(super) struct ChainTeam<G, const ROBOTS: usize> {
+    /// Whether something is to fail.
+    is_faulty: bool,
     /// There is always one between two team moves.
     whole: Option<Whole<G, ROBOTS>>,
     seed: u64,
@@ -67,24 +95,25 @@ pub(super) struct Faulty<G, const ROBOTS: usize> {
     unheard: Vec<(usize, Vec<usize>)>,
 }
 
-impl<G: Grid, const ROBOTS: usize> Faulty<G, ROBOTS> {
+impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
     pub(super) fn new(setup: &Setup, chain: Chain<G, ROBOTS>) -> Self {
         let cells = chain.cells().to_vec();
-        let wall = setup.options.wall;
+        let Options { loss, fail, wall, going, .. } = setup.options;
         // Where no wall appears, known sides need not be tried again.
         let chain = if wall.is_some() { chain.in_world(World::Changing) } else { chain };
         let left: Vec<usize> = (0..cells.len()).collect();
-        let mut faulty = Self {
-            whole: Some(Whole::Chain(chain)),
+        let mut team = Self {
+            is_faulty: !loss.is_never() || fail.is_some() || wall.is_some() || !going.is_usual(),
+            whole: Some(Whole::Chain(Box::new(chain))),
             seed: setup.seed,
             log: Vec::new(),
             before: None,
             cells,
             left,
-            failure: setup.options.fail,
+            failure: fail,
             wall,
-            loss: setup.options.loss,
-            going: setup.options.going,
+            loss,
+            going,
             chance: source(setup.seed, *b"faults  "),
             barriers: Vec::new(),
             faults: Failures::default(),
@@ -93,8 +122,8 @@ impl<G: Grid, const ROBOTS: usize> Faulty<G, ROBOTS> {
             is_silent: false,
             unheard: Vec::new(),
         };
-        faulty.meet();
-        faulty
+        team.meet();
+        team
     }
 
     /// The robots that are left meet at a new barrier; the base, which says nothing, has none.
@@ -106,7 +135,7 @@ impl<G: Grid, const ROBOTS: usize> Faulty<G, ROBOTS> {
     /// A team move of the chain.
     fn go(
         &mut self,
-        mut chain: Chain<G, ROBOTS>,
+        mut chain: Box<Chain<G, ROBOTS>>,
         plan: &Plan<ROBOTS>,
         is_open: &mut dyn FnMut(Edge) -> bool,
     ) -> Frame {
@@ -132,7 +161,7 @@ impl<G: Grid, const ROBOTS: usize> Faulty<G, ROBOTS> {
     }
 
     /// A robot, numbered from 1 as before, has died in the last team move.
-    fn dies(&mut self, chain: Chain<G, ROBOTS>, mute: usize) {
+    fn dies(&mut self, chain: Box<Chain<G, ROBOTS>>, mute: usize) {
         self.faults.died = Some(self.moves);
         self.left.remove(mute - 1);
         self.meet();
@@ -274,7 +303,7 @@ fn is_apart(part: &[usize], cells: &[Cell]) -> bool {
     Breach::Contact.is_in(&here, &here)
 }
 
-impl<G: Grid, const ROBOTS: usize> Team for Faulty<G, ROBOTS> {
+impl<G: Grid, const ROBOTS: usize> Team for ChainTeam<G, ROBOTS> {
     fn cells(&self) -> &[Cell] {
         &self.cells
     }
@@ -360,11 +389,11 @@ impl<G: Grid, const ROBOTS: usize> Team for Faulty<G, ROBOTS> {
     }
 
     fn faults(&self) -> Option<Failures> {
-        Some(self.faults)
+        self.is_faulty.then_some(self.faults)
     }
 
     fn layers(&self) -> Vec<Layer> {
-        shown::layers_with_loss()
+        shown::layers(self.is_faulty)
     }
 
     fn show(&self, before: &[Cell], scene: &mut Scene) {
@@ -383,7 +412,7 @@ impl<G: Grid, const ROBOTS: usize> Team for Faulty<G, ROBOTS> {
     }
 }
 
-impl<G: Grid, const ROBOTS: usize> Faulty<G, ROBOTS> {
+impl<G: Grid, const ROBOTS: usize> ChainTeam<G, ROBOTS> {
     /// The two parts are a chain again, with a log that begins anew.
     fn form(&mut self, reforming: Reforming<G, ROBOTS>) {
         if let Ok((chain, parts)) = reforming.formed() {
@@ -391,7 +420,7 @@ impl<G: Grid, const ROBOTS: usize> Faulty<G, ROBOTS> {
                 *told = Some(parts);
             }
             self.log.clear();
-            self.whole = Some(Whole::Chain(chain));
+            self.whole = Some(Whole::Chain(Box::new(chain)));
         }
     }
 

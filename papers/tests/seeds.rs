@@ -3,11 +3,11 @@
 
 use std::num::NonZeroU32;
 
-use tautline_sim::explore::catalogue::SCHEMES;
-use tautline_sim::explore::{Asked, By, Drawn, Extra, Limits, Profile, Rule, explore};
-use tautline_sim::failures::{Appearing, Failure, Going};
+use tautline_papers::rivals::CATALOGUE;
+use tautline_sim::explore::{Asked, By, Drawn, Limits, Rule, Scheme, explore};
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::layout::{Generator, Layout};
+use tautline_sim::options::Extra;
 
 const SEEDS: u64 = 6;
 
@@ -16,7 +16,7 @@ const SEEDS: u64 = 6;
 enum Told {
     Nothing,
     Miss,
-    Extra(Extra),
+    Extra(&'static Extra),
 }
 
 impl Told {
@@ -25,34 +25,31 @@ impl Told {
     }
 
     fn tell(self, asked: &mut Asked) {
-        let robot = "3@9".parse::<Failure>();
-        let wall = "3,3,E@9".parse::<Appearing>();
         match self {
             Self::Nothing => {}
             Self::Miss => asked.miss = Probability::new(0.3),
-            Self::Extra(Extra::Range) => asked.range_cells = Some(3),
-            Self::Extra(Extra::Sight) => asked.sight_cells = Some(2),
-            Self::Extra(Extra::Loss) => asked.loss = Probability::new(0.3),
-            Self::Extra(Extra::Noise) => asked.noise_db = Some(12.0),
-            Self::Extra(Extra::Threshold) => asked.threshold = Some(0.4),
-            Self::Extra(Extra::Speed) => asked.speed_mps = Some(0.5),
-            Self::Extra(Extra::Spread) => asked.spread = Some(0.5),
-            Self::Extra(Extra::Fail) => asked.fail = robot.ok(),
-            Self::Extra(Extra::Wall) => asked.wall = wall.ok(),
-            Self::Extra(Extra::Speeds) => asked.going = Going::OneByOne,
+            Self::Extra(extra) => {
+                let word = match extra.field {
+                    "range" => "3",
+                    "sight" => "2",
+                    "loss" => "0.3",
+                    "noise-db" => "12",
+                    "threshold" => "0.4",
+                    "speed" | "spread" => "0.5",
+                    "fail" => "3@9",
+                    "wall" => "3,3,E@9",
+                    "speeds" => "",
+                    field => panic!("no value for {field}"),
+                };
+                (extra.read)(word, &mut asked.options).expect("a value");
+            }
         }
     }
 }
 
 /// A run with this seed: whether it is said to draw anything, and all that came of it. `None` if the rule cannot be
 /// told that.
-fn run(
-    scheme: &'static Profile,
-    rule: &Rule,
-    told: Told,
-    layout: &Layout,
-    seed: u64,
-) -> Option<(bool, String)> {
+fn run(scheme: Scheme, rule: &Rule, told: Told, layout: &Layout, seed: u64) -> Option<(bool, String)> {
     let limits = Limits { max_moves: NonZeroU32::new(60), ..Limits::default() };
     let mut asked = Asked { robots: Some(4), seed, limits, ..Asked::new(scheme, rule.name) };
     told.tell(&mut asked);
@@ -64,12 +61,12 @@ fn run(
     });
     let report = report.ok()?;
     let seen = format!("{moves:?} {:?} {:?} {:?}", report.violations, report.faults, report.milliseconds);
-    Some((scheme.draws(&setup.stage()), seen))
+    Some((scheme.draws(&setup), seen))
 }
 
 #[test]
 fn each_scheme_says_what_its_seed_draws() {
-    for scheme in SCHEMES {
+    for scheme in CATALOGUE.schemes() {
         let mut seen: Vec<&Drawn> = Vec::new();
         for (rule, told) in scheme.rules.iter().flat_map(|rule| Told::all().map(move |told| (rule, told))) {
             // An open area has most ways that are as good; obstacles make messages matter, and walls the order of
@@ -100,9 +97,9 @@ fn each_scheme_says_what_its_seed_draws() {
 
 #[test]
 fn of_a_scheme_in_which_every_run_draws_no_rule_is_without_chance() {
-    let of_every = |scheme: &&&Profile| scheme.drawn.iter().any(|drawn| drawn.by == By::Every);
+    let of_every = |scheme: &Scheme| scheme.drawn.iter().any(|drawn| drawn.by == By::Every);
     let open = Layout::open(7, 6).expect("a layout");
-    for scheme in SCHEMES.iter().filter(of_every) {
+    for scheme in CATALOGUE.schemes().filter(of_every) {
         for rule in scheme.rules {
             let run = |seed| run(scheme, rule, Told::Nothing, &open, seed).expect("a run").1;
             assert!((1..SEEDS).any(|seed| run(seed) != run(0)), "{} ({})", scheme.name, rule.name);

@@ -5,14 +5,14 @@ use tautline_kernel::chain::{self, MAX_ROBOTS};
 use tautline_kernel::ground::{Area, Cell, Circle, Edge};
 use tautline_proofs::run::Frame;
 
-use super::rule::RuleId;
-use super::run::{End, Team};
-use super::run_config::Look;
-use super::scene::{Joins, Layer, Shape, Zone};
-use super::setup::{By, Drawn, Profile, Rule, Senses, Setup, Starts};
-use crate::diagnostic::Diagnostic;
-use crate::layout::{Layout, Problem};
-use crate::rivals::{self, Cells, Deadlock, Links, Moves, Over, Parameters, Unfit};
+use tautline_sim::diagnostic::Diagnostic;
+use tautline_sim::explore::catalogue::SCHEMES;
+use tautline_sim::explore::{
+    By, Catalogue, Drawn, End, Joins, Layer, Look, Profile, Rule, RuleId, Setup, Shape, Starts, Team, Zone,
+};
+use tautline_sim::layout::{Layout, Problem};
+
+use super::{Cells, Deadlock, Links, Moves, Over, Parameters, Unfit};
 
 /// Links by E_C.
 pub const COVERED: RuleId = RuleId::new("covered");
@@ -24,64 +24,44 @@ pub const COVERED_SHARED: RuleId = RuleId::new("covered-shared");
 pub const SCATTER: RuleId = RuleId::new("scatter");
 
 /// How a stuck team scatters.
-pub const SCATTERING: Deadlock = Deadlock::Scatter { after: 20, moves: 5 };
+const SCATTERING: Deadlock = Deadlock::Scatter { after: 20, moves: 5 };
 
 /// The row of a rival.
 macro_rules! rival {
     ($name:literal, $about:literal, $parameters:expr) => {
         Profile {
-            name: $name,
             about: $about,
             rules: &[
-                Rule {
-                    name: RuleId::PUBLISHED,
-                    about: "As the paper publishes it",
-                    start: |setup| start(setup, $parameters.with_moves(Moves::Four)),
-                    hunt: None,
-                },
-                Rule {
-                    name: RuleId::REPAIRED,
-                    about: "With the repairs of its refuted claims",
-                    start: |setup| start(setup, $parameters),
-                    hunt: None,
-                },
-                Rule {
-                    name: COVERED,
-                    about: "A rival of the chain, repaired, with links by E_C instead of E_S",
-                    start: |setup| start(setup, $parameters.linked(Links::Covered)),
-                    hunt: None,
-                },
-                Rule {
-                    name: SHARED,
-                    about: "A rival of the chain, repaired, whose robots may plan to share a cell",
-                    start: |setup| start(setup, $parameters.in_cells(Cells::Shared)),
-                    hunt: None,
-                },
-                Rule {
-                    name: COVERED_SHARED,
-                    about: "A rival of the chain, covered and shared",
-                    start: |setup| start(setup, $parameters.linked(Links::Covered).in_cells(Cells::Shared)),
-                    hunt: None,
-                },
-                Rule {
-                    name: SCATTER,
-                    about: "A rival of the chain, covered, that makes 5 legal team moves at random after every 20 without gain",
-                    start: |setup| {
+                Rule::new(RuleId::PUBLISHED, "As the paper publishes it", |setup| {
+                    start(setup, $parameters.with_moves(Moves::Four))
+                }),
+                Rule::new(RuleId::REPAIRED, "With the repairs of its refuted claims", |setup| {
+                    start(setup, $parameters)
+                }),
+                Rule::new(COVERED, "A rival of the chain, repaired, with links by E_C instead of E_S", |setup| {
+                    start(setup, $parameters.linked(Links::Covered))
+                }),
+                Rule::new(SHARED, "A rival of the chain, repaired, whose robots may plan to share a cell", |setup| {
+                    start(setup, $parameters.in_cells(Cells::Shared))
+                }),
+                Rule::new(COVERED_SHARED, "A rival of the chain, covered and shared", |setup| {
+                    start(setup, $parameters.linked(Links::Covered).in_cells(Cells::Shared))
+                }),
+                Rule::new(
+                    SCATTER,
+                    "A rival of the chain, covered, that makes 5 legal team moves at random after every 20 without gain",
+                    |setup| {
                         let parameters = $parameters.linked(Links::Covered);
                         start(setup, Parameters { deadlock: SCATTERING, ..parameters })
                     },
-                    hunt: None,
-                },
+                ),
             ],
             team: "team of rivals",
             robots: 2..=MAX_ROBOTS,
             starts: Starts::Base,
-            senses: Senses::Bumps,
             look: Look::Tree { is_linked: |one, other| Circle::COVERED.covers(one, other) },
-            knowledge: None,
-            clauses: &[],
-            extras: &[],
             drawn: &[Drawn { what: "which of the team moves is made that are as good", by: By::Every }],
+            ..Profile::named($name)
         }
     };
 }
@@ -100,7 +80,16 @@ pub static ROOKER_BIRK: Profile = rival!(
     Parameters::POOL
 );
 
-struct Rivals(rivals::Team);
+/// The rivals.
+pub const RIVALS: &[&Profile] = &[&FULL_SEARCH, &ROOKER_BIRK];
+
+/// All schemes: those of sim, and the rivals behind the chain.
+pub const CATALOGUE: Catalogue = {
+    let (chain, others) = SCHEMES.split_at(1);
+    Catalogue(&[chain, RIVALS, others])
+};
+
+struct Rivals(super::Team);
 
 /// The team of `setup`, all robots at the base.
 fn start(setup: &Setup, parameters: Parameters) -> Result<Box<dyn Team>, Diagnostic> {
@@ -121,10 +110,10 @@ pub fn rival(
 ) -> Result<Box<dyn Team>, Diagnostic> {
     let robots = usize::from(robots);
     let area = chain::area(layout.size().area(), base, robots).ok_or_else(|| {
-        let outside = Problem::BaseOutside { base, size: layout.size() };
+        let outside = Problem::outside("base", base, layout.size());
         Diagnostic::of_field("base", &outside, outside.remedy())
     })?;
-    let team = rivals::Team::new(parameters, robots, base, area, seed).map_err(|unfit| fault(&unfit))?;
+    let team = super::Team::new(parameters, robots, base, area, seed).map_err(|unfit| fault(&unfit))?;
     Ok(Box::new(Rivals(team)))
 }
 

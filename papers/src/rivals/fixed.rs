@@ -200,10 +200,10 @@ impl Search<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::layout::generate::source;
     use crate::rivals::joint::draw;
     use rand_chacha::ChaCha8Rng;
     use tautline_kernel::chain::Conditions;
+    use tautline_sim::layout::generate::source;
 
     /// A chain, drawn at random: neighbours within E_C of each other, some in one cell.
     fn chain(dice: &mut ChaCha8Rng, robots: usize) -> (Vec<Cell>, Vec<Options>) {

@@ -1,15 +1,109 @@
-//! A system that somebody watches while it is searched: whoever ends the work makes it a system without further steps.
+//! Hunts through all states of small layouts: how large they may be, a system that somebody watches while it is
+//! searched, and how what was found is told. Whoever ends the work makes it a system without further steps.
 
 use std::cell::{Cell, RefCell};
 
 use tautline_kernel::choice::Oracle;
 use tautline_proofs::engine::states::{Bits, Found, Limits, Places, System, search};
 use tautline_proofs::engine::world::{Turn, World};
+use tautline_proofs::plural::counted;
 
-use super::hunt::{Asked, Far, Hunter};
+use super::hunt::{Asked, Done, Facts, Far, Finding, HuntReport, Hunter, outcome};
+use crate::diagnostic::Diagnostic;
+use crate::layout::Size;
 
 /// States between two words about how far the search is.
 const BETWEEN: u64 = 1 << 14;
+
+/// How large the layouts of a hunt may be, and its teams.
+pub(super) struct Small {
+    /// What a cell is called.
+    pub(super) cell: &'static str,
+    /// The most cells of a layout.
+    pub(super) most_cells: usize,
+    /// The most columns and rows, and how that is said.
+    pub(super) most_side: (i16, &'static str),
+    /// Columns and rows when nobody says.
+    pub(super) default_size: (u64, u64),
+    /// Sizes that are right.
+    pub(super) examples: &'static str,
+    /// What holds the robots.
+    pub(super) search: &'static str,
+    /// What is wrong with a team without a robot.
+    pub(super) no_robots: &'static str,
+}
+
+impl Small {
+    /// Robots when nobody says how many.
+    const DEFAULT_ROBOTS: u64 = 2;
+
+    /// The size that is asked for.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if it is too large.
+    pub(super) fn size(&self, asked: &Asked<'_>) -> Result<Size, Diagnostic> {
+        let size = match asked.size {
+            Some(size) => size,
+            None => Size::new(self.default_size.0, self.default_size.1)?,
+        };
+        let &Self { cell, most_cells, most_side: (most_side, side), examples, .. } = self;
+        if size.cells() <= most_cells && size.width().max(size.height()) <= most_side {
+            return Ok(size);
+        }
+        let what = format!("{size} {cell}s are {}, too many to search all their layouts", size.cells());
+        let remedy = format!("give `size` at most {most_cells} {cell}s{side}, for example {examples}");
+        Err(Diagnostic::of_field("size", what, remedy))
+    }
+
+    /// The number of robots that is asked for, of at most so many, in an area of this size, which is called `area`.
+    ///
+    /// # Errors
+    /// A [`Diagnostic`] if there are none, too many, or too many for the area.
+    pub(super) fn robots(
+        &self,
+        asked: &Asked<'_>,
+        most: u64,
+        size: Size,
+        area: &str,
+    ) -> Result<u64, Diagnostic> {
+        let robots = asked.robots.unwrap_or(Self::DEFAULT_ROBOTS);
+        let room = size.cells() as u64;
+        let (what, remedy) = match robots {
+            0 => (self.no_robots.to_owned(), format!("from 1 to {most}")),
+            _ if robots > most => (
+                format!("{} holds {}, and not {robots}", self.search, counted(most, "robot")),
+                format!("from 1 to {most}"),
+            ),
+            _ if robots > room => (
+                format!("{robots} robots do not find room in {area} {}s", self.cell),
+                format!("up to {room}, or a larger `size`"),
+            ),
+            _ => return Ok(robots),
+        };
+        Err(Diagnostic::of_field("robots", what, format_args!("give `robots` a number {remedy}")))
+    }
+}
+
+/// What is told of a hunt for `robots` in layouts up to a size, within these other bounds.
+pub(super) fn told(
+    (size, robots, within): (Size, u64, &str),
+    facts: Facts,
+    (done, covered): (Done, Option<String>),
+    count: &Count,
+    found: Vec<Finding>,
+) -> HuntReport {
+    let (states, steps) = (counted(count.states, "state"), counted(count.steps, "step"));
+    HuntReport {
+        robots,
+        facts,
+        is_complete: count.is_complete,
+        done,
+        title: format!("{}, layouts up to {size}{within}: {states}, {steps}", counted(robots, "robot")),
+        through: format!("{states} and {steps}"),
+        outcome: outcome(&found, count.is_complete, covered),
+        found,
+    }
+}
 
 /// How much was searched.
 #[derive(Default)]

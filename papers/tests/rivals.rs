@@ -6,15 +6,14 @@ use std::collections::BTreeSet;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tautline_kernel::ground::{Area, Cell, Edge, Side, Step};
-use tautline_sim::explore::catalogue::scheme;
-use tautline_sim::explore::rivals::{COVERED, rival};
-use tautline_sim::explore::{Limits, Report, RuleId, Setup, Stopped, explore, run, team};
-use tautline_sim::layout::{Generator, Layout};
-use tautline_sim::rivals::full::{Found, best};
-use tautline_sim::rivals::joint::{Joint, Score};
-use tautline_sim::rivals::{
+use tautline_papers::rivals::full::{Found, best};
+use tautline_papers::rivals::joint::{Joint, Score};
+use tautline_papers::rivals::{CATALOGUE, COVERED, rival};
+use tautline_papers::rivals::{
     Cells, Deadlock, Links, Moves, Null, Parameters, Search, Team, Unfit, Weights, full, pool,
 };
+use tautline_sim::explore::{Limits, Report, RuleId, Setup, Stopped, explore, run, team};
+use tautline_sim::layout::{Generator, Layout};
 
 fn layout(description: &str, seed: u64) -> Layout {
     description.parse::<Generator>().expect("a generator").generate(seed).expect("a layout")
@@ -136,7 +135,7 @@ fn what_does_not_fit_is_refused_with_its_reason() {
     }
     let setup = |name, rule, robots| {
         let layout = layout("open:23x23", 0);
-        Setup::new(scheme(name).expect("a scheme"), rule, robots, layout, Cell::new(11, 11))
+        Setup::new(CATALOGUE.scheme(name).expect("a scheme"), rule, robots, layout, Cell::new(11, 11))
     };
     let fault = |setup: &Setup| team(setup).expect_err("it does not fit").to_string();
     assert!(fault(&setup("full-search", RuleId::PUBLISHED, 8)).contains("7 robots cannot leave"));
@@ -180,7 +179,8 @@ fn the_same_seed_makes_the_same_run_and_links_break_only_where_a_robot_meets_a_w
     for name in ["full-search", "rooker-birk"] {
         let setup = |seed| {
             let layout = layout("walls:15x15:0.1", 5);
-            let setup = Setup::new(scheme(name).expect("a scheme"), COVERED, 8, layout, Cell::new(7, 7));
+            let setup =
+                Setup::new(CATALOGUE.scheme(name).expect("a scheme"), COVERED, 8, layout, Cell::new(7, 7));
             Setup {
                 seed,
                 limits: Limits { until: Some(tautline_sim::explore::Milestone::Half), ..Limits::default() },

@@ -7,11 +7,12 @@ use std::num::NonZeroU32;
 use crc32fast::Hasher;
 use insta::assert_snapshot;
 use tautline_kernel::ground::Cell;
-use tautline_sim::explore::catalogue::SCHEMES;
-use tautline_sim::explore::{Asked, Extra, Limits, Profile, Rule, Scene, Senses, Stopped, explore};
+use tautline_papers::rivals::CATALOGUE;
+use tautline_sim::explore::{Asked, Limits, Profile, Rule, Scene, Scheme, Senses, Stopped, explore};
 use tautline_sim::failures::{Appearing, Compass, Failure};
 use tautline_sim::layout::Generator;
 use tautline_sim::layout::generate::Probability;
+use tautline_sim::options::Extra;
 
 /// What makes a layout, and how many robots explore it, the base counted.
 const LAYOUTS: [(&str, u64); 5] = [
@@ -41,10 +42,10 @@ impl Event {
         match self {
             Self::Nothing => true,
             Self::MissedSensors => scheme.senses == Senses::Floor,
-            Self::LostMessages => scheme.extras.contains(&Extra::Loss),
-            Self::ShortSight => scheme.extras.contains(&Extra::Sight),
-            Self::Death => scheme.extras.contains(&Extra::Fail),
-            Self::Wall => scheme.extras.contains(&Extra::Wall),
+            Self::LostMessages => scheme.extras.contains(&Extra::LOSS),
+            Self::ShortSight => scheme.extras.contains(&Extra::SIGHT),
+            Self::Death => scheme.extras.contains(&Extra::FAIL),
+            Self::Wall => scheme.extras.contains(&Extra::WALL),
         }
     }
 
@@ -54,25 +55,21 @@ impl Event {
             Self::Nothing => {}
             Self::MissedSensors => asked.miss = Probability::new(0.1),
             Self::LostMessages => {
-                asked.loss = Probability::new(0.2);
-                asked.range_cells = asked.scheme.extras.contains(&Extra::Range).then_some(6);
+                asked.options.loss = Probability::new(0.2).expect("a probability");
+                asked.options.range_cells = asked.scheme.extras.contains(&Extra::RANGE).then_some(6);
             }
-            Self::ShortSight => (asked.sight_cells, asked.range_cells) = (Some(3), Some(6)),
-            Self::Death => asked.fail = Some(Failure { robot: 3, step }),
-            Self::Wall => asked.wall = Some(Appearing { cell: Cell::new(3, 3), side: Compass::E, step }),
+            Self::ShortSight => (asked.options.sight_cells, asked.options.range_cells) = (Some(3), Some(6)),
+            Self::Death => asked.options.fail = Some(Failure { robot: 3, step }),
+            Self::Wall => {
+                asked.options.wall = Some(Appearing { cell: Cell::new(3, 3), side: Compass::E, step });
+            }
         }
     }
 }
 
 /// The team moves of a run, with a sign if it does not end by all being explored; and a checksum of what robots and
 /// others did.
-fn run(
-    scheme: &'static Profile,
-    rule: &Rule,
-    event: Event,
-    layout: &str,
-    robots: u64,
-) -> Option<(String, u32)> {
+fn run(scheme: Scheme, rule: &Rule, event: Event, layout: &str, robots: u64) -> Option<(String, u32)> {
     let generator: Generator = layout.parse().expect("a generator");
     let limits = Limits { max_moves: NonZeroU32::new(300), ..Limits::default() };
     let mut asked = Asked { robots: Some(robots), seed: 7, limits, ..Asked::new(scheme, rule.name) };
@@ -100,9 +97,9 @@ fn run(
 #[test]
 fn every_rule_makes_the_moves_that_it_made() {
     let mut table = String::new();
-    for scheme in SCHEMES {
+    for scheme in CATALOGUE.schemes() {
         for (rule, event) in scheme.rules.iter().flat_map(|rule| Event::ALL.map(|event| (rule, event))) {
-            if !event.can_befall(scheme) {
+            if !event.can_befall(&scheme) {
                 continue;
             }
             let runs = LAYOUTS.map(|(layout, robots)| run(scheme, rule, event, layout, robots));

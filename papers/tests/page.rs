@@ -8,11 +8,11 @@ use std::ops::RangeInclusive;
 use serde_json::Value;
 use tautline_kernel::floor::Mark;
 use tautline_kernel::ground::{Cell, Edge, Side, Step};
+use tautline_papers::rivals::CATALOGUE;
 use tautline_proofs::run::Frame;
 use tautline_sim::atomic_file::{AtomicFile, Replaceable};
 use tautline_sim::diagnostic::Halt;
 use tautline_sim::draw::page::Page;
-use tautline_sim::explore::catalogue::SCHEMES;
 use tautline_sim::explore::{Report, Setup, explore};
 use tautline_sim::layout::Generator;
 use tautline_sim::layout::generate::Probability;
@@ -145,7 +145,7 @@ fn page(setup: &Setup, moves: &RangeInclusive<u32>) -> (String, Report, Vec<Fram
 /// A run of every scheme by each of its rules.
 fn setups() -> Vec<Setup> {
     let mut setups = Vec::new();
-    for scheme in SCHEMES {
+    for scheme in CATALOGUE.schemes() {
         for rule in scheme.rules {
             let has_cells = ["frontier", "pack"].contains(&scheme.name);
             let kind = if has_cells { "cells:9x7:0.15" } else { "walls:9x7:0.15" };

@@ -1,0 +1,319 @@
+//! What runs of some schemes can be told, and runs of others not. An option is a field of [`Options`], as a stored run
+//! has it, and a row: how it is typed, what it means, and which values make no run.
+
+use std::fmt::{self, Display};
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use tautline_kernel::frontier::Threshold;
+
+use crate::failures::{Appearing, Failure, Going};
+use crate::layout::Layout;
+use crate::layout::generate::Probability;
+use crate::value_parser::{probability, real, whole};
+
+/// What a run is told besides, if its scheme can be told that. The default is what it is without a word.
+#[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Options {
+    /// Farther than so many cells no message is heard. Without it all are; robots that keep in touch hear 10 m, those
+    /// of a pack 60 cells.
+    pub range_cells: Option<u16>,
+    /// How many cells robots see; without it 20.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sight_cells: Option<u16>,
+    /// How likely it is that a message is lost, for each robot that could hear it.
+    pub loss: Probability,
+    /// The standard deviation of the noise with which a robot hears each anchor, in dB.
+    pub noise_db: f64,
+    /// The threshold T of the occupancy probability, from 0 to 1.
+    pub threshold: f64,
+    /// How fast robots that keep in touch drive, in metres a second; without it 0.3.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed_mps: Option<f64>,
+    /// By which share of it each of their drives may be faster or slower, below 1; without it 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spread: Option<f64>,
+    /// Which robot dies, and when.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fail: Option<Failure>,
+    /// Which wall appears, and when.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wall: Option<Appearing>,
+    /// In what order robots go.
+    #[serde(default, skip_serializing_if = "Going::is_usual")]
+    pub going: Going,
+}
+
+impl Options {
+    /// What it is without a word.
+    pub const USUAL: Self = Self {
+        range_cells: None,
+        sight_cells: None,
+        loss: Probability::NEVER,
+        noise_db: 0.0,
+        threshold: 0.5,
+        speed_mps: None,
+        spread: None,
+        fail: None,
+        wall: None,
+        going: Going::AtOnce,
+    };
+
+    /// The threshold; ½ if it is none.
+    pub fn threshold(&self) -> Threshold {
+        Threshold::new(self.threshold).unwrap_or(Threshold::HALF)
+    }
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self::USUAL
+    }
+}
+
+/// How an option is typed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Takes {
+    /// By its name alone.
+    Nothing,
+    /// With a word, which is called so.
+    Word(&'static str),
+    /// With a number that need not be whole, which is called so.
+    Real(&'static str),
+}
+
+/// What is wrong with a value, and what would be right.
+pub type Wrong = (String, String);
+
+/// An option as a row.
+pub struct Extra {
+    /// The field that tells it: its name on the command line.
+    pub field: &'static str,
+    /// Another name.
+    pub alias: Option<&'static str>,
+    /// How it is typed.
+    pub takes: Takes,
+    /// What it means, for the help.
+    pub about: &'static str,
+    /// Reads what is typed.
+    pub read: fn(&str, &mut Options) -> Result<(), String>,
+    /// How it would be typed, if it is told.
+    pub typed: fn(&Options) -> Option<String>,
+    /// What is wrong with it for so many robots in a layout.
+    pub wrong: fn(&Options, u16, &Layout) -> Option<Wrong>,
+    /// What is wrong if it is told twice, where that is worth a word.
+    pub twice: Option<fn(&str, &str) -> Wrong>,
+}
+
+/// Puts what is read into its place.
+fn put<T, E: Display>(read: Result<T, E>, place: &mut T) -> Result<(), String> {
+    *place = read.map_err(|error| error.to_string())?;
+    Ok(())
+}
+
+/// A value in words, if there is one.
+fn words<T: Display>(value: Option<T>) -> Option<String> {
+    value.map(|value| value.to_string())
+}
+
+/// What is wrong with a value, if it is not as it should be.
+fn unless(is_right: bool, what: impl Display, remedy: impl Display) -> Option<Wrong> {
+    (!is_right).then(|| (what.to_string(), remedy.to_string()))
+}
+
+impl Extra {
+    /// How far messages are heard.
+    pub const RANGE: &'static Self = &Self {
+        takes: Takes::Word("CELLS"),
+        about: "How many cells a message of robots that explore cells is heard; without it all hear it. Robots that keep \
+                in touch hear 2 or 3 cells; without it 10 m, and a cell is 3 m wide. Robots of a pack hear 3 cells or \
+                more; without it 60",
+        read: |text, options| put(whole(text).map(Some), &mut options.range_cells),
+        typed: |options| words(options.range_cells),
+        ..Self::new("range")
+    };
+
+    /// How far robots see.
+    pub const SIGHT: &'static Self = &Self {
+        takes: Takes::Word("CELLS"),
+        about: "How many cells robots of a pack see, from 1 to 31. Without it 20",
+        read: |text, options| put(whole(text).map(Some), &mut options.sight_cells),
+        typed: |options| words(options.sight_cells),
+        ..Self::new("sight")
+    };
+
+    /// How likely messages are lost.
+    pub const LOSS: &'static Self = &Self {
+        alias: Some("lose"),
+        takes: Takes::Real("PROBABILITY"),
+        about: "How likely it is that such a message, or a byte of a chain, is lost, from 0 to 1. Without it 0",
+        read: |text, options| put(probability(text), &mut options.loss),
+        typed: |options| words(Some(options.loss).filter(|loss| !loss.is_never())),
+        ..Self::new("loss")
+    };
+
+    /// The noise of positions.
+    pub const NOISE: &'static Self = &Self {
+        takes: Takes::Real("DECIBELS"),
+        about: "The noise of the signals by which robots that explore cells find their positions, in decibels. \
+                Without it 0",
+        read: |text, options| put(real(text), &mut options.noise_db),
+        typed: |options| words(unusual(options.noise_db, Options::USUAL.noise_db)),
+        wrong: |options, _, _| {
+            let is_right = (0.0..=100.0).contains(&options.noise_db);
+            let remedy = "give `noise-db` a number of decibels from 0 to 100";
+            unless(is_right, "a standard deviation of noise is from 0 to 100 dB", remedy)
+        },
+        ..Self::new("noise-db")
+    };
+
+    /// The threshold of the occupancy probability.
+    pub const THRESHOLD: &'static Self = &Self {
+        takes: Takes::Real("PROBABILITY"),
+        about: "Below which occupancy probability a cell is a candidate, from 0 to 1. Without it 0.5",
+        read: |text, options| put(real(text), &mut options.threshold),
+        typed: |options| words(unusual(options.threshold, Options::USUAL.threshold)),
+        wrong: |options, _, _| {
+            let is_right = Threshold::new(options.threshold).is_some();
+            let what = "a threshold of the occupancy probability is from 0 to 1";
+            unless(is_right, what, "give `threshold` a number from 0 to 1")
+        },
+        ..Self::new("threshold")
+    };
+
+    /// How fast robots drive.
+    pub const SPEED: &'static Self = &Self {
+        takes: Takes::Real("METRES"),
+        about: "How fast robots that keep in touch drive, in metres a second. Without it 0.3",
+        read: |text, options| put(real(text).map(Some), &mut options.speed_mps),
+        typed: |options| words(options.speed_mps),
+        wrong: |options, _, _| {
+            let is_right = options.speed_mps.is_none_or(|speed| (0.001..=1000.0).contains(&speed));
+            let remedy = "give `speed` a number of metres a second from 0.001 to 1000";
+            unless(is_right, "a robot drives from 0.001 to 1000 m/s", remedy)
+        },
+        ..Self::new("speed")
+    };
+
+    /// How much their speeds differ.
+    pub const SPREAD: &'static Self = &Self {
+        takes: Takes::Real("SHARE"),
+        about: "By which share each of their drives may be faster or slower, from 0 to 0.999. Without it 0",
+        read: |text, options| put(real(text).map(Some), &mut options.spread),
+        typed: |options| words(options.spread),
+        wrong: |options, _, _| {
+            let is_right = options.spread.is_none_or(|spread| (0.0..=0.999).contains(&spread));
+            let what = "drives are faster or slower by less than the whole speed";
+            unless(is_right, what, "give `spread` a share from 0 to 0.999")
+        },
+        ..Self::new("spread")
+    };
+
+    /// Which robot dies, and when.
+    pub const FAIL: &'static Self = &Self {
+        takes: Takes::Word("ROBOT@MOVE"),
+        about: "Which robot of a chain dies, and in which team move: the others go on as a chain of one fewer",
+        read: |text, options| put(text.parse().map(Some), &mut options.fail),
+        typed: |options| words(options.fail),
+        wrong: |options, robots, _| {
+            let robot = options.fail?.robot;
+            let what = match robot {
+                1 => "the base cannot fail: there is no chain without it".to_owned(),
+                _ => format!("there is no robot {robot} that could fail among {robots}"),
+            };
+            let remedy = format_args!("name a robot from 2 to {robots}, as in {robots}@20");
+            unless((2..=robots).contains(&robot), what, remedy)
+        },
+        twice: Some(|one, other| {
+            let what = format!("two robots die in one run, {one} and {other}: a chain re-forms behind one");
+            (what, "give `--fail` once".to_owned())
+        }),
+        ..Self::new("fail")
+    };
+
+    /// Which wall appears, and when.
+    pub const WALL: &'static Self = &Self {
+        takes: Takes::Word("X,Y,SIDE@MOVE"),
+        about: "On which side of a cell a wall appears while a chain explores, and from which team move on: E, S, W or N",
+        read: |text, options| put(text.parse().map(Some), &mut options.wall),
+        typed: |options| words(options.wall),
+        wrong: |options, _, layout| {
+            let (cell, edge) = options.wall.map(|wall| (wall.cell, wall.edge()))?;
+            let sides = [cell, edge.cell(), edge.cell().beyond(edge.side())];
+            let is_between = sides.iter().all(|&cell| layout.contains(cell));
+            let what = format_args!(
+                "no wall can appear on that side of the cell {cell}: it is not between two cells"
+            );
+            let remedy = "name a side between two cells of the layout, as in 7,6,E@20";
+            let shut =
+                "a wall that appears may shut the way over which the others re-form behind a robot that dies";
+            unless(is_between, what, remedy)
+                .or_else(|| unless(options.fail.is_none(), shut, "give `wall` and `fail` to two runs"))
+        },
+        ..Self::new("wall")
+    };
+
+    /// In what order robots go.
+    pub const SPEEDS: &'static Self = &Self {
+        about: "The robots of a chain go one after the other, in a new random order in each team move",
+        read: |_, options| {
+            options.going = Going::OneByOne;
+            Ok(())
+        },
+        typed: |options| (!options.going.is_usual()).then(String::new),
+        ..Self::new("speeds")
+    };
+
+    /// All of them.
+    pub const ALL: [&'static Self; 10] = [
+        Self::RANGE,
+        Self::SIGHT,
+        Self::LOSS,
+        Self::NOISE,
+        Self::THRESHOLD,
+        Self::SPEED,
+        Self::SPREAD,
+        Self::FAIL,
+        Self::WALL,
+        Self::SPEEDS,
+    ];
+
+    /// An option of which nothing but its name is said.
+    const fn new(field: &'static str) -> Self {
+        Self {
+            field,
+            alias: None,
+            takes: Takes::Nothing,
+            about: "",
+            read: |_, _| Ok(()),
+            typed: |_| None,
+            wrong: |_, _, _| None,
+            twice: None,
+        }
+    }
+
+    /// Whether `options` tell it.
+    pub fn is_told_by(&self, options: &Options) -> bool {
+        (self.typed)(options).is_some()
+    }
+}
+
+/// A number that is not the usual one, bit by bit.
+fn unusual(number: f64, usual: f64) -> Option<f64> {
+    Some(number).filter(|number| number.to_bits() != usual.to_bits())
+}
+
+impl PartialEq for Extra {
+    fn eq(&self, other: &Self) -> bool {
+        self.field == other.field
+    }
+}
+
+impl Eq for Extra {}
+
+impl fmt::Debug for Extra {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.field)
+    }
+}
