@@ -9,7 +9,7 @@ use tautline_kernel::ground::{Cell, Step};
 
 use crate::engine::outcomes;
 use crate::engine::states::{Bits, Places, Run, System};
-use crate::engine::world;
+use crate::engine::world::{self, any_of, picked};
 use crate::floor::plans::FloorPlan;
 use crate::floor::small::{self, Misses, Part, Small, Stored, marked, shut};
 use crate::floor_trace::{Course, Scene, Turn};
@@ -250,7 +250,7 @@ fn awake(state: &State) -> Bits {
 
 /// What a turn leads to.
 #[derive(Clone)]
-pub struct Turned {
+pub(crate) struct Turned {
     state: Box<State>,
     /// Whose turn it is, and where it goes.
     agent: usize,
@@ -269,7 +269,7 @@ impl world::World for Team {
 
     fn plan(&self, state: &mut Box<State>, _: &[u8]) -> Option<Self::Plan> {
         let all: Vec<_> = self.turns(state).collect();
-        Some(all).filter(|all| !all.is_empty())
+        any_of(all)
     }
 
     fn settle(
@@ -279,8 +279,8 @@ impl world::World for Team {
         _: &mut Vec<u8>,
         world: &mut impl Oracle,
     ) -> Self::Event {
-        let turned = all[world.pick(all.len() as u32) as usize].clone();
-        *state = turned.state.clone();
+        let mut turned = picked(all, world);
+        std::mem::swap(state, &mut turned.state);
         turned
     }
 

@@ -22,7 +22,7 @@ pub use super::way::Way;
 use crate::engine::lots::{self, Lots};
 use crate::engine::outcomes;
 use crate::engine::states::{Bits, Limits, Places, Run, System, search};
-use crate::engine::world::{Turn, World};
+use crate::engine::world::{Turn, World, any_of, picked};
 
 /// What to search for, and how far.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -394,7 +394,7 @@ impl<A: Agents> World for Floors<A> {
 
     fn plan(&self, state: &mut State<A::Memory>, _: &[u8]) -> Option<Self::Plan> {
         let all: Vec<_> = self.moves(state).collect();
-        Some(all).filter(|all| !all.is_empty())
+        any_of(all)
     }
 
     fn settle(
@@ -404,8 +404,8 @@ impl<A: Agents> World for Floors<A> {
         _: &mut Vec<u8>,
         world: &mut impl Oracle,
     ) -> Self::Event {
-        let turned = all[world.pick(all.len() as u32) as usize].clone();
-        *state = turned.state.clone();
+        let mut turned = picked(all, world);
+        std::mem::swap(state, &mut turned.state);
         turned
     }
 

@@ -10,7 +10,7 @@ use super::state::{Body, Part, Small, State};
 use super::{Deception, Way};
 use crate::engine::outcomes;
 use crate::engine::states::{Bits, Places, Run, System};
-use crate::engine::world;
+use crate::engine::world::{self, any_of, picked};
 use crate::floor::plans::{Edges, FloorPlan};
 use crate::floor::small::Misses;
 use crate::floor_trace::{Course, Scene, Turn};
@@ -284,7 +284,7 @@ impl world::World for Team {
 
     fn plan(&self, state: &mut Box<State>, _: &[u8]) -> Option<Self::Plan> {
         let all: Vec<_> = self.turns(state).collect();
-        Some(all).filter(|all| !all.is_empty())
+        any_of(all)
     }
 
     fn settle(
@@ -294,8 +294,8 @@ impl world::World for Team {
         _: &mut Vec<u8>,
         world: &mut impl Oracle,
     ) -> Self::Event {
-        let turned = all[world.pick(all.len() as u32) as usize].clone();
-        *state = turned.state.clone();
+        let mut turned = picked(all, world);
+        std::mem::swap(state, &mut turned.state);
         turned
     }
 
