@@ -216,18 +216,20 @@ impl<'a, R: Rule> Setting<'a, R> {
             for starts in self.placed(&self.starts, rule, &map)? {
                 for goals in self.placed(&self.goals, rule, &map)? {
                     let mut map = map;
-                    starts.iter().chain(&goals).for_each(|&cell| map.note_cell(cell, true));
-                    scenes.push(self.scene(rule, &starts, goals, Some(map)));
+                    for &cell in starts.iter().chain(&goals) {
+                        map.note_cell(cell, true);
+                    }
+                    scenes.push(Self::scene(rule, &starts, goals, Some(&map)));
                 }
             }
         }
         Ok(scenes)
     }
 
-    fn scene(&self, rule: &R, starts: &[Cell], goals: Vec<Cell>, map: Option<Map>) -> Scene<R> {
+    fn scene(rule: &R, starts: &[Cell], goals: Vec<Cell>, map: Option<&Map>) -> Scene<R> {
         let body = |(robot, &cell)| Body::new(cell, rule.start(robot, starts));
         let bodies = starts.iter().enumerate().map(body).collect();
-        TeamState { bodies, goals, map, losses: 0, deaths: 0 }
+        TeamState { bodies, goals, map: map.copied(), losses: 0, deaths: 0 }
     }
 
     /// The search for teams that follow `rule`, as a tree, at its start: it can be made wave by wave, left and taken up
@@ -264,6 +266,6 @@ impl<'a, R: Rule> Setting<'a, R> {
     /// answers for itself. All its demands are looked at.
     pub fn in_layout(&'a self, rule: &R, starts: &[Cell], goals: Vec<Cell>) -> Playing<'a, R> {
         let wanted = (0..self.demands.len()).map(Promise).collect();
-        Playing { setting: self, rule: rule.clone(), wanted, start: self.scene(rule, starts, goals, None) }
+        Playing { setting: self, rule: rule.clone(), wanted, start: Self::scene(rule, starts, goals, None) }
     }
 }

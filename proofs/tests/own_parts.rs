@@ -10,7 +10,8 @@ use tautline_proofs::engine::world::play;
 use tautline_proofs::engine::{Outcome, Seeded, Stop, Until};
 use tautline_proofs::run::Run;
 use tautline_proofs::team::{
-    Act, Demand, Ground, Keeps, Moves, Places, Promise, Rule, Scene, Senses, Setting, Strategy, View, Which,
+    Act, Demand, Ground, Keeps, Map, Moves, Places, Promise, Rule, Scene, Senses, Setting, Strategy, View,
+    Which,
 };
 
 fn decided<R: Rule + PartialEq + 'static>(
@@ -128,12 +129,12 @@ fn polite_robots_do_not_pass_each_other_in_a_lane() {
 /// A passing place: a row of three with one cell beside it, in every layout of 3×2 cells with two blocked cells that is
 /// connected.
 static BAYS: Setting<'static, Walk> = {
-    let ground = Ground::open(3, 2).obstacles(Which::Any(2)).assume(|map| map.is_connected());
+    let ground = Ground::open(3, 2).obstacles(Which::Any(2)).assume(Map::is_connected);
     Setting { ground, ..to_goals(3, 2, Moves::OneAtATime) }
 };
 
 static LOOPS: Setting<'static, Walk> = {
-    let ground = Ground::open(3, 3).obstacles(Which::Any(1)).assume(|map| map.is_biconnected());
+    let ground = Ground::open(3, 3).obstacles(Which::Any(1)).assume(Map::is_biconnected);
     Setting { ground, ..to_goals(3, 3, Moves::OneAtATime) }
 };
 
@@ -146,7 +147,7 @@ fn blocked_cells_are_a_quantifier_and_so_are_layouts_of_a_kind() {
     // Without a cell, or without one of the four in the corners or none at all, 3×3 cells stay biconnected: the ring
     // without its centre, and with a corner cut off.
     let layouts: Vec<Vec<Cell>> =
-        starts(&LOOPS).iter().filter_map(|scene| scene.map().map(|map| map.obstacles())).collect();
+        starts(&LOOPS).iter().filter_map(|scene| scene.map().map(Map::obstacles)).collect();
     let mut kinds = layouts.clone();
     kinds.dedup();
     assert_eq!(kinds.len(), 1 + 4 + 1);
@@ -277,7 +278,7 @@ fn what_is_decided_as_it_is_met_is_what_is_decided_before() {
         ..to_goals(3, 2, Moves::OneAtATime)
     };
     static ANY: Setting<'static, Walk> = Setting {
-        ground: Ground::open(3, 2).obstacles(Which::Any(1)).assume(|map| map.is_connected()),
+        ground: Ground::open(3, 2).obstacles(Which::Any(1)).assume(Map::is_connected),
         starts: Places::At(|_: &Walk| vec![Cell::new(0, 0), Cell::new(0, 1)]),
         goals: Places::None,
         ..to_goals(3, 2, Moves::OneAtATime)

@@ -218,7 +218,7 @@ macro_rules! in_rows {
                 let mut beyond = Self::NONE;
                 for row in 1..HEIGHT {
                     beyond[row] = self[row - 1] & open[row - 1];
-                    beyond[row - 1] = beyond[row - 1] | self[row] & open[row - 1];
+                    beyond[row - 1] |= self[row] & open[row - 1];
                 }
                 beyond
             }

@@ -98,8 +98,12 @@ impl Ground {
         for walls in sets(&edges, self.walls)? {
             for blocked in sets(&cells, self.obstacles)? {
                 let mut map = blank;
-                walls.iter().for_each(|&edge| map.note_edge(edge, false));
-                blocked.iter().for_each(|&cell| map.note_cell(cell, false));
+                for &edge in &walls {
+                    map.note_edge(edge, false);
+                }
+                for &cell in &blocked {
+                    map.note_cell(cell, false);
+                }
                 (map.walls, map.obstacles) = (0, 0);
                 if (self.assume)(&map) {
                     maps.push(map);

@@ -23,21 +23,21 @@ pub struct Keeps<'a, R: Rule>(
 /// What a tree has found: the frames, and the layout as far as it was known in each.
 type Found = tree::Found<Promise, (Frame, Option<Map>)>;
 
-impl<'a, R: Rule> Setting<'a, R> {
+impl<R: Rule> Setting<'_, R> {
     /// The run with these frames, the last of them in this layout.
     fn run_of(
         &self,
         starts: Vec<Cell>,
         frames: Vec<Frame>,
-        map: Option<Map>,
+        map: Option<&Map>,
         (broken, ending): (Promise, Ending),
     ) -> Run {
         Run {
             scheme: self.scheme,
             area: self.ground.area().unwrap_or(Area::of(Cell::new(0, 0))),
             starts,
-            walls: map.as_ref().map_or_else(Vec::new, Map::walls),
-            obstacles: map.as_ref().map_or_else(Vec::new, Map::obstacles),
+            walls: map.map_or_else(Vec::new, Map::walls),
+            obstacles: map.map_or_else(Vec::new, Map::obstacles),
             frames,
             breaks: self.demands.get(broken.0).map(|demand| demand.id),
             ending,
@@ -54,7 +54,7 @@ impl<'a, R: Rule> Setting<'a, R> {
             When::AtTheEnd(_) => Ending::Over,
             When::NeverEndless | When::Eventually(_) => Ending::Endless,
         };
-        self.run_of(starts, frames, map, (found.broken, ending))
+        self.run_of(starts, frames, map.as_ref(), (found.broken, ending))
     }
 
     fn evidence(
@@ -89,7 +89,8 @@ impl<R: Rule> Playing<'_, R> {
             states::Ending::Still => Ending::Over,
             states::Ending::Round(_) => Ending::Endless,
         };
-        let found = self.setting.run_of(start.cells().collect(), frames, last.map, (run.demand, ending));
+        let found =
+            self.setting.run_of(start.cells().collect(), frames, last.map.as_ref(), (run.demand, ending));
         let once = [&[run.start as u32], &run.steps[..]].concat();
         let choices = Choices { once, again: run.round().to_vec() };
         let demand = self.demand(run.demand).words;

@@ -222,14 +222,6 @@ pub struct Moved<'a, R: Rule> {
     pub after: &'a Scene<R>,
 }
 
-impl<R: Rule> Clone for Moved<'_, R> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<R: Rule> Copy for Moved<'_, R> {}
-
 impl<R: Rule> Moved<'_, R> {
     /// Whether a robot has left its cell.
     pub fn has_moved(&self, robot: usize) -> bool {

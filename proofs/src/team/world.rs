@@ -96,6 +96,11 @@ impl<'a, R: Rule> Playing<'a, R> {
         self.wanted.iter().copied().filter(is_broken).collect()
     }
 
+    /// The demands that a run breaks by never ending.
+    pub fn broken_by_never_ending(&self) -> Vec<Promise> {
+        self.broken(is_endless)
+    }
+
     /// The same team, of whose demands only these are looked at.
     #[must_use]
     pub fn wanting(self, wanted: &[Promise]) -> Self {
@@ -221,7 +226,7 @@ impl<R: Rule> Game for Playing<'_, R> {
         if then.bodies != now.bodies {
             return ControlFlow::Continue(());
         }
-        ControlFlow::Break(self.broken(|demand| demand.is_broken_by_endless_runs()))
+        ControlFlow::Break(self.broken_by_never_ending())
     }
 
     fn edges(&self) -> u32 {
@@ -231,6 +236,11 @@ impl<R: Rule> Game for Playing<'_, R> {
     fn longest_run(&self) -> u32 {
         self.setting.longest_run
     }
+}
+
+/// Whether a run without end breaks a demand.
+fn is_endless<R: Rule>(demand: &Demand<'_, R>) -> bool {
+    demand.is_broken_by_endless_runs()
 }
 
 /// What a scene is made of.
@@ -243,7 +253,7 @@ pub enum Part<M, T> {
         /// Where robots are to go.
         goals: Vec<Cell>,
         /// What is known of the layout.
-        map: Option<Map>,
+        map: Option<Box<Map>>,
         /// Messages that were lost.
         losses: u32,
         /// Robots that have died.
@@ -260,7 +270,8 @@ impl<R: Rule> System for Playing<'_, R> {
 
     fn part(&self, scene: &Scene<R>, place: usize) -> Self::Part {
         let TeamState { bodies, goals, map, losses, deaths } = scene;
-        let rest = || Part::Rest { goals: goals.clone(), map: *map, losses: *losses, deaths: *deaths };
+        let rest =
+            || Part::Rest { goals: goals.clone(), map: map.map(Box::new), losses: *losses, deaths: *deaths };
         bodies.get(place).cloned().map_or_else(rest, Part::Robot)
     }
 
@@ -276,7 +287,7 @@ impl<R: Rule> System for Playing<'_, R> {
             Part::Robot(body) => scene.bodies[place].clone_from(body),
             Part::Rest { goals, map, losses, deaths } => {
                 scene.goals.clone_from(goals);
-                (scene.map, scene.losses, scene.deaths) = (*map, *losses, *deaths);
+                (scene.map, scene.losses, scene.deaths) = (map.as_deref().copied(), *losses, *deaths);
             }
         }
     }
@@ -291,7 +302,7 @@ impl<R: Rule> System for Playing<'_, R> {
     }
 
     fn broken_by_endless_runs(&self) -> Option<Promise> {
-        self.broken(|demand| demand.is_broken_by_endless_runs()).first().copied()
+        self.broken_by_never_ending().first().copied()
     }
 
     fn awake(&self, scene: &Scene<R>) -> Bits {

@@ -445,6 +445,8 @@ pub fn layout(found: &Run) -> Result<(Layout, Vec<Cell>), Problem> {
     let shifted = |cell: Cell| Cell::new(cell.x - origin.x, cell.y - origin.y);
     let walls = found.walls.iter().map(|wall| Edge::new(shifted(wall.cell()), wall.side()));
     let mut layout = Layout::open(found.area.width() as u64, found.area.height() as u64)?.with_walls(walls);
-    found.obstacles.iter().for_each(|&cell| layout.block(shifted(cell)));
+    for &cell in &found.obstacles {
+        layout.block(shifted(cell));
+    }
     Ok((layout, found.starts.iter().copied().map(shifted).collect()))
 }

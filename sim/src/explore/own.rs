@@ -1,5 +1,8 @@
 //! A rule of one's own ([`tautline_proofs::team`]), as a run plays it: in one layout, with what it breaks.
 
+use std::collections::HashSet;
+use std::hash::{DefaultHasher, Hash, Hasher};
+
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge};
 use tautline_proofs::engine::Seeded;
@@ -20,14 +23,17 @@ pub struct Own<'a, R: Rule> {
     scene: Scene<R>,
     cells: Vec<Cell>,
     dice: Seeded,
-    mark: Mark<R>,
+    /// The scenes in which it was since the last draw, by 128 bits of each.
+    been: HashSet<[u64; 2]>,
 }
 
-/// A scene that the team may come back to, moved on at powers of two (Brent 1980), since the last draw.
-struct Mark<R: Rule> {
-    scene: Scene<R>,
-    moved: u64,
-    due: u64,
+/// What tells a scene from all others: its hashes behind two different first bytes.
+fn digest(scene: &impl Hash) -> [u64; 2] {
+    [0_u8, 1].map(|first| {
+        let mut hasher = DefaultHasher::new();
+        (first, scene).hash(&mut hasher);
+        hasher.finish()
+    })
 }
 
 /// Answers as a layout does, and by lot what no layout knows.
@@ -59,8 +65,7 @@ impl<'a, R: Rule> Own<'a, R> {
     pub fn new(playing: Playing<'a, R>, seed: u64) -> Self {
         let scene = playing.start();
         let (cells, dice) = (scene.cells().collect(), Seeded::new(seed, 0));
-        let mark = Mark { scene: scene.clone(), moved: 0, due: 1 };
-        Self { playing, before: scene.clone(), scene, cells, dice, mark }
+        Self { playing, before: scene.clone(), scene, cells, dice, been: HashSet::new() }
     }
 
     fn clauses(&self, broken: Vec<<Playing<'a, R> as World>::Demand>) -> Vec<ClauseId> {
@@ -76,17 +81,13 @@ impl<R: Rule> Team for Own<'_, R> {
     fn advance(&mut self, is_open: &mut dyn FnMut(Edge) -> bool) -> Result<Frame, End> {
         self.before.clone_from(&self.scene);
         let Some(plan) = self.playing.plan(&mut self.scene, &[]) else { return Err(End::Exhausted) };
-        if self.mark.moved > 0 && self.mark.scene == self.before {
+        if !self.been.insert(digest(&self.before)) {
             return Err(End::Endless);
         }
-        if self.mark.moved == self.mark.due {
-            self.mark = Mark { scene: self.before.clone(), moved: 0, due: 2 * self.mark.due };
-        }
-        self.mark.moved += 1;
         let mut world = InLayout { is_open, dice: &mut self.dice, has_drawn: false };
         let event = self.playing.settle(&mut self.scene, &plan, &mut Vec::new(), &mut world);
         if world.has_drawn {
-            self.mark = Mark { scene: self.scene.clone(), moved: 0, due: 1 };
+            self.been.clear();
         }
         self.cells = self.scene.cells().collect();
         Ok(event.frame(&self.scene))
@@ -100,7 +101,7 @@ impl<R: Rule> Team for Own<'_, R> {
     fn broken_at_end(&self, _: &Layout, _: &Survey, end: End) -> Vec<ClauseId> {
         self.clauses(match end {
             End::Explored | End::Exhausted | End::Silent => self.playing.broken_at_end(&self.scene, &[]),
-            End::Endless => self.playing.broken(|demand| demand.is_broken_by_endless_runs()),
+            End::Endless => self.playing.broken_by_never_ending(),
         })
     }
 }
