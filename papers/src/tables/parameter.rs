@@ -1,5 +1,5 @@
 //! What can be asked of a table, as a person asks it: options with values, from which its settings are read. A table
-//! lists its settings with the macro [`settings`], each with its type, its default, and how a person gives it.
+//! lists its settings with the macro `settings!`, each with its type, its default, and how a person gives it.
 
 use std::fmt;
 use std::ops::RangeInclusive;

@@ -83,8 +83,9 @@ impl<'a> Questions<'a> {
                 !written.is_broken_at_end(demand, last, &cells)
             })
         };
-        let cover =
-            |cover: usize| -> OfMove<'a> { Box::new(move |step| written.occurs(cover, &moved(written, step))) };
+        let cover = |cover: usize| -> OfMove<'a> {
+            Box::new(move |step| written.occurs(cover, &moved(written, step)))
+        };
         let demands = 0..written.demands.len();
         Self {
             of_moves: demands.clone().map(of_move).collect(),
