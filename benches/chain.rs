@@ -1,5 +1,5 @@
-//! What a team move of the chain costs: against the plain recursion, in open areas of every size, and among
-//! random walls. Criterion follows each figure over time; the tables at the end relate them to one another.
+//! The cost of a team move of the chain: against the plain recursion, in open areas of every size, and among random
+//! walls. Criterion follows each figure over time; the tables at the end relate them to one another.
 
 mod common;
 
@@ -12,7 +12,7 @@ use tautline_sim::layout::{Generator, Layout};
 
 use self::common::{Cost, group, measure};
 
-/// What was done in a run, or in several.
+/// The work of a run, or of several.
 #[derive(Clone, Copy, Default)]
 struct Work {
     team_moves: u32,
@@ -50,7 +50,7 @@ fn run_by<G: Grid, const ROBOTS: usize>(rule: Rule, layout: &Layout, grid: fn(Ar
     work
 }
 
-/// The same by the plain recursion, with a flood fill for every candidate.
+/// As [`run`], by the plain recursion, with a flood fill for every candidate.
 fn run_plain(layout: &Layout, robots: usize) -> Work {
     let (area, base) = area_of(layout);
     let mut chain = PlainChain::new(Rule::REPAIRED, robots, base, area);
@@ -175,7 +175,7 @@ fn random_walls_by_reel(criterion: &mut Criterion) -> Vec<(u16, f64, Cost<Work>)
     costs
 }
 
-/// What it costs to certify the plans of a repaired run of 8 robots, and how many they are.
+/// The cost of certifying the plans of a repaired run of 8 robots, and how many they are.
 fn certificates(criterion: &mut Criterion) -> Cost<Work> {
     let layout = &random_layouts(8, 0.1, 1)[0];
     let (area, base) = area_of(layout);

@@ -1,5 +1,5 @@
-//! What an agent's step on a sensor floor costs: by scheme, among rooms and in the open, on 30×30 and on 512×512 cells.
-//! Criterion follows each figure over time; the table at the end relates them to one another.
+//! The cost of an agent's step on a sensor floor: by scheme, among rooms and in the open, on 30×30 and on 512×512
+//! cells. Criterion follows each figure over time; the table at the end relates them to one another.
 
 mod common;
 
@@ -14,7 +14,7 @@ use tautline_sim::layout::generate::Probability;
 
 use self::common::{group, measure};
 
-/// What was done in a run.
+/// The work of a run.
 #[derive(Clone, Copy, Default)]
 struct Work {
     team_moves: u32,

@@ -6,7 +6,7 @@ use tautline_proofs::chain::search::{Bounds, Search};
 
 const WORKERS: [usize; 4] = [2, 8, 32, 128];
 
-/// What the waves of a search show.
+/// The waves of a search, as they are seen.
 #[derive(Default)]
 struct Shared {
     waves: u64,

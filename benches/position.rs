@@ -1,7 +1,7 @@
-//! What a position costs: a swarm and damped Gauss–Newton, beside the crates argmin and levenberg-marquardt on the same
-//! distances. Criterion follows each figure over time; the table at the end relates them to one another. Gauss–Newton
-//! here also looks for a second minimum and tells the covariance, which levenberg-marquardt does not; one minimum
-//! alone, from the linear solution as for levenberg-marquardt, has a row of its own.
+//! The cost of a position: a swarm and damped Gauss–Newton, beside the crates argmin and levenberg-marquardt on the
+//! same distances. Criterion follows each figure over time; the table at the end relates them to one another.
+//! Gauss–Newton here also looks for a second minimum and tells the covariance, which levenberg-marquardt does not; one
+//! minimum alone, from the linear solution as for levenberg-marquardt, has a row of its own.
 
 mod common;
 

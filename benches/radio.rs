@@ -1,5 +1,5 @@
-//! What a flood costs, from the places of the nodes to the last heard over the ideal channel: against looking at
-//! every node for every sender, and by the number of nodes at one density. Criterion follows each figure over time; the
+//! The cost of a flood, from the places of the nodes to the last heard over the ideal channel: against looking at every
+//! node for every sender, and by the number of nodes at one density. Criterion follows each figure over time; the
 //! tables at the end relate them to one another.
 
 mod common;
@@ -16,7 +16,7 @@ use tautline_proofs::engine::Seeded;
 
 use self::common::{Cost, Work, group, measure};
 
-/// What was done in a flood.
+/// The work of a flood.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 struct Flooded {
     reached: u32,
@@ -52,7 +52,7 @@ fn flood(field: &Field) -> Flooded {
     Flooded { reached: report.reached, receptions: report.air.heard as u32 }
 }
 
-/// The same, with a look at every node for every sender.
+/// As [`flood`], with a look at every node for every sender.
 fn flood_naively(field: &Field) -> Flooded {
     let (rule, chance) = (rule(), &mut Seeded::new(2, 0));
     let mut nodes: Vec<Node> =
@@ -93,7 +93,7 @@ fn against_all_pairs(criterion: &mut Criterion) -> [(u32, [Cost<Flooded>; 2]); 2
     })
 }
 
-/// The same density, more nodes.
+/// Floods at one density, with more and more nodes.
 fn by_size(criterion: &mut Criterion) -> [(u32, Cost<Flooded>); 5] {
     let mut group = group(criterion, "flood");
     [1_100, 3_300, 10_000, 33_000, 100_000].map(|nodes| {

@@ -1,4 +1,4 @@
-//! What a team move of the search over all layouts costs: against two searches as one would first write them, by the
+//! The cost of a team move of the search over all layouts: against two searches as one would first write them, by the
 //! number of robots and the rule, and on two threads. Criterion follows the shorter searches over time; the tables at
 //! the end relate them to one another.
 
@@ -19,10 +19,10 @@ use tautline_proofs::engine::tree::unwatched;
 
 use self::common::{Cost, Work, group, measure};
 
-/// What all searches look for after every team move. None of them looks at how a run ends.
+/// The violations that all searches look for after every team move. None of them looks at how a run ends.
 const BREACHES: [Breach; 3] = [Breach::Contact, Breach::Crowding, Breach::Coverage];
 
-/// What was searched.
+/// The work of a search.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 struct Searched {
     runs: u64,
@@ -60,8 +60,8 @@ enum Copies {
     AtForks,
 }
 
-/// The same runs, depth first over plain chains: each team move is made for every way in which some of the edges that
-/// nobody knows are walls.
+/// The runs of [`search`], depth first over plain chains: each team move is made for every way in which some of the
+/// edges that nobody knows are walls.
 fn search_naively(bounds: &Bounds, copies: Copies) -> Searched {
     let chain = PlainChain::new(Rule::PUBLISHED, bounds.robots, bounds.base, bounds.area);
     let mut searched = Searched::default();

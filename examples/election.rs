@@ -12,7 +12,7 @@ use tautline_proofs::ledger;
 
 const ROBOTS: usize = 3;
 
-/// What a robot does with a smaller number than its own.
+/// A robot's treatment of a smaller number than its own.
 #[derive(Clone, Copy)]
 enum Smaller {
     Swallow,
@@ -110,7 +110,7 @@ static ORDERS: EveryState<Smaller, Election> = EveryState {
 const OURS: Named<Smaller> = Named::new("swallows", Smaller::Swallow);
 const POLITE: Named<Smaller> = Named::new("passes everything on", Smaller::PassOn);
 
-/// What is promised.
+/// The promises.
 static CLAUSES: [Clause; 1] = [Clause {
     id: "ELECT-1",
     sentence: "Exactly one robot MUST lead in the end, and never two.",

@@ -75,7 +75,7 @@ const OURS: Named<Followers> = Named::new("repaired", Followers { leader: Cell::
 const EAGER: Named<Followers> = Named::new("follows at once", Followers { is_eager: true, ..OURS.rule });
 const ENDLESS: Named<Followers> = Named::new("never gives up", Followers { most_walls: 9, ..OURS.rule });
 
-/// What is promised.
+/// The promises.
 pub static CLAUSES: [Clause; 3] = [
     Clause {
         id: "FOLLOW-1",

@@ -1,4 +1,5 @@
-//! What the benchmarks share: how a group of them is sampled, and what one part of the work costs, such as a team move.
+//! The benchmarks' common parts: how a group of them is sampled, and the cost of one part of the work, such as a team
+//! move.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -15,13 +16,13 @@ pub(crate) fn group<'a>(criterion: &'a mut Criterion, name: &str) -> Group<'a> {
     group
 }
 
-/// What was done.
+/// The amount of work done.
 pub(crate) trait Work {
     /// Of how many parts it was: team moves, receptions.
     fn parts(&self) -> u32;
 }
 
-/// What one part took.
+/// The cost of one part.
 pub(crate) struct Cost<W> {
     pub(crate) work: W,
     /// By the fastest sample; infinite if nothing was measured.

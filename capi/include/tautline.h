@@ -73,7 +73,7 @@
 #define TAUTLINE_STEP_STAY 4
 
 /*
- What a call came to: 0 or more if it did what it is for, less than 0 if it refused to.
+ The status of a call: 0 or more if it did what it is for, less than 0 if it refused to.
  */
 enum TautlineStatus
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -192,7 +192,7 @@ typedef struct {
 } TautlineCell;
 
 /*
- What every robot of a team is to do in one team move.
+ A step for every robot of a team, for one team move.
  */
 typedef struct {
   /*

@@ -50,7 +50,7 @@ pub struct TautlineCell {
     pub y: i16,
 }
 
-/// What every robot of a team is to do in one team move.
+/// A step for every robot of a team, for one team move.
 #[repr(C)]
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct TautlinePlan {
@@ -74,11 +74,11 @@ pub struct TautlineChain {
     memory: [MaybeUninit<u64>; TAUTLINE_CHAIN_WORDS],
 }
 
-/// What lies in the memory.
+/// The content of the memory.
 #[derive(Clone, Copy)]
 struct State {
     chain: Chain<SmallGrid, TAUTLINE_CHAIN_ROBOTS>,
-    /// What is to be settled.
+    /// The plan to be settled.
     plan: Option<Plan<TAUTLINE_CHAIN_ROBOTS>>,
 }
 
@@ -124,7 +124,7 @@ const fn code(step: Step) -> u8 {
     }
 }
 
-/// What is behind a caller's pointer.
+/// The value behind a caller's pointer.
 ///
 /// # Safety
 /// The pointer is null, or valid for reads as long as the result is used.
@@ -133,7 +133,7 @@ unsafe fn read<'a, T>(pointer: *const T) -> Result<&'a T, TautlineStatus> {
     unsafe { pointer.as_ref() }.ok_or(TautlineStatus::NullPointer)
 }
 
-/// The same, to be changed.
+/// The value behind a caller's pointer, to be changed.
 ///
 /// # Safety
 /// The pointer is null, or valid for reads and writes, and nobody else uses it as long as the result is used.

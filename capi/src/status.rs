@@ -1,10 +1,10 @@
-//! What a call came to, as a number for programs and as a sentence for people.
+//! The status of a call, as a number for programs and as a sentence for people.
 
 use core::ffi::{CStr, c_char};
 
 use tautline_kernel::chain::{Damaged, End, Refused};
 
-/// What a call came to: 0 or more if it did what it is for, less than 0 if it refused to.
+/// The status of a call: 0 or more if it did what it is for, less than 0 if it refused to.
 #[repr(i32)]
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum TautlineStatus {

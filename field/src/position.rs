@@ -15,7 +15,7 @@ pub use trials::{Advice, Anchors, Errors, Quantiles, Report, Setting, Spot, dist
 use tautline_kernel::position::Refusal;
 use tautline_sim::diagnostic::Diagnostic;
 
-/// What is wrong where the kernel refuses, for a person.
+/// The kernel's refusal for a person: the fault, and a hint.
 pub fn refused(refusal: Refusal) -> Diagnostic {
     Diagnostic::usage(refusal, refusal.remedy())
 }

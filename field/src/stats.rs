@@ -89,12 +89,12 @@ impl Estimate {
         }
     }
 
-    /// The same of one that may be none, for which a dash stands.
+    /// As [`Self::text`], of an estimate that may be none, for which a dash stands.
     pub fn text_or_dash(estimate: Option<Self>, decimals: usize) -> String {
         estimate.map_or("-".to_owned(), |estimate| estimate.text(decimals))
     }
 
-    /// The same in a unit of which `factor`, above 0, make one of the present: 100 for a share in percent.
+    /// This estimate in a unit of which `factor`, above 0, make one of the present: 100 for a share in percent.
     pub fn times(self, factor: f64) -> Self {
         let interval = self.interval.map(|bounds| bounds.map(|bound| bound * factor));
         Self { mean: self.mean * factor, interval, ..self }

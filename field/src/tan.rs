@@ -3,7 +3,7 @@
 //! does says how long it takes, so that a simulation can have several on the way and let anything go wrong in between.
 //! [`Site`] walks whole journeys, of TAN and of its rivals, over a network in which nothing does.
 //!
-//! What stands for what: a robot hears nodes, and is heard by them, a hundredth farther than they hear each other
+//! The model: a robot hears nodes, and is heard by them, a hundredth farther than they hear each other
 //! ([`ROBOT_REACH`]). Obstacles stop signals and robots. How strong a signal is falls with the distance as the field's
 //! model has it, and with the angle off the axis of the robot's [`Antenna`].
 //!

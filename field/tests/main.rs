@@ -1,4 +1,4 @@
-//! What happens in radio fields, tried as a whole.
+//! Radio fields, tried as a whole.
 
 mod maps;
 mod position;

@@ -65,8 +65,8 @@ fn apart_m(one: Point, other: Point) -> f64 {
     (one.x_m - other.x_m).hypot(one.y_m - other.y_m)
 }
 
-/// What holds of every journey: it begins where the robot is, goes straight from place to place through no obstacle and
-/// is as long as that, and one that ends at the WFR ends within `near_m` and is no shorter than the shortest way there.
+/// Asserts of a journey: it begins where the robot is, goes straight from place to place through no obstacle and is as
+/// long as that, and one that ends at the WFR ends within `near_m` and is no shorter than the shortest way there.
 fn check(world: &World, journey: &Journey, near_m: f64) -> Result<(), TestCaseError> {
     let start = world.field.nodes()[world.field.nodes().len() - 1];
     let goal = world.field.nodes()[world.wfr.0 as usize];

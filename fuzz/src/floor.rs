@@ -110,7 +110,7 @@ impl Floor for Patch {
     }
 }
 
-/// What agents follow.
+/// The way that agents follow.
 #[derive(Clone, Copy)]
 enum Way {
     Ants(ants::Rule),

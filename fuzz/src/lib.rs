@@ -1,6 +1,6 @@
-//! What the fuzz targets do with their bytes: one body for each, named as its target and its folder of the
-//! corpus. A body panics when it finds something wrong. `tests/fuzz_corpus.rs` includes this file and runs the
-//! bodies on all kept inputs, so that they are checked without a fuzzer, too.
+//! The fuzz targets' bodies: one for each, named as its target and its folder of the corpus. A body panics when it
+//! finds something wrong. `tests/fuzz_corpus.rs` includes this file and runs the bodies on all kept inputs, so that
+//! they are checked without a fuzzer, too.
 
 #![allow(clippy::missing_panics_doc, reason = "a panic is how a body tells what it found")]
 
@@ -244,8 +244,8 @@ pub fn plan_cost(bytes: &[u8]) {
     plan(bytes, [8, 12, 16, 24], |robots| 160 / robots);
 }
 
-/// The same for 16 to 64 robots and a thousand moves: few inputs can be tried, and plans are dearest far from the
-/// start.
+/// As [`plan_cost`], for 16 to 64 robots and a thousand moves: few inputs can be tried, and plans are dearest far from
+/// the start.
 pub fn plan_cost_far(bytes: &[u8]) {
     plan(bytes, [16, 24, 32, 64], |_| 1_000);
 }
@@ -330,7 +330,7 @@ fn hunted() -> Asked<'static> {
     Asked::new(&CHAIN, RuleId::PUBLISHED)
 }
 
-/// What a hunt finds that goes on from a file with these bytes.
+/// The findings of a hunt that goes on from a file with these bytes.
 fn hunt_on(bounds: &Bounds, bytes: &[u8]) -> Option<Found> {
     let mut file = tempfile::NamedTempFile::new().expect("a file");
     file.write_all(bytes).expect("it can be written");
@@ -393,7 +393,7 @@ pub fn trace(bytes: &[u8]) {
     }
 }
 
-/// What was read and is written reads back the same; what is wrong is told in a line.
+/// Asserts that a layout reads back the same when it is written, and that a fault is told in a line.
 fn read_back(oracle: &str, layout: Result<Layout, Misread>) {
     match layout {
         Ok(layout) => {

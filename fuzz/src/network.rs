@@ -28,7 +28,7 @@ struct Letter {
     distance_um: u32,
 }
 
-/// What an observer notes down of a node and its latest event.
+/// An observer's note of a node and its latest event.
 #[derive(Clone, Copy, Default)]
 struct Noted {
     event: u32,

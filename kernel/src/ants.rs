@@ -5,7 +5,7 @@
 use crate::floor::{COMPASS, Floor, Ring, Scan, enter, leave};
 use crate::ground::{Cell, Side};
 
-/// What a sensor counts from that is placed where none was, or where one was missed: an ant cannot tell which.
+/// The count of a sensor placed where none was, or where one was missed: an ant cannot tell which.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Rule {

@@ -96,7 +96,7 @@ macro_rules! conditions {
     };
 }
 
-/// What logs a set of conditions by defmt: its bits.
+/// Logs a set of conditions by defmt: its bits.
 #[cfg(feature = "defmt")]
 #[doc(hidden)]
 #[macro_export]

@@ -29,7 +29,7 @@ pub trait Floor {
     fn is_open(&self, edge: Edge) -> bool;
 }
 
-/// What an agent goes to find in the cell that it enters.
+/// The sensor that an agent expects in the cell that it enters.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Entry {
@@ -37,7 +37,7 @@ pub enum Entry {
     Known,
     /// None: it has seen no sensor, takes the cell for unexplored and places a new one.
     New {
-        /// What the new one counts before the agent enters.
+        /// The new sensor's count before the agent enters.
         crossings: u32,
     },
 }

@@ -11,8 +11,8 @@ const BASE: Cell = Cell::new(3, 3);
 
 type Team = Chain<SmallGrid, 5>;
 
-/// What is wrong with taking back a team move of which the robots but the base have sent `messages`; `is_last` if no
-/// other is to be taken back then.
+/// The error, if there is one, in taking back a team move of which the robots but the base have sent `messages`;
+/// `is_last` if no other is to be taken back then.
 fn objection(chain: &Team, messages: &[u8], is_last: bool) -> Option<Damaged> {
     let mut cells = chain.cells().to_vec();
     for (place, &byte) in (1..).zip(messages) {

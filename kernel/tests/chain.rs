@@ -1,4 +1,4 @@
-//! What a chain says of itself between two moves, for whom a full cell is shut, and what a barrier hears.
+//! A chain's own numbers between two moves, the robots for which a full cell is shut, and what a barrier hears.
 
 use tautline_kernel::chain::{Barrier, Chain, Condition, Damaged, Heard, Intent, Message, Rule};
 use tautline_kernel::choice::Oracle;

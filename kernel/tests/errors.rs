@@ -1,4 +1,4 @@
-//! What errors say: what is wrong, and what would be right where somebody can do something about it.
+//! The texts of errors: what is wrong, and what would be right where somebody can do something about it.
 
 use std::error::Error;
 

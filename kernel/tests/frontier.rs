@@ -65,7 +65,7 @@ fn next(team: &Team, robot: usize, rule: &Rule, pick: u32) -> Next {
     next_within(team, robot, rule, pick, 36).0
 }
 
-/// What a robot does next that has memory for so many pairs, and how many searches it takes.
+/// The next action of a robot that has memory for so many pairs, and how many searches it takes.
 fn next_within(team: &Team, robot: usize, rule: &Rule, pick: u32, pairs: usize) -> (Next, u32) {
     let (at, aim) = team.robots[robot];
     let mut own = Robot::new(team.map, at, &[]);

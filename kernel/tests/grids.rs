@@ -66,7 +66,7 @@ fn pick(drawn: &mut Drawn, area: Area) -> Cell {
     Cell::new(area.first().x + x as i16, area.first().y + y as i16)
 }
 
-/// What `grid` says of the cell `at` is what a search finds.
+/// Asserts that `grid` and a search agree about the cell `at`.
 fn agrees<G: Grid>(grid: &mut G, at: Cell) {
     let area = grid.area();
     let leaves = |step: Step| !area.contains(at.after(step));

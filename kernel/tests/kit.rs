@@ -1,5 +1,5 @@
-//! What robots that keep in touch (KIT) do where two ways of theirs are as good, where another one is to go first, and
-//! where paths or memory end.
+//! Robots that keep in touch (KIT) where two ways of theirs are as good, where another one is to go first, and where
+//! paths or memory end.
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell, Edge, EdgeMark, Grid, Side, Step, TinyGrid};

@@ -1,4 +1,4 @@
-//! What the kernel does, tried as a whole.
+//! The kernel, tried as a whole.
 
 mod backtracks;
 mod chain;

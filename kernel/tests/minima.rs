@@ -1,5 +1,5 @@
-//! What a fix promises, said without its way downhill: its positions are minima, also within a rectangle; two are told
-//! when the noise cannot tell them apart; and it has no unit of its own.
+//! The promises of a fix, said without its way downhill: its positions are minima, also within a rectangle; two are
+//! told when the noise cannot tell them apart; and it has no unit of its own.
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::net::Propagation;

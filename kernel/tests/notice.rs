@@ -1,4 +1,4 @@
-//! What a node makes of a NOTICE, beyond what every network shows: late ones, and rules with one condition taken out.
+//! A node's reaction to a NOTICE, beyond what every network shows: late ones, and rules with one condition taken out.
 
 use core::num::NonZeroU32;
 

@@ -1,5 +1,5 @@
-//! What a robot of a pack sees, what its map knows, and what there would be to see elsewhere, each compared with a
-//! second, slower way to say it.
+//! A pack robot's sight, its map, and how much there would be to see elsewhere, each compared with a second, slower way
+//! to say it.
 
 use std::collections::BTreeMap;
 

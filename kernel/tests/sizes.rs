@@ -12,7 +12,7 @@ use tautline_kernel::position::Particle;
 use tautline_kernel::tan::Homing;
 use tautline_kernel::{bricks, notice};
 
-/// What keeps a state, its type, and the bytes of it.
+/// A container of states, its type, and the bytes of it.
 type Row = (&'static str, &'static str, usize);
 
 const STATES: [Row; 15] = [

@@ -1,5 +1,4 @@
-//! What sensors and messages store comes back, no two of them are stored alike, and a ring of cells is where it is
-//! drawn.
+//! Stored sensors and messages come back, no two of them are stored alike, and a ring of cells is where it is drawn.
 
 use std::collections::BTreeSet;
 

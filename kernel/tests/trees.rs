@@ -1,5 +1,5 @@
-//! What the children of a cell tell of a sensor that has been placed in the stead of another one, and what maps tell
-//! when they are joined.
+//! The children of a cell tell of a sensor that has been placed in the stead of another one, and maps that are joined
+//! keep what they had.
 
 use std::collections::BTreeMap;
 
@@ -41,7 +41,7 @@ impl Oracle for Luck {
     }
 }
 
-/// What is seen from the middle of `floor`, where its own sensor stores `here`.
+/// The view from the middle of `floor`, where its own sensor stores `here`.
 fn view(floor: &BTreeMap<Cell, Note>, here: Note) -> View {
     View::new(&Floor(floor, here), MIDDLE, &mut Luck)
 }

@@ -42,7 +42,7 @@ const STYLE: &str = "\
 /// A chart.
 #[derive(Clone, PartialEq, Debug)]
 pub struct LineChart {
-    /// What it shows, in one line.
+    /// A title of one line.
     pub title: String,
     /// From left to right.
     pub x: Axis,
@@ -52,10 +52,10 @@ pub struct LineChart {
     pub series: Vec<Series>,
 }
 
-/// What an axis measures.
+/// An axis of a chart.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Axis {
-    /// What.
+    /// The quantity that it measures.
     pub name: String,
     /// In what; empty for plain numbers.
     pub unit: String,
@@ -66,7 +66,7 @@ pub struct Axis {
 /// Points that belong together.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Series {
-    /// What they are of.
+    /// The series' name.
     pub name: String,
     /// How they are drawn.
     pub stroke: Stroke,

@@ -1,4 +1,4 @@
-//! What the papers and SPEC.md report as tables and figures, measured again, and dealt out to many machines.
+//! The tables and figures of the papers and SPEC.md, measured again, and dealt out to many machines.
 
 pub mod chart;
 mod nxt;

@@ -1,6 +1,6 @@
-//! What the papers and SPEC.md report as tables and figures, measured again. A table is a row of [`TABLES`]: what can
-//! be asked of it, jobs that know nothing of each other, and how their results become a text, JSON and pictures. A new
-//! table is a file of its own and one line here.
+//! The tables and figures of the papers and SPEC.md, measured again. A table is a row of [`TABLES`]: its settings, jobs
+//! that know nothing of each other, and how their results become a text, JSON and pictures. A new table is a file of
+//! its own and one line here.
 
 #![expect(
     clippy::type_complexity,
@@ -86,11 +86,11 @@ pub const TABLES: &[&dyn Entry] = &[
 /// A table or a figure that can be measured. Its results depend on its settings alone, and not on who measures which of
 /// its jobs, or in which order.
 pub trait Table: fmt::Debug + Sync + 'static {
-    /// What can be asked of it.
+    /// The table's settings.
     type Settings: Settings;
     /// A part of the work, independent of all others.
     type Job: Serialize + DeserializeOwned + Send + Sync;
-    /// What comes of a job.
+    /// The result of a job.
     type Measured: Serialize + DeserializeOwned + Send;
     /// The whole table. Its members follow `schema_version` and `id` in the JSON.
     type Merged: JsonSchema + Serialize;
@@ -166,15 +166,15 @@ pub trait Table: fmt::Debug + Sync + 'static {
 pub struct About {
     /// Its name.
     pub id: &'static str,
-    /// What it shows, in the list of all tables.
+    /// A line about it, for the list of all tables.
     pub shows: &'static str,
     /// The first line of its help.
     pub help: &'static str,
-    /// What else its help says; may be empty.
+    /// More for its help; may be empty.
     pub more: &'static str,
     /// Ids with options that are worth a try.
     pub examples: &'static [&'static str],
-    /// What is done while it is measured.
+    /// The work in progress while it is measured.
     pub doing: &'static str,
     /// The names of its pictures, and what they show, as a help text has it.
     pub pictures: &'static [(&'static str, &'static str)],
@@ -257,12 +257,12 @@ pub fn find(id: &str) -> Option<&'static dyn Entry> {
     TABLES.iter().copied().find(|table| table.about().id == id)
 }
 
-/// What is wrong with a radio field that was asked for.
+/// The fault of a radio field that was asked for.
 fn usage(problem: Problem) -> Halt {
     Diagnostic::usage(problem, problem.remedy()).into()
 }
 
-/// What came of a layout, or what is wrong with it.
+/// The layout, or what is wrong with it.
 fn fit<T>(result: Result<T, layout::Problem>) -> Result<T, Halt> {
     Ok(result.map_err(|problem| Diagnostic::usage(&problem, problem.remedy()))?)
 }

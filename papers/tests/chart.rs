@@ -70,7 +70,7 @@ fn elements(svg: &str) -> Vec<(String, String)> {
     elements
 }
 
-/// What is drawn.
+/// The body of the drawing.
 fn body(svg: &str) -> &str {
     svg.split_once("</style>").expect("a style").1
 }

@@ -17,7 +17,7 @@ use tautline_sim::explore::{Report, Setup, explore};
 use tautline_sim::layout::Generator;
 use tautline_sim::layout::generate::Probability;
 
-/// What a line says that there is after it.
+/// The state after a line, by what the line says.
 #[derive(Clone, PartialEq, Debug, Default)]
 struct State {
     cells: Vec<u32>,
@@ -29,7 +29,7 @@ struct State {
     milliseconds: u64,
 }
 
-/// What robots tried: where each went and whether it met a wall.
+/// The steps that robots tried: where each went and whether it met a wall.
 fn tried(text: &str) -> Vec<Option<(char, bool)>> {
     let (mut robots, mut count) = (Vec::new(), String::new());
     for letter in text.chars().filter(|&letter| letter != '-') {
@@ -56,7 +56,7 @@ fn numbers(text: &str) -> Vec<u32> {
         .collect()
 }
 
-/// What stands still, and what there is after each line.
+/// The still part of the page, and the state after each line.
 fn read(page: &str) -> (Value, Vec<State>) {
     let part = |id: &str| {
         let begin = page.find(&format!("id=\"{id}\">")).expect("a part") + id.len() + 6;

@@ -14,7 +14,7 @@ use tautline_sim::layout::Generator;
 use tautline_sim::layout::generate::Probability;
 use tautline_sim::options::Extra;
 
-/// What makes a layout, and how many robots explore it, the base counted.
+/// The layouts, and how many robots explore each, the base counted.
 const LAYOUTS: [(&str, u64); 5] = [
     ("walls:7x6:0.25", 4),
     ("cells:12x10:0.2", 6),
@@ -23,7 +23,7 @@ const LAYOUTS: [(&str, u64); 5] = [
     ("cells:24x18:0.15", 5),
 ];
 
-/// What may happen in a run.
+/// An event of a run.
 #[derive(Clone, Copy, Debug)]
 enum Event {
     Nothing,

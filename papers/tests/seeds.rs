@@ -1,5 +1,5 @@
-//! What each scheme says of its seed: a run in which nothing is drawn is the same with every seed, and whatever is
-//! drawn makes runs differ.
+//! Each scheme and its seed: a run in which nothing is drawn is the same with every seed, and whatever is drawn makes
+//! runs differ.
 
 use std::num::NonZeroU32;
 
@@ -11,7 +11,7 @@ use tautline_sim::options::Extra;
 
 const SEEDS: u64 = 6;
 
-/// What a run is told besides, if anything.
+/// An option that a run is told besides, if any.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Told {
     Nothing,

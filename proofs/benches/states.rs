@@ -1,4 +1,4 @@
-//! What a state of the search over all states costs, in time and memory: against stateright in the same run, for MRC
+//! The cost of a state of the search over all states, in time and memory: against stateright in the same run, for MRC
 //! and for ants on an open floor. The same ants stand in `ants.pml` for SPIN, which is started by hand: see
 //! `docs/performance.md`. All must find the same states.
 
@@ -146,7 +146,7 @@ const SETTING: Setting = Setting {
     leases: Leases::UntilCalled,
 };
 
-/// What `run` counts, and the seconds of the faster of two runs.
+/// The count that `run` returns, and the seconds of the faster of two runs.
 fn timed(run: impl Fn() -> u64) -> (u64, f64) {
     let seconds = || {
         let start = Instant::now();

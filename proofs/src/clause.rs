@@ -31,7 +31,7 @@ pub struct Check<R: 'static> {
     pub about: Named<R>,
     /// How it is decided.
     pub method: &'static dyn Method<R>,
-    /// What must come out.
+    /// The verdict that must come out.
     pub expected: Verdict,
     /// Rules for which the check must fail.
     pub mutants: &'static [Named<R>],
@@ -56,14 +56,14 @@ pub struct Clause {
     pub id: &'static str,
     /// Its MUST sentence, word for word.
     pub sentence: &'static str,
-    /// What decides it.
+    /// The checks that decide it.
     pub checks: &'static [&'static dyn AnyCheck],
 }
 
-/// What came of a check.
+/// The outcome of a check.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Decision {
-    /// What it found.
+    /// Its verdict.
     pub verdict: Verdict,
     /// Cases of a body that met its assumptions, runs of a search, or states.
     pub cases: u64,
@@ -78,7 +78,7 @@ pub struct Decision {
 }
 
 impl Decision {
-    /// What came of a check's own rule, no mutant looked at yet.
+    /// The decision by a check's own rule, no mutant looked at yet.
     pub fn of(answer: Answer) -> Self {
         let Answer { verdict, cases, given_up, counterexample } = answer;
         Self { verdict, cases, given_up, counterexample, killed: Vec::new(), survived: Vec::new() }
@@ -103,13 +103,13 @@ pub trait AnyCheck: Sync {
     /// The engine's name.
     fn engine(&self) -> &'static str;
 
-    /// What it covers, in words.
+    /// The bound, in words.
     fn bound(&self) -> String;
 
-    /// What is shown when no counterexample is found within the bound.
+    /// The verdict when no counterexample is found within the bound.
     fn shows(&self) -> Verdict;
 
-    /// What must come out.
+    /// The verdict that must come out.
     fn expected(&self) -> Verdict;
 
     /// The names of its mutants.
@@ -118,16 +118,16 @@ pub trait AnyCheck: Sync {
     /// A name for what it shares with the checks of the same name: see [`Method::family`].
     fn family(&self) -> Option<String>;
 
-    /// The same for the mutant with this number.
+    /// As [`AnyCheck::family`], for the mutant with this number.
     fn mutant_family(&self, number: usize) -> Option<String>;
 
-    /// What comes of its own rule.
+    /// The answer about its own rule.
     ///
     /// # Errors
     /// [`Refused`] if its method cannot begin.
     fn decide_own(&self, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused>;
 
-    /// What comes of the mutant with this number; open if there is none. One violation is enough, unless what is found
+    /// The verdict on the mutant with this number; open if there is none. One violation is enough, unless the decision
     /// is to tell of more.
     ///
     /// # Errors

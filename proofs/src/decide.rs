@@ -12,7 +12,7 @@ use crate::engine::{self, Choices, Outcome, Replay, Script, Stop, Tally, Unfit, 
 use crate::floor_trace::Course;
 use crate::run::Run;
 
-/// What a check found.
+/// A check's verdict.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Verdict {
     /// Every case within the bound was looked at, and none breaks the clause.
@@ -37,23 +37,23 @@ impl Verdict {
     }
 }
 
-/// What refutes a clause.
+/// A counterexample that refutes a clause.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Evidence {
     /// The choices that make it again.
     pub choices: Choices,
     /// The demand that is not met, or what is not so.
     pub demand: &'static str,
-    /// What a person sees of it.
+    /// The counterexample for a person.
     pub seen: Seen,
 }
 
-/// What a person sees of a counterexample.
+/// A counterexample as a person sees it.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Seen {
     /// Its choices alone.
     Choices,
-    /// What happens, in lines.
+    /// The events, in lines.
     Story(String),
     /// Robots that move together.
     Robots(Box<Run>),
@@ -73,14 +73,14 @@ pub enum Seen {
 pub struct Played {
     /// From how many each choice was made, in the order of the choices.
     pub of: Vec<u32>,
-    /// What it comes to.
+    /// The evidence for the verdict.
     pub evidence: Evidence,
 }
 
-/// What came of a rule.
+/// A method's answer about a rule.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Answer {
-    /// What was found.
+    /// The verdict.
     pub verdict: Verdict,
     /// Cases of a body that met its assumptions, runs of a search, or states.
     pub cases: u64,
@@ -134,12 +134,12 @@ impl fmt::Display for Refused {
 
 impl std::error::Error for Refused {}
 
-/// What was found, by what was asked: one search may answer several checks.
+/// Results by their questions: one search may answer several checks.
 #[derive(Default)]
 pub struct Memory(Vec<Box<dyn Any>>);
 
 impl Memory {
-    /// What was found for `key`; if nothing was, what `find` finds, which is kept.
+    /// The result for `key`; if there is none, that of `find`, which is kept.
     ///
     /// # Errors
     /// Whatever `find` returns.
@@ -168,9 +168,9 @@ impl fmt::Debug for Memory {
     }
 }
 
-/// What a method has at hand.
+/// A method's surroundings.
 pub struct Desk<'a, 'w> {
-    /// What was found before.
+    /// Results found before.
     pub memory: &'a mut Memory,
     /// Hears of searches, and may end them: the check is left open then.
     pub watch: Watch<'w>,
@@ -183,10 +183,10 @@ pub trait Method<R>: Sync {
     /// The engine's name.
     fn engine(&self) -> &'static str;
 
-    /// What it covers, in words that are made from the data that runs.
+    /// The bound, in words that are made from the data that runs.
     fn bound(&self) -> String;
 
-    /// What is shown when it finds no counterexample within its bound.
+    /// The verdict when no counterexample is found within the bound.
     fn shows(&self) -> Verdict {
         Verdict::Holds
     }
@@ -220,7 +220,7 @@ pub type Range = fn() -> String;
 pub struct Exhaustive<R> {
     /// The body.
     pub body: Body<R>,
-    /// What its choices range over.
+    /// The range of its choices.
     pub range: Range,
     /// The situations that must occur.
     pub covers: &'static [&'static str],
@@ -232,7 +232,7 @@ pub struct Sampled<R> {
     pub body: Body<R>,
     /// How many times.
     pub runs: u64,
-    /// What its choices range over: what so many of are drawn.
+    /// The range of its choices, of which so many are drawn.
     pub range: Range,
     /// The situations that must occur.
     pub covers: &'static [&'static str],
@@ -316,12 +316,12 @@ pub struct EveryState<R: 'static, S: System> {
     pub most_steps: u32,
     /// The situations that must occur.
     pub covers: &'static [&'static str],
-    /// What a step is, in words.
+    /// A step, in words.
     pub tell: fn(before: &S::State, step: &Step<S>) -> String,
 }
 
 impl<R, S: System<Demand = &'static str>> EveryState<R, S> {
-    /// What happens in `run` of `system`, in lines.
+    /// The events in `run` of `system`, in lines.
     fn story(&self, system: &S, run: &states::Run<&'static str>) -> Seen {
         let Some(mut state) = (self.starts)(system).into_iter().nth(run.start) else { return Seen::Choices };
         let mut lines = String::new();

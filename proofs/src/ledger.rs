@@ -71,7 +71,7 @@ pub struct Row {
     pub number: usize,
     /// The check.
     pub check: &'static dyn AnyCheck,
-    /// What came of it.
+    /// The decision.
     pub decision: Decision,
     /// Why nothing came of the check, or of one of its mutants; then it is open, or the mutant is not rejected.
     pub undecided: Option<Undecided>,
@@ -94,7 +94,7 @@ impl Row {
         }
     }
 
-    /// What is machine-checked beyond the bound, if the clause holds within it.
+    /// The theorem that machine-checks the clause beyond the bound, if the clause holds within it.
     fn composition(&self) -> Option<String> {
         let words = || composition::words(self.clause.id, self.check.rule());
         (self.decision.verdict == Verdict::Holds).then(words).flatten()

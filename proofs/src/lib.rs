@@ -1,5 +1,5 @@
-//! What Tautline claims, and how the claims are decided. The clauses of `SPEC.md` stand in the rooms of their schemes,
-//! with their mutants; shared rooms know no scheme, so that anyone can bring a rule of their own.
+//! Tautline's claims, and how they are decided. The clauses of `SPEC.md` stand in the rooms of their schemes, with
+//! their mutants; shared rooms know no scheme, so that anyone can bring a rule of their own.
 //!
 //! Without the feature `rooms` there are the engines alone: [`engine`], [`team`], [`decide`], [`clause`], [`ledger`].
 

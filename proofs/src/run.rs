@@ -9,7 +9,7 @@ use tautline_kernel::ground::{Area, Cell, Edge, Step};
 pub struct Frame {
     /// An advance or a backtrack.
     pub kind: Kind,
-    /// What every robot tried.
+    /// The steps that the robots tried.
     pub steps: Vec<Step>,
     /// Whether it met a wall.
     pub blocked: Vec<bool>,

@@ -80,7 +80,7 @@ pub struct Setting<'a, R: Rule> {
     pub starts: Places<R>,
     /// Where they are to go.
     pub goals: Places<R>,
-    /// What they see.
+    /// The robots' senses.
     pub senses: Senses,
     /// Who acts.
     pub moves: Moves,
@@ -90,7 +90,7 @@ pub struct Setting<'a, R: Rule> {
     pub deaths: u32,
     /// Steps after which a run is given up, which leaves the question open.
     pub longest_run: u32,
-    /// What is demanded.
+    /// The demands on the team.
     pub demands: &'a [Demand<'a, R>],
     /// The situations that must occur: where one does not, the question is open.
     pub covers: &'a [Cover<'a, R>],

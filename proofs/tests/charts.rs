@@ -1,5 +1,5 @@
-//! What MRC breaks as published, each flaw as the shortest message sequence chart that shows it; the repaired rule
-//! breaks nothing in any of these settings.
+//! The flaws of MRC as published, each as the shortest message sequence chart that shows it; the repaired rule breaks
+//! nothing in any of these settings.
 
 use insta::assert_snapshot;
 use tautline_kernel::mrc::{Condition, Rule};

@@ -6,7 +6,7 @@ use tautline_proofs::engine::tree::unwatched;
 use tautline_proofs::engine::{Choices, Unfit};
 use tautline_proofs::ledger;
 
-/// What refutes the checks that are registered as refuted and take no long time.
+/// The evidence of the checks that are registered as refuted and take no long time.
 fn refuted() -> Vec<(&'static dyn AnyCheck, Evidence)> {
     let mut memory = Memory::default();
     let is_short =

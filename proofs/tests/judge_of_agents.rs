@@ -31,8 +31,8 @@ fn written_down(clause: &str, course: &Course) -> Exhibit {
     }
 }
 
-/// What refutes BRICKS-5 and BRICKS-6 with sensors missed, and BRICKS-6 without: a run that ends too early, and one
-/// that goes round.
+/// Exhibits that refute BRICKS-5 and BRICKS-6 with sensors missed, and BRICKS-6 without: a run that ends too early, and
+/// one that goes round.
 fn exhibits() -> Vec<Exhibit> {
     let mut memory = Memory::default();
     let mut exhibits = Vec::new();

@@ -9,7 +9,7 @@ use tautline_proofs::engine::Seeded;
 
 type Team = Chain<SmallGrid, 8>;
 
-/// What came of the plans that a changed log gave.
+/// A count of the plans that a changed log gave.
 #[derive(Default, PartialEq, Eq, Debug)]
 struct Count {
     other_world: u32,
@@ -34,7 +34,7 @@ impl Count {
     }
 }
 
-/// What is wrong with a backtrack of `team`, by the sentences of SPEC.md.
+/// The fault of a backtrack of `team`, by the sentences of SPEC.md.
 fn wrong(team: &Team, plan: &Plan<8>) -> Option<&'static str> {
     let cells = team.cells();
     let crosses_unknown = cells.iter().zip(plan.steps()).any(|(&cell, &step)| match step {

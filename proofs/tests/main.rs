@@ -1,4 +1,4 @@
-//! What the proofs do, tried as a whole.
+//! The proofs, tried as a whole.
 
 mod areas;
 mod charts;

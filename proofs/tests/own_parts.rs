@@ -298,7 +298,7 @@ fn robots_are_as_many_as_are_asked_for() {
     assert_eq!(refused.to_string(), "a team has 1 to 16 robots, not 0");
 }
 
-/// The same world is a body: of a property, of a fuzz target, of a harness.
+/// One world is a body: of a property, of a fuzz target, of a harness.
 #[test]
 fn a_world_is_a_body() {
     let outcome = |rule: Walk, seed: u64| -> Outcome {

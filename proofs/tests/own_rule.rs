@@ -8,7 +8,7 @@ use tautline_proofs::engine::states::Room;
 use tautline_proofs::engine::tree::{Waves, unwatched};
 use tautline_proofs::team::{Act, Demand, Ground, Keeps, Places, Promise, Rule, Scene, Setting, View, Which};
 
-/// What a robot does: it goes east and back for ever, or counts, or goes east until it meets a wall.
+/// A robot's walk: it goes east and back for ever, or counts, or goes east until it meets a wall.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Walk {
     Patrols,
@@ -72,7 +72,7 @@ static UNCOVERED: Setting<'static, Walk> = Setting {
 static STILL_AND_ENDS: Setting<'static, Walk> =
     layouts((4, 1), &[Demand::always("ROBOT-4", "it stays where it is", &|moved| !moved.has_moved(0)), ENDS]);
 
-/// What comes of a demand, by its layouts and its number.
+/// A question about a demand: its layouts and its number.
 type Asked = (&'static Setting<'static, Walk>, usize);
 
 fn decided(rule: Walk, (layouts, demand): Asked) -> Result<Answer, Refused> {

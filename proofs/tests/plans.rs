@@ -1,4 +1,4 @@
-//! What plans cost: how many team moves a chain makes in the same random layouts, and at how many candidates of
+//! The cost of plans: how many team moves a chain makes in the same random layouts, and at how many candidates of
 //! followers its plans look. Both are numbers of the rule and not of the machine.
 
 use std::fmt::Write;
@@ -22,7 +22,7 @@ fn walls(mut seed: u64, percent: u64) -> Vec<bool> {
     (0..2 * SIDE * SIDE).map(|_| drawn(&mut seed) < percent).collect()
 }
 
-/// What a run has cost.
+/// The cost of a run.
 #[derive(Default)]
 struct Cost {
     moves: u32,

@@ -67,7 +67,7 @@ fn fingerprint(state: &State) -> u64 {
     hasher.finish()
 }
 
-/// What can come of a state: what it breaks, who waits, whose timer runs; and for each action whether it is bound to
+/// The future of a state: what it breaks, who waits, whose timer runs; and for each action whether it is bound to
 /// happen and which state, as the search tells states apart, it leads to.
 #[derive(PartialEq, Eq, Debug)]
 struct Future {

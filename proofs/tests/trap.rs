@@ -75,7 +75,7 @@ impl Oracle for Script<'_> {
     }
 }
 
-/// What became of one agent.
+/// The fate of one agent.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Fate {
     /// Every cell is explored.

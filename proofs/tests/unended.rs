@@ -20,7 +20,7 @@ use tautline_proofs::engine::world::{Turn, World};
 use tautline_proofs::engine::{Choices, Outcome, Unfit, Until, assume};
 use tautline_proofs::ledger::{Hear, Heard, Limits, Row, Undecided, checks, decide};
 
-/// What a rule does in one of its steps.
+/// A rule by what it does in one of its steps.
 #[derive(Clone, Copy)]
 enum Rule {
     /// It ends at once.

@@ -16,7 +16,7 @@ use crate::layout::Layout;
 use crate::run::Run;
 use crate::wait::wait_for;
 
-/// What came of a hunt.
+/// The outcome of a hunt.
 #[pyclass(frozen, module = "pytautline", get_all)]
 pub(crate) struct HuntReport {
     /// The name of the scheme.
@@ -31,7 +31,7 @@ pub(crate) struct HuntReport {
     complete: bool,
     /// `holds`, `refuted`, or `open`.
     verdict: &'static str,
-    /// What follows from it.
+    /// The outcome in a word.
     outcome: String,
     /// The smallest run that breaks each clause.
     counterexamples: Vec<Py<Counterexample>>,
@@ -44,7 +44,7 @@ pub(crate) struct Counterexample {
     clause: &'static str,
     /// How large the run is.
     facts: Py<PyAny>,
-    /// The same for people.
+    /// The outcome in a title for people.
     title: String,
     /// Where it runs.
     layout: Py<Layout>,

@@ -21,7 +21,7 @@ pub(crate) type Pair = (i16, i16);
 #[derive(Clone)]
 pub(crate) struct Layout {
     pub(crate) ground: Ground,
-    /// What it was loaded by.
+    /// The name by which it was loaded.
     pub(crate) name: String,
 }
 

@@ -12,7 +12,7 @@ mod run;
 mod sweep;
 mod wait;
 
-/// What `pytautline` imports.
+/// The native module that `pytautline` imports.
 #[pyo3::pymodule]
 mod _native {
     #[pymodule_export]

@@ -30,7 +30,7 @@ use crate::hunt::verdict;
 use crate::run::{Made, Run};
 use crate::wait::wait;
 
-/// What came of a hunt of a rule written in Python.
+/// The outcome of a hunt of a rule written in Python.
 #[pyclass(frozen, module = "pytautline", get_all)]
 pub(crate) struct OwnHuntReport {
     /// The name of the scheme.
@@ -64,7 +64,7 @@ pub(crate) struct OwnHuntReport {
 pub(crate) struct OwnCounterexample {
     /// The clause.
     clause: &'static str,
-    /// What it demands, in words.
+    /// The demand, in words.
     words: &'static str,
     /// How many runs break it.
     runs: u64,
@@ -94,7 +94,7 @@ struct Plain {
     run: Run,
 }
 
-/// What was found before Python has it.
+/// The outcome of a hunt before Python has it.
 struct Outcome {
     found: tree::Found<Promise, (Frame, Option<Map>)>,
     counterexamples: Vec<Plain>,

@@ -31,7 +31,7 @@ const SCHEMA_VERSION: u32 = 1;
 /// Team moves that one picture shows at most.
 const MAX_PANELS: u32 = 200;
 
-/// What makes a run again.
+/// The data that make a run again.
 #[derive(Clone)]
 pub(crate) enum Made {
     /// A rule of the catalogue.
@@ -53,14 +53,14 @@ impl Made {
 #[pyclass(frozen, module = "pytautline")]
 pub(crate) struct Run {
     pub(crate) made: Made,
-    /// What its layout was loaded by.
+    /// The name by which its layout was loaded.
     pub(crate) name: String,
     pub(crate) report: Report,
     /// The clause that it is a counterexample to.
     pub(crate) clause: Option<ClauseId>,
 }
 
-/// What every JSON object begins with.
+/// The head of every JSON object.
 #[derive(Serialize)]
 struct Versioned<T> {
     schema_version: u32,
@@ -164,7 +164,7 @@ impl Run {
         Ok(aside)
     }
 
-    /// What is written to a file.
+    /// Writes bytes to a file.
     fn bytes(
         &self,
         py: Python<'_>,
@@ -176,7 +176,7 @@ impl Run {
         Ok(fs::read(&path)?)
     }
 
-    /// What is written to a file, as text.
+    /// Writes text to a file.
     fn text(
         &self,
         py: Python<'_>,

@@ -22,7 +22,7 @@ use crate::explore::{limits, rule, scheme};
 use crate::run::stopped;
 use crate::wait::wait_for;
 
-/// What one run is asked for.
+/// A job: one run with its options.
 struct Job<'a> {
     layout: &'a str,
     rule: RuleId,

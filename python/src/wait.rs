@@ -49,7 +49,7 @@ pub(crate) fn wait<T: Send>(
     })
 }
 
-/// The same where nothing else is to be looked at.
+/// As [`wait`], where nothing else is to be looked at.
 pub(crate) fn wait_for<T: Send>(py: Python<'_>, work: impl FnOnce(&AtomicBool) -> T + Send) -> PyResult<T> {
     let is_stopped = AtomicBool::new(false);
     wait(py, &is_stopped, || work(&is_stopped), |_| Ok(()))

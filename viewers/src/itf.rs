@@ -11,7 +11,7 @@ use tautline_sim::diagnostic::Halt;
 use tautline_sim::explore::{ClauseId, Play, TeamMove};
 use tautline_sim::trace::StoredMove;
 
-/// What a state has, with its type.
+/// The variables of a state, with their types.
 const VARIABLES: [(&str, &str); 6] = [
     ("blocked", "Seq(Bool)"),
     ("broken", "Set(Str)"),

@@ -54,7 +54,7 @@ struct Recording<'f> {
 }
 
 impl<'f> Recording<'f> {
-    /// What stands still, and the start.
+    /// Writes the still part, and the start.
     fn begin(file: &'f mut AtomicFile, setup: &Setup) -> Result<Self, Diagnostic> {
         let facts = [
             ("scheme", setup.scheme.name.to_owned()),
@@ -126,7 +126,7 @@ impl<'f> Recording<'f> {
         self.send("/map", "nav_msgs/OccupancyGrid", step, &message)
     }
 
-    /// What has changed in it.
+    /// Writes the change in this part of it.
     fn update(&mut self, step: u32, part: Rectangle) -> Result<(), Diagnostic> {
         let mut message = headed(at_ns(step));
         message.i32(part.x as i32);
@@ -166,7 +166,7 @@ impl<'f> Recording<'f> {
         self.file.marker("/links", at_ns(step), &drawing, &ends)
     }
 
-    /// What came of the run.
+    /// Writes the outcome of the run.
     fn end(mut self, report: &Report) -> Result<(), Diagnostic> {
         let mut message = headed(at_ns(report.steps));
         // The word that the trace has for it.

@@ -40,7 +40,7 @@ const STYLE: &str = "\
 /// A field, and what has happened in it.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Map<'a> {
-    /// What it shows, in one line; empty for none.
+    /// A caption of one line; empty for none.
     pub caption: String,
     /// The area, the obstacles and the nodes.
     pub field: &'a Field,
@@ -249,7 +249,7 @@ fn way(look: usize, trail: &Trail, scale: Scale) -> String {
     )
 }
 
-/// What the marks that there are mean, in one line.
+/// The meaning of the marks that there are, in one line.
 fn key(maps: &[Map<'_>]) -> Drawn {
     let has = |is_drawn: &dyn Fn(&Map<'_>) -> bool| maps.iter().any(is_drawn);
     let has_end = |end: Terminus| {

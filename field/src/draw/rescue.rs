@@ -187,7 +187,7 @@ fn lines(report: &Report) -> String {
     text
 }
 
-/// What a line says beside its words.
+/// A line's details beside its words.
 #[derive(Serialize)]
 struct Told {
     note: String,

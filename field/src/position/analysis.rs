@@ -20,7 +20,7 @@ pub struct Ellipse {
 }
 
 impl Ellipse {
-    /// The same to a hundredth of a millimetre and of a degree.
+    /// This ellipse, rounded to a hundredth of a millimetre and of a degree.
     #[must_use]
     pub(super) fn rounded(self) -> Self {
         let metres = |pair: [f64; 2]| pair.map(|metres| decimals(metres, 1e5));

@@ -69,7 +69,7 @@ struct Readings {
 /// The position of a fix.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Found {
-    /// What the file calls the fix.
+    /// The fix's name in the file.
     pub fix: String,
     /// The position; two if they cannot be told apart, the one that fits better first.
     pub positions: Vec<Place>,
@@ -90,7 +90,7 @@ pub struct Place {
     pub ellipse: Option<Ellipse>,
     /// The root mean square of what distances miss, in metres, or levels, in dB.
     pub residual: Option<f64>,
-    /// What is to be said with it.
+    /// Warnings about the position.
     pub flags: Vec<&'static str>,
 }
 
@@ -248,7 +248,7 @@ impl Measured {
         fixes.map(found).collect()
     }
 
-    /// What is wrong with a fix, at the line of the anchor that it is about, or at its last one.
+    /// The fault of a fix, at the line of the anchor that it is about, or at its last one.
     fn refused(&self, readings: &Readings, refusal: Refusal) -> Diagnostic {
         let about = match refusal {
             Refusal::NotFinite { anchor } | Refusal::Negative { anchor } | Refusal::Zero { anchor } => {

@@ -9,7 +9,7 @@ const FEW: usize = 8;
 /// Bounds give way by so much, for the rounding of numbers.
 const SLACK: f64 = 1.0 + 1e-12;
 
-/// The same as the kernel's `check_meeting`, in a time that hardly grows faster than the number of circles.
+/// As the kernel's `check_meeting`, in a time that hardly grows faster than the number of circles.
 ///
 /// # Errors
 /// [`Refusal::Apart`] if two circles do not meet, and what [`check`] returns.

@@ -78,7 +78,7 @@ impl Serialize for Anchors {
     }
 }
 
-/// What is tried.
+/// The setting of trials.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Setting {
     /// The anchors, x and y in metres.
@@ -113,7 +113,7 @@ fn told<S: Serializer>(signal: &Signal, serializer: S) -> Result<S::Ok, S::Error
     Told { noise_db: signal.noise_db(), exponent: signal.propagation().exponent() }.serialize(serializer)
 }
 
-/// What came of trials.
+/// The outcome of trials.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Report {
     /// Trials whose distances were refused; the numbers below are of the others.
@@ -135,7 +135,7 @@ pub struct Report {
     pub crlb_rms_m: Option<f64>,
     /// The singular values of the anchors' places about their mean: how far they are spread along a line and across it.
     pub spread_m: [f64; 2],
-    /// What that means for cells.
+    /// The number of cells that such errors allow.
     pub advice: Advice,
 }
 
@@ -173,11 +173,11 @@ pub struct Advice {
     pub p99_m: f64,
     /// Cells from side to side, if each fix is believed.
     pub cells_believed: u32,
-    /// The same if the cell is counted by moves, and fixes correct the place within it.
+    /// Cells from side to side, if the cell is counted by moves, and fixes correct the place within it.
     pub cells_tracked: u32,
 }
 
-/// What came of one trial.
+/// The outcome of one trial.
 struct Trial {
     error_m: f64,
     optimum_m: f64,
@@ -351,11 +351,11 @@ const DRAWN: u64 = 200;
 pub struct Spot {
     /// Where it is.
     pub at: Point,
-    /// What it found.
+    /// The positions that it took for its own.
     pub found: Vec<Point>,
     /// The ellipse in which 95 % of that would be, were it normally distributed.
     pub errors: Option<Ellipse>,
-    /// The same of the smallest covariance that an unbiased way can have.
+    /// The 95 % ellipse of the smallest covariance that an unbiased way can have.
     pub bound: Option<Ellipse>,
 }
 

@@ -16,10 +16,10 @@ use super::network::Link;
 use super::queue::Queue;
 use super::{Network, Problem};
 
-/// What the nodes do with what they hear. Beside the nodes of the network there may be rovers: stations that move, so
-/// that their links are the protocol's to tell. Their numbers follow those of the nodes.
+/// The nodes' protocol: their answers to messages and timers. Beside the nodes of the network there may be rovers:
+/// stations that move, so that their links are the protocol's to tell. Their numbers follow those of the nodes.
 pub trait Protocol {
-    /// What they send.
+    /// A message of the nodes.
     type Message: Copy;
 
     /// Node `at` hears a message. If its timer is to go off: when, in nanoseconds.
@@ -46,7 +46,7 @@ pub trait Protocol {
     fn roving(&self, _at: NodeId, _links: &mut Vec<Link>) {}
 }
 
-/// What lies between a sender and those linked to it.
+/// A channel between a sender and those linked to it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Channel {
     /// Nothing.
@@ -74,7 +74,7 @@ impl Shared {
     pub const SENSOR: Self = Self { airtime_ns: 992_000, turnaround_ns: 192_000, slot_ns: 320_000, slots: 8 };
 }
 
-/// What may go wrong on the way.
+/// Faults that may happen on the way.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Faults {
     loss: Chance,
@@ -118,7 +118,7 @@ fn noisy_um(
     (f64::from(distance_um) * propagation.times_as_far(-deviation_db(standard_db, chance))) as u32
 }
 
-/// What was on the air.
+/// The traffic on the air.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Air {
     /// Messages sent.
@@ -212,8 +212,7 @@ impl<P: Protocol> World<'_, P> {
     }
 }
 
-/// What happens on a shared channel, in the order in which it does where it happens at once: a signal that ends makes
-/// room for one that begins.
+/// An event on a shared channel, in the order of events at one time: a signal that ends makes room for one that begins.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Event {
     End(NodeId),
@@ -222,7 +221,7 @@ enum Event {
     Listen(NodeId),
 }
 
-/// What a node's antenna is at.
+/// The state of a node's antenna.
 #[derive(Clone, Copy)]
 struct Antenna {
     /// Signals that reach it.
@@ -238,7 +237,7 @@ struct Crowd<'a, M> {
     shared: Shared,
     queue: Queue<Event>,
     antennas: Vec<Antenna>,
-    /// What each node has yet to send, the one on the air first.
+    /// Messages that each node has yet to send, the one on the air first.
     waiting: Vec<VecDeque<M>>,
     /// The links to and from rovers on which what each node has on the air is heard: those of its beginning.
     roving: Vec<Vec<Link>>,
@@ -456,7 +455,7 @@ mod tests {
         }
     }
 
-    /// What was on the air, and who heard whom when.
+    /// The traffic on the air, and who heard whom when.
     type Strolled = (Result<Air, Problem>, Vec<(u32, u32, u64)>);
 
     fn stroll(channel: Channel, begin: &[(NodeId, u64)]) -> Strolled {

@@ -19,14 +19,14 @@ pub struct Reach {
     pub rebroadcasts: u32,
 }
 
-/// What became of a broadcast.
+/// The outcome of a broadcast.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Report {
     /// Nodes that know of the event, the source included.
     pub reached: u32,
     /// Nodes that forwarded it, the source not included.
     pub rebroadcasts: u32,
-    /// What was on the air.
+    /// The traffic on the air.
     pub air: Air,
 }
 
@@ -58,8 +58,8 @@ pub struct Broadcast<'a> {
     hellos: Hellos,
 }
 
-/// What the scalable broadcast remembers of the neighbours: where the words of each node begin, and the words. The
-/// other schemes need none.
+/// The scalable broadcast's memory of the neighbours: where the words of each node begin, and the words. The other
+/// schemes need none.
 #[derive(Clone, Default, Debug)]
 struct Hellos {
     first: Vec<usize>,
@@ -67,7 +67,7 @@ struct Hellos {
 }
 
 impl Hellos {
-    /// What `at` knows when it hears `sender`.
+    /// The knowledge of `at` when it hears `sender`.
     fn around<'a>(&'a mut self, network: &'a Network, at: NodeId, sender: NodeId) -> Surroundings<'a> {
         let Some(&first) = self.first.get(at.0 as usize) else { return Surroundings::none() };
         let neighbours = network.neighbours(at);

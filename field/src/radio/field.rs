@@ -165,7 +165,7 @@ impl Field {
         Ok(Self { area, obstacles, nodes })
     }
 
-    /// The same field with more nodes after its own.
+    /// This field with more nodes after its own.
     ///
     /// # Errors
     /// As [`Field::new`].
@@ -192,7 +192,7 @@ impl Field {
         self.area
     }
 
-    /// What stops links.
+    /// The obstacles that stop links.
     pub fn obstacles(&self) -> &[Obstacle] {
         &self.obstacles
     }

@@ -6,7 +6,7 @@ use tautline_sim::named_values::NamedValues;
 
 use super::{Channel, Shared};
 
-/// What lies between the nodes.
+/// The channel between the nodes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ChannelName {

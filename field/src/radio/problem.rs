@@ -1,10 +1,10 @@
-//! What can be wrong with a radio field: `Display` says what, [`Problem::remedy`] what would be right.
+//! The faults of a radio field: `Display` says what is wrong, [`Problem::remedy`] what would be right.
 
 use std::fmt;
 
 use super::{MAX_NODES, MAX_RANGE_M};
 
-/// What is wrong.
+/// A fault of a radio field.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[expect(missing_docs, reason = "the fields are the numbers that the sentence of each problem shows")]
 pub enum Problem {
@@ -41,7 +41,7 @@ pub(super) const MAX_SIDE_M: f64 = 1e6;
 pub(super) const MAX_DEVIATION_DB: f64 = 20.0;
 
 impl Problem {
-    /// What would be right.
+    /// A hint at the right input.
     pub fn remedy(&self) -> String {
         match *self {
             Self::Side { .. } => format!("give a width and a height above 0 and up to {MAX_SIDE_M} m"),

@@ -1,4 +1,4 @@
-//! What happens next: the earliest first, and of what happens at once the order is that of the events themselves, never
+//! A queue of events: the earliest first, and of events at one time the order is that of the events themselves, never
 //! that in which they were put in.
 
 use std::cmp::Reverse;

@@ -1,8 +1,8 @@
-//! What is for one station alone, MOVE, RESB and the answers to it, goes from hop to hop as a sensor's radio sends such
-//! frames (IEEE 802.15.4): the hop acknowledges it by the number of the frame, the sender repeats it until then, at
-//! most three times, and a frame that comes once more is acknowledged and otherwise ignored. A call is for all, and is
-//! not acknowledged. The paper is silent about this; without it hardly a message would come through fifteen hops that
-//! lose one in ten.
+//! Letters are messages for one station alone, MOVE, RESB and the answers to it. A letter goes from hop to hop as a
+//! sensor's radio sends such frames (IEEE 802.15.4): the hop acknowledges it by the number of the frame, the sender
+//! repeats it until then, at most three times, and a frame that comes once more is acknowledged and otherwise ignored.
+//! A call is for all, and is not acknowledged. The paper is silent about this; without it hardly a message would come
+//! through fifteen hops that lose one in ten.
 
 use tautline_kernel::mrc::{Hop, Resb, Upward};
 
@@ -13,7 +13,7 @@ pub(super) const ANSWER_WAIT_NS: u64 = 25_000_000;
 /// A letter is sent at most so often.
 pub(super) const TRIES: u8 = 4;
 
-/// What a letter says.
+/// A letter's content.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Content {
     /// Towards a WFR.
@@ -22,7 +22,7 @@ pub(super) enum Content {
     Down(Resb),
 }
 
-/// What is for one station alone.
+/// A message for one station alone.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Letter {
     pub(super) from: Hop,

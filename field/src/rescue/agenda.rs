@@ -1,9 +1,9 @@
-//! What a station has before it: timers that are to go off, and messages that are to be sent. The air knows one timer
-//! of a station, so it is wound to the earliest of them.
+//! A station's agenda: timers that are to go off, and messages that are to be sent. The air knows one timer of a
+//! station, so it is wound to the earliest of them.
 
 use std::collections::VecDeque;
 
-/// What a station has before it.
+/// A station's agenda.
 #[derive(Debug)]
 pub(super) struct Agenda<D, M> {
     /// In the order put in.

@@ -1,4 +1,4 @@
-//! What happens in a rescue, as it is told and stored.
+//! The events of a rescue, as they are told and stored.
 
 use std::fmt;
 
@@ -133,7 +133,7 @@ impl fmt::Display for Event {
 pub struct Logged {
     /// In nanoseconds.
     pub at_ns: u64,
-    /// What.
+    /// The event.
     #[serde(flatten)]
     pub event: Event,
 }

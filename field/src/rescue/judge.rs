@@ -1,4 +1,4 @@
-//! What the clauses MRC-1 to MRC-9 demand, looked at after every turn of a run. Each clause is told once.
+//! The demands of the clauses MRC-1 to MRC-9, looked at after every turn of a run. Each clause is told once.
 
 use tautline_kernel::mrc::{Bid, Phase, Resb, Robot, Served, Task, Wfr};
 use tautline_kernel::net::{Call, Epoch, NodeId, RobotId};
@@ -9,7 +9,7 @@ use super::{MAX_ROBOTS, MAX_WFRS};
 /// A clause that was broken.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Violation {
-    /// What was demanded.
+    /// The demand that is broken.
     pub demand: Demand,
     /// When it was not so, in nanoseconds.
     pub at_ns: u64,
@@ -19,7 +19,7 @@ pub struct Violation {
     pub event: usize,
 }
 
-/// What is noted down beside the machines' own states.
+/// The judge's notes beside the machines' own states.
 pub(super) struct Judge {
     /// The latest event of each WFR.
     event: Vec<usize>,
@@ -229,7 +229,7 @@ mod tests {
         wfr.receive(word(Word::Accept)).0
     }
 
-    /// What is told of two WFRs that count on the same robot.
+    /// The violations when two WFRs count on the same robot.
     fn told(has_failed: bool) -> Vec<Violation> {
         let mut judge = Judge::new(1, 2);
         let (wfrs, machine) = ([leased(4), leased(7)], Robot::new(Rule::REPAIRED, ROBOT));
@@ -243,8 +243,8 @@ mod tests {
         judge.violations
     }
 
-    /// What is told of a robot under `rule` that learns that it is chosen when it has heard of another choice, and asks
-    /// another WFR.
+    /// The violations of a robot under `rule` that learns that it is chosen when it has heard of another choice, and
+    /// asks another WFR.
     fn told_of_a_robot(rule: Rule) -> Vec<(Demand, usize)> {
         let mut judge = Judge::new(1, 2);
         let call = |wfr: u32| Call { wfr: NodeId(wfr), epoch: Epoch::FIRST };

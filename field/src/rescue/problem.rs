@@ -1,4 +1,4 @@
-//! What can be wrong with a rescue: `Display` says what, [`Problem::remedy`] what would be right.
+//! The faults of a rescue: `Display` says what is wrong, [`Problem::remedy`] what would be right.
 
 use std::fmt;
 
@@ -12,7 +12,7 @@ use tautline_sim::named_values::NamedValues;
 /// The most nodes, each counted once for each WFR: what they know of the calls fits into half a gibibyte.
 pub(super) const MAX_STATES: usize = 4_000_000;
 
-/// What is wrong.
+/// A fault of a rescue.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[expect(missing_docs, reason = "the fields are the numbers that the sentence of each problem shows")]
 pub enum Problem {
@@ -53,7 +53,7 @@ impl From<radio::Problem> for Problem {
 }
 
 impl Problem {
-    /// What would be right.
+    /// A hint at the right input.
     pub fn remedy(&self) -> String {
         match *self {
             Self::Field(problem) => problem.remedy(),

@@ -1,9 +1,9 @@
-//! What comes of a rescue.
+//! The outcome of a rescue.
 
 use super::{Logged, Violation};
 use crate::radio::{Air, Field, Point};
 
-/// What became of the first call for an event on its way through the network.
+/// The spread of the first call for an event through the network.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Spread {
     /// Nodes that know of it, the WFR included.
@@ -14,7 +14,7 @@ pub struct Spread {
     pub rebroadcasts: u32,
 }
 
-/// What became of an event at a WFR.
+/// The fate of an event at a WFR.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Fate {
     /// Robots came: how many, the first included.
@@ -62,7 +62,7 @@ pub struct Fix {
     pub at: Point,
 }
 
-/// What came of a rescue.
+/// The outcome of a rescue.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Report {
     /// WFR by WFR, for each event that has happened.
@@ -73,7 +73,7 @@ pub struct Report {
     pub journeys: Vec<Journey>,
     /// The clauses that were broken, each where it first was.
     pub violations: Vec<Violation>,
-    /// What happened, in order.
+    /// The events, in order.
     pub log: Vec<Logged>,
     /// Where each robot was, robot by robot: between two of these it went straight.
     pub paths: Vec<Vec<Fix>>,
@@ -81,6 +81,6 @@ pub struct Report {
     pub field: Field,
     /// The places of the WFRs.
     pub wfrs: Vec<Point>,
-    /// What was on the air.
+    /// The traffic on the air.
     pub air: Air,
 }

@@ -117,7 +117,7 @@ impl Setting {
         })
     }
 
-    /// What is wrong by the numbers alone.
+    /// The first fault that the numbers alone show.
     fn check(&self) -> Result<(), Problem> {
         let Self { nodes, wfrs, robots, events_per_wfr: events, failing, failing_nodes, .. } = *self;
         if !(1..=MAX_ROBOTS).contains(&robots) {

@@ -1,4 +1,4 @@
-//! What a rescue is made of, as the user gives it: plain numbers, which are checked when the field is laid out.
+//! The setting of a rescue, as the user gives it: plain numbers, which are checked when the field is laid out.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -91,7 +91,7 @@ pub struct Setting {
     pub events_per_wfr: usize,
     /// When something happens at the WFRs for the first time.
     pub calls: CallTimes,
-    /// What lies between a sender and those who hear it.
+    /// The channel between a sender and those who hear it.
     pub channel: ChannelName,
     /// How likely it is that a message is lost, on each link anew.
     pub loss: f64,
@@ -155,12 +155,12 @@ impl Setting {
     }
 }
 
-/// What stored rescues have that do not say how many events there are.
+/// The number of events in stored rescues that do not say it.
 const fn once() -> usize {
     1
 }
 
-/// What stored rescues have that do not say how power falls.
+/// The fall of power in stored rescues that do not say it.
 const fn free_space() -> f64 {
     FREE_SPACE
 }

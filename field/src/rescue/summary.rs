@@ -14,7 +14,7 @@ use super::{Event, Fate, Logged, Ordinal, Report, Setting, Violation, rescue};
 use crate::stats::{Estimate, rounded};
 use tautline_sim::diagnostic::{Diagnostic, Halt, Watch};
 
-/// What came of many rescues.
+/// The outcome of many rescues.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Summary {
     /// The share of all nodes that the first call for an event reaches, the WFR included.
@@ -23,7 +23,7 @@ pub struct Summary {
     pub reach_component: Estimate,
     /// Nodes that forward a first call, the WFR not included.
     pub rebroadcasts: Estimate,
-    /// What became of the events at the WFRs, counted over all rescues.
+    /// The fates of the events at the WFRs, counted over all rescues.
     pub assignments: Assignments,
     /// When robots failed, counted over all rescues.
     pub robots_failed: RobotsFailed,
@@ -38,7 +38,7 @@ pub struct Summary {
     pub violations: Vec<Broken>,
 }
 
-/// What became of the events at the WFRs.
+/// The fates of the events at the WFRs.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, JsonSchema, Serialize)]
 pub struct Assignments {
     /// WFRs in all.
@@ -75,7 +75,7 @@ pub struct RobotsFailed {
 pub struct Broken {
     /// Its id.
     pub clause: &'static str,
-    /// What is not so, in words.
+    /// The violation, in words.
     #[serde(skip)]
     pub broken: &'static str,
     /// In how many rescues.
@@ -90,7 +90,7 @@ pub struct Broken {
     pub event: Ordinal,
 }
 
-/// What is kept of a rescue.
+/// The part of a rescue's outcome that is kept.
 struct Kept {
     seed: u64,
     reach: f64,

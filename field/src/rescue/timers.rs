@@ -61,8 +61,8 @@ impl Timers {
         (u64::from(hops) + 1) * self.leg_ns
     }
 
-    /// The same for the robot, from its last answer on: longer than the WFR's by the way of the answer, so that the WFR
-    /// no longer counts on it when it is free.
+    /// The robot's lease, as [`Self::lease_ns`], from its last answer on: longer than the WFR's by the way of the
+    /// answer, so that the WFR no longer counts on it when it is free.
     pub(super) fn robot_lease_ns(self, hops: u16) -> u64 {
         self.lease_ns(hops) + self.way_ns + HOP_NS
     }

@@ -49,7 +49,7 @@ impl Scenario {
     }
 }
 
-/// What is on the air.
+/// A message on the air.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Message {
     /// NOTICE.
@@ -64,7 +64,7 @@ pub(super) enum Message {
     Nav(Nav),
 }
 
-/// What is due at a station.
+/// A duty that is due at a station.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Duty {
     /// It fails.
@@ -93,7 +93,7 @@ enum Duty {
     Served(Call),
 }
 
-/// What a node remembers beside the broadcasts.
+/// A node's memory beside the broadcasts.
 struct Sensor {
     has_failed: bool,
     guide: Guide,
@@ -108,7 +108,7 @@ struct Happening {
     at_ns: u64,
     /// The epoch of the first call for it.
     epoch: Epoch,
-    /// What became of that call, once there was another.
+    /// The spread of that call, once there was another.
     spread: Option<Spread>,
     /// How many robots have come.
     visits: u32,
@@ -125,7 +125,7 @@ struct World<'a> {
     rovers: Vec<Rover>,
     wfrs: Vec<Wfr<MAX_ROBOTS>>,
     broadcasts: Vec<Broadcast<'a>>,
-    /// What has happened so far, WFR by WFR.
+    /// The events so far, WFR by WFR.
     happenings: Vec<Vec<Happening>>,
     journeys: Vec<Journey>,
     judge: Judge,

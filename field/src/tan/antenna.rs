@@ -19,7 +19,7 @@ impl Antenna {
     /// The standard's element: 8 dB on the axis, 65° wide, 30 dB less behind.
     pub const DIRECTIONAL: Self = Self { gain_db: 8.0, beam_degrees: 65.0, floor_db: 30.0 };
 
-    /// The same all round.
+    /// An element that hears all round alike: 0 dB in every direction.
     pub const ALL_ROUND: Self = Self { gain_db: 0.0, beam_degrees: 360.0, floor_db: 0.0 };
 
     /// The gain on the axis, in dB.

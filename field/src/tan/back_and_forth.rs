@@ -4,7 +4,7 @@
 use tautline_kernel::net::Strength;
 use tautline_kernel::tan::Heading;
 
-/// What the robot is to do next, a step of a length that the caller gives.
+/// The robot's next action, a step of a length that the caller gives.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Walk {
     /// A step that way.
@@ -39,7 +39,7 @@ impl BackAndForth {
         Self { heading, leg: Leg::Trying, last: heard, near }
     }
 
-    /// What it is to do now.
+    /// The robot's action now.
     pub(super) const fn order(&self) -> Walk {
         if self.last.0 >= self.near.0 { Walk::Stop } else { Walk::Step(self.heading) }
     }

@@ -1,4 +1,4 @@
-//! What a robot hears of a node: whether it hears it at all, and how strong, by distance, direction, shadow and noise.
+//! A robot's hearing of a node: whether it hears it at all, and how strong, by distance, direction, shadow and noise.
 //!
 //! The level of a signal is that of equation (1) above what can just be heard all round, at the robot's reach, by how
 //! far off the node seems to be; the antenna adds its gain. Strengths are levels in hundredths of a dB.

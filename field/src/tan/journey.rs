@@ -23,7 +23,7 @@ pub enum End {
     Astray,
 }
 
-/// What became of a journey.
+/// The outcome of a journey.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Journey {
     /// How it ended.

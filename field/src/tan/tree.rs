@@ -1,5 +1,5 @@
-//! What a broadcast leaves behind for navigation: the tree of the nodes that have forwarded it, and what the robot has
-//! heard of it; and the hops of all nodes from a goal, which the rivals have of their floods.
+//! Traces of a broadcast for navigation: the tree of the nodes that have forwarded it, and the part of it that the
+//! robot has heard; and the hops of all nodes from a goal, which the rivals have of their floods.
 
 use std::collections::VecDeque;
 
@@ -42,7 +42,7 @@ impl Tree {
         Ok(Self { navs: nodes.map(nav).collect(), entry })
     }
 
-    /// What a node has to say to a robot, if it is one of the tree.
+    /// A node's answer to a robot, if it is one of the tree.
     pub fn nav(&self, node: NodeId) -> Option<Nav> {
         self.navs.get(node.0 as usize).copied().flatten()
     }

@@ -47,7 +47,7 @@ impl Gait {
     }
 }
 
-/// What a robot has to find its way with.
+/// A robot's equipment to find its way with.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Equipment {
     /// Its receiver.
@@ -149,8 +149,8 @@ impl Walker {
         Self { equipment, homing, facing: Heading::FIRST, barred: Barred::NONE, trail: Trail::new(start) }
     }
 
-    /// What it is to do. [`Order::Ask`] is for the caller, who sends the REQNAV and comes back with [`Self::hear`] or
-    /// [`Self::expire`]; [`Order::Point`] and [`Order::Walk`] are for [`Self::act`].
+    /// The robot's action now. [`Order::Ask`] is for the caller, who sends the REQNAV and comes back with
+    /// [`Self::hear`] or [`Self::expire`]; [`Order::Point`] and [`Order::Walk`] are for [`Self::act`].
     pub const fn order(&self) -> Order {
         self.homing.order()
     }

@@ -9,7 +9,7 @@ use crate::choice::Oracle;
 use crate::floor::{COMPASS, Claim, Entry, Floor, Mark, Ring, Scan, Sensor, enter, leave};
 use crate::ground::{Cell, Side, Step};
 
-/// What an agent remembers. It has no map and knows no place.
+/// An agent's memory: no map, and no place.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Agent {
@@ -38,19 +38,19 @@ pub enum Pass {
     Second,
 }
 
-/// What an agent does after a scan.
+/// An agent's action after a scan.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Act {
-    /// What the sensor of its cell stores from now on, before the agent leaves.
+    /// The mark and count that the sensor of its cell stores from now on, before the agent leaves.
     pub here: Sensor,
     /// The side that it shuts.
     pub shuts: Option<Side>,
-    /// What becomes of the agent.
+    /// Where the agent goes, or that it ends.
     pub next: Next,
 }
 
-/// What becomes of an agent after an action.
+/// An agent's next cell, or its end, after an action.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Next {
@@ -73,7 +73,7 @@ impl Agent {
         self.lap
     }
 
-    /// What it does after `scan`.
+    /// The agent's action after `scan`.
     pub fn decide(&mut self, rule: Rule, scan: &Scan) -> Act {
         self.choose_pass(rule, scan);
         let (rule, mut scan) = match self.pass {
@@ -273,7 +273,7 @@ impl Agent {
     }
 }
 
-/// What comes of a lap that is over, and which side it began with where that matters.
+/// The outcome of a lap that is over, and which side it began with where that matters.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Ended {
     /// The side is shut.
@@ -284,7 +284,7 @@ enum Ended {
     CutShort,
 }
 
-/// What the neighbour beyond `side` is entered as. Missed sensors take their counts with them: under
+/// How the neighbour beyond `side` is entered. Missed sensors take their counts with them: under
 /// [`Condition::SecondPass`] new ones count on, lest agents be drawn back again and again.
 fn entry(rule: Rule, scan: &Scan, side: Side) -> Entry {
     if rule.has(Condition::SecondPass) { scan.entry_counting_on(side) } else { scan.entry(side) }

@@ -50,7 +50,7 @@ pub struct Rule {
 }
 
 impl Rule {
-    /// What the paper publishes: no loop closure.
+    /// The rule as the paper publishes it: no loop closure.
     pub const PUBLISHED: Self = Self {
         conditions: Conditions::of(&[Condition::Corners]),
         precedence: Precedence::Higher,

@@ -14,7 +14,7 @@ const TURN_BITS: u8 = 0b11 << TURN_SHIFT;
 /// The bit of a byte that was asked for by one of the team move before.
 const ANSWER_BIT: u8 = 1 << 7;
 
-/// What came of a byte.
+/// The effect of a byte.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Heard {
     /// It is about this team move, and was missing.
@@ -36,7 +36,7 @@ pub struct Barrier<const ROBOTS: usize> {
     own: usize,
     /// Team moves that all bytes have come of.
     turn: u32,
-    /// What this robot said about the team move before this.
+    /// This robot's byte about the team move before this.
     before: Option<u8>,
     /// By robot, the base first: the messages about this team move, this robot's among them.
     messages: [Option<u8>; ROBOTS],

@@ -56,7 +56,7 @@ enum Turn {
     Early,
 }
 
-/// What was struck out and has not been followed up.
+/// The steps that were struck out and have not been followed up.
 struct Wave<const ROBOTS: usize> {
     robots: Robots<ROBOTS>,
     struck: [Steps; ROBOTS],
@@ -69,7 +69,7 @@ struct Wave<const ROBOTS: usize> {
 struct Robots<const ROBOTS: usize>([u64; 4]);
 
 impl<'a, const ROBOTS: usize> Choices<'a, ROBOTS> {
-    /// What is left for every robot, if the leader takes one of the steps in `leads`.
+    /// The steps left for every robot, if the leader takes one of the steps in `leads`.
     pub(super) fn new<G: Grid>(planner: &Planner<'a, G, ROBOTS>, leads: Steps) -> Self {
         let leader = planner.team.len() - 1;
         let mut choices = Self {

@@ -1,4 +1,4 @@
-//! What the reel makes a habit of, as a set of named conditions: the measure that makes every run end rests on each of them.
+//! The habits of the reel, as a set of named conditions: the measure that makes every run end rests on each of them.
 
 use crate::conditions;
 

@@ -1,6 +1,6 @@
-//! What a robot broadcasts after a team move [Kovács 2011, III.D]: its step in three bits and whether it met a
-//! wall in one. Of the byte's other four bits one says that the move was taken back, so that a log of messages
-//! read backwards pairs itself (clause CHAIN-8).
+//! A robot's broadcast after a team move [Kovács 2011, III.D]: its step in three bits and whether it met a wall in one.
+//! Of the byte's other four bits one says that the move was taken back, so that a log of messages read backwards pairs
+//! itself (clause CHAIN-8).
 
 use core::fmt;
 
@@ -22,9 +22,9 @@ pub enum Outcome {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Message {
-    /// What it tried.
+    /// The step that it tried.
     pub step: Step,
-    /// What came of it.
+    /// The outcome of the step.
     pub outcome: Outcome,
 }
 
@@ -58,7 +58,7 @@ pub enum Damaged {
         /// The robot.
         robot: usize,
     },
-    /// What this robot says about a team move does not fit the plan.
+    /// This robot's message about a team move does not fit the plan.
     OtherStep {
         /// The robot.
         robot: usize,

@@ -21,7 +21,7 @@ pub enum Kind {
     Backtrack,
 }
 
-/// What every robot of a team is to do in one team move.
+/// A step for every robot of a team, for one team move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Plan<const ROBOTS: usize> {
@@ -67,8 +67,8 @@ impl<G: Grid, const ROBOTS: usize> Planner<'_, G, ROBOTS> {
         self.among_occupants(Self::lead)
     }
 
-    /// The same for the candidates of the leader that are unexplored cells beside it, in the same order; none of them
-    /// becomes a virtual obstacle.
+    /// As [`Self::make`], for the candidates of the leader that are unexplored cells beside it, in the same order; none
+    /// of them becomes a virtual obstacle.
     pub(super) fn touch(self) -> (Option<[Step; ROBOTS]>, Looks) {
         self.among_occupants(Self::lead_beside)
     }

@@ -61,7 +61,7 @@ pub(super) struct Planner<'a, G, const ROBOTS: usize> {
     pub(super) grid: &'a mut G,
     /// P_1 … P_N.
     pub(super) team: &'a [Cell],
-    /// What is planned so far, from the leader backwards.
+    /// The steps planned so far, from the leader backwards.
     pub(super) steps: [Step; ROBOTS],
     pub(super) looks: Looks,
 }

@@ -20,7 +20,7 @@ use super::solver::{Apart, Wish, solve};
 use super::walk::{Lookup, Walk, step_to};
 use crate::ground::{Cell, CellMark, Grid, Step, Steps};
 
-/// What the team is at.
+/// The team's task.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) enum Task {
@@ -36,7 +36,7 @@ pub(super) enum Task {
     TakeBack,
 }
 
-/// What the reel remembers from one team move to the next.
+/// The reel's memory from one team move to the next.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Reel<const ROBOTS: usize> {
     pub(super) task: Task,
@@ -47,7 +47,7 @@ pub(super) struct Reel<const ROBOTS: usize> {
     walk: Walk<ROBOTS>,
 }
 
-/// What the team does next.
+/// The team's next move by the reel.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Next<const ROBOTS: usize> {
     /// This team move.
@@ -58,15 +58,15 @@ pub(super) enum Next<const ROBOTS: usize> {
     Done,
 }
 
-/// What a robot pays for a cell nearer to what it seeks, or farther.
+/// The cost for a robot of a cell nearer to its target, or farther.
 const DISTANCE: i32 = 5;
-/// What neighbours pay that are not side by side.
+/// The cost of neighbours that are not side by side.
 const APART: Apart = Apart(5);
-/// What a robot pays for a step.
+/// The cost of a step.
 const STEP: i32 = 1;
-/// What a robot gets for an unexplored cell.
+/// The gain of an unexplored cell.
 const NEW_CELL: i32 = 30;
-/// What the leader gets for a step in while the chain is drawn in.
+/// The leader's gain for a step in while the chain is drawn in.
 const DRAWN_IN: i32 = 1000;
 /// Unexplored cells so near are approached without a look at what drawing in would take.
 const NEAR: u32 = 2;
@@ -90,8 +90,9 @@ impl<const ROBOTS: usize> Reel<ROBOTS> {
         }
     }
 
-    /// What falls, in this order, from one team move to the next as long as nothing is gained: how often the history can
-    /// still be begun to be taken back; whether it is being taken back; and the team moves left of that, or of the task.
+    /// Three numbers that fall lexicographically from one team move to the next as long as nothing is gained: how often
+    /// the history can still be begun to be taken back; whether it is being taken back; and the team moves left of
+    /// that, or of the task.
     pub(super) fn measure(&self) -> [u32; 3] {
         let is_taking_back = u32::from(self.task == Task::TakeBack);
         [u32::from(u8::MAX - self.doublings), is_taking_back, self.left]
@@ -107,7 +108,8 @@ pub(super) struct Winder<'a, G, const ROBOTS: usize> {
 }
 
 impl<G: Grid, const ROBOTS: usize> Winder<'_, G, ROBOTS> {
-    /// What comes next, and what is to be remembered of it. `has_history` tells whether there is something to take back.
+    /// The next move, and what the reel is to remember of it. `has_history` tells whether there is something to take
+    /// back.
     pub(super) fn wind(&mut self, mut reel: Reel<ROBOTS>, has_history: bool) -> (Next<ROBOTS>, Reel<ROBOTS>) {
         if !self.habits.has(Habit::KeepsTask) && reel.task != Task::TakeBack {
             reel = Reel { doublings: reel.doublings, ..Reel::NONE };
@@ -355,7 +357,7 @@ impl<G: Grid, const ROBOTS: usize> Winder<'_, G, ROBOTS> {
     }
 }
 
-/// What is known of the unexplored cell that comes next for a robot.
+/// The unexplored cell that comes next for a robot, as far as it is known.
 #[derive(Clone, Copy)]
 enum Nearest {
     /// There is none.

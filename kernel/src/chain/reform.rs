@@ -78,7 +78,7 @@ impl<G: Grid, const ROBOTS: usize> Reforming<G, ROBOTS> {
         self.chain.cells()
     }
 
-    /// What they know.
+    /// The map that they know.
     pub const fn grid(&self) -> &G {
         self.chain.grid()
     }

@@ -85,9 +85,9 @@ pub struct Rule {
     pub pursuit: Pursuit,
 }
 
-/// What a plan may cost (clause CHAIN-12). A look is a candidate of a follower that is tested against the conditions, or
-/// tested again because a step that it relied on was struck out. Counting looks, and not time, makes the plan the same on
-/// every machine.
+/// A bound on the cost of a plan (clause CHAIN-12). A look is a candidate of a follower that is tested against the
+/// conditions, or tested again because a step that it relied on was struck out. Counting looks, and not time, makes the
+/// plan the same on every machine.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Budget {
@@ -104,7 +104,7 @@ pub enum Budget {
 pub struct Move {
     /// P: where it is.
     pub from: Cell,
-    /// What it is to do.
+    /// Its planned step.
     pub step: Step,
     /// Whether the side it crosses is known to be open.
     pub known_open: bool,

@@ -1,6 +1,6 @@
-//! What comes of a plan: the world's answers, or the messages of those who met them. Walls stand for ever, or they may
-//! appear (ours): then every side is tried, also one that the team has crossed before (CHAIN-22). A robot that has died
-//! does not go (CHAIN-21).
+//! The outcome of a plan: the world's answers, or the messages of the robots that met them. Walls stand for ever, or
+//! they may appear (ours): then every side is tried, also one that the team has crossed before (CHAIN-22). A robot that
+//! has died does not go (CHAIN-21).
 
 use super::message::{Damaged, Message, Outcome};
 use super::plan::{Kind, Plan};
@@ -11,17 +11,17 @@ use crate::ground::{CellMark, Edge, EdgeMark, Grid, Step};
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum World {
-    /// What was crossed stays open: the paper's.
+    /// A side that was crossed stays open: the paper's.
     Lasting,
     /// A wall may appear where a robot has crossed.
     Changing,
 }
 
 impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
-    /// The same chain in such a world. In a changing one the world is asked for every side that a robot crosses, also in a
-    /// backtrack; a wall that is found is known from then on, and is a gain. A backtrack that meets one ends the history:
-    /// the chain goes on from where it is, and takes back no earlier team move. For walls that appear the rule needs
-    /// *Hold* to keep contact.
+    /// This chain in such a world. In a changing one the world is asked for every side that a robot crosses, also in a
+    /// backtrack; a wall that is found is known from then on, and is a gain. A backtrack that meets one ends the
+    /// history: the chain goes on from where it is, and takes back no earlier team move. For walls that appear the rule
+    /// needs *Hold* to keep contact.
     #[must_use]
     pub fn in_world(self, world: World) -> Self {
         Self { world, ..self }
@@ -87,7 +87,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         Settled { messages, robots: self.robots }
     }
 
-    /// What comes of crossing `edge`.
+    /// The outcome of crossing `edge`.
     fn try_edge(&mut self, edge: Edge, is_open: &mut impl FnMut(Edge) -> bool) -> Outcome {
         if self.world == World::Lasting && self.grid.edge_has(EdgeMark::Open, edge) {
             return Outcome::Arrived;
@@ -114,8 +114,8 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         self.take(plan, messages, None)
     }
 
-    /// The same after the robot `mute`, numbered from 1, the base, has died: whatever stands for its message is not read.
-    /// Afterwards the chain is what [`Chain::settle_without`] makes of the team.
+    /// As [`Chain::hear`], after the robot `mute`, numbered from 1, the base, has died: whatever stands for its message
+    /// is not read. Afterwards the chain is what [`Chain::settle_without`] makes of the team.
     ///
     /// # Errors
     /// As of [`Chain::hear`].

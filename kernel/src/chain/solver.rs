@@ -7,12 +7,12 @@
 use super::rule::{Condition, Move, Role, Rule};
 use crate::ground::{Cell, CellMark, EdgeMark, Grid, Step, Steps, neighbouring_steps, steps_to};
 
-/// What a robot may do, and what it costs.
+/// A robot's possible steps, and their costs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wish {
     /// The steps that are wished for.
     pub(super) steps: Steps,
-    /// What each costs, by its place.
+    /// The cost of each, by its place.
     pub(super) cost: [i32; Step::ALL.len()],
 }
 
@@ -21,7 +21,7 @@ impl Wish {
     pub(super) const STAY: Self = Self { steps: Steps::only(Step::Stay), cost: [0; Step::ALL.len()] };
 }
 
-/// What it costs that two neighbours in the chain do not plan to be side by side, or in one cell.
+/// The cost of two neighbours in the chain that do not plan to be side by side, or in one cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Apart(pub(super) i32);
 
@@ -93,7 +93,7 @@ impl<const ROBOTS: usize> Solver<'_, ROBOTS> {
         Move { from: self.team[robot], step, known_open: false }
     }
 
-    /// What `step` of the robot behind `robot` costs, and all behind it, if `robot` does its `own`.
+    /// The cost of `step` of the robot behind `robot`, and of all behind it, if `robot` does its `own`.
     fn behind(&self, robot: usize, own: Step, step: Step) -> Option<i32> {
         let at = self.team[robot - 1];
         let together = neighbouring_steps(self.team[robot].after(own), at).has(step);
@@ -183,7 +183,7 @@ mod tests {
 
     const ROBOTS: usize = 5;
 
-    /// What `steps` cost, if each is wished for.
+    /// The cost of `steps`, if each is wished for.
     fn cost(team: &[Cell], steps: &[Step], wishes: &[Wish], apart: i32) -> Option<i32> {
         let planned = |robot: usize| team[robot].after(steps[robot]);
         (1..team.len()).try_fold(0, |sum, robot| {

@@ -64,7 +64,7 @@ pub enum End {
     Exhausted,
 }
 
-/// What the team is about to do.
+/// A team's intended team move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Intent<const ROBOTS: usize> {
@@ -74,7 +74,7 @@ pub enum Intent<const ROBOTS: usize> {
     Done(End),
 }
 
-/// What came of a team move.
+/// The outcome of a team move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Settled<const ROBOTS: usize> {
@@ -122,9 +122,9 @@ pub struct Chain<G, const ROBOTS: usize> {
     /// Epochs that ended.
     pub(super) epochs: u32,
     pub(super) stage: Stage,
-    /// What the last plan cost.
+    /// The cost of the last plan.
     pub(super) looks: Looks,
-    /// What the reel is at, if the chain has one.
+    /// The reel's memory, if the chain has a reel.
     pub(super) reel: Reel<ROBOTS>,
     /// Whether the last plan that was made was not admitted.
     pub(super) refused: bool,
@@ -176,7 +176,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         &self.cells[..self.robots]
     }
 
-    /// What the team knows.
+    /// The map that the team knows.
     pub const fn grid(&self) -> &G {
         &self.grid
     }
@@ -232,7 +232,8 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
         }
     }
 
-    /// What falls lexicographically from one team move of the reel to the next, as long as nothing is gained (CHAIN-17).
+    /// Three numbers that fall lexicographically from one team move of the reel to the next, as long as nothing is
+    /// gained (CHAIN-17).
     pub fn measure(&self) -> [u32; 3] {
         self.reel.measure()
     }
@@ -247,8 +248,7 @@ impl<G: Grid, const ROBOTS: usize> Chain<G, ROBOTS> {
             && self.grid == other.grid
     }
 
-    /// What the team intends. `log` holds the messages of all team moves so far, as [`Settled::messages`]
-    /// gave them.
+    /// The team's intended move. `log` holds the messages of all team moves so far, as [`Settled::messages`] gave them.
     ///
     /// The log is not trusted: a backtrack goes over sides that are known to be open, and ends where neighbours are in
     /// contact and no three robots in one cell. So a log that was changed may lead elsewhere than the true one, but never

@@ -75,8 +75,8 @@ impl Ring {
         self.0.count_ones()
     }
 
-    /// What is known in the cell beyond `side` of those in the set and of the cell that they are around: the cells around that
-    /// one which are in the set, and the cell itself.
+    /// The cells around the one beyond `side` that are in this set, or are the cell itself that the set is around, by
+    /// their places around that one.
     pub const fn seen_beyond(self, side: Side) -> Self {
         let turned = self.0.rotate_right(Self::place(side));
         let ahead = (turned & 0b110) << 1 | 1 << 4 | (turned & 0b1100_0000) >> 1;

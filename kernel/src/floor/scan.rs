@@ -1,4 +1,4 @@
-//! What an agent sees from a cell [Ferranti 2009, I: localisation and querying].
+//! An agent's scan of the cells around it [Ferranti 2009, I: localisation and querying].
 
 use super::{COMPASS, Claim, Entry, Floor, Mark, Ring, Sensor};
 use crate::choice::Oracle;
@@ -27,7 +27,7 @@ pub struct Scan {
     pub detected: u8,
     /// Side neighbours with a sensor, whatever it says, and no wall in between.
     pub beside: Ring,
-    /// What the side neighbours' sensors counted, by the place of the side in [`COMPASS`]; 0 where none was seen.
+    /// The counts of the side neighbours' sensors, by the place of the side in [`COMPASS`]; 0 where none was seen.
     pub crossings: [u32; 4],
     /// The claims on the side neighbours, likewise.
     pub claims: [Option<Claim>; 4],
@@ -142,12 +142,12 @@ impl Scan {
         reads.map(move |(_, (columns, rows, _))| cell.at_offset(columns, rows)).filter(is_known)
     }
 
-    /// What the neighbour beyond `side`, which has a sensor, is entered as.
+    /// How the neighbour beyond `side`, which has a sensor, is entered.
     pub const fn entry(&self, side: Side) -> Entry {
         if self.unexplored.has(side) { Entry::New { crossings: 0 } } else { Entry::Known }
     }
 
-    /// The same; if a sensor is placed, it counts on from this cell's.
+    /// As [`Self::entry`]; if a sensor is placed, it counts on from this cell's.
     pub fn entry_counting_on(&self, side: Side) -> Entry {
         match self.entry(side) {
             Entry::New { .. } => Entry::New { crossings: self.here.crossings.saturating_sub(1) },
@@ -161,7 +161,7 @@ impl Scan {
         self.is_filled(Ring::place(side) + 6)
     }
 
-    /// The same for the right.
+    /// Whether the square to the right of the way through `side` is free all round, as [`Self::is_filled_left`].
     pub fn is_filled_right(&self, side: Side) -> bool {
         self.is_filled(Ring::place(side))
     }

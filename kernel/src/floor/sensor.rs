@@ -1,4 +1,4 @@
-//! What one sensor stores.
+//! The data that one sensor stores.
 
 use core::hash::{Hash, Hasher};
 
@@ -54,7 +54,7 @@ impl Sensor {
     /// for the mark, and for Ants the crossings.
     pub const BITS: u32 = 56;
 
-    /// What it stores once one agent more has entered.
+    /// The sensor once one agent more has entered.
     pub(super) const fn entered(self) -> Self {
         let mark = match self.mark {
             Mark::Unexplored | Mark::Explored => Mark::Explored,
@@ -64,7 +64,7 @@ impl Sensor {
         Self { mark, crossings, agents, ..self }
     }
 
-    /// What it stores once one agent has left.
+    /// The sensor once one agent has left.
     pub(super) const fn left(self) -> Self {
         Self { agents: self.agents.saturating_sub(1), ..self }
     }

@@ -2,7 +2,7 @@
 
 use crate::ground::{Area, Cell, Side};
 
-/// What a robot knows of a cell.
+/// A robot's knowledge of a cell.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Status {

@@ -19,7 +19,7 @@ pub struct Pair {
     first: Side,
 }
 
-/// What is less goes first. Robots and cells count by the row and the column of their cells.
+/// A rank: the lesser goes first. Robots and cells count by the row and the column of their cells.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Rank {

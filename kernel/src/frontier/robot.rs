@@ -10,7 +10,7 @@ use super::search::{Found, search};
 use crate::choice::Oracle;
 use crate::ground::{Cell, Side};
 
-/// What a robot is about.
+/// A robot's state of motion.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Stance {
@@ -22,7 +22,7 @@ pub enum Stance {
     Enters(Side),
 }
 
-/// What a robot sees of the cell that it is about to enter.
+/// A robot's sight of the cell that it is about to enter.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Sight {
@@ -34,7 +34,7 @@ pub enum Sight {
     Robot,
 }
 
-/// What a robot does next.
+/// A robot's next action.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Next {
@@ -65,7 +65,7 @@ pub struct Other {
     pub aim: Option<Cell>,
 }
 
-/// What a robot knows besides its repository when it decides.
+/// A robot's knowledge besides its repository when it decides.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct View<'a> {
@@ -106,12 +106,12 @@ impl<M: Map> Robot<M> {
         Self { map, at: start, stance: Stance::Stands, aim: None, waits: false }
     }
 
-    /// What it knows.
+    /// The robot's map.
     pub const fn map(&self) -> &M {
         &self.map
     }
 
-    /// The same, to be joined with what it hears.
+    /// The robot's map, to be joined with the maps that it hears.
     pub const fn map_mut(&mut self) -> &mut M {
         &mut self.map
     }
@@ -121,7 +121,7 @@ impl<M: Map> Robot<M> {
         self.at
     }
 
-    /// What it is about.
+    /// Whether the robot stands, moves or has stopped.
     pub const fn stance(&self) -> Stance {
         self.stance
     }
@@ -136,7 +136,7 @@ impl<M: Map> Robot<M> {
         self.waits
     }
 
-    /// What it does next, if it stands.
+    /// The next action, if the robot stands.
     pub fn next(
         &self,
         rule: &Rule,
@@ -152,8 +152,9 @@ impl<M: Map> Robot<M> {
         self.follows(way, view.slot)
     }
 
-    /// What it does next, if it stands, where `way` leads to the unexplored cell that it is paired with, or is `None` if it
-    /// reaches none: for a caller who knows the pairs of the whole team. [`Self::next`] finds them for one robot.
+    /// The next action, if the robot stands, where `way` leads to the unexplored cell that it is paired with, or is
+    /// `None` if it reaches none: for a caller who knows the pairs of the whole team. [`Self::next`] finds them for one
+    /// robot.
     pub const fn follows(&self, way: Option<Found>, slot: Slot) -> Next {
         match (way, slot) {
             (None, _) => Next::Done,

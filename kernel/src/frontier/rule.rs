@@ -39,7 +39,7 @@ conditions! {
     }
 }
 
-/// What a robot does that has no candidate, where it knows no [`Condition::Route`].
+/// The action of a robot without a candidate, where it knows no [`Condition::Route`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Otherwise {
@@ -69,14 +69,15 @@ pub struct Rule {
     pub occupancy: Occupancy,
     /// A cell is a candidate if its occupancy probability is below this one.
     pub threshold: Threshold,
-    /// What a robot does without a candidate.
+    /// The action of a robot without a candidate.
     pub otherwise: Otherwise,
     /// Which of several cells it takes.
     pub ties: Ties,
 }
 
 impl Rule {
-    /// What the paper publishes, where unclear by the readings in its favour; a robot without a candidate stops.
+    /// The rule as the paper publishes it, where unclear by the readings in its favour; a robot without a candidate
+    /// stops.
     pub const PUBLISHED: Self = Self {
         conditions: Conditions::of(&[Condition::Record]),
         occupancy: Occupancy::Corrected,
@@ -85,13 +86,13 @@ impl Rule {
         ties: Ties::Lowest,
     };
 
-    /// The same, where a robot without a candidate wanders.
+    /// As [`Self::PUBLISHED`], where a robot without a candidate wanders.
     pub const WANDERS: Self = Self { otherwise: Otherwise::Wanders, ..Self::PUBLISHED };
 
-    /// The same, with the avoidance of obstacles taken literally.
+    /// As [`Self::PUBLISHED`], with the avoidance of obstacles taken literally.
     pub const LITERAL: Self = Self::PUBLISHED.without(Condition::Record);
 
-    /// The same, with equation (11) as it is printed.
+    /// As [`Self::PUBLISHED`], with equation (11) as it is printed.
     pub const PRINTED: Self = Self { occupancy: Occupancy::Printed, ..Self::PUBLISHED };
 
     /// With all repairs and preferences.

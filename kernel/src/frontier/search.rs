@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use super::map::{BY_NUMBER, Map, Status};
 use crate::ground::{Cell, Side};
 
-/// What a search knows of a cell.
+/// A search's record of a cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Reached {

@@ -3,7 +3,7 @@
 
 use super::{Cell, Circle, Step, Steps, neighbours};
 
-/// What steps lead into: a set of cells round another one.
+/// Where steps lead: a set of cells round another one.
 #[derive(Clone, Copy)]
 enum Set {
     /// The cells that lie wholly inside a circle.

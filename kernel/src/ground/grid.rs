@@ -1,12 +1,12 @@
-//! What a team knows of its area: walls, open sides, explored cells, virtual obstacles, and the distance to
-//! the nearest unexplored cell [Kovács 2011, equation (4)]. [`Grid`] is what the rules ask for; [`BitGrid`](super::BitGrid) is
-//! its home in a few machine words, small enough to be copied at every fork of a search.
+//! A team's knowledge of its area: walls, open sides, explored cells, virtual obstacles, and the distance to the
+//! nearest unexplored cell [Kovács 2011, equation (4)]. [`Grid`] is the trait that the rules ask;
+//! [`BitGrid`](super::BitGrid) is its home in a few machine words, small enough to be copied at every fork of a search.
 
 use core::ops::ControlFlow;
 
 use super::{Cell, Edge, Side, Step, Steps};
 
-/// What is marked on cells.
+/// A mark on a cell.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum CellMark {
@@ -20,7 +20,7 @@ pub enum CellMark {
     Planned,
 }
 
-/// What is marked on edges.
+/// A mark on an edge.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum EdgeMark {
@@ -32,7 +32,7 @@ pub enum EdgeMark {
     Virtual,
 }
 
-/// What a path to the frontier may not cross.
+/// A kind of cell that a path to the frontier may not cross.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Avoid {

@@ -133,7 +133,7 @@ impl Side {
         self.turned_left().opposite()
     }
 
-    /// The same edge seen from the cell beyond it.
+    /// This edge seen from the cell beyond it.
     #[inline]
     pub const fn opposite(self) -> Self {
         match self {
@@ -145,7 +145,7 @@ impl Side {
     }
 }
 
-/// What one robot does in one team move: cross a side of its cell, or stay.
+/// One robot's part in one team move: cross a side of its cell, or stay.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Step {

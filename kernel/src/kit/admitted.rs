@@ -1,11 +1,11 @@
-//! What a team of robots knows of its map, and which drives the conditions admit.
+//! The map as robots of a team know it, and the drives that the conditions admit.
 
 use super::rule::Records;
 use super::stance::{SEEN, Stance};
 use super::team::Kit;
 use crate::ground::{Cell, Edge, EdgeMark, Grid, Step, Steps};
 
-/// What is known, and what is admitted.
+/// The team's knowledge, and the drives admitted.
 impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
     /// This team with another record of each robot, as they were kept or told.
     #[must_use]
@@ -21,7 +21,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         self
     }
 
-    /// What is recorded of a side from now on.
+    /// Records a mark of a side.
     pub(super) fn record(&mut self, robot: usize, mark: EdgeMark, edge: Edge) {
         self.records[robot].put_edge(mark, edge);
         self.union.put_edge(mark, edge);

@@ -1,4 +1,4 @@
-//! What robots send each other (Peiris, section 5, figures 5 to 8): a request, its acknowledgement, the response, and the
+//! The messages of robots (Peiris, section 5, figures 5 to 8): a request, its acknowledgement, the response, and the
 //! acknowledgement of that, each in seven fields: flag, x, y, and the four sides. Clause KIT-9.
 //!
 //! The paper gives three flags to the four messages. [`Condition::Flags`] gives the fourth one its own, and the number of a
@@ -18,7 +18,7 @@ const SIDES: [Side; 4] = [Side::North, Side::East, Side::South, Side::West];
 /// Flags from one number to the next.
 const FLAGS: i16 = 4;
 
-/// What a robot says.
+/// A robot's message.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Message {

@@ -106,7 +106,7 @@ pub struct Rule {
     pub runs: Runs,
     /// Whose records count.
     pub records: Records,
-    /// What it does without [`Condition::Stays`].
+    /// The robot's action without [`Condition::Stays`].
     pub fallback: Fallback,
     /// Where the conditions on the next node are looked at.
     pub filter: Filter,
@@ -117,7 +117,7 @@ pub struct Rule {
 }
 
 impl Rule {
-    /// What the paper publishes, by our main readings.
+    /// The rule as the paper publishes it, by our main readings.
     pub const PUBLISHED: Self = Self {
         conditions: Conditions::of(&[Condition::NextInReach]),
         runs: Runs::Every,

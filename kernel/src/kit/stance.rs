@@ -89,7 +89,7 @@ impl Stance {
         self.is_sure_within(other, Reach::PAPER)
     }
 
-    /// The same with another reach.
+    /// As [`Self::is_sure_of`], with another reach.
     pub const fn is_sure_within(self, other: Self, reach: Reach) -> bool {
         reach.joins(self.from(), other.from())
             && reach.joins(self.from(), other.to())

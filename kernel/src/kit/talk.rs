@@ -23,11 +23,11 @@ const fn after(number: u8) -> u8 {
 pub struct Letter {
     /// The number; 0 always without [`Condition::Repeats`].
     pub number: u8,
-    /// What it says.
+    /// Its content.
     pub message: Message,
 }
 
-/// What a robot does.
+/// A robot's phase in an exchange.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Phase {
@@ -62,7 +62,7 @@ pub struct Talk {
     answered: Option<Letter>,
 }
 
-/// What is sent at a time: an acknowledgement, a response, and a request of its own.
+/// The messages sent at a time: an acknowledgement, a response, and a request of its own.
 pub type Sent = [Option<Letter>; 3];
 
 const NOTHING: Sent = [None; 3];
@@ -90,7 +90,7 @@ impl Talk {
         (talk, sent)
     }
 
-    /// What it does.
+    /// The robot's phase.
     pub const fn phase(&self) -> Phase {
         self.phase
     }
@@ -138,7 +138,7 @@ impl Talk {
         [None, paid, self.ask_for_the_turn(sides)]
     }
 
-    /// What it sends when a message arrives. `sides` says which sides of a node count as covered.
+    /// The messages sent when one arrives. `sides` says which sides of a node count as covered.
     pub fn hears(&mut self, letter: Letter, sides: impl Fn(Cell) -> Steps) -> Sent {
         let Letter { number, message } = letter;
         match message {

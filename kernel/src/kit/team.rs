@@ -10,7 +10,7 @@ use crate::ground::{Cell, Edge, EdgeMark, Grid, Side, Step, Steps};
 /// The most robots that a team can hold.
 pub const MAX_ROBOTS: usize = 16;
 
-/// What a robot does next.
+/// A robot's next action.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Next {
@@ -24,7 +24,7 @@ pub enum Next {
     Done,
 }
 
-/// What a robot sees that looks at a side.
+/// A robot's sight of a side that it looks at.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Sight {
@@ -52,7 +52,7 @@ pub(super) enum Why {
     Fallback,
 }
 
-/// What a robot is about.
+/// A robot's task.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) enum Task {
@@ -84,9 +84,9 @@ pub struct Robot {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Kit<G, const ROBOTS: usize, const NODES: usize> {
     pub(super) rule: Rule,
-    /// What each has driven ([`EdgeMark::Open`]) and seen blocked ([`EdgeMark::Wall`]).
+    /// Each robot's record of sides driven ([`EdgeMark::Open`]) and seen blocked ([`EdgeMark::Wall`]).
     pub(super) records: [G; ROBOTS],
-    /// What any of them has recorded.
+    /// The union of the records of all.
     pub(super) union: G,
     pub(super) robots: [Robot; ROBOTS],
     pub(super) count: u8,
@@ -170,7 +170,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         Some(self.robots().get(robot)?.stance)
     }
 
-    /// What each robot has driven ([`EdgeMark::Open`]) and seen blocked ([`EdgeMark::Wall`]).
+    /// Each robot's record of sides driven ([`EdgeMark::Open`]) and seen blocked ([`EdgeMark::Wall`]).
     pub fn records(&self) -> &[G] {
         &self.records[..self.count.into()]
     }

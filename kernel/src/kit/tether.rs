@@ -1,5 +1,6 @@
-//! What binds a robot to the others, who stay where they go: it hears them at any speeds (KIT-1, KIT-12), and in a team of
-//! three and more known paths join it with them (KIT-13). The second one is the condition *Tether*, which is ours.
+//! The bonds of a robot to the others, who stay where they go: it hears them at any speeds (KIT-1, KIT-12), and in a
+//! team of three and more known paths join it with them (KIT-13). The second one is the condition *Tether*, which is
+//! ours.
 //!
 //! A *field* is 3×3 nodes, 4×2, or 2×4: any two nodes of a field are in reach. Two robots are *tied* if known paths within one
 //! field join their nodes. So a robot that comes nearer to one that it is tied to, along such paths, is in contact with
@@ -75,7 +76,7 @@ impl<const ROBOTS: usize> Formation<ROBOTS> {
     }
 }
 
-/// What binds one robot to the others.
+/// The bonds of one robot to the others.
 pub(super) struct Bonds<const ROBOTS: usize> {
     robot: usize,
     /// Of those that hear each other without it, it has to hear one of each set.
@@ -122,7 +123,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         after
     }
 
-    /// What is joined with `node` by known paths, and the one that `also` leads over.
+    /// The nodes joined with `node` by known paths, and by the one that `also` leads over.
     pub(super) fn near(&self, node: Cell, also: Option<Step>) -> Near {
         let (mut east, mut south): (Places, Places) = (0, 0);
         for offset in offsets(IN_REACH | HERE) {
@@ -150,7 +151,7 @@ impl<G: Grid, const ROBOTS: usize, const NODES: usize> Kit<G, ROBOTS, NODES> {
         Near { node, within }
     }
 
-    /// What binds `robot` to the others of this formation.
+    /// The bonds of `robot` to the others of this formation.
     pub(super) fn bonds(&self, robot: usize, formation: &Formation<ROBOTS>) -> Bonds<ROBOTS> {
         let others = first_robots(self.entered.into()) & !(1 << robot);
         let Formation { stances, ends, near, .. } = formation;

@@ -1,9 +1,9 @@
-//! What MRC sends [Jiang 2011, 3.2 and 3.3]: NOTICE⟨RID, ID, HC⟩, MOVE⟨SN, MID, MHC, PID⟩ and RESB⟨RSN, MID⟩. To each the
-//! repair adds the epoch, and to the robot's words that it accepts or declines.
+//! The messages of MRC [Jiang 2011, 3.2 and 3.3]: NOTICE⟨RID, ID, HC⟩, MOVE⟨SN, MID, MHC, PID⟩ and RESB⟨RSN, MID⟩. To
+//! each the repair adds the epoch, and to the robot's words that it accepts or declines.
 
 use crate::net::{Call, NodeId, Notice, RobotId};
 
-/// What a WFR chooses by.
+/// The data by which a WFR chooses.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Bid {
@@ -25,7 +25,7 @@ pub struct Resb {
     pub chosen: Option<RobotId>,
 }
 
-/// What a robot gets.
+/// A message to a robot.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Downward {
@@ -35,7 +35,7 @@ pub enum Downward {
     Resb(Resb),
 }
 
-/// What a robot has to say to a WFR.
+/// A robot's answer to a WFR.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Word {
@@ -50,7 +50,7 @@ pub enum Word {
     Decline,
 }
 
-/// What a robot sends to a WFR, from parent to parent.
+/// A robot's message to a WFR, from parent to parent.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Upward {
@@ -58,7 +58,7 @@ pub struct Upward {
     pub call: Call,
     /// MID: whose word it is.
     pub robot: RobotId,
-    /// What it says.
+    /// The robot's answer.
     pub word: Word,
     /// PID: the node that is to send it on, or the WFR itself.
     pub parent: NodeId,

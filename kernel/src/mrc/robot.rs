@@ -28,7 +28,7 @@ pub struct Request {
     pub parent: NodeId,
 }
 
-/// What a robot does.
+/// A robot's task.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Task {
@@ -89,7 +89,7 @@ impl<const CALLS: usize> Robot<CALLS> {
         self.id
     }
 
-    /// What it does.
+    /// The robot's task.
     pub const fn task(&self) -> Task {
         self.task
     }

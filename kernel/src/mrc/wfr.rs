@@ -52,7 +52,7 @@ pub enum WfrTimer {
     Lease(Epoch),
 }
 
-/// What a WFR sends.
+/// A WFR's message.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Sent<const ROBOTS: usize> {

@@ -1,7 +1,7 @@
 //! One node and the events of one source: what a NOTICE makes of it, and whether it forwards when its wait is over.
 //!
-//! What a protocol has to ignore is ignored: NOTICEs of another source or an older event, what the source hears of its
-//! own event, a node's own NOTICE, a sender heard before, and a hop count that cannot be counted on from.
+//! A node ignores NOTICEs of another source or an older event, those that the source hears of its own event, its own
+//! NOTICE, those of a sender heard before, and a hop count that cannot be counted on from.
 
 use super::Surroundings;
 use super::rule::{Condition, Count, Rule, Scheme};
@@ -25,7 +25,7 @@ pub enum Stage {
     Forwarded,
 }
 
-/// What a NOTICE makes of a node.
+/// A node's reaction to a NOTICE.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Reaction {

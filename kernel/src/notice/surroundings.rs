@@ -1,4 +1,4 @@
-//! What a node knows of its neighbours and theirs from hellos, and which of them no sender has reached yet: the memory
+//! A node's knowledge of its neighbours and theirs from hellos, and which of them no sender has reached yet: the memory
 //! of the scalable broadcast (Peng and Lu 2000). It grows with the number of neighbours, so the caller lends it.
 
 use crate::net::NodeId;

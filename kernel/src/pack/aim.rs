@@ -34,7 +34,7 @@ impl Aim {
         if self.known == 0 { None } else { Side::ALL.get((self.steps & 3) as usize).copied() }
     }
 
-    /// The same after the next step.
+    /// The aim after the next step.
     pub(super) const fn after_step(self) -> Self {
         Self {
             far: self.far.saturating_sub(1),

@@ -3,7 +3,7 @@
 use super::sight::{Sight, Window};
 use crate::ground::{Area, Cell, Side};
 
-/// What is known of a cell.
+/// A pack's knowledge of a cell.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Status {
@@ -19,7 +19,7 @@ pub enum Status {
 const UNKNOWN: usize = 0;
 const OBSTACLE: usize = 1;
 
-/// What the words outside the area are: no cell is unknown, all are obstacles.
+/// The words outside the area: no cell is unknown, all are obstacles.
 const OUTSIDE: [u64; 2] = [0, u64::MAX];
 
 /// A map in words that the caller stores: a vector, an array, or a lent slice.
@@ -98,7 +98,7 @@ impl<W: AsRef<[[u64; 2]]>> Chart<W> {
         Some((row * stride(self.area) + column / WORD, 1 << (column % WORD)))
     }
 
-    /// What is known of `cell`.
+    /// The status of `cell`.
     pub fn status(&self, cell: Cell) -> Status {
         let Some((place, bit)) = self.place(cell) else { return Status::Obstacle };
         match self.words.as_ref().get(place) {

@@ -29,7 +29,7 @@ crate::conditions! {
     }
 }
 
-/// What a pack does, how far its robots see, and how far they hear.
+/// A pack's conditions, and how far its robots see and hear.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Rule {
@@ -80,7 +80,7 @@ impl Rule {
     /// With four corners, and a leader where nobody can go on.
     pub const REPAIRED: Self = Self { conditions: Conditions::of(&Condition::ALL), ..Self::PUBLISHED };
 
-    /// The same conditions for robots that see and hear so far.
+    /// These conditions for robots that see and hear so far.
     ///
     /// # Errors
     /// [`Unfit`] if robots cannot.

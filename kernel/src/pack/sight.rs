@@ -1,6 +1,6 @@
-//! What a robot sees: the cells within R_s to which a ray goes that no obstacle stops (II.B.1). A ray goes straight from midpoint
-//! to midpoint. It is stopped by an obstacle in a cell that it crosses, and at a corner where it passes between two obstacles;
-//! the first obstacle itself is seen.
+//! A robot's sight: the cells within R_s to which a ray goes that no obstacle stops (II.B.1). A ray goes straight from
+//! midpoint to midpoint. It is stopped by an obstacle in a cell that it crosses, and at a corner where it passes
+//! between two obstacles; the first obstacle itself is seen.
 
 use super::chart::Chart;
 use crate::ground::Cell;

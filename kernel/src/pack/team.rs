@@ -70,7 +70,7 @@ pub enum End {
     Stuck,
 }
 
-/// What a team move is.
+/// The kind of a team move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Made {
@@ -88,7 +88,7 @@ pub enum Made {
 /// all began, finds nothing more to take back, and marches.
 const STAGES: usize = 6;
 
-/// What the team is doing.
+/// The team's stage.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 enum Stage {

@@ -6,17 +6,17 @@ use super::descent::{Descent, Landing};
 use super::range::{LEAST_M, check, count, is_told};
 use super::{Area, Layout, Point, Range, Refusal, Signal};
 
-/// What is made small.
+/// The residual whose squares are minimised.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Residual {
-    /// What a distance misses, in metres.
+    /// The error of a distance, in metres.
     Metres,
-    /// What a level misses, in decibels: for noise in decibels this is the most likely position.
+    /// The error of a level, in decibels: for noise in decibels this is the most likely position.
     Decibels,
 }
 
-/// What is to be said with an estimate.
+/// Warnings about an estimate.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Flags {
@@ -42,7 +42,7 @@ pub struct Estimate {
     pub residual: f64,
     /// Steps that were tried.
     pub steps: u32,
-    /// What is to be said with it.
+    /// Its warnings.
     pub flags: Flags,
 }
 
@@ -234,7 +234,7 @@ fn scattering(count: usize) -> usize {
 struct Minima {
     best: Landing,
     second: Option<Landing>,
-    /// What is nearer to each other is one.
+    /// Minima nearer to each other than this are one.
     apart_m: f64,
 }
 
@@ -263,7 +263,7 @@ impl Minima {
         }
     }
 
-    /// The same within a rectangle: from minima outside, steps go on from the nearest place in it.
+    /// The minima within a rectangle: from minima outside, steps go on from the nearest place in it.
     fn within(self, area: Area, descent: &Descent<'_>) -> Self {
         let descent = Descent { area: Some(area), ..*descent };
         let inside = |landing: Landing| {

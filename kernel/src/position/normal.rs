@@ -98,8 +98,8 @@ fn not_less(number: f64, least: f64) -> f64 {
 /// The damping of a matrix that has no inverse.
 const LEAST_DAMPING: f64 = 1e-9;
 
-/// What a range adds. The second derivatives of its squared residual, halved, are the outer product of the gradient times 1 +
-/// `outward`, plus `round` times the identity.
+/// The contribution of a range. The second derivatives of its squared residual, halved, are the outer product of the
+/// gradient times 1 + `outward`, plus `round` times the identity.
 struct Term {
     residual: f64,
     /// The length of the gradient over the distance.

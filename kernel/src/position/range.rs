@@ -1,4 +1,4 @@
-//! What a robot knows of an anchor, and what cannot be taken for it.
+//! A robot's knowledge of an anchor, and the numbers that cannot be taken for it.
 
 use core::fmt;
 
@@ -77,7 +77,7 @@ pub enum Refusal {
 }
 
 impl Refusal {
-    /// What would be right.
+    /// A hint at the right input.
     pub const fn remedy(self) -> &'static str {
         match self {
             Self::Anchors { .. } => "give at least three anchors, and exactly three for the closed form",

@@ -1,9 +1,9 @@
 //! Particle swarm optimisation of a position (Rajesh et al. 2024, equations (9) and (10), and the algorithm of section 5).
 //!
-//! What the paper leaves open: a particle starts within 1 m of the closed form along each axis, with a velocity of 0 to v_max
-//! along each; the fitness is the sum of the squared residuals of the distances; `rand()` is one number for each term and
-//! particle, or one for each axis besides ([`Draws`]); v_max is 1 m along each axis, and holds after each update. Equation (10) adds the velocity of time t, the
-//! algorithm updates the velocity first: [`Order`].
+//! Left open by the paper, and chosen here: a particle starts within 1 m of the closed form along each axis, with a
+//! velocity of 0 to v_max along each; the fitness is the sum of the squared residuals of the distances; `rand()` is one
+//! number for each term and particle, or one for each axis besides ([`Draws`]); v_max is 1 m along each axis, and holds
+//! after each update. Equation (10) adds the velocity of time t, the algorithm updates the velocity first: [`Order`].
 
 use super::range::check;
 use super::{Point, Range, Refusal};
@@ -19,7 +19,7 @@ pub enum Order {
     Corrected,
 }
 
-/// What `rand()` of equation (9) is drawn for.
+/// The scope of one draw of `rand()` in equation (9).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Draws {
@@ -33,7 +33,7 @@ pub enum Draws {
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Inertia {
-    /// The same at every iteration.
+    /// One value at every iteration.
     Constant(f64),
     /// It falls evenly from the first iteration to the last.
     Falling {
@@ -62,7 +62,7 @@ pub struct Parameters {
     pub iterations: u32,
     /// Which velocity moves a particle.
     pub order: Order,
-    /// What random numbers are drawn for.
+    /// The scope of one random number.
     pub draws: Draws,
 }
 
@@ -106,7 +106,7 @@ pub struct Particle {
 }
 
 impl Particle {
-    /// What a buffer is filled with.
+    /// The filling of a new buffer.
     pub const UNUSED: Self = {
         let origin = Point::new(0.0, 0.0);
         Self { at: origin, velocity: origin, best: origin, best_cost: f64::INFINITY }

@@ -75,7 +75,7 @@ impl Scan {
         if self.at < Heading::COUNT { Some(Heading(self.at)) } else { None }
     }
 
-    /// What was heard there: the turn with the next direction.
+    /// The turn at its next direction, with the strength `heard` in this one.
     #[must_use]
     pub fn measure(self, heard: Option<Strength>) -> Self {
         let Some(heading) = self.heading() else { return self };

@@ -2,10 +2,10 @@
 //! walks towards the strongest direction, and asks the next parent when it is there, with a hop count one less each time,
 //! until it is 0.
 //!
-//! What the paper leaves open: a robot that hears nothing asks again; one that walks past the node, since a direction is
-//! off by up to 7.5°, or meets an obstacle, scans again. A parent may be at the very end of what its child hears, or
-//! just behind a corner, so that the robot beside the child hears nothing of it: then the robot goes nearer to the
-//! child, and asks from there. It gives up after so many times.
+//! Left open by the paper, and chosen here: a robot that hears nothing asks again; one that walks past the node, since
+//! a direction is off by up to 7.5°, or meets an obstacle, scans again. A parent may be at the very end of what its
+//! child hears, or just behind a corner, so that the robot beside the child hears nothing of it: then the robot goes
+//! nearer to the child, and asks from there. It gives up after so many times.
 
 use super::heading::{Heading, Scan};
 use crate::net::{NodeId, RobotId, Strength};
@@ -36,7 +36,7 @@ pub struct Nav {
     pub parent: NodeId,
 }
 
-/// What a node does for a time of length T_x.
+/// A node's conduct for a time of length T_x.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Conduct {
@@ -52,7 +52,7 @@ pub enum Conduct {
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Guide {
-    /// What it does until T_x has passed.
+    /// The node's conduct until T_x has passed.
     pub conduct: Conduct,
 }
 
@@ -132,7 +132,7 @@ pub enum Stage {
     Lost,
 }
 
-/// What the robot is to do next.
+/// The robot's next action.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Order {
@@ -188,7 +188,7 @@ impl Homing {
         self.hops
     }
 
-    /// What it is to do now.
+    /// The robot's action now.
     pub const fn order(&self) -> Order {
         match self.stage {
             Stage::Asking { node } => Order::Ask(ReqNav { wfr: self.wfr, robot: self.robot, node }),

@@ -9,14 +9,14 @@
 use tautline_kernel::chain::{Condition, Move, Role, Rule};
 use tautline_kernel::ground::{Cell, Step, Steps};
 
-/// What one robot can do.
+/// One robot's options.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Options {
-    /// What it may do, as far as it alone is concerned: no side that is known to be a wall.
+    /// The steps that it may take, as far as it alone is concerned: no side that is known to be a wall.
     pub allowed: Steps,
     /// Those that cross a side known to be open.
     pub known_open: Steps,
-    /// What each step is worth, in direction order; no farther from 0 than 2⁵³.
+    /// The value of each step, in direction order; no farther from 0 than 2⁵³.
     pub values: [i64; Step::ALL.len()],
 }
 
@@ -27,7 +27,7 @@ pub struct Position<'a> {
     pub rule: &'a Rule,
     /// Where the robots are, the base first.
     pub cells: &'a [Cell],
-    /// What each robot can do. The base stays, whatever stands here.
+    /// The options of each robot. The base stays, whatever stands here.
     pub options: &'a [Options],
 }
 
@@ -36,14 +36,14 @@ pub struct Position<'a> {
 pub struct Plan {
     /// The steps of all robots, the base first.
     pub steps: Vec<Step>,
-    /// What they are worth together, without the base.
+    /// Their value together, without the base.
     pub value: i64,
 }
 
 /// Branches after which the search for a plan with distinct cells gives up.
 pub const MOST_NODES: u32 = 1_000_000;
 
-/// What the solver says.
+/// The solver's answer.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Solved {
     /// No plan is better than this one.
@@ -54,7 +54,7 @@ pub enum Solved {
     GaveUp {
         /// The best so far.
         plan: Option<Plan>,
-        /// What the best plan is worth at most.
+        /// An upper bound on the value of the best plan.
         bound: i64,
     },
 }
@@ -117,8 +117,8 @@ impl<'a> Table<'a> {
         table
     }
 
-    /// What the robot behind `robot` may do if this one does `step`, and what that is worth at best with those behind
-    /// it.
+    /// The steps open to the robot behind `robot` if this one does `step`, and their value at best with the robots
+    /// behind it.
     fn admitted(&self, robot: usize, step: Step) -> impl Iterator<Item = (Step, i64)> + use<'_> {
         let Position { rule, cells, options } = *self.position;
         let known_open = options[robot].known_open.has(step);
@@ -142,7 +142,7 @@ struct Search<'a> {
     is_distinct: bool,
     nodes: u32,
     best: Option<Plan>,
-    /// What the robots from the leader on do, and where that leads.
+    /// The steps of the robots from the leader on, and where they lead.
     steps: Vec<Step>,
     taken: Vec<Cell>,
 }

@@ -7,10 +7,10 @@ use tautline_kernel::ground::{Cell, Circle, Step};
 
 use super::parameters::{Cells, Links};
 
-/// What one robot can do, and what it costs.
+/// One robot's candidate: a step, and its cost.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Candidate {
-    /// What it does.
+    /// The step.
     pub step: Step,
     /// Where it is then.
     pub to: Cell,
@@ -18,7 +18,7 @@ pub struct Candidate {
     pub price: i64,
 }
 
-/// What all robots can do.
+/// The candidates of all robots.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Joint {
     /// Where the base is.

@@ -1,10 +1,10 @@
-//! What a team knows of its area: explored cells, and the sides that were tried.
+//! A team's knowledge of its area: explored cells, and the sides that were tried.
 
 use std::collections::VecDeque;
 
 use tautline_kernel::ground::{Area, Cell, Edge, Side};
 
-/// What is known of a side.
+/// A side, as far as it is known.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Known {
     Nothing,

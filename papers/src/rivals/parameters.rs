@@ -1,4 +1,4 @@
-//! What the rivals are told: the one place for every reading of the paper and for every number that it leaves open.
+//! The rivals' parameters: the one place for every reading of the paper and for every number that it leaves open.
 //!
 //! | parameter | the paper | the default |
 //! |---|---|---|
@@ -65,13 +65,13 @@ impl NamedValues for Cells {
     ];
 }
 
-/// What a robot can do in a team move.
+/// A robot's possible moves in a team move.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Moves {
     /// Cross one of four sides.
     Four,
-    /// The same, or stay.
+    /// Cross one of four sides, or stay.
     Five,
 }
 
@@ -85,7 +85,7 @@ pub enum Search {
     Pool(u32),
 }
 
-/// What the null move is to a pool.
+/// The null move's place in a pool.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Null {
@@ -105,7 +105,7 @@ pub struct Weights {
     pub new_cell: f64,
 }
 
-/// What a team does that has gained nothing for a while: neither an explored cell nor a wall.
+/// A team's way out when it has gained nothing for a while: neither an explored cell nor a wall.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Deadlock {
@@ -125,17 +125,17 @@ pub enum Deadlock {
 pub struct Parameters {
     /// Which team moves are compared.
     pub search: Search,
-    /// What the null move is to a pool.
+    /// The null move's place in a pool.
     pub null: Null,
     /// Which two robots have a link.
     pub links: Links,
     /// Whether they may share cells.
     pub cells: Cells,
-    /// What a robot can do.
+    /// A robot's possible moves.
     pub moves: Moves,
     /// How cells are valued.
     pub weights: Weights,
-    /// What a team does that is stuck.
+    /// The team's way out when it is stuck.
     pub deadlock: Deadlock,
     /// Team moves without gain after which the run ends.
     pub patience: u32,
@@ -172,19 +172,19 @@ impl Parameters {
     /// Rooker and Birk's pool of 1000 under E_S.
     pub const POOL: Self = Self { search: Search::Pool(POOL), ..Self::FULL };
 
-    /// The same with these links.
+    /// These parameters with `links`.
     #[must_use]
     pub const fn linked(self, links: Links) -> Self {
         Self { links, ..self }
     }
 
-    /// The same with this rule of cells.
+    /// These parameters with this rule of cells.
     #[must_use]
     pub const fn in_cells(self, cells: Cells) -> Self {
         Self { cells, ..self }
     }
 
-    /// The same with these moves.
+    /// These parameters with these moves.
     #[must_use]
     pub const fn with_moves(self, moves: Moves) -> Self {
         Self { moves, ..self }
@@ -254,7 +254,7 @@ pub enum Unfit {
     TooMany {
         /// Robots, the base included.
         robots: usize,
-        /// What each can do.
+        /// The possible moves of each.
         moves: Moves,
     },
     /// A pool without a team move.
@@ -273,7 +273,7 @@ impl Unfit {
         }
     }
 
-    /// What would be right.
+    /// A hint at the right input.
     pub fn remedy(&self) -> String {
         match self {
             Self::Robots(_) => format!("give `robots` a number from 2 to {MAX_ROBOTS}"),

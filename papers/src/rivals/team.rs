@@ -30,7 +30,7 @@ pub struct Team {
 pub enum Over {
     /// Every cell is explored.
     Explored,
-    /// What is left cannot be reached: known walls are round it, or round the base.
+    /// The cells left cannot be reached: known walls are round them, or round the base.
     Enclosed,
     /// It has gained nothing for as long as its patience lasts.
     Stuck,
@@ -66,7 +66,7 @@ impl Team {
         self.map.area()
     }
 
-    /// What the robots can do now, and what it costs them; `None` if no unexplored cell can be reached.
+    /// The robots' candidates now, and their costs; `None` if no unexplored cell can be reached.
     pub fn joint(&mut self) -> Option<Joint> {
         self.map.refresh();
         let weights = if self.scattered > 0 { Weights::NONE } else { self.parameters.weights };

@@ -110,7 +110,7 @@ pub const BRICKS_FIG12: Agents = Agents::of(
     "What agents explore by the area, with missed sensors",
 );
 
-/// What agents do where no sensor is missed.
+/// The agents where no sensor is missed.
 pub const BRICKS_IDEAL: Agents = Agents::of(
     Figure::Ideal,
     "bricks-ideal",
@@ -137,7 +137,7 @@ impl Agents {
     }
 }
 
-/// What is varied.
+/// The figure's variable.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Figure {
     /// The number of agents, with missed sensors.
@@ -233,7 +233,7 @@ pub(super) struct Moment {
     milliseconds: u64,
 }
 
-/// What came of one run.
+/// The outcome of one run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Outcome {
     pub(super) cells: u32,

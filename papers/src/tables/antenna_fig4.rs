@@ -24,7 +24,7 @@ const NOISES_DB: [f64; 5] = [0.0, 0.5, 1.0, 2.0, 4.0];
 pub struct AntennaFig4;
 
 settings! {
-    /// What is measured.
+    /// The settings of the figure.
     pub struct Settings {
         /// How far off the node is, in metres
         pub distance_m: f64 = DISTANCE_M, one("distance", "METRES", distance);
@@ -55,7 +55,7 @@ pub struct Merged {
     pub noises: Vec<Noise>,
 }
 
-/// What is heard at an angle.
+/// The signal heard at an angle.
 #[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Angle {
     /// Between the antenna and the node.

@@ -28,9 +28,9 @@ settings! {
 /// How many walls are allowed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub enum Depth {
-    /// What takes seconds.
+    /// Sheets that take seconds.
     Quick,
-    /// What takes the better part of an hour.
+    /// Sheets that take the better part of an hour.
     Deep,
 }
 
@@ -46,7 +46,7 @@ impl Depth {
 /// A sheet, and a rule on it.
 type Job = (Sheet, RuleName);
 
-/// What a search found.
+/// The findings of a search.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 pub struct Searched {
     edges: u32,
@@ -98,7 +98,7 @@ const QUICK: [Sheet; 6] = [
     sheet(8, 1, Reach::LeftOut),
 ];
 
-/// The same with more walls.
+/// Sheets with more walls.
 const DEEP: [Sheet; 6] = [
     sheet(2, 12, Reach::Counted),
     sheet(3, 8, Reach::LeftOut),
@@ -129,7 +129,7 @@ pub struct Line {
     pub moves: u64,
     /// Team moves of the longest run.
     pub longest: u32,
-    /// What the runs break.
+    /// The clauses that the runs break.
     pub broken: Vec<Broken>,
     /// Whether it was looked for runs that break CHAIN-14 and not CHAIN-13.
     pub looked_beyond: bool,

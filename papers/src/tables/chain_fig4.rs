@@ -40,7 +40,7 @@ pub enum Place {
 /// A run in an area by a rule.
 type Job = (Place, RuleName);
 
-/// What comes of it.
+/// The outcome of a run.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Run {
     place: Place,

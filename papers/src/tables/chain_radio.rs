@@ -28,7 +28,7 @@ const TEAMS: [u16; 6] = [3, 4, 5, 6, 7, 8];
 const SWITCH_MS: [u64; 2] = [3000, 6000];
 
 settings! {
-    /// What is measured.
+    /// The settings of the table.
     #[derive(Copy, Eq)]
     pub struct Settings {
         /// Runs of each chain
@@ -43,7 +43,7 @@ settings! {
 /// The runs of a chain of so many robots.
 type Job = u16;
 
-/// What comes of them.
+/// The result of one run.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Measured {
     team_moves: u32,

@@ -13,7 +13,7 @@ pub(super) struct Columns<'a, L> {
     columns: Vec<(String, Column, Cell<'a, L>)>,
 }
 
-/// What of a line stands in a column.
+/// The text of a line's cell in a column.
 type Cell<'a, L> = Box<dyn Fn(L) -> String + 'a>;
 
 impl<'a, L: Copy + 'a> Columns<'a, L> {

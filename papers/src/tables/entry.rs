@@ -24,10 +24,10 @@ pub trait Entry: fmt::Debug + Sync {
     /// Whether `text` is a value of the option `name`.
     ///
     /// # Errors
-    /// What to write instead.
+    /// A hint at what to write instead.
     fn check(&self, name: &str, text: &str) -> Result<(), String>;
 
-    /// What its JSON is like.
+    /// The schema of its JSON.
     fn schema(&self) -> Schema;
 
     /// The table with the settings of these options and their values.
@@ -57,7 +57,7 @@ pub trait Asked: Sync {
     /// [`Halt`] if the settings cannot be measured.
     fn jobs(&self) -> Result<Vec<String>, Halt>;
 
-    /// What comes of one of them, as JSON.
+    /// The result of one of them, as JSON.
     ///
     /// # Errors
     /// [`Halt`] if it cannot be measured.
@@ -156,7 +156,7 @@ struct Whole<'a, T: Table> {
     merged: T::Merged,
 }
 
-/// What every JSON object of a table begins with.
+/// The head of every JSON object of a table.
 #[derive(JsonSchema, Serialize)]
 struct Document<'a, M> {
     schema_version: u32,

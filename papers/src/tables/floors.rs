@@ -1,4 +1,4 @@
-//! What a sensor floor costs: the team moves of agents until everything is explored, and until all of them know it,
+//! The cost of a sensor floor: the team moves of agents until everything is explored, and until all of them know it,
 //! over the lower bound, cells by agents. Layouts are files of maps, or generated; the agents of a run start in one
 //! cell.
 

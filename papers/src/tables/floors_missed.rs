@@ -1,5 +1,5 @@
-//! What missed sensors do to agents that are to know that they are done: how often one of them is done although it
-//! could have got to an unexplored cell, and what it costs. Each run has a start, and a generated layout, of its own.
+//! The effect of missed sensors on agents that are to know that they are done: how often one of them is done although
+//! it could have got to an unexplored cell, and the cost. Each run has a start, and a generated layout, of its own.
 
 use tautline_kernel::bricks::tree::Rule;
 use tautline_proofs::bricks::tree::Way;

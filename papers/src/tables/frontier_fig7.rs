@@ -53,7 +53,7 @@ settings! {
 /// A run of every team in one layout.
 type Job = Run<()>;
 
-/// What came of one run.
+/// The outcome of one run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Outcome {
     /// Team moves until every cell is explored, if all are.
@@ -71,7 +71,7 @@ pub struct Merged {
     settings: Settings,
     /// Rule by rule, each for all teams.
     pub lines: Vec<Line>,
-    /// What the paper says, and what comes out.
+    /// The paper's sentences, and what comes out.
     pub judged: Vec<Judged>,
 }
 
@@ -98,9 +98,9 @@ pub struct Line {
 /// A sentence of the paper.
 #[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 pub struct Judged {
-    /// What it says.
+    /// The paper's sentence.
     pub sentence: &'static str,
-    /// What comes out.
+    /// The measured outcome.
     pub outcome: String,
 }
 
@@ -266,7 +266,7 @@ impl Line {
     }
 }
 
-/// What the paper says of Fig. 7, judged by what is measured.
+/// The paper's sentences about Fig. 7, judged by what is measured.
 fn judged(lines: &[Line]) -> Vec<Judged> {
     let of = |rule: &str, robots: u16| {
         lines.iter().find(|line| line.rule.as_str() == rule && line.robots == robots)

@@ -139,7 +139,7 @@ impl Way {
 }
 
 settings! {
-    /// What is measured; an empty list stands for what the figure has.
+    /// The settings of the figure; an empty list stands for what the figure has.
     pub struct Settings {
         /// Numbers of nodes [default: 300,500,700,900,1100 for figure 7, else 700]
         pub nodes: Vec<usize> = Vec::new(), list("nodes", whole);

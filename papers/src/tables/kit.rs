@@ -61,7 +61,7 @@ pub const KIT_FIG9: Kit = Kit::of(
     "How long robots that keep in touch take to find the nodes",
 );
 
-/// What is driven by both.
+/// The environments driven by both.
 pub const KIT_FIG14: Kit = Kit::of(
     Figure::Overlap,
     "kit-fig14",
@@ -116,7 +116,7 @@ fn speed(text: &str) -> Result<NonZeroU32, String> {
 /// A run of every team in one layout of a family.
 type Job = Run<usize>;
 
-/// What came of one run.
+/// The outcome of one run.
 #[derive(Clone, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Outcome {
     /// Milliseconds until each path is driven, in the order in which they are; as many as are.

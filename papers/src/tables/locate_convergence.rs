@@ -69,7 +69,7 @@ pub(super) fn field(settings: &Field) -> Result<(Anchors, Signal), Halt> {
 /// One way to read the paper, by its place in [`VARIANTS`].
 type Job = usize;
 
-/// What came of it.
+/// The course of the particles.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Course {
     /// By the number of iterations.
@@ -105,7 +105,7 @@ pub struct Merged {
 pub struct Variant {
     /// Which.
     pub reading: &'static str,
-    /// What came of it.
+    /// The course of its particles.
     #[serde(flatten)]
     pub course: Course,
 }

@@ -20,7 +20,7 @@ const ROBOTS: [usize; 5] = [1, 2, 4, 6, 8];
 /// Robots of the largest team.
 const MOST: usize = 8;
 
-/// What is compared.
+/// The solvers that are compared.
 const SOLVERS: [Solver; 4] = [Solver::ClosedForm, Solver::Pso, Solver::LeastSquares, Solver::Decibel];
 
 /// Teams of a job.
@@ -47,7 +47,7 @@ pub struct Merged {
     field: Field,
     /// Team by team.
     pub sizes: Vec<Size>,
-    /// What the paper says of it.
+    /// The paper's sentences about it.
     pub sentences: Vec<Sentence>,
 }
 
@@ -74,15 +74,15 @@ pub struct Errors {
 /// A sentence of the paper.
 #[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Sentence {
-    /// What is said.
+    /// The paper's sentence.
     pub paper: &'static str,
-    /// What is measured, in metres: after, less before.
+    /// The measured difference, in metres: after, less before.
     pub difference_m: Estimate,
     /// Whether the difference has the sign that is said, beyond its 95 % interval.
     pub is_so: bool,
 }
 
-/// What of a team's errors is told: of so many robots, by one solver.
+/// A number of a team's errors: of so many robots, by one solver.
 type Of = fn(&Team, robots: usize, solver: usize) -> f64;
 
 fn mean_of(team: &Team, robots: usize, solver: usize) -> f64 {

@@ -32,7 +32,7 @@ const PAPER: (Count, f64) = (Count::ONE, 1.0);
 pub struct NoticeFig5;
 
 settings! {
-    /// What is measured.
+    /// The settings of the figure.
     pub struct Settings {
         /// Numbers of nodes
         pub nodes: Vec<usize> = NODES.into(), list("nodes", whole);
@@ -47,7 +47,7 @@ settings! {
         pub topologies: u32 = 200, one("topologies", "COUNT", from_to(1..=100_000));
         /// The seed of all topologies
         pub seed: u64 = 0, one("seed", "SEED", number);
-        /// What lies between the nodes
+        /// The channel between the nodes
         pub channel: ChannelName = ChannelName::Ideal, word("channel", "CHANNEL");
     }
 }
@@ -87,7 +87,7 @@ pub struct Line {
     pub scheme: String,
     /// The share of all nodes that know of the event in the end, the source included.
     pub reach: Estimate,
-    /// What the paper says of it.
+    /// The paper's number.
     pub paper: Option<f64>,
     /// Ours less the paper's.
     pub difference: Option<f64>,

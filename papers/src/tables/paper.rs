@@ -1,4 +1,4 @@
-//! What papers print and say, beside what is measured.
+//! The numbers and sentences of papers, beside what is measured.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -16,7 +16,7 @@ pub(super) struct Printed {
 }
 
 impl Printed {
-    /// What the paper prints, and what is measured; nothing if that is not.
+    /// The printed number, and the measured one; nothing if there is none.
     pub(super) fn of(what: impl Into<String>, paper: f64, ours: Option<Estimate>) -> Option<Self> {
         ours.map(|ours| Self { what: what.into(), paper, ours, difference: ours.mean - paper })
     }
@@ -36,7 +36,7 @@ pub(super) fn text(
         .text()
 }
 
-/// What has come of a sentence of a paper.
+/// The verdict on a sentence of a paper.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {

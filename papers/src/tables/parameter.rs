@@ -1,5 +1,5 @@
-//! What can be asked of a table, as a person asks it: options with values, from which its settings are read. A table
-//! lists its settings with the macro `settings!`, each with its type, its default, and how a person gives it.
+//! The settings of a table, as a person gives them: options with values. A table lists its settings with the macro
+//! `settings!`, each with its type, its default, and how a person gives it.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -13,7 +13,7 @@ use tautline_sim::layout;
 use tautline_sim::named_values::NamedValues;
 use tautline_sim::value_parser::{self, within};
 
-/// What can be asked of a table.
+/// The settings of a table.
 pub trait Settings: Default + Serialize + DeserializeOwned + Sync + 'static {
     /// The settings as a person gives them, in the order in which a help text has them.
     fn parameters() -> Vec<Parameter<Self>>;
@@ -43,9 +43,9 @@ impl<S> fmt::Debug for Parameter<S> {
 pub struct Given {
     /// Its name.
     pub name: &'static str,
-    /// What stands for its value in a help text.
+    /// The stand-in for its value in a help text.
     pub value: &'static str,
-    /// What it is, as a help text has it.
+    /// A description for a help text.
     pub about: &'static str,
     /// How many values it has, and of which kind.
     pub values: Values,
@@ -120,12 +120,12 @@ pub(super) fn of_field<S: 'static, T: 'static>(
     parameters.into_iter().map(outer).collect()
 }
 
-/// What is given as other settings are.
+/// Settings within settings.
 pub(super) fn nested<T: Settings>() -> Vec<Parameter<T>> {
     T::parameters()
 }
 
-/// What is given or not; `given` is its value if it is.
+/// A setting that is given or not; `given` is its value if it is.
 pub(super) fn flag<T: Copy + 'static>(name: &'static str, given: T) -> Vec<Parameter<T>> {
     let read = move |value: &mut T, _: &[&str]| {
         *value = given;
@@ -135,7 +135,7 @@ pub(super) fn flag<T: Copy + 'static>(name: &'static str, given: T) -> Vec<Param
     vec![Parameter { option, show: Box::new(|_| Vec::new()), read: Box::new(read) }]
 }
 
-/// What has one value.
+/// A setting with one value.
 pub(super) fn one<T: ToString + 'static, E: Into<String>>(
     name: &'static str,
     value: &'static str,
@@ -144,14 +144,14 @@ pub(super) fn one<T: ToString + 'static, E: Into<String>>(
     single((name, value, Values::One), T::to_string, read)
 }
 
-/// What is chosen by a word.
+/// A setting chosen by a word.
 pub(super) fn word<T: NamedValues>(name: &'static str, value: &'static str) -> Vec<Parameter<T>> {
     let words = Values::Word(T::WORDS.iter().map(|&(_, word, about)| (word, about)).collect());
     let read = |word: &str| T::of(word).ok_or("it is none of the words");
     single((name, value, words), |value| value.word().to_owned(), read)
 }
 
-/// What has several values, with commas between them.
+/// A setting with several values, with commas between them.
 pub(super) fn list<T: ToString + 'static, E: Into<String>>(
     name: &'static str,
     read: impl Fn(&str) -> Result<T, E> + 'static,
@@ -159,7 +159,7 @@ pub(super) fn list<T: ToString + 'static, E: Into<String>>(
     several((name, "LIST", Values::List), |all| all.iter().map(T::to_string).collect(), read)
 }
 
-/// What [`list`] has, with commas between the values that stand for it, too.
+/// As [`list`], with commas between the values that stand for it, too.
 pub(super) fn joined<T: ToString + 'static, E: Into<String>>(
     name: &'static str,
     read: impl Fn(&str) -> Result<T, E> + 'static,
@@ -168,7 +168,7 @@ pub(super) fn joined<T: ToString + 'static, E: Into<String>>(
     several((name, "LIST", Values::List), show, read)
 }
 
-/// What has one value each time that it is given.
+/// A setting with one value each time that it is given.
 pub(super) fn repeated<T: 'static, E: Into<String>>(
     name: &'static str,
     value: &'static str,
@@ -258,7 +258,7 @@ impl Senders {
     /// Reads one.
     ///
     /// # Errors
-    /// What to write.
+    /// A hint at what to write.
     pub fn read(text: &str) -> Result<Self, String> {
         value_parser::count(text).map(Self)
     }

@@ -1,4 +1,4 @@
-//! What most tables use: their settings, runs and estimates, and the columns and series in which they are told.
+//! The names that most tables use: settings, runs and estimates, and the columns and series in which they are told.
 
 pub(super) use schemars::JsonSchema;
 pub(super) use serde::{Deserialize, Serialize};

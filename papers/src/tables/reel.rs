@@ -29,7 +29,7 @@ const GROUNDS: [&str; 10] = [
     "rooms-b",
 ];
 
-/// What is counted.
+/// The milestones that are counted.
 const GOALS: [&str; 4] = ["50 %", "75 %", "everything within reach", "the end of the run"];
 
 /// The reel against the repaired chain.
@@ -50,7 +50,7 @@ settings! {
 /// A run of every rule in one layout of a ground, by its place in [`GROUNDS`].
 type Job = Run<usize>;
 
-/// What came of one run.
+/// The outcome of one run.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug, Serialize, Deserialize)]
 pub struct Outcome {
     /// By goal: the team moves.
@@ -73,7 +73,7 @@ pub struct Merged {
 /// One goal on one ground.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Line {
-    /// What is counted.
+    /// The milestone.
     pub goal: &'static str,
     /// The generator of the layouts.
     pub ground: &'static str,

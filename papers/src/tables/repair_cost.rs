@@ -1,7 +1,6 @@
-//! What the repairs of the chain cost: team moves to 50 % and to 75 % of the cells and of whole runs, as published and
-//! repaired, on the same random layouts; and what they give: how many cells are explored, and in how many runs each
-//! rule breaks a clause. Sums are whole numbers, so that the result is
-//! the same on any number of threads.
+//! The cost of the chain's repairs: team moves to 50 % and to 75 % of the cells and of whole runs, as published and
+//! repaired, on the same random layouts; and their gain: how many cells are explored, and in how many runs each rule
+//! breaks a clause. Sums are whole numbers, so that the result is the same on any number of threads.
 
 use tautline_proofs::chain::breach::Breach;
 
@@ -23,7 +22,7 @@ pub const MILESTONES: [Milestone; 2] = [Milestone::Half, Milestone::ThreeQuarter
 /// little room.
 const MOST_JOBS: u32 = 1000;
 
-/// What the repairs of the chain cost.
+/// The cost of the chain's repairs.
 #[derive(Clone, Copy, Debug)]
 pub struct RepairCost;
 
@@ -57,7 +56,7 @@ pub struct Merged {
     pub densities: Vec<Line>,
 }
 
-/// The same layouts under both rules.
+/// One set of layouts under both rules.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize)]
 pub struct Line {
     /// The probability of a wall.

@@ -25,7 +25,7 @@ const NODES: usize = 700;
 /// The most robots and WFRs: all assignments are tried.
 const MOST: u64 = 6;
 
-/// What the paper has, as a share of the topologies: all are served, each by a robot of its own.
+/// The paper's share of the topologies: all are served, each by a robot of its own.
 const PAPER: f64 = 1.0;
 
 /// Figure 8.
@@ -33,7 +33,7 @@ const PAPER: f64 = 1.0;
 pub struct RescueFig8;
 
 settings! {
-    /// What is measured.
+    /// The settings of the figure.
     #[derive(Eq)]
     pub struct Settings {
         /// Nodes
@@ -101,7 +101,7 @@ impl Compared {
     }
 }
 
-/// What is kept of a topology.
+/// The part of a topology's outcome that is kept.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Sample {
     is_served: bool,

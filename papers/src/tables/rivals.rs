@@ -39,7 +39,7 @@ pub enum Who {
     Rival {
         /// How it chooses.
         search: Search,
-        /// What its links are.
+        /// The kind of its links.
         links: Links,
         /// Whether robots share cells.
         cells: Cells,
@@ -111,7 +111,7 @@ impl Who {
     }
 }
 
-/// What comes of a run.
+/// The outcome of a run.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Outcome {
     /// The team moves to each milestone that it reached.

@@ -25,7 +25,7 @@ pub struct Areas {
     pub max_walls: u32,
     /// The search stops when it has made so many team moves.
     pub budget_moves: Option<u64>,
-    /// What is looked for.
+    /// The invariants that are looked for.
     pub invariants: Vec<Invariant>,
 }
 
@@ -55,7 +55,7 @@ pub struct Smallest {
     pub found: Counterexample,
 }
 
-/// What a search over areas found.
+/// The findings of a search over areas.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Found {
     /// The areas that were searched, fewest cells first.
@@ -177,7 +177,7 @@ impl Areas {
         Ok(true)
     }
 
-    /// What one tree has; `None` if it was ended before.
+    /// The findings of one tree; `None` if it was ended before.
     fn tree(
         &self,
         bounds: &Bounds,

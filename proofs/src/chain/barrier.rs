@@ -42,14 +42,14 @@ const IN_THE_AIR: usize = 2;
 /// The places of the two robots, behind the base.
 const PLACES: [usize; 2] = [1, 2];
 
-/// What [`barrier`] looks at.
+/// The bound of [`barrier`], in words.
 pub(super) fn losses() -> String {
     format!(
         "two robots, {EVENTS} bytes sent, heard, lost or heard and repeated, none repeated with {IN_THE_AIR} of it in the air"
     )
 }
 
-/// What the robot in `place` says about team move `turn`: something else in each of three that follow each other.
+/// The message of the robot in `place` about team move `turn`: another one in each of three that follow each other.
 fn message(place: usize, turn: u32) -> u8 {
     let step = Step::ALL[(place + turn as usize) % 4];
     Message { step, outcome: if turn % 3 == 2 { Came::Blocked } else { Came::Arrived } }.encode()

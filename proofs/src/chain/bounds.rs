@@ -1,4 +1,4 @@
-//! What a search for the chain looks for, and how far.
+//! The bounds of a search for the chain: what it looks for, and how far.
 
 use tautline_kernel::chain::{Refused, area};
 use tautline_kernel::ground::{Area, Cell};
@@ -14,7 +14,7 @@ use crate::run::{Ending, Frame, Run, walls};
 /// A run that breaks an invariant.
 pub type Counterexample = tree::Counterexample<Invariant, Frame>;
 
-/// What to search for, and how far.
+/// The invariants to search for, and how far.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Bounds {
     /// The chain, and how it is deceived.
@@ -29,7 +29,7 @@ pub struct Bounds {
     pub max_walls: u32,
     /// The search stops when it has made so many team moves.
     pub budget_moves: Option<u64>,
-    /// What is looked for, each as if it stood alone. A run without end is always found, since it would never be left.
+    /// The invariants, each as if it stood alone. A run without end is always found, since it would never be left.
     pub invariants: Vec<Invariant>,
     /// When to stop.
     pub until: Until,

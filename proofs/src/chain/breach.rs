@@ -1,5 +1,5 @@
-//! What a run of the chain may never break: the safety sentences that every frame is checked against (CHAIN-1, CHAIN-2,
-//! CHAIN-3), and those about what plans cost and how runs end.
+//! The sentences that no run of the chain may break: the safety sentences that every frame is checked against (CHAIN-1,
+//! CHAIN-2, CHAIN-3), and those about what plans cost and how runs end.
 
 use std::mem::replace;
 
@@ -20,7 +20,7 @@ pub fn frame(kind: Kind, messages: &[u8], cells: &[Cell]) -> Frame {
     Frame { kind, steps, blocked, cells: cells.to_vec() }
 }
 
-/// What no chain may do, whatever the layout.
+/// A violation that no chain may commit, whatever the layout.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Breach {

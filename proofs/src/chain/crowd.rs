@@ -12,7 +12,7 @@ use crate::engine::{Outcome, assume, require};
 /// How many robots must not be in one cell.
 const ROBOTS: usize = 3;
 
-/// What [`crowding`] looks at.
+/// The bound of [`crowding`], in words.
 pub(super) fn crowds() -> String {
     format!("any {ROBOTS} robots in a cell or beside it, every plan and answer")
 }

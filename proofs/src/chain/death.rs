@@ -23,14 +23,14 @@ const MOMENTS: u32 = 60;
 const RANDOM: (usize, [u32; 5]) = (8, [1, 5, 10, 15, 20]);
 const LATE_MOMENTS: u32 = 300;
 
-/// What [`in_few_walls`] looks at.
+/// The bound of [`in_few_walls`], in words.
 pub(super) fn few_walls() -> String {
     let (robots, walls) = (FEW_WALLS.map(|(robots, _)| robots), FEW_WALLS.map(|(_, walls)| walls));
     let (robots, walls) = (listed(robots), listed(walls));
     format!("all layouts, N = {robots}, at most {walls} walls, any death in the first {MOMENTS} team moves")
 }
 
-/// What [`at_random`] draws.
+/// The layouts that [`at_random`] draws, in words.
 pub(super) fn random_layouts() -> String {
     let (robots, walls) = RANDOM;
     let walls = listed(walls);
@@ -46,7 +46,7 @@ pub(super) struct Dying {
     pub(super) then: Then,
 }
 
-/// What the others do when a robot has died.
+/// The others' action when a robot has died.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Then {
     /// They re-form, and come home when they need what was before.
@@ -93,7 +93,7 @@ pub(super) fn at_random(dying: &Dying, oracle: &mut dyn Oracle) -> Outcome {
 /// Robots, and team moves, of [`whatever_the_log`].
 const MEETING: (usize, u32) = (5, 3);
 
-/// What [`whatever_the_log`] looks at.
+/// The bound of [`whatever_the_log`], in words.
 pub(super) fn meetings() -> String {
     let (robots, moves) = MEETING;
     format!("N = {robots}, a death after {} team moves in the open, any steps in the log", listed(1..=moves))

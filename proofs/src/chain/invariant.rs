@@ -1,4 +1,4 @@
-//! What every team move of a run is checked for. The sentences are those of `SPEC.md`, in plain arithmetic of
+//! The sentences that every team move of a run is checked for. They are those of `SPEC.md`, in plain arithmetic of
 //! their own: of the kernel's rule only the names of its conditions are used.
 
 use serde::{Deserialize, Serialize};
@@ -22,7 +22,7 @@ pub(crate) struct Moment<'a, G, const ROBOTS: usize> {
     /// When it had moved.
     pub(crate) after: &'a Chain<G, ROBOTS>,
     pub(crate) plan: &'a Plan<ROBOTS>,
-    /// What is taken for the plan's steps, base first.
+    /// The steps that are taken for the plan's, base first.
     pub(crate) steps: &'a [Step],
     /// Of R_2 … R_N, as they arrived.
     pub(crate) messages: &'a [u8],
@@ -376,7 +376,7 @@ impl<G: Grid + Copy + Eq, const ROBOTS: usize> Moment<'_, G, ROBOTS> {
         ((is_under_way == 1).then_some(left), u32::from(u8::MAX) - not_begun)
     }
 
-    /// What is taken back belongs to a take-back. One that is begun has twice as many team moves as the one before, the
+    /// Each backtrack belongs to a take-back. One that is begun has twice as many team moves as the one before, the
     /// first since the last gain one; and it goes on until they are made, the history ends, or something is gained.
     fn doubles(&self) -> Result<(), Stop> {
         let (before, begun) = if self.before.gained() { (None, 0) } else { Self::take_back(self.before) };

@@ -36,7 +36,7 @@ pub struct Observed {
     pub rule: Rule,
     /// The rule that it claims to follow.
     pub intended: Rule,
-    /// What is done to it behind its back.
+    /// A deception of the chain behind its back.
     pub deception: Deception,
 }
 

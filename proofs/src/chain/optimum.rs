@@ -20,7 +20,7 @@ use crate::engine::{Outcome, Stop, require};
 /// Most configurations of a team that is solved for.
 pub const MAX_CONFIGURATIONS: usize = 50_000;
 
-/// What tells the search how many team moves are at least left.
+/// A guide tells the search how many team moves are at least left.
 ///
 /// [`Guide::Distances`] takes the largest of three numbers, none of which is ever too large:
 ///
@@ -223,7 +223,7 @@ fn ones(mut set: u128) -> impl Iterator<Item = u8> {
 /// No team moves lead there.
 const FAR: u16 = u16::MAX;
 
-/// What a [`Guide`] has computed.
+/// A [`Guide`]'s numbers.
 struct Bound {
     guide: Guide,
     /// By cell and configuration: the fewest team moves until a robot is in the cell.
@@ -397,7 +397,7 @@ impl Search<'_> {
 /// The chains for which [`least_in_the_open`] finds the fewest team moves.
 const SOLVED: RangeInclusive<u32> = 2..=6;
 
-/// What [`least_in_the_open`] looks at.
+/// The bound of [`least_in_the_open`], in words.
 pub fn solved() -> String {
     format!("{}, solved by A*", whole::chains(&SOLVED))
 }

@@ -11,7 +11,7 @@ use super::breach::stays_in_range;
 use super::observed::Observed;
 use crate::engine::{Outcome, Stop, assume, require};
 
-/// What is true of an edge that a robot plans to cross.
+/// The state of an edge that a robot plans to cross.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Nature {
     KnownOpen,
@@ -72,7 +72,7 @@ impl Tried {
 /// How many columns and rows the robot ahead is looked at from the one behind. E_C reaches no farther.
 const FAR: u32 = 2;
 
-/// What [`contact`] and [`coverage`] look at.
+/// The bound of [`contact`] and [`coverage`], in words.
 pub(super) fn neighbours() -> String {
     format!("every pair of neighbours up to {FAR} apart, every plan and answer")
 }
@@ -126,7 +126,7 @@ pub(super) fn contact(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
     Ok(pair.situation())
 }
 
-/// What [`hold`] looks at.
+/// The bound of [`hold`], in words.
 pub(super) fn goers() -> String {
     format!("every pair of neighbours up to {FAR} apart, every plan, and who has gone")
 }

@@ -40,7 +40,7 @@ enum Floods {
     Few,
 }
 
-/// What is known of an edge.
+/// The marks of an edge, as far as it is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Marks {
     wall: bool,
@@ -48,7 +48,7 @@ struct Marks {
     virtual_obstacle: bool,
 }
 
-/// What the team is about to do, base first.
+/// The team's intended move, base first.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum PlainIntent {
     /// A planned exploration move.
@@ -111,14 +111,14 @@ impl PlainChain {
         chain
     }
 
-    /// The same chain, wrong in one thing: *UnsureAhead* binds it also behind a robot that is sure to arrive.
+    /// This chain, wrong in one thing: *UnsureAhead* binds it also behind a robot that is sure to arrive.
     #[must_use]
     pub fn that_doubts_all(self) -> Self {
         Self { doubts_all: true, ..self }
     }
 
-    /// The same chain with one flood fill for all candidates of a plan, from the unexplored cells: the same plans in
-    /// less time where an area is large and most of it explored.
+    /// This chain with one flood fill for all candidates of a plan, from the unexplored cells: the same plans in less
+    /// time where an area is large and most of it explored.
     #[must_use]
     pub fn that_floods_once(self) -> Self {
         Self { floods: Floods::Few, ..self }
@@ -144,7 +144,7 @@ impl PlainChain {
         })
     }
 
-    /// What the team intends, and how many candidates of followers it looked at.
+    /// The team's intended move, and how many candidates of followers it looked at.
     ///
     /// # Errors
     /// [`TooMany`] if these are more than `most`; the chain is of no use then.

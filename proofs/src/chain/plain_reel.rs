@@ -21,7 +21,7 @@ pub(super) struct PlainReel<'a, G> {
 /// The team moves until a cell is explored.
 type Rehearsal = Vec<Vec<Step>>;
 
-/// What a step of a robot costs; none, if it is not to be made.
+/// The cost of a robot's step; none, if it is not to be made.
 type Cost<'a> = &'a dyn Fn(usize, Step) -> Option<i32>;
 
 impl<'a, G: Grid> PlainReel<'a, G> {
@@ -133,7 +133,7 @@ impl<'a, G: Grid> PlainReel<'a, G> {
         steps.filter_map(|step| self.least_with(planned, robot, step, cost, apart)).min()
     }
 
-    /// The same if the next of them makes this step.
+    /// The least cost, as [`Self::least`], if the next of them makes this step.
     fn least_with(
         &self,
         planned: &[Step],

@@ -1,4 +1,4 @@
-//! What a chain can reach at all, by a team that knows the layout: the cells that count as missed when a run leaves
+//! The cells that a chain can reach at all, by a team that knows the layout: they count as missed when a run leaves
 //! them unexplored. The conditions stand here in plain words, those of [`invariant`](super::invariant): of the kernel's
 //! rule only the names of its conditions are used, and nothing of the planner.
 //!

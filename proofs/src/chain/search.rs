@@ -14,7 +14,7 @@ use crate::engine::tree::{self, Progress, Tree, Watch, Waves};
 use crate::engine::{Choices, Unfit, Until};
 use crate::run::Frame;
 
-/// What a search found.
+/// The findings of a search.
 pub type Found = tree::Found<Invariant, Frame>;
 
 /// Where a search is.
@@ -116,7 +116,7 @@ impl Search {
         Ok(search)
     }
 
-    /// The same at `position`, where it was.
+    /// The search of a shard at `position`, where it was.
     ///
     /// # Errors
     /// [`Unsearchable`], also if the position is none of this shard.
@@ -166,7 +166,7 @@ impl Search {
         self.0.position()
     }
 
-    /// What it has found so far.
+    /// The findings so far.
     pub fn found(&self) -> Found {
         self.0.found()
     }
@@ -189,7 +189,7 @@ impl EveryLayout {
         Bounds { invariants: companions.to_vec(), ..Bounds::new(*observed, robots, max_walls) }
     }
 
-    /// What `found` shows, within `bounds`.
+    /// The evidence that `found` gives, within `bounds`.
     fn evidence(bounds: &Bounds, found: &Counterexample) -> Evidence {
         let seen = Seen::Robots(Box::new(bounds.run(found)));
         let choices = Choices { once: found.answers.clone(), again: Vec::new() };

@@ -19,7 +19,7 @@ const FEW_WALLS: [(usize, u32, u32); 3] = [(3, 2, 2), (4, 1, 1), (5, 0, 2)];
 /// Robots, walls in percent, and how many tries of an open side meet no new wall on average, of [`at_random`].
 const RANDOM: (usize, [u32; 5], [u32; 3]) = (8, [1, 5, 10, 15, 20], [30, 100, 300]);
 
-/// What [`in_few_walls`] looks at.
+/// The bound of [`in_few_walls`], in words.
 pub(super) fn few_walls() -> String {
     let robots = listed(FEW_WALLS.map(|(robots, ..)| robots));
     let (walls, appear) =
@@ -27,7 +27,7 @@ pub(super) fn few_walls() -> String {
     format!("all layouts, N = {robots}, at most {walls} walls, and {appear} that appear")
 }
 
-/// What [`at_random`] draws.
+/// The layouts that [`at_random`] draws, in words.
 pub(super) fn random_layouts() -> String {
     let (robots, walls, tries) = RANDOM;
     let (walls, tries) = (listed(walls), listed(tries));
@@ -41,7 +41,7 @@ pub(super) fn random_layouts() -> String {
 pub(super) struct Shut {
     pub(super) observed: Observed,
     pub(super) world: World,
-    /// What it takes the world for while it plans.
+    /// The world that it expects while it plans.
     pub(super) plans_in: World,
 }
 
@@ -75,7 +75,7 @@ pub(super) fn at_random(shut: &Shut, oracle: &mut dyn Oracle) -> Outcome {
     })
 }
 
-/// What the team knows of a side.
+/// The team's knowledge of a side.
 enum Known {
     No,
     Open,

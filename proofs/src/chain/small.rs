@@ -12,7 +12,7 @@ use crate::engine::{Outcome, assume, require};
 /// Values of a byte.
 const BYTES: u32 = 1 << u8::BITS;
 
-/// What [`message`] looks at.
+/// The bound of [`message`], in words.
 pub(super) fn messages() -> String {
     format!("every message, all {BYTES} bytes")
 }
@@ -50,7 +50,7 @@ const BEHIND: u32 = 4;
 /// How many columns and rows the robot ahead may be from the one behind.
 const AHEAD: u32 = 3;
 
-/// What [`ring_of_neighbours`] looks at.
+/// The bound of [`ring_of_neighbours`], in words.
 pub(super) fn pairs_in_rings() -> String {
     let last = BEHIND - 1;
     format!("every pair up to {AHEAD} apart, the robot behind in 0…{last} by 0…{last}")
@@ -75,7 +75,7 @@ pub(super) fn ring_of_neighbours(observed: &Observed, oracle: &mut dyn Oracle) -
     })
 }
 
-/// What [`ring_cells`] looks at.
+/// The bound of [`ring_cells`], in words.
 pub(super) fn rings() -> String {
     format!("N = 2 … {LONGEST}")
 }

@@ -13,7 +13,7 @@ use crate::engine::{Outcome, assume, require};
 /// How many columns and rows R_2 is looked at from the base, and R_3 from R_2.
 const FAR: [u32; 2] = [1, 2];
 
-/// What [`contact`] looks at.
+/// The bound of [`contact`], in words.
 pub(super) fn places() -> String {
     let [second, third] = FAR;
     format!("R_2 up to {second} from the base, R_3 up to {third} from R_2, every plan and answer")

@@ -41,7 +41,7 @@ impl Pair {
     }
 }
 
-/// What [`unfolding`] looks at.
+/// The bound of [`unfolding`], in words.
 pub(super) fn walks() -> String {
     "every pair of neighbours on a walk, and every turn of it".to_owned()
 }

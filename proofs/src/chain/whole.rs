@@ -50,7 +50,7 @@ pub(super) const NO_MESSAGE: Stop = Stop::Violated("the log holds messages only"
 /// More team moves than any run has in which something fails.
 pub(super) const MANY: u32 = 20_000;
 
-/// What an edge is looked up by.
+/// The key by which an edge is looked up.
 pub(super) fn key(edge: Edge) -> (i16, i16, u8) {
     (edge.cell().x, edge.cell().y, edge.side() as u8)
 }
@@ -58,7 +58,7 @@ pub(super) fn key(edge: Edge) -> (i16, i16, u8) {
 /// The chains of [`spiral`].
 const SPIRALS: RangeInclusive<u32> = 2..=32;
 
-/// What [`spiral`] looks at.
+/// The bound of [`spiral`], in words.
 pub(super) fn spirals() -> String {
     chains(&SPIRALS)
 }
@@ -86,7 +86,7 @@ pub(super) fn spiral(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
 /// Robots, and walls in percent, of [`any_order`].
 const ORDERS: (usize, [u32; 5]) = (8, [1, 5, 10, 15, 20]);
 
-/// What [`any_order`] draws.
+/// The orders that [`any_order`] draws, in words.
 pub(super) fn orders() -> String {
     format!("random layouts, N = {}, walls of {} %, the robots one by one", ORDERS.0, listed(ORDERS.1))
 }
@@ -118,7 +118,7 @@ pub(super) fn any_order(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome
 /// Robots, and most walls, of [`same_plan_in_all_layouts`].
 const FEW_WALLS: [(usize, u32); 3] = [(2, 3), (3, 2), (4, 2)];
 
-/// What [`same_plan_in_all_layouts`] looks at.
+/// The bound of [`same_plan_in_all_layouts`], in words.
 pub(super) fn layouts_with_few_walls() -> String {
     let (robots, walls) = (FEW_WALLS.map(|(robots, _)| robots), FEW_WALLS.map(|(_, walls)| walls));
     format!("all layouts, N = {}, at most {} walls", listed(robots), listed(walls))
@@ -143,7 +143,7 @@ const PATIENCE: u64 = 10_000;
 /// Robots, and walls in percent, of [`same_plan_in_random_layouts`].
 const RANDOM: (RangeInclusive<u32>, RangeInclusive<u32>) = (2..=12, 2..=30);
 
-/// What [`same_plan_in_random_layouts`] draws.
+/// The layouts that [`same_plan_in_random_layouts`] draws, in words.
 pub(super) fn random_layouts() -> String {
     let (robots, walls) = RANDOM;
     format!("random layouts, {}, {} to {} % walls", chains(&robots), walls.start(), walls.end())
@@ -224,7 +224,7 @@ const CHEAP_MOVES: u32 = 5_000;
 const CHEAP_TEAMS: [usize; 4] = [16, 24, 32, 64];
 const CHEAP_WALLS: [u32; 11] = [5, 10, 15, 20, 30, 50, 100, 150, 200, 250, 300];
 
-/// What [`cheap`] draws.
+/// The runs that [`cheap`] draws, in words.
 pub(super) fn cheap_runs() -> String {
     first_moves(&CHEAP_TEAMS, &CHEAP_WALLS)
 }
@@ -243,7 +243,7 @@ pub(super) fn cheap(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
 const DEAR_TEAM: usize = 64;
 const DEAR_WALLS: [u32; 6] = [5, 10, 15, 20, 25, 30];
 
-/// What [`cheap_among_few_walls`] draws.
+/// The runs that [`cheap_among_few_walls`] draws, in words.
 pub(super) fn runs_among_few_walls() -> String {
     first_moves(&[DEAR_TEAM], &DEAR_WALLS)
 }

@@ -14,13 +14,13 @@ use super::watchdog::{Steps, Task};
 pub enum Stop {
     /// The choices made no case of the clause.
     Assumed,
-    /// What the case is compared with takes too long to find: the case was not decided.
+    /// The answer that the case is compared with takes too long to find: the case was not decided.
     GivenUp,
     /// The clause is broken: what was required, in words.
     Violated(&'static str),
 }
 
-/// What a body makes of a case: which of the situations that it claims to cover it was.
+/// A body's outcome of a case: which of the situations that it claims to cover it was.
 pub type Outcome = Result<&'static str, Stop>;
 
 /// Goes on only if the case belongs to the clause.
@@ -39,7 +39,7 @@ pub const fn require(holds: bool, demand: &'static str) -> Result<(), Stop> {
     if holds { Ok(()) } else { Err(Stop::Violated(demand)) }
 }
 
-/// What became of a body under many answers.
+/// A count of a body's cases under many answers.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Tally {
     /// Cases that met the assumptions and were decided, up to the violation if there is one.
@@ -119,7 +119,7 @@ pub fn sample(runs: u64, seed: u64, body: impl Fn(&mut dyn Oracle) -> Outcome + 
     tally
 }
 
-/// What `body` comes to under every combination of answers, in the order of [`exhaust`]; nothing where it comes to
+/// The outcomes of `body` under every combination of answers, in the order of [`exhaust`]; nothing where it comes to
 /// `None`.
 pub fn outcomes<T>(mut body: impl FnMut(&mut dyn Oracle) -> Option<T>) -> impl Iterator<Item = T> {
     let mut odometer = Some(Odometer::default());

@@ -18,13 +18,13 @@ const WAVE: usize = 64;
 
 /// Lots in stages.
 pub trait Lots: Sync {
-    /// What the lots of a stage have in common.
+    /// Data that the lots of a stage share.
     type Stage: Copy + Send + Sync;
-    /// What is looked at by itself.
+    /// A part of the work that is looked at by itself.
     type Lot: Send + Sync;
-    /// What is seen of a lot.
+    /// The result of a lot.
     type Look: Look;
-    /// What all looks together have found.
+    /// The result of all lots together.
     type Found: Default;
     /// Why a lot cannot be looked at.
     type Error: Send;
@@ -57,7 +57,7 @@ pub trait Lots: Sync {
     fn cover(&self, found: &mut Self::Found, stage: Self::Stage);
 }
 
-/// What was seen of a lot.
+/// The result of a lot.
 pub trait Look: Send {
     /// Steps that were made.
     fn steps(&self) -> u64;
@@ -82,8 +82,8 @@ pub fn search<L: Lots>(
     gather(lots, budget_steps, |_, stage, wave, most_steps| looks(lots, stage, wave, most_steps), watch)
 }
 
-/// What one process would have found, by the looks of all shards, each stage by stage. What a shard does not have was
-/// not looked at.
+/// The findings that one process would have had, by the looks of all shards, each stage by stage. A lot that no shard
+/// has was not looked at.
 ///
 /// # Errors
 /// The fault of a lot.

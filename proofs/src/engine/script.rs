@@ -39,7 +39,8 @@ pub enum Unfit {
     },
     /// The run goes on after the last choice, and nothing is broken.
     Unbroken,
-    /// What is to come again does not come back to where it began, or leaves out who has something left to do.
+    /// The round that is to come again does not come back to where it began, or leaves out who has something left to
+    /// do.
     NoRound,
 }
 

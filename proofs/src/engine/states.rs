@@ -31,8 +31,8 @@ pub type Places = u64;
 
 /// A world whose ways merge: its states are searched.
 pub trait System: World {
-    /// What states are made of. The fewer different parts there are, the less memory a search takes; the whole state
-    /// may be one part.
+    /// A part of a state. The fewer different parts there are, the less memory a search takes; the whole state may be
+    /// one part.
     type Part: Clone + Eq + Hash;
 
     /// Makes of `state` the one that stands for all those that are to be taken for one with it: there are no others
@@ -72,7 +72,7 @@ pub trait System: World {
         None
     }
 
-    /// What is owed in `state`: the same one thing always, unless there is more to tell.
+    /// The obligations owed in `state`: the same one always, unless there is more to tell.
     fn owed(&self, _: &Self::State) -> Bits {
         1
     }
@@ -94,7 +94,7 @@ pub trait System: World {
 pub struct Step<S: System + ?Sized> {
     /// The state to which it leads.
     pub state: S::State,
-    /// What happens in it.
+    /// Its event.
     pub event: S::Event,
     /// The situations that it is: a bit for each of [`World::covers`].
     pub occurs: u64,
@@ -128,7 +128,7 @@ pub fn steps<S: System>(system: &S, state: &S::State) -> impl Iterator<Item = St
 /// The situation in which a run ends.
 pub const END: &str = "an end";
 
-/// What was found.
+/// The findings of a search.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Found<D> {
     /// States, the starts among them.
@@ -150,7 +150,7 @@ pub struct Found<D> {
 /// A run that breaks a demand.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Run<D> {
-    /// What it breaks.
+    /// The demand that it breaks.
     pub demand: D,
     /// The number of its start.
     pub start: usize,

@@ -87,7 +87,7 @@ pub struct Limits {
     pub until: Until,
 }
 
-/// What a search found.
+/// The findings of a search.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Found<D, F> {
     /// Leaves of the tree.
@@ -122,15 +122,15 @@ pub struct Level {
 /// before.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Counterexample<D, F> {
-    /// What is broken.
+    /// The demand that it breaks.
     pub broken: D,
     /// How many runs break it.
     pub runs: u64,
-    /// What is not so, in words.
+    /// The demand, in words.
     pub demand: &'static str,
     /// The team moves.
     pub frames: Vec<F>,
-    /// What the world answered: 1 for a wall.
+    /// The world's answers: 1 for a wall.
     pub answers: Vec<u32>,
 }
 
@@ -193,9 +193,9 @@ pub enum Unsearchable {
     },
     /// The search would need more memory than it may have.
     TooLarge {
-        /// What it may need.
+        /// The memory that it may need.
         bytes: u64,
-        /// What it may have.
+        /// The memory that it may have.
         most: u64,
     },
     /// A position with more walls than are asked for now.

@@ -220,7 +220,7 @@ mod tests {
 
     use super::*;
 
-    /// What a watchdog sees of a thread that does this, at two looks.
+    /// Whether a watchdog finds a thread that does this silent, at two looks.
     fn is_silent(work: impl FnOnce(Task, &dyn Fn()) + Send) -> bool {
         let tasks: Vec<Task> = Task::several(1).collect();
         let mut watchdog = Watchdog::new(&tasks);

@@ -17,9 +17,9 @@ pub trait World {
     type State: Clone;
     /// The intention of a step, before anything is asked. Where anything may happen next, the list of all that may.
     type Plan;
-    /// What happened in a step.
+    /// The event of a step.
     type Event;
-    /// What can be broken. Counterexamples are told in this order.
+    /// A demand that can be broken. Counterexamples are told in this order.
     type Demand: Copy + Ord + fmt::Debug;
 
     /// The intention of the next step; `None` if the run is over. `log` is what earlier steps have written.
@@ -67,7 +67,7 @@ pub struct Turn<'a, W: World + ?Sized> {
     pub after: &'a W::State,
     /// The plan.
     pub plan: &'a W::Plan,
-    /// What happened.
+    /// The event of the step.
     pub event: &'a W::Event,
     /// The bytes that the log grew by.
     pub sent: &'a [u8],

@@ -25,7 +25,7 @@ pub(super) struct Areas<const ROBOTS: usize> {
     pub(super) covers: &'static [&'static str],
 }
 
-/// What a search for all demands has found.
+/// The findings of a search for all demands.
 struct All {
     states: u64,
     is_whole: bool,
@@ -82,8 +82,7 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         Some((start, steps, self.run.steps.len()))
     }
 
-    /// The same run where the obstacles that it has met are given, and no others: the setting, and the number of each
-    /// step.
+    /// This run where the obstacles that it has met are given, and no others: the setting, and the number of each step.
     pub fn given(&self) -> Option<(Setting<ROBOTS>, Vec<u32>)> {
         let (start, steps, _) = self.steps()?;
         let truth = *steps.last().map_or(start.truth(), |(_, world)| world.truth());
@@ -99,7 +98,7 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         Some((setting, numbers))
     }
 
-    /// What happens, a line for each step.
+    /// The events, a line for each step.
     pub fn story(&self) -> String {
         let area = self.setting.area;
         let mut lines = format!("{}×{} cells\n", area.width(), area.height());

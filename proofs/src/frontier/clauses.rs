@@ -57,9 +57,9 @@ const TWO_REPAIRED: [Size; 7] = [(2, 1), (3, 1), (4, 1), (2, 2), (5, 1), (3, 2),
 /// Those of three.
 const THREE: [Size; 5] = [(3, 1), (4, 1), (2, 2), (5, 1), (3, 2)];
 
-/// What happens to a robot that is alone.
+/// The situations of a robot that is alone.
 const ALONE: [&str; 4] = ["a decision", "an open cell", "an obstacle", "an arrival"];
-/// What happens to several.
+/// The situations of several robots.
 const ALL: [&str; 6] = ["a decision", "an open cell", "an obstacle", "a robot", "an arrival", "a slot"];
 
 const fn smallest<const ROBOTS: usize>(demand: Demand) -> Areas<ROBOTS> {
@@ -78,7 +78,7 @@ const fn three(demand: Demand) -> Areas<3> {
     Areas { sizes: &THREE, covers: &ALL, ..smallest(demand) }
 }
 
-/// The same team, of whose messages one may be lost.
+/// These areas for a team of whose messages one may be lost.
 const fn lossy<const ROBOTS: usize>(areas: Areas<ROBOTS>) -> Areas<ROBOTS> {
     Areas { max_losses: 1, ..areas }
 }
@@ -104,7 +104,7 @@ const fn off(system: fn(&Rule) -> Drift, range: fn() -> String) -> EveryState<Ru
     }
 }
 
-/// What is looked at with fixes that are off by so many sixteenths.
+/// The bound with fixes that are off by so many sixteenths, in words.
 fn off_by(error: u8) -> String {
     let sizes: Vec<String> = SMALLEST.iter().map(|(width, height)| format!("{width}×{height}")).collect();
     let sizes = sizes.join(", ");

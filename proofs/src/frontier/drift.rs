@@ -38,7 +38,7 @@ pub struct State {
     place: Place,
     /// Where it takes itself to be.
     fix: Place,
-    /// What was entered, and the obstacles that were met.
+    /// The cells entered, and the obstacles that were met.
     truth: TinyMap,
 }
 
@@ -72,7 +72,7 @@ impl Drift {
         starts
     }
 
-    /// What happens in a run in one area, a line for each move, and how many obstacles it meets.
+    /// The events of a run in one area, a line for each move, and how many obstacles it meets.
     pub fn story(&self, area: Size, run: &Run<&'static str>) -> (String, usize) {
         let Some(mut state) = self.starts(&[area]).into_iter().nth(run.start) else {
             return (String::new(), 0);
@@ -148,7 +148,7 @@ impl Drift {
     }
 }
 
-/// What happens.
+/// The situations that occur.
 const SITUATIONS: [&str; 2] = ["an arrival", "an obstacle"];
 
 impl World for Drift {

@@ -24,7 +24,7 @@ const ROBOTS: usize = 3;
 /// The situations that must occur.
 pub(super) const COVERS: [&str; 3] = ["a pair of its own", "all cells are the others'", "no cell"];
 
-/// What [`goes`] looks at.
+/// The bound of [`goes`], in words.
 pub(super) fn teams() -> String {
     format!(
         "every map of {} cells, all cells and claims of at most {}",
@@ -82,7 +82,7 @@ pub(super) fn goes(rule: &Rule, oracle: &mut dyn Oracle) -> Outcome {
     }
 }
 
-/// What the first of the robots does next.
+/// The next action of the first of the robots.
 fn next(rule: &Rule, map: TinyMap, team: &[Known]) -> Next {
     let (at, aim) = team[0];
     let mut own = Robot::new(map, at, &[]);

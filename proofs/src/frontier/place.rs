@@ -20,7 +20,7 @@ pub(crate) struct Bears {
     fixes: i32,
     /// How often that of the odometry counts.
     odometry: i32,
-    /// What the sum has to be below, in parts of a cell's side.
+    /// The limit that the sum has to be below, in parts of a cell's side.
     below: i32,
 }
 
@@ -35,11 +35,11 @@ impl Bears {
     pub(crate) const TRACKED_AT_MOST: Self = Self { fixes: 1, ..Self::FIXES_AT_MOST };
     /// The odometry is forgotten.
     pub(crate) const FIXES_ALONE: Self = Self { odometry: 0, ..Self::FIXES };
-    /// The same of a robot that counts.
+    /// The odometry of a robot that counts is forgotten.
     pub(crate) const TRACKED_ALONE: Self = Self { odometry: 0, ..Self::TRACKED };
 }
 
-/// What [`believes`] and [`counts`] look at.
+/// The bound of [`believes`] and [`counts`], in words.
 pub(super) fn errors() -> String {
     format!("every error of a fix and of a move in 1/{PARTS} of a cell, along one axis")
 }
@@ -91,7 +91,7 @@ pub(super) fn counts(bears: &Bears, oracle: &mut dyn Oracle) -> Outcome {
     Ok(if at == 0 { "at the midpoint" } else { "beside the midpoint" })
 }
 
-/// What [`occupies`] looks at.
+/// The bound of [`occupies`], in words.
 pub(super) fn places() -> String {
     format!("two places within a cell of its midpoint, on a lattice of 1/{PARTS}")
 }

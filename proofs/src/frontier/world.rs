@@ -20,7 +20,7 @@ use tautline_kernel::ground::{Area, Cell, Side};
 
 use crate::engine::outcomes;
 
-/// What is demanded.
+/// A demand on a team.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Demand {
     /// FRONTIER-1
@@ -89,7 +89,7 @@ pub struct World<const ROBOTS: usize> {
     cells: [Cell; ROBOTS],
     /// By robot: what each other one has told it last, if its rule asks for that.
     told: [[Option<Other>; ROBOTS]; ROBOTS],
-    /// What was entered, and the obstacles that were met.
+    /// The cells entered, and the obstacles that were met.
     truth: TinyMap,
     lost: u8,
     wrong: u8,
@@ -100,7 +100,7 @@ pub struct World<const ROBOTS: usize> {
     has_tried: bool,
 }
 
-/// What happens.
+/// An event.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Event {
     /// A robot goes to the rim of its cell on its way to a cell, which it claims; the robots that miss that have a bit
@@ -118,11 +118,11 @@ pub enum Event {
 /// A step, with what happens in it.
 #[derive(Clone, Debug)]
 pub struct Turned<const ROBOTS: usize> {
-    /// What comes of it.
+    /// The world after the turn.
     pub world: World<ROBOTS>,
-    /// What happens.
+    /// The event.
     pub event: Event,
-    /// What it breaks.
+    /// The demands that it breaks.
     pub breaks: Vec<Demand>,
 }
 
@@ -132,12 +132,12 @@ impl<const ROBOTS: usize> World<ROBOTS> {
         std::array::from_fn(|robot| self.entering(robot).unwrap_or(self.cells[robot]))
     }
 
-    /// What was entered, and the obstacles that were met.
+    /// The cells entered, and the obstacles that were met.
     pub const fn truth(&self) -> &TinyMap {
         &self.truth
     }
 
-    /// What each robot knows.
+    /// The robots, with all that each knows.
     pub const fn robots(&self) -> &[Robot<TinyMap>; ROBOTS] {
         &self.robots
     }
@@ -220,7 +220,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         self.demand.is_none_or(|wanted| wanted == demand)
     }
 
-    /// What `robot` does next, if it stands.
+    /// The next action of `robot`, if it stands.
     fn next(&self, world: &World<ROBOTS>, robot: usize, slot: Slot, oracle: &mut dyn Oracle) -> Next {
         let others: Vec<Other> = world.told[robot].into_iter().flatten().collect();
         let view = View { others: &others, slot };
@@ -232,7 +232,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         world.robots[robot].next(&self.rule, view, &mut scratch, oracle)
     }
 
-    /// What `robot` would do if the slot were its own.
+    /// The next action of `robot` if the slot were its own.
     fn would(&self, world: &World<ROBOTS>, robot: usize) -> Next {
         self.next(world, robot, Slot::Own, &mut First)
     }
@@ -437,7 +437,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     }
 }
 
-/// What a robot says of itself.
+/// The message that a robot sends of itself.
 fn says(robot: &Robot<TinyMap>) -> Other {
     Other { cell: robot.at(), place: Place::midpoint(robot.at()), aim: robot.aim() }
 }

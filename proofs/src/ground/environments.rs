@@ -22,7 +22,7 @@ impl Circles {
 /// How many columns and rows LATTICE-1 looks in every direction.
 const FAR: u32 = 4;
 
-/// What [`environments`] looks at.
+/// The bound of [`environments`], in words.
 pub(super) fn offsets() -> String {
     format!("{} offsets", (2 * FAR + 1).pow(2))
 }

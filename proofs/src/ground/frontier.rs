@@ -24,13 +24,13 @@ const DISTANCE: &str = "the distance to the frontier is the fewest steps to an u
 /// Columns and rows of [`in_six_cells`].
 const SIX_CELLS: (i16, i16) = (3, 2);
 
-/// What [`in_six_cells`] looks at.
+/// The bound of [`in_six_cells`], in words.
 pub(super) fn small_maps() -> String {
     let (width, height) = SIX_CELLS;
     format!("every map of {width}×{height} cells, in one word and in one for each row")
 }
 
-/// What [`along_every_line`] looks at.
+/// The bound of [`along_every_line`], in words.
 pub(super) fn lines() -> String {
     format!("every row and column of {GRIDS} grids, from 8×8 to 128×128 cells, both ways")
 }

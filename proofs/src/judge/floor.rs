@@ -24,13 +24,13 @@ pub struct Exhibit {
     pub blocked: BTreeSet<Place>,
     /// Where each agent starts.
     pub starts: Vec<Place>,
-    /// What they do.
+    /// The agents' turns.
     pub turns: Vec<Turn>,
     /// The last of the turns that are said to come again for ever; 0 if the run ends.
     pub round: usize,
 }
 
-/// What one agent does.
+/// One agent's turn.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Turn {
     /// Its place among the agents.
@@ -41,7 +41,7 @@ pub struct Turn {
     pub is_done: bool,
 }
 
-/// What the judge says of an exhibit in which everything is possible.
+/// The judgement of an exhibit in which everything is possible.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Judgement {
     /// The clause is broken.
@@ -56,7 +56,7 @@ pub enum Judgement {
 pub struct Objection {
     /// The turn.
     pub at: usize,
-    /// What is wrong.
+    /// The fault, in words.
     pub what: &'static str,
 }
 
@@ -156,7 +156,7 @@ impl Exhibit {
     }
 }
 
-/// What is seen of the agents.
+/// The agents, as the judge sees them.
 #[derive(Clone, PartialEq, Eq)]
 struct Court {
     places: Vec<Place>,

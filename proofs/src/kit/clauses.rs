@@ -68,9 +68,9 @@ const THREE: [Size; 4] = [(2, 2, 4), (4, 1, 3), (5, 1, 4), (6, 1, 1)];
 /// Those for three robots that start side by side.
 const BESIDE: [Size; 4] = [(2, 2, 4), (4, 1, 3), (5, 1, 4), (3, 2, 7)];
 
-/// What a run of the published rule does before it goes wrong.
+/// The situations that a run of the published rule must have before it goes wrong.
 const ANY: [&str; 0] = [];
-/// What happens in the runs of the repaired rule.
+/// The situations that occur in the runs of the repaired rule.
 const ALL: [&str; 5] = ["a new path", "a stay", "an arrival", "an old path", "done"];
 
 const fn published(demand: Demand) -> Lattices<2> {
@@ -127,7 +127,7 @@ const FRESH_THOUGH_LOST: EveryState<Rule, Talks> =
 const FRESH_THOUGH_DOUBLED: EveryState<Rule, Talks> =
     every_talk(|| words(0, 1), |rule| Talks { max_doubled: 1, ..talks(rule, talks::Demand::Fresh) });
 
-/// What is looked at when so many messages are lost, and so many come twice.
+/// The bound when so many messages are lost, and so many come twice, in words.
 fn words(lost: u8, doubled: u8) -> String {
     let messages = |count: u8| if count == 1 { "1 message".to_owned() } else { format!("{count} messages") };
     format!("2 robots, every order of messages, {} lost, {} twice", messages(lost), messages(doubled))

@@ -74,7 +74,7 @@ impl<const ROBOTS: usize> Counterexample<ROBOTS> {
         events.filter(|event| matches!(event, Event::Decides(.., Next::Drives(_)))).count()
     }
 
-    /// What happens, a line for each event.
+    /// The events, a line for each.
     pub fn story(&self) -> String {
         let (width, height) = (self.setting.area.width(), self.setting.area.height());
         let mut lines = format!("{width}×{height} nodes, 3 m apart\n");

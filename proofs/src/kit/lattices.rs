@@ -37,7 +37,7 @@ pub(super) enum Pass {
     Together,
 }
 
-/// What the states have shown.
+/// The findings in the states.
 struct Looked<const ROBOTS: usize> {
     states: u64,
     is_whole: bool,

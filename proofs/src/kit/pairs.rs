@@ -51,7 +51,7 @@ fn situation(stances: [Stance; 2]) -> &'static str {
     }
 }
 
-/// What [`contact`] and [`apart`] look at.
+/// The bound of [`contact`] and [`apart`], in words.
 pub(super) fn pairs() -> String {
     let (stances, offsets) = (Step::ALL.len() as u32, OFFSETS.pow(2));
     format!(
@@ -82,7 +82,7 @@ pub(super) fn apart(sure: &Sure, oracle: &mut dyn Oracle) -> Outcome {
     Ok(situation([one, other]))
 }
 
-/// What two robots are sure of by where they are.
+/// Predicates about two robots that follow from where they are.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sure {
     contact: fn(Stance, Stance) -> bool,
@@ -90,7 +90,7 @@ pub(crate) struct Sure {
 }
 
 impl Sure {
-    /// What the kernel says.
+    /// The kernel's predicates.
     pub(super) const OURS: Self = Self { contact: Stance::is_sure_of, apart: Stance::is_apart_from };
     /// Only where both go counts.
     pub(super) const ENDS: Self = Self {
@@ -104,7 +104,7 @@ impl Sure {
     };
 }
 
-/// What [`read_back`] looks at.
+/// The bound of [`read_back`], in words.
 pub(super) fn messages() -> String {
     format!("4 messages, {} nodes, 16 sets of sides, 3 numbers; of each one field spoilt", NODES.len())
 }

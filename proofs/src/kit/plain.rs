@@ -6,7 +6,7 @@ use std::collections::HashSet;
 
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side, TinyGrid};
 
-/// What robots have found of a lattice.
+/// The robots' findings on a lattice.
 #[derive(Clone, Copy)]
 pub(super) struct Found<'a, const ROBOTS: usize> {
     /// Paths that were driven ([`EdgeMark::Open`]) and walls that were met.

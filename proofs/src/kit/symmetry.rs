@@ -303,7 +303,7 @@ mod tests {
     use crate::engine::Seeded;
     use crate::engine::states::{Found, Limits, search};
 
-    /// What can happen next, and where it leads, as it looks in this image.
+    /// The events that can happen next, and where they lead, as it looks in this image.
     type Nexts = HashSet<(&'static str, Vec<&'static str>, World<2>)>;
 
     fn nexts(lattice: &Symmetric, world: &World<2>, image: &Image, order: [usize; 2]) -> Nexts {

@@ -9,7 +9,7 @@ use tautline_kernel::kit::{Letter, Message, NUMBERS, Phase, Rule, Sent, Talk};
 use crate::engine::states::{Bits, System};
 use crate::engine::world::{Turn, World, any_of, bit, picked};
 
-/// What is demanded.
+/// A demand on the talks.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Demand {
     /// KIT-4
@@ -18,7 +18,7 @@ pub(super) enum Demand {
     Fresh,
 }
 
-/// What goes on.
+/// Talks under way.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Talks {
     pub(super) rule: Rule,
@@ -33,7 +33,7 @@ pub(super) struct Talks {
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(super) struct State {
     robots: [Talk; 2],
-    /// What is on its way, sorted.
+    /// The messages on their way, sorted.
     letters: Vec<Sealed>,
     lost: u8,
     doubled: u8,
@@ -47,7 +47,7 @@ type Sealed = (usize, [i16; 8], Bits);
 /// The bit of a copy.
 const COPY: Bits = 4;
 
-/// What happened last. It is told and not compared.
+/// The last event. It is told and not compared.
 #[derive(Clone, Copy, Debug)]
 enum Event {
     Start,
@@ -148,7 +148,7 @@ impl Talks {
         })
     }
 
-    /// What two robots can do.
+    /// The acts open to two robots.
     fn acts(&self, state: &State) -> Vec<Turned> {
         let mut acts = Vec::new();
         for robot in 0..2 {
@@ -187,7 +187,7 @@ impl Talks {
         acts
     }
 
-    /// What becomes of the messages on their way.
+    /// The fates open to the messages on their way.
     fn letters(&self, state: &State) -> Vec<Turned> {
         let mut steps = Vec::new();
         let mut before = None;
@@ -243,7 +243,7 @@ impl Turned {
     }
 }
 
-/// What happens.
+/// The situations that occur.
 const SITUATIONS: [&str; 7] =
     ["a double", "a drive", "a loss", "a message", "a repeated request", "a stay", "an arrival"];
 

@@ -9,7 +9,7 @@ use tautline_kernel::kit::Rule;
 use super::symmetry::{Image, stripped};
 use super::world::{Answers, Setting, Speeds, World};
 
-/// What robots are to cover.
+/// The robots' goal: the paths to cover.
 #[derive(Clone, Copy, Debug)]
 enum Goal {
     Nodes,
@@ -60,9 +60,8 @@ fn due(setting: &Setting<2>, given: &TinyGrid, start: Cell) -> Vec<Edge> {
     due
 }
 
-/// What can come of a start: a run to where everything is never covered any more; one to where nobody ever moves any
-/// more; one to where everything is never covered any more, and somebody always moves; and that no run covers
-/// everything.
+/// The fates of a start: a run to where everything is never covered any more; one to where nobody ever moves any more;
+/// one to where everything is never covered any more, and somebody always moves; and that no run covers everything.
 const FATES: [&str; 4] = ["can be trapped", "can be stuck", "can go round", "always are"];
 
 /// The numbers from which those that are marked can be reached.

@@ -16,7 +16,7 @@ use crate::engine::world::{self, Turn};
 /// A team on a small lattice.
 pub type Team<const ROBOTS: usize> = Kit<TinyGrid, ROBOTS, 64>;
 
-/// What is demanded.
+/// A demand on a team.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Demand {
     /// KIT-1, KIT-2, KIT-12
@@ -135,7 +135,7 @@ pub struct World<const ROBOTS: usize> {
     pub(super) first: u8,
 }
 
-/// What happens.
+/// An event.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Event {
     /// A robot arrives at a node.
@@ -149,11 +149,11 @@ pub enum Event {
 pub struct Turned<const ROBOTS: usize> {
     /// The world after it.
     pub world: World<ROBOTS>,
-    /// What happens, in order.
+    /// The events, in order.
     pub events: Vec<Event>,
     pub(super) robot: usize,
     pub(super) situation: &'static str,
-    /// What it breaks.
+    /// The demands that it breaks.
     pub breaks: Vec<Demand>,
 }
 
@@ -231,7 +231,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         })
     }
 
-    /// What has been driven, and what was met.
+    /// The paths driven, and the obstacles met.
     fn found(&self, world: &World<ROBOTS>) -> TinyGrid {
         let mut map = world.truth;
         map.clear_edges(EdgeMark::Open);
@@ -270,7 +270,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
     }
 }
 
-/// What a world is made of.
+/// A part of a world.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub enum Part<const ROBOTS: usize> {
     /// A record, or the truth.
@@ -279,7 +279,7 @@ pub enum Part<const ROBOTS: usize> {
     Rest(Box<World<ROBOTS>>),
 }
 
-/// What happens.
+/// The situations that occur.
 pub(super) const SITUATIONS: [&str; 5] = ["a new path", "a stay", "an arrival", "an old path", "done"];
 
 impl<const ROBOTS: usize> world::World for Setting<ROBOTS> {

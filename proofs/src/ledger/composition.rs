@@ -2,7 +2,7 @@
 //! audit of `proofs/rocq` prints, and from the list of rules beside it. `docs/machine-checked.md` says what each
 //! theorem assumes.
 
-/// What `proofs/rocq/Audit.v` prints: each theorem with its statement, and whether it rests on assumptions.
+/// The output of `proofs/rocq/Audit.v`: each theorem with its statement, and whether it rests on assumptions.
 const AUDIT: &str = include_str!("../../rocq/audit.expected");
 
 /// The rules that each theorem speaks of: it says nothing of the others that a clause is about.
@@ -16,7 +16,7 @@ const CLOSED: &str = "Closed under the global context";
 pub struct Theorem {
     /// The id of the clause.
     pub clause: String,
-    /// What part of the clause it proves, in words; `None` if it is the clause.
+    /// The part of the clause that it proves, in words; `None` if it is the clause.
     pub part: Option<String>,
     /// The rules that it speaks of, by their names in the ledger.
     pub rules: Vec<&'static str>,
@@ -57,7 +57,7 @@ fn closed(audit: &str) -> impl Iterator<Item = &str> {
     heads().zip(heads().skip(1)).filter(|&(_, below)| below == CLOSED).map(|(name, _)| name)
 }
 
-/// What the ledger says of a clause that holds for `rule`: whether it, or a part of it, is machine-checked beyond the
+/// The ledger's words on a clause that holds for `rule`: whether it, or a part of it, is machine-checked beyond the
 /// bound.
 pub(super) fn words(clause: &str, rule: &str) -> Option<String> {
     let mut parts = Vec::new();

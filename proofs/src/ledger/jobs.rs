@@ -22,7 +22,7 @@ use crate::engine::states::Room;
 use crate::engine::tree::Progress;
 use crate::engine::watchdog::{BETWEEN_LOOKS, Task, Watchdog};
 
-/// What is heard while checks are decided.
+/// News while checks are decided.
 #[derive(Clone, Copy, Debug)]
 pub enum Heard<'a> {
     /// How far a search is.
@@ -46,7 +46,7 @@ pub enum Heard<'a> {
 /// Hears how far the deciding is, from any thread, and may end a search: its check is left open then.
 pub type Hear = Arc<dyn Fn(Heard<'_>) -> ControlFlow<()> + Send + Sync>;
 
-/// What the deciding may take.
+/// The limits of deciding.
 #[derive(Clone, Debug)]
 pub struct Limits {
     /// The memory that searches over states may take together.
@@ -139,7 +139,7 @@ pub fn decide(
     Ok(waiting.rows(done, &unended))
 }
 
-/// What the threads share that decide.
+/// The data that the deciding threads share.
 struct Shared {
     checks: Vec<(&'static Clause, usize)>,
     limits: Limits,
@@ -150,7 +150,7 @@ struct Shared {
     is_over: AtomicBool,
 }
 
-/// What a thread tells whoever waits.
+/// A thread's news for whoever waits.
 enum Told {
     Done(Done),
     Refused(Refused),
@@ -234,7 +234,7 @@ impl Waiting<'_> {
         Ok((done, unended))
     }
 
-    /// What stands for the questions without an answer.
+    /// The stand-ins for the questions without an answer.
     fn missing(&self, done: &[Done], unended: &[usize]) -> Vec<Done> {
         let mut missing = Vec::new();
         for (number, job) in self.jobs.iter().enumerate() {
@@ -287,7 +287,7 @@ impl Waiting<'_> {
 /// The time between two attempts to be of use to the other threads.
 const IDLE: Duration = Duration::from_millis(1);
 
-/// What is told next, if anything is before `until`. A thread that is itself one of those that do the work does some
+/// The next news, if there is any before `until`. A thread that is itself one of those that do the work does some
 /// meanwhile: it may be the only one. A step that does not end is its end, too, then.
 fn next(told: &Receiver<Told>, until: Instant) -> Option<Told> {
     loop {
@@ -310,7 +310,7 @@ struct Job {
     until: Until,
 }
 
-/// What is decided: a check, by its place, or one of its mutants, by its number.
+/// A question to decide: a check, by its place, or one of its mutants, by its number.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Question {
     place: usize,
@@ -334,7 +334,7 @@ struct Done {
     undecided: Option<Undecided>,
 }
 
-/// What came of it.
+/// The answer to a question.
 enum Came {
     Own(Answer),
     Mutant(&'static str, Verdict),

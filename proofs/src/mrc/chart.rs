@@ -207,7 +207,7 @@ fn timer(state: &State, actor: Actor) -> &'static str {
     }
 }
 
-/// What has become of an actor, if it does something else than before.
+/// The new state of an actor in words, if it does something else than before.
 fn change(before: &State, after: &State, actor: Actor) -> Option<String> {
     let what = match actor {
         Actor::Robot(robot) => {

@@ -1,4 +1,4 @@
-//! What robots and path nodes write down (MRC-10 to MRC-14): every order in which a few messages reach one of them,
+//! The records of robots and path nodes (MRC-10 to MRC-14): every order in which a few messages reach one of them,
 //! against what follows from the list of them. Repetitions and losses are orders, too.
 
 use tautline_kernel::choice::{Oracle, one_of};
@@ -11,7 +11,7 @@ use crate::engine::{Outcome, require};
 /// Messages that arrive at a robot or a node.
 const MESSAGES: usize = 3;
 
-/// What happens to a robot that may be answered or not.
+/// The events of a robot that may be answered or not.
 const ANSWERS: usize = 4;
 
 /// WFRs, calls of each, and robots whose messages a node sends on.
@@ -285,7 +285,7 @@ pub(super) fn filled(observed: &Observed, oracle: &mut dyn Oracle) -> Outcome {
     Ok(situation)
 }
 
-/// What a path node takes `message` for.
+/// The message as which a path node reads `message`.
 fn read(observed: &Observed, message: Upward) -> Upward {
     match observed.misread {
         Some(Misread::OneRobot) => Upward { robot: ROBOT, ..message },

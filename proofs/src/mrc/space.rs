@@ -37,13 +37,13 @@ pub struct Broken {
     pub demand: Demand,
     /// Which of [`Setting::starts`] it starts from.
     pub start: usize,
-    /// What happens.
+    /// The actions.
     pub actions: Vec<Action>,
     /// How it ends.
     pub ending: Ending,
 }
 
-/// What the states have shown.
+/// The findings in the states.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Found {
     /// States.
@@ -170,7 +170,7 @@ impl Space {
         }
     }
 
-    /// What happens in a run.
+    /// The violation in a run.
     fn broken(&self, run: Run<Demand>) -> Broken {
         let mut state = self.setting.start(run.start as u32);
         let mut played = |numbers: Vec<u32>| -> Vec<Action> {

@@ -91,12 +91,12 @@ impl Rules {
     }
 }
 
-/// What all networks under one rule have shown, whatever is demanded.
+/// The findings in all networks under one rule, whatever is demanded.
 struct Shown {
     rule: Rule,
     /// Without a violation.
     tally: Tally,
-    /// What is broken.
+    /// The demands that are broken.
     broken: Vec<Demand>,
 }
 
@@ -123,11 +123,11 @@ pub(super) const REACH_WITH_ALL: Networks = Networks { demand: Demand::Reaches, 
 /// NOTICE-6
 pub(super) const NEAREST_PARENT: Networks = Networks { demand: Demand::NearestParent, rules: Rules::EveryK };
 
-/// What is covered by going through every state.
+/// The situations that going through every state covers.
 const EVENTS: [&str; 4] = ["a NOTICE arrives", "a copy arrives", "a node forwards", "an end"];
 
 impl Case {
-    /// What is broken at some point of a run.
+    /// The demands that are broken at some point of a run.
     fn broken(&self, spread: &Spread<SMALL>, point: Point) -> impl Iterator<Item = (Demand, &'static str)> {
         self.demands.iter().filter_map(move |&demand| match demand.check(&self.links, spread, point) {
             Err(Stop::Violated(words)) => Some((demand, words)),
@@ -162,7 +162,7 @@ impl World for Case {
         self.broken(turn.after, Point::OnTheWay).collect()
     }
 
-    /// What is demanded on the way is told on the way.
+    /// A demand that can be broken on the way is told there, not at the end once more.
     fn broken_at_end(&self, spread: &Spread<SMALL>, _: &[u8]) -> Vec<Self::Demand> {
         let is_of_ends = |(demand, _): &(Demand, _)| self.demands.len() == 1 || demand.is_of_ends();
         self.broken(spread, Point::End).filter(is_of_ends).collect()
@@ -225,7 +225,7 @@ impl Networks {
         tally
     }
 
-    /// What was shown of the rules of this check, if its demand is kept under them.
+    /// The tally of the rules of this check, if its demand is kept under them.
     fn kept(self, observed: &Observed, shown: &[Shown]) -> Option<Tally> {
         let rules = self.rules.list(observed);
         let mut tally = Tally::default();
@@ -264,7 +264,7 @@ fn show(observed: &Observed) -> Vec<Shown> {
 }
 
 impl Networks {
-    /// What happens when these choices are made, in lines.
+    /// The events when these choices are made, in lines.
     fn story(self, observed: &Observed, choices: &[u32]) -> String {
         let (&place, choices) = choices.split_first().unwrap_or((&0, &[]));
         let Some(Case { links, rule, .. }) = self.cases(observed).nth(place as usize) else {
@@ -320,7 +320,8 @@ impl Method<Observed> for Networks {
         Some(format!("networks {observed:?}"))
     }
 
-    /// What several clauses demand of the same networks is looked at in one pass. What is broken there each looks for.
+    /// Demands of several clauses on the same networks are looked at in one pass. Each clause looks for its own
+    /// violations.
     fn decide(&self, observed: &Observed, until: Until, desk: &mut Desk<'_, '_>) -> Result<Answer, Refused> {
         let kept = match until {
             Until::Violation => None,

@@ -20,12 +20,12 @@ const NODES: RangeInclusive<usize> = SMALL + 1..=LARGE;
 /// Links of a random network, in percent of all pairs of nodes.
 const LINKS: RangeInclusive<u32> = 5..=44;
 
-/// What [`tree_at_random`] and its like draw.
+/// The networks that [`tree_at_random`] and its like draw, in words.
 pub(super) fn random_networks() -> String {
     format!("{}, k = 1 … {} or ∞", random_nodes(), Count::MOST)
 }
 
-/// What [`flood_at_random`] draws.
+/// The networks that [`flood_at_random`] draws, in words.
 pub(super) fn random_floods() -> String {
     format!("{}, k = ∞", random_nodes())
 }
@@ -67,7 +67,7 @@ fn spread_at_random(observed: &Observed, oracle: &mut dyn Oracle, demand: Demand
     Ok(if forwarded * 2 > nodes { "most nodes forward" } else { "few nodes forward" })
 }
 
-/// What the random runs cover.
+/// The situations that the random runs cover.
 pub(super) const SPREADS: [&str; 2] = ["few nodes forward", "most nodes forward"];
 
 /// NOTICE-1: larger networks, at random.
@@ -102,14 +102,14 @@ pub(super) fn flood_at_random(observed: &Observed, oracle: &mut dyn Oracle) -> O
     spread_at_random(observed, oracle, Demand::Floods)
 }
 
-/// What can have become of the event before.
+/// The fates of the event before.
 const FATES: [&str; 4] =
     ["unaware of the first", "waiting with the first", "silent about the first", "through with the first"];
 
 /// Later events, their senders and their hop counts.
 const LATER: [u32; 3] = [2, 3, 3];
 
-/// What [`second_event`] looks at.
+/// The bound of [`second_event`], in words.
 pub(super) fn later_events() -> String {
     let [events, senders, hops] = LATER;
     format!(

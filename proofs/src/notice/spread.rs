@@ -40,7 +40,7 @@ pub(super) fn ones(bits: u64) -> impl Iterator<Item = usize> {
     (0..64).filter(move |place| bits >> place & 1 == 1)
 }
 
-/// What can happen next.
+/// The next event.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Event {
     /// A NOTICE arrives.
@@ -61,8 +61,8 @@ pub(super) struct Spread<const NODES: usize> {
     pub(super) under_way: [u64; NODES],
     /// How often each node has forwarded; more than twice is twice.
     pub(super) forwards: [u8; NODES],
-    /// What an observer notes down of each node: of those it has heard before it forwarded or fell silent, the first
-    /// with the least hop count, and that hop count.
+    /// An observer's note of each node: of those it has heard before it forwarded or fell silent, the first with the
+    /// least hop count, and that hop count.
     pub(super) nearest: [Option<(usize, u16)>; NODES],
 }
 
@@ -219,7 +219,7 @@ pub(super) enum Point {
     End,
 }
 
-/// What is demanded of every state.
+/// A demand on every state.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Demand {
     /// NOTICE-1

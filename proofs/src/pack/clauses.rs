@@ -88,12 +88,12 @@ const fn demand(bounds: Bounds, demand: Demand) -> Floors {
     Floors { bounds, demand, covers: &[] }
 }
 
-/// The same where robots must lead, take back and march.
+/// Floors on which robots must lead, take back and march.
 const fn wholly(bounds: Bounds, demand: Demand) -> Floors {
     Floors { bounds, demand, covers: &SITUATIONS }
 }
 
-/// The same of two robots that see two cells far, which must lead and take back.
+/// Floors of two robots that see two cells far, which must lead and take back.
 const fn far(demand: Demand) -> Floors {
     const COVERS: [&str; 3] = [SITUATIONS[0], SITUATIONS[1], SITUATIONS[2]];
     Floors { bounds: FAR_SIGHTED, demand, covers: &COVERS }

@@ -52,7 +52,7 @@ pub(super) struct Floors {
 /// The number of a size, of its set of obstacles, and of the starts there.
 type Place = [usize; 3];
 
-/// What was found on all floors.
+/// The findings on all floors.
 struct Found {
     runs: u64,
     covered: Vec<&'static str>,

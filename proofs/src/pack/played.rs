@@ -11,18 +11,18 @@ use crate::plural::counted;
 /// Team moves at which a run on a small floor counts as endless.
 pub(super) const MOST_MOVES: usize = 1000;
 
-/// What a team move may be.
+/// The situations of a team move.
 pub(super) const SITUATIONS: [&str; 4] =
     ["each goes its way", "one leads", "a move is taken back", "a caterpillar"];
 
-/// What is demanded of a pack.
+/// A demand on a pack.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Demand {
     /// Links by four corners join all robots after every team move.
     Connected,
     /// No two robots are in one cell.
     Single,
-    /// What can be reached is explored in the end.
+    /// All cells that can be reached are explored in the end.
     Covers,
     /// The run ends.
     Ends,
@@ -118,10 +118,10 @@ impl Past for Moves {
     }
 }
 
-/// What came of a run.
+/// The outcome of a run.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct Played {
-    /// What it breaks, each once.
+    /// The demands that it breaks, each once.
     pub(super) broken: Vec<Demand>,
     /// The situations that occurred.
     pub(super) covered: Vec<&'static str>,

@@ -1,4 +1,4 @@
-//! What a robot sees, by the geometry of rays alone (PACK-7), and how much it would see elsewhere (PACK-8).
+//! A robot's sight by the geometry of rays alone (PACK-7), and how much it would see elsewhere (PACK-8).
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Area, Cell};
@@ -6,7 +6,7 @@ use tautline_kernel::pack::{Chart, Sight, Status};
 
 use crate::engine::{Outcome, Stop, require};
 
-/// What stops a ray.
+/// A reading of where a ray stops.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Rays {
     /// An obstacle in a cell that it crosses, and two at a corner through which it passes; the first obstacle is seen.
@@ -96,7 +96,7 @@ const SIGHTS: [(u16, usize); 2] = [(2, 12), (3, 2)];
 /// The situations that must occur.
 pub(super) const COVERS: [&str; 2] = ["all is seen", "something is hidden"];
 
-/// What [`sees`] looks at.
+/// The bound of [`sees`], in words.
 pub(super) fn views() -> String {
     let sights = SIGHTS
         .map(|(sight_cells, most)| format!("R_s {sight_cells} with at most {most} obstacles within it"));

@@ -49,7 +49,7 @@ pub(super) fn better_alone(ranges: &[Range], area: Option<Area>) -> Result<Told,
     metres(ranges, area).map(|told| Told { other: None, ..told })
 }
 
-/// The same in decibels.
+/// Of two positions in decibels only the better one is told.
 pub(super) fn better_level_alone(ranges: &[Range], area: Option<Area>) -> Result<Told, Refusal> {
     decibels(ranges, area).map(|told| Told { other: None, ..told })
 }
@@ -81,7 +81,7 @@ pub(super) fn anywhere(ranges: &[Range], _: Option<Area>) -> Result<Told, Refusa
     metres(ranges, None)
 }
 
-/// The same in decibels.
+/// The rectangle is forgotten, in decibels.
 pub(super) fn any_level(ranges: &[Range], _: Option<Area>) -> Result<Told, Refusal> {
     decibels(ranges, None)
 }

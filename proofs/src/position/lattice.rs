@@ -35,7 +35,7 @@ fn anchors(oracle: &mut dyn Oracle, count: usize, side: u32) -> Result<Vec<Point
     Ok(anchors)
 }
 
-/// What [`is_exact`] looks at.
+/// The bound of [`is_exact`], in words.
 pub(super) fn places() -> String {
     let [three, four] = SIDES;
     format!("three anchors and a robot at any places of {three}×{three}, four and a robot of {four}×{four}")
@@ -60,7 +60,7 @@ pub(super) fn is_exact(way: &Way, oracle: &mut dyn Oracle) -> Outcome {
     Ok(if count == 3 { "three anchors" } else { "four anchors" })
 }
 
-/// What [`is_exact_of_three`] looks at.
+/// The bound of [`is_exact_of_three`], in words.
 pub(super) fn places_of_three() -> String {
     let [three, _] = SIDES;
     format!("three anchors and a robot at any places of {three}×{three}")
@@ -100,7 +100,7 @@ const MOVES: [[f64; 6]; 6] = [
 /// Distances of a robot that need not fit each other, in metres.
 const DISTANCES_M: [f64; 3] = [1.0, 2.0, 3.5];
 
-/// What [`follows`] looks at.
+/// The bound of [`follows`], in words.
 pub(super) fn moves() -> String {
     let (side, moves, distances) = (SIDES[1], MOVES.len(), DISTANCES_M.len());
     format!(
@@ -150,7 +150,7 @@ pub(super) fn follows(way: &Way, oracle: &mut dyn Oracle) -> Outcome {
 /// The rectangle that positions are kept in.
 const RECTANGLE: [f64; 4] = [0.5, 0.0, 2.5, 1.5];
 
-/// What [`keeps_inside`] looks at.
+/// The bound of [`keeps_inside`], in words.
 pub(super) fn rectangles() -> String {
     let (side, distances, [west, south, east, north]) = (SIDES[1], DISTANCES_M.len(), RECTANGLE);
     format!(

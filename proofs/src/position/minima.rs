@@ -11,7 +11,7 @@ use crate::engine::{Outcome, Stop, assume, require};
 /// The side of the lattice.
 const SIDE: u32 = 4;
 
-/// What [`tells_the_mirror_image`] looks at.
+/// The bound of [`tells_the_mirror_image`], in words.
 pub(super) fn lines() -> String {
     format!("three anchors on a line and a robot beside it, at any places of {SIDE}×{SIDE}")
 }
@@ -48,7 +48,7 @@ const GRID: i32 = 60;
 /// Minima nearer to each other may be told as one, in metres.
 const APART_M: f64 = 0.5;
 
-/// What [`tells_second_minima`] draws.
+/// The anchors that [`tells_second_minima`] draws, in words.
 pub(super) fn random_anchors() -> String {
     format!(
         "random triples of anchors and robots in {SQUARE_M}×{SQUARE_M} m, noise {NOISE_DB} dB; \

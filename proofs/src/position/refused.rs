@@ -24,7 +24,7 @@ const DISTANCES_M: [f64; 7] = [1.5, 0.0, 40.0, -1.0, f64::NAN, f64::INFINITY, 1e
 /// Anchors at least and at most.
 const ANCHORS: [u32; 2] = [2, 3];
 
-/// What [`is_refused_or_told`] looks at.
+/// The bound of [`is_refused_or_told`], in words.
 pub(super) fn numbers() -> String {
     let ([fewest, most], places, distances) = (ANCHORS, PLACES.len(), DISTANCES_M.len());
     format!("{fewest} and {most} anchors at any of {places} places, each at any of {distances} distances")

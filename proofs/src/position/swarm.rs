@@ -11,11 +11,11 @@ use crate::engine::{Outcome, Stop, require};
 pub(super) struct Conduct {
     /// Which velocity moves a particle.
     pub(super) order: Order,
-    /// What counts.
+    /// The best position by this reading.
     pub(super) best: Best,
 }
 
-/// What counts as the best position of a swarm.
+/// A reading of the best position of a swarm.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Best {
     /// The best so far.
@@ -64,16 +64,16 @@ impl Oracle for Coarse<'_> {
 /// Iterations and particles that are looked at in every way.
 const FEW: (u32, usize) = (2, 1);
 
-/// The same at random.
+/// Iterations and particles of swarms that are drawn at random.
 const MANY: (u32, usize) = (20, 5);
 
-/// What [`never_worsens`] looks at.
+/// The bound of [`never_worsens`], in words.
 pub(super) fn coarse_draws() -> String {
     let (iterations, particles) = FEW;
     format!("{iterations} iterations of {particles} particle, each draw one of {COARSE} numbers")
 }
 
-/// What [`never_worsens_at_random`] draws.
+/// The swarms that [`never_worsens_at_random`] draws, in words.
 pub(super) fn random_swarms() -> String {
     let (iterations, particles) = MANY;
     format!("swarms of {particles} particles, {iterations} iterations")

@@ -8,7 +8,7 @@ use tautline_kernel::position::{
 /// A way from distances to a position. The rectangle is for the ways that keep to one.
 pub(super) type Way = fn(&[Range], Option<Area>) -> Result<Told, Refusal>;
 
-/// What a way tells.
+/// The result of a way.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Told {
     /// The position that fits best.

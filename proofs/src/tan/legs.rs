@@ -34,7 +34,7 @@ const WFR: NodeId = NodeId(0);
 const NEARNESS: Nearness = Nearness { near: Strength(100), closer: 10, times: 1 };
 const TRIES: u8 = 2;
 
-/// What a robot does with a signal that it hears.
+/// A robot's leg towards a signal that it hears.
 struct Leg {
     before: Homing,
     nav: Nav,

@@ -8,7 +8,7 @@ use tautline_kernel::tan::{Conduct, Guide, Heading, Homing, Nav, Nearness, Order
 
 use crate::engine::{Outcome, Stop, require};
 
-/// What happens to a robot.
+/// The number of events of a robot.
 const EVENTS: u8 = 6;
 
 /// Hops at the start: two nodes, and the WFR.
@@ -26,7 +26,7 @@ pub(super) struct Patience {
     pub(super) times: u8,
 }
 
-/// What a robot should know.
+/// The knowledge that a robot should have.
 struct Way {
     asked: u16,
     in_vain: u8,
@@ -59,7 +59,7 @@ impl Way {
     }
 }
 
-/// What the rule has.
+/// The rule's patience.
 pub(super) const TRUE: Patience = Patience { tries: 2, times: 1 };
 
 /// The bound of [`whole_way`].
@@ -138,7 +138,7 @@ fn walks(robot: &mut Homing, way: &Way, number: u8, oracle: &mut dyn Oracle) -> 
     Ok(true)
 }
 
-/// What happens to a node that guides.
+/// The number of events of a node that guides.
 const REQUESTS: usize = 4;
 
 /// The bound of [`guides`].

@@ -20,7 +20,7 @@ pub struct Keeps<'a, R: Rule>(
     pub usize,
 );
 
-/// What a tree has found: the frames, and the layout as far as it was known in each.
+/// The findings of a tree: the frames, and the layout as far as it was known in each.
 type Found = tree::Found<Promise, (Frame, Option<Map>)>;
 
 impl<R: Rule> Setting<'_, R> {
@@ -99,7 +99,7 @@ impl<R: Rule> Playing<'_, R> {
 }
 
 impl<R: Rule + PartialEq + 'static> Keeps<'static, R> {
-    /// What a search as a tree finds, which is made only once.
+    /// The findings of a search as a tree, which is made only once.
     fn found<'d>(&self, rule: &R, until: Until, desk: &'d mut Desk<'_, '_>) -> Result<&'d Found, Refused> {
         // A search that goes on for each demand answers for all of them.
         let wanted = match until {

@@ -9,7 +9,7 @@ use tautline_kernel::ground::{Cell, Edge, Side};
 use super::Setting;
 use super::ground::Map;
 
-/// What a robot does next.
+/// A robot's next action.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Act {
     /// It stays in its cell.
@@ -23,13 +23,13 @@ pub enum Act {
 pub trait Rule: Clone + Send + Sync {
     /// All that a robot remembers.
     type Memory: Clone + Eq + Hash + Debug + Send + Sync;
-    /// What robots tell each other; `()` if they do not.
+    /// A message between robots; `()` if they send none.
     type Message: Clone + Eq + Hash + Debug + Send + Sync;
 
-    /// What a robot remembers at the start, of a team that starts in these cells.
+    /// A robot's memory at the start, of a team that starts in these cells.
     fn start(&self, robot: usize, starts: &[Cell]) -> Self::Memory;
 
-    /// What a robot does, and remembers from now on.
+    /// A robot's action; its memory is changed to what it remembers from now on.
     fn act(&self, view: &mut View<'_, Self>, memory: &mut Self::Memory) -> Act;
 
     /// Whether a robot has nothing left to do. The run is over when no robot has.
@@ -47,7 +47,7 @@ pub struct Body<M, T> {
     /// Whether something was in its way when it last went.
     pub(super) is_blocked: bool,
     pub(super) is_dead: bool,
-    /// What it does next, if looking and moving are steps of their own.
+    /// The robot's next action, if looking and moving are steps of their own.
     pub(super) pending: Option<Act>,
     /// The last message of each other robot since it last acted.
     pub(super) heard: Vec<(usize, T)>,
@@ -67,7 +67,7 @@ pub type Scene<R> = TeamState<<R as Rule>::Memory, <R as Rule>::Message>;
 pub struct TeamState<M, T> {
     pub(super) bodies: Vec<Body<M, T>>,
     pub(super) goals: Vec<Cell>,
-    /// What was met of the layout; `None` in a layout that answers for itself.
+    /// The layout as far as it was met; `None` in a layout that answers for itself.
     pub(super) map: Option<Map>,
     pub(super) losses: u32,
     pub(super) deaths: u32,
@@ -94,7 +94,7 @@ impl<M, T> TeamState<M, T> {
         self.goals.get(robot).copied()
     }
 
-    /// What a robot remembers.
+    /// A robot's memory.
     pub fn memory(&self, robot: usize) -> &M {
         &self.bodies[robot].memory
     }
@@ -121,12 +121,12 @@ impl<M, T> TeamState<M, T> {
     }
 }
 
-/// What a robot sees when it acts.
+/// A robot's view when it acts.
 pub struct View<'a, R: Rule> {
     pub(super) setting: &'a Setting<'a, R>,
     pub(super) robot: usize,
     pub(super) scene: &'a Scene<R>,
-    /// What is known of the layout by now.
+    /// The layout as far as it is known by now.
     pub(super) map: &'a mut Option<Map>,
     pub(super) world: &'a mut dyn Oracle,
     pub(super) sent: &'a mut Vec<(usize, R::Message)>,
@@ -253,7 +253,7 @@ pub(super) enum When<'a, R: Rule> {
     Eventually(OfScene<'a, R>),
 }
 
-/// What is demanded of a team.
+/// A demand on a team.
 pub struct Demand<'a, R: Rule> {
     /// The id of the clause that demands it.
     pub id: &'static str,

@@ -24,7 +24,7 @@ pub struct Playing<'a, R: Rule> {
     pub(super) start: Scene<R>,
 }
 
-/// What happened in a step.
+/// The event of a step.
 #[derive(Clone, Debug)]
 pub struct Event {
     /// The robots that acted, a bit for each; none if one died.
@@ -101,7 +101,7 @@ impl<'a, R: Rule> Playing<'a, R> {
         self.broken(is_endless)
     }
 
-    /// The same team, of whose demands only these are looked at.
+    /// This team, of whose demands only these are looked at.
     #[must_use]
     pub fn wanting(self, wanted: &[Promise]) -> Self {
         Self { wanted: wanted.to_vec(), ..self }
@@ -243,7 +243,7 @@ fn is_endless<R: Rule>(demand: &Demand<'_, R>) -> bool {
     demand.is_broken_by_endless_runs()
 }
 
-/// What a scene is made of.
+/// A part of a scene.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub enum Part<M, T> {
     /// A robot.
@@ -252,7 +252,7 @@ pub enum Part<M, T> {
     Rest {
         /// Where robots are to go.
         goals: Vec<Cell>,
-        /// What is known of the layout.
+        /// The layout as far as it is known.
         map: Option<Box<Map>>,
         /// Messages that were lost.
         losses: u32,

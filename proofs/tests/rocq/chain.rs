@@ -1,4 +1,4 @@
-//! What the chain's admission relation answers to every question about neighbours that can be asked, with the lattice
+//! The answers of the chain's admission relation to every question about neighbours that can be asked, with the lattice
 //! that it stands on, the bytes of messages, and when a robot goes on along a walk.
 
 use tautline_kernel::chain::{Condition, Message, Move, Outcome, Role, Rule, goes_on};
@@ -96,7 +96,7 @@ fn relation(name: &str, rule: &Rule) -> String {
     text + &definition(&format!("entry_{name}"), "N", &bits(&entry))
 }
 
-/// What each byte says: 0 if it is no message, else one more than three times the step's place and the outcome's.
+/// The meaning of each byte: 0 if it is no message, else one more than three times the step's place and the outcome's.
 fn messages() -> String {
     let word = |byte| {
         let Ok(message) = Message::decode(byte) else { return 0 };

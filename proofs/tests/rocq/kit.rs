@@ -1,4 +1,4 @@
-//! What two robots that keep in touch answer: who is in reach of whom, whose paths are apart, and which drives are
+//! The answers of two robots that keep in touch: who is in reach of whom, whose paths are apart, and which drives are
 //! admitted.
 
 use tautline_kernel::choice::Oracle;

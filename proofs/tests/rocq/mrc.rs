@@ -1,4 +1,4 @@
-//! What robots and WFRs answer in every state that they can come to, with two epochs of two WFRs and two robots; a
+//! The answers of robots and WFRs in every state that they can come to, with two epochs of two WFRs and two robots; a
 //! robot also with a table of one record. The states that differ in hop counts, or in how often something is still
 //! repeated, are one here.
 
@@ -47,7 +47,7 @@ fn upward(message: Upward) -> String {
     format!("{word} {} {}", of(message.call), message.robot.0)
 }
 
-/// What comes of something in a state: the states and the messages that may follow, each as a Rocq term.
+/// The answers in a state: the states and the messages that may follow, each as a Rocq term.
 type Answers = BTreeMap<(String, String), BTreeSet<(String, String)>>;
 
 /// Goes through every state that can be reached from `first`, and adds what comes of each input.

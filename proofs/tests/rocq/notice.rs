@@ -1,4 +1,4 @@
-//! What a NOTICE makes of a node in every state that it can come to, under every scheme.
+//! The reaction of a node to a NOTICE in every state that it can come to, under every scheme.
 
 use std::collections::{BTreeSet, HashSet};
 use std::num::NonZeroU32;

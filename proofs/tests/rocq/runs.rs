@@ -18,7 +18,7 @@ impl Draw {
     }
 }
 
-/// What a set of runs must contain for the comparison to mean something.
+/// The situations that a set of runs must contain for the comparison to mean something.
 #[derive(Default)]
 struct Met {
     backtracks: usize,

@@ -2,7 +2,7 @@
 
 use tautline_kernel::ground::Cell;
 
-/// What every generated file begins with.
+/// The head of every generated file.
 pub(super) const HEAD: &str = "From Coq Require Import ZArith NArith List.\nImport ListNotations.\n";
 
 /// `Definition name : kind := value.`

@@ -14,7 +14,7 @@ pub(crate) struct Moved {
     pub(crate) cells_before: Py<PyTuple>,
     /// Where they are now.
     pub(crate) cells: Py<PyTuple>,
-    /// What each robot tried: one letter of E, S, W, N or `.` for each.
+    /// The steps that the robots tried: one letter of E, S, W, N or `.` for each.
     pub(crate) tried: String,
     /// Whether each robot met a wall.
     pub(crate) blocked: Py<PyTuple>,

@@ -24,7 +24,7 @@ pub(super) const MAX_ROBOTS: usize = 8;
 /// Letters of a name.
 const MAX_WORD: usize = 64;
 
-/// What to return from `step`.
+/// The answers that `step` may return.
 const ANSWER: &str = "return None when the run is over, or a state and None if that is what is known then, else the next state and a \
                       string with one letter of E, S, W, N or . for each robot";
 
@@ -39,7 +39,7 @@ pub(super) enum When {
     NeverEndless,
 }
 
-/// What is demanded.
+/// A demand of the rule.
 #[derive(Debug)]
 pub(super) struct Demand {
     pub(super) clause: ClauseId,
@@ -51,9 +51,9 @@ pub(super) struct Demand {
 pub(super) type Cells = [Cell; MAX_ROBOTS];
 /// Which robots met a wall.
 pub(super) type Blocked = [bool; MAX_ROBOTS];
-/// What robots try.
+/// The steps that robots try.
 pub(super) type Steps = [Step; MAX_ROBOTS];
-/// What a rule is asked: the number of its state, where robots are, and which met a wall.
+/// The question to a rule: the number of its state, where robots are, and which met a wall.
 type Question = (u32, Cells, Blocked);
 
 /// The states that Python has answered, each once, by their numbers.
@@ -78,7 +78,7 @@ pub(super) struct Written {
     pub(super) is_stopped: AtomicBool,
     object: Py<PyAny>,
     states: Mutex<States>,
-    /// What was asked last, and what came of it.
+    /// The last question, and the answer.
     last: Mutex<Option<(Question, (u32, Option<Steps>))>>,
     started: OnceLock<(u32, Cells)>,
     is_called: AtomicBool,
@@ -140,7 +140,7 @@ fn shown(value: &Bound<'_, PyAny>) -> String {
 }
 
 impl Written {
-    /// What the rule says of itself.
+    /// The rule's description of itself.
     pub(super) fn read(rule: &Bound<'_, PyAny>) -> PyResult<Self> {
         let py = rule.py();
         let scheme: String = attribute(rule, "scheme", "a scheme, the name of what it is a rule of")?;

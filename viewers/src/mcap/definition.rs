@@ -53,7 +53,7 @@ const TYPES: &[Type] = &[
     ("visualization_msgs/UVCoordinate", "float32 u\nfloat32 v\n"),
 ];
 
-/// What stands between two types of a definition.
+/// The line between two types of a definition.
 const RULE: &str = "================================================================================\n";
 
 /// The fields of a type; none if there is no such type.

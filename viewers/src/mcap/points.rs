@@ -62,7 +62,7 @@ impl Points {
         points
     }
 
-    /// What robots know that start in these cells of `layout`.
+    /// The knowledge of robots that start in these cells of `layout`.
     pub(super) fn at_start(layout: &Layout, starts: &[Cell]) -> Self {
         let mut points = Self::unknown(layout);
         for &cell in starts {

@@ -177,7 +177,7 @@ impl World<'_> {
         self.look(now_ns);
     }
 
-    /// What a robot has to say, for the log; an answer that it comes prolongs its lease.
+    /// Logs a robot's message; an answer that it comes prolongs its lease.
     fn say(&mut self, robot: usize, message: Upward, now_ns: u64) {
         let Some(wfr) = self.scenario.wfr(message.call.wfr) else { return };
         let Epoch(epoch) = message.call.epoch;

@@ -1,4 +1,4 @@
-//! What has come of a rescue when nothing more happens.
+//! The outcome of a rescue when nothing more happens.
 
 use tautline_kernel::mrc::Request;
 use tautline_kernel::net::NodeId;

@@ -1,4 +1,4 @@
-//! What nodes do with what they hear: they broadcast calls, carry messages up and down the tree of a call as letters
+//! The nodes' answers to what they hear: they broadcast calls, carry messages up and down the tree of a call as letters
 //! from hop to hop, and guide robots.
 
 use tautline_kernel::choice::Oracle;
@@ -77,7 +77,7 @@ impl World<'_> {
         self.put(at, now_ns + ANSWER_WAIT_NS, Duty::Repeat(letter.frame));
     }
 
-    /// What is in a letter, if it is for this station, and new.
+    /// The content of a letter, if it is for this station, and new.
     pub(super) fn open(&mut self, at: NodeId, letter: Letter) -> Option<Content> {
         if letter.to != self.hop(at) {
             return None;
@@ -127,8 +127,8 @@ impl World<'_> {
         }
     }
 
-    /// What a node begins to do lasts for T_x from now. A silence that has begun is not prolonged: two robots could
-    /// else keep each other's guides silent for ever.
+    /// A node's conduct lasts for T_x from now. A silence that has begun is not prolonged: two robots could else keep
+    /// each other's guides silent for ever.
     fn conduct(&mut self, at: NodeId, guide: Guide, now_ns: u64) {
         let sensor = &mut self.sensors[at.0 as usize];
         if sensor.guide != guide {

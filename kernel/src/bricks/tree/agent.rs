@@ -17,7 +17,7 @@ type Missed = [Ring; Rule::MOST_READINGS as usize - 1];
 
 const NONE_MISSED: Missed = [Ring(0); Rule::MOST_READINGS as usize - 1];
 
-/// What an agent remembers. It has no map and knows no place.
+/// An agent's memory: no map, and no place.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Agent {
@@ -33,17 +33,17 @@ pub struct Agent {
     missed: Missed,
 }
 
-/// What an agent does after a scan.
+/// An agent's action after a scan.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Act {
-    /// What the sensor of its cell stores from now on.
+    /// The note that the sensor of its cell stores from now on.
     pub here: Note,
-    /// What becomes of the agent.
+    /// Where the agent goes, or that it ends.
     pub next: Next,
 }
 
-/// What becomes of an agent after an action.
+/// An agent's next cell, or its end, after an action.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Next {
@@ -75,7 +75,7 @@ impl Agent {
         Self { id, founded: 0, back: None, known: Ring(0), missed: NONE_MISSED }
     }
 
-    /// What it does after a scan.
+    /// The agent's action after a scan.
     pub fn decide(&mut self, rule: Rule, view: &View) -> Act {
         let view = View { doubted: self.doubted(rule, view.scan.unexplored), ..view.knowing(self.known) };
         let view = if rule.has(Condition::Restores) { View { here: view.restored(), ..view } } else { view };
@@ -153,7 +153,7 @@ impl Agent {
     }
 }
 
-/// What `note` stores as a child of `parent`, which is beyond `side`.
+/// The note stored as a child of `parent`, which is beyond `side`.
 fn child(rule: Rule, note: Note, parent: Note, side: Side) -> Note {
     let note = note.of_tree(parent.label, Some(side));
     if rule.has(Condition::Restores) { note.at_depth(parent.depth.saturating_add(1)) } else { note }
@@ -193,7 +193,7 @@ fn follow(rule: Rule, view: &View) -> Next {
     on.or_else(|| view.here.side.map(Next::Goes)).unwrap_or(Next::Done)
 }
 
-/// What an agent does in a cell that it cannot mark as it stands, and whose sensor is to store `here`.
+/// The agent's action in a cell that it cannot mark as it stands, and whose sensor is to store `here`.
 fn go_on(rule: Rule, view: &View, here: Note) -> Act {
     let act = |next| Act { here, next };
     if let Some(side) = view.way_on() {

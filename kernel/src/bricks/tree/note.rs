@@ -1,11 +1,11 @@
-//! What one sensor stores for agents that search in trees, in 48 bits.
+//! The note that one sensor stores for agents that search in trees, in 48 bits.
 
 use core::hash::{Hash, Hasher};
 
 use crate::floor::Mark;
 use crate::ground::{Cell, Edge, Side};
 
-/// What has become of a cell.
+/// The state of a cell's exploration.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum State {
@@ -54,7 +54,7 @@ impl Label {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Note {
-    /// What has become of the cell.
+    /// The state of the cell's exploration.
     pub state: State,
     /// Of an open cell, the tree that it belongs to.
     pub label: Label,
@@ -103,25 +103,25 @@ impl Note {
         (self.state == State::Open).then_some(self.label)
     }
 
-    /// What it stores as a cell of the tree `label`, with its parent beyond `side`.
+    /// The note of a cell of the tree `label`, with its parent beyond `side`.
     #[must_use]
     pub const fn of_tree(self, label: Label, side: Option<Side>) -> Self {
         Self { state: State::Open, label, side, ..self }
     }
 
-    /// The same so deep in its tree, at most as deep as fits.
+    /// This note at `depth` in its tree, at most as deep as fits.
     #[must_use]
     pub const fn at_depth(self, depth: u32) -> Self {
         Self { depth: if depth < Label::TREES { depth } else { Label::TREES - 1 }, ..self }
     }
 
-    /// What it stores once it is done with, `side` leading to where more is left to do.
+    /// The note of a cell that is done with, `side` leading to where more is left to do.
     #[must_use]
     pub const fn visited(self, side: Option<Side>) -> Self {
         Self { state: State::Visited, label: Label(0), side, depth: 0, ..self }
     }
 
-    /// What it stores once one agent more has entered.
+    /// The note once one agent more has entered.
     pub(super) const fn entered(self) -> Self {
         let crossings =
             if self.crossings < Self::MOST_CROSSINGS { self.crossings + 1 } else { self.crossings };
@@ -177,7 +177,7 @@ impl Hash for Note {
 
 /// The sensors of an area and the walls between them.
 pub trait Notes {
-    /// What the sensor in `cell` stores; `None` if the cell is a wall or outside.
+    /// The note that the sensor in `cell` stores; `None` if the cell is a wall or outside.
     fn note(&self, cell: Cell) -> Option<Note>;
     /// Changes what the sensor in `cell` stores; no effect where there is none.
     fn write(&mut self, cell: Cell, note: Note);

@@ -1,4 +1,4 @@
-//! What an agent sees from a cell, trees included.
+//! An agent's view from a cell, trees included.
 
 use core::cmp::Reverse;
 
@@ -14,9 +14,9 @@ use crate::ground::{Cell, Side};
 pub struct View {
     /// The sensor of the cell.
     pub here: Note,
-    /// What the marks around look like.
+    /// The marks around.
     pub scan: Scan,
-    /// What the side neighbours' sensors store that were seen, with no wall in between, by the place of the side in
+    /// The notes of the side neighbours' sensors that were seen, with no wall in between, by the place of the side in
     /// [`COMPASS`]; unexplored where none was.
     pub beside: [Note; 4],
     /// The cells around that are known to have sensors, seen or not.
@@ -50,7 +50,7 @@ impl View {
         COMPASS.into_iter().zip(self.beside).filter(|(_, note)| note.state != State::Unexplored)
     }
 
-    /// The same where `known` cells around are known to have sensors.
+    /// This view where the cells around in `known` are known to have sensors, too.
     pub fn knowing(self, known: Ring) -> Self {
         Self { known: self.known.or(known), ..self }
     }
@@ -76,8 +76,8 @@ impl View {
         self.neighbours().filter(|&(side, note)| note.is_child_beyond(side))
     }
 
-    /// What the sensor underfoot stores, or, if its children show that it has been placed in the stead of their parent's, what
-    /// that one stored as far as is seen around. A parent that is not seen is left as it is.
+    /// The note of the sensor underfoot, or, if its children show that it has been placed in the stead of their
+    /// parent's, the note of that one as far as is seen around. A parent that is not seen is left as it is.
     pub fn restored(&self) -> Note {
         let here = self.here;
         let Some(own) = here.tree() else { return here };

@@ -4,7 +4,7 @@ use super::super::paper;
 use super::super::prelude::*;
 use super::{Duration, Figure, Line, Merged, TEAMS, Team};
 
-/// What the paper says in numbers: of Brick&Mortar in Fig. 11, and that Ants explore everything.
+/// The paper's numbers: of Brick&Mortar in Fig. 11, and that Ants explore everything.
 pub(super) fn of(figure: Figure, lines: &[Line]) -> Vec<Printed> {
     let [bricks, _, ants, ants_published, ..] = TEAMS;
     let one = lines.iter().find(|line| (line.team, line.agents) == (bricks, 1));

@@ -1,9 +1,9 @@
-//! What the paper says of TAN and its rivals, and what is so.
+//! The paper's claims about TAN and its rivals, and what is so.
 
 use super::super::prelude::*;
 use super::Way;
 
-/// What the paper says of RD.
+/// A claim of the paper about RD.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Claim {
@@ -24,7 +24,7 @@ pub struct Decision {
     pub paper: Claim,
     /// RD of TAN less that of the rival.
     pub difference: Option<Estimate>,
-    /// What that says of the claim.
+    /// The verdict on the claim.
     pub verdict: Verdict,
 }
 
@@ -54,7 +54,7 @@ impl Claim {
         }
     }
 
-    /// What the interval of TAN's RD less the rival's says of it.
+    /// The verdict by the interval of TAN's RD less the rival's.
     pub fn verdict(self, difference: Option<Estimate>) -> Verdict {
         let Some([low, high]) = difference.and_then(|difference| difference.interval) else {
             return Verdict::Open;

@@ -20,7 +20,7 @@ pub struct Density {
     /// How many hops the robots have by TAN's trees for each hop that the shortest chain of links has, where TAN
     /// arrives.
     pub hops: Option<Estimate>,
-    /// What the paper says, and what is so.
+    /// The paper's claims, and what is so.
     pub claims: Vec<Decision>,
     /// The share of the topologies in which all arrive where TAN's way is shorter than Reich's.
     pub shorter_than_reich: Option<Estimate>,

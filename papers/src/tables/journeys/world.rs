@@ -25,7 +25,7 @@ pub(super) struct World {
     stream: (u64, u64),
 }
 
-/// What came of one topology.
+/// The outcome of one topology.
 #[derive(Clone, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub struct Sample {
     /// The fewest hops from the robot to the WFR, if links lead there.
@@ -38,7 +38,7 @@ pub struct Sample {
     pub(super) walked: [Option<Walked>; 4],
 }
 
-/// What a robot has walked until it was there.
+/// A robot's walk until it was there.
 #[derive(Clone, Copy, PartialEq, Debug, JsonSchema, Serialize, Deserialize)]
 pub(super) struct Walked {
     pub(super) length_m: f64,

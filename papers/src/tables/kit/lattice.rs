@@ -8,7 +8,7 @@ use tautline_sim::layout::{Layout, Problem, generate};
 /// Lattices of one size.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Family {
-    /// What it is called.
+    /// Its name.
     pub(super) name: &'static str,
     columns: u64,
     rows: u64,

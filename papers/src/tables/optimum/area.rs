@@ -101,7 +101,7 @@ impl Area {
         Setup::new(&CHAIN, rule, self.robots, layout, self.base)
     }
 
-    /// What a team that knows the `layout` has to explore.
+    /// The cells of `layout` that a team which knows it has to explore.
     pub(super) fn goals(&self, layout: &Layout) -> Result<(Ground, CellSet), Halt> {
         let is_open = |edge| layout.is_open(edge);
         let outside = || Diagnostic::usage("the base is outside the layout", "place it on a free cell");

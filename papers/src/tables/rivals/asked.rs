@@ -1,4 +1,4 @@
-//! What can be asked of the rivals' tables: the parameters of the rivals that are numbers.
+//! The settings of the rivals' tables: the parameters of the rivals that are numbers.
 
 use super::super::parameter::{Parameter, of_field};
 use super::super::prelude::*;
@@ -7,7 +7,7 @@ use crate::rivals::parameters::POOL;
 use crate::rivals::{Cells, Deadlock, Links, Parameters, Search, Weights};
 
 settings! {
-    /// What the rivals are told, but for what the tables vary.
+    /// The parameters of the rivals, but for what the tables vary.
     #[derive(Copy)]
     pub(super) struct Told {
         /// Runs of each rival

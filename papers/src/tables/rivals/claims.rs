@@ -1,4 +1,4 @@
-//! What the paper says of the chain and its rivals, and what is so.
+//! The paper's claims about the chain and its rivals, and what is so.
 
 use super::super::prelude::*;
 use tautline_sim::text_table::{Column, TextTable, Width};
@@ -10,7 +10,7 @@ pub(super) struct Judged {
     pub(super) sentence: &'static str,
     /// For which density or area, and by which links.
     pub(super) of: String,
-    /// What was measured.
+    /// The measured numbers.
     pub(super) measured: String,
     pub(super) verdict: Verdict,
 }

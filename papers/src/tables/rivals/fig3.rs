@@ -14,14 +14,14 @@ pub struct ChainFig3;
 /// The paper's densities of walls.
 const DENSITIES: [&str; 7] = ["0", "0.01", "0.02", "0.05", "0.1", "0.15", "0.2"];
 
-/// What is drawn and judged.
+/// The milestones that are drawn and judged.
 const MILESTONES: [Milestone; 2] = [Milestone::Half, Milestone::ThreeQuarters];
 
 settings! {
     /// How much is measured.
     #[derive(Copy)]
     pub struct Settings {
-        /// What the rivals are told, and how many layouts each density has
+        /// The parameters of the rivals, and how many layouts each density has
         told: Told = Told { runs: 200, ..Told::default() },
             renamed(nested(), "runs", ["layouts", "Layouts of each density, and runs in each building"]);
     }
@@ -160,7 +160,7 @@ impl Table for ChainFig3 {
     }
 }
 
-/// What a sentence says of the chain and a rival.
+/// A sentence's claim about the chain and a rival.
 #[derive(Clone, Copy)]
 enum Says {
     Sooner,

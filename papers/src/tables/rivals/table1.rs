@@ -19,7 +19,7 @@ settings! {
     /// How much is measured.
     #[derive(Copy)]
     pub struct Settings {
-        /// What the rivals are told
+        /// The parameters of the rivals
         told: Told = Told::default(), nested();
         /// In buildings a run stops when a robot has entered so many cells
         max_moves: u32 = 400, one("max-moves", "CELLS", from_to(1..=1_000_000));
@@ -42,7 +42,7 @@ pub struct Merged {
     settings: Settings,
     /// Team moves without walls.
     open: Vec<Line>,
-    /// What is explored of buildings.
+    /// The explored shares of buildings.
     rooms: Vec<Share>,
     paper: Vec<Printed>,
     sentences: Vec<Judged>,

@@ -23,7 +23,7 @@ pub(crate) struct Relation {
     cells: Vec<Around>,
 }
 
-/// What is round a cell.
+/// The surroundings of a cell.
 struct Around {
     /// E_S, or everything if the rule has no *SafeAhead*.
     safe: u128,

@@ -1,4 +1,4 @@
-//! What is reachable exactly: all configurations are gone through.
+//! The exact reach: all configurations are gone through.
 
 use std::collections::VecDeque;
 

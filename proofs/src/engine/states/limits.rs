@@ -70,7 +70,7 @@ impl Room {
     }
 }
 
-/// What a search takes of a [`Room`].
+/// A search's share of a [`Room`].
 pub(super) struct Taken<'a> {
     room: &'a Room,
     large: Option<MutexGuard<'a, ()>>,

@@ -19,7 +19,7 @@ pub(super) struct TooLarge;
 /// A way back to a state: its node, and the numbers of its steps, each among those that are bound to be made.
 pub(super) type Round = (usize, Vec<u32>);
 
-/// What there is of a component beside its nodes.
+/// A component's properties beside its nodes.
 #[derive(Clone, Copy)]
 struct Component {
     /// Who acts in a step within it.

@@ -1,4 +1,4 @@
-//! What a search counts, and the smallest run that breaks each demand.
+//! The counts of a search, and the smallest run that breaks each demand.
 
 use serde::{Deserialize, Serialize};
 
@@ -21,14 +21,14 @@ pub(super) struct Violation {
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Broken<D> {
-    /// What is broken.
+    /// The demand that it breaks.
     #[serde(rename = "invariant")]
     pub(super) demand: D,
     pub(super) runs: u64,
     pub(super) smallest: Violation,
 }
 
-/// What a search has counted.
+/// The counts of a search.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Count<D> {

@@ -37,11 +37,11 @@ const WORTH_TELLING: f64 = 1e7;
 pub struct Deal<D> {
     /// The levels that are done.
     levels: Vec<Level>,
-    /// What is counted of the others.
+    /// The counts of the others.
     begun: Vec<Level>,
     /// All levels, as they are known or expected.
     expected: Vec<Level>,
-    /// What is counted of all levels.
+    /// The counts of all levels.
     count: Count<D>,
     shards: Vec<Ways>,
     /// About how many team moves each shard has.

@@ -136,7 +136,7 @@ const fn is_zero(moves: &u32) -> bool {
     *moves == 0
 }
 
-/// What a lane does next.
+/// A lane's next action.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum Next {
@@ -479,7 +479,7 @@ impl<G: Game> Lane<G> {
 
 /// A run made again.
 pub(super) struct Replayed<F> {
-    /// What is not so.
+    /// The broken demand, in words.
     pub(super) words: &'static str,
     /// Its team moves; of a run without end, as far as it first comes back to where it was.
     pub(super) frames: Vec<F>,

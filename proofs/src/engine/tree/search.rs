@@ -46,7 +46,7 @@ pub trait Waves<D, F> {
     fn progress(&self) -> Progress<'_>;
     /// Where it is: enough to go on from here.
     fn position(&self) -> Position<D>;
-    /// What it has found so far.
+    /// The findings so far.
     fn found(&self) -> Found<D, F>;
     /// Deals what is left of the search out among so many shards, each of which can be searched elsewhere.
     fn deal(&mut self, shards: usize) -> Deal<D>;
@@ -115,7 +115,7 @@ pub struct Tree<G: Game> {
     pub(super) count: Count<G::Demand>,
     /// Team moves that were counted when the search was taken up.
     pub(super) before: u64,
-    /// What is left of this level.
+    /// The lanes left of this level.
     pub(super) lanes: Vec<Lane<G>>,
     /// Team moves that the shares of the last wave made.
     wave: Vec<u64>,

@@ -7,7 +7,7 @@ use super::{Demand, Event, Setting, Turned, World};
 use crate::engine::states::{Bits, Places, System};
 use crate::engine::world::{self, Turn};
 
-/// What a world is made of.
+/// A part of a world.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub enum Part<const ROBOTS: usize> {
     /// A repository, or the truth.
@@ -16,7 +16,7 @@ pub enum Part<const ROBOTS: usize> {
     Rest(Box<World<ROBOTS>>),
 }
 
-/// What happens.
+/// The situations that occur.
 const SITUATIONS: [&str; 6] =
     ["a decision", "a robot", "a slot", "an arrival", "an obstacle", "an open cell"];
 

@@ -1,4 +1,4 @@
-//! What breaks each clause: a move, or the end of a run.
+//! The violations of each clause: a move, or the end of a run.
 
 use std::collections::HashSet;
 
@@ -6,7 +6,7 @@ use super::court::Court;
 use super::judge_input::Move;
 use super::place::{Place, SIDES, add, is_covered, side_between};
 
-/// What breaks the clause with this id, if the judge knows it.
+/// The violation of the clause with this id, if the judge knows it.
 pub(super) fn broken(clause: &str) -> Option<Broken> {
     Some(match clause {
         "CHAIN-1" => Broken::ByMove(|_, made| contact_is_lost(&made.places)),
@@ -18,7 +18,7 @@ pub(super) fn broken(clause: &str) -> Option<Broken> {
     })
 }
 
-/// What breaks a clause.
+/// A violation of a clause.
 #[derive(Clone, Copy)]
 pub(super) enum Broken {
     ByMove(fn(&Court<'_>, &Move) -> bool),

@@ -1,11 +1,11 @@
-//! What the team knows, and what its rule says about a planned move: the judge hears one move after the other.
+//! The team's knowledge, and what its rule says about a planned move: the judge hears one move after the other.
 
 use std::collections::BTreeSet;
 
 use super::judge_input::{Exhibit, Move, Repairs};
 use super::place::{Place, add, is_covered, is_safe, side_between};
 
-/// What the team knows, kept by the judge.
+/// The team's knowledge, kept by the judge.
 #[derive(Clone)]
 pub(super) struct Court<'a> {
     pub(super) exhibit: &'a Exhibit,

@@ -1,4 +1,4 @@
-//! What the team has to do next by its rule: the leader's priorities, followed out by all that the others could do.
+//! The team's next duty by its rule: the leader's priorities, followed out by all that the others could do.
 
 use std::collections::{BTreeSet, VecDeque};
 
@@ -6,7 +6,7 @@ use super::court::Court;
 use super::judge_input::{Move, Repairs};
 use super::place::{Place, SIDES, add, is_covered, side_between};
 
-/// What the team has to do next.
+/// The team's next duty.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Duty {
     /// To advance, the leader by this step.
@@ -44,7 +44,7 @@ pub(super) const MOST_LED: usize = 12;
 const MOST_LOOKS: u32 = 1_000_000;
 
 impl Court<'_> {
-    /// What the team has to do next, by the rule; new virtual obstacles and epochs are noted.
+    /// The team's next duty, by the rule; new virtual obstacles and epochs are noted.
     pub(super) fn duty(&mut self) -> Result<Duty, &'static str> {
         if self.exhibit.inside().all(|place| self.explored.contains(&place)) {
             return Ok(Duty::Nothing);

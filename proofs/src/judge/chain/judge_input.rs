@@ -1,4 +1,4 @@
-//! What is brought before the judge, and what can be said against it.
+//! The input of the judge, and what can be said against it.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -43,7 +43,7 @@ pub enum Repairs {
 pub struct Move {
     /// Whether it takes an earlier move back.
     pub is_backtrack: bool,
-    /// What each robot tried: columns and rows.
+    /// The steps that the robots tried: columns and rows.
     pub tried: Vec<Place>,
     /// Whether it was blocked.
     pub blocked: Vec<bool>,
@@ -57,7 +57,7 @@ pub struct Move {
 pub struct Objection {
     /// The team move.
     pub at: usize,
-    /// What is wrong.
+    /// The fault, in words.
     pub what: &'static str,
 }
 

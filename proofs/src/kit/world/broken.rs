@@ -1,4 +1,4 @@
-//! What is broken on a small lattice, by a drive or by staying.
+//! The demands that a drive or a stay breaks on a small lattice.
 
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side, Step, Steps};
 use tautline_kernel::kit::{Condition, Stance};
@@ -22,7 +22,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         if (0..ROBOTS).all(is_right) { Vec::new() } else { vec![Demand::Marks] }
     }
 
-    /// What is broken by a drive that `robot` begins.
+    /// The demands broken by a drive that `robot` begins.
     pub(super) fn broken_by_drive(
         &self,
         before: &World<ROBOTS>,

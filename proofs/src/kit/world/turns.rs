@@ -1,4 +1,4 @@
-//! What happens next on a small lattice: whoever drives arrives, and whoever may decide decides.
+//! The next turns on a small lattice: whoever drives arrives, and whoever may decide decides.
 
 use tautline_kernel::choice::Oracle;
 use tautline_kernel::ground::{Cell, Edge, EdgeMark, Grid, Side, Step, TinyGrid};
@@ -117,7 +117,7 @@ impl<const ROBOTS: usize> Setting<ROBOTS> {
         Some(Turned { world: self.settled(after), events, robot, situation, breaks })
     }
 
-    /// What `robot` sees at a side of its node.
+    /// The sight of `robot` at a side of its node.
     fn see(
         &self,
         world: &mut World<ROBOTS>,

@@ -1,4 +1,4 @@
-//! What is on its way between robots and WFRs, and what can happen to them.
+//! The messages on their way between robots and WFRs, and the actions that can happen to them.
 
 use tautline_kernel::mrc::{Resb, Upward};
 use tautline_kernel::net::{Call, Notice, RobotId};
@@ -54,7 +54,7 @@ pub enum Actor {
     Wfr(usize),
 }
 
-/// What happens next.
+/// The next action.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Action {
     /// Something happens at a WFR.

@@ -1,11 +1,11 @@
-//! What is demanded of a run, and what an observer notes down to see whether it is met.
+//! The demands on a run, and the notes of an observer from which they are judged.
 
 use tautline_kernel::mrc::Bid;
 use tautline_kernel::net::Epoch;
 
 use super::setting::{ROBOTS, WFRS};
 
-/// What the clauses MRC-1 to MRC-9 demand of a run.
+/// A demand of the clauses MRC-1 to MRC-9 on a run.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Demand {
     /// MRC-1.
@@ -57,7 +57,7 @@ impl Demand {
         }
     }
 
-    /// What is not so when it is broken.
+    /// The violation, in words.
     pub const fn broken(self) -> &'static str {
         match self {
             Self::OneRobotForACall => "two robots are on their way for one call",
@@ -77,7 +77,7 @@ impl Demand {
     }
 }
 
-/// What an observer notes down beside the machines' own states, to see whether a demand is broken.
+/// An observer's notes beside the machines' own states, from which demands are judged.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub(super) struct Notes {
     /// The best MOVE of each WFR's latest call that arrived while its window was open, by the hops that it is away.

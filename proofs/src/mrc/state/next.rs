@@ -1,4 +1,4 @@
-//! What can happen next in a state, and what of it is bound to happen.
+//! The actions that can happen next in a state, and those of them that are bound to happen.
 
 use tautline_kernel::mrc::{Task, WfrTimer};
 use tautline_kernel::net::Call;

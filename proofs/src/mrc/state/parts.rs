@@ -1,4 +1,4 @@
-//! What tells one state from another: its parts, with epochs by their order among those of the same WFR.
+//! The parts that tell one state from another, with epochs by their order among those of the same WFR.
 
 use std::array;
 use std::hash::{Hash, Hasher};
@@ -41,7 +41,7 @@ pub(in crate::mrc) struct OfWfr {
     is_open: bool,
 }
 
-/// What concerns all.
+/// The part that concerns all.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(in crate::mrc) struct Rest {
     left: Faults,

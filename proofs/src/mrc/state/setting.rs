@@ -1,4 +1,4 @@
-//! What is searched: how many robots and WFRs, how far apart, and what may go wrong between them.
+//! The setting of a search: how many robots and WFRs, how far apart, and what may go wrong between them.
 
 use tautline_kernel::mrc::Rule;
 
@@ -31,7 +31,7 @@ impl Faults {
         Self { in_all, losses: in_all, duplicates: in_all, delays: in_all, robots: in_all, nodes: in_all }
     }
 
-    /// What it allows, in words.
+    /// The faults that it allows, in words.
     fn bound(self) -> String {
         let Self { in_all, losses, duplicates, delays, robots, nodes } = self;
         let kinds = [
@@ -47,7 +47,7 @@ impl Faults {
         format!("at most {in_all} fault{}{of_them}", if in_all == 1 { "" } else { "s" })
     }
 
-    /// What is left of one kind.
+    /// The number left of one kind.
     pub(super) fn left(self, kind: impl Fn(&Self) -> u8) -> u8 {
         kind(&self).min(self.in_all)
     }
@@ -79,7 +79,7 @@ pub enum Leases {
     Any,
 }
 
-/// What is searched.
+/// The setting of a search.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Setting {
     /// The rule of robots and WFRs.
@@ -92,7 +92,7 @@ pub struct Setting {
     pub events: u8,
     /// Hops from each robot to each WFR: all combinations of 1 to this.
     pub max_hops: u16,
-    /// What may go wrong.
+    /// The faults that may happen.
     pub faults: Faults,
     /// Which messages may be lost.
     pub lossy: Lossy,
@@ -101,7 +101,7 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// What it covers, in words.
+    /// The bound, in words.
     pub fn bound(&self) -> String {
         let Self { rule: _, robots, wfrs, events, max_hops, faults, lossy, leases } = *self;
         let count =

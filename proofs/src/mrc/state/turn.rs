@@ -1,4 +1,4 @@
-//! What happens: the state after an action, what the machines send then, and what the observer notes.
+//! A turn: the state after an action, what the machines send then, and what the observer notes.
 
 use tautline_kernel::mrc::{
     Bid, Condition, Downward, Phase, Robot, Sent, Served, Task, Upward, Wfr, WfrTimer, Word,
